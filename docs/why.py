@@ -1,4 +1,4 @@
-"""The first picture of the README: one rotor on five contacts, and the damping that tells them apart.
+"""The first picture of the README: one rotor on five contact models, and the damping of each.
 
 Run ``python docs/why.py``: under a minute, most of it one simulation.
 
@@ -85,8 +85,8 @@ def main() -> None:
         left.semilogy(found.hz, np.abs(found.curves["y"][name]), line, color=colour, linewidth=width, label=label)
     near, highest = [peak.hz for peak in peaks.values()], max(peak.amplitude for peak in peaks.values())
     left.set(xlim=(0.92 * min(near), 1.1 * max(near)), ylim=(2.0, 60.0 * highest))
-    left.set(xlabel="frequency of the unbalance [Hz]", ylabel="disc's swing over eccentricity")
-    left.set_title("The same rotor on five contacts, and its peak", loc="left", fontsize=10)
+    left.set(xlabel="frequency of the unbalance [Hz]", ylabel="amplitude of the disc over eccentricity")
+    left.set_title("The same rotor on five contact models, and its peak", loc="left", fontsize=10)
     left.legend(frameon=False, fontsize=9, loc="upper left", handlelength=1.8)
 
     si, hz = film.si, np.geomspace(20.0, 1e5, 300)

@@ -52,8 +52,8 @@ def runs(line: Rotor, seconds: float) -> dict[str, RotorResult]:
     return {way: simulate_rotor(line, speed_rpm=course, dt=5e-5, until=seconds) for way, course in courses.items()}
 
 
-def swing(run: RotorResult) -> tuple[np.ndarray, np.ndarray]:
-    """Speed [rev/min] and swing of the disc [m] in every full turn: half the way back and forth."""
+def amplitude(run: RotorResult) -> tuple[np.ndarray, np.ndarray]:
+    """Speed [rev/min] and amplitude of the disc [m] in every full turn: half of peak to peak."""
     turns = np.cumsum(run.speed_rpm[:-1] / 60.0 * np.diff(run.t)).astype(int)
     starts = np.flatnonzero(np.diff(turns, prepend=-1))
     disc = run.displacement[:-1, 2:4]
@@ -62,14 +62,14 @@ def swing(run: RotorResult) -> tuple[np.ndarray, np.ndarray]:
 
 
 def most(run: RotorResult, crossings: list[float]) -> float:
-    """Speed [rev/min] of most swing near the crossings; further on the disc still rings."""
-    speed, size = swing(run)
+    """Speed [rev/min] of the largest amplitude near the crossings; further on the disc still vibrates."""
+    speed, size = amplitude(run)
     near = np.abs(speed / np.mean(crossings) - 1.0) < 0.1
     return float(speed[near][np.argmax(size[near])])
 
 
 def main(picture: str = "run_up.png", seconds: float = 2.0) -> None:
-    """Print where the disc swings most, and draw it."""
+    """Print where the amplitude of the disc is largest, and draw it."""
     from matplotlib.figure import Figure
 
     line = rotor()
@@ -77,12 +77,12 @@ def main(picture: str = "run_up.png", seconds: float = 2.0) -> None:
     print("modes cross the speed at", " and ".join(f"{speed:.0f}" for speed in crossings), "rev/min")
     axes = (figure := Figure(figsize=(9.0, 3.6), layout="constrained")).add_subplot()
     for (way, run), colour in zip(runs(line, seconds).items(), ("#0072b2", "#d55e00"), strict=True):
-        print(f"on the way {way} the disc swings most at {most(run, crossings):.0f}")
-        speed, size = swing(run)
+        print(f"on the way {way} the largest amplitude of the disc is at {most(run, crossings):.0f} rev/min")
+        speed, size = amplitude(run)
         axes.plot(speed, size * 1e6, color=colour, label=f"on the way {way}")
     for k, crossing in enumerate(crossings):
         axes.axvline(crossing, color="#7f7f7f", linestyle=":", label=None if k else "modes cross the speed")
-    axes.set(xlabel="speed [rev/min]", ylabel="swing of the disc [µm]")
+    axes.set(xlabel="speed [rev/min]", ylabel="amplitude of the disc [µm]")
     axes.legend(frameon=False)
     figure.savefig(picture, dpi=110)
 

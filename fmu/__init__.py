@@ -1,4 +1,4 @@
-"""Contact elements, ball bearings and Jeffcott rotors as Functional Mock-up Units, FMI 2.0 and 3.0.
+"""Contact elements, ball bearings, Jeffcott rotors and shafts as Functional Mock-up Units, FMI 2.0 and 3.0.
 
 =======================  ===========================================================================
 module                   responsibility

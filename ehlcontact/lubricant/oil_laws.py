@@ -55,8 +55,8 @@ class Lubricant:
         Dynamic viscosity at ambient pressure [Pa s].
     alpha : float
         Pressure-viscosity coefficient, d ln(eta)/dp at ambient pressure [1/Pa]; 0 is isoviscous.
-    viscosity : {"roelands", "barus"}
-    density : {"dowson-higginson", "incompressible"}
+    viscosity, density : {"roelands", "barus"}, {"dowson-higginson", "incompressible"}
+        Laws of viscosity and density over pressure.
     eta0_scatter, alpha_scatter : float, optional
         How far, relative, the oil itself may be from `eta0` and `alpha`. Only kept: nothing is computed from them.
     temperature_slope : float, optional

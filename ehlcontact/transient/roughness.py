@@ -20,8 +20,8 @@ from ehlcontact.point import Scales
 Array = NDArray[np.float64]
 Taps = tuple[NDArray[np.intp], Array]  # samples beside each place, and their weights, shape (4, ...)
 
-FEWEST_NODES = 4.0  # of the mesh to the shortest wave: with fewer the film does not follow it
-SAMPLES = 8.0  # of a made map to its shortest wave: the spline between them is then off by 3e-4 of sigma at most
+FEWEST_NODES = 4.0  # of the mesh to the shortest wavelength: with fewer the film does not follow it
+SAMPLES = 8.0  # of a made map to its shortest wavelength: the spline between them is then off by up to 3e-4 of rq
 FEWEST_SAMPLES = 4  # of a map along either direction, which a cubic spline needs
 MOST_SAMPLES = 20_000_000  # of a made map: 160 MB, and three times that while it is made
 
@@ -40,8 +40,8 @@ class Roughness:
         ``Y = (m - 1) dy``.
     dx, dy : float
         Spacing along rolling in semi-axes a, and across in semi-axes b.
-    shortest : float
-        Length of the shortest wave in `heights`, in semi-axes a; it wants `FEWEST_NODES` of the mesh or more.
+    shortest_wavelength : float
+        Shortest wavelength in `heights`, in semi-axes a; it wants `FEWEST_NODES` of the mesh or more.
     start : float
         X0, where the front stands at T = 0.
     speed : float
@@ -57,13 +57,14 @@ class Roughness:
     Raises
     ------
     InputError
-        Heights that are no such table, or all the same; a number outside its range; `shortest` below two samples.
+        Heights that are no such table, or all the same; a number outside its range; `shortest_wavelength` below
+        two samples.
     """
 
     heights: ArrayLike = field(repr=False)
     dx: float
     dy: float
-    shortest: float
+    shortest_wavelength: float
     start: float = -2.5
     speed: float = 1.0
     front: float = 0.25
@@ -75,21 +76,23 @@ class Roughness:
         heights = _table(self.heights)
         heights.setflags(write=False)
         object.__setattr__(self, "heights", heights)
-        for name in ("dx", "dy", "shortest", "front", "kappa"):
+        for name in ("dx", "dy", "shortest_wavelength", "front", "kappa"):
             object.__setattr__(self, name, require_positive(name, getattr(self, name)))
         object.__setattr__(self, "start", require_finite("start", self.start))
         object.__setattr__(self, "speed", require_nonnegative("speed", self.speed))
         least = 2.0 * max(self.dx, self.dy / self.kappa)
-        if self.shortest < least * (1.0 - 1e-9):
-            raise InputError("shortest", self.shortest, f"at least {least:.4g}, two samples of the map")
+        if self.shortest_wavelength < least * (1.0 - 1e-9):
+            raise InputError(
+                "shortest_wavelength", self.shortest_wavelength, f"at least {least:.4g}, two samples of the map"
+            )
         object.__setattr__(self, "_coefficients", _spline(heights, self.periodic))
 
     @classmethod
     def synthetic(
         cls,
-        sigma: float,
-        longest: float,
-        shortest: float,
+        rq: float,
+        longest_wavelength: float,
+        shortest_wavelength: float,
         *,
         hurst: float = 0.8,
         seed: int = 0,
@@ -97,17 +100,18 @@ class Roughness:
         width: float = 4.0,
         **course: Any,
     ) -> Self:
-        """Gaussian heights of rms `sigma`, isotropic in metres, periodic, the same for the same arguments.
+        """Gaussian heights of rms value `rq`, isotropic in metres, periodic, the same for the same arguments.
 
         Self-affine as ground and run-in surfaces are (Persson et al., J. Phys.: Condens. Matter 17 (2005) R1): the
-        power spectrum is constant for wavelengths from `longest` up and falls like ``q**(-2 (1 + hurst))`` down to
-        `shortest`, where it ends. Being even in Y, heights are larger by sqrt(2) on the middle plane itself.
+        power spectrum is constant for wavelengths from `longest_wavelength` up and falls like
+        ``q**(-2 (1 + hurst))`` down to `shortest_wavelength`, where it ends. Being even in Y, heights are larger
+        by sqrt(2) on the middle plane itself.
 
         Parameters
         ----------
-        sigma : float
+        rq : float
             In dry approaches, over the whole map.
-        longest, shortest : float
+        longest_wavelength, shortest_wavelength : float
             Wavelengths in semi-axes a.
         hurst : float
             Between 0 (jagged) and 1 (smooth).
@@ -123,32 +127,32 @@ class Roughness:
         InputError
             A number outside its range; a map of more than `MOST_SAMPLES`.
         """
-        sigma, short = require_positive("sigma", sigma), require_positive("shortest", shortest)
-        longest = require_positive("longest", longest)
-        if short >= longest:
-            raise InputError("shortest", short, f"below longest = {longest!r}")
+        rq, short = require_positive("rq", rq), require_positive("shortest_wavelength", shortest_wavelength)
+        long = require_positive("longest_wavelength", longest_wavelength)
+        if short >= long:
+            raise InputError("shortest_wavelength", short, f"below longest_wavelength = {long!r}")
         hurst = require_nonnegative("hurst", hurst)
         if hurst > 1.0:
             raise InputError("hurst", hurst, "between 0 and 1")
         require_integer("seed", seed, "a whole number >= 0", 0)
         kappa = require_positive("kappa", course.get("kappa", 1.0))
-        for name, size, least in (("length", length, longest), ("width", width, 0.5 * kappa * longest)):
+        for name, size, least in (("length", length, long), ("width", width, 0.5 * kappa * long)):
             if require_positive(name, size) < least:
-                raise InputError(name, size, f"at least {least:.4g}, to hold longest = {longest!r}")
+                raise InputError(name, size, f"at least {least:.4g}, to hold longest_wavelength = {long!r}")
         wanted = SAMPLES * length / short, SAMPLES * width / (kappa * short)
         if wanted[0] * wanted[1] > MOST_SAMPLES:
             finest = SAMPLES * sqrt(length * width / (kappa * MOST_SAMPLES))
-            raise InputError("shortest", short, f"at least {finest:.2g}, or the map smaller")
+            raise InputError("shortest_wavelength", short, f"at least {finest:.2g}, or the map smaller")
         rows, columns = ceil(wanted[0]), ceil(wanted[1])
         dx, dy = length / rows, width / columns
         noise = np.random.default_rng(seed).standard_normal((rows, 2 * columns))
         along, across = np.fft.fftfreq(rows, dx), kappa * np.fft.rfftfreq(2 * columns, dy)
         waves = np.hypot(along[:, None], across[None, :])  # per semi-axis a
-        strength = np.maximum(waves * longest, 1.0) ** (-1.0 - hurst)
+        strength = np.maximum(waves * long, 1.0) ** (-1.0 - hurst)
         strength[(waves * short > 1.0) | (waves == 0.0)] = 0.0
         whole = np.fft.irfft2(np.fft.rfft2(noise) * strength, noise.shape)
         whole += np.roll(whole[:, ::-1], 1, axis=1)  # and the same for -Y
-        whole *= sigma / np.sqrt(np.mean(whole * whole))
+        whole *= rq / np.sqrt(np.mean(whole * whole))
         return cls(whole[:, : columns + 1], dx, dy, short, periodic=True, **course)
 
     @classmethod
@@ -157,21 +161,21 @@ class Roughness:
         heights: ArrayLike,
         dx: float,
         dy: float,
-        shortest: float,
+        shortest_wavelength: float,
         *,
         scales: Scales | None = None,
         **course: Any,
     ) -> Self:
         """A map as an instrument gives it: levelled, and smoothed to what the mesh can show.
 
-        The least-squares plane is taken off; waves shorter than `shortest` are damped by the Gaussian filter of
-        ISO 16610-61, which leaves half of a wave of that length and 6 % of one half as long.
+        The least-squares plane is taken off; waves shorter than `shortest_wavelength` are damped by the Gaussian
+        filter of ISO 16610-61, which leaves half of a wave of that length and 6 % of one half as long.
 
         Parameters
         ----------
         heights : array_like, shape (k, m)
             As for the class, in dry approaches; with `scales` in m.
-        dx, dy, shortest : float
+        dx, dy, shortest_wavelength : float
             As for the class; with `scales` in m.
         scales : Scales, optional
             ``point.scales`` of an `OperatingPoint`.
@@ -185,7 +189,8 @@ class Roughness:
         """
         table = _table(heights)
         dx, dy, short = (
-            require_positive(name, value) for name, value in (("dx", dx), ("dy", dy), ("shortest", shortest))
+            require_positive(name, value)
+            for name, value in (("dx", dx), ("dy", dy), ("shortest_wavelength", shortest_wavelength))
         )
         if scales is not None:
             table, dx, dy, short = table / scales.length, dx / scales.a, dy / scales.b, short / scales.a
@@ -218,12 +223,14 @@ class Roughness:
         return -rise * _between(self._coefficients, along, across)
 
     def require_fit(self, X: Array, Y: Array, until: float) -> None:
-        """Raise `InputError` unless the grid shows the shortest wave and the map lasts until the run ends."""
+        """Raise `InputError` unless the grid shows the shortest wavelength and the map lasts until the end."""
         mesh = max(X[1] - X[0], (Y[1] - Y[0]) / self.kappa)
         least = FEWEST_NODES * mesh
-        if self.shortest < least * (1.0 - 1e-9):
+        if self.shortest_wavelength < least * (1.0 - 1e-9):
             allowed = f"at least {least:.4g} semi-axes, {FEWEST_NODES:g} of the mesh of {mesh:.3g}: raise n"
-            raise InputError("surface.shortest", self.shortest, f"{allowed}, or smooth the surface")
+            raise InputError(
+                "surface.shortest_wavelength", self.shortest_wavelength, f"{allowed}, or smooth the surface"
+            )
         if self.periodic:
             return
         rows, columns = self._coefficients.shape

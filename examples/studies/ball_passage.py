@@ -1,7 +1,7 @@
 """The balls of two 6205 bearings shake a rotor of 34 kg as it runs up from 500 to 9000 rev/min, and down again.
 
 Run ``python examples/studies/ball_passage.py [--out DIR]``: prints where the ball passage, and twice it, meet the
-modes of the Campbell diagram, and where they swing most; draws ``ball_passage.png``. Half a minute.
+modes of the Campbell diagram, and where their amplitude is largest; draws ``ball_passage.png``. Half a minute.
 
 The speed never reaches a mode itself (225 Hz and more), but balls pass 3.6 times in a turn. Nothing is out of
 round: it is the changing number of balls under the load that shakes the rotor. Two cages do not start at the same
@@ -46,7 +46,7 @@ BESIDE = 0.08  # of a crossing: how far from it its peak is looked for
 
 
 class Peak(NamedTuple):
-    """A crossing of a multiple of the ball passage and a mode, and the speeds [rev/min] of most swing."""
+    """A crossing of a multiple of the ball passage and a mode, and the speeds [rev/min] of largest amplitude."""
 
     passages: int
     crossing: CriticalSpeed
@@ -186,9 +186,7 @@ def main() -> None:
     diagram = campbell(rotor(held), SPEEDS, count=MODES)
     up, down = courses()
     runs = run(held, up), run(held, down)
-    print(
-        "passages  mode  crossing [rpm]  most swing up (a single oscillator's), down  their mean off the crossing"
-    )
+    print("passages  mode  crossing [rpm]  largest up (a single oscillator's), down  their mean off the crossing")
     for peak in peaks(held, diagram, runs):
         print(f"{peak.passages:8d}  {peak.crossing.mode + 1:4d}  {peak.crossing.speed_rpm:14.0f}", end="")
         print(f"  {peak.up:.0f} ({peak.expected_up:.0f})", end="")

@@ -225,7 +225,7 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
         "RIGID_SLOPE": RIGID_SLOPE,
         "INLET_SATURATION": 0.0,
         "FEW_LAGS": FEW,
-        "CUTOFF_GAP": math.inf if bearing.film_limit is None else bearing.film_limit,
+        "CUTOFF_GAP": math.inf if bearing.cutoff_gap is None else bearing.cutoff_gap,
         "ROUGHNESS": bearing.roughness or 1.0,
         "MOST_SPEED": float(model.speeds[-1]) * RPM_TO_RAD_S,
         "LARGEST_PLACE": FARTHEST * bearing.ball_diameter,

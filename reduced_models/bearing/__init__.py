@@ -11,17 +11,15 @@
 | angular_steps | compiled: balls at contact angles over time steps, with their films |
 | ball_steps | time steps of balls, planar or at contact angles, by one interface |
 | five_degrees | a ring with five degrees of freedom in static equilibrium |
-| angular_steps | compiled: the same balls over time steps, with their films |
-| ball_steps | compiled: time steps of balls of either kind by one interface |
 | linear_angular | that ring about rest: impedance at complex frequencies |
 | shoulders | shoulders of the grooves, and contact ellipses that reach over them |
 | arrangement | `BearingSet`: pairs and other sets on one shaft, their preload and growth |
 | static_set | forces and impedances of the bearings of a set, in the frame of the shaft |
 | kinematics | cage, balls and defect frequencies |
-| race | one contact and its law at a speed; the one place that asks the atlas |
-| race_table | compiled: static force and memory gains of a race, tabulated over approach and speed |
-| race_contact | compiled: one ball on one race over a step: filters once, force and tangents per iteration |
-| balls | compiled: all balls, two contacts in series on each, as one force with tangents |
+| race | one contact: geometry, oil, element at a speed; the only module that imports the atlas |
+| race_table | load over deflection of a race and its memory gains, tabulated over approach and speed |
+| race_contact | compiled: time step of one ball on one race: filters once, force and tangents per iteration |
+| balls | compiled: balls of a planar bearing, two contacts in series on each, as one force with tangents |
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load; the ring of a bearing on its balls: `ring_equilibrium` |
 | linear_balls | a bearing about rest: impedance at complex frequencies, stiffness and damping over frequency |
@@ -30,7 +28,7 @@
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
 | state | `BearingState`: a bearing at rest, ball by ball |
 | set_state | `SetState`: a set at rest, bearing by bearing |
-| ross_bearing | bearings as elements of ROSS |
+| ross_bearing | export to ROSS: bearings as elements of a ROSS rotor |
 | friction | moment of friction by SKF's published model |
 | picture | figures |
 """

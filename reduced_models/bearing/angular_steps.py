@@ -27,7 +27,15 @@ from ehlcontact.jit import jit_exact_loop, jit_exact_node
 from reduced_models.bearing.angular_balls import COMPLEX_STEP, FAR, FIRST_STEP, FREEDOMS, AngularBalls, ring_map
 from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_angles import INNER, SHARED, ball_forces, film_factors, inner_span, rolling
-from reduced_models.bearing.loss import Seat, accept_seat, begin_seat, hold_still, press_seat, rest_seat, seat_of
+from reduced_models.bearing.loss import (
+    Seat,
+    accept_loss,
+    apply_loss,
+    begin_loss,
+    hold_still,
+    loss_state_of,
+    rest_loss,
+)
 from reduced_models.bearing.race_contact import (
     APPROACH,
     WORK,
@@ -53,7 +61,7 @@ SETTLED = 20  # times that films at rest are made to follow the angles of their 
 
 
 class AngularFilms(NamedTuple):
-    """States and work of a bearing in time: contacts 2 k (inner race) and 2 k + 1 of ball k; balls; cage; seat."""
+    """States and work of a bearing in time: contacts 2 k (inner race) and 2 k + 1 of ball k; balls; cage; loss."""
 
     state: _Floats
     work: _Floats
@@ -77,11 +85,11 @@ class AngularFilms(NamedTuple):
     steps: NDArray[np.int64]  # (1,) made
     maps: _Floats  # (balls, 2, 3, 5) of `ring_map`, and their derivative by the angle of the ball
     tangents: _Floats  # (2, 5, 4) work, see `_balance_ball`
-    seat: Seat
+    loss: Seat
 
 
 def films_of_angular(balls: AngularBalls) -> AngularFilms:
-    """States and work for all its contacts and balls and its seat, all zero."""
+    """States and work for all its contacts and balls and filters, all zero."""
     lags = max(law.gains.shape[2] for law in (balls.inner, balls.outer)) - DIRECT
     n, contacts = balls.number, 2 * balls.number
     return AngularFilms(
@@ -105,7 +113,7 @@ def films_of_angular(balls: AngularBalls) -> AngularFilms:
         steps=np.zeros(1, np.int64),
         maps=np.zeros((n, 2, 3, FREEDOMS)),
         tangents=np.zeros((2, 5, 4)),
-        seat=seat_of(balls.loss, FREEDOMS),
+        loss=loss_state_of(balls.loss, FREEDOMS),
     )
 
 
@@ -130,7 +138,7 @@ def begin_angular_step(balls, omega, dt, films):
             if rolling_speed > 0.0:
                 transit = law.contact_length_factor / (middle * rolling_speed)
             prepare_filters(law, transit, row, (film[0], film[3]), dt, films, c)
-    begin_seat(balls.loss, dt, films.seat)
+    begin_loss(balls.loss, dt, films.loss)
 
 
 @jit_exact_loop
@@ -144,7 +152,7 @@ def begin_angular_rest(balls, omega, angle, films):
     films.follow[:] = 0.0
     _turn_maps(balls, films)
     clear_filters(films)
-    hold_still(films.seat)
+    hold_still(films.loss)
 
 
 @jit_exact_loop
@@ -375,7 +383,7 @@ def press_angular(balls, films, q, v, gain, out):
             force[:] = nan
             return
         _add_ball(rows, turned, cage, films.tangents, force, stiffness, damping)
-    press_seat(films.seat, force, stiffness, damping)
+    apply_loss(films.loss, force, stiffness, damping)
 
 
 @jit_exact_loop
@@ -420,7 +428,7 @@ def accept_angular(balls, films, gain):
     cage = films.cage
     cage[1], cage[3], cage[2] = cage[0], cage[2], turned / carried if carried > 0.0 else free
     films.omega[1] = omega
-    accept_seat(films.seat)
+    accept_loss(films.loss)
 
 
 @jit_exact_loop
@@ -455,4 +463,4 @@ def rest_angular(balls, films, q, out):
         turned += films.force[k, 0] * films.orbit[k]
         free += films.orbit[k] / balls.number
     films.cage[2] = films.cage[3] = turned / carried if carried > 0.0 else free
-    rest_seat(films.seat)
+    rest_loss(films.loss)

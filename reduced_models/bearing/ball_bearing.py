@@ -89,7 +89,7 @@ POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are w
 
 @stored("ball bearing")
 @fields_take(
-    ball_diameter="m", pitch_diameter="m", clearance="m", rq_ball="m", rq_race="m", film_limit="m",
+    ball_diameter="m", pitch_diameter="m", clearance="m", rq_ball="m", rq_race="m", cutoff_gap="m",
     youngs_modulus="Pa", density="kg/m3", contact_angle="rad", shoulder_inner="m", shoulder_outer="m",
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
@@ -131,7 +131,7 @@ class BallBearing(Summary):
         Flooded contacts, by the atlas. None is dry: Hertz' contacts without film or damping.
     rq_ball, rq_race : float, optional
         Roughness Rq [m], for the lambda ratio.
-    film_limit : float, optional
+    cutoff_gap : float, optional
         Gap [m] beyond which the film of an unloaded ball carries nothing. By default it is flooded there too, and
         its force falls slowly, like gap^-1/2.
     youngs_modulus, poisson_ratio, density : float
@@ -161,7 +161,7 @@ class BallBearing(Summary):
     oil: Lubricant | None = None
     rq_ball: float | None = None
     rq_race: float | None = None
-    film_limit: float | None = None
+    cutoff_gap: float | None = None
     youngs_modulus: float = 2.06e11
     poisson_ratio: float = 0.3
     density: float = 7800.0
@@ -195,8 +195,8 @@ class BallBearing(Summary):
             require_instance("oil", self.oil, Lubricant, "a Lubricant, as Lubricant.iso_vg(68, temperature=50.0)")
         for name, rq in (("rq_ball", self.rq_ball), ("rq_race", self.rq_race)):
             require_roughness(name, rq)
-        if self.film_limit is not None:
-            require_positive("film_limit", self.film_limit)
+        if self.cutoff_gap is not None:
+            require_positive("cutoff_gap", self.cutoff_gap)
         require_positive("density", self.density)
         require_loss_factor(self.loss_factor)
         require_instance("ball_inertia", self.ball_inertia, bool, "True or False")
@@ -631,7 +631,7 @@ class BallBearing(Summary):
     def _law(self, race: str, speeds: _Floats) -> Any:
         if self.oil is None:
             return tabulate_dry_race(self.race(race).kn)
-        limit = inf if self.film_limit is None else self.film_limit
+        limit = inf if self.cutoff_gap is None else self.cutoff_gap
         return tabulate_race([self.element(race, speed) for speed in speeds.tolist()], limit)
 
     def speed(self, speed_rpm: float) -> float:

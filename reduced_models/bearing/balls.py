@@ -23,12 +23,12 @@ from ehlcontact.jit import jit_exact_loop, jit_exact_node
 from reduced_models.bearing.loss import (
     Loss,
     Seat,
-    accept_seat,
-    begin_seat,
+    accept_loss,
+    apply_loss,
+    begin_loss,
     hold_still,
-    press_seat,
-    rest_seat,
-    seat_of,
+    loss_state_of,
+    rest_loss,
 )
 from reduced_models.bearing.race_contact import (
     APPROACH,
@@ -50,10 +50,10 @@ MOST_STEPS = 60  # of that search: a handful, but where a ball lands
 FIRST_STEP = 1e-7  # [m], to a ball that nothing touches; doubled until a race is met
 FILM_GROWTH = 0.67  # of the film with speed (Hamrock and Dowson 1977): between two speeds of a law, films add so
 
-# Entries of a ball: its place w as tried last, what its rate follows from, w at the last two ends of steps; delta
-# and its rate where that was tried, and the slopes of w by both; what its acceleration follows from, and its rates
-# at the last two ends of steps.
-PLACE, PLACE_HISTORY, PLACE_NOW, PLACE_BEFORE = range(4)
+# Entries of a ball: its position w as tried last, what its rate follows from, w at the last two ends of steps;
+# delta and its rate where that was tried, and the slopes of w by both; what its acceleration follows from, and its
+# rates at the last two ends of steps.
+POSITION, POSITION_HISTORY, POSITION_NOW, POSITION_BEFORE = range(4)
 TRIED_DELTA, TRIED_RATE, BY_DELTA, BY_RATE = range(4, 8)
 RATE_HISTORY, RATE_NOW, RATE_BEFORE, BALL_ENTRIES = range(8, 12)
 
@@ -84,7 +84,7 @@ class SpeedState(NamedTuple):
 
 
 class Films(NamedTuple):
-    """States and work of a bearing in time: contacts 2 k (inner race) and 2 k + 1 of ball k; balls; seat."""
+    """States and work of a bearing in time: contacts 2 k (inner race) and 2 k + 1 of ball k; balls; loss."""
 
     state: _Floats
     work: _Floats
@@ -94,11 +94,11 @@ class Films(NamedTuple):
     balls: _Floats  # (balls, BALL_ENTRIES) place of each ball, the approach w at its outer race; entries above
     force: _Floats  # (balls, 2) at the inner and at the outer race [N]
     largest: _Floats  # (2,) force that any ball has had at either race [N]
-    seat: Seat
+    loss: Seat
 
 
 def films_of(balls: Balls) -> Films:
-    """States and work for all its contacts and balls and its seat, all zero."""
+    """States and work for all its contacts and balls and filters, all zero."""
     lags = max(law.gains.shape[2] for law in (balls.inner, balls.outer)) - DIRECT
     contacts = 2 * balls.number
     return Films(
@@ -110,7 +110,7 @@ def films_of(balls: Balls) -> Films:
         balls=np.zeros((balls.number, BALL_ENTRIES)),
         force=np.zeros((balls.number, 2)),
         largest=np.zeros(2),
-        seat=seat_of(balls.loss),
+        loss=loss_state_of(balls.loss),
     )
 
 
@@ -152,11 +152,11 @@ def begin_step(balls, at_speed, dt, films):
     """Begin a step of length `dt`, as long as the one before; returns the gain from w to its rate (BDF 2)."""
     for k in range(balls.number):
         ball = films.balls[k]
-        ball[PLACE_HISTORY] = (4.0 * ball[PLACE_NOW] - ball[PLACE_BEFORE]) / 3.0
+        ball[POSITION_HISTORY] = (4.0 * ball[POSITION_NOW] - ball[POSITION_BEFORE]) / 3.0
         ball[RATE_HISTORY] = (4.0 * ball[RATE_NOW] - ball[RATE_BEFORE]) / 3.0
         prepare_filters(balls.inner, at_speed.inner, at_speed.speed_row, None, dt, films, 2 * k)
         prepare_filters(balls.outer, at_speed.outer, at_speed.speed_row, None, dt, films, 2 * k + 1)
-    begin_seat(balls.loss, dt, films.seat)
+    begin_loss(balls.loss, dt, films.loss)
     return 1.5 / dt
 
 
@@ -164,7 +164,7 @@ def begin_step(balls, at_speed, dt, films):
 def begin_rest(films):
     """Prepare `press_balls` for the static law; returns the gain from w to its rate, 0."""
     clear_filters(films)
-    hold_still(films.seat)
+    hold_still(films.loss)
     return 0.0
 
 
@@ -172,8 +172,8 @@ def begin_rest(films):
 def _ball(balls, at_speed, films, k, delta, rate, gain):
     """Balance ball `k`; returns the force of the ring on it, its derivatives by delta and delta'."""
     ball, heavy, row = films.balls[k], balls.inertia * gain, at_speed.speed_row
-    history = ball[PLACE_HISTORY]
-    w = ball[PLACE] + ball[BY_DELTA] * (delta - ball[TRIED_DELTA]) + ball[BY_RATE] * (rate - ball[TRIED_RATE])
+    history = ball[POSITION_HISTORY]
+    w = ball[POSITION] + ball[BY_DELTA] * (delta - ball[TRIED_DELTA]) + ball[BY_RATE] * (rate - ball[TRIED_RATE])
     low, high, reach = -inf, inf, FIRST_STEP
     for _ in range(MOST_STEPS):
         v = gain * (w - history)
@@ -188,7 +188,7 @@ def _ball(balls, at_speed, films, k, delta, rate, gain):
                 w, fi, fo = w + step, fi - inner * step, fo + held * step
                 ball[BY_DELTA], ball[BY_RATE] = ki / tangent, di / tangent
                 ki, di = ki * outer / tangent, di * outer / tangent
-            ball[PLACE], ball[TRIED_DELTA], ball[TRIED_RATE] = w, delta, rate
+            ball[POSITION], ball[TRIED_DELTA], ball[TRIED_RATE] = w, delta, rate
             films.force[k, 0], films.force[k, 1] = fi, fo
             return fi, ki, di
         if balance > 0.0:
@@ -230,7 +230,7 @@ def press_balls(balls, at_speed, films, normals, q, v, gain, out):
         damping[0, 1] += by_rate * x * y
         damping[1, 0] += by_rate * x * y
         damping[1, 1] += by_rate * y * y
-    press_seat(films.seat, force, stiffness, damping)
+    apply_loss(films.loss, force, stiffness, damping)
 
 
 @jit_exact_loop
@@ -241,16 +241,16 @@ def accept_balls(balls, at_speed, films, normals, q, v, gain):
         delta = x * q[0] + y * q[1] - balls.half_clearance
         rate = x * v[0] + y * v[1] + at_speed.cage * (x * q[1] - y * q[0])
         ball = films.balls[k]
-        w = ball[PLACE]
-        own = gain * (w - ball[PLACE_HISTORY])
+        w = ball[POSITION]
+        own = gain * (w - ball[POSITION_HISTORY])
         row = at_speed.speed_row
         accept_contact(balls.inner, at_speed.inner, row, None, films, 2 * k, delta - w, rate - own)
         accept_contact(balls.outer, at_speed.outer, row, None, films, 2 * k + 1, w, own)
-        ball[PLACE_BEFORE], ball[PLACE_NOW] = ball[PLACE_NOW], w
+        ball[POSITION_BEFORE], ball[POSITION_NOW] = ball[POSITION_NOW], w
         ball[RATE_BEFORE], ball[RATE_NOW] = ball[RATE_NOW], own
         films.largest[0] = max(films.largest[0], films.force[k, 0])
         films.largest[1] = max(films.largest[1], films.force[k, 1])
-    accept_seat(films.seat)
+    accept_loss(films.loss)
 
 
 @jit_exact_loop
@@ -258,8 +258,8 @@ def rest_balls(balls, films, normals, q):
     """Put all films at rest, with the ring at `q` where `press_balls` was called last."""
     films.state[:] = 0.0
     for k in range(balls.number):
-        w = films.balls[k, PLACE]
+        w = films.balls[k, POSITION]
         films.state[2 * k, APPROACH] = normals[k, 0] * q[0] + normals[k, 1] * q[1] - balls.half_clearance - w
         films.state[2 * k + 1, APPROACH] = w
-        films.balls[k, PLACE_NOW:RATE_HISTORY], films.balls[k, RATE_HISTORY:] = w, 0.0
-    rest_seat(films.seat)
+        films.balls[k, POSITION_NOW:RATE_HISTORY], films.balls[k, RATE_HISTORY:] = w, 0.0
+    rest_loss(films.loss)

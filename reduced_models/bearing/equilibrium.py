@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from ehlcontact.checks import as_column, require_finite
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.balls import PLACE, Balls, SpeedState, begin_rest, directions, films_of, press_balls
+from reduced_models.bearing.balls import POSITION, Balls, SpeedState, begin_rest, directions, films_of, press_balls
 
 _Floats = NDArray[np.float64]
 
@@ -179,7 +179,7 @@ def ring_equilibrium(still: StaticBalls, load: _Floats) -> RingEquilibrium:
     if not np.linalg.det(stiffness) > SEATED * np.trace(stiffness) ** 2:
         allowed = "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)"
         raise InputError("load", load.tolist(), allowed)
-    w = still.films.balls[:, PLACE]
+    w = still.films.balls[:, POSITION]
     inner = still.normals @ q - still.balls.half_clearance - w
     return RingEquilibrium(q, still.normals, np.column_stack([inner, w]), still.films.force.copy(), stiffness)
 

@@ -72,7 +72,7 @@ def skf_friction(
     radial: float,
     axial: float = 0.0,
     speed_rpm: float,
-    viscosity: float,
+    kinematic_viscosity: float,
     static_rating: float | None = None,
     replenishment: float = OIL_BATH,
     mu_boundary: float = MU_BOUNDARY,
@@ -88,8 +88,8 @@ def skf_friction(
         Load [N]; the axial one in either direction.
     speed_rpm : float
         Of the shaft [rev/min].
-    viscosity : float
-        Kinematic, of the oil or the base oil of the grease where the bearing is [m2/s].
+    kinematic_viscosity : float
+        Of the oil or the base oil of the grease where the bearing is [m2/s].
     static_rating : float, optional
         Basic static load rating C0 [N]; required where there is an axial load.
     replenishment : float
@@ -105,7 +105,8 @@ def skf_friction(
     series, bore, outside = boundary_diameters(name)
     r1, r2, s1, s2 = CONSTANTS[series]
     radial, axial = require_nonnegative("radial", radial), abs(axial)
-    n, nu = require_nonnegative("speed_rpm", speed_rpm), 1e6 * require_positive("viscosity", viscosity)
+    n = require_nonnegative("speed_rpm", speed_rpm)
+    nu = 1e6 * require_positive("kinematic_viscosity", kinematic_viscosity)
     dm = 0.5 * (bore + outside)
     if axial > 0.0:
         if static_rating is None:
@@ -119,7 +120,8 @@ def skf_friction(
     else:
         g_rolling = r1 * dm**1.96 * radial**0.54
         g_sliding = s1 * dm**-0.26 * radial ** (5.0 / 3.0)
-    inlet_heat = 1.0 / (1.0 + 1.84e-9 * (n * dm) ** 1.28 * nu**0.64)
+    inlet_heat = 1.0 / (1.0 + 1.84e-9 * (n * dm) ** 1.28 * nu**0.64)  # phi_ish of SKF
+    # replenishment and starvation, phi_rs of SKF
     supply = exp(-replenishment * nu * n * (bore + outside) * sqrt(DEEP_GROOVE / (2.0 * (outside - bore))))
     boundary = exp(-2.6e-8 * (n * nu) ** 1.4 * dm)
     mu = boundary * mu_boundary + (1.0 - boundary) * mu_film
@@ -143,7 +145,7 @@ def friction_under(bearing: Any, load: Any, speed_rpm: float) -> dict[str, Any]:
             radial=float((load[0] ** 2 + load[1] ** 2) ** 0.5),
             axial=float(load[2]) if len(load) > 2 else 0.0,
             speed_rpm=speed_rpm,
-            viscosity=bearing.oil.eta0 / USUAL_DENSITY,
+            kinematic_viscosity=bearing.oil.eta0 / USUAL_DENSITY,
             static_rating=static_rating(bearing),
         )
     except InputError:

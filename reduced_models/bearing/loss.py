@@ -35,18 +35,18 @@ LARGEST_LOSS = 0.2  # twice that of joints of steel; beyond, the filters would n
 BAND = (5.0, 5000.0)  # Hz, within which the loss factor holds
 FILTERS, BEYOND = 8, 3.0  # poles, and by which ratio they go beyond the ends of the band
 SAMPLES = 200  # frequencies at which the gains are fitted
-RAW, BEFORE, PAST, HELD = 0, 1, 2, 3  # rows of a seat: force tried, that of the last end, of the past; all y_k
+RAW, BEFORE, PAST, HELD = 0, 1, 2, 3  # rows of the states: force tried, that of the last end, of the past; all y_k
 
 
 class Loss(NamedTuple):
-    """Filters of a seat; none where nothing is lost."""
+    """Filters of the force; none where nothing is lost."""
 
     gains: _Floats  # (n,) g_k
     rates: _Floats  # (n,) p_k [1/s]
 
 
 class Seat(NamedTuple):
-    """States and work of a seat."""
+    """Bearing seat: states and work of the filters of its losses over time steps."""
 
     rows: _Floats  # (3 + n, directions) forces [N]; see above
     lift: _Floats  # (1,) what a force at the end of the step becomes, over it
@@ -70,8 +70,8 @@ def loss_of(factor: float) -> Loss:
     return Loss(gains, rates)
 
 
-def seat_of(loss: Loss, directions: int = 2) -> Seat:
-    """States of a seat with forces along so many directions, all zero."""
+def loss_state_of(loss: Loss, directions: int = 2) -> Seat:
+    """States for forces along so many directions, all zero."""
     n = loss.gains.size
     return Seat(np.zeros((HELD + n, directions)), np.ones(1), np.zeros((3, n)))
 
@@ -83,53 +83,53 @@ def response(loss: Loss, s: _Complex) -> _Complex:
 
 
 @jit_exact_loop
-def begin_seat(loss, dt, seat):
+def begin_loss(loss, dt, state):
     """Work out a step: the force runs straight from its start to its end."""
-    rows, step = seat.rows, seat.step
-    seat.lift[0] = 1.0
+    rows, step = state.rows, state.step
+    state.lift[0] = 1.0
     rows[PAST] = 0.0
     for k in range(loss.gains.size):
         mu = loss.rates[k] * dt
         left = exp(-mu)
         mean = -expm1(-mu) / mu
         step[0, k], step[1, k], step[2, k] = left, mean - left, 1.0 - mean
-        seat.lift[0] += loss.gains[k] * mean
+        state.lift[0] += loss.gains[k] * mean
         for j in range(rows.shape[1]):
             rows[PAST, j] += loss.gains[k] * (left * rows[HELD + k, j] + step[1, k] * rows[BEFORE, j])
 
 
 @jit_exact_loop
-def rest_seat(seat):
-    """Put its filters at rest under the force tried last."""
-    for k in range(BEFORE, seat.rows.shape[0]):
-        for j in range(seat.rows.shape[1]):
-            seat.rows[k, j] = 0.0 if k == PAST else seat.rows[RAW, j]
+def rest_loss(state):
+    """Put the filters at rest under the force tried last."""
+    for k in range(BEFORE, state.rows.shape[0]):
+        for j in range(state.rows.shape[1]):
+            state.rows[k, j] = 0.0 if k == PAST else state.rows[RAW, j]
 
 
 @jit_exact_loop
-def hold_still(seat):
+def hold_still(state):
     """Make the step one in which nothing is lost."""
-    seat.lift[0] = 1.0
-    seat.rows[PAST] = 0.0
+    state.lift[0] = 1.0
+    state.rows[PAST] = 0.0
 
 
 @jit_exact_loop
-def press_seat(seat, force, stiffness, damping):
-    """Turn the force of the balls at the end of the step, and its tangents, into those of the seat."""
-    if seat.step.shape[1] == 0:
+def apply_loss(state, force, stiffness, damping):
+    """Turn the force of the balls at the end of the step, and its tangents, into those with losses."""
+    if state.step.shape[1] == 0:
         return
     for j in range(force.size):
-        seat.rows[RAW, j] = force[j]
-        force[j] = seat.lift[0] * force[j] - seat.rows[PAST, j]
+        state.rows[RAW, j] = force[j]
+        force[j] = state.lift[0] * force[j] - state.rows[PAST, j]
         for k in range(force.size):
-            stiffness[j, k] *= seat.lift[0]
-            damping[j, k] *= seat.lift[0]
+            stiffness[j, k] *= state.lift[0]
+            damping[j, k] *= state.lift[0]
 
 
 @jit_exact_loop
-def accept_seat(seat):
+def accept_loss(state):
     """Move on to the end of the step, with the force that was tried last."""
-    rows, step = seat.rows, seat.step
+    rows, step = state.rows, state.step
     for k in range(step.shape[1]):
         for j in range(rows.shape[1]):
             fed = step[1, k] * rows[BEFORE, j] + step[2, k] * rows[RAW, j]

@@ -191,8 +191,8 @@ def films_under(bearing: Any, speed_rpm: float, force: _Floats, approach: _Float
         race, load = bearing.race(name), force[:, column]
         films.append(race.films(speed_rpm, load, (load / race.kn) ** (2.0 / 3.0) - approach[:, column]))
     h_central, h_min, moment = (np.column_stack(parts) for parts in zip(*films, strict=True))
-    if bearing.film_limit is not None:
-        moment *= np.array([[film_cutoff(u, bearing.film_limit)[0] for u in row] for row in approach.tolist()])
+    if bearing.cutoff_gap is not None:
+        moment *= np.array([[film_cutoff(u, bearing.cutoff_gap)[0] for u in row] for row in approach.tolist()])
     torque = rolling_torque(moment[:, 0], moment[:, 1], bearing.ball_diameter, bearing.pitch_diameter)
     found = {"h_central": h_central, "h_min": h_min, "moment": moment, "rolling_torque": torque}
     found["outside_assumptions"] = assumptions_under(bearing, speed_rpm, force).headline
@@ -251,8 +251,8 @@ def films_at_angles(bearing: Any, speed_rpm: float, at: AngularEquilibrium) -> d
         central, smallest, resists = race.films(speed_rpm, np.array([load]), np.array([gap]))
         h_central[k, column], h_min[k, column] = central[0], smallest[0]
         carries = 1.0
-        if bearing.film_limit is not None:
-            carries = film_cutoff(float(at.approach[k, column]), bearing.film_limit)[0]
+        if bearing.cutoff_gap is not None:
+            carries = film_cutoff(float(at.approach[k, column]), bearing.cutoff_gap)[0]
         moment[k, column] = carries * resists[0]
         # power m u/Rx of every film over the speed of the shaft, u = u_sum/2
         torque += 0.5 * at.speed_sum[k, column] * moment[k, column] / race.geometry.radius_x

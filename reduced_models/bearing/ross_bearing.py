@@ -1,4 +1,4 @@
-"""Bearings as elements of ROSS, https://ross.readthedocs.io, 2.3 to 3.1.
+"""Export to ROSS, https://ross.readthedocs.io, 2.3 to 3.1: bearings as elements of a ROSS rotor.
 
 Both have SI units, x and y across the shaft, y upwards, and a rotor that turns from x to y; ROSS has speeds in
 rad/s. It is imported where it is needed: that takes seconds.

@@ -26,7 +26,7 @@
 | campbell | `campbell`: modes over the speed, critical speeds |
 | unbalance | `UnbalanceResponse`: amplitudes over shaft speed |
 | control | python-control: `rotor_to_control`, and the state space of a `LinearRotor` |
-| ross_rotor | rotors of ROSS on our bearings: `from_ross`, `RossCallback` |
+| ross_rotor | import from ROSS: `from_ross`; bearings as its force callback: `RossCallback` |
 | picture | figures of runs, Campbell diagrams and unbalance responses |
 | oscillator | `simulate_oscillator`: one mass on one element |
 | compare | `compare`: full against reduced response |

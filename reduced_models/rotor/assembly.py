@@ -210,11 +210,11 @@ class _Assembly:
         ]
 
     def _add_shaft(self) -> None:
-        for k, piece in enumerate(self.shaft.pieces(self.stations)):
+        for k, element in enumerate(self.shaft.shaft_elements(self.stations)):
             if self.z is not None:
-                self.M[self.z, self.z] += piece.mass
+                self.M[self.z, self.z] += element.mass
             at = np.ix_(range(4 * k, 4 * k + 8), range(4 * k, 4 * k + 8))
-            for whole, part in zip((self.M, self.K, self.G), matrices(piece), strict=True):
+            for whole, part in zip((self.M, self.K, self.G), matrices(element), strict=True):
                 whole[at] += part
         self.C += self.shaft.damping_time * self.K
 

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 _Floats = NDArray[np.float64]
 
 POINTS = 4  # of Gauss, exact up to the 7th power; products of shape functions have the 6th
-PLANE_X = (0, 3, 4, 7)  # of x, y, turn about x, turn about y at both ends: x, and the turn about y, its slope
-PLANE_Y = (1, 2, 5, 6)  # y, and minus its slope, the turn about x
+PLANE_X = (0, 3, 4, 7)  # of x, y, rotation about x, rotation about y at both ends: x, and the rotation about y
+PLANE_Y = (1, 2, 5, 6)  # y, and the rotation about x, with the opposite sign
 SIGN = np.array([1.0, -1.0, 1.0, -1.0])  # of the plane of y
 
 
-class Piece(NamedTuple):
+class ShaftElement(NamedTuple):
     """Length, outer and inner diameter [m], Young's modulus [Pa], Poisson's ratio, density, whether it shears."""
 
     length: float
@@ -47,39 +47,39 @@ def shear_coefficient(poisson_ratio: float, bore: float) -> float:
     return 6.0 * (1.0 + b2) ** 2 * (1.0 + nu) ** 2 / (own + nu * nu * (4.0 + 16.0 * b2 + 4.0 * b2 * b2))
 
 
-def matrices(piece: Piece) -> tuple[_Floats, _Floats, _Floats]:
-    """Mass, stiffness and gyroscopic matrix, shape (8, 8): x, y and the turns about x and y at either end."""
-    mass, stiffness, turning = _plane(piece)
+def matrices(element: ShaftElement) -> tuple[_Floats, _Floats, _Floats]:
+    """Mass, stiffness and gyroscopic matrix, shape (8, 8): x, y and the rotations about x and y at either end."""
+    mass, stiffness, rotary = _plane(element)
     M, K, G = np.zeros((3, 8, 8))
     for found, one in ((M, mass), (K, stiffness)):
         found[np.ix_(PLANE_X, PLANE_X)] = one
         found[np.ix_(PLANE_Y, PLANE_Y)] = one * np.outer(SIGN, SIGN)
-    across = 2.0 * turning * SIGN  # of the slopes in one plane on those in the other
-    G[np.ix_(PLANE_X, PLANE_Y)], G[np.ix_(PLANE_Y, PLANE_X)] = across, -across.T
+    coupling = 2.0 * rotary * SIGN  # gyroscopic, of the rotations in one plane and in the other
+    G[np.ix_(PLANE_X, PLANE_Y)], G[np.ix_(PLANE_Y, PLANE_X)] = coupling, -coupling.T
     return M, K, G
 
 
-def _plane(piece: Piece) -> tuple[_Floats, _Floats, _Floats]:
-    """Mass, stiffness, and turning inertia of one plane, shape (4, 4)."""
-    L, E, nu = piece.length, piece.youngs_modulus, piece.poisson_ratio
-    area = 0.25 * pi * (piece.diameter**2 - piece.bore**2)
-    inertia = pi / 64.0 * (piece.diameter**4 - piece.bore**4)
-    rigid = shear_coefficient(nu, piece.bore / piece.diameter) * 0.5 * E / (1.0 + nu) * area  # against shear [N]
-    phi = 12.0 * E * inertia / (rigid * L * L) if piece.shear else 0.0
-    mass, stiffness, turning = np.zeros((3, 4, 4))
-    places, weights = np.polynomial.legendre.leggauss(POINTS)
-    for x, weight in zip(0.5 * (places + 1.0), 0.5 * L * weights, strict=True):
-        v, slope, turn, bend = _shapes(float(x), L, phi)
-        mass += weight * piece.density * area * np.outer(v, v)
-        turning += weight * piece.density * inertia * np.outer(turn, turn)
-        stiffness += weight * E * inertia * np.outer(bend, bend)
-        if piece.shear:
-            stiffness += weight * rigid * np.outer(slope - turn, slope - turn)
-    return mass + turning, stiffness, turning
+def _plane(element: ShaftElement) -> tuple[_Floats, _Floats, _Floats]:
+    """Mass (with rotary inertia), stiffness, and rotary inertia of one plane, shape (4, 4)."""
+    L, E, nu = element.length, element.youngs_modulus, element.poisson_ratio
+    area = 0.25 * pi * (element.diameter**2 - element.bore**2)
+    inertia = pi / 64.0 * (element.diameter**4 - element.bore**4)
+    shear_rigidity = shear_coefficient(nu, element.bore / element.diameter) * 0.5 * E / (1.0 + nu) * area
+    phi = 12.0 * E * inertia / (shear_rigidity * L * L) if element.shear else 0.0
+    mass, stiffness, rotary = np.zeros((3, 4, 4))
+    points, weights = np.polynomial.legendre.leggauss(POINTS)
+    for x, weight in zip(0.5 * (points + 1.0), 0.5 * L * weights, strict=True):
+        v, slope, rotation, curvature = _shapes(float(x), L, phi)
+        mass += weight * element.density * area * np.outer(v, v)
+        rotary += weight * element.density * inertia * np.outer(rotation, rotation)
+        stiffness += weight * E * inertia * np.outer(curvature, curvature)
+        if element.shear:
+            stiffness += weight * shear_rigidity * np.outer(slope - rotation, slope - rotation)
+    return mass + rotary, stiffness, rotary
 
 
 def _shapes(x: float, L: float, phi: float) -> tuple[_Floats, _Floats, _Floats, _Floats]:
-    """Displacement, its slope, turn of the section and curvature at x L, of unit displacements and slopes."""
+    """Displacement, its slope, rotation of the section and curvature at x L, for unit values at the ends."""
     v = np.array([
         1.0 + phi * (1.0 - x) - x * x * (3.0 - 2.0 * x), L * x * (1.0 - x) * (1.0 - x + 0.5 * phi),
         x * x * (3.0 - 2.0 * x) + phi * x, -L * x * (1.0 - x) * (x + 0.5 * phi),
@@ -88,12 +88,12 @@ def _shapes(x: float, L: float, phi: float) -> tuple[_Floats, _Floats, _Floats, 
         -phi / L - 6.0 * x * (1.0 - x) / L, 1.0 - 4.0 * x + 3.0 * x * x + 0.5 * phi * (1.0 - 2.0 * x),
         phi / L + 6.0 * x * (1.0 - x) / L, -2.0 * x + 3.0 * x * x - 0.5 * phi * (1.0 - 2.0 * x),
     ])  # fmt: skip
-    turn = np.array([
+    rotation = np.array([
         -6.0 * x * (1.0 - x) / L, 1.0 - 4.0 * x + 3.0 * x * x + phi * (1.0 - x),
         6.0 * x * (1.0 - x) / L, -2.0 * x + 3.0 * x * x + phi * x,
     ])  # fmt: skip
-    bend = np.array([
+    curvature = np.array([
         (12.0 * x - 6.0) / L**2, (6.0 * x - 4.0 - phi) / L, (6.0 - 12.0 * x) / L**2, (6.0 * x - 2.0 + phi) / L,
     ])  # fmt: skip
     share = 1.0 / (1.0 + phi)
-    return share * v, share * slope, share * turn, share * bend
+    return share * v, share * slope, share * rotation, share * curvature

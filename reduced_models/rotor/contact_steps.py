@@ -106,12 +106,12 @@ class ContactSteps:
                     contact.restore_state(self._saved[i])
                 forces[i] = contact.advance(self._dt, u, v)
         if self._last is not None:
-            self._learn(approach - self._last[0], forces - self._last[1])
+            self._update_secants(approach - self._last[0], forces - self._last[1])
         self._slopes = np.where(self._analytic, tangents, self._slopes)
         self._last = (approach, forces)
         return forces
 
-    def _learn(self, change: _Floats, force_change: _Floats) -> None:
+    def _update_secants(self, change: _Floats, force_change: _Floats) -> None:
         """Secants, of those contacts whose change of force is more than noise."""
         expected = np.maximum(np.abs(self._slopes * change), np.abs(force_change))
         usable = (change != 0.0) & (expected > self.noise)

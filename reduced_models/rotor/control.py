@@ -17,7 +17,7 @@ from ehlcontact.checks import require_instance, require_integer, require_nonnega
 from ehlcontact.errors import InputError
 from reduced_models.bearing.ball_states import PER_METRE, bearing_system
 from reduced_models.bearing.balls import (
-    PLACE,
+    POSITION,
     Balls,
     SpeedState,
     begin_rest,
@@ -196,7 +196,7 @@ class _Ring:
         self.films = self.shape.of_balls
         self.rest = np.concatenate([np.zeros(self.films), np.tile(self.force / PER_METRE, self.shape.seat)])
         if self.films:
-            self.rest[: self.films : self.films // self.balls.number] = held.films.balls[:, PLACE]
+            self.rest[: self.films : self.films // self.balls.number] = held.films.balls[:, POSITION]
         self._films, self._force = films_of(self.balls), np.zeros(2)
         begin_rest(self._films)
 

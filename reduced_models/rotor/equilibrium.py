@@ -128,8 +128,8 @@ def equilibrium(mounts: Sequence[Mount], load: _Floats, stiffness: _Floats, spee
     try:
         q, share = grow_gyroscopic([one.ring for _, one in angular], balance.solve)
     except ConvergenceError as error:
-        if loose := balance.loose(error.result):
-            raise InputError("load", f"not held by {loose}", NOT_HELD) from error
+        if unsupported := balance.unsupported(error.result):
+            raise InputError("load", f"not held by {unsupported}", NOT_HELD) from error
         raise
     if share < 1.0:
         allowed = "those at which friction holds the gyroscopic moment of all balls under this load"
@@ -144,8 +144,8 @@ def require_held(mounts: Sequence[Mount], q: _Floats, stiffness: _Floats, speed_
     if any(is_ball_bearing(mount) and len(mount.directions) == len(FIVE) for mount in mounts):
         supports = static_supports(mounts, speed_rpm)
         balance = _Balance(mounts, supports, support_rows(mounts, q.size), stiffness, np.zeros(q.size))
-        if loose := balance.loose(q):
-            raise InputError("load", f"without hold at {loose}", NOT_HELD)
+        if unsupported := balance.unsupported(q):
+            raise InputError("load", f"without hold at {unsupported}", NOT_HELD)
 
 
 class _Balance:
@@ -162,7 +162,7 @@ class _Balance:
         self._mounts, self._supports, self._rows = mounts, supports, rows
         self._stiffness, self._load = stiffness, load
         self._allowed = BALANCED_BALLS if any(isinstance(mount, BearingMount) for mount in mounts) else BALANCED
-        self._loose = _across(mounts, load.size)  # springs in both directions where a rotor stands on contacts
+        self._both_ways = _across(mounts, load.size)  # springs in both directions where a rotor stands on contacts
         self._rings = [(at, one.ring) for at, one in supports if isinstance(one, StaticAngularBalls)]
         self._carried = 0.0  # forces of preloaded bearings, beside which the load may be small
 
@@ -226,7 +226,7 @@ class _Balance:
             t = 0.5 * (low + high)
         return q + t * step, new
 
-    def loose(self, q: _Floats) -> str:
+    def unsupported(self, q: _Floats) -> str:
         """Bearing and direction in which nothing holds the rotor at `q`; empty where all is held."""
         slopes = self._slopes(q, 0.0)
         values, vectors = np.linalg.eigh(0.5 * (slopes + slopes.T))
@@ -244,7 +244,7 @@ class _Balance:
     def _first(self) -> _Floats:
         rows, mounts = self._rows, self._mounts
         shifts = [mount.shift if isinstance(mount, BearingMount) else [mount.offset] for mount in mounts]
-        springs = self._stiffness + GUESS * (rows.T @ rows) + GUESS * self._loose
+        springs = self._stiffness + GUESS * (rows.T @ rows) + GUESS * self._both_ways
         right = self._load - GUESS * rows.T @ np.concatenate(shifts)
         return np.asarray(np.linalg.solve(springs, right), np.float64)
 
@@ -262,7 +262,7 @@ class _Balance:
         r, slopes = rows @ q, np.zeros((len(rows), len(rows)))
         for columns, support in self._supports:
             slopes[columns, columns] = support.tangent(r[columns]) + more * np.eye(columns.stop - columns.start)
-        return np.asarray(self._stiffness + rows.T @ slopes @ rows + more * self._loose)
+        return np.asarray(self._stiffness + rows.T @ slopes @ rows + more * self._both_ways)
 
 
 def _across(mounts: Sequence[Mount], size: int) -> _Floats:

@@ -45,7 +45,7 @@ class RingState(NamedTuple):
     slopes: _Floats  # (d, n) work
 
 
-PLACE, MOVING, PUSHED = range(3)  # rows of `ring`
+POSITION, VELOCITY, RING_FORCE = range(3)  # rows of `ring`
 R, RATE, FORCE, IMBALANCE, FREE, HISTORY = range(6)  # rows of `tried`: r, r', F, imbalance, r_free, B v_history
 
 
@@ -102,7 +102,7 @@ class CompiledSteps:
             found = run.histories.motion[self.made]
             hint = rounding_hint(steps, found, self._limits[0], self._limits[0] / self._tolerance)
             for b, (at, name) in enumerate(zip(run.ball_directions, run.rotor.ball_bearing_names, strict=True)):
-                if np.isnan(self._rings.ring[PUSHED, at]).any():
+                if np.isnan(self._rings.ring[RING_FORCE, at]).any():
                     turned = UNBALANCED if run.rotor.ball_bearings[b].z is not None else ""
                     hint = f": a ball of {name} finds none{turned}"
             raise ConvergenceError(f"no balance of the forces was found{hint}", None)
@@ -144,14 +144,14 @@ def run_block(steps, balls, films, rings, state, course, limits, out):
         _finish(steps, rings, state, forces[i])
         farthest = 0.0
         for b in range(len(balls)):
-            q, v = rings.ring[PLACE, d * b : d * b + d], rings.ring[MOVING, d * b : d * b + d]
+            q, v = rings.ring[POSITION, d * b : d * b + d], rings.ring[VELOCITY, d * b : d * b + d]
             accept(balls[b], films[b], rings.normals[b], speed[i], q, v, 1.5 / steps.dt)
         for k in range(state.shape[1]):
             out[0][i, k], out[1][i, k] = state[0, k], state[1, k]
         for k in range(rings.shift.size):
-            out[2][i, k], out[3][i, k] = rings.ring[PLACE, k] - rings.shift[k], rings.ring[PUSHED, k]
+            out[2][i, k], out[3][i, k] = rings.ring[POSITION, k] - rings.shift[k], rings.ring[RING_FORCE, k]
             if k % d < DISPLACEMENTS:
-                farthest = max(farthest, abs(rings.ring[PLACE, k]))
+                farthest = max(farthest, abs(rings.ring[POSITION, k]))
         out[4][i] = count
         if farthest > limits[1]:
             return i + 1, LOST
@@ -204,14 +204,14 @@ def _balance(steps, balls, films, rings, speed, allowed):
         for b in range(len(balls)):
             first = d * b
             for i in range(first, first + d):
-                ring[PLACE, i], ring[MOVING, i] = rings.shift[i], 0.0
+                ring[POSITION, i], ring[VELOCITY, i] = rings.shift[i], 0.0
                 for j in range(n):
-                    ring[PLACE, i] += ties[i, j] * tried[R, j]
-                    ring[MOVING, i] += ties[i, j] * tried[RATE, j]
-            q, v = ring[PLACE, first : first + d], ring[MOVING, first : first + d]
+                    ring[POSITION, i] += ties[i, j] * tried[R, j]
+                    ring[VELOCITY, i] += ties[i, j] * tried[RATE, j]
+            q, v = ring[POSITION, first : first + d], ring[VELOCITY, first : first + d]
             press(balls[b], films[b], rings.normals[b], speed, q, v, 1.5 / steps.dt, rings.pushed)
             for i in range(d):
-                ring[PUSHED, first + i] = force[i]
+                ring[RING_FORCE, first + i] = force[i]
                 for j in range(n):
                     tried[FORCE, j] += ties[first + i, j] * force[i]
                     rings.slopes[i, j] = 0.0

@@ -89,9 +89,9 @@ class PythonSteps:
     made = reached = 0  # steps, and the last one that was begun
 
     def __init__(self, run: PreparedRun, tolerance: float, most: int) -> None:
-        self._run, self._most, self._torn = run, most, False
+        self._run, self._most, self._in_step = run, most, False
         self._points, self._normals, counts = run.rotor.geometry
-        self._pull = counts[:, None] * self._normals  # (m, n): forces of the points are force @ pull
+        self._to_points = counts[:, None] * self._normals  # (m, n): forces of the points are force @ to_points
         d, force = run.histories.displacement[0], run.histories.force[0]
         _, _, K = run.rotor.matrices(run.omega[0])
         carried = np.abs(self._normals.T @ (counts * force)).max(initial=0.0)
@@ -130,7 +130,7 @@ class PythonSteps:
         run = self._run
         turning, force, share = run.turning, run.histories.force, 1.0 - steps.weight
         free = free_displacement(steps, run.state, turning[i], turning[i - 1])
-        free -= (share * (force[i - 1] @ self._pull)) @ steps.columns
+        free -= (share * (force[i - 1] @ self._to_points)) @ steps.columns
         _, by_d, by_v, by_a = steps.velocity
         past_rate = by_d * run.state[0] + by_v * run.state[1] + by_a * run.state[2]
         bearings = run.cage_angles.shape[1]
@@ -142,11 +142,11 @@ class PythonSteps:
         move_to(steps, run.state, new)
         for history, value in zip(run.histories, (new, run.state[1], r, r_rate, found, count), strict=True):
             history[i] = value
-        self._torn = False  # last: Ctrl-C may come between any two lines
+        self._in_step = False  # last: Ctrl-C may come between any two lines
 
     def rewind(self) -> None:
         """Supports back to the end of the last step that is in the histories."""
-        if self._torn:
+        if self._in_step:
             for _, support in self._supports:
                 support.rewind()
 
@@ -160,7 +160,7 @@ class PythonSteps:
         slopes = np.zeros((r.size, r.size))
         for columns, support in self._supports:
             slopes[columns, columns] = support.expected(r[columns], rate[columns])
-        right = steps.D @ q_free - steps.weight * ((force - slopes @ r) @ self._pull)
+        right = steps.D @ q_free - steps.weight * ((force - slopes @ r) @ self._to_points)
         return np.asarray(np.linalg.solve(self._system(steps, slopes), right), dtype=np.float64)
 
     def _balance(
@@ -171,10 +171,10 @@ class PythonSteps:
         force, slopes = np.zeros(len(self._normals)), np.zeros((len(self._normals), len(self._normals)))
         for iteration in range(1, self._most + 1):
             r, rate = self._normals @ q, self._normals @ (steps.velocity[0] * q + point_rate)
-            self._torn = True
+            self._in_step = True
             for columns, support in self._supports:
                 force[columns], slopes[columns, columns] = support.at(r[columns], rate[columns])
-            residual = steps.D @ (q - q_free) + steps.weight * (force @ self._pull)
+            residual = steps.D @ (q - q_free) + steps.weight * (force @ self._to_points)
             error = float(np.linalg.norm(residual))
             if error <= self._allowed:
                 for columns, support in self._supports:
@@ -197,7 +197,7 @@ class PythonSteps:
         raise ConvergenceError(found + hint, None)
 
     def _system(self, steps: Steps, slopes: _Floats) -> _Floats:
-        return np.asarray(steps.D + steps.weight * (self._pull.T @ slopes @ self._normals))
+        return np.asarray(steps.D + steps.weight * (self._to_points.T @ slopes @ self._normals))
 
 
 def _extrapolated(history: _Floats, n: int) -> _Floats:

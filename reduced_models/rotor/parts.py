@@ -26,7 +26,7 @@ from ehlcontact.summary import Summary, span
 from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.freedoms import FACINGS, FIVE, facing_signs
-from reduced_models.rotor.beam import Piece
+from reduced_models.rotor.beam import ShaftElement
 from reduced_models.rotor.rotor import Unbalance, require_unbalance
 from reduced_models.rotor.supports import BearingMount, LinearBearing, require_bearing
 
@@ -140,13 +140,13 @@ class Shaft(Summary):
         """Position of its right end [m]."""
         return float(np.sum(self.length))
 
-    def pieces(self, stations: _Floats) -> list[Piece]:
+    def shaft_elements(self, stations: _Floats) -> list[ShaftElement]:
         """Between neighbouring stations, at all of which sections may end."""
         ends = np.cumsum(self.length)
         section = np.searchsorted(ends, 0.5 * (stations[1:] + stations[:-1]))
         material = self.youngs_modulus, self.poisson_ratio, self.density, self.shear
         return [
-            Piece(float(length), float(self.diameter[k]), float(self.bore[k]), *material)
+            ShaftElement(float(length), float(self.diameter[k]), float(self.bore[k]), *material)
             for length, k in zip(np.diff(stations), section.tolist(), strict=True)
         ]
 

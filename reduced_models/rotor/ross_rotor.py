@@ -1,4 +1,6 @@
-"""Rotors of ROSS on our bearings, and our bearings in its time steps: https://ross.readthedocs.io, 2.3 to 3.1.
+"""Import of ROSS rotors (`from_ross`), and bearings as force callback in ROSS time integration (`RossCallback`).
+
+ROSS: https://ross.readthedocs.io, 2.3 to 3.1.
 
 Both have SI units, x and y across the shaft, y upwards, z along it, and a rotor that turns from x to y. ROSS
 counts nodes, of six degrees of freedom each (x, y, z, turns about them), and has speeds in rad/s. The first five

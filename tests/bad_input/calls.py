@@ -322,7 +322,7 @@ CALLS = {
     ),
     "ridge of no width": (lambda: TransverseRidge(0.1, 0.0), ("width", "a finite number > 0")),
     "dent in words": (lambda: Dent("deep", 0.5), ("depth", "a finite number")),
-    "roughness of no height": (lambda: Roughness.synthetic(0.0, 0.5, 0.1), ("sigma", "a finite number > 0")),
+    "roughness of no height": (lambda: Roughness.synthetic(0.0, 0.5, 0.1), ("rq", "a finite number > 0")),
     "roughness in words": (lambda: Roughness("rough", 0.1, 0.1, 0.5), ("heights", "a table of numbers")),
     "roughness with holes": (
         lambda: Roughness.measured(np.full((9, 9), np.nan), 0.1, 0.1, 0.5),
@@ -335,7 +335,10 @@ CALLS = {
             grid=Grid(n=64),
             surface=Roughness.synthetic(0.01, 0.5, 0.1, kappa=0.5),
         ),
-        ("surface.shortest", "at least 0.75 semi-axes, 4 of the mesh of 0.188: raise n, or smooth the surface"),
+        (
+            "surface.shortest_wavelength",
+            "at least 0.75 semi-axes, 4 of the mesh of 0.188: raise n, or smooth the surface",
+        ),
     ),
     "waves of no length": (lambda: Waviness(0.1, 0.0), ("wavelength", "a finite number > 0")),
     "frequency below 0": (lambda: impedance(point(), Omega=[-1.0]), ("Omega", "finite, >= 0 and <= 200")),

@@ -206,7 +206,7 @@ def test_a_run_up_and_a_coast_down_enclose_the_critical_speeds(tmp_path):
     rising, falling = (up_and_down.most(runs[way], crossings) for way in ("up", "down"))
     assert falling < min(crossings) and max(crossings) < rising
     assert 0.5 * (rising + falling) == pytest.approx(np.mean(crossings), rel=0.015)
-    speed, size = up_and_down.swing(runs["up"])
+    speed, size = up_and_down.amplitude(runs["up"])
     assert size.max() > 10.0 * np.median(size[speed < 6000.0])
     assert drawn(up_and_down, tmp_path / "run_up.png", 0.05)
 

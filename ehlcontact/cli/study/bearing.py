@@ -82,7 +82,7 @@ class Bearing(Section):
     clearance_um: e.Clearance | str | None = None  # or a class, as CN
     contact_angle_deg: e.ContactAngle | None = None
     race_control: e.RaceControl | None = None
-    film_limit_um: e.Positive | None = None
+    cutoff_gap_um: e.Positive | None = None
     loss_factor: e.NotNegative | None = None  # of rings and fits
     ball_inertia: StrictBool | None = None  # balls vibrate between the rings
     youngs_modulus: e.YoungsModulus | None = None
@@ -262,7 +262,7 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
 def _bearing(found: BearingFile) -> BallBearing:
     b, surface = found.bearing, found.surface
     in_m = {"ball_diameter": (b.ball_diameter_mm, 1e-3), "pitch_diameter": (b.pitch_diameter_mm, 1e-3),
-            "film_limit": (b.film_limit_um, 1e-6),
+            "cutoff_gap": (b.cutoff_gap_um, 1e-6),
             "rq_ball": (surface.rq_ball_um, 1e-6), "rq_race": (surface.rq_race_um, 1e-6)}  # fmt: skip
     lengths = {name: value * unit for name, (value, unit) in in_m.items() if value is not None}
     if surface.rq_um is not None:

@@ -23,7 +23,7 @@ from ehlcontact.transient.features import surface_step
 
 POINT = MoesPoint(200.0, 10.0, 1.0)
 NEAR = Domain(-2.5, 1.5, 2.0)
-MADE = {"sigma": 0.01, "longest": 0.5, "shortest": 0.1, "length": 4.0, "width": 2.0}
+MADE = {"rq": 0.01, "longest_wavelength": 0.5, "shortest_wavelength": 0.1, "length": 4.0, "width": 2.0}
 
 
 @pytest.fixture(scope="module")
@@ -155,7 +155,7 @@ def test_a_map_in_metres():
         table * 1e-7 / s.length, 2e-6 / s.a, 2e-6 / s.b, 1.2e-5 / s.a, kappa=s.a / s.b, start=-1.0
     )
     np.testing.assert_allclose(metres.heights, same.heights, rtol=1e-12)
-    assert (metres.dx, metres.dy, metres.shortest) == (2e-6 / s.a, 2e-6 / s.b, 1.2e-5 / s.a)
+    assert (metres.dx, metres.dy, metres.shortest_wavelength) == (2e-6 / s.a, 2e-6 / s.b, 1.2e-5 / s.a)
     assert metres.kappa == pytest.approx(point.moes.kappa, rel=1e-9)
 
 
@@ -167,11 +167,13 @@ def run_over(surface, n=64, until=0.5, **changes):
 def test_waves_that_the_mesh_does_not_show_are_refused(made):
     """The mesh is 0.0625 along and across."""
     with pytest.raises(
-        InputError, match=r"^surface\.shortest = 0\.1: must be at least 0\.25 semi-axes, 4 of the mesh"
+        InputError, match=r"^surface\.shortest_wavelength = 0\.1: must be at least 0\.25 semi-axes, 4 of the mesh"
     ):
         run_over(made)
-    wide = replace(made, kappa=0.25, shortest=0.3)  # across, the mesh is four times as long in metres
-    refused = pytest.raises(InputError, match=r"^surface\.shortest = 0\.3: must be at least 1 semi-axes")
+    wide = replace(made, kappa=0.25, shortest_wavelength=0.3)  # across, the mesh is four times as long in metres
+    refused = pytest.raises(
+        InputError, match=r"^surface\.shortest_wavelength = 0\.3: must be at least 1 semi-axes"
+    )
     with (
         refused,
         pytest.warns(RuntimeWarning, match="^kappa = 0.25 of the surface is not that of the contact, 1:"),
@@ -193,16 +195,16 @@ def test_a_map_too_short_for_the_run_is_refused():
 
 HEIGHTS = np.random.default_rng(2).standard_normal((8, 8))
 BAD = {
-    "sigma 0": (lambda: Roughness.synthetic(**MADE | {"sigma": 0.0}), "sigma = 0.0"),
-    "sigma negative": (lambda: Roughness.synthetic(**MADE | {"sigma": -1.0}), "sigma = -1.0"),
+    "rq 0": (lambda: Roughness.synthetic(**MADE | {"rq": 0.0}), "rq = 0.0"),
+    "rq negative": (lambda: Roughness.synthetic(**MADE | {"rq": -1.0}), "rq = -1.0"),
     "waves the wrong way round": (
         lambda: Roughness.synthetic(0.01, 0.1, 0.5),
-        "shortest = 0.5: must be below longest",
+        "shortest_wavelength = 0.5: must be below longest_wavelength",
     ),
     "map too small": (lambda: Roughness.synthetic(**MADE | {"length": 0.4}), "length = 0.4: must be at least 0.5"),
     "map too fine": (
-        lambda: Roughness.synthetic(**MADE | {"shortest": 1e-3}),
-        "shortest = 0.001: must be at least",
+        lambda: Roughness.synthetic(**MADE | {"shortest_wavelength": 1e-3}),
+        "shortest_wavelength = 0.001: must be at least",
     ),
     "hurst": (lambda: Roughness.synthetic(**MADE, hurst=1.5), "hurst = 1.5: must be between 0 and 1"),
     "seed": (lambda: Roughness.synthetic(**MADE, seed=-1), "seed = -1"),
@@ -214,7 +216,10 @@ BAD = {
     "words": (lambda: Roughness([["high"]], 0.1, 0.1, 0.5), "heights = 'list'"),
     "flat": (lambda: Roughness(0.0 * HEIGHTS, 0.1, 0.1, 0.5), "heights = 'all 0'"),
     "dx": (lambda: Roughness(HEIGHTS, 0.0, 0.1, 0.5), "dx = 0.0"),
-    "below the samples": (lambda: Roughness(HEIGHTS, 0.1, 0.1, 0.15), "shortest = 0.15: must be at least 0.2"),
+    "below the samples": (
+        lambda: Roughness(HEIGHTS, 0.1, 0.1, 0.15),
+        "shortest_wavelength = 0.15: must be at least 0.2",
+    ),
     "front": (lambda: Roughness(HEIGHTS, 0.1, 0.1, 0.5, front=0.0), "front = 0.0"),
     "speed": (lambda: Roughness(HEIGHTS, 0.1, 0.1, 0.5, speed=-1.0), "speed = -1.0"),
     "measured NaN": (lambda: Roughness.measured(HEIGHTS * np.nan, 0.1, 0.1, 0.5), "heights = '64 of 64"),
@@ -233,7 +238,14 @@ def test_bad_input_is_named(name):
 @pytest.fixture(scope="module")
 def rough_runs():
     """Roughness of a tenth of the film, and of a twentieth, half-way through; 8 and 4 nodes to a wave."""
-    rough = {"longest": 0.6, "shortest": 0.25, "length": 4.0, "width": 2.0, "seed": 4, "start": -1.25}
+    rough = {
+        "longest_wavelength": 0.6,
+        "shortest_wavelength": 0.25,
+        "length": 4.0,
+        "width": 2.0,
+        "seed": 4,
+        "start": -1.25,
+    }
     film = 0.0817
     return {
         "full": run_over(Roughness.synthetic(0.1 * film, **rough), 128, 1.25, snapshots=(1.0, 1.25)),

@@ -53,7 +53,7 @@ def test_catalogue_and_dimensions_are_the_same():
         ("clearance = nan: must be a finite number", {"clearance": float("nan")}),
         ("oil = 'int': must be a Lubricant", {"oil": 68}),
         ("rq_ball = -1.0: must be a finite number >= 0", {"rq_ball": -1.0}),
-        ("film_limit = 0.0: must be a finite number > 0", {"film_limit": 0.0}),
+        ("cutoff_gap = 0.0: must be a finite number > 0", {"cutoff_gap": 0.0}),
         ("youngs_modulus = 206.0: .*GPa", {"youngs_modulus": 206.0}),
         ("poisson_ratio = 0.6: must be between 0 and 0.5", {"poisson_ratio": 0.6}),
     ],
@@ -145,7 +145,7 @@ def test_lambda_ratio_is_film_over_roughness(oil):
 
 
 def test_files(tmp_path, oil):
-    bearing = BallBearing.catalogue("6203", oil=oil, clearance=5e-6, rq_race=1e-7, film_limit=1e-5)
+    bearing = BallBearing.catalogue("6203", oil=oil, clearance=5e-6, rq_race=1e-7, cutoff_gap=1e-5)
     again = load(save(bearing, tmp_path / "bearing.json"), BallBearing)
     assert again == bearing
     state = bearing.equilibrium(DOWN, speed_rpm=2000.0)

@@ -13,7 +13,7 @@ from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.motion import BearingMotion
 
 RPM = 3000.0
-PLACE = np.array([1e-6, -12e-6])
+POSITION = np.array([1e-6, -12e-6])
 
 # the elements of light balls say what the bearing does not: that they are below the lightest load of the atlas
 light = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
@@ -36,8 +36,8 @@ def assert_same_forces(fast, slow, q, v, dt):
 def test_at_rest_it_is_two_elements_in_series(oil, clearance, rpm):
     bearing = BallBearing.catalogue("6205", oil=oil, clearance=clearance)
     fast = motion(bearing, 1e-5, rpm, 0.3)
-    force = fast.rest(PLACE)
-    forces, net = SlowBearing(bearing, rpm, SlowElement, 0.3).rest(PLACE)
+    force = fast.rest(POSITION)
+    forces, net = SlowBearing(bearing, rpm, SlowElement, 0.3).rest(POSITION)
     np.testing.assert_allclose(fast._motion.films.force, forces, rtol=0.0, atol=1e-10 * forces.max())
     np.testing.assert_allclose(force, net, rtol=0.0, atol=1e-10 * forces.max())
 
@@ -46,18 +46,18 @@ def test_at_rest_it_is_two_elements_in_series(oil, clearance, rpm):
 def test_in_motion_it_is_its_twin(film, shake, dt):
     q, v = shake(dt, 12)
     fast, slow = motion(film, dt), SlowBearing(film, RPM, SlowContact)
-    fast.rest(PLACE)
-    slow.rest(PLACE)
+    fast.rest(POSITION)
+    slow.rest(POSITION)
     assert_same_forces(fast, slow, q, v, dt)
 
 
 def test_films_that_stop_carrying(oil, shake):
     """A limit at which some films carry all, some a part and some nothing."""
-    limited = BallBearing.catalogue("6205", oil=oil, film_limit=8e-6)
+    limited = BallBearing.catalogue("6205", oil=oil, cutoff_gap=8e-6)
     q, v = shake(2e-5, 8)
     fast, slow = motion(limited, 2e-5), SlowBearing(limited, RPM, lambda e: SlowContact(e, 8e-6))
-    fast.rest(PLACE)
-    forces, _ = slow.rest(PLACE)
+    fast.rest(POSITION)
+    forces, _ = slow.rest(POSITION)
     np.testing.assert_allclose(fast._motion.films.force, forces, rtol=0.0, atol=1e-10 * forces.max())
     assert 0 < np.count_nonzero(forces == 0.0) < forces.size
     assert_same_forces(fast, slow, q, v, 2e-5)
@@ -68,13 +68,13 @@ def test_small_motions_are_those_of_two_elements(film):
     """Where the contacts keep their size, that own time is foreseen makes no difference."""
     dt, size = 2e-5, 1e-12
     t = dt * np.arange(1, 9)
-    q = PLACE + size * np.column_stack([np.sin(4e3 * t), np.cos(3e3 * t)])
+    q = POSITION + size * np.column_stack([np.sin(4e3 * t), np.cos(3e3 * t)])
     v = size * np.column_stack([4e3 * np.cos(4e3 * t), -3e3 * np.sin(3e3 * t)])
     kernel = film._kernel(RPM)._replace(cage=0.0, centrifugal_factor=0.0)
     fast, slow = BearingMotion(with_balls(film, kernel), RPM, dt), SlowBearing(film, RPM, SlowElement)
     slow.cage = slow.centrifugal = 0.0
-    fast.rest(PLACE)
-    slow.rest(PLACE)
+    fast.rest(POSITION)
+    slow.rest(POSITION)
     assert_same_forces(fast, slow, q, v, dt)
 
 
@@ -85,8 +85,8 @@ def test_large_motions_are_nearly_those_of_two_elements(film, shake):
     for dt in (2e-5, 1e-5):
         q, v = shake(dt, round(8e-4 / dt))
         fast, slow = motion(film, dt), SlowBearing(film, RPM, SlowElement)
-        fast.rest(PLACE)
-        slow.rest(PLACE)
+        fast.rest(POSITION)
+        slow.rest(POSITION)
         force, _ = fast.drive(q, v)
         net = np.array([slow.step(dt, place, rate)[1] for place, rate in zip(q, v, strict=True)])
         worst.append(np.abs(force - net).max() / np.ptp(net[:, 1]))
@@ -95,13 +95,13 @@ def test_large_motions_are_nearly_those_of_two_elements(film, shake):
 
 
 @pytest.mark.parametrize("speeds", [RPM, (2000.0, 3700.0)])  # a law of its own, or between two
-@pytest.mark.parametrize("changes", [{}, {"film_limit": 8e-6}, {"loss_factor": 0.2}])
+@pytest.mark.parametrize("changes", [{}, {"cutoff_gap": 8e-6}, {"loss_factor": 0.2}])
 @pytest.mark.parametrize("dt", [1e-6, 2e-5, 1e-3])
 def test_tangents_are_those_of_differences(oil, shake, dt, changes, speeds):
     bearing = BallBearing.catalogue("6205", oil=oil, clearance=3e-6, **changes)
     q, v = shake(dt, 6)
     it = BearingMotion(with_balls(bearing, bearing._kernel(speeds)), RPM, dt, 0.2)
-    it.rest(PLACE)
+    it.rest(POSITION)
     it.drive(q[:5], v[:5])
     _, stiffness, damping = it.forces(q[5], v[5])
     for k in range(2):
@@ -117,14 +117,14 @@ def test_tangents_are_those_of_differences(oil, shake, dt, changes, speeds):
 
 @pytest.mark.parametrize("speeds", [RPM, (2000.0, 3700.0)])
 @pytest.mark.parametrize(
-    "changes", [{}, {"clearance": 6e-6, "film_limit": 8e-6}, {"clearance": -5e-6}, {"oil": None}]
+    "changes", [{}, {"clearance": 6e-6, "cutoff_gap": 8e-6}, {"clearance": -5e-6}, {"oil": None}]
 )
 def test_tangents_at_rest_are_those_of_differences(oil, changes, speeds):
     """Of all balls standing still, by which equilibria are found."""
     bearing = BallBearing.catalogue("6205", **({"oil": oil} | changes))
     kernel = bearing._kernel(speeds)
     held = StaticBalls(kernel, speed_state(kernel, RPM * pi / 30.0), 0.2)
-    for place in (PLACE, np.array([9e-6, 4e-6])):
+    for place in (POSITION, np.array([9e-6, 4e-6])):
         tangent, size = held.tangent(place), 1e-9
         for k in range(2):
             step = size * np.eye(2)[k]
@@ -137,7 +137,7 @@ def test_trying_does_not_move(film, shake):
     q, v = shake(2e-5, 3)
     once, often = motion(film, 2e-5), motion(film, 2e-5)
     for it in (once, often):
-        it.rest(PLACE)
+        it.rest(POSITION)
     for place, rate in zip(q, v, strict=True):
         for _ in range(2):
             often.forces(place + 1e-6, rate - 1e-3)
@@ -151,7 +151,7 @@ def test_trying_does_not_move(film, shake):
 def test_dry_balls_in_motion_are_hertzian(dry, shake):
     q, v = shake(2e-5, 5)
     it = motion(dry, 2e-5, 0.0)
-    it.rest(PLACE)
+    it.rest(POSITION)
     force, balls = it.drive(q, v)
     kn = [dry.race(race).kn ** (-2.0 / 3.0) for race in ("inner", "outer")]
     psi = -pi / 2.0 + 2.0 * pi / 9.0 * np.arange(9)

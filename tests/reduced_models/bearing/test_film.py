@@ -42,7 +42,7 @@ def test_damping_in_the_direction_of_the_load(film, oil, rpm, expected):
     # unloaded half of the balls, which held a tenth of the prototype's damping, hardly counts.
     ours = film.coefficients(DOWN, speed_rpm=rpm, hz=50.0).damping[0, 1, 1]
     assert 0.9 * prototype < ours < 0.93 * prototype
-    loaded = BallBearing.catalogue("6205", oil=oil, film_limit=5e-6)
+    loaded = BallBearing.catalogue("6205", oil=oil, cutoff_gap=5e-6)
     assert 0.96 * ours < loaded.coefficients(DOWN, speed_rpm=rpm, hz=50.0).damping[0, 1, 1] < ours
 
 
@@ -112,7 +112,7 @@ def test_light_balls_do_not_warn(film):
 
 
 def test_unloaded_films_let_go(oil):
-    limited = BallBearing.catalogue("6205", oil=oil, film_limit=2e-6).equilibrium(DOWN, speed_rpm=3000.0)
+    limited = BallBearing.catalogue("6205", oil=oil, cutoff_gap=2e-6).equilibrium(DOWN, speed_rpm=3000.0)
     assert np.count_nonzero(limited.force[:, 0] == 0.0) == 4
     assert np.all(limited.force[:, 1] > 0.6)  # thrown against the outer race
 

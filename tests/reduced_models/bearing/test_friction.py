@@ -124,7 +124,7 @@ def test_light_and_free_films(film, oil):
     assert 0 < light.sum() < 9 and np.all(state.moment > 0.0)
     their = rolling_torque(*np.where(light, state.moment, 0.0).T, film.ball_diameter, film.pitch_diameter)
     assert their < 0.01 * state.rolling_torque
-    free = BallBearing.catalogue("6205", oil=oil, film_limit=2e-6).equilibrium(DOWN, speed_rpm=3000.0)
+    free = BallBearing.catalogue("6205", oil=oil, cutoff_gap=2e-6).equilibrium(DOWN, speed_rpm=3000.0)
     assert np.all((free.moment == 0.0) == (free.force == 0.0)) and np.any(free.moment == 0.0)
     assert 0.97 * state.rolling_torque < free.rolling_torque < state.rolling_torque
 

@@ -13,7 +13,7 @@ from reduced_models import (
     BearingMotion,
     simulate_rotor,
 )
-from reduced_models.bearing.balls import PLACE, speed_state
+from reduced_models.bearing.balls import POSITION, speed_state
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import SmallBalls
@@ -42,7 +42,7 @@ def test_against_scipy():
     start = np.array([2e-6, -8e-6]), np.array([0.0, 1e-3])
     it = BearingMotion(bearing, RPM, 1e-6)
     it.rest(start[0])
-    first = np.concatenate([*start, it._motion.films.balls[:, PLACE], np.zeros(9)])
+    first = np.concatenate([*start, it._motion.films.balls[:, POSITION], np.zeros(9)])
     exact = solve_ivp(rates, (0.0, 1e-3), first, method="DOP853", rtol=1e-9, atol=1e-15, t_eval=[5e-4, 1e-3])
     errors = []
     for dt in (1e-6, 5e-7):

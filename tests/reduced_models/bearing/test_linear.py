@@ -27,10 +27,10 @@ def test_a_contact_has_the_impedance_of_its_element(film, race, load):
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
-@pytest.mark.parametrize("film_limit", [None, 8e-6])
-def test_small_motions_in_time(oil, film_limit):
+@pytest.mark.parametrize("cutoff_gap", [None, 8e-6])
+def test_small_motions_in_time(oil, cutoff_gap):
     """A ring that swings a little, its balls standing still: amplitude and phase of the force."""
-    bearing = BallBearing.catalogue("6205", oil=oil, film_limit=film_limit)
+    bearing = BallBearing.catalogue("6205", oil=oil, cutoff_gap=cutoff_gap)
     kernel = bearing._kernel(RPM)._replace(cage=0.0, centrifugal_factor=0.0)
     at_speed = speed_state(kernel, RPM * RPM_TO_RAD_S)
     at = ring_equilibrium(StaticBalls(kernel, at_speed, 0.4), np.array([200.0, -1000.0]))

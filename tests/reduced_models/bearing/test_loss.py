@@ -21,7 +21,7 @@ from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import SmallBalls
-from reduced_models.bearing.loss import BAND, loss_of, response, seat_of
+from reduced_models.bearing.loss import BAND, loss_of, loss_state_of, response
 
 RPM = 3000.0
 
@@ -41,15 +41,15 @@ def test_one_loss_factor_in_the_band(factor):
 def test_a_step_is_the_filters_over_a_straight_force():
     """Against a fine Euler walk of y' = p (F - y)."""
     loss, dt, ends = loss_of(0.2), 3e-4, np.array([[10.0, -20.0], [25.0, 4.0], [21.0, 9.0]])
-    seat = seat_of(loss)
+    seat = loss_state_of(loss)
     seat.rows[0] = ends[0]
-    loss_room.rest_seat(seat)
+    loss_room.rest_loss(seat)
     y = np.tile(ends[0], (loss.rates.size, 1))
     for start, end in pairwise(ends):
-        loss_room.begin_seat(loss, dt, seat)
+        loss_room.begin_loss(loss, dt, seat)
         force, K, C = end.copy(), np.eye(2), 2.0 * np.eye(2)
-        loss_room.press_seat(seat, force, K, C)
-        loss_room.accept_seat(seat)
+        loss_room.apply_loss(seat, force, K, C)
+        loss_room.accept_loss(seat)
         fine = 20000
         for share in (np.arange(fine) + 0.5) / fine:
             y += dt / fine * loss.rates[:, None] * (start + share * (end - start) - y)
@@ -134,18 +134,18 @@ def test_compiled_and_plain_are_twins():
     loss, force = loss_of(0.1), np.array([30.0, -100.0])
     ends = []
     for plain in (False, True):
-        names = ("rest_seat", "begin_seat", "press_seat", "accept_seat", "hold_still")
+        names = ("rest_loss", "begin_loss", "apply_loss", "accept_loss", "hold_still")
         kernels = {n: getattr(loss_room, n).py_func if plain else getattr(loss_room, n) for n in names}
-        seat, at = seat_of(loss), (force.copy(), np.eye(2), np.eye(2))
+        seat, at = loss_state_of(loss), (force.copy(), np.eye(2), np.eye(2))
         kernels["hold_still"](seat)
-        kernels["press_seat"](seat, *at)
+        kernels["apply_loss"](seat, *at)
         np.testing.assert_array_equal(at[0], force)
-        kernels["rest_seat"](seat)
+        kernels["rest_loss"](seat)
         for _ in range(3):
-            kernels["begin_seat"](loss, 1e-4, seat)
+            kernels["begin_loss"](loss, 1e-4, seat)
             at = (1.1 * force, np.eye(2), np.eye(2))
-            kernels["press_seat"](seat, *at)
-            kernels["accept_seat"](seat)
+            kernels["apply_loss"](seat, *at)
+            kernels["accept_loss"](seat)
         ends.append((*at, seat.rows))
     for one, other in zip(*ends, strict=True):
         np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-13)

@@ -9,7 +9,7 @@ from ehlcontact.errors import InputError
 from reduced_models import BallBearing
 from reduced_models.bearing.friction import GREASE, boundary_diameters, skf_friction, static_rating
 
-CASE = {"radial": 1000.0, "speed_rpm": 3000.0, "viscosity": 40e-6}
+CASE = {"radial": 1000.0, "speed_rpm": 3000.0, "kinematic_viscosity": 40e-6}
 
 
 def test_a_6205_under_radial_load_step_by_step():
@@ -42,7 +42,7 @@ def test_limits_and_trends():
     assert still.rolling == 0.0
     assert still.sliding == pytest.approx(0.12 / 0.05 * skf_friction("6205", **CASE).sliding, rel=1e-4)
     assert skf_friction("6205", **CASE | {"radial": 0.0}).total == 0.0
-    thin = skf_friction("6205", **CASE | {"viscosity": 1e-12})
+    thin = skf_friction("6205", **CASE | {"kinematic_viscosity": 1e-12})
     assert thin.rolling < 1e-3 * skf_friction("6205", **CASE).rolling
     assert thin.sliding == pytest.approx(still.sliding, rel=1e-2)
     totals = [skf_friction(f"6{k}05", **CASE).total for k in (0, 2, 3, 4)]
@@ -63,7 +63,7 @@ def test_static_ratings_are_those_of_catalogues():
 
 def test_a_state_has_the_sum_of_films_and_sliding(film, dry, oil):
     state = film.equilibrium((0.0, -1000.0), speed_rpm=3000.0)
-    published = skf_friction("6205", radial=1000.0, speed_rpm=3000.0, viscosity=film.oil.eta0 / 850.0)
+    published = skf_friction("6205", radial=1000.0, speed_rpm=3000.0, kinematic_viscosity=film.oil.eta0 / 850.0)
     assert (state.skf_rolling, state.skf_sliding) == pytest.approx(published)
     assert state.friction_torque == state.rolling_torque + published.sliding
     assert state.friction_loss == pytest.approx(state.friction_torque * 100.0 * pi)
@@ -85,6 +85,8 @@ def test_bad_input():
         skf_friction("6205", axial=10.0, **CASE)
     with pytest.raises(InputError, match="carries"):
         skf_friction("6205", axial=1e7, static_rating=7800.0, **CASE)
-    with pytest.raises(InputError, match="viscosity"):
-        skf_friction("6205", **CASE | {"viscosity": 0.0})
-    assert Lubricant.iso_vg(68, temperature=50.0).eta0 / 850.0 == pytest.approx(CASE["viscosity"], rel=0.1)
+    with pytest.raises(InputError, match="kinematic_viscosity"):
+        skf_friction("6205", **CASE | {"kinematic_viscosity": 0.0})
+    assert Lubricant.iso_vg(68, temperature=50.0).eta0 / 850.0 == pytest.approx(
+        CASE["kinematic_viscosity"], rel=0.1
+    )

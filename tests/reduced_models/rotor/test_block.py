@@ -47,12 +47,12 @@ def test_means_over_a_passage_have_all_positions_as_states(film, block, monkeypa
         np.testing.assert_allclose(response(found, w), expected, rtol=0.0, atol=1e-9 * abs(expected).max())
 
 
-@pytest.mark.parametrize("film_limit", [None, 2e-6])
-def test_linearize_is_the_state_space(film, block, film_limit):
+@pytest.mark.parametrize("cutoff_gap", [None, 2e-6])
+def test_linearize_is_the_state_space(film, block, cutoff_gap):
     """The nonlinear block, by differences of 1e-5 um (and um/s)."""
-    rotor = block(BallBearing.catalogue("6205", oil=film.oil, film_limit=film_limit))
+    rotor = block(BallBearing.catalogue("6205", oil=film.oil, cutoff_gap=cutoff_gap))
     at = linearise(rotor, RPM, passage=False)
-    assert (film_limit is None) == bool(np.all(at.balls[0].inner.slope > 0.0))  # the top balls are let go
+    assert (cutoff_gap is None) == bool(np.all(at.balls[0].inner.slope > 0.0))  # the top balls are let go
     exact, moving = at.to_control(), rotor_to_control(rotor, RPM, cage_turns=False)
     rest = np.zeros(moving.nstates)
     rates = moving.dynamics(0.0, rest, np.zeros(2))
@@ -68,10 +68,10 @@ def test_linearize_is_the_state_space(film, block, film_limit):
         np.testing.assert_allclose(response(found, w), expected, rtol=0.0, atol=1e-4 * abs(expected).max())
 
 
-@pytest.mark.parametrize("film_limit", [None, 2e-6])
-def test_the_state_space_is_that_of_differences(film, block, film_limit):
+@pytest.mark.parametrize("cutoff_gap", [None, 2e-6])
+def test_the_state_space_is_that_of_differences(film, block, cutoff_gap):
     """Rates of rotor, balls and films by every state and input, to 1e-6 of those of the same row."""
-    rotor = block(BallBearing.catalogue("6205", oil=film.oil, film_limit=film_limit))
+    rotor = block(BallBearing.catalogue("6205", oil=film.oil, cutoff_gap=cutoff_gap))
     exact, moving = (
         linearise(rotor, RPM, passage=False).to_control(),
         rotor_to_control(rotor, RPM, cage_turns=False),
