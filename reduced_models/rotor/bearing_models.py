@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
+from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.linear_balls import BearingCoefficients
 from reduced_models.bearing.state import BearingState
@@ -320,7 +321,9 @@ def _over_speed(bearing: BallBearing, weight: tuple[float, float], rpm: float, h
     return tuple(found)
 
 
-def campbell_or_reason(rotor: Rotor, bearing: BallBearing, rpm: float, count: int = MODES) -> Campbell | str:
+def campbell_or_reason(
+    rotor: Rotor, bearing: BallBearing | BearingSet, rpm: float, count: int = MODES
+) -> Campbell | str:
     """The slowest modes over the speed, as far as the bearing has films; or why there are none."""
     high = min(SWEEP[1] * rpm, bearing.highest_speed)
     try:

@@ -1,13 +1,21 @@
 """Studies of angular contact bearings by their names in the catalogue: the contact of the heaviest ball."""
 
+import json
 from math import cos, pi, radians
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
+from jinja2 import Environment, PackageLoader, StrictUndefined
 from tiny_study import STUDY
 
+from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.plots.bearing import drawings_at_angles
+from ehlcontact.cli.study.bearing_at_angles import rotor_between, run_at_angles
+from ehlcontact.cli.study.headline import at_angles as sentence
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.whole_bearing import whole_bearing
-from reduced_models import BallBearing
+from reduced_models import BallBearing, BearingSet, linearise
 
 CATALOGUE = 'catalogue = "7205"\nradial_load = 200.0\nspeed_rpm = 6000.0\n'
 
@@ -53,11 +61,62 @@ def test_other_angle_than_that_of_the_name(study):
         ("", ("whole_bearing.axial_load = None", "7205 A is an angular contact bearing")),
         ("axial_load = 1e6", ("bearing.radial_load, whole_bearing.axial_load = (200.0, 1000000.0)",)),
         ("axial_load = 400.0\nspan_mm = 0.2", ("span_mm = 0.2", "between 1 and 10000 mm", "in m? then 200 mm")),
+        ("axial_load = 400.0\npreload = 100.0", ("whole_bearing.preload = 100.0", "without whole_bearing.pair")),
+        ('axial_load = 9.0\npair = "o"', ("whole_bearing.pair = 'o'", "back-to-back")),
+        ('axial_load = 9.0\npair = "tandem"\npreload = 9.0', ("whole_bearing.preload = 9", "do not press each")),
         ("axial_load = 400.0\ncontact_angle_deg = 0.5", ("contact_angle_deg = 0.5", "in rad? then 28.6")),
     ],
 )
 def test_mistakes(refused, study, tmp_path, whole, words):
     refused(words, "validate", study(whole))
+
+
+@pytest.fixture(scope="module")
+def paired(tmp_path_factory):
+    _, oil, rest = STUDY.partition("[oil]")
+    path = tmp_path_factory.mktemp("pair") / "s.toml"
+    whole = 'axial_load = 100.0\npair = "back-to-back"\npreload = 200.0\ndistance_mm = 40.0\nspan_mm = 300.0\n'
+    path.write_text(f"[bearing]\n{CATALOGUE}\n{oil}{rest.partition('[whole_bearing]')[0]}[whole_bearing]\n{whole}")
+    one = load_study(path)
+    return one, run_at_angles(one)
+
+
+def test_a_pair_carries_the_load(paired):
+    one, at = paired
+    pair = BearingSet.pair(whole_bearing(one, oil=True), preload=200.0, distance=0.04)
+    state = pair.equilibrium((0.0, -200.0, 100.0), speed_rpm=6000.0)
+    np.testing.assert_array_equal(at.state.axial_forces, state.axial_forces)
+    assert list(at.bearings) == ["bearing 0, facing +z", "bearing 1, facing -z"]
+    dry = BearingSet.pair(whole_bearing(one, oil=False), preload=200.0, distance=0.04)
+    heaviest = dry.equilibrium((0.0, -200.0, 100.0), speed_rpm=6000.0).bearings[0]
+    assert one.ball_load == heaviest.force[:, 0].max()
+
+
+def test_a_rotor_on_a_pair_and_a_floating_bearing(paired):
+    """The spring at the right end loads the pair in +z; loads of bearings are along their facings."""
+    one, at = paired
+    first, second, right = linearise(rotor_between(one, at.pair, at.span), 6000.0).loads
+    assert first[2] - second[2] == pytest.approx(100.0, abs=1e-6)
+    assert right[2] == pytest.approx(100.0) and len(at.modes) == 6
+    assert first[1] + second[1] + right[1] == pytest.approx(-400.0) and -200.0 < right[1] < -100.0
+
+
+def test_results_report_and_words_of_a_pair(paired):
+    one, at = paired
+    numbers = json.loads(json.dumps(at.to_dict(), default=lambda array: array.tolist()))
+    assert len(numbers["frequencies_hz"]) == len(numbers["state"]["bearings"]) == 2
+    text = sentence(SimpleNamespace(at_angles=at))
+    assert "balls of a pair of 7205 A, back to back run" in text and "a floating bearing has" in text
+    drawings = drawings_at_angles(at)
+    assert set(drawings) == {"angles_balls", "angles_balls1", "angles_coefficients", "angles_campbell"}
+    heights = {name: 400 for name in drawings}
+    environment = Environment(loader=PackageLoader("ehlcontact.cli"), undefined=StrictUndefined)
+    environment.filters["sig"] = numeral
+    asked = SimpleNamespace(study=one, at_angles=at)
+    page = environment.get_template("at_angles.html.j2").render(
+        found=asked, heights=heights, picture=lambda name, text: f"[{name}] {text}"
+    )
+    assert "[angles_balls1]" in page and "of bearing 1, facing -z." in page and "planes 40 mm apart" in page
 
 
 def test_init_of_an_angular_contact_bearing(call, refused, tmp_path):

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -76,7 +77,10 @@ def balls(state: Any) -> go.Figure:
 def drawings_at_angles(found: Any) -> dict[str, Callable[[], go.Figure]]:
     """The figures of a bearing at contact angles and of the rotor between two of them, not drawn yet."""
     figures: dict[str, Callable[[], go.Figure]] = {
-        "angles_balls": lambda: balls_at_angles(found.state),
+        f"angles_balls{k or ''}": partial(balls_at_angles, state)
+        for k, state in enumerate(found.bearings.values())
+    }
+    figures |= {
         "angles_coefficients": lambda: five_coefficients(found),
     }
     if not isinstance(found.diagram, str):

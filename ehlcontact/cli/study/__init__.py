@@ -16,6 +16,7 @@ module                 responsibility
 ``whole_bearing``      the bearing that it takes, from the file
 ``bearing_at_angles``  the bearing under an axial load, and vibrations of the rotor between two of them
 ``ring_load``          moments and tilts of an inner ring, of studies and of bearing files
+``pair``               pairs of bearings, of studies and of bearing files
 ``headline``           what was found, in one paragraph
 ``results``            everything in numbers: ``results.json``
 ``report``             ``report.html``

@@ -13,6 +13,7 @@ from pydantic import Field, StrictBool, ValidationError
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
+from ehlcontact.cli.study.pair import pair_of
 from ehlcontact.cli.study.points.lists import require_apart
 from ehlcontact.cli.study.ring_load import moments_of, tilt_of
 from ehlcontact.cli.study.schema import Oil
@@ -132,27 +133,6 @@ class Pair(Section):
     spring: e.Spring | None = None
     distance_mm: e.Distance | None = None
 
-    def of(self, bearing: BallBearing) -> BearingSet:
-        """Both bearings.
-
-        Raises
-        ------
-        InputError
-            Bearings without a contact angle; a preload of bearings in tandem, or by offsets and by a spring.
-        """
-        if bearing.free_angle == 0.0:
-            allowed = "left out: bearings of a pair need a contact angle, as 7205 has one (or --contact-angle)"
-            raise InputError("arrangement", self.arrangement, allowed)
-        distance = None if self.distance_mm is None else 1e-3 * self.distance_mm
-        return BearingSet.pair(
-            bearing,
-            self.arrangement.replace("-", " "),
-            distance=distance,
-            preload=self.preload,
-            spring=self.spring,
-            name=f"pair of {bearing.name or 'ball bearings'}, {self.arrangement.replace('-', ' ')}",
-        )
-
 
 class BearingFile(Section):
     """A bearing file; without [oil] the bearing is dry."""
@@ -246,7 +226,7 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
         except ValidationError as error:
             raise in_other_kind(first_error(error, BearingFile), document, STUDY, "run") from None
         bearing, asked = _bearing(found), found.operation
-        pair = None if found.pair is None else found.pair.of(bearing)
+        pair = _pair(found.pair, bearing)
         load = asked.load(paired=pair is not None)
         tandem = found.pair is not None and found.pair.arrangement == "tandem"
         if asked.axial_load is None and (tandem or (len(load) == 2 and bearing.contact_angle is not None)):
@@ -257,6 +237,13 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
     speeds, hz = (tuple(sorted(values or ())) for values in (asked.speed_rpm, asked.hz))
     preload = None if found.pair is None else found.pair.preload
     return BearingJob(bearing, pair, preload, load, asked.tilt, speeds, hz, origin, given)
+
+
+def _pair(given: Pair | None, bearing: BallBearing) -> BearingSet | None:
+    if given is None:
+        return None
+    more = {"preload": given.preload, "spring": given.spring, "distance_mm": given.distance_mm}
+    return pair_of(bearing, given.arrangement, **more)
 
 
 def _bearing(found: BearingFile) -> BallBearing:

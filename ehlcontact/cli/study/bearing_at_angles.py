@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlcontact.cli.study.ring_load import tilt_of
-from ehlcontact.cli.study.whole_bearing import ring_load, whole_bearing
+from ehlcontact.cli.study.whole_bearing import bearings_of, carrier, ring_load, whole_bearing
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import BallBearing, Campbell, Disc, Shaft, Support, linearise, rotor_on_bearings
+from reduced_models import BallBearing, BearingSet, Campbell, Disc, Shaft, Support, linearise, rotor_on_bearings
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.rotor.bearing_models import BAND, FREQUENCIES, campbell_or_reason
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
-    from reduced_models import BearingState, Rotor
+    from reduced_models import BearingState, Rotor, SetState
     from reduced_models.bearing.linear_balls import BearingCoefficients
     from reduced_models.rotor.modes import RotorMode
 
@@ -29,11 +29,12 @@ FOLLOWED = 3  # of them over the speed: of the rotor as a whole, across the shaf
 
 @dataclass(frozen=True)
 class BearingAtAngles:
-    """A bearing under radial and axial load, and the rotor between two of them."""
+    """A bearing or a pair under radial and axial load, and the rotor on it and on another bearing."""
 
     bearing: BallBearing
-    state: BearingState  # a ball right under the load
-    dry: BearingState  # likewise, without films
+    pair: BearingSet | None
+    state: BearingState | SetState  # a ball right under the load
+    dry: BearingState | SetState  # likewise, without films
     over_frequency: BearingCoefficients  # K and C, 5 x 5, means over a ball passage
     at_speed: BearingCoefficients  # the same at the frequency of the shaft
     span: float  # of both bearings [m]
@@ -42,15 +43,25 @@ class BearingAtAngles:
     diagram: Campbell | str  # or why there is none
 
     @property
-    def frequencies(self) -> Mapping[str, float]:
-        """Defect frequencies at the contact angles [Hz], by name."""
-        orders = self.state.orders or self.bearing.orders
-        return {name: order * self.state.speed_rpm / 60.0 for name, order in asdict(orders).items()}
+    def bearings(self) -> dict[str, BearingState]:
+        """State of the bearing, or of both of a pair, by its title."""
+        found = bearings_of(self.state)
+        titles = (
+            [""]
+            if self.pair is None
+            else [f"bearing {k}, facing {one}" for k, one in enumerate(self.pair.facings)]
+        )
+        return dict(zip(titles, found, strict=True))
 
     @property
-    def balls(self) -> list[tuple[Any, ...]]:
+    def frequencies(self) -> list[Mapping[str, float]]:
+        """Defect frequencies at the contact angles [Hz], by name; of every bearing."""
+        orders = [asdict(one.orders or self.bearing.orders) for one in self.bearings.values()]
+        return [{name: order * self.state.speed_rpm / 60.0 for name, order in one.items()} for one in orders]
+
+    @staticmethod
+    def balls(state: BearingState) -> list[tuple[Any, ...]]:
         """Of every ball: place from the load [degrees], forces [N], contact angles [degrees], films [m]."""
-        state = self.state
         films = np.full_like(state.force, np.nan) if state.h_min is None else state.h_min
         assert state.contact_angles is not None
         at, angles = np.degrees(state.angles - state.cage_angle), np.degrees(state.contact_angles)
@@ -64,7 +75,8 @@ class BearingAtAngles:
             "span": self.span,
             "state": self.state.to_dict(),
             "dry_displacement": self.dry.displacement.tolist(),
-            "frequencies_hz": dict(self.frequencies),
+            "pair": None if self.pair is None else self.pair.to_dict(),
+            "frequencies_hz": self.frequencies[0] if self.pair is None else self.frequencies,
             "freedoms": list(FIVE),
             "at_speed": _matrices(self.at_speed),
             "over_frequency": _matrices(self.over_frequency),
@@ -83,7 +95,7 @@ def run_at_angles(study: Study) -> BearingAtAngles | None:
     """The bearing at contact angles where the study has [whole_bearing] with an axial load."""
     if "whole_bearing" not in study.model_fields_set or study.whole_bearing.axial_load is None:
         return None
-    wet, dry = (whole_bearing(study, oil=oil) for oil in (True, False))
+    wet, dry = (carrier(study, oil=oil) for oil in (True, False))
     load, speed = ring_load(study), study.bearing.speed_rpm
     under: dict[str, Any] = {"speed_rpm": speed, "tilt": tilt_of(study.whole_bearing)}
     span = SPAN if study.whole_bearing.span_mm is None else 1e-3 * study.whole_bearing.span_mm
@@ -95,7 +107,8 @@ def run_at_angles(study: Study) -> BearingAtAngles | None:
     except (ConvergenceError, InputError) as error:
         reason = str(error)
     return BearingAtAngles(
-        bearing=wet,
+        bearing=whole_bearing(study, oil=True),
+        pair=wet if isinstance(wet, BearingSet) else None,
         state=wet.equilibrium(load, **under),
         dry=dry.equilibrium(load, **under),
         over_frequency=wet.coefficients(load, hz=speed / 60.0 * np.geomspace(*BAND, FREQUENCIES), **under),
@@ -107,10 +120,11 @@ def run_at_angles(study: Study) -> BearingAtAngles | None:
     )
 
 
-def rotor_between(study: Study, bearing: BallBearing, span: float) -> Rotor:
+def rotor_between(study: Study, bearing: BallBearing | BearingSet, span: float) -> Rotor:
     """Rotor of the study on two such bearings face to face, a spring on the outer ring of the right one.
 
-    The shaft has the mass of the journals, evenly along it; each bearing carries the radial and the axial load.
+    The shaft has the mass of the journals, evenly along it; each bearing carries the radial and the axial load. A
+    pair holds the shaft on the left, and the spring pulls the shaft in +z.
     """
     r = study.rotor
     plain = Shaft.jeffcott(r.shaft_stiffness, span, damping=r.shaft_damping)
@@ -120,8 +134,12 @@ def rotor_between(study: Study, bearing: BallBearing, span: float) -> Rotor:
     disc = Disc(
         position=0.5 * span, mass=r.disc_mass, damping=r.disc_damping, unbalance=r.unbalance, load=(0.0, -pressed)
     )
-    supports = [
-        Support(position=0.0, bearing=bearing, facing="-z"),
-        Support(position=span, bearing=bearing, facing="+z", preload=study.whole_bearing.axial_load),
-    ]
+    spring = study.whole_bearing.axial_load
+    if isinstance(bearing, BearingSet):
+        left = Support(position=0.0, bearing=bearing)
+        right = Support(position=span, bearing=bearing.bearings[0], facing="-z", preload=spring)
+    else:
+        left = Support(position=0.0, bearing=bearing, facing="-z")
+        right = Support(position=span, bearing=bearing, facing="+z", preload=spring)
+    supports = [left, right]
     return rotor_on_bearings(shaft, discs=[disc], supports=supports, axial=True)

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from math import hypot, pi
 from typing import Any
 
+import numpy as np
+
 from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.study.bearing_rotor import NAMES
 from ehlcontact.cli.study.differences import Events
@@ -165,20 +167,24 @@ def whole(found: Findings) -> str:
 def at_angles(found: Findings) -> str:
     """The whole bearing under axial load, where there is one: contact angles, stiffness, slowest vibration."""
     w = found.at_angles
-    if w is None or w.state.contact_angles is None:
+    if w is None:
         return ""
-    carrying = w.state.contact_angles[w.state.force[:, 0] > 0.0]
+    angles = [
+        one.contact_angles[one.force[:, 0] > 0.0] for one in w.bearings.values() if one.contact_angles is not None
+    ]
+    carrying, carrier = np.concatenate(angles), "a whole bearing" if w.pair is None else f"a {w.pair.name}"
     low, high = (numeral(one * 180.0 / pi) for one in (carrying.min(), carrying.max()))
     stiff = numeral(float(w.at_speed.stiffness[0, 2, 2]) * 1e-6)
     text = (
-        f"Under {numeral(float(w.state.load[2]))} N of axial load the balls of a whole bearing run at contact "
+        f"Under {numeral(float(w.state.load[2]))} N of axial load the balls of {carrier} run at contact "
         f"angles of {low} to {high} degrees; it has {stiff} N/\N{MICRO SIGN}m along the shaft."
     )
+    on = "between two of them" if w.pair is None else "on it and a floating bearing"
     if not w.modes:
-        return f"{text} Vibrations of the rotor between two of them were not found: {w.no_modes}."
+        return f"{text} Vibrations of the rotor {on} were not found: {w.no_modes}."
     first = w.modes[0]
     return (
-        f"{text} The slowest vibration of the rotor between two of them has {numeral(first.hz)} Hz and a "
+        f"{text} The slowest vibration of the rotor {on} has {numeral(first.hz)} Hz and a "
         f"decrement of {numeral(first.decrement, 3)}."
     )
 

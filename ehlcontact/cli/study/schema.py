@@ -261,6 +261,16 @@ class WholeBearing(Section):
     race_control: Annotated[
         e.RaceControl | None, e.meaning("what holds the gyroscopic moment of the balls; outer where left out")
     ] = None
+    pair: Annotated[
+        e.Arrangement | None,
+        e.meaning("two such bearings hold the shaft at its left end, in this arrangement; the right one floats"),
+    ] = None
+    preload: Annotated[
+        e.Preload | None, e.meaning("axial force between both of the pair at mounting, at rest and without films")
+    ] = None
+    distance_mm: Annotated[
+        e.Distance | None, e.meaning("distance of the planes of the pair; side by side where left out")
+    ] = None
     span_mm: Annotated[
         e.Distance | None, e.meaning("distance of both bearings; 200 where left out with axial_load")
     ] = None

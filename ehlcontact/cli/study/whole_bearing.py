@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact.cli.study.pair import pair_of
 from ehlcontact.cli.study.ring_load import moments_of, tilt_of
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import BallBearing
+from reduced_models import BallBearing, BearingSet, BearingState, SetState
 from reduced_models.bearing.ball_bearing import LARGEST_PLAY
 from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.rotor.prepared_run import LEAST_STEPS
@@ -23,10 +24,22 @@ ENTRIES = {  # of a study, where the library calls them otherwise
     "load": "bearing.radial_load",
     "tilt": "whole_bearing.tilt_x_mrad",
     "speed_rpm": "bearing.speed_rpm",
+    "arrangement": "whole_bearing.pair",
+    "preload": "whole_bearing.preload",
 }
 
+OF_A_PAIR = ("pair", "preload", "distance_mm")
 # Entries of [whole_bearing] that only a bearing with contact angles has.
-AT_ANGLES = ("moment_x", "moment_y", "tilt_x_mrad", "tilt_y_mrad", "contact_angle_deg", "race_control", "span_mm")
+AT_ANGLES = (
+    "moment_x",
+    "moment_y",
+    "tilt_x_mrad",
+    "tilt_y_mrad",
+    "contact_angle_deg",
+    "race_control",
+    "span_mm",
+    *OF_A_PAIR,
+)
 
 
 def whole_bearing(study: Any, *, oil: bool) -> BallBearing:
@@ -58,6 +71,25 @@ def whole_bearing(study: Any, *, oil: bool) -> BallBearing:
     )
 
 
+def carrier(study: Any, *, oil: bool) -> BallBearing | BearingSet:
+    """What carries the load: the bearing, or the pair.
+
+    Raises
+    ------
+    InputError
+        As `whole_bearing`; bearings that are no pair.
+    """
+    bearing, whole = whole_bearing(study, oil=oil), study.whole_bearing
+    if whole.pair is None:
+        for name in OF_A_PAIR:
+            if getattr(whole, name) is not None:
+                raise InputError(
+                    f"whole_bearing.{name}", getattr(whole, name), "left out without whole_bearing.pair"
+                )
+        return bearing
+    return pair_of(bearing, whole.pair, preload=whole.preload, distance_mm=whole.distance_mm)
+
+
 def ring_load(study: Any) -> tuple[float, ...]:
     """Load on the inner ring of a bearing [N], [N m]; of two components where it is planar.
 
@@ -80,11 +112,17 @@ def ring_load(study: Any) -> tuple[float, ...]:
 def heaviest_ball(study: Any) -> tuple[float, float]:
     """Load [N] and contact angle [rad] of the ball that presses most on the race of the study, without films."""
     load, race = ring_load(study), int(study.bearing.race == "outer")
-    bearing, tilt = whole_bearing(study, oil=False), tilt_of(study.whole_bearing)
-    state = bearing.equilibrium(load, speed_rpm=study.bearing.speed_rpm, tilt=tilt)
-    assert state.contact_angles is not None
-    ball = int(np.argmax(state.force[:, race]))
-    return float(state.force[ball, race]), float(state.contact_angles[ball, race])
+    under: dict[str, Any] = {"speed_rpm": study.bearing.speed_rpm, "tilt": tilt_of(study.whole_bearing)}
+    state = carrier(study, oil=False).equilibrium(load, **under)
+    most = max(bearings_of(state), key=lambda one: float(one.force[:, race].max()))
+    assert most.contact_angles is not None
+    ball = int(np.argmax(most.force[:, race]))
+    return float(most.force[ball, race]), float(most.contact_angles[ball, race])
+
+
+def bearings_of(state: BearingState | SetState) -> tuple[BearingState, ...]:
+    """The bearing of a state, or both of a pair."""
+    return state.bearings if isinstance(state, SetState) else (state,)
 
 
 def require_whole_bearing(study: Any) -> None:
@@ -99,10 +137,10 @@ def require_whole_bearing(study: Any) -> None:
     if len(load) > len(PLANAR):
         names["load"] = "bearing.radial_load, whole_bearing.axial_load"
     try:
-        bearing = whole_bearing(study, oil=True)
+        bearing = carrier(study, oil=True)
         bearing.equilibrium(load, speed_rpm=study.bearing.speed_rpm, tilt=tilt_of(whole))
     except InputError as error:
-        value, allowed = error.value, error.allowed
+        value, allowed = error.value, error.allowed.removesuffix(" (or may_lift_off=True)")
         if error.field == "load":
             value = (-load[1], *load[2:]) if len(load) > len(PLANAR) else -load[1]
         if error.field == "clearance":
@@ -115,7 +153,7 @@ def require_whole_bearing(study: Any) -> None:
         raise InputError(
             names["load"], (-load[1], *load[2:]), f"one with a balance of all balls ({error})"
         ) from None
-    least = ceil(LEAST_STEPS * bearing.orders.bpfo)
+    least = 0 if isinstance(bearing, BearingSet) else ceil(LEAST_STEPS * bearing.orders.bpfo)
     if steps < least and len(load) == len(PLANAR):
         allowed = f"at least {least}, {LEAST_STEPS} while a ball passes"
         raise InputError("whole_bearing.steps_per_revolution", steps, allowed)
