@@ -17,9 +17,9 @@ from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
 from reduced_models.atlas.atlas import Atlas as Atlas
 from reduced_models.bearing.arrangement import BearingSet as BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
+from reduced_models.bearing.equilibrium_result import BearingState as BearingState
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
-from reduced_models.bearing.set_state import SetState as SetState
-from reduced_models.bearing.state import BearingState as BearingState
+from reduced_models.bearing.set_result import SetState as SetState
 from reduced_models.elements.base import ContactElement as ContactElement
 from reduced_models.elements.film_memory import FilmMemoryContact as FilmMemoryContact
 from reduced_models.elements.polynomial import CubicContact as CubicContact
@@ -49,10 +49,10 @@ from reduced_models.rotor.decay import log_decrement as log_decrement
 from reduced_models.rotor.events import contact_events as contact_events
 from reduced_models.rotor.jeffcott import JeffcottRotor as JeffcottRotor
 from reduced_models.rotor.jeffcott import RotorState as RotorState
+from reduced_models.rotor.linear_bearing import LinearBearing as LinearBearing
 from reduced_models.rotor.linear_contact import film_impedance as film_impedance
 from reduced_models.rotor.linearise import LinearRotor as LinearRotor
 from reduced_models.rotor.linearise import linearise as linearise
-from reduced_models.rotor.linearise import unbalance_response as unbalance_response
 from reduced_models.rotor.oscillator import simulate_oscillator as simulate_oscillator
 from reduced_models.rotor.parts import Disc as Disc
 from reduced_models.rotor.parts import Shaft as Shaft
@@ -68,8 +68,8 @@ from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
 from reduced_models.rotor.speed_profile import SpeedProfile as SpeedProfile
 from reduced_models.rotor.supports import BearingMount as BearingMount
 from reduced_models.rotor.supports import ContactMount as ContactMount
-from reduced_models.rotor.supports import LinearBearing as LinearBearing
-from reduced_models.rotor.unbalance import UnbalanceResponse as UnbalanceResponse
+from reduced_models.rotor.unbalance import unbalance_response as unbalance_response
+from reduced_models.rotor.unbalance_result import UnbalanceResponse as UnbalanceResponse
 
 
 def __dir__() -> list[str]:

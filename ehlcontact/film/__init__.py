@@ -1,15 +1,15 @@
 """Film maps, mid-planes, fringes and film waves of results: what an optical rig shows.
 
-========= =========================================================================================
-module    responsibility
-========= =========================================================================================
-``plane`` one instant: `film_of` the whole plane, mid-planes, horseshoe, `interferogram`
-``waves`` over time: `film_history`; `film_wave`, which travels with the surfaces, and `track_wave`
-========= =========================================================================================
+============= =====================================================================================
+module        responsibility
+============= =====================================================================================
+``plane``     one instant: `film_of` the whole plane, mid-planes, horseshoe, `interferogram`
+``over_time`` `film_history`; `film_wave`, which travels with the surfaces, and `track_wave`
+============= =====================================================================================
 """
 
+from ehlcontact.film.over_time import FilmHistory, FilmWave, WaveTrack, film_history, film_wave, track_wave
 from ehlcontact.film.plane import Constriction, Film, Interferogram, Profile, film_of, interferogram
-from ehlcontact.film.waves import FilmHistory, FilmWave, WaveTrack, film_history, film_wave, track_wave
 
 __all__ = [
     "Constriction",

@@ -8,7 +8,7 @@ module           responsibility
 ``prescribed``   loads and approaches given by a table
 ``features``     surface features: `Dent`, `TransverseRidge`, `Waviness`
 ``roughness``    `Roughness`: rough surfaces, synthetic or measured
-``film``         `TransientFilm`: one implicit step of the film
+``transient_film`` `TransientFilm`: one implicit step of the film
 ``record``       record of a run: an entry per step, whole fields at given times
 ``time_step``    length of a time step: default, error control; and how closely a step is solved
 ``settings``     groups of arguments of `simulate`, and the checked inputs of a run

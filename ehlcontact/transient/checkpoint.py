@@ -24,11 +24,11 @@ from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.level import Level
 from ehlcontact.store import save, stored
 from ehlcontact.transient.features import Surface, surface_height
-from ehlcontact.transient.film import FilmState
 from ehlcontact.transient.record import COLUMNS, Array, Record
 from ehlcontact.transient.run import Run
 from ehlcontact.transient.settings import RunInputs, even_step
 from ehlcontact.transient.time_step import StepControl
+from ehlcontact.transient.transient_film import FilmState
 from ehlcontact.version import __version__
 
 SAME = 1e-12  # of a time or a step: they differ by rounding only

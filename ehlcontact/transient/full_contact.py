@@ -17,8 +17,8 @@ from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
-from ehlcontact.transient.film import FilmState, Step, TransientFilm
 from ehlcontact.transient.time_step import DEFAULT_TOL
+from ehlcontact.transient.transient_film import FilmState, Step, TransientFilm
 
 
 class FullContact(Summary):

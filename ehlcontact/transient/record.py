@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ehlcontact.solver.level import Level
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import MotionState
-from ehlcontact.transient.film import Step, TransientFilm
+from ehlcontact.transient.transient_film import Step, TransientFilm
 
 Array = NDArray[np.float64]
 

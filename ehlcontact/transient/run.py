@@ -10,7 +10,6 @@ from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.transient.bodies import Motion, MotionState
 from ehlcontact.transient.features import Surface, surface_height, surface_step
-from ehlcontact.transient.film import FilmState, TransientFilm
 from ehlcontact.transient.record import Entry, History
 from ehlcontact.transient.settings import StepPlan
 from ehlcontact.transient.time_step import (
@@ -21,6 +20,7 @@ from ehlcontact.transient.time_step import (
     next_time,
     shortest_step,
 )
+from ehlcontact.transient.transient_film import FilmState, TransientFilm
 
 HOPELESS = (Status.OUT_OF_DOMAIN, Status.UNRESOLVED)  # no shorter step mends these
 RESTART_CUT = 0.25  # of the step, where the motion turns a corner

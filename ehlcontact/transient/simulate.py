@@ -24,7 +24,6 @@ from ehlcontact.store import load
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
 from ehlcontact.transient.features import Dent, Surface, require_surface, surface_height
-from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
@@ -39,6 +38,7 @@ from ehlcontact.transient.settings import (
     snapshot_times,
 )
 from ehlcontact.transient.time_step import StepControl, default_fixed_step
+from ehlcontact.transient.transient_film import TransientFilm
 
 BY_MOTION, HISTORY_ONLY, UNATTENDED = TimeSteps(), KeepSettings(), RunSettings()  # the defaults
 LARGEST_MISMATCH = 0.01  # of the kappa of a feature, over that of the contact

@@ -25,9 +25,9 @@ import numpy as np
 
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.features import Dent, Surface, TransverseRidge, Waviness
-from ehlcontact.transient.film import CHANGE_SHARE
 from ehlcontact.transient.record import Array, Entry
 from ehlcontact.transient.roughness import Roughness
+from ehlcontact.transient.transient_film import CHANGE_SHARE
 
 # Steps in which a wave of a surface feature passes. Against four times as many, 40 steps leave an error of up to
 # 1.2 % in the film along Y = 0 under dents (their radius in ten steps), 1.1 % under a ridge, 0.2 % under waviness;

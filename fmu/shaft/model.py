@@ -14,8 +14,9 @@ from ehlcontact.checks import as_column, require_finite, require_instance, requi
 from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
+from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.rotor import Rotor
-from reduced_models.rotor.supports import BearingMount, LinearBearing
+from reduced_models.rotor.supports import BearingMount
 
 _Floats = NDArray[np.float64]
 

@@ -26,8 +26,8 @@
 | ball_states | balls and films about rest as matrices of first order |
 | continuous_time | derivatives of the states of balls and films, compiled |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
-| state | `BearingState`: a bearing at rest, ball by ball |
-| set_state | `SetState`: a set at rest, bearing by bearing |
+| equilibrium_result | `BearingState`: a bearing at rest, ball by ball |
+| set_result | `SetState`: a set at rest, bearing by bearing |
 | ross_bearing | export to ROSS: bearings as elements of a ROSS rotor |
 | friction | moment of friction by SKF's published model |
 | picture | figures |

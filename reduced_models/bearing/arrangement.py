@@ -43,7 +43,7 @@ from reduced_models.bearing.five_degrees import StaticRing, require_seated, sear
 from reduced_models.bearing.freedoms import FACINGS, bearing_load, facing_signs, held_tilt, require_offset
 from reduced_models.bearing.linear_balls import BearingCoefficients
 from reduced_models.bearing.race import assumptions_at_angles
-from reduced_models.bearing.set_state import SetState
+from reduced_models.bearing.set_result import SetState
 from reduced_models.bearing.static_set import AXIAL, NAMES, SetEquilibrium, SmallSet, StaticSet, ring_rows
 
 _Floats = NDArray[np.float64]

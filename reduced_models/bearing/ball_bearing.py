@@ -41,6 +41,7 @@ from reduced_models.bearing.equilibrium import (
     radial_load,
     ring_equilibrium,
 )
+from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.five_degrees import (
     AngularEquilibrium,
     StaticRing,
@@ -76,7 +77,6 @@ from reduced_models.bearing.race import (
 )
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
 from reduced_models.bearing.shoulders import require_below_shoulders, shoulder_angle
-from reduced_models.bearing.state import BearingState
 from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]

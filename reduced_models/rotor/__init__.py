@@ -3,7 +3,8 @@
 | module | is responsible for |
 |---|---|
 | rotor | `Rotor`: matrices, supports, loads |
-| supports | `ContactMount`, `BearingMount`, `LinearBearing`: what a rotor stands on |
+| supports | `ContactMount`, `BearingMount`: what a rotor stands on |
+| linear_bearing | `LinearBearing`: a bearing as stiffness and damping |
 | scaled_contact | the protocol of contacts; `ScaledContact` shows a dimensionless one in SI |
 | jeffcott | `JeffcottRotor`: such a rotor by its parameters |
 | parts | `Shaft`, `Disc`, `Support`: what a rotor on bearings is made of |
@@ -21,10 +22,11 @@
 | result | `RotorResult`: histories of a run |
 | linear_contact | a contact about rest: an element as a state space, any other by its impedance |
 | linear_system | a rotor on linear supports as one system of first order; modes on elements |
-| linearise | `linearise`: a rotor about rest at a speed, `LinearRotor`; `unbalance_response` over the speed |
+| linearise | `linearise`: a rotor about rest at a speed, `LinearRotor` |
 | modes | `RotorMode`: damped vibrations, exact with film memory |
 | campbell | `campbell`: modes over the speed, critical speeds |
-| unbalance | `UnbalanceResponse`: amplitudes over shaft speed |
+| unbalance | `unbalance_response`: amplitudes under the unbalances over shaft speed |
+| unbalance_result | `UnbalanceResponse`: its result |
 | control | python-control: `rotor_to_control`, and the state space of a `LinearRotor` |
 | ross_rotor | import from ROSS: `from_ross`; bearings as its force callback: `RossCallback` |
 | picture | figures of runs, Campbell diagrams and unbalance responses |

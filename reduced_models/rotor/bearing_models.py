@@ -20,15 +20,15 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.linear_balls import BearingCoefficients
-from reduced_models.bearing.state import BearingState
 from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.campbell import Campbell, campbell
+from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.linearise import LinearRotor, linearise
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.simulate import simulate_rotor
-from reduced_models.rotor.supports import LinearBearing
 
 _Floats = NDArray[np.float64]
 Mode = tuple[float, float]  # frequency [Hz], logarithmic decrement

@@ -40,7 +40,7 @@ from reduced_models.rotor.nodes import flat_nodes
 from reduced_models.rotor.rotor import Matrices, Rotor
 from reduced_models.rotor.scaled_contact import ScaledContact
 from reduced_models.rotor.supports import BearingMount, ContactMount
-from reduced_models.rotor.unbalance import UnbalanceResponse
+from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -400,33 +400,3 @@ def _linear_angular(
             angular_equilibrium(one, force, first=ring) if loaded else equilibrium_at(one, ring) for one in rings
         ]
     return force, bearing._small_angular(rpm, places)
-
-
-@takes(speeds_rpm="rev/min")
-def unbalance_response(rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
-    """Steady response of a rotor to its unbalances at increasing speeds, each with the films of that speed.
-
-    The response is computed only at the given speeds. A peak is about decrement/pi of its speed wide, for films
-    and steel often less than a thousandth, so choose closely spaced speeds around those of
-    `Campbell.critical_speeds`.
-
-    Parameters
-    ----------
-    rotor : Rotor
-    speeds_rpm : array_like, shape (k,)
-        In rev/min, > 0.
-    passage : bool
-        Ball bearings as means over a ball passage, as in `linearise`.
-
-    Raises
-    ------
-    InputError
-        A rotor without unbalance, a speed that a bearing does not take.
-    """
-    speeds = as_column("speeds_rpm", speeds_rpm, increasing=True)
-    if not rotor.unbalances:
-        raise InputError("unbalances", (), "at least one Unbalance")
-    if speeds[0] <= 0.0:
-        raise InputError("speeds_rpm[0]", float(speeds[0]), "> 0")
-    found = [linearise(rotor, s, passage=passage)._unbalanced(s * RPM_TO_RAD_S) for s in speeds.tolist()]
-    return UnbalanceResponse.of(rotor, speeds, np.array(found))

@@ -27,8 +27,9 @@ from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.freedoms import FACINGS, FIVE, facing_signs
 from reduced_models.rotor.beam import ShaftElement
+from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.rotor import Unbalance, require_unbalance
-from reduced_models.rotor.supports import BearingMount, LinearBearing, require_bearing
+from reduced_models.rotor.supports import BearingMount, require_bearing
 
 _Floats = NDArray[np.float64]
 

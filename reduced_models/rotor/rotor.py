@@ -25,10 +25,10 @@ from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.equilibrium import equilibrium
+from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.supports import (
     BearingMount,
     ContactMount,
-    LinearBearing,
     Mount,
     SupportGeometry,
     ball_columns,

@@ -20,13 +20,14 @@ from reduced_models.elements.validity import OutsideValidityWarning, frequency_o
 from reduced_models.rotor.integrate_compiled import CompiledSteps
 from reduced_models.rotor.integrate_python import PythonSteps
 from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
+from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.nodes import flat_nodes
 from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.scaled_contact import Contact
 from reduced_models.rotor.speed_profile import SpeedProfile, law_speeds
-from reduced_models.rotor.supports import LinearBearing, bearing_names
+from reduced_models.rotor.supports import bearing_names
 
 _Floats = NDArray[np.float64]
 

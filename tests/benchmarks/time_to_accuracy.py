@@ -32,9 +32,9 @@ from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.transient import film as film_module
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.features import Surface
-from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.run import Run, march_fixed
+from ehlcontact.transient.transient_film import TransientFilm
 
 Advance = Callable[[], None]
 Row = dict[str, Any]

@@ -9,7 +9,7 @@ import pytest
 
 from ehlcontact import SimulationResult, Status, SteadyResult, load
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.transient.film import TransientFilm
+from ehlcontact.transient.transient_film import TransientFilm
 
 STEADY_KEYS = (
     "approach, force, h_central, h_min, p_max, moment, pressure_error, residual, load_residual, cycles, seconds, "

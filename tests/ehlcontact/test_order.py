@@ -20,9 +20,9 @@ from ehlcontact import (
 )
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.mesh import Mesh
-from ehlcontact.transient.film import TransientFilm
 from ehlcontact.transient.record import History
 from ehlcontact.transient.run import Run
+from ehlcontact.transient.transient_film import TransientFilm
 
 POINT = MoesPoint(200, 10, 0.5)
 RAMP = RampLoad(1.3, 2.0, Omega_n=5.13)  # its corner lies beyond the end

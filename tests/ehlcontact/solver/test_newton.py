@@ -23,7 +23,7 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
-from ehlcontact.transient.film import TransientFilm
+from ehlcontact.transient.transient_film import TransientFilm
 
 LOAD = Balance.of_load()
 POINTS = [(200, 10, 1.0), (200, 10, 0.5), (500, 15, 0.12), (2900, 19, 0.11), (20, 5, 0.5), (200, 10, 2.0)]

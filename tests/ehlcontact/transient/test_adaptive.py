@@ -22,9 +22,9 @@ from ehlcontact import (
     simulate,
 )
 from ehlcontact.transient.bodies import MotionState
-from ehlcontact.transient.film import Step
 from ehlcontact.transient.record import Entry
 from ehlcontact.transient.time_step import LARGEST_GROWTH, StepControl, local_error, next_time
+from ehlcontact.transient.transient_film import Step
 
 POINT = MoesPoint(200, 10, 0.5)
 N = 32

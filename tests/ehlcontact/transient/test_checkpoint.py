@@ -33,7 +33,7 @@ from ehlcontact import (
 )
 from ehlcontact.transient import checkpoint
 from ehlcontact.transient.checkpoint import Checkpoint
-from ehlcontact.transient.film import TransientFilm
+from ehlcontact.transient.transient_film import TransientFilm
 
 POINT = MoesPoint(200, 10, 0.5)
 N = 32
@@ -183,7 +183,7 @@ def test_failed_step_leaves_the_last_good_one(tmp_path, monkeypatch):
 
     def no_more_cycles(T, until):
         if T > 0.3:
-            monkeypatch.setattr("ehlcontact.transient.film.STEP_CYCLES", 0)
+            monkeypatch.setattr("ehlcontact.transient.transient_film.STEP_CYCLES", 0)
 
     with pytest.raises(ConvergenceError, match=r"step 0\.05, residual .* with tol 0\.003"), monkeypatch.context():
         simulate(POINT, motion, **grouped(**settings, checkpoint=path, callback=no_more_cycles))

@@ -8,9 +8,9 @@ import pytest
 
 from ehlcontact import FreeVibration, Grid, HarmonicLoad, MoesPoint
 from ehlcontact.solver.mesh_choice import Purpose, mesh_for
-from ehlcontact.transient.film import TransientFilm, extrapolate
 from ehlcontact.transient.record import History
 from ehlcontact.transient.run import Run, march_fixed
+from ehlcontact.transient.transient_film import TransientFilm, extrapolate
 
 POINT = MoesPoint(200, 10, 0.5)
 STEPS = (0.2, 0.35, 0.1)  # latest first

@@ -26,7 +26,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.mesh_choice import Purpose, mesh_for
 from ehlcontact.status import Status
-from ehlcontact.transient.film import TransientFilm
+from ehlcontact.transient.transient_film import TransientFilm
 
 POINT, NARROW = MoesPoint(200, 10, 0.5), MoesPoint(20, 5, 0.1)
 HISTORY = ("approach", "rate", "force", "h_central", "h_min", "h_midplane", "p_midplane", "residuals", "cycles")

@@ -43,7 +43,7 @@ def test_the_error_of_its_grid_is_that_of_the_film_at_rest(contact, steady, monk
     assert contact.reservation.startswith("the grid is too coarse: at rest the central film may be off by 75 %")
     assert contact.reservation in repr(contact)
     assert FullContact(POINT, grid=Grid(n=128)).reservation == ""
-    monkeypatch.setattr("ehlcontact.transient.film.estimate_error", lambda multigrid, balance: None)
+    monkeypatch.setattr("ehlcontact.transient.transient_film.estimate_error", lambda multigrid, balance: None)
     silent = FullContact(POINT, grid=Grid(n=32))
     assert silent.film_error is None and silent.reservation == ""
     assert [c.advance(0.1, 0.9) for c in (contact, contact)] == [silent.advance(0.1, 0.9) for _ in range(2)]
@@ -100,7 +100,7 @@ def test_failed_step_leaves_it_unchanged(contact, monkeypatch):
     contact.advance(0.1, u + 0.01)
     state, force = contact.save_state(), contact.force
     with monkeypatch.context() as patch:
-        patch.setattr("ehlcontact.transient.film.STEP_CYCLES", 0)
+        patch.setattr("ehlcontact.transient.transient_film.STEP_CYCLES", 0)
         with pytest.raises(ConvergenceError, match="EHL step max_cycles") as caught:
             contact.advance(0.1, u + 0.3)
     assert caught.value.result.status is Status.MAX_CYCLES

@@ -262,7 +262,7 @@ def test_failed_step_keeps_the_history(monkeypatch, throw):
     """The second step gets no cycle at all."""
 
     def no_more_cycles(T, until):
-        monkeypatch.setattr("ehlcontact.transient.film.STEP_CYCLES", 0)
+        monkeypatch.setattr("ehlcontact.transient.transient_film.STEP_CYCLES", 0)
 
     def run():
         return simulate(

@@ -14,8 +14,8 @@ from ehlcontact.quantities import FORCE, LENGTH, SPEED, STIFFNESS, Quantity
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import note_line
+from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import FIVE, in_freedoms, load_words
-from reduced_models.bearing.state import BearingState
 
 _Floats = NDArray[np.float64]
 
