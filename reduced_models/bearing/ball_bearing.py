@@ -607,9 +607,7 @@ class BallBearing(Summary):
         They are planar: `InputError` for an angular contact bearing.
         """
         if self.contact_angle is not None:
-            allowed = (
-                "left out where bearings are planar: planar FMUs, python-control, rotors without axial motion"
-            )
+            allowed = "left out where bearings are planar: planar FMUs, rotors without axial motion"
             raise InputError("contact_angle", self.contact_angle, allowed)
         speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
         key = ("kernel", *speeds.tolist())

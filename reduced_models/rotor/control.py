@@ -2,7 +2,13 @@
 
 States are differences from rest in um (um/s, urad), the films' memory among them, and their start is 0: so the
 absolute tolerance of python-control's solvers, 1e-6, is a picometre. Films are fast: of the solvers, take one
-for stiff equations (``solve_ivp_method="BDF"``).
+for stiff equations (``solve_ivp_method="BDF"``); the relative tolerance of scipy is 1e-3 unless
+``solve_ivp_kwargs={"rtol": 1e-6}`` is given.
+
+After displacements and velocities of the rotor come the states of each bearing: of ball 3 of bearing 0 its place
+``b0_3_w`` along the outer contact, with five degrees of freedom ``b0_3_a`` across it, the inlet, fast and chain
+filters of both films (``b0_3_i_s``, ``b0_3_i_y``, ``b0_3_i_q1``, ...), then those of a loss factor. With five
+degrees of freedom and a cage that turns its angle comes last, ``b0_cage``: it follows the contact angles.
 """
 
 from __future__ import annotations
@@ -15,7 +21,8 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.errors import InputError
-from reduced_models.bearing.ball_states import PER_METRE, bearing_system
+from reduced_models.bearing.angular_balls import LOAD, ORBIT, AngularBalls
+from reduced_models.bearing.ball_states import PER_METRE, across_damping, bearing_system
 from reduced_models.bearing.balls import (
     POSITION,
     Balls,
@@ -26,8 +33,12 @@ from reduced_models.bearing.balls import (
     press_balls,
     speed_state,
 )
-from reduced_models.bearing.continuous_time import bearing_rates
+from reduced_models.bearing.continuous_time import RestingBalls, angular_rates, bearing_rates
+from reduced_models.bearing.five_degrees import equilibrium_at
+from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.bearing.linear_angular import SmallAngularBalls
+from reduced_models.bearing.loss import Loss
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.small_motion import FILTERS
 from reduced_models.rotor.linear_system import rotor_system
@@ -39,13 +50,14 @@ _Floats = NDArray[np.float64]
 Signals = Mapping[str, int] | Sequence[int] | None
 
 UNIT = 1e-6  # m, of the states
+CAGE_ROUNDS = 3  # evaluations that find the speed of a cage and the forces that it depends on, a thousandth each
 
 
 def rings_of(rotor: Rotor) -> _Floats:
-    """Motions of the rings of ball bearings, shape (2 bearings, N); `InputError` for a rotor on contacts."""
+    """Motions of the rings of ball bearings, shape (n bearings, N); `InputError` for a rotor on contacts."""
     if rotor.contacts:
         raise InputError("mounts", "with contacts", "ball bearings or linear bearings, for python-control")
-    return rotor.geometry.points
+    return np.concatenate([np.zeros((0, rotor.size)), *(m.rows(rotor.size) for m in rotor.ball_bearings)])
 
 
 def linear_block(
@@ -54,7 +66,6 @@ def linear_block(
     """`LinearRotor.to_control`: of a rotor at a speed [rad/s], `about` what it finds in its ball bearings."""
     import control
 
-    _require_planar(rotor)
     size = rotor.size
     ins, outs = _signals("inputs", inputs, "F", size), _signals("outputs", outputs, "q", size)
     A, driven = rotor_system(rotor.matrices(omega), rings_of(rotor), [bearing_system(balls) for balls in about])
@@ -62,8 +73,10 @@ def linear_block(
     C[range(len(outs)), list(outs.values())] = UNIT
     shapes = []
     for b in about:
-        inner, outer = (0 if c.rates is None else c.rates.lags for c in (b.inner, b.outer))
-        shapes.append(_Shape(len(b.normals), inner, outer, b.loss.gains.size, b.inertia))
+        inner, outer = (0 if film.rates is None else film.rates.lags for film in (b.inner, b.outer))
+        angular = isinstance(b, SmallAngularBalls)
+        count = len(b.maps if angular else b.normals)
+        shapes.append(_Shape(angular, count, inner, outer, b.loss.gains.size, b.inertia))
     return control.ss(
         A,
         driven[:, list(ins.values())] / UNIT,
@@ -74,12 +87,6 @@ def linear_block(
         states=_states(size, shapes),
         name=name,
     )
-
-
-def _require_planar(rotor: Rotor) -> None:
-    if any(mount.z is not None for mount in rotor.ball_bearings):
-        allowed = "planar ones, without z, tilt_x and tilt_y, in a block of python-control"
-        raise InputError("ball bearings", "with five degrees of freedom", allowed)
 
 
 def rotor_to_control(
@@ -117,7 +124,6 @@ def rotor_to_control(
     import control
 
     require_instance("rotor", rotor, Rotor, "a Rotor")
-    _require_planar(rotor)
     ins, outs = _signals("inputs", inputs, "F", rotor.size), _signals("outputs", outputs, "q", rotor.size)
     motion = _Motion(rotor, require_nonnegative("speed_rpm", speed_rpm), cage_turns)
     pushed, seen = list(ins.values()), list(outs.values())
@@ -149,21 +155,29 @@ def _signals(field: str, given: Signals, letter: str, size: int) -> dict[str, in
 class _Shape(NamedTuple):
     """How many states a bearing has: its balls, lags of both films (none: dry), filters of its seat."""
 
+    angular: bool  # balls at contact angles
     balls: int
     inner: int
     outer: int
     seat: int
     inertia: float  # of a ball
+    cage: bool = False  # its angle, which turns as the balls roll
 
     @property
-    def own(self) -> int:
+    def own(self) -> tuple[str, ...]:
         """States of a ball's own place."""
-        return 2 if self.inertia else int(self.inner > 0)
+        names = ("w", "a", "vw", "va") if self.angular else ("w", "v")
+        return names if self.inertia else names[: len(names) // 2] if self.inner else ()
 
     @property
     def of_balls(self) -> int:
         """States of all balls."""
-        return self.balls * (self.own + sum(lags + FILTERS for lags in (self.inner, self.outer) if lags))
+        return self.balls * (len(self.own) + sum(lags + FILTERS for lags in (self.inner, self.outer) if lags))
+
+    @property
+    def directions(self) -> tuple[str, ...]:
+        """Of the ring."""
+        return FIVE if self.angular else PLANAR
 
 
 def _states(size: int, bearings: Sequence[_Shape]) -> list[str]:
@@ -171,16 +185,48 @@ def _states(size: int, bearings: Sequence[_Shape]) -> list[str]:
     names = [f"q{k}" for k in range(size)] + [f"v{k}" for k in range(size)]
     for b, shape in enumerate(bearings):
         for k in range(shape.balls):
-            names += [f"b{b}_{k}_{one}" for one in ("w", "v")[: shape.own]]
+            names += [f"b{b}_{k}_{one}" for one in shape.own]
             for race, count in zip(("i", "o"), (shape.inner, shape.outer), strict=True):
                 lags = [f"q{j}" for j in range(1, count + 1)]
                 names += [f"b{b}_{k}_{race}_{one}" for one in (("s", "y", *lags) if count else ())]
-        names += [f"b{b}_seat_{one}{k}" for k in range(1, shape.seat + 1) for one in "xy"]
+        names += [f"b{b}_seat_{one}{k}" for k in range(1, shape.seat + 1) for one in shape.directions]
+        names += [f"b{b}_cage"] if shape.cage else []
     return names
 
 
 class _Ring:
-    """One bearing: its balls about rest, with the ring at `r`."""
+    """One bearing: its balls about rest, with the ring at `r`, and its seat.
+
+    Parameters
+    ----------
+    shape : _Shape
+    loss : Loss
+    force : ndarray
+        Of the ring at rest.
+    """
+
+    def __init__(self, shape: _Shape, loss: Loss, force: _Floats) -> None:
+        self.shape, self.force, self._loss, self._pressed = shape, force, loss, force.copy()
+        seat = np.tile(force / PER_METRE, shape.seat)
+        self.rest = np.concatenate([np.zeros(shape.of_balls), seat, np.zeros(int(shape.cage))])
+
+    def rates(self, t: float, x: _Floats, r: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
+        """Rates of the states `x`, which are differences from rest; force of the ring on the balls."""
+        states, rates = self.rest + x, np.zeros(x.size)
+        self._press(t, states, r, v, rates)
+        gains, poles = self._loss
+        seat = slice(self.shape.of_balls, x.size - self.shape.cage)
+        lost = self._pressed - PER_METRE * states[seat].reshape(-1, self.force.size)
+        rates[seat] = (poles[:, None] * lost).ravel() / PER_METRE
+        return rates, self._pressed + gains @ lost
+
+    def _press(self, t: float, states: _Floats, r: _Floats, v: _Floats, rates: _Floats) -> None:
+        """Set the force on the balls, and the rates of their states."""
+        raise NotImplementedError
+
+
+class _PlanarRing(_Ring):
+    """On balls that move along their radius."""
 
     def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
         bearing, angle = mount.ball_bearing, mount.cage_angle
@@ -189,30 +235,62 @@ class _Ring:
         laws: SpeedState = speed_state(self.balls, speed * RPM_TO_RAD_S)
         self._at_speed = laws if cage_turns else laws._replace(cage=0.0)
         self._angle, self._normals = angle, np.zeros((self.balls.number, 2))
-        self.force = held.force(r)
-        races = self.balls.inner, self.balls.outer
-        inner, outer = (law.gains.shape[2] - DIRECT if law.x.size else 0 for law in races)
-        self.shape = _Shape(self.balls.number, inner, outer, self.balls.loss.gains.size, self.balls.inertia)
-        self.films = self.shape.of_balls
-        self.rest = np.concatenate([np.zeros(self.films), np.tile(self.force / PER_METRE, self.shape.seat)])
-        if self.films:
-            self.rest[: self.films : self.films // self.balls.number] = held.films.balls[:, POSITION]
-        self._films, self._force = films_of(self.balls), np.zeros(2)
+        force = held.force(r)
+        super().__init__(_shape_of(self.balls, False, self.balls.inertia), self.balls.loss, force)
+        films = self.shape.of_balls
+        if films:
+            self.rest[: films : films // self.balls.number] = held.films.balls[:, POSITION]
+        self._films = films_of(self.balls)
         begin_rest(self._films)
 
-    def rates(self, t: float, x: _Floats, r: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
-        """Rates of the states `x`, which are differences from rest; force of the ring on the balls."""
+    def _press(self, t: float, states: _Floats, r: _Floats, v: _Floats, rates: _Floats) -> None:
         directions(self.balls, self._angle + self._at_speed.cage * t, self._normals)
-        states, rates = self.rest + x, np.zeros(x.size)
-        if self.films:
-            bearing_rates(self.balls, self._at_speed, self._normals, states, r, v, rates, self._force)
+        if self.shape.of_balls:
+            bearing_rates(self.balls, self._at_speed, self._normals, states, r, v, rates, self._pressed)
         else:
-            out = self._force, np.zeros((2, 2)), np.zeros((2, 2))
+            out = self._pressed, np.zeros((2, 2)), np.zeros((2, 2))
             press_balls(self.balls, self._at_speed, self._films, self._normals, r, v, 0.0, out)
-        gains, poles = self.balls.loss
-        lost = self._force - PER_METRE * states[self.films :].reshape(-1, 2)
-        rates[self.films :] = (poles[:, None] * lost).ravel() / PER_METRE
-        return rates, self._force + gains @ lost
+
+
+class _AngularRing(_Ring):
+    """On balls at contact angles; the angle of the cage is a state where it turns."""
+
+    def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
+        bearing, rpm = mount.ball_bearing, mount.ball_bearing.speed(speed)
+        self._static = bearing._static_ring(rpm, mount.cage_angle, r.size)
+        held = equilibrium_at(self._static, r)
+        small = bearing._small_angular(rpm, [held])
+        self.balls: AngularBalls = self._static.balls
+        shape = _shape_of(self.balls, True, small.inertia)._replace(cage=cage_turns)
+        super().__init__(shape, self.balls.loss, held.load)
+        self._angle = mount.cage_angle
+        self._resting = RestingBalls(
+            place=self._static.places.place.copy(),
+            moved=held.maps[:, :2] @ r,
+            across=np.array([across_damping(small, k) for k in range(self.balls.number)]),
+            inertia=small.inertia,
+        )
+
+    def _press(self, t: float, states: _Floats, r: _Floats, v: _Floats, rates: _Floats) -> None:
+        angle, cage = self._angle + (states[-1] if self.shape.cage else 0.0), 0.0
+        if self.shape.of_balls:
+            for _ in range(CAGE_ROUNDS if self.shape.cage else 1):
+                turning = angular_rates(self.balls, self._resting, angle, cage, states, r, v, rates, self._pressed)
+                cage = turning if self.shape.cage else 0.0
+        else:
+            self._static.angle = angle
+            self._static.press(r)
+            self._pressed[:] = self._static.load
+            found = self._static.places.found
+            turning = self.balls.omega * float(np.average(found[:, ORBIT], weights=found[:, LOAD]))
+        if self.shape.cage:
+            rates[-1] = turning
+
+
+def _shape_of(balls: Balls | AngularBalls, angular: bool, inertia: float) -> _Shape:
+    """States of a bearing from the parameters of its kernels."""
+    inner, outer = (law.gains.shape[2] - DIRECT if law.x.size else 0 for law in (balls.inner, balls.outer))
+    return _Shape(angular, balls.number, inner, outer, balls.loss.gains.size, inertia)
 
 
 class _Motion:
@@ -220,13 +298,14 @@ class _Motion:
 
     def __init__(self, rotor: Rotor, speed: float, cage_turns: bool) -> None:
         self._rest, self._to_rings = rotor.equilibrium(speed), rings_of(rotor)
-        self._r = self._to_rings @ self._rest
+        shift = np.concatenate([mount.shift for mount in rotor.ball_bearings])
+        self._r, self._places = self._to_rings @ self._rest + shift, rotor.ball_columns
         self._size = rotor.size
         self._inverse = np.linalg.inv(rotor.mass)
         _, self._damping, self._stiffness = rotor.matrices(speed * np.pi / 30.0)
         self.rings = [
-            _Ring(mount, speed, self._r[2 * b : 2 * b + 2], cage_turns)
-            for b, mount in enumerate(rotor.ball_bearings)
+            (_PlanarRing if mount.z is None else _AngularRing)(mount, speed, self._r[at], cage_turns)
+            for at, mount in zip(self._places, rotor.ball_bearings, strict=True)
         ]
 
     def rates(self, t: float, x: _Floats, force: _Floats) -> _Floats:
@@ -236,10 +315,10 @@ class _Motion:
         r, r_rate = self._r + self._to_rings @ q, self._to_rings @ v
         net = force - self._damping @ v - self._stiffness @ q
         at = 2 * size
-        for b, ring in enumerate(self.rings):
-            here, pair = slice(at, at + ring.rest.size), slice(2 * b, 2 * b + 2)
-            out[here], pushed = ring.rates(t, x[here], r[pair], r_rate[pair])
-            net -= self._to_rings[pair].T @ (pushed - ring.force)
+        for own, ring in zip(self._places, self.rings, strict=True):
+            here = slice(at, at + ring.rest.size)
+            out[here], pushed = ring.rates(t, x[here], r[own], r_rate[own])
+            net -= self._to_rings[own].T @ (pushed - ring.force)
             at = here.stop
         out[:size], out[size : 2 * size] = v, self._inverse @ net
         return out
