@@ -34,7 +34,7 @@ from reduced_models.atlas.table import AtlasTable
 from reduced_models.bearing import ball_bearing, equilibrium, linear_balls, race
 from reduced_models.bearing.catalogue import DEEP_GROOVE
 from reduced_models.elements import film_curve, film_response
-from reduced_models.rotor.bearing_models import USUAL_DAMPING
+from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
 
 # In the order in which they are joined: each stands on those before it; the last two are about the page itself.
 SCRIPTS = ("numbers", "hertz", "oil", "atlas", "race", "bearing", "assumptions", "plot", "page")

@@ -71,14 +71,14 @@ def test_what_is_no_whole_bearing(refused, tmp_path, words, old, new):
 
 def test_a_rotor_that_no_bearing_holds_costs_no_study(tmp_path, monkeypatch):
     """The ring is thrown out of its bearing: the others are there, and it is told why."""
-    from reduced_models.rotor import bearing_models
+    from reduced_models.rotor import compare_bearing_models
 
-    original = bearing_models.simulate_rotor
+    original = compare_bearing_models.simulate_rotor
 
     def wild(rotor, *, start, **others):
         return original(rotor, start=(start[0], start[1] + 50.0), **others)
 
-    monkeypatch.setattr(bearing_models, "simulate_rotor", wild)
+    monkeypatch.setattr(compare_bearing_models, "simulate_rotor", wild)
     found = run_whole(load_study(study(tmp_path)), tmp_path)
     assert set(found.failed) == {"memory", "dry"} and set(found.ran) == {"constant", "usual"}
     assert "has left it" in found.failed["dry"]

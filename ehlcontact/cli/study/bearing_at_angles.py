@@ -14,7 +14,7 @@ from ehlcontact.cli.study.whole_bearing import bearings_of, carrier, ring_load, 
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import BallBearing, BearingSet, Campbell, Disc, Shaft, Support, linearise, rotor_on_bearings
 from reduced_models.bearing.freedoms import FIVE
-from reduced_models.rotor.bearing_models import BAND, FREQUENCIES, campbell_or_reason
+from reduced_models.rotor.compare_bearing_models import BAND, FREQUENCIES, campbell_or_reason
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ehlcontact.cli.study.whole_bearing import whole_bearing
 from ehlcontact.store import save
 from reduced_models import BallBearing, Disc, LinearBearing, Rotor, Shaft, Support, rotor_on_bearings
-from reduced_models.rotor.bearing_models import (
+from reduced_models.rotor.compare_bearing_models import (
     CONSTANT,
     DRY,
     FILM,

@@ -15,7 +15,7 @@ from ehlcontact.cli.study.headline import findings, reservations, verdict
 from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, RECORDS, UNDAMPED, WRONG
 from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.stages import STAGES
-from reduced_models.rotor.bearing_models import USUAL_DAMPING
+from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
 from reduced_models.rotor.events import LOST
 from reduced_models.rotor.settling import MOST_REVOLUTIONS
 

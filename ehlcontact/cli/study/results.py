@@ -33,7 +33,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.results import SteadyResult
 from ehlcontact.store import load
 from ehlcontact.transient.result import SimulationResult
-from reduced_models.rotor.bearing_models import BearingModels
+from reduced_models.rotor.compare_bearing_models import BearingModels
 
 
 @dataclass(frozen=True)

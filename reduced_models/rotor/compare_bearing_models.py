@@ -1,7 +1,7 @@
-"""One rotor on several models of its ball bearings: film memory, dry, and constant stiffness and damping.
+"""Comparison of bearing models under one rotor: film memory, dry, and constant stiffness and damping.
 
-Of each model the motion under unbalance, the slowest modes and the response over frequency; of the bearing with
-films its coefficients over frequency and over speed, and the Campbell diagram.
+Results for each model: motion under unbalance, slowest modes, response over frequency. For the bearing with films
+also its coefficients over frequency and over speed, and the Campbell diagram.
 """
 
 from __future__ import annotations
