@@ -297,7 +297,9 @@ def _called(file: str, given: frozenset[str], values: Mapping[str, Any]) -> Iter
             entry = f"{file}: {entry}"
         elif entry == "bearing.catalogue":
             entry = "bearing"
-        if value is None and option is not None:
+        if value is None and option == "--pair":
+            allowed = "given with a preload, spring or distance: those of a pair; a single bearing has its --axial"
+        elif value is None and option is not None:
             if option in ("--oil", "--temp"):
                 allowed = "given: an oil has --oil and --temp"
             allowed += f", or {option}" if file else ""
