@@ -9,6 +9,7 @@ room              responsibility
 ``film_formulas``  published film and approach formulas: grids are chosen from them, results compared with them
 ``solver/``       film at one instant: mesh, equations, multigrid, Newton
 ``steady``        `solve_steady`
+``supply``        `OilLayer`: the oil that the surfaces carry to a contact
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
 ``transient/``    film through time: motions, surfaces, `simulate`, `FullContact`
 ``assumptions/``  assumptions of every solve, each with the number that shows whether it holds
@@ -49,6 +50,7 @@ from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.store import load, save
+from ehlcontact.supply import OilLayer
 from ehlcontact.transient.features import Dent, TransverseRidge, Waviness
 from ehlcontact.transient.full_contact import FullContact
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
@@ -73,6 +75,7 @@ __all__ = [
     "KeepSettings",
     "Lubricant",
     "MoesPoint",
+    "OilLayer",
     "OperatingPoint",
     "PrescribedApproach",
     "PrescribedLoad",

@@ -15,6 +15,8 @@ class Status(StrEnum):
     MAX_CYCLES = "max_cycles"
     OUT_OF_DOMAIN = "out_of_domain"
     UNRESOLVED = "unresolved"
+    STARVED = "starved"
+    BEYOND_REGION = "beyond_region"
     STEP_TOO_SMALL = "step_too_small"
     INTERRUPTED = "interrupted"
     FAILED = "failed"
@@ -41,6 +43,10 @@ _ADVICE = {
     "Grid(domain=Domain.for_load(largest force to come)), --domain XA XB YMAX, or domain under [solver] of "
     "a study.",
     Status.UNRESOLVED: "The grid is too coarse for this film, which is zero or negative somewhere: raise n.",
+    Status.STARVED: "The layer of oil is so thin that the film is zero or negative on this grid: raise n, or let "
+    "more oil in.",
+    Status.BEYOND_REGION: "The layer of oil is so thick that the full film begins ahead of the computed region: "
+    "give a region with a longer inlet, or none, or leave the supply out, which is a flooded inlet.",
     Status.STEP_TOO_SMALL: "However short the step, it does not meet its tolerance: allow a larger error, or "
     "smooth what jumps (a load, a surface).",
     Status.INTERRUPTED: "Stopped by the user; what was computed until then is kept.",

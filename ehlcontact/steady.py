@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from math import inf
+from functools import partial
+from math import inf, nan
+from typing import Any
 
 import numpy as np
 
@@ -21,10 +23,12 @@ from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
+from ehlcontact.solver.level import Level
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
+from ehlcontact.supply import OilLayer
 
 LARGEST_RESIDUAL = 0.1  # relative, of a converged film: what is solved is judged by the pressure
 LOAD_TOLERANCE = 1e-7
@@ -39,6 +43,7 @@ def solve_steady(
     point: Point,
     *,
     grid: Grid = AUTOMATIC,
+    supply: OilLayer | None = None,
     approach: float | None = None,
     tol: float = 1e-5,
     max_cycles: int = MAX_CYCLES,
@@ -61,6 +66,10 @@ def solve_steady(
         million where the side lobes of a long contact come out negative otherwise; ``result.error_estimate`` is
         what was reached. The default region is ``Domain()``, wider at light load, and, with the number of
         intervals left out, narrower where the film is too thin for a grid of that extent.
+    supply : OilLayer, optional
+        Oil that the surfaces carry to the contact. The full film then begins where that oil fills the gap; ahead
+        of it and behind the contact the gap is partly filled. By default the inlet is flooded up to the border of
+        the region.
     approach : float, optional
         Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
         force it takes.
@@ -108,6 +117,8 @@ def solve_steady(
     require_instance("refine", refine, bool | np.bool_, "True or False")
     require_choice("method", method, tuple(METHODS))
     require_grid(grid)
+    if supply is not None:
+        require_instance("supply", supply, OilLayer, "an OilLayer(h, ...)")
     threads = require_threads("threads", threads)
     if budget != inf:
         require_positive("budget", budget)
@@ -117,6 +128,8 @@ def solve_steady(
         balance = Balance.of_approach(require_finite("approach", approach))
         load = min(max(approach, 1.0), LARGEST_APPROACH) ** 1.5  # of a dry contact
     moes, scales = require_solvable(point, load), scales_of(point)
+    if supply is not None:
+        supply.unit(moes, scales, nan)  # raises where it has none
     cut_short = max_cycles < MAX_CYCLES  # the caller's own limit: nothing else is what was asked for
     tried = []
     for attempt in attempts(
@@ -129,14 +142,14 @@ def solve_steady(
         budget=budget if grid.n is None else inf,
     ):
         tried.append(attempt)
-        film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads)
+        film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads, supply, scales)
         attempt.status = film.run(balance=balance, tol=tol, most=max_cycles, watch=callback)
         attempt.error_estimate = film.error_estimate
         if attempt.is_better:
             solved, status = film, attempt.status
         elif attempt.status is Status.INTERRUPTED:
             status = attempt.status
-    result = solved.result(status, scales, time.perf_counter() - started)
+    result = solved.result(status, time.perf_counter() - started)
     if throw and not status.ok and status is not Status.INTERRUPTED:
         where = f"after {result.cycles} iterations on n = {result.n}"
         more = f" More would be tried with a budget above {budget:g} s." if any(a.cut for a in tried) else ""
@@ -147,9 +160,19 @@ def solve_steady(
 class _Film:
     """Solve of a film on one mesh, from full multigrid to a judged status."""
 
-    def __init__(self, point: MoesPoint, mesh: Mesh, method: Method, deflection: str, threads: int) -> None:
-        self.mesh, self.method = mesh, method
-        self.multigrid = Multigrid(
+    def __init__(
+        self,
+        point: MoesPoint,
+        mesh: Mesh,
+        method: Method,
+        deflection: str,
+        threads: int,
+        supply: OilLayer | None,
+        scales: Scales | None,
+    ) -> None:
+        self.mesh, self.method, self.supply, self.scales = mesh, method, supply, scales
+        self._make = partial(
+            Multigrid,
             point,
             mesh,
             deflection=deflection,
@@ -157,12 +180,29 @@ class _Film:
             load_continuation=method.load_continuation,
             threads=threads,
         )
+        self.multigrid = self._make()
         self.scale = self.multigrid.finest.dry_residual()
         self.track = IterationHistory()
         self.error_estimate: ErrorEstimate | None = None
 
     def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
         """Cycle, or take Newton steps, until the residuals say how it ended."""
+        if self.supply is None:
+            return self._solve(balance, tol, most, watch)
+        flooded = nan
+        if self.supply.needs_flooded:
+            status = self._solve(balance, tol, most, None)
+            if not status.ok:
+                return status
+            flooded = self.multigrid.finest.central_film()
+            self.track = IterationHistory()
+        layer, unit = self.supply, self.supply.unit(self.multigrid.point, self.scales, flooded)
+        self.multigrid = self._make(supply=lambda Y: unit * layer.at(Y))
+        return self._solve(balance, tol, most, watch)
+
+    def _solve(
+        self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None
+    ) -> Status:
         mg = self.multigrid
         if balance.weight == 0.0:
             mg.u = balance.rhs
@@ -188,12 +228,12 @@ class _Film:
             self.error_estimate = estimate_error(mg, balance)
         return status
 
-    def result(self, status: Status, scales: Scales | None, seconds: float) -> SteadyResult:
+    def result(self, status: Status, seconds: float) -> SteadyResult:
         """Result of the solve."""
         mg, level, track = self.multigrid, self.multigrid.finest, self.track
         return SteadyResult(
             point=mg.point,
-            scales=scales,
+            scales=self.scales,
             domain=self.mesh.domain,
             n=self.mesh.n,
             X=level.X.copy(),
@@ -213,4 +253,24 @@ class _Film:
             status=status,
             error_estimate=self.error_estimate,
             seconds=seconds,
+            supply=self.supply,
+            **_content(level),
         )
+
+
+def _content(level: Level) -> dict[str, Any]:
+    """Fields of a result of a solve with an oil supply; none of a flooded one.
+
+    The last line, on the border, takes those of the line before it.
+    """
+    if not level.inflow.size:
+        return {}
+    carried, room = level.carried, level.fields.flow.mass
+    through = np.empty_like(carried)  # at nodes: the mean of the faces on either side
+    through[:, 0], through[:, -1] = carried[:, 0], carried[:, -2]
+    through[:, 1:-1] = 0.5 * (carried[:, :-2] + carried[:, 1:-1])
+    content = np.where(level.P > 0.0, 1.0, np.minimum(through / room, 1.0))
+    content[-1] = content[-2]
+    leaving = carried[:, -2].copy()
+    leaving[-1] = leaving[-2]
+    return {"content": content.T.copy(), "layer": level.inflow.copy(), "layer_behind": leaving}

@@ -57,7 +57,7 @@ def assumptions(
     point : OperatingPoint or MoesPoint
     film : SteadyResult, ImpedanceResult or AtlasAnswer, optional
         The film solved at this point, or the answer of the atlas: ``film=Atlas().at(point)``. The region of a
-        solved one counts as the flooded one.
+        solved one counts as the flooded one, unless it was solved with an oil supply.
     domain : Domain, optional
         Region computed elsewhere, in place of that of `film`.
     roughness : (float, float), optional
@@ -87,13 +87,14 @@ def assumptions(
         temperature_slope = typical_temperature_slope(contact.moes.eta0)
     slope = require_positive("temperature_slope", temperature_slope)
     k = require_positive("conductivity", conductivity)
+    flooded = getattr(film, "supply", None) is None  # a layer of oil is no assumption
     shaken = None if vibration is None else require_nonnegative("vibration", vibration)
     return Assumptions(
         (
             isothermal(contact, slope, k),
             newtonian(contact),
             smooth(contact, _composite(roughness)),
-            fully_flooded(contact, domain),
+            *([fully_flooded(contact, domain)] if flooded else []),
             constant_speed(contact, shaken),
             one_direction(contact, shaken),
             elastic(contact),

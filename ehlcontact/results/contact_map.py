@@ -69,8 +69,9 @@ def contact_panels(
     h_central: float,
     kappa: float | None,
     scales: Scales | None,
+    content: Array | None = None,
 ) -> list[ContactMap | Panel]:
-    """Maps of pressure and film, and both along rolling and across; in SI where there are scales.
+    """Maps of pressure, film and content, and the former along rolling and across; in SI where there are scales.
 
     Parameters
     ----------
@@ -83,6 +84,8 @@ def contact_panels(
     kappa : float or None
         a/b: with no scales both axes are in a, and where it is not known each in its own semi-axis.
     scales : Scales or None
+    content : ndarray, optional
+        Part of the gap that oil fills, shape (nx + 1, ny + 1).
     """
     (X, Y), (P, H) = places, fields
     if scales is None:
@@ -97,6 +100,9 @@ def contact_panels(
         ContactMap(a * X, b * Y, p, (*labels[:2], labels[2]), (a, b), "inferno", (0.0, float(p.max()))),
         ContactMap(a * X, b * Y, h, (*labels[:2], labels[3]), (a, b), "viridis", (float(h.min()), highest)),
     ]
+    if content is not None:
+        words = "part of the gap filled with oil"
+        maps.append(ContactMap(a * X, b * Y, content, (*labels[:2], words), (a, b), "cividis", (0.0, 1.0)))
     i, j = (int(np.argmin(np.abs(place))) for place in (X, Y))
     along = _profiles(a, X, (p[:, j], h[:, j]), (labels[0], *labels[2:]), (pressure, highest))
     return [*maps, *along, *_profiles(b, Y, (p[i], h[i]), (labels[1], *labels[2:]), (pressure, highest))]

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.assumptions.judge import judged
+from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
 from ehlcontact.results.contact_map import contact_panels
@@ -19,6 +20,7 @@ from ehlcontact.solver.error_estimate import ALL, ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, note_line
+from ehlcontact.supply import OilLayer
 
 Array = NDArray[np.float64]
 
@@ -44,7 +46,7 @@ def film_bars(error: ErrorEstimate) -> tuple[str, str]:
     return central, least
 
 
-@stored("result of solve_steady")
+@stored("result of solve_steady", 2)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SteadyResult(ScaledTable, Origin):
     """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
@@ -81,6 +83,12 @@ class SteadyResult(ScaledTable, Origin):
     error_estimate : ErrorEstimate or None
         How far approach and films may be from those of an endless fine mesh on the same region; None of a film
         that is not converged. In SI its approach is in m.
+    supply : OilLayer or None
+        As given to `solve_steady`; None of a flooded inlet, and with it the following three.
+    content : ndarray or None, shape (nx + 1, ny + 1)
+        Part of the gap that oil fills: 1 under pressure.
+    layer, layer_behind : ndarray or None, shape (ny + 1,)
+        Oil on both surfaces ahead of the contact and behind it, over the dry approach; in SI [m].
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -100,6 +108,10 @@ class SteadyResult(ScaledTable, Origin):
     status: Status
     pressure_changes: Annotated[Array, PRESSURE.over("change", listed=False)]
     error_estimate: ErrorEstimate | None = None
+    supply: OilLayer | None = None
+    content: Annotated[Array | None, NUMBER.over("X Y", listed=False)] = None
+    layer: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
+    layer_behind: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
 
     DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
 
@@ -143,6 +155,19 @@ class SteadyResult(ScaledTable, Origin):
         return float(-1.5 / pi * 2.0 * cell * (self.X @ lines))
 
     @property
+    def supply_behind(self) -> OilLayer:
+        """What the surfaces carry away, as the supply of the next contact of the same size.
+
+        Raises
+        ------
+        InputError
+            The inlet is flooded: what leaves depends on what is added ahead of the next contact.
+        """
+        if self.layer_behind is None:
+            raise InputError("supply", None, "given: what leaves a flooded contact is not known")
+        return OilLayer(H=self.layer_behind, y=self.Y)
+
+    @property
     def residual(self) -> Annotated[float, NUMBER]:
         """Last residual relative to that of the dry Hertz start."""
         return float(self.residuals[-1] / self.dry_residual)
@@ -184,7 +209,7 @@ class SteadyResult(ScaledTable, Origin):
 
     def _panels(self) -> Iterator[Any]:
         places, fields = (self.X, self.Y), (self.P, self.H)
-        yield from contact_panels(places, fields, self.h_central, self.point.kappa, self.scales)
+        yield from contact_panels(places, fields, self.h_central, self.point.kappa, self.scales, self.content)
 
     def _drawn(self) -> SteadyResult:
         return self  # both in SI and without, as a contact is drawn
@@ -201,9 +226,17 @@ class SteadyResult(ScaledTable, Origin):
             f"{self.status} on n = {self.n}, P and H of {len(self.X)} x {len(self.Y)} nodes",
             f"approach {size * self.approach:.5g} {unit}; largest pressure {self.p_max:.4g} of the Hertz pressure",
             f"film {central:.4g}{bars[0]} in the centre, {least:.4g}{bars[1]} at least, {unit}",
+            *([] if self.layer is None else [self._supply_line(size, unit)]),
             *filter(None, [self.reservation]),
             *note_line(self.outside_assumptions),
         ]
+
+    def _supply_line(self, size: float, unit: str) -> str:
+        """Layer that enters, and where the full film begins, in words."""
+        assert self.layer is not None
+        layers = sorted({f"{size * h:.4g}" for h in (self.layer.min(), self.layer.max())})
+        front = self.X[int(np.argmax(self.P[:, 0] > 0.0))]
+        return f"layer of oil {' to '.join(layers)} {unit}; the film is full from X = {front:.3g} on"
 
     def to_dict(self) -> dict[str, Any]:
         """Numbers without the fields, status and origin, ready for JSON; of an SI point with ``si``."""

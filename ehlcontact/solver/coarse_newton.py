@@ -63,10 +63,16 @@ def bordered_lu(
 
     `derivatives` are those to pressure and to film, (6, ny + 1, nx + 1) each, real or complex.
     """
-    m = free.size
-    J = np.empty((m + 1, m + 1), dtype=derivatives[0].dtype)
+    feeding, fed = level.feeds(derivatives)
+    rows = np.union1d(free, feeding)
+    J = np.empty((rows.size + 1, rows.size + 1), dtype=derivatives[0].dtype)
     number = np.empty(level.P.size, dtype=np.int64)
-    dense_jacobian(free, *derivatives, level.deflection.kernel, number, J)
+    dense_jacobian(rows, *derivatives, level.deflection.kernel, number, J)
+    if feeding.size:
+        np.add.at(J, number[fed], J[number[feeding]])
+        kept = np.append(number[free], rows.size)
+        J = J[np.ix_(kept, kept)]
+    m = free.size
     J[m, :m] = balance.weight * level.force_weights.ravel()[free]
     J[m, m] = balance.stiffness
     with warnings.catch_warnings():  # a singular matrix gives infinities, which the driver reports
@@ -158,6 +164,8 @@ class CoarseNewton:
         solution = linalg.lu_solve(factors.lu, rhs, overwrite_b=True, check_finite=False)
         dP = np.zeros_like(level.P)
         dP.ravel()[factors.free] = solution[:-1]
+        if level.inflow.size:
+            dP *= wanted.reshape(dP.shape)  # a node that is partly filled jumps, were it taken for full
         return dP, float(solution[-1]), step_length(dP, float(solution[-1]), u)
 
 

@@ -156,8 +156,10 @@ def classify(
 
 def judge(status: Status, level: Level) -> Status:
     """Status of a solve whose residuals say `status`: converged only with a film, and within the domain."""
+    if level.front_beyond_border:  # where nothing settles
+        return Status.BEYOND_REGION
     if status is Status.CONVERGED and not level.H.min() > 0.0:
-        return Status.UNRESOLVED
+        return Status.STARVED if level.starves else Status.UNRESOLVED
     if status is Status.CONVERGED and touches_border(level):
         return Status.OUT_OF_DOMAIN
     return status

@@ -14,7 +14,7 @@ from ehlcontact.process.threads import CALLING_THREAD, Kernel, team_of
 from ehlcontact.solver.deflection import make_deflection
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid_rules import LINES_APART, is_long, longer_axis
-from ehlcontact.solver.kernels import cavitation, flanks, relax, reynolds
+from ehlcontact.solver.kernels import cavitation, flanks, relax, reynolds, supply
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
 from ehlcontact.solver.lowest_film import lowest_film
 from ehlcontact.solver.mesh import Mesh
@@ -29,6 +29,7 @@ LIGHT = 128  # lines of the smallest chunk of a light kernel: with fewer it is d
 # Lines of a block of local passes: more than they reach beyond it, so that every other one is apart. Side lobes of
 # a long contact lie across all lines, which are one block there: of several, cycles leave a hundred times more.
 BLOCK = 24
+STARVED_SHARE = 0.2  # layer over flooded film, below which a film that is not positive is for want of oil
 
 
 class Fields(NamedTuple):
@@ -70,13 +71,16 @@ class Level:
         self.fields = Fields(
             P=np.zeros(shape),
             H=np.zeros(shape),
-            flow=reynolds.Flow(*(np.zeros(shape) for _ in reynolds.Flow._fields)),
+            flow=reynolds.new_flow(shape),
             theta=np.zeros(shape),
             w=np.zeros(shape),
             p_coef=np.zeros((NEIGHBOURS, *shape)),
             h_coef=np.zeros((NEIGHBOURS, *shape)),
         )
         self.rhs = np.zeros(shape)
+        # Where oil runs short: the layer that enters, what the surfaces carry through the face behind each node,
+        # and right-hand sides with it
+        self.inflow, self.carried, self.supplied = np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0))
         self.film_shift: Array | float = 0.0
         self.c_t = 0.0
         self.r = np.zeros(shape)  # residual of the Reynolds equation, zero on the border
@@ -92,7 +96,7 @@ class Level:
 
     def set_point(self, point: MoesPoint) -> None:
         """Numbers that the kernels need at `point`, whose kappa must be that of the level."""
-        self.M, self.law = point.M, point.law
+        self.M, self.law, self.expected_film = point.M, point.law, point.inlet_width**1.5
         self.stencil = reynolds.Stencil(
             cx=self.hx**-2,
             cy=point.kappa**2 * self.hy**-2,
@@ -101,6 +105,80 @@ class Level:
             # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
             crowding=max(1.0, 0.5 * self.hy / (point.kappa * self.hx)),
         )
+
+    def set_supply(self, layer: Array | None) -> None:
+        """Let a layer of this thickness enter on each line, shape (ny + 1,), or a full gap for None."""
+        if layer is None:
+            if self.inflow.size:
+                supply.open_faces(0, self.ny, self.fields.flow)
+            self.inflow = np.zeros(0)
+            return
+        if not self.carried.size:
+            self.carried, self.supplied = np.zeros_like(self.rhs), np.zeros_like(self.rhs)
+        self.inflow = layer
+
+    def empty_inlet(self, u: float) -> None:
+        """Take the pressure away where the gap is much wider than the layer, as a start; P, H written."""
+        self.update_film(u)
+        self.P[(supply.FRONT_GAP * self.inflow[:, None] < self.H) & (self.X < 0.0)] = 0.0
+
+    @property
+    def front_beyond_border(self) -> bool:
+        """Whether a film is full up to the inlet border, where the layer does not fill the gap."""
+        if not self.inflow.size:
+            return False
+        return bool(((self.P[:, 1] > 0.0) & (self.inflow < self.full_flow()[:, 0])).any())
+
+    @property
+    def starves(self) -> bool:
+        """Whether the layer is a small part of the flooded film."""
+        return bool(self.inflow.size) and self.inflow.max() < STARVED_SHARE * self.expected_film
+
+    @property
+    def supply_arrays(self) -> tuple[Array, Array, Array, Array]:
+        """What the passes along the cavitation boundary carry a supply with, or go without one."""
+        return self.rhs, self.inflow, self.carried, self.given
+
+    @property
+    def given(self) -> Array:
+        """Right-hand side of `reynolds.operator_at`, with what partly filled nodes carry."""
+        return self.supplied if self.inflow.size else self.rhs
+
+    def full_flow(self) -> Array:
+        """Couette flow of a full gap through the face behind each node; 0 of the last node."""
+        m = self.fields.flow.mass
+        full = np.zeros_like(m)
+        full[:, 1:-1] = (2.0 * m[:, 2:] + 5.0 * m[:, 1:-1] - m[:, :-2]) / 6.0
+        full[:, 0] = (2.0 * m[:, 0] + 5.0 * m[:, 1] - m[:, 2]) / 6.0
+        return full
+
+    def restrict_supply(self, fine: Level) -> None:
+        """Take over from `fine` how much is missing of a full gap; rhs, of a full film, gets what goes with it.
+
+        The flow of this level belongs to its restricted pressure and film, with all faces open.
+        """
+        if not fine.inflow.size:
+            self.set_supply(None)
+            return
+        across, along = fine.ny // self.ny, fine.nx // self.nx
+        missing = fine.full_flow()[:, 0]
+        short = np.zeros_like(self.rhs)
+        short[:-1, :-1] = (fine.full_flow() - fine.carried)[:-1:across, :-1:along]
+        self.rhs[:-1, 1:-1] += (short[:-1, 1:-1] - short[:-1, :-2]) / self.hx
+        self.set_supply(self.full_flow()[:, 0] - (missing - fine.inflow)[::across])
+        self._carry_supply()
+
+    def feeds(self, derivatives: tuple[Array, Array]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Flat numbers of partly filled nodes with flow by pressure into them, and of the full ones that get it.
+
+        `derivatives` at the former are written: those of that flow. Both empty where oil does not run short.
+        """
+        if not self.inflow.size:
+            return np.zeros(0, np.int64), np.zeros(0, np.int64)
+        f, target = self.fields, np.empty(self.rhs.shape, np.int64)
+        supply.linearise_pressed_in(f.P, f.flow, self.stencil, *derivatives, target)
+        feeding = np.flatnonzero(target >= 0)
+        return feeding, target.ravel()[feeding]
 
     @property
     def P(self) -> Array:
@@ -130,14 +208,26 @@ class Level:
         """Flow and residual ``rhs - N(P, H)`` from P and H; returns ``self.r``."""
         f = self.fields
         self._update_flow()
-        given = (f.P, f.flow, self.stencil, self.c_t, self.rhs, self.r)
+        given = (f.P, f.flow, self.stencil, self.c_t, self.given, self.r)
         self.team.run(reynolds.residual_lines, self.ny, *given, least=LIGHT)
         return self.r
+
+    def full_film_residual(self) -> Array:
+        """As `update_residual`, of a film that is full wherever it is."""
+        self.set_supply(None)
+        return self.update_residual()
 
     def _update_flow(self) -> None:
         f = self.fields
         self.team.run(reynolds.update_lines, self.ny + 1, f.P, f.H, self.law, self.stencil, f.flow)
         self.team.run(reynolds.update_between_lines, self.ny, f.flow, least=LIGHT)
+        self._carry_supply()
+
+    def _carry_supply(self) -> None:
+        f = self.fields
+        if self.inflow.size:
+            given = (f.P, f.flow, self.rhs, self.inflow, self.stencil, self.carried, self.supplied)
+            self.team.run(supply.carry_supply, self.ny, *given, least=LIGHT)
 
     def density(self) -> Array:
         """Density at the present P, over ambient density."""
@@ -181,10 +271,10 @@ class Level:
             if colour == 1:
                 self._update_flow()
             groups = -(-((lines + 1 - colour) // 2) // LANES)
-            self.team.run(relax.relax_lines, groups, colour, f, self.rhs, numbers, self.c_t, self.near, least=1)
+            self.team.run(relax.relax_lines, groups, colour, f, self.given, numbers, self.c_t, self.near, least=1)
             self.team.run(relax.apply_lines, lines, colour, f, self.near)
         own = self.near[0, 0]
-        given = (f.P, f.H, f.flow, self.rhs, self.law, numbers, self.c_t, own, self.nodes, self.marks)
+        given = (f.P, f.H, f.flow, self.supply_arrays, self.law, numbers, self.c_t, own, self.nodes, self.marks)
         self._run_blocks(cavitation.relax_boundary_blocks, *given)
 
     @property
@@ -195,7 +285,7 @@ class Level:
     def relax_flanks(self) -> None:
         """Passes along the steep flanks from the state of the last `update`; P, H and flow written there."""
         self._weigh()
-        given = (self.fields, self.rhs, self.law, self.stencil, self.c_t, self.near, self.marks, self.passes)
+        given = (self.fields, self.given, self.law, self.stencil, self.c_t, self.near, self.marks, self.passes)
         self._run_blocks(flanks.relax_flank_blocks, *given)
 
     def _run_blocks(self, kernel: Kernel, *args: Any) -> None:

@@ -96,9 +96,15 @@ class LinearFilm:
         self.free, self.balance = free, balance
         self.c_t = level.c_t if c_t is None else c_t
         p_coef, h_coef = coefficients(level, self.c_t)
+        feeding, fed = level.feeds((p_coef, h_coef))
         self.by_pressure = stencil_matrix(NEIGHBOUR_OFFSETS, p_coef, free.shape)
         self.by_film = stencil_matrix(NEIGHBOUR_OFFSETS, h_coef, free.shape)
         self.by_approach = -h_coef.sum(axis=0).ravel()
+        if feeding.size:  # what is pressed into partly filled nodes comes to the full one behind them
+            passed_on = sparse.csr_matrix((np.ones(fed.size), (fed, feeding)), shape=(free.size, free.size))
+            self.by_pressure = self.by_pressure + passed_on @ self.by_pressure
+            self.by_film = self.by_film + passed_on @ self.by_film
+            self.by_approach = self.by_approach + passed_on @ self.by_approach
         self.deflection = level.deflection
         self.weights = level.force_weights.ravel()
         self.scale = BALANCE_WEIGHT * sqrt(max(1.0, float(np.count_nonzero(free))))  # of the last row

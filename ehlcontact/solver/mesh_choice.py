@@ -78,7 +78,7 @@ FINENESS = {
 
 # What is tried after a failure, or a film that is not yet exact? ------------------------------------------------
 FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE)
-REFINED = (*FAILED, Status.UNRESOLVED)  # what a finer mesh may cure
+REFINED = (*FAILED, Status.UNRESOLVED, Status.STARVED)  # what a finer mesh may cure
 DOMAIN_GROWTH = 1.5  # of a region that pressure fills
 # Errors of a steady film (by their estimates) below which no finer mesh is tried where it is left open.
 ACCURACY = ErrorEstimate(approach=0.002, h_central=0.01, h_min=0.03)
@@ -130,10 +130,14 @@ def remedy(
     """
     if purpose is Purpose.FILM and grid.n is not None:
         return None
-    if status is Status.OUT_OF_DOMAIN:
+    if status in (Status.OUT_OF_DOMAIN, Status.BEYOND_REGION):
         if grid.domain is not None:
             return None
-        wider = Domain(*(DOMAIN_GROWTH * end for end in mesh.domain.as_tuple()))
+        x_in, x_out, y_max = mesh.domain.as_tuple()
+        if status is Status.BEYOND_REGION:
+            longer = Domain(DOMAIN_GROWTH * x_in, x_out, y_max)
+            return replace(mesh_for(point, purpose, replace(grid, domain=longer)), y_refinement=mesh.y_refinement)
+        wider = Domain(DOMAIN_GROWTH * x_in, DOMAIN_GROWTH * x_out, DOMAIN_GROWTH * y_max)
         if purpose is Purpose.FILM:
             return replace(mesh, domain=wider, y_refinement=1)
         return mesh_for(point, purpose, replace(grid, domain=wider))

@@ -29,6 +29,7 @@ from ehlcontact.solver.grid_rules import (
     resolved_load,
 )
 from ehlcontact.solver.kernels import transfer
+from ehlcontact.solver.kernels.supply import FITTING
 from ehlcontact.solver.level import Array, Level, build_hierarchy
 from ehlcontact.solver.mesh import Mesh
 
@@ -40,7 +41,11 @@ CONTINUATION_LOADING = 2.0  # and in load continuation: at most,
 LEAST_LOADING = 1.05  # and at least so much
 SETTLED_CHANGE = 0.05  # of P by the last cycle after a step of load continuation; a larger one halves the step
 CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
+FRONT_CYCLES, FRONT_SETTLED = 6, 0.01  # most of them while more than this share of the nodes fill up or empty
 NESTED_CYCLES = 4  # on a grid of half the intervals, its lines as close: its film is solved, and a start
+
+
+Supply = Callable[[Array], Array]
 
 
 class Multigrid:
@@ -65,6 +70,8 @@ class Multigrid:
         Threads that share the work; results do not depend on their number.
     across : int, optional
         Intervals along Y of the finest level; by default what the mesh asks for.
+    supply : callable, optional
+        Layer of oil that enters at the lines Y, in dry approaches; by default as much as the gap has room for.
     """
 
     def __init__(
@@ -77,9 +84,11 @@ class Multigrid:
         load_continuation: bool = False,
         threads: int = 1,
         across: int | None = None,
+        supply: Supply | None = None,
     ) -> None:
-        self.point, self.mesh = point, mesh
+        self.point, self.mesh, self.supply = point, mesh, supply
         self._options: dict[str, Any] = {
+            "supply": supply,
             "deflection": deflection,
             "sweep_factor": sweep_factor,
             "load_continuation": load_continuation,
@@ -92,6 +101,8 @@ class Multigrid:
             level.share(threads)
         self.sweep_factor = self.least_sweep_factor = sweep_factor  # how often the sweeps of a cycle are repeated
         self.is_start = False  # of a finer grid, which goes on from whatever load is carried here
+        if supply is not None:
+            self.finest.set_supply(supply(self.finest.Y))
         self.newton = CoarseNewton(self.levels[0], is_long(point))
         self.u = initial_approach(point)
 
@@ -218,11 +229,39 @@ class Multigrid:
             self.newton.factors = None
         for level in self.levels[: k + 1]:
             level.set_point(replace(self.point, M=M))
+        self._enter_supply(k)
+
+    def _enter_supply(self, k: int) -> None:
+        """Layer that enters on level k where it is the finest, the same in metres under any load.
+
+        Under a smaller load, on the way, the front may lie beyond the border: such films are flooded.
+        """
+        level = self.levels[k]
+        if self.supply is None:
+            return
+        layer = self.supply(level.Y) * (self.point.M / level.M) ** (2.0 / 3.0)
+        flooded = level.M < self.point.M and level.gap[0, 0] < FITTING * layer.max()
+        starts = not flooded and k > 0 and not self.levels[k - 1].inflow.size
+        level.set_supply(None if flooded else layer)
+        if starts:
+            level.empty_inlet(self.u)
 
     def _repeat(self, k: int, cycles: int, balance: Balance) -> None:
         for _ in range(cycles):
             self.levels[k].update(self.u)
             self.u = self._cycle(k, self.u, balance)
+        if cycles and self.levels[k].inflow.size:
+            self._settle_front(k, balance)
+
+    def _settle_front(self, k: int, balance: Balance) -> None:
+        """Further cycles on level k while the front of the full film still moves by many nodes."""
+        level = self.levels[k]
+        for _ in range(FRONT_CYCLES):
+            full = level.P > 0.0
+            level.update(self.u)
+            self.u = self._cycle(k, self.u, balance)
+            if np.count_nonzero(full != (level.P > 0.0)) <= FRONT_SETTLED * np.count_nonzero(full):
+                return
 
     def settle(self, k: int, u: float, balance: Balance, cycles: int, shift: Array | float = 0.0) -> float:
         """Cycles on level k by itself, from the pressure that it holds and approach `u`; returns the approach.
@@ -232,6 +271,8 @@ class Multigrid:
         level = self.levels[k]
         level.rhs[...] = 0.0
         level.film_shift = shift
+        if self.supply is not None:
+            level.set_supply(self.supply(level.Y))
         level.update(u)
         for _ in range(cycles):
             u = self._cycle(k, u, balance)
@@ -265,12 +306,15 @@ class Multigrid:
         coarse.film_shift = fine.H[::across, ::along] - coarse.H
         coarse.H[...] = fine.H[::across, ::along]
         coarse.rhs[...] = 0.0
-        defect = coarse.update_residual().copy()
+        defect = coarse.full_film_residual().copy()
         transfer.full_weighting(r, coarse.rhs, along, across)
         coarse.rhs -= defect
+        coarse.restrict_supply(fine)
         shift = balance.weight * (coarse.force() - fine.force())
         u = self._cycle(k - 1, u, balance.shifted(shift))
         transfer.add_correction(coarse.P, start, fine.P, along, across)
+        if fine.inflow.size:
+            transfer.drain(coarse.P, start, fine.P, along, across, int(np.searchsorted(fine.X, 0.0)))
         for sweep in self._sweeps(fine, POST_SWEEPS, not short or fine is self.finest):
             fine.update(u)
             sweep()

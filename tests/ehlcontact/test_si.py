@@ -81,7 +81,7 @@ def test_every_field_in_its_unit(steady, run):
         run.film_error.h_min,
     )
     for result, beside in (
-        (steady, {"error_estimate"}),
+        (steady, {"error_estimate", "layer", "layer_behind"}),  # no supply: the last two are None
         (run, {"static_load", "mass", "omega", "hz", "film_error"}),
     ):
         si = result.si

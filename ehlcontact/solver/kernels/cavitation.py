@@ -9,6 +9,7 @@ frozen film makes these passes diverge.
 from ehlcontact.jit import inner, jit_loop, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, update_across, update_along, update_node
+from ehlcontact.solver.kernels.supply import carry_line
 
 # Coarse corrections end some way before the boundary, not some nodes: what is left to passes grows with the grid.
 NODES_EACH = 64  # intervals along X per node of reach,
@@ -79,11 +80,13 @@ def update_marked(first, last, P, H, law, stencil, flow, marks):
 
 
 @jit_loop(inline="always")  # one caller: what it calls is optimised one time less
-def relax_boundary(first, last, P, H, flow, rhs, law, stencil, c_t, self_deflection, nodes, marks):
+def relax_boundary(first, last, P, H, flow, supply, law, stencil, c_t, self_deflection, nodes, marks):
     """Relax P near the cavitation boundary on lines `first` to `last` - 1, at frozen film and flow.
 
-    `P` and, there and on the next lines, `flow` are written; `nodes`, `marks` are work space.
+    `P` and, there and on the next lines, `flow` are written, and what `supply` holds (for `carry_line`); `nodes`,
+    `marks` are work space.
     """
+    rhs, inflow, carried, supplied = supply
     width = P.shape[1]
     reach = reach_of(width - 1)
     mark_boundary(first, last, P, reach, marks)
@@ -98,16 +101,20 @@ def relax_boundary(first, last, P, H, flow, rhs, law, stencil, c_t, self_deflect
                 nodes[end] = j * width + i
                 end += 1
     for sweep in range(PASSES_EACH * reach):
+        line = -1
         for s in range(end - begin):
             node = nodes[begin + s] if sweep % 2 == 0 else nodes[end - 1 - s]
             j, i = node // width, node % width
+            if len(inflow) > 0 and j != line:
+                carry_line(j, P, flow, rhs, inflow, stencil, carried, supplied)
+                line = j
             own = total_flow(j, i, flow, stencil) + (1.5 * stencil.inv_hx + c_t) * self_deflection
-            res = rhs[j, i] - operator_at(j, i, P, flow, stencil, c_t)
+            res = supplied[j, i] - operator_at(j, i, P, flow, stencil, c_t)
             P[j, i] = max(P[j, i] - res / own, 0.0)
 
 
 @jit_loop
-def relax_boundary_blocks(first, last, colour, lines, P, H, flow, rhs, law, stencil, c_t, own, nodes, marks):
+def relax_boundary_blocks(first, last, colour, lines, P, H, flow, supply, law, stencil, c_t, own, nodes, marks):
     """`relax_boundary` on the blocks of `lines` lines ``colour + 2 k``, k from `first` to `last` - 1.
 
     Blocks of one colour do not see each other.
@@ -115,4 +122,4 @@ def relax_boundary_blocks(first, last, colour, lines, P, H, flow, rhs, law, sten
     for k in range(first, last):
         start = (colour + 2 * k) * lines
         stop = min(start + lines, P.shape[0] - 1)
-        relax_boundary(start, stop, P, H, flow, rhs, law, stencil, c_t, own, nodes, marks)
+        relax_boundary(start, stop, P, H, flow, supply, law, stencil, c_t, own, nodes, marks)

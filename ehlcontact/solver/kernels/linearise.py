@@ -7,7 +7,7 @@ C, W, E, S, N, WW. The elastic part ``dH = -du + K dP`` is left to the caller: t
 import numpy as np
 
 from ehlcontact.jit import inner, jit, jit_loop, jit_node
-from ehlcontact.lanes import at
+from ehlcontact.lanes import at, where_positive
 
 NEIGHBOURS = 6
 
@@ -52,13 +52,16 @@ def linearise_at(j, i, P, flow, stencil, c_t, share):
     ae, de, pe, he = _face(flow, j, i + 1, cx, at(along, j, i), at(skew, j, i), east)
     as_, ds, ps, hs = _face(flow, js, i, cy, at(across, face, i), side * at(slant, face, i), south)
     an, dn, pn, hn = _face(flow, j + 1, i, cy, at(across, j, i), at(slant, j, i), north)
-    # the wedge term of `reynolds.transport_at`
+    # the wedge term of `reynolds.transport_at`, behind a closed face the flow out of the node alone
     if i > 1:
-        c0, c1, c2, c5 = 0.5 * inv_hx, -inv_hx, inv_hx / 3.0, inv_hx / 6.0
+        face_open, c2 = at(flow.open, j, i - 1), inv_hx / 3.0
+        c0 = where_positive(face_open, 0.5 * inv_hx, 5.0 / 6.0 * inv_hx)
+        c1 = where_positive(face_open, -inv_hx, -inv_hx / 6.0)
+        c5 = where_positive(face_open, inv_hx / 6.0, 0.0)
         pww, hww = -c5 * at(flow.mass_slope, j, i - 2), -c5 * at(flow.rho, j, i - 2)
     else:
-        c0, c1, c2 = 0.0, -0.5 * inv_hx, 0.5 * inv_hx
-        pww, hww = 0.0 * p, 0.0 * p  # of the type of P
+        c0, c1, c2 = 0.0 * p, 0.0 * p - 0.5 * inv_hx, 0.5 * inv_hx  # of the type of P
+        pww, hww = 0.0 * p, 0.0 * p
     c0 += c_t
     jumps = dw + de + ds + dn
     pc = jumps * at(flow.eps_slope, j, i) - (aw + ae + as_ + an) - c0 * at(flow.mass_slope, j, i)

@@ -17,7 +17,7 @@ import numpy as np
 
 from ehlcontact.elementary import exponential
 from ehlcontact.jit import jit_loop, jit_node
-from ehlcontact.lanes import LANES, at, eight, larger, put, root
+from ehlcontact.lanes import LANES, at, eight, larger, put, root, where_positive
 from ehlcontact.lubricant import density, log_viscosity
 
 FILM_FLOOR = 1e-8  # where iterates overlap; keeps eps > 0 without touching any converged film
@@ -51,6 +51,14 @@ class Flow(NamedTuple):
     along_skew: Any
     across: Any  # mean of eps between j and j + 1
     across_skew: Any
+    open: Any  # between i and i + 1: 1, and 0 before a front of full film, through which a given flow comes
+
+
+def new_flow(shape: tuple[int, int]) -> Flow:
+    """Return a `Flow` of zeros with all faces open."""
+    flow = Flow(*(np.zeros(shape) for _ in Flow._fields))
+    flow.open[...] = 1.0
+    return flow
 
 
 @jit_node
@@ -90,8 +98,8 @@ def update_node(j, i, P, H, law, stencil, flow):
 def update_along(j, i, flow):
     """Mean and skew between nodes i and i + 1; of eight nodes likewise."""
     mean, skew = flow_mean(at(flow.eps, j, i), at(flow.eps, j, i + 1))
-    put(flow.along, j, i, mean)
-    put(flow.along_skew, j, i, skew)
+    put(flow.along, j, i, at(flow.open, j, i) * mean)
+    put(flow.along_skew, j, i, at(flow.open, j, i) * skew)
 
 
 @jit_node
@@ -141,13 +149,27 @@ def transport_at(j, i, mass, stencil, c_t):
 
 
 @jit_node
+def given_flow(j, i, flow, stencil):
+    """What a full film would carry through the face before a node, over its length, where that face is closed.
+
+    There a given flow comes instead, part of the right-hand side (`kernels.supply`). Of one node, or eight.
+    """
+    own, west = at(flow.mass, j, i), at(flow.mass, j, i - 1)
+    full = 2.0 * own + 5.0 * west
+    if i > 1:  # the face before the first node is always open
+        full = full - at(flow.mass, j, i - 2)
+    return where_positive(at(flow.open, j, i - 1), 0.0, stencil.inv_hx / 6.0 * full)
+
+
+@jit_node
 def operator_at(j, i, P, flow, stencil, c_t):
     """N(P, H) at one interior node, or eight from the second on."""
     below, face = (j - 1, j - 1) if j > 0 else (1, 0)  # the line below the symmetry line is its image
     p = at(P, j, i)
     along = at(flow.along, j, i) * (at(P, j, i + 1) - p) + at(flow.along, j, i - 1) * (at(P, j, i - 1) - p)
     across = at(flow.across, j, i) * (at(P, j + 1, i) - p) + at(flow.across, face, i) * (at(P, below, i) - p)
-    return stencil.cx * along + stencil.cy * across - transport_at(j, i, flow.mass, stencil, c_t)
+    carried = transport_at(j, i, flow.mass, stencil, c_t)
+    return stencil.cx * along + stencil.cy * across - carried - given_flow(j, i, flow, stencil)
 
 
 @jit_loop

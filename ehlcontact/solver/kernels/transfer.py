@@ -72,3 +72,27 @@ def add_correction(new, old, fine, sx, sy):
             if wet:
                 weight = (j1 - j0 + 1.0) * (i1 - i0 + 1.0)
                 fine[j, i] = max(fine[j, i] + change / weight, 0.0)
+
+
+@jit
+def drain(new, old, fine, sx, sy, end):
+    """Take the pressure from nodes of `fine` before column `end` around which the coarse grid has lost all of its.
+
+    A front of full film that is far from its place moves by whole coarse nodes then.
+    """
+    for j in range(fine.shape[0] - 1):
+        j0 = j // sy
+        j1 = (j + sy - 1) // sy
+        for i in range(1, end):
+            if fine[j, i] <= 0.0:
+                continue
+            i0 = i // sx
+            i1 = (i + sx - 1) // sx
+            dry = True
+            lost = False
+            for jc in range(j0, j1 + 1):
+                for ic in range(i0, i1 + 1):
+                    dry = dry and new[jc, ic] <= 0.0
+                    lost = lost or old[jc, ic] > 0.0
+            if dry and lost:
+                fine[j, i] = 0.0

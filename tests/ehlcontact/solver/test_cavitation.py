@@ -47,7 +47,8 @@ def passes(level, kernel, self_deflection=None):
     f = level.fields
     own = level.near[0, 0] if self_deflection is None else self_deflection
     marks = np.zeros(f.P.shape, dtype=np.int64)  # of bytes, Python's differences would overflow
-    kernel(0, level.ny, f.P, f.H, f.flow, level.rhs, level.law, level.stencil, level.c_t, own, level.nodes, marks)
+    given = (level.supply_arrays, level.law, level.stencil, level.c_t, own, level.nodes, marks)
+    kernel(0, level.ny, f.P, f.H, f.flow, *given)
 
 
 @pytest.mark.parametrize("kernel", [boundary.update_marked, boundary.update_marked.py_func], ids=["jit", "python"])

@@ -59,6 +59,7 @@ def test_nearly_geometric_for_neighbours_alike():
 def test_flow_factor_and_mass(level, point):
     level.H[2, 5] = -0.02  # overlapping bodies: eps floored, mass not
     flow = reynolds.Flow(*(np.full_like(level.P, np.nan) for _ in reynolds.Flow._fields))
+    flow.open[...] = 1.0  # an input
     reynolds.update_flow(level.P, level.H, level.law, level.stencil, flow)
     expected_eps, expected_mass = oracles.flow_and_mass(level.P, level.H, point)
     np.testing.assert_allclose(flow.eps, expected_eps, rtol=1e-11)
@@ -77,7 +78,7 @@ def test_slopes_of_the_flow(level):
     level.update_residual()
 
     def flow(dP, dH):
-        trial = reynolds.Flow(*(np.zeros_like(f.P) for _ in reynolds.Flow._fields))
+        trial = reynolds.new_flow(f.P.shape)
         reynolds.update_flow(f.P + dP, f.H + dH, level.law, level.stencil, trial)
         return trial
 
@@ -124,7 +125,7 @@ KERNELS = [pytest.param(lin.linearise, id="jit"), pytest.param(lin.linearise.py_
 
 def operator(level, P, H, eps=None):
     """N at all interior nodes; with `eps` given, at that Poiseuille coefficient."""
-    flow, out = reynolds.Flow(*(np.zeros_like(P) for _ in reynolds.Flow._fields)), np.zeros_like(P)
+    flow, out = reynolds.new_flow(P.shape), np.zeros_like(P)
     reynolds.update_flow(P, H, level.law, level.stencil, flow)
     if eps is not None:
         flow.along[:, :-1] = np.vectorize(oracles.flow_mean)(eps[:, :-1], eps[:, 1:])

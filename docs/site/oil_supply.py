@@ -1,0 +1,101 @@
+"""Numbers and pictures of docs/oil_supply.md.
+
+python docs/site/oil_supply.py   # some minutes
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from scipy.optimize import minimize_scalar
+
+from ehlcontact import Domain, Geometry, Grid, Lubricant, MoesPoint, OilLayer, OperatingPoint, solve_steady
+
+IMAGES = Path(__file__).parents[1] / "images"
+POINTS = (MoesPoint(20, 10, 1), MoesPoint(200, 10, 1), MoesPoint(200, 10, 0.5), MoesPoint(2900, 19, 0.11))
+RATIOS = np.array([0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 3.0])
+CIRCLE, LAYER = POINTS[0], 0.495
+
+
+def curve(ratio: np.ndarray, exponent: float) -> np.ndarray:
+    """Film over the flooded one."""
+    return ratio / (1.0 + ratio**exponent) ** (1.0 / exponent)
+
+
+def films() -> None:
+    """Film over supply at the points, with the fitted curve."""
+    figure = Figure(figsize=(6.4, 4.4), layout="constrained")
+    axes = figure.subplots()
+    at = np.linspace(0.05, 3.2, 200)
+    for point in POINTS:
+        grid = Grid(256 if point.kappa > 0.2 else 128, Domain(-9.0, 1.5, 3.0) if point.kappa < 0.2 else None)
+        flooded = solve_steady(point, grid=grid)
+        solved = [solve_steady(point, grid=grid, supply=OilLayer(over_flooded=r)) for r in RATIOS]
+        found = np.array([film.h_central for film in solved]) / flooded.h_central
+        best = minimize_scalar(lambda g, found=found: np.abs(curve(RATIOS, g) / found - 1.0).max(), (2.0, 5.0))
+        fronts = [float(film.X[np.argmax(film.P[:, 0] > 0.0)]) for film in solved]
+        name = f"{point.M:g}, {point.L:g}, {point.kappa:g}"
+        print(f"({name}): g {best.x:.2f}, largest deviation {100.0 * best.fun:.1f} %")
+        print("   ", *(f"{r:g}: {h:.3f} at {x:.2f};" for r, h, x in zip(RATIOS, found, fronts, strict=True)))
+        (line,) = axes.plot(RATIOS, found, "o", label=f"({name}), g = {best.x:.1f}")
+        axes.plot(at, curve(at, best.x), color=line.get_color())
+    axes.plot([0.0, 1.0, 3.2], [0.0, 1.0, 1.0], "--", color="grey", linewidth=0.8)
+    axes.set(
+        xlabel="layer of oil over what the flooded film lets through", ylabel="central film over the flooded one"
+    )
+    axes.legend(title="M, L, kappa")
+    figure.savefig(IMAGES / "oil_supply.png", dpi=130)
+
+
+def map_of_a_film() -> None:
+    """Pressure and content of a starved film."""
+    film = solve_steady(CIRCLE, grid=Grid(256), supply=OilLayer(H=LAYER))
+    figure = Figure(figsize=(9.0, 3.6), layout="constrained")
+    Y = np.concatenate([-film.Y[:0:-1], film.Y])
+    for axes, field, words, colours in zip(
+        figure.subplots(1, 2),
+        (film.P, film.content),
+        ("pressure over Hertz's", "part of the gap filled"),
+        ("inferno", "cividis"),
+        strict=True,
+    ):
+        whole = np.concatenate([field[:, :0:-1], field], axis=1)
+        mesh = axes.pcolormesh(film.X, Y, whole.T, cmap=colours, shading="gouraud", rasterized=True)
+        turn = np.linspace(0.0, 2.0 * np.pi, 181)
+        axes.plot(np.cos(turn), np.sin(turn), "--", color="white", linewidth=0.8)
+        axes.set(xlabel="x/a", ylabel="y/b", xlim=(-3.0, 1.5), ylim=(-2.2, 2.2), aspect="equal")
+        figure.colorbar(mesh, ax=axes, label=words)
+    figure.savefig(IMAGES / "oil_content.png", dpi=130)
+
+
+def grids() -> None:
+    """Central film on grids of twice the intervals each."""
+    last = None
+    for n in (64, 128, 256, 512):
+        film = solve_steady(CIRCLE, grid=Grid(n), supply=OilLayer(H=LAYER), tol=1e-8)
+        change = "" if last is None else f", {100.0 * (film.h_central / last - 1.0):+.3f} %"
+        print(f"n {n}: {film.h_central:.6f}{change}")
+        last = film.h_central
+
+
+def case_a() -> None:
+    """The layer that gives the film of Nijenbanning, Venner and Moes (1994), case A, on their region."""
+    point = OperatingPoint(
+        geometry=Geometry(19.05e-3, 152.4e-3, e1=206.8e9, e2=206.8e9),
+        lubricant=Lubricant(eta0=17.9e-3, alpha=1.48e-8, viscosity="barus"),
+        load=992.4,
+        u_sum=49.74,
+    )
+    near = Grid(256, Domain(-2.5, 1.5, 2.05))
+    for grid, supply in ((near, None), (Grid(256), None), (Grid(256), OilLayer(2.2105e-6))):
+        film = solve_steady(point, grid=grid, supply=supply)
+        print(f"{1e6 * film.si.h_central:.3f} um, {1e6 * film.si.h_min:.3f} um", *str(film).splitlines()[4:5])
+
+
+if __name__ == "__main__":
+    map_of_a_film()
+    grids()
+    case_a()
+    films()

@@ -1,0 +1,129 @@
+"""Oil supply: which nodes are partly filled, and the flow that the surfaces carry through them.
+
+The mass balance of a node is that of a full film, with the Couette flow Q through the face behind it in the place
+of what a full gap would carry, G = rho H there (third-order upstream-biased, as in `reynolds.transport_at`):
+
+    d/dX(eps dP/dX) + kappa^2 d/dY(eps dP/dY) - dQ/dX = rhs,    Q <= G,  P >= 0,  P (G - Q) = 0,
+
+the complementarity of pressure and content of Elrod and Adams (1974). A node under pressure is full, Q = G. Where
+P = 0 the flow is what came from upstream and what pressure beside it pressed in, and the first Q of a line is the
+layer that enters, as far as the gap has room for it.
+
+The first full node behind partly filled ones gets a given flow, that of the surfaces and of what is pressed in:
+the face before it is closed to pressure, and its balance is written with Q in the place of the wedge term's part
+there. So its pressure is that of a given flow, not of P = 0 beside it, also within the equations of a line. How
+far Q of the last partly filled node is from the layer towards G is where between two nodes the front lies:
+everything is continuous while the front moves through the nodes.
+"""
+
+from ehlcontact.jit import inner, jit_loop, jit_node
+from ehlcontact.solver.kernels.linearise import NEIGHBOURS, linearise_at
+from ehlcontact.solver.kernels.reynolds import Stencil, update_along
+
+FRONT_GAP = 8.0  # gap over layer that no front lies ahead of at first: it settles faster downstream than upstream
+FITTING = 4.0  # gap at the border over layer, from which the front may lie within the region
+
+
+@jit_node
+def full_flow(j, i, mass):
+    """Couette flow of a full gap through the face behind node i; of node 0 that of `transport_at` at node 1."""
+    if i > 0:
+        return (2.0 * mass[j, i + 1] + 5.0 * mass[j, i] - mass[j, i - 1]) / 6.0
+    return (2.0 * mass[j, 0] + 5.0 * mass[j, 1] - mass[j, 2]) / 6.0
+
+
+@jit_node
+def pressed_in(j, i, P, flow, stencil):
+    """Flow by pressure into a node with P = 0, over its area."""
+    below, face = (j - 1, j - 1) if j > 0 else (1, 0)
+    along = flow.along[j, i] * P[j, i + 1] + flow.along[j, i - 1] * P[j, i - 1]
+    across = flow.across[j, i] * P[j + 1, i] + flow.across[face, i] * P[below, i]
+    return stencil.cx * along + stencil.cy * across
+
+
+@jit_loop
+def open_faces(first, last, flow):
+    """Open all faces on lines `first` to `last` - 1."""
+    for j in range(first, last):
+        for i in range(flow.open.shape[1] - 1):
+            if flow.open[j, i] == 0.0:
+                flow.open[j, i] = 1.0
+                update_along(j, i, flow)
+
+
+@inner
+@jit_loop
+def carry_line(j, P, flow, rhs, inflow, stencil, carried, supplied):
+    """`carry_supply` on line j."""
+    h = 1.0 / stencil.inv_hx
+    full = full_flow(j, 0, flow.mass)
+    carries = min(inflow[j], full)  # Q
+    carried[j, 0] = carries
+    short = full - carries  # of a full gap before this node
+    partly = False  # the node before is; not the border, over which oil may flow back
+    pressed_back = 0.0  # into it, from the one behind it
+    for i in range(1, P.shape[1] - 1):
+        if flow.open[j, i] == 0.0:
+            flow.open[j, i] = 1.0
+            update_along(j, i, flow)
+        full = full_flow(j, i, flow.mass)
+        fills = P[j, i] > 0.0
+        passed = full
+        if not fills:
+            passed = carries + h * (pressed_in(j, i, P, flow, stencil) - rhs[j, i])
+            fills = passed > full
+        if fills and partly:
+            flow.open[j, i - 1] = 0.0
+            flow.along[j, i - 1] = 0.0
+            flow.along_skew[j, i - 1] = 0.0
+            supplied[j, i] = rhs[j, i] - stencil.inv_hx * (carries - pressed_back)
+        else:
+            supplied[j, i] = rhs[j, i] + stencil.inv_hx * short
+        partly = not fills
+        pressed_back = h * stencil.cx * flow.along[j, i] * P[j, i + 1]
+        carries = full if fills else passed
+        short = full - carries
+        carried[j, i] = carries
+
+
+@jit_loop
+def carry_supply(first, last, P, flow, rhs, inflow, stencil, carried, supplied):
+    """Flow through the faces of lines `first` to `last` - 1, from the inlet on, and right-hand sides with it.
+
+    Parameters
+    ----------
+    inflow : array (ny + 1,)
+        The layer that enters.
+    carried : array (ny + 1, nx + 1)
+        Q through the face behind each node, written; ``flow.open`` and ``flow.along`` likewise.
+    supplied : array (ny + 1, nx + 1)
+        Right-hand sides for which `reynolds.operator_at` is the balance above, written. Negative residuals at
+        P = 0 are those of nodes that fill up.
+    """
+    for j in range(first, last):
+        carry_line(j, P, flow, rhs, inflow, stencil, carried, supplied)
+
+
+@jit_loop
+def linearise_pressed_in(P, flow, stencil, p_coef, h_coef, target):
+    """Derivatives of the flow by pressure into partly filled nodes, in the place of those of `linearise`.
+
+    The full node that they lead to gets that flow: ``target[j, i]`` is its flat number where there is such a flow,
+    else -1. All three written.
+    """
+    nx = P.shape[1] - 1
+    still = Stencil(stencil.cx, stencil.cy, 0.0, stencil.lam, stencil.crowding)
+    target[:] = -1
+    for j in range(P.shape[0] - 1):
+        front = -1
+        for i in range(nx - 1, 0, -1):
+            if front >= 0 and P[j, i] == 0.0 and pressed_in(j, i, P, flow, stencil) > 0.0:
+                target[j, i] = front
+                derivatives = linearise_at(j, i, P, flow, still, 0.0, 1.0)
+                for q in range(NEIGHBOURS):
+                    p_coef[q, j, i] = derivatives[q]
+                    h_coef[q, j, i] = derivatives[NEIGHBOURS + q]
+            if flow.open[j, i - 1] == 0.0:
+                front = j * (nx + 1) + i
+            elif P[j, i - 1] > 0.0:
+                front = -1

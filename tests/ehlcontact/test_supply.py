@@ -1,0 +1,288 @@
+"""Oil supply: the film against an independent solution, mass, limits, and what is refused."""
+
+import numpy as np
+import oracles
+import pytest
+
+from ehlcontact import (
+    ConvergenceError,
+    Domain,
+    Grid,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OilLayer,
+    OperatingPoint,
+    Status,
+    load,
+    save,
+    solve_steady,
+)
+
+CIRCLE = MoesPoint(20, 10, 1)
+SMALL = Grid(64)
+
+
+def mean_flow(a, b):
+    """`oracles.flow_mean` of arrays."""
+    s = np.cosh(0.5 * np.log(a / b)) - 1.0
+    return np.sqrt(a * b) * (1.0 + 0.5 * s * s / (1.0 + 0.5 * s))
+
+
+class Twin:
+    """Flows through the faces of a coarse grid, in plain numpy; incompressible oil of Barus.
+
+    One unknown z a node: the pressure where it is positive, where it is negative what is missing of a full gap
+    behind the node. Solved by Newton's method with differences, from the dry contact.
+    """
+
+    def __init__(self, point, domain, nx, ny, layer):
+        self.point, self.layer, self.shape = point, layer, (ny + 1, nx + 1)
+        self.X, self.Y = np.linspace(domain.x_in, domain.x_out, nx + 1), np.linspace(0.0, domain.y_max, ny + 1)
+        self.hx, self.hy = self.X[1] - self.X[0], self.Y[1] - self.Y[0]
+        share = oracles.hertz_gap_share(point.kappa)
+        self.gap = share * self.X**2 + (1.0 - share) * self.Y[:, None] ** 2
+        k, (j, i) = point.kappa, np.indices(self.shape).reshape(2, -1)
+        table = [[oracles.influence(a * self.hx, b * self.hy, self.hx, self.hy, k) for a in range(nx + 1)]
+                 for b in range(2 * ny + 1)]  # fmt: skip
+        table, apart = np.array(table), np.abs(i[:, None] - i)
+        image = np.where(j > 0, table[j[:, None] + j, apart], 0.0)
+        self.film_by = table[np.abs(j[:, None] - j), apart] + image
+        self.inner = np.zeros(self.shape, bool)
+        self.inner[:-1, 1:-1] = True
+        weights = np.full(self.shape, 3.0 / np.pi * self.hx * self.hy)
+        weights[0] *= 0.5
+        self.weights = weights
+
+    def fields(self, x):
+        """Pressure, film, and Couette flow through the faces behind the nodes."""
+        z = np.zeros(self.shape)
+        z[self.inner] = x[:-1]
+        P, missing = np.maximum(z, 0.0), np.maximum(-z, 0.0)
+        H = self.gap - x[-1] + (self.film_by @ P.ravel()).reshape(self.shape)
+        full = np.zeros(self.shape)
+        full[:, 1:-1] = H[:, 1:-1] / 2.0 + H[:, 2:] / 2.0 - (H[:, 2:] - 2.0 * H[:, 1:-1] + H[:, :-2]) / 6.0
+        carried = full - missing
+        # a parabola through the first three nodes, in the mean over the node's own cell
+        first = H[:, 0] / 2.0 + H[:, 1] / 2.0 - (H[:, 2] - 2.0 * H[:, 1] + H[:, 0]) / 6.0
+        carried[:, 0] = np.minimum(self.layer, first)
+        return P, H, carried
+
+    def residual(self, x):
+        """What comes into every node less what leaves it, and the load."""
+        P, H, carried = self.fields(x)
+        eps = H**3 * np.exp(-self.point.alpha_bar * P) / self.point.lam
+        mean = mean_flow
+        inflow = np.zeros(self.shape)
+        along = carried[:, :-1] + mean(eps[:, :-1], eps[:, 1:]) * (P[:, :-1] - P[:, 1:]) / self.hx
+        across = self.point.kappa**2 * mean(eps[:-1], eps[1:]) * (P[:-1] - P[1:]) / self.hy
+        inflow[:, 1:-1] += (along[:, :-1] - along[:, 1:]) * self.hy
+        inflow[:-1] -= across * self.hx
+        inflow[1:] += across * self.hx
+        inflow[0] -= across[0] * self.hx  # the line on the other side of the symmetry line
+        return np.append(inflow[self.inner], 1.0 - np.sum(self.weights * P))
+
+    def solve(self):
+        dry = np.sqrt(np.maximum(0.0, 1.0 - self.X**2 - self.Y[:, None] ** 2))
+        x = np.append(np.where(dry > 0.0, dry, -self.gap)[self.inner], 0.4)
+        for _ in range(200):
+            r = self.residual(x)
+            if np.abs(r).max() < 1e-12:
+                return self.fields(x), x[-1]
+            h = 1e-7
+            J = np.array([(self.residual(x + h * e) - r) / h for e in np.eye(x.size)]).T
+            step = np.linalg.solve(J, -r)
+            x = x + step * min(1.0, 0.2 / np.abs(step).max())
+        raise AssertionError("the twin does not converge")
+
+
+def starved(point, ratio, flooded, **options):
+    """Film under a layer of `ratio` times what the flooded film lets through."""
+    from ehlcontact.lubricant import density
+
+    layer = ratio * float(density(1.0, point.law)[0]) * flooded.h_central
+    return solve_steady(point, supply=OilLayer(H=layer), **options)
+
+
+def lost(film):
+    """What enters less what leaves, over what enters."""
+    lines = np.ones(film.Y.size)
+    lines[0], lines[-1] = 0.5, 0.0  # the border has no cell
+    return float(lines @ (film.layer - film.layer_behind)) / float(lines @ film.layer)
+
+
+@pytest.mark.parametrize(("kappa", "layer"), [(0.7, 0.3), (1.0, 0.15)])
+def test_film_is_that_of_an_independent_solution(kappa, layer):
+    point = MoesPoint(20, 5, kappa, viscosity="barus", density="incompressible")
+    domain = Domain(-3.0, 1.5, 2.25)
+    film = solve_steady(point, grid=Grid(16, domain, "direct"), supply=OilLayer(H=layer), tol=1e-12)
+    (P, H, carried), u = Twin(point, domain, 16, film.Y.size - 1, layer).solve()
+    assert film.approach == pytest.approx(u, abs=1e-9)
+    np.testing.assert_allclose(film.P.T, P, atol=1e-9)
+    np.testing.assert_allclose(film.H.T, H, atol=1e-9)
+    np.testing.assert_allclose(film.layer_behind[:-1], carried[:-1, -2], atol=1e-9)
+    assert P[0, 1:4].max() == 0.0 < P[0, 7]  # the front lies within the region
+
+
+@pytest.mark.parametrize(("M", "L", "kappa"), [(20, 10, 1), (200, 10, 0.5), (2900, 19, 0.11), (100, 5, 2)])
+def test_much_oil_is_a_flooded_inlet(M, L, kappa):
+    point, grid = MoesPoint(M, L, kappa), Grid(128)
+    flooded = solve_steady(point, grid=grid, tol=1e-9, throw=False)  # the last film is too thin for this grid
+    film = solve_steady(point, grid=grid, supply=OilLayer(H=1e5), tol=1e-9, throw=False)
+    assert film.status is flooded.status
+    assert film.h_central == pytest.approx(flooded.h_central, rel=1e-6)
+    assert film.h_min == pytest.approx(flooded.h_min, rel=1e-6)
+    np.testing.assert_allclose(film.P, flooded.P, atol=1e-6)
+
+
+SPREAD = [(9, 4.7, 1.1, 0.76), (79, 11.7, 0.91, 1.81), (1501, 11.7, 0.41, 1.19), (342, 18.6, 0.19, 0.85)]
+FURTHER = [
+    (9, 8.7, 0.42, 0.29), (549, 2.3, 0.32, 0.66), (31, 13.0, 0.8, 0.39), (5, 19.5, 0.24, 0.41),
+    (6, 14.1, 0.31, 0.25), (34, 14.8, 0.87, 0.33), (1010, 13.2, 0.77, 1.32), (78, 15.2, 1.39, 0.25),
+    (1148, 7.9, 0.42, 0.28),
+    (436, 5.8, 1.36, 0.38), (182, 8.0, 0.63, 0.31), (16, 14.9, 0.95, 0.74), (2388, 12.5, 0.62, 1.87),
+    (768, 15.8, 0.12, 0.47), (20, 10, 1, 3.0), (200, 10, 0.5, 2.0),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("M", "L", "kappa", "ratio"), SPREAD + [pytest.param(*p, marks=pytest.mark.slow) for p in FURTHER]
+)
+def test_what_enters_leaves(M, L, kappa, ratio):
+    point = MoesPoint(M, L, kappa)
+    flooded = solve_steady(point, refine=False)
+    film = starved(point, ratio, flooded, grid=Grid(flooded.n, flooded.domain), tol=1e-10)
+    assert not film.P[:, -2].any()  # nothing leaves over the sides
+    assert abs(lost(film)) < 1e-8
+
+
+def test_region_does_not_matter_where_the_layer_is_given():
+    near, far = Grid(96, Domain(-4.5, 1.5, 3.0)), Grid(144, Domain(-6.75, 2.25, 4.5))  # meshes of one size
+    flooded = solve_steady(CIRCLE, grid=near)
+    films = [starved(CIRCLE, 1.0, flooded, grid=grid, tol=1e-8) for grid in (near, far)]
+    assert films[1].h_central == pytest.approx(films[0].h_central, rel=1e-6)
+    assert films[1].h_min == pytest.approx(films[0].h_min, rel=1e-6)
+    assert solve_steady(CIRCLE, grid=far).h_central > 1.005 * flooded.h_central
+
+
+@pytest.mark.parametrize(
+    ("M", "L", "kappa", "low", "high"), [(20, 10, 1, 2, 5), (200, 10, 1, 2, 5), (200, 10, 0.5, 2, 15)]
+)
+def test_film_over_supply_is_the_published_curve(M, L, kappa, low, high):
+    """h/h_ff = r/(1 + r^g)^(1/g), g of the point: 2 to 5 for circles, to 15 for wide ellipses (Chevalier 1998)."""
+    point, ratios = MoesPoint(M, L, kappa), np.array([0.3, 0.6, 1.0, 1.5, 3.0])
+    flooded = solve_steady(point, grid=Grid(128))
+    found = [starved(point, r, flooded, grid=Grid(128)).h_central / flooded.h_central for r in ratios]
+    exponents = np.linspace(low, high, 500)[:, None]
+    off = np.abs(ratios / (1.0 + ratios**exponents) ** (1.0 / exponents) / found - 1.0).max(axis=1)
+    assert off.min() < 0.03
+    assert np.all(np.diff(found) > 0.0)
+
+
+@pytest.mark.slow
+def test_order_of_the_central_film():
+    grids = 64, 128, 256, 512
+    layer = 0.495
+    films = [solve_steady(CIRCLE, grid=Grid(n), supply=OilLayer(H=layer), tol=1e-8).h_central for n in grids]
+    steps = np.abs(np.diff(films))
+    assert steps[-1] < 3e-4 * films[-1]
+    assert steps[-1] < 0.6 * steps[0]
+
+
+def test_newton_steps_find_the_same_film():
+    given = {"grid": SMALL, "supply": OilLayer(H=0.5), "tol": 1e-10}
+    cycles, newton = (solve_steady(CIRCLE, method=way, **given) for way in ("multigrid", "newton"))
+    assert newton.approach == pytest.approx(cycles.approach, abs=1e-9)
+    np.testing.assert_allclose(newton.P, cycles.P, atol=1e-8)
+    np.testing.assert_allclose(newton.content, cycles.content, atol=1e-6)
+
+
+def test_content_and_pressure_exclude_each_other():
+    film = solve_steady(CIRCLE, grid=SMALL, supply=OilLayer(H=0.5))
+    assert (film.content > 0.0).all()
+    assert (film.content <= 1.0).all()
+    assert not (film.P * (1.0 - film.content)).any()
+    np.testing.assert_allclose(film.content[:20, 0] * film.H[:20, 0], 0.5, rtol=1e-12)  # carried as it came
+    ridge = film.layer_behind / film.layer  # pressed aside
+    assert ridge[0] < 0.8
+    assert ridge.max() > 1.2
+    assert ridge[-5:] == pytest.approx(1.0)
+
+
+def test_layers_over_y():
+    flooded = solve_steady(CIRCLE, grid=SMALL)
+    track = OilLayer(H=[0.1, 0.1, 1.0, 1.0], y=[0.0, 0.9, 1.1, 3.0])
+    worn = solve_steady(CIRCLE, grid=SMALL, supply=track, tol=1e-9)
+    assert 0.08 < worn.h_central < 0.5 * flooded.h_central
+    assert abs(lost(worn)) < 1e-8
+    following = solve_steady(CIRCLE, grid=SMALL, supply=worn.supply_behind)
+    assert following.h_central < worn.h_central
+    with pytest.raises(InputError, match="what leaves a flooded contact is not known"):
+        _ = flooded.supply_behind
+
+
+def test_layer_in_metres_and_over_the_flooded_film(tmp_path):
+    point = OperatingPoint.ball_on_flat(
+        Lubricant(eta0=0.04, alpha=2.2e-8), ball_diameter=0.02, entrainment_speed=1.0, load=20.0
+    )
+    film = solve_steady(point, grid=SMALL, supply=OilLayer(over_flooded=0.8), tol=1e-8)
+    np.testing.assert_allclose(film.si.layer, film.layer * film.scales.length, rtol=1e-14)
+    h = float(film.si.layer[0])
+    again = solve_steady(point, grid=SMALL, supply=OilLayer(h), tol=1e-8)
+    assert again.h_central == pytest.approx(film.h_central, rel=1e-9)
+    assert again.si.layer_behind.max() > h
+    kept = load(save(again, tmp_path / "film.h5"))
+    assert kept.supply == again.supply == OilLayer(h=h)
+    np.testing.assert_array_equal(kept.content, again.content)
+    again.plot(tmp_path / "film.png")
+
+
+def test_results_do_not_depend_on_threads():
+    given = {"grid": Grid(256), "supply": OilLayer(H=0.1), "max_cycles": 2, "throw": False}
+    one, two = (solve_steady(MoesPoint(200, 10, 0.5), threads=threads, **given) for threads in (1, 2))
+    np.testing.assert_array_equal(one.P, two.P)
+    np.testing.assert_array_equal(one.content, two.content)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({}, "exactly one of h, over_flooded and H"),
+        ({"h": 1e-7, "H": 1.0}, "'h and H': must be exactly one"),
+        ({"h": -1e-7}, ">= 0"),
+        ({"h": 0.4}, "between 0 and 0.001 m; is it in um?"),
+        ({"h": 0.0}, "without oil the contact is dry"),
+        ({"over_flooded": float("nan")}, "over_flooded of the supply = nan"),
+        ({"h": "thick"}, "h of the supply = 'thick'"),
+        ({"h": [1e-7, 2e-7]}, "given with several thicknesses"),
+        ({"h": 1e-7, "y": [0.0]}, "left out with one"),
+        ({"h": [1e-7, 2e-7], "y": [0.0, 1.0, 2.0]}, "length of y of the supply = 3"),
+        ({"h": [1e-7, 2e-7], "y": [1.0, 0.0]}, "y of the supply"),
+        ({"h": [1e-7, 2e-7], "y": [-1.0, 0.0]}, "the layer is even in y"),
+        ({"H": [0.0, -1.0], "y": [0.0, 1.0]}, "H of the supply = -1.0"),
+    ],
+)
+def test_layers_that_are_none(given, message):
+    with pytest.raises(InputError, match=message.replace("?", r"\?")):
+        OilLayer(**given)
+
+
+def test_what_does_not_go_together():
+    with pytest.raises(InputError, match="over_flooded or H at a dimensionless point"):
+        solve_steady(CIRCLE, supply=OilLayer(1e-7))
+    with pytest.raises(InputError, match=r"an OilLayer\(h, ...\)"):
+        solve_steady(CIRCLE, supply=1e-7)
+    near = Grid(64, Domain(-2.0, 1.5, 2.0))
+    with pytest.raises(ConvergenceError, match="full film begins ahead of the computed region") as beyond:
+        solve_steady(CIRCLE, grid=near, supply=OilLayer(H=1.0))
+    assert beyond.value.result.status is Status.BEYOND_REGION
+    with pytest.raises(ConvergenceError, match="let more oil in") as away:
+        solve_steady(CIRCLE, grid=SMALL, supply=OilLayer(H=1e-4))
+    assert away.value.result.status is Status.STARVED
+
+
+def test_region_grows_with_the_layer_where_it_is_left_open():
+    film = solve_steady(CIRCLE, supply=OilLayer(H=4.0), refine=False)
+    assert film.status.ok
+    assert film.domain.x_in < -4.5
+    assert film.domain.y_max == 3.0
