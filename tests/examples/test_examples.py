@@ -279,6 +279,15 @@ def test_a_rotor_on_bearing_fmus(tmp_path):
     assert np.ptp(found["wanted"].displacement[:, 2]) > 2e-7
 
 
+def test_a_rotor_in_exudyn(tmp_path):
+    """Of another program: steps of w h = 0.1 give the run in one."""
+    pytest.importorskip("exudyn")
+    found = example("rotor_in_exudyn").main(str(tmp_path / "rotor.png"))
+    assert (tmp_path / "rotor.png").read_bytes().startswith(PNG)
+    assert found["gap"].max() < 0.03
+    assert np.ptp(found["wanted"].displacement[:, 4]) > 1e-6
+
+
 @pytest.mark.slow  # 18 000 steps of three FMUs
 def test_a_gear_free_drive(tmp_path):
     """Through the critical speed of disc and shaft, 3370 rev/min; torque is lost to bearings and unbalance."""
