@@ -5,7 +5,8 @@ A harmonic approach ``u + du exp(i Omega T)`` makes a pressure ``P + dP exp(i Om
     (J + i Omega B) dP = -(j + i Omega b) du      on the nodes with P > 0,
 
 J and j being the derivatives of the steady Reynolds operator to P and u with full elasticity, B and b those of
-the squeeze term. The impedance is ``Z(Omega) = 3/(2 pi) iint dP / du = K + i Omega C``.
+the squeeze term. The impedance is ``Z(Omega) = 3/(2 pi) iint dP / du = K + i Omega C``: force over displacement,
+the dynamic stiffness, not the mechanical impedance (force over velocity).
 
 Both grids of half and a quarter of the intervals give an error estimate of K and C (`solver.error_grids`).
 

@@ -52,7 +52,7 @@ class OilLayer:
     Examples
     --------
     >>> OilLayer(0.4e-6).h
-    0.4e-06
+    4e-07
     """
 
     h: Any = None

@@ -247,7 +247,7 @@ class Seat(NamedTuple):
     bearing: BallBearing | LinearBearing
     facing: str
     offset: float  # m
-    arm: float  # m
+    arm: float  # m, axial distance of the plane of its groove centres from the node
     slides: bool  # its outer ring is free along the shaft
 
 
