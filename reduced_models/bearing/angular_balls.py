@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.jit import jit_exact, jit_exact_loop
+from ehlcontact.jit import inner, jit_exact, jit_exact_loop
 from reduced_models.bearing.contact_angles import Grooves, ball_forces, film_factors, inner_span, rolling
 from reduced_models.bearing.loss import Loss
 from reduced_models.bearing.race_contact import curve, film_curve, film_cutoff
@@ -81,6 +81,7 @@ def places_of(balls: AngularBalls) -> BallPlaces:
     )
 
 
+@inner
 @jit_exact
 def static_contact(law, u, film):
     """Static force [N] at approach `u` [m], its slopes by u and by `film`, the film over that of the table."""
@@ -105,6 +106,7 @@ def _press(balls, b_r, b_z, c_r, c_z):
     return at, inner, outer, ball_forces(g, balls.omega, at, inner[1], outer[1]), (g_i, by_i, g_o, by_o)
 
 
+@inner
 @jit_exact
 def _geometric(balls, b_r, b_z, c_r, c_z, now, out):
     """Derivatives of all forces by b and c, both contact forces following their film but not their approach."""
@@ -124,6 +126,7 @@ def _geometric(balls, b_r, b_z, c_r, c_z, now, out):
             out[i, j] = forces[i].imag / h
 
 
+@inner
 @jit_exact
 def _stretched(geometric, at, k_i, k_o, out):
     """All derivatives by b and c, with the stiffness of both contacts."""
@@ -154,6 +157,7 @@ def _start(balls, c_r, c_z):
     return outward * c_r / length, outward * c_z / length
 
 
+@inner
 @jit_exact
 def _convex_step(at, inner, outer, forces):
     """Newton's step with the springs alone, whose stiffness k n n^T + Q/l (1 - n n^T) is positive definite."""
@@ -168,6 +172,7 @@ def _convex_step(at, inner, outer, forces):
     return (zz * forces[0] - rz * forces[1]) / det, (rr * forces[1] - rz * forces[0]) / det
 
 
+@inner
 @jit_exact
 def _moved(b_r, b_z, d_r, d_z, t, arc):
     """Place of a ball after a share t of the step `d` and the direction of the step there.
@@ -206,6 +211,7 @@ def _line_search(balls, b_r, b_z, d_r, d_z, c_r, c_z, slope, arc):
     return t
 
 
+@inner
 @jit_exact
 def _search(balls, b_r, b_z, c_r, c_z, geometric, full):
     """Place of a ball in balance from `b`, and whether it was found."""
@@ -255,6 +261,7 @@ def _search(balls, b_r, b_z, c_r, c_z, geometric, full):
     return b_r, b_z, False
 
 
+@inner
 @jit_exact
 def _seat(balls, k, c_r, c_z, places, full):
     """Balance ball `k`: its force and tangents; not a number where it finds no balance."""

@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.jit import jit_exact_loop, jit_exact_node
+from ehlcontact.jit import inner, jit_exact_loop, jit_exact_node
 from reduced_models.bearing.angular_balls import COMPLEX_STEP, FAR, FIRST_STEP, FREEDOMS, AngularBalls, ring_map
 from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_angles import INNER, SHARED, ball_forces, film_factors, inner_span, rolling
@@ -155,6 +155,7 @@ def begin_angular_rest(balls, omega, angle, films):
     hold_still(films.loss)
 
 
+@inner
 @jit_exact_loop
 def _turn_maps(balls, films):
     """Maps from the ring to the groove centres at the angles that the balls have now."""
@@ -195,6 +196,7 @@ def _rolls(balls, b_r, b_z, c_r, c_z):
     return rolling(g, b_r, b_z, c_r, c_z, g_i, g_o)
 
 
+@inner
 @jit_exact_loop
 def _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, out):
     """Derivatives of centrifugal force and gyroscopic moment by b and c, by complex steps."""
@@ -315,6 +317,7 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
     return False
 
 
+@inner
 @jit_exact_loop
 def _place_ball(balls, k, c, films):
     """First place of ball `k`: on the line between the groove centres, dry contacts in balance if they touch."""

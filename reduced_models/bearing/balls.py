@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.jit import jit_exact_loop, jit_exact_node
+from ehlcontact.jit import inner, jit_exact_loop, jit_exact_node
 from reduced_models.bearing.loss import (
     Loss,
     Seat,
@@ -40,6 +40,7 @@ from reduced_models.bearing.race_contact import (
 )
 from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.elements.film_filters import CHAIN, DIRECT
+from reduced_models.elements.film_law import interval
 
 _Floats = NDArray[np.float64]
 
@@ -114,12 +115,13 @@ def films_of(balls: Balls) -> Films:
     )
 
 
+@inner
 @jit_exact_loop
 def row_of_speed(speeds, omega):
     """Row of the tables made at increasing `speeds` of the shaft, and weight of the next, at the speed `omega`."""
     if speeds.size < 2:
         return 0, 0.0
-    row = min(max(np.searchsorted(speeds, omega) - 1, 0), speeds.size - 2)
+    row = min(max(interval(speeds, omega), 0), speeds.size - 2)
     low, high = speeds[row] ** FILM_GROWTH, speeds[row + 1] ** FILM_GROWTH
     return row, (omega**FILM_GROWTH - low) / (high - low)
 

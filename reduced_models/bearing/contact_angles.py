@@ -34,7 +34,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ehlcontact.jit import jit_exact
+from ehlcontact.jit import inner, jit_exact
 
 CONTROLS = ("outer", "inner", "shared", "harris")
 OUTER, INNER, SHARED, HARRIS = range(4)
@@ -88,6 +88,7 @@ class Rolling(NamedTuple):
     u_o: float
 
 
+@inner
 @jit_exact
 def _rolls_at(cosine, sine):
     """Cosine and sine of the angle at which a ball rolls on a race, at most that of `LEAST_COSINE`."""
@@ -97,12 +98,14 @@ def _rolls_at(cosine, sine):
     return LEAST_COSINE + 0.0 * cosine, (most if sine.real >= 0.0 else -most) + 0.0 * sine
 
 
+@inner
 @jit_exact
 def _at_least(value, least):
     """The value, or a constant where it would be smaller."""
     return value if value.real > least else least + 0.0 * value
 
 
+@inner
 @jit_exact
 def inner_span(b_r, b_z, c_r, c_z):
     """Length of the inner spring and the vector along it.
@@ -147,6 +150,7 @@ def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     )  # fmt: skip
 
 
+@inner
 @jit_exact
 def film_factors(g, at):
     """Films at both races over those of the tables, whose contacts have the nominal angle, at the same load."""
@@ -159,6 +163,7 @@ def film_factors(g, at):
     return film_i, film_o
 
 
+@inner
 @jit_exact
 def ball_forces(g, omega, at, q_i, q_o):
     """Forces on a ball in (r, z) [N] and its inner contact, the contacts pressed by `q_i` and `q_o` [N].

@@ -28,6 +28,7 @@ from reduced_models.bearing.angular_balls import FREEDOMS, ring_map
 from reduced_models.bearing.contact_angles import ball_forces, film_factors, inner_span, rolling
 from reduced_models.bearing.race_contact import curve, film_curve, film_cutoff, film_made, gain
 from reduced_models.elements.film_filters import DIRECT, filter_rates
+from reduced_models.elements.film_law import interval
 
 _Floats = NDArray[np.float64]
 
@@ -46,7 +47,7 @@ def _held(law, transit, speed_row, film, u, states, first):
     if law.x.size == 0:
         return g, 0.0, law.kn, 0.0, 1.0
     tau, x, last = transit * sqrt(g), law.log_kn + 1.5 * log(g), law.x.size - 2
-    row = min(max(np.searchsorted(law.x, x) - 1, 0), last)
+    row = min(max(interval(law.x, x), 0), last)
     weight = min(max((x - law.x[row]) / (law.x[row + 1] - law.x[row]), 0.0), 1.0)
     film, carried, dashpot, made = g, 0.0, 0.0, film_made(law, speed_row, x)
     for j in range(law.gains.shape[2]):

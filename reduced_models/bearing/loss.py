@@ -26,7 +26,7 @@ from scipy.optimize import nnls
 
 from ehlcontact.checks import require_nonnegative
 from ehlcontact.errors import InputError
-from ehlcontact.jit import jit_exact_loop
+from ehlcontact.jit import inner, jit_exact_loop
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -82,6 +82,7 @@ def response(loss: Loss, s: _Complex) -> _Complex:
     return np.asarray(1.0 + (loss.gains * s / (s + loss.rates)).sum(axis=-1))
 
 
+@inner
 @jit_exact_loop
 def begin_loss(loss, dt, state):
     """Work out a step: the force runs straight from its start to its end."""
@@ -98,6 +99,7 @@ def begin_loss(loss, dt, state):
             rows[PAST, j] += loss.gains[k] * (left * rows[HELD + k, j] + step[1, k] * rows[BEFORE, j])
 
 
+@inner
 @jit_exact_loop
 def rest_loss(state):
     """Put the filters at rest under the force tried last."""
@@ -106,6 +108,7 @@ def rest_loss(state):
             state.rows[k, j] = 0.0 if k == PAST else state.rows[RAW, j]
 
 
+@inner
 @jit_exact_loop
 def hold_still(state):
     """Make the step one in which nothing is lost."""
@@ -113,6 +116,7 @@ def hold_still(state):
     state.rows[PAST] = 0.0
 
 
+@inner
 @jit_exact_loop
 def apply_loss(state, force, stiffness, damping):
     """Turn the force of the balls at the end of the step, and its tangents, into those with losses."""
@@ -126,6 +130,7 @@ def apply_loss(state, force, stiffness, damping):
             damping[j, k] *= state.lift[0]
 
 
+@inner
 @jit_exact_loop
 def accept_loss(state):
     """Move on to the end of the step, with the force that was tried last."""

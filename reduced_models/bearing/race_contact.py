@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from math import log, sqrt
 
-from ehlcontact.jit import jit_exact_called_node, jit_exact_loop, jit_exact_node
+from ehlcontact.jit import inner, jit_exact_called_node, jit_exact_loop, jit_exact_node
 from reduced_models.bearing.race_table import CELLS
 from reduced_models.elements.film_curve import RIGID_SLOPE
 from reduced_models.elements.film_filters import (
@@ -304,6 +304,7 @@ def accept_contact(law, transit, speed_row, film, films, c, u, v):
     return lift
 
 
+@inner
 @jit_exact_loop
 def clear_filters(films):
     """Clear what the filters add, so that `contact_force` gives the static force."""

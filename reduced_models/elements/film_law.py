@@ -29,7 +29,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.jit import jit_exact
+from ehlcontact.jit import inner, jit_exact
 from reduced_models.elements.film_filters import (
     CHAIN,
     DIRECT,
@@ -67,6 +67,23 @@ class FilmLaw(NamedTuple):
 
 
 @jit_exact
+def interval(knots, x):
+    """Index of the last of the increasing `knots` below `x`, -1 where none is.
+
+    Not np.searchsorted, which takes as long to compile as all of `film_step`.
+    """
+    low, high = 0, knots.size
+    while low < high:
+        middle = (low + high) // 2
+        if knots[middle] < x:
+            low = middle + 1
+        else:
+            high = middle
+    return low - 1
+
+
+@inner
+@jit_exact
 def _film(x, law):
     """Film h_s and dh_s/dx at x = ln F: Hermite between the nodes, straight beyond them."""
     n = law.x.size
@@ -76,7 +93,7 @@ def _film(x, law):
     if not x < law.x[n - 1]:  # or not a number
         h = exp(law.y[n - 1] + law.slope[n - 1] * (x - law.x[n - 1]))
         return h, h * law.slope[n - 1]
-    k = np.searchsorted(law.x, x) - 1
+    k = interval(law.x, x)
     w = law.x[k + 1] - law.x[k]
     t = (x - law.x[k]) / w
     d = law.y[k + 1] - law.y[k]
@@ -103,7 +120,9 @@ def static(u, law):
         low = law.x[n - 1]
         x = low
     else:
-        k = np.searchsorted(law.u, u, side="right") - 1
+        k = interval(law.u, u)
+        if law.u[k + 1] == u:
+            k += 1
         low, high = law.x[k], law.x[k + 1]
         x = low + (high - low) * (u - law.u[k]) / (law.u[k + 1] - law.u[k])
     g, du = 0.0, 1.0
@@ -127,6 +146,7 @@ def static(u, law):
     return x, g, 2.0 / 3.0 * g / (2.0 / 3.0 * g - _film(x, law)[1])
 
 
+@inner
 @jit_exact
 def _one_lag(old, start, end, bump, rate, span):
     """Jet of one lag at the end of a step; end, bump and span are jets."""
@@ -138,6 +158,7 @@ def _one_lag(old, start, end, bump, rate, span):
     return through3(value, slope * rate, span, r0 - r1, end, 6.0 * (r1 - r2), bump)
 
 
+@inner
 @jit_exact
 def _entering(s, saturation):
     """Film that enters the chain, of a jet."""
@@ -145,6 +166,7 @@ def _entering(s, saturation):
     return through(x, slope, s)
 
 
+@inner
 @jit_exact
 def _between(x, law):
     """Rows of gains on both sides of x = ln F, weight of the second, and its slope."""
@@ -153,11 +175,12 @@ def _between(x, law):
         return 0, min(1, rows - 1), 0.0, 0.0
     if not x < law.gain_x[rows - 1]:
         return rows - 2, rows - 1, 1.0, 0.0
-    row = np.searchsorted(law.gain_x, x) - 1
+    row = interval(law.gain_x, x)
     per_x = 1.0 / (law.gain_x[row + 1] - law.gain_x[row])
     return row, row + 1, (x - law.gain_x[row]) * per_x, per_x
 
 
+@inner
 @jit_exact
 def _gain(k, law, between):
     """Gain `k` at the load."""
@@ -165,6 +188,7 @@ def _gain(k, law, between):
     return law.gains[row, k] * (1.0 - weight) + law.gains[after, k] * weight
 
 
+@inner
 @jit_exact
 def _made(x, law):
     """Film that a unit of phi lets into the chain at x = ln F, and its slope."""
@@ -178,6 +202,7 @@ def _made(x, law):
     return here + weight * (there - here), (there - here) * per_x
 
 
+@inner
 @jit_exact
 def _weighed(k, q, law, between, x_u):
     """Filter `k` times its gain at the load, whose ln F has the slope `x_u`."""
@@ -260,6 +285,7 @@ def film_drive(law, T, u, v, force):
         state, other = other, state
 
 
+@inner
 @jit_exact
 def _film_of_states(law, between, made, states):
     """Film that the states add."""

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.jit import jit_exact_loop
+from ehlcontact.jit import inner, jit_exact_loop
 from reduced_models.bearing.ball_steps import accept, begin_balls, press
 from reduced_models.rotor.prepared_run import DISPLACEMENTS, PreparedRun
 from reduced_models.rotor.time_step import Steps, rounding_hint
@@ -158,7 +158,7 @@ def run_block(steps, balls, films, rings, state, course, limits, out):
     return speed.size, DONE
 
 
-@jit_exact_loop
+@jit_exact_loop(inline="always")
 def _foresee(steps, rings, state, forces):
     """Where the step would end without forces of the bearings at its end, and where it is expected to."""
     size, share = state.shape[1], 1.0 - steps.weight
@@ -188,7 +188,7 @@ def _foresee(steps, rings, state, forces):
         tried[R, j] = 3.0 * (r[0, j] - r[1, j]) + r[2, j]
 
 
-@jit_exact_loop
+@jit_exact_loop(inline="always")
 def _balance(steps, balls, films, rings, speed, allowed):
     """Newton's method for D (r - r_free) + weight F = 0; returns how often it asked, 0 where it does not end."""
     tried, system, n, ring, ties = rings.tried, rings.system, rings.force.size, rings.ring, rings.ties
@@ -251,6 +251,7 @@ def _balance(steps, balls, films, rings, speed, allowed):
     return 0
 
 
+@inner
 @jit_exact_loop
 def _solve(system):
     """Gauss with pivots: the last column becomes the solution."""
@@ -272,7 +273,7 @@ def _solve(system):
         system[k, n] /= system[k, k]
 
 
-@jit_exact_loop
+@jit_exact_loop(inline="always")
 def _finish(steps, rings, state, forces):
     """Move rotor and rings to the end of the step."""
     tried, r = rings.tried, rings.r

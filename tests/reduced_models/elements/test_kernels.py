@@ -56,6 +56,7 @@ CASES = {
         "filter_rates": [(FILM, 0.2, 0.7, 0.9, 0.2, STATE[3:], np.zeros(4))],
     },
     film_law: {
+        "interval": [(POINTS, x) for x in (-1.0, -0.3, 0.5, 1.3, 2.0)],
         "_film": [(x, FILM) for x in (-9.0, -1.0, 0.3, 4.0)],
         "static": [(u, FILM) for u in (-1e9, -3.0, 0.0, 0.9, 5.0)],
         "_one_lag": [(0.1, 0.2, A, B, rate, C) for rate in (0.3, 3.0)],
@@ -100,3 +101,10 @@ def test_compiled_and_plain_are_twins(module, name):
         for a, b in zip(ours, theirs, strict=True):  # what it wrote
             if isinstance(a, np.ndarray):
                 np.testing.assert_allclose(a, b, rtol=1e-13, atol=1e-300)
+
+
+def test_interval_is_that_of_numpy():
+    for size in range(5):
+        knots = POINTS[:size]
+        for x in [-9.0, *POINTS, *(POINTS + 1e-3)]:
+            assert film_law.interval(knots, x) == np.searchsorted(knots, x) - 1
