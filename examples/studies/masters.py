@@ -94,17 +94,22 @@ def measure(loop: Loop, steps: tuple[float, ...] = STEPS) -> dict[tuple[str, str
     }
 
 
-def picture(path: Path, found: dict[tuple[str, str], np.ndarray]) -> Any:
+def picture(
+    path: Path,
+    found: dict[tuple[str, str], np.ndarray],
+    steps: tuple[float, ...] = STEPS,
+    over: str = "that of the contact",
+) -> Any:
     """Damping over the step."""
     from matplotlib.figure import Figure
 
     axes = (figure := Figure(figsize=(7.5, 3.6), layout="constrained")).add_subplot()
-    for ((master, mass), damping), look in zip(found.items(), ("o-", "s-", "^-", "v-", "x:"), strict=True):
+    for ((master, mass), damping), look in zip(found.items(), ("o-", "s-", "^-", "v-", "x:"), strict=False):
         lead = LEADS.get((master, mass))
         text = f"{master}, mass {mass}" + ("" if lead is None else f": lead {lead:g}")
-        axes.plot(STEPS, damping, look, label=text, markersize=4)
+        axes.plot(steps, damping, look, label=text, markersize=4)
     axes.axhspan(1.0 - ALLOWED, 1.0 + ALLOWED, color="0.9")
-    axes.set(xscale="log", xlabel="step [s]", ylabel="damping over that of the contact", ylim=(-1.0, 3.0))
+    axes.set(xscale="log", xlabel="step [s]", ylabel=f"damping over {over}", ylim=(-1.0, 3.0))
     axes.legend(frameon=False, fontsize="small", loc="upper left")
     figure.savefig(path, dpi=110)
     return figure

@@ -6,6 +6,8 @@ Needs the extra ``importers``.
 import subprocess
 import sys
 import zipfile
+from pathlib import Path
+from runpy import run_path
 
 import pytest
 from mass_on_bearing import decay, in_one_run
@@ -101,3 +103,12 @@ def test_a_mass_of_others_keeps_the_damping(fmus, model, wanted, master, h, with
     count = round(UNTIL / h)
     up, down = (master(system(fmus, model, name, h), h, count, "mass", ["y"])[-count:, 0] for name in KICKS)
     assert decay(up - down, h) == pytest.approx(wanted, rel=within)
+
+
+def test_a_rotor_on_two_bearing_fmus(tmp_path, monkeypatch):
+    """The table of the documentation: every master and mass, with the lead that fits."""
+    studies = Path(__file__).parents[3] / "examples" / "studies"
+    monkeypatch.syspath_prepend(str(studies))  # it imports another study
+    study = run_path(str(studies / "bearing_masters.py"))
+    for damping in study["measure"](study["Loop"](tmp_path), (3e-5,)).values():
+        assert damping == pytest.approx(1.0, abs=0.02)
