@@ -39,6 +39,7 @@ from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
+from ehlcontact.supply import OilLayer
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -64,6 +65,7 @@ def impedance(
     hz: ArrayLike | None = None,
     rpm: ArrayLike | None = None,
     grid: Grid = AUTOMATIC,
+    supply: OilLayer | None = None,
     threads: int | None = None,
 ) -> ImpedanceResult:
     """Linearise the converged steady contact and return K(Omega) and C(Omega).
@@ -77,6 +79,9 @@ def impedance(
     grid : Grid
         Intervals along X, by default as many as the inlet needs, 80 or more; computed region, by default that of
         `solve_steady` (C depends on it by about 1/extent^2); engine of the elastic deflection.
+    supply : OilLayer, optional
+        Oil that the surfaces carry to the contact, as in `solve_steady`. The front of the full film moves with the
+        approach: the oil that it takes up and leaves behind is part of the problem.
     threads : int, optional
         As in `solve_steady`.
 
@@ -95,7 +100,7 @@ def impedance(
     require_grid(grid)
     threads = require_threads("threads", threads)
     meshes = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
-    steady = _steady(point, meshes, grid.deflection, threads)
+    steady = _steady(point, meshes, grid.deflection, supply, threads)
     moving = np.maximum(w, NEAR_ZERO)
     solved = held(steady, grid.deflection, threads)
     Z, residual = LinearisedContact(solved).respond(moving, TOLERANCE)
@@ -115,16 +120,19 @@ def impedance(
         h_central=steady.h_central,
         h_min=steady.h_min,
         moment=steady.moment,
+        supply=supply,
         seconds=time.perf_counter() - started,
     )
 
 
-def _steady(point: Point, meshes: Iterable[Mesh], deflection: str, threads: int) -> SteadyResult:
+def _steady(
+    point: Point, meshes: Iterable[Mesh], deflection: str, supply: OilLayer | None, threads: int
+) -> SteadyResult:
     """The film to linearise, on the first of the meshes whose region holds it."""
     for mesh in meshes:
         own = Grid(mesh.n, mesh.domain, deflection)
-        steady = solve_steady(point, grid=own, threads=threads, throw=False)
-        if steady.status is not Status.OUT_OF_DOMAIN:
+        steady = solve_steady(point, grid=own, supply=supply, threads=threads, throw=False)
+        if steady.status not in (Status.OUT_OF_DOMAIN, Status.BEYOND_REGION):
             break
     if steady.status is Status.INTERRUPTED:
         raise KeyboardInterrupt  # there is nothing to keep: no frequency has been looked at
@@ -136,7 +144,9 @@ def _steady(point: Point, meshes: Iterable[Mesh], deflection: str, threads: int)
 def held(film: SteadyResult, deflection: str = "fft", threads: int = 1) -> Multigrid:
     """Levels that hold a steady film, `deflection` and `threads` as in `solve_steady`."""
     mesh = Mesh(film.n, film.domain, film.point.kappa)
-    multigrid = Multigrid(film.point, mesh, deflection=deflection, threads=threads)
+    layer = film.layer
+    supply = None if layer is None else lambda Y: np.interp(Y, film.Y, layer)
+    multigrid = Multigrid(film.point, mesh, deflection=deflection, threads=threads, supply=supply)
     multigrid.finest.P[...] = film.P.T
     multigrid.u = film.approach
     multigrid.finest.update(multigrid.u)
@@ -216,6 +226,8 @@ class LinearisedContact:
         `tolerance` is for the residuals, their imaginary part counted relative to Omega below Omega = 1. Where
         a solve fails to reach it, the residual returned is larger.
         """
+        if self._level.inflow.size:
+            return self._respond_one_by_one(omega, tolerance)
         basis: list[Array] = []
         products: list[Array] = [self.j, self.b]
         done: set[int] = set()
@@ -243,6 +255,25 @@ class LinearisedContact:
                     basis.append(x / size)
                     space = np.array(basis)
                     products += self.products(basis[-1])
+
+    def _respond_one_by_one(self, omega: Array, tolerance: float) -> tuple[Complex, Array]:
+        """`respond` where oil runs short: what comes later is not linear in the frequency, and no space serves."""
+        dP = np.zeros(self.nodes.size, dtype=complex)
+        Z, residual = np.empty(omega.size, dtype=complex), np.empty(omega.size)
+        for k in np.argsort(omega):
+            w = float(omega[k])
+            dP = self.solve(w, dP, SOLVE_SHARE * tolerance * min(1.0, w))
+            Z[k], residual[k] = self.weights @ dP, self.residual(w, dP)
+        return Z, residual
+
+    def residual(self, omega: float, dP: Complex) -> float:
+        """Relative residual of the solution dP for du = 1."""
+        system = LinearFilm(self._level, self._free, PRESCRIBED, 1j * omega)
+        x = np.zeros(self._free.size + 1, dtype=complex)
+        x[-1] = 1.0
+        alone = system(x)[self.nodes]
+        x[self.nodes] = dP
+        return float(linalg.norm(system(x)[self.nodes]) / linalg.norm(alone))
 
 
 def _least_squares(R: Array, w: float) -> tuple[Complex, float, float]:

@@ -19,13 +19,14 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import damping_mesh
 from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, note_line, span
+from ehlcontact.supply import OilLayer
 
 Array = NDArray[np.float64]
 
 COARSE = 1.1  # mesh over the one that damping needs, from which a result says so
 
 
-@stored("result of impedance")
+@stored("result of impedance", 2)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ImpedanceResult(ScaledResponse, Origin):
     """Stiffness and damping of a contact over frequency, dimensionless; ``si`` has it in SI.
@@ -49,6 +50,8 @@ class ImpedanceResult(ScaledResponse, Origin):
         Of the steady pressure about the centre line, over load times a: `SteadyResult.moment`; in SI [N m].
     force : float
         Static load: 1; in SI [N].
+    supply : OilLayer or None
+        As given to `impedance`; None of a flooded inlet.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -63,6 +66,7 @@ class ImpedanceResult(ScaledResponse, Origin):
     moment: Annotated[float, MOMENT]
     stiffness_error: Array | None = None
     damping_error: Array | None = None
+    supply: OilLayer | None = None
 
     def require_complete(self, **sizes: int) -> None:
         """Raise `ValueError` unless all arrays have one value per frequency."""

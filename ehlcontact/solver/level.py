@@ -180,6 +180,16 @@ class Level:
         feeding = np.flatnonzero(target >= 0)
         return feeding, target.ravel()[feeding]
 
+    def pressed_back(self) -> tuple[NDArray[np.int64], Array, Array, Array]:
+        """Flat numbers of the first full nodes, and derivatives of the flow that they press back.
+
+        To their pressure, to their film, and to that of the node before, over a cell's area.
+        """
+        before = np.flatnonzero(self.fields.flow.open.ravel() == 0.0)
+        slopes = np.empty((3, before.size))
+        supply.linearise_pressed_back(before, self.fields.P, self.fields.flow, self.stencil, slopes)
+        return before + 1, slopes[0], slopes[1], slopes[2]
+
     @property
     def P(self) -> Array:
         """Pressure."""

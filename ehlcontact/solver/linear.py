@@ -100,14 +100,28 @@ class LinearFilm:
         self.by_pressure = stencil_matrix(NEIGHBOUR_OFFSETS, p_coef, free.shape)
         self.by_film = stencil_matrix(NEIGHBOUR_OFFSETS, h_coef, free.shape)
         self.by_approach = -h_coef.sum(axis=0).ravel()
-        if feeding.size:  # what is pressed into partly filled nodes comes to the full one behind them
-            passed_on = sparse.csr_matrix((np.ones(fed.size), (fed, feeding)), shape=(free.size, free.size))
+        if feeding.size:  # what is pressed into partly filled nodes comes to the full one behind them, later
+            on_time = (1.0 + self.c_t * level.hx) ** -(fed - feeding)
+            passed_on = sparse.csr_matrix((on_time, (fed, feeding)), shape=(free.size, free.size))
             self.by_pressure = self.by_pressure + passed_on @ self.by_pressure
             self.by_film = self.by_film + passed_on @ self.by_film
             self.by_approach = self.by_approach + passed_on @ self.by_approach
+        if level.inflow.size and self.c_t != 0.0:
+            self._move_front(level)
         self.deflection = level.deflection
         self.weights = level.force_weights.ravel()
         self.scale = BALANCE_WEIGHT * sqrt(max(1.0, float(np.count_nonzero(free))))  # of the last row
+
+    def _move_front(self, level: Level) -> None:
+        """Add what the last partly filled nodes store of the flow pressed back into them: the front moves."""
+        front, by_pressure, by_own_film, by_film_before = level.pressed_back()
+        rate = 1.0 / (1.0 + self.c_t * level.hx) - 1.0
+        size, before = self.free.size, front - 1
+        self.by_pressure = self.by_pressure + sparse.csr_matrix((rate * by_pressure, (front, front)), (size, size))
+        film = sparse.csr_matrix((rate * by_own_film, (front, front)), (size, size))
+        film = film + sparse.csr_matrix((rate * by_film_before, (front, before)), (size, size))
+        self.by_film = self.by_film + film
+        self.by_approach = self.by_approach - np.asarray(film.sum(axis=1)).ravel()
 
     def __call__(self, x: Array) -> Array:
         """Left-hand sides, shape (nodes + 1,), of the change `x` = (dP, du)."""

@@ -14,10 +14,13 @@ from ehlcontact import (
     OilLayer,
     OperatingPoint,
     Status,
+    impedance,
     load,
     save,
     solve_steady,
 )
+from ehlcontact.impedance import LinearisedContact
+from ehlcontact.impedance import held as held_film
 
 CIRCLE = MoesPoint(20, 10, 1)
 SMALL = Grid(64)
@@ -82,12 +85,30 @@ class Twin:
         inflow[0] -= across[0] * self.hx  # the line on the other side of the symmetry line
         return np.append(inflow[self.inner], 1.0 - np.sum(self.weights * P))
 
+    def stored(self, x):
+        """Oil at the nodes: the film where it is full, else what is carried."""
+        P, H, carried = self.fields(x)
+        return np.append((np.where(P > 0.0, H, carried) * self.hx * self.hy)[self.inner], 0.0)
+
+    def impedance(self, x, Omega):
+        """Stiffness and damping for a small motion of the approach, by differences of all equations."""
+        h = 1e-6
+        J, B = (
+            np.array([(equations(x + h * e) - equations(x - h * e)) / (2.0 * h) for e in np.eye(x.size)]).T
+            for equations in (self.residual, self.stored)
+        )
+        system = J - 1j * Omega * B  # what comes in less what leaves is what is stored
+        change = np.linalg.solve(system[:-1, :-1], -system[:-1, -1])
+        Z = -J[-1, :-1] @ change - J[-1, -1]  # the last row is the load less the force
+        return Z.real, Z.imag / Omega
+
     def solve(self):
         dry = np.sqrt(np.maximum(0.0, 1.0 - self.X**2 - self.Y[:, None] ** 2))
         x = np.append(np.where(dry > 0.0, dry, -self.gap)[self.inner], 0.4)
         for _ in range(200):
             r = self.residual(x)
             if np.abs(r).max() < 1e-12:
+                self.x = x
                 return self.fields(x), x[-1]
             h = 1e-7
             J = np.array([(self.residual(x + h * e) - r) / h for e in np.eye(x.size)]).T
@@ -122,6 +143,20 @@ def test_film_is_that_of_an_independent_solution(kappa, layer):
     np.testing.assert_allclose(film.H.T, H, atol=1e-9)
     np.testing.assert_allclose(film.layer_behind[:-1], carried[:-1, -2], atol=1e-9)
     assert P[0, 1:4].max() == 0.0 < P[0, 7]  # the front lies within the region
+
+
+def test_impedance_is_that_of_an_independent_linearisation():
+    """With the front of the full film moving, and what is pressed aside coming later."""
+    point, domain = MoesPoint(20, 5, 0.7, viscosity="barus", density="incompressible"), Domain(-3.0, 1.5, 2.25)
+    film = solve_steady(point, grid=Grid(16, domain, "direct"), supply=OilLayer(H=0.3), tol=1e-12)
+    twin = Twin(point, domain, 16, film.Y.size - 1, 0.3)
+    twin.solve()
+    held = LinearisedContact(held_film(film, "direct"))
+    for Omega in (0.01, 0.5, 3.0):
+        Z = held.respond(np.array([Omega]), 1e-9)[0][0]
+        K, C = twin.impedance(twin.x, Omega)
+        assert Z.real == pytest.approx(K, rel=1e-6)
+        assert Z.imag / Omega == pytest.approx(C, rel=1e-6)
 
 
 @pytest.mark.parametrize(("M", "L", "kappa"), [(20, 10, 1), (200, 10, 0.5), (2900, 19, 0.11), (100, 5, 2)])
@@ -286,3 +321,23 @@ def test_region_grows_with_the_layer_where_it_is_left_open():
     assert film.status.ok
     assert film.domain.x_in < -4.5
     assert film.domain.y_max == 3.0
+
+
+def test_stiffness_at_rest_is_that_of_steady_films():
+    given = {"grid": SMALL, "supply": OilLayer(H=0.5)}
+    film = solve_steady(CIRCLE, **given, tol=1e-9)
+    du = 1e-4
+    forces = [solve_steady(CIRCLE, approach=film.approach + s * du, **given, tol=1e-9).force for s in (-1.0, 1.0)]
+    answer = impedance(CIRCLE, Omega=0.0, **given)
+    assert answer.stiffness[0] == pytest.approx((forces[1] - forces[0]) / (2.0 * du), rel=1e-3)
+    assert answer.supply == OilLayer(H=0.5)
+    assert 0.0 < answer.damping[0] < 0.5 * impedance(CIRCLE, Omega=0.0, grid=SMALL).damping[0]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ratio", [1.5, 1.0])
+def test_damping_converges_with_the_grid(ratio):
+    layer = OilLayer(H=ratio * 1.147 * 0.432)
+    coarse, fine = (impedance(CIRCLE, Omega=[0.05, 1.0, 6.3], grid=Grid(n), supply=layer) for n in (96, 192))
+    np.testing.assert_allclose(coarse.stiffness, fine.stiffness, rtol=0.01)
+    np.testing.assert_allclose(coarse.damping, fine.damping, rtol=0.05)

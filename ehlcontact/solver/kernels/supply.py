@@ -18,7 +18,7 @@ everything is continuous while the front moves through the nodes.
 
 from ehlcontact.jit import inner, jit_loop, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, linearise_at
-from ehlcontact.solver.kernels.reynolds import Stencil, update_along
+from ehlcontact.solver.kernels.reynolds import Stencil, flow_mean, update_along
 
 FRONT_GAP = 8.0  # gap over layer that no front lies ahead of at first: it settles faster downstream than upstream
 FITTING = 4.0  # gap at the border over layer, from which the front may lie within the region
@@ -127,3 +127,21 @@ def linearise_pressed_in(P, flow, stencil, p_coef, h_coef, target):
                 front = j * (nx + 1) + i
             elif P[j, i - 1] > 0.0:
                 front = -1
+
+
+@jit_loop
+def linearise_pressed_back(before, P, flow, stencil, slopes):
+    """Derivatives of the flow by pressure through the closed faces, as if they were open.
+
+    `before` lists the flat numbers of the nodes before them; ``slopes[:, k]``, written, is to the pressure and to
+    the film of the node behind such a face, and to the film of that before it.
+    """
+    width = P.shape[1]
+    for k in range(len(before)):
+        j, i = before[k] // width, before[k] % width
+        mean, skew = flow_mean(flow.eps[j, i], flow.eps[j, i + 1])
+        drop = stencil.cx * P[j, i + 1]
+        own, other = drop * (0.5 * mean + skew), drop * (0.5 * mean - skew)
+        slopes[0, k] = stencil.cx * mean + other * flow.eps_slope[j, i + 1]
+        slopes[1, k] = other * flow.film_slope[j, i + 1]
+        slopes[2, k] = own * flow.film_slope[j, i]
