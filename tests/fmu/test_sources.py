@@ -19,14 +19,14 @@ from fmpy.build import build_platform_binary
 from fmpy.validation import validate_fmu
 
 from ehlcontact import Lubricant
-from fmu import BearingModel, export_contact, verify
+from fmu import BearingModel, ShaftModel, export_contact, verify
 from fmu.archive import content_guid
 from fmu.comparison import film_motion, state_grid
 from fmu.contact_spec import contact_spec
 from fmu.fmu_model import fmu_model
 from fmu.rotor.laws import distinct, law_source
 from fmu.sources import CSRC, source_files, standard_folder, standard_headers
-from reduced_models import BallBearing
+from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]
@@ -36,6 +36,7 @@ HERE = Path(__file__).parent
 CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]
 ROTORS = ["rotor alone", "rotor mixed", "rotor wide in y"]
 BEARINGS = ["bearing planar", "bearing five"]
+SHAFTS = ["shaft"]
 FUZZ = {2: "fuzz.c", 3: "fuzz3.c"}
 MANY = 1_250_000  # calls of each version of FMI, over all kinds
 FEW = 20_000  # of each kind, in the default suite
@@ -66,7 +67,13 @@ def models(elements, rotors):
         "bearing five": BearingModel(BallBearing.catalogue("7205", oil=oil), (8e3, 1e4), (0.0, -300.0, 200.0)),
         "bearing dry": BearingModel(BallBearing.catalogue("6205", clearance=5e-6), 3e3, 500.0),
     }
-    return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings
+    shaft = rotor_on_bearings(
+        Shaft(length=0.4, diameter=0.03, elements=2, damping_time=1e-5),
+        discs=[Disc(position=0.25, mass=4.0, diametral_inertia=0.01, polar_inertia=0.02, unbalance=1e-4)],
+        supports=[Support(position=at, bearing=BallBearing.catalogue("6205")) for at in (0.02, 0.38)],
+    )
+    shafts = {"shaft": ShaftModel(shaft, 3e3, inertia=0.02)}
+    return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings | shafts
 
 
 @pytest.fixture(scope="module")
@@ -109,6 +116,10 @@ def random_calls_of(name):
     if name in BEARINGS:
         given = {"INPUTS": "VR_y,VR_velocity_y", "OUTPUTS": "VR_largest_load_inner,VR_force_x,VR_force_y"}
         return [f"-DFUZZ_{macro}={text}" for macro, text in (given | {"USUAL": "0.0", "STEP": "1e-7"}).items()]
+    if name in SHAFTS:
+        # the first of them must not be negative, as motions may be
+        given = {"INPUTS": "0,FIRST_DRIVE", "OUTPUTS": "VR_mass_scale,VR_angle,FIRST_VELOCITY"}
+        return [f"-DFUZZ_{macro}={text}" for macro, text in (given | {"USUAL": "1e2", "STEP": "1e-5"}).items()]
     if name not in ROTORS:
         return []
     first = "FIRST_STATE+4*AXES" if "alone" in name else "FIRST_FORCE"  # the angle, or a force
@@ -116,7 +127,9 @@ def random_calls_of(name):
     return [f"-DFUZZ_{macro}={text}" for macro, text in given.items()]
 
 
-@pytest.mark.parametrize("name", ["rotor alone", "rotor mixed", "rotor alone in y", *BEARINGS, "bearing dry"])
+@pytest.mark.parametrize(
+    "name", ["rotor alone", "rotor mixed", "rotor alone in y", *BEARINGS, "bearing dry", *SHAFTS]
+)
 def test_strict_warnings_of_rotors(compiled, name):
     """Those of contacts: in the tests of libraries and of the driver."""
     compiled(name, 2, [*STRICT, "-O2"])
@@ -140,16 +153,16 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
 
 
 @pytest.mark.parametrize(
-    ("fmi", "name"), [*((2, name) for name in CONTACTS + ROTORS + BEARINGS), (3, "cubic"), (3, "wide_si")]
+    ("fmi", "name"), [*((2, name) for name in CONTACTS + ROTORS + BEARINGS + SHAFTS), (3, "cubic"), (3, "wide_si")]
 )
 def test_random_calls_under_sanitizers(compiled, fmi, name):
-    calls = 2 * FEW if name in ROTORS else FEW // 4 if name in BEARINGS else FEW
+    calls = 2 * FEW if name in ROTORS else FEW // 4 if name in BEARINGS + SHAFTS else FEW
     done = run([compiled(name, fmi, SANITIZED, FUZZ[fmi], random_calls_of(name)), calls, 1])
     assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CONTACTS + BEARINGS)
+@pytest.mark.parametrize("name", CONTACTS + BEARINGS + SHAFTS)
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_million_random_calls_under_sanitizers(compiled, fmi, name):
     program = compiled(name, fmi, SANITIZED, FUZZ[fmi], random_calls_of(name))
