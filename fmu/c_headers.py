@@ -39,6 +39,7 @@ def _config(spec: ModelSpec, token: str) -> str:
     names = " and ".join(filter(None, (", ".join(v.name for v in spec.inputs[:-1]), spec.inputs[-1].name)))
     macros = {key: str(value) for key, value in counts.items()} | dict(spec.macros)
     macros |= {} if spec.exchange else {"CO_SIMULATION_ONLY": "1"}
+    macros |= {} if spec.partials else {"PLAIN_STEPS": "1"}
     macros |= {"INPUT_RATES": f"{{{rates}}}", "INPUT_NAMES": f'"{names}"'}
     named = [v for v in spec.variables if v.name.isidentifier()]
     lines = [

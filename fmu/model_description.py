@@ -93,18 +93,19 @@ def _interfaces_2(root: Element, spec: ModelSpec) -> None:
         "modelIdentifier": spec.identifier,
         "canGetAndSetFMUstate": "true",
         "canSerializeFMUstate": "true",
-        "providesDirectionalDerivative": _boolean(spec.exchange),
     }
     interfaces = []
     if spec.exchange:
-        interfaces.append(_child(root, "ModelExchange", **both, completedIntegratorStepNotNeeded="true"))
+        own = {"providesDirectionalDerivative": "true", "completedIntegratorStepNotNeeded": "true"}
+        interfaces.append(_child(root, "ModelExchange", **both, **own))
     simulation = _child(
         root,
         "CoSimulation",
         **both,
+        providesDirectionalDerivative=_boolean(spec.partials),
         canHandleVariableCommunicationStepSize="true",
         canInterpolateInputs="true",
-        maxOutputDerivativeOrder=str(int(spec.exchange)),
+        maxOutputDerivativeOrder=str(int(spec.partials)),
     )
     for interface in (*interfaces, simulation):
         files = _child(interface, "SourceFiles")
@@ -113,17 +114,17 @@ def _interfaces_2(root: Element, spec: ModelSpec) -> None:
 
 
 def _interfaces_3(root: Element, spec: ModelSpec) -> None:
-    derivatives = dict.fromkeys(DERIVATIVES_3, _boolean(spec.exchange))
     if spec.exchange:
-        _child(root, "ModelExchange", **STATES_3, **derivatives, modelIdentifier=spec.identifier)
+        provided = dict.fromkeys(DERIVATIVES_3, "true")
+        _child(root, "ModelExchange", **STATES_3, **provided, modelIdentifier=spec.identifier)
     _child(
         root,
         "CoSimulation",
         **STATES_3,
-        **derivatives,
+        **dict.fromkeys(DERIVATIVES_3, _boolean(spec.partials)),
         modelIdentifier=spec.identifier,
         canHandleVariableCommunicationStepSize="true",
-        maxOutputDerivativeOrder=str(int(spec.exchange)),
+        maxOutputDerivativeOrder=str(int(spec.partials)),
         providesIntermediateUpdate="true",
         mightReturnEarlyFromDoStep="true",
         hasEventMode="true",
@@ -222,7 +223,8 @@ def _time_and_indicators(parent: Element, spec: ModelSpec) -> None:
 
 def _sections(spec: ModelSpec) -> dict[str, tuple[Variable, ...]]:
     """Outputs, derivatives and initial unknowns, by the names of FMI 3.0."""
-    computed = [variable for variable in (*spec.outputs, *spec.derivatives) if variable.start is None]
+    found = {v.name: v for v in (*spec.outputs, *spec.states, *spec.derivatives)}  # a state may be an output
+    computed = [variable for variable in found.values() if variable.start is None]
     initial = tuple(sorted(computed, key=lambda variable: variable.value_reference))
     return {"Output": spec.outputs, "ContinuousStateDerivative": spec.derivatives, "InitialUnknown": initial}
 
@@ -243,7 +245,9 @@ def _structure(root: Element, spec: ModelSpec, fmi: int) -> None:
         # FMI 2.0 has a list of unknowns in each section, FMI 3.0 an entry of that name for each unknown
         parent, tag = (_child(structure, SECTIONS_2[name]), "Unknown") if fmi == 2 else (structure, name)
         for variable in variables:
-            unknown(parent, tag, _place(spec, variable.name, fmi), variable.depends, name == "InitialUnknown")
+            initial = name == "InitialUnknown"
+            depends = spec.initially(variable) if initial else variable.depends
+            unknown(parent, tag, _place(spec, variable.name, fmi), depends, initial)
     if fmi == 3:
         for k, (_, output) in enumerate(spec.indicators, start=1):
             unknown(structure, "EventIndicator", len(spec.variables) + k, spec[output].depends)

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from ehlcontact.errors import InputError
 
@@ -15,6 +16,7 @@ UNITS: dict[str, dict[str, int | float]] = {
     "m": {"m": 1},
     "m/s": {"m": 1, "s": -1},
     "N": {"kg": 1, "m": 1, "s": -2},
+    "N/s": {"kg": 1, "m": 1, "s": -3},
     "N/m": {"kg": 1, "s": -2},
     "N.m-2": {"kg": 1, "m": -1, "s": -2},
     "N.m-3": {"kg": 1, "m": -2, "s": -2},
@@ -69,10 +71,11 @@ class Variable:
     nominal: float | None = None
     depends: tuple[str, ...] = ()  # names of inputs, parameters and states
     derivative_of: str | None = None  # name of a state
+    follows: tuple[str, ...] = ()  # of a state without a start value: names of inputs and parameters that give it
     rate: str | None = None  # of an input: name of the input that is its rate
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ModelSpec:
     """One FMU: its variables and the C sources that compute them.
 
@@ -93,7 +96,9 @@ class ModelSpec:
     time_unit: str = "s"
     # Whether it is for model exchange too, with partial derivatives, or for co-simulation alone.
     exchange: bool = True
-    # Event indicators, one for each contact: name in FMI 3.0, and the output that depends on the same.
+    # Whether co-simulation has none of partial derivatives, those of outputs in time, and events.
+    plain_steps: bool = False
+    # Event indicators, one for each contact: name in FMI 3.0, and a variable that depends on the same.
     indicators: tuple[tuple[str, str], ...] = (("contact_indicator", "force"),)
     # Terminals of FMI 3.0: name, description, and the variables that are approach, rate and force.
     flanges: tuple[tuple[str, str, tuple[str, str, str]], ...] = (
@@ -115,12 +120,16 @@ class ModelSpec:
         taken = text.upper() in DEVICES  # con.dll would be the console
         return text if text[0].isalpha() and not taken else f"m{text}"
 
+    @cached_property
+    def _named(self) -> dict[str, Variable]:
+        return {variable.name: variable for variable in self.variables}
+
     def __getitem__(self, name: str) -> Variable:
-        return next(variable for variable in self.variables if variable.name == name)
+        return self._named[name]
 
     def index(self, name: str) -> int:
         """Position in the model description, from 1."""
-        return 1 + [variable.name for variable in self.variables].index(name)
+        return 1 + self[name].value_reference
 
     @property
     def outputs(self) -> tuple[Variable, ...]:
@@ -132,21 +141,38 @@ class ModelSpec:
         """Variables of causality input."""
         return tuple(variable for variable in self.variables if variable.causality == "input")
 
-    @property
+    @cached_property
     def derivatives(self) -> tuple[Variable, ...]:
         """Derivatives of the states, in their order."""
         return tuple(variable for variable in self.variables if variable.derivative_of is not None)
 
-    @property
+    @cached_property
     def states(self) -> tuple[Variable, ...]:
         """Continuous-time states."""
         return tuple(self[variable.derivative_of] for variable in self.derivatives if variable.derivative_of)
+
+    @cached_property
+    def _state_names(self) -> frozenset[str]:
+        return frozenset(variable.name for variable in self.states)
+
+    @property
+    def partials(self) -> bool:
+        """Whether co-simulation has partial derivatives, those of outputs in time too."""
+        return self.exchange and not self.plain_steps
+
+    def initially(self, variable: Variable) -> tuple[str, ...]:
+        """Names of what a variable depends on at the start: for some states, what these follow from."""
+        if variable.name in self._state_names:
+            return variable.follows
+        found = (self[name] for name in variable.depends)
+        names = (v.follows if v.start is None and v.name in self._state_names else (v.name,) for v in found)
+        return tuple(dict.fromkeys(name for group in names for name in group))
 
     def role(self, variable: Variable) -> str:
         """What the C sources call its part."""
         if variable.derivative_of is not None:
             return "DERIVATIVE"
-        if variable in self.states:
+        if variable.name in self._state_names:
             return "STATE"
         if variable.causality == "local" and variable.variability != "constant":
             return "MEASURE"

@@ -19,6 +19,7 @@ from reduced_models.rotor.speed_profile import law_speeds
 _Floats = NDArray[np.float64]
 
 MOST_BALLS = 64  # of what an instance remembers, some 100 numbers each
+MOST_CONTACTS = 64  # bits of a number in core.h: those that lift off, both of a ball with inertia, else the inner
 MOST_SPEEDS = 4  # of the tables, which then leave an FMU with the binaries of five platforms below a megabyte
 
 
@@ -57,6 +58,9 @@ class BearingModel:
             raise InputError("bearing.balls", self.bearing.balls, f"at most {MOST_BALLS} in an FMU")
         if self.freedoms not in (None, len(PLANAR), len(FIVE)):
             raise InputError("freedoms", self.freedoms, "2 or 5")
+        if self.bearing.ball_inertia and 2 * self.bearing.balls > MOST_CONTACTS:
+            allowed = f"at most {MOST_CONTACTS // 2} in an FMU, of balls with inertia"
+            raise InputError("bearing.balls", self.bearing.balls, allowed)
         _ = self.speeds
         if self.freedoms == len(PLANAR) and len(self.names) != len(PLANAR):
             raise InputError("freedoms", 2, "5 under an axial load or a moment, and for angular contact bearings")
@@ -88,6 +92,11 @@ class BearingModel:
         """Displacements, in order."""
         five = self._axial or self.freedoms == len(FIVE)
         return FIVE if five else PLANAR
+
+    @property
+    def exchange(self) -> bool:
+        """Whether its FMU is for model exchange too, as that of a planar bearing is."""
+        return len(self.names) == len(PLANAR)
 
     @cached_property
     def place(self) -> _Floats:

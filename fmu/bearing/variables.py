@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import log
 
 import numpy as np
 
@@ -15,15 +18,19 @@ from fmu.lead import CONTACT, HELD_PARALLEL
 from fmu.spec import ModelSpec
 from fmu.variable_list import VariableList
 from reduced_models.bearing.angular_balls import AngularBalls
+from reduced_models.bearing.balls import Balls
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.loss import FILTERS
+from reduced_models.bearing.race import RACES
 from reduced_models.elements.film_curve import RIGID_SLOPE
 from reduced_models.elements.film_filters import DIRECT, FEW
 
 STEP = 1e-5  # s, of the default experiment
 FARTHEST = 0.1  # of the ball diameter: largest displacement, which no ring in its bearing reaches
 LARGEST_TILT = 0.1  # rad
+LOAD, SLOW = 100.0, 1e-3  # N on a ball and m/s, for which the nominal values of states are
+CAGE = "Angle of the first ball about z, from x towards y"
 
 FORCES = {"x": "force_x", "y": "force_y", "z": "force_z", "tilt_x": "moment_x", "tilt_y": "moment_y"}
 RATES = {
@@ -34,7 +41,8 @@ RATES = {
     "tilt_y": "tilt_rate_y",
 }
 SOURCES = ("core.c", "core_step.c", "model_bearing.c", "balls.c", "race_contact.c", "film_filters.c")
-HEADERS = ("core.h", "model.h", "balls.h", "race_contact.h", "film_filters.h")
+HEADERS = ("core.h", "model.h", "dual.h", "balls.h", "race_contact.h", "film_filters.h")
+PLANAR_SOURCES = ("balls_planar.c", "continuous_time.c")
 
 
 def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float | None = None) -> ModelSpec:
@@ -54,8 +62,8 @@ def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float
     return ModelSpec(
         name=checked_name(f"BallBearing {bearing.name}".strip() if model_name is None else model_name),
         description=f"Ball bearing {bearing.name}, {bearing.balls} balls, {oil}, at {span}; SI units",
-        sources=(*SOURCES, "balls_planar.c" if planar else "balls_angular.c"),
-        headers=HEADERS,
+        sources=(*SOURCES, *(PLANAR_SOURCES if planar else ("balls_angular.c",))),
+        headers=(*HEADERS, *(("continuous_time.h",) if planar else ())),
         variables=tuple(made.variables),
         notes=_notes(model, span),
         macros=_macros(model, made),
@@ -67,8 +75,9 @@ def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float
             "film_inverse.h": _inverse(_lags(model)),
         },
         step=STEP,
-        exchange=False,
-        indicators=(),
+        exchange=model.exchange,
+        plain_steps=True,
+        indicators=tuple(made.indicators),
         flanges=tuple(
             (name, f"The inner ring along {name}: place, velocity, force", (name, RATES[name], FORCES[name]))
             for name in model.names
@@ -84,12 +93,16 @@ class _Variables(VariableList):
         super().__init__()
         self.model, self.bearing, self.five = model, model.bearing, len(model.names) == len(FIVE)
         self.first_force = self.first_ball = self.per_ball = 0
+        self.indicators: list[tuple[str, str]] = []
+        self.states = BallStates.of(model)
 
     def fill(self, lead: float) -> None:
         """All of them."""
         self._inputs()
         self._outputs()
         self._parameters(lead)
+        if not self.five:
+            self._states()
         self._balls()
 
     def _inputs(self) -> None:
@@ -117,7 +130,9 @@ class _Variables(VariableList):
         )  # fmt: skip
 
     def _outputs(self) -> None:
-        depends = tuple(v.name for v in self.variables)
+        depends = tuple(v.name for v in self.variables) + self._fixed
+        if not self.five:
+            depends += self.states.names
         self.first_force = len(self.variables)
         for name in self.model.names:
             tilt = name.startswith("tilt")
@@ -137,14 +152,62 @@ class _Variables(VariableList):
         if self.bearing.oil is not None:
             for name, unit, nominal, text in self._films():
                 self.add(name, "output", "continuous", text, unit=unit, nominal=nominal, depends=depends)
-        text = "Angle of the first ball about z, from x towards y"
-        self.add("cage_angle", "output", "continuous", text, unit="rad", nominal=1.0, depends=depends)
+        if self.five:
+            self.add("cage_angle", "output", "continuous", CAGE, unit="rad", nominal=1.0, depends=depends)
         for name, text in (
             ("outside_validity", "True where speed or loads leave the tables"),
             ("outside_speed", "True above the highest speed of the tables, whose films then hold"),
             ("outside_load", "True where a ball carries more than the tables have"),
         ):
             self.add(name, "output", "discrete", text, type="Boolean", depends=depends)
+
+    @property
+    def _fixed(self) -> tuple[str, ...]:
+        """Parameters on which forces depend."""
+        return (
+            *(("clearance",) if self.bearing.contact_angle is None else ()),
+            *(("offset",) if self.five else ()),
+            "cage_angle_start",
+            "film",
+        )
+
+    def _states(self) -> None:
+        """States and derivatives of the cage, of all balls and of the seat, as `continuous_time.h` has them."""
+        place, fixed = ("x", "y"), ("clearance", "cage_angle_start", "film")
+        angle = ("cage_angle",)
+        self.add(
+            "cage_angle", "output", "continuous", CAGE, unit="rad", nominal=1.0,
+            depends=angle, follows=("cage_angle_start",),
+        )  # fmt: skip
+        rates: list[tuple[str, str, tuple[str, ...]]] = [("cage_angle", "rad/s", ("speed",))]
+        moves = (*(v.name for v in self.variables if v.causality == "input"), "cage_angle", "film", "clearance")
+        own = (*place, "speed", "cage_angle", "film", "clearance")
+        for ball in self.states.balls:
+            for state in ball:
+                follows = ("speed", *place, *fixed) if state.kind == "w" else ()
+                self.add(
+                    state.name, "local", "continuous", state.text, unit=state.unit, nominal=state.nominal,
+                    follows=follows,
+                )  # fmt: skip
+                if state.kind == "q":
+                    depends = (*own, ball[0].name, *state.fed, state.name)
+                elif state.kind == "w" and len(ball) > 1 and ball[1].kind == "v":
+                    depends = (ball[1].name,)
+                else:
+                    depends = (*moves, *(one.name for one in ball))
+                rates.append((state.name, f"{state.unit}/s", tuple(dict.fromkeys(depends))))
+        forces = (*moves, *(one.name for ball in self.states.balls for one in ball))
+        for name in self.states.seat:
+            text = f"Force of the balls along {name[5]}, as a lag of the losses of rings and fits has it"
+            self.add(name, "local", "continuous", text, unit="N", nominal=100.0, follows=("speed", *place, *fixed))
+            rates.append((name, "N/s", (*forces, name)))
+        for name, unit, depends in rates:
+            self.derivative(name, {"m/s/s": "m/s2"}.get(unit, unit), depends)
+        contacts = ("inner", "outer") if self.bearing.ball_inertia else ("inner",)
+        for k, ball in enumerate(self.states.balls, start=1):
+            like = next((f"der({one.name})" for one in ball if one.kind != "q"), "force_x")
+            like = f"der({ball[1].name})" if len(ball) > 1 and ball[1].kind == "v" else like
+            self.indicators += [(f"ball[{k}].contact_indicator_{race}", like) for race in contacts]
 
     def _films(self) -> list[tuple[str, str, float, str]]:
         found = [
@@ -191,6 +254,66 @@ class _Variables(VariableList):
         self.per_ball = (len(self.variables) - self.first_ball) // self.bearing.balls
 
 
+@dataclass(frozen=True)
+class BallState:
+    """One state of a ball; `kind`: w and v of its place, s, y and q of a film; `fed`: names of what feeds it."""
+
+    name: str
+    kind: str
+    unit: str
+    nominal: float
+    text: str
+    fed: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class BallStates:
+    """States of a planar bearing behind the angle of its cage: of every ball, and of the seat."""
+
+    balls: tuple[tuple[BallState, ...], ...]
+    seat: tuple[str, ...]
+
+    @classmethod
+    def of(cls, model: BearingModel) -> BallStates:
+        """Those of a bearing; none of one with five degrees of freedom."""
+        bearing = model.bearing
+        if len(model.names) == len(FIVE):
+            return cls((), ())
+        filters = range(1, 1 + FILTERS * bool(bearing.loss_factor))
+        law = model.motion().balls
+        assert isinstance(law, Balls)
+        balls = tuple(tuple(_ball_states(model, law, k)) for k in range(1, bearing.balls + 1))
+        return cls(balls, tuple(f"seat_{axis}[{k}]" for k in filters for axis in "xy"))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All, in order."""
+        return ("cage_angle", *(one.name for ball in self.balls for one in ball), *self.seat)
+
+
+def _ball_states(model: BearingModel, balls: Balls, k: int) -> Iterator[BallState]:
+    bearing = model.bearing
+    if bearing.oil is not None or bearing.ball_inertia:
+        yield BallState(f"ball[{k}].w", "w", "m", 1e-6, f"Approach of ball {k} and the outer race")
+    if bearing.ball_inertia:
+        yield BallState(f"ball[{k}].v", "v", "m/s", 1e-3, f"Rate of ball[{k}].w")
+    for race, law in zip(RACES, (balls.inner, balls.outer), strict=True):
+        if law.x.size == 0:
+            continue
+        at = f"film of ball {k} at the {race} race"
+        transit = law.contact_length_factor / (balls.speed_sum * model.speeds[-1] * RPM_TO_RAD_S)
+        own = float(transit * (LOAD / law.kn) ** (1.0 / 3.0)) * SLOW
+        made = float(own * np.interp(log(LOAD), law.x, law.film_made[-1]))
+        s = f"ball[{k}].s_{race}"
+        yield BallState(s, "s", "m", own, f"Inlet of the {at}")
+        yield BallState(f"ball[{k}].y_{race}", "y", "m", own, f"Fast lag of the {at}")
+        fed = s
+        for j in range(1, law.gains.shape[2] - DIRECT + 1):
+            name = f"ball[{k}].q_{race}[{j}]"
+            yield BallState(name, "q", "m", made, f"Lag {j} of the chain of the {at}", (fed,))
+            fed = name
+
+
 def _lags(model: BearingModel) -> int:
     balls = model.motion().balls
     return max(1, *(law.gains.shape[2] - DIRECT for law in (balls.inner, balls.outer)))
@@ -201,7 +324,7 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
     lags, five = _lags(model), made.five
     filters = FILTERS if bearing.loss_factor else 0
     places, freedoms = (2 if five else 1), len(model.names)
-    ball = 2 * places + 2 + 4 + 4 + 2 + 2 + 2  # numbers of `Ball` in balls.h
+    ball = 2 * places + 2 + 4 + 4 + 2 + 2 + 2 + 2  # numbers of `Ball` in balls.h
     film = 6 + lags  # of `FilmState`
     remembered = 5 + bearing.balls * (ball + 2 * film) + (1 + filters) * freedoms
     counts = {
@@ -216,6 +339,8 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
         "HAS_FILMS": int(bearing.oil is not None),
         "HAS_ROUGHNESS": int(bool(bearing.roughness)),
         "HAS_CLEARANCE": int(bearing.contact_angle is None),
+        "OWN_STATES": 2 if bearing.ball_inertia else int(bearing.oil is not None),
+        "FILM_STATES": 2 + lags if bearing.oil is not None else 0,
         "N_CACHE": remembered,
         "FIRST_FORCE": made.first_force,
         "FIRST_BALL": made.first_ball,

@@ -25,7 +25,7 @@ _INCLUDE = re.compile(r'^#include "([^"]+)".*$', re.MULTILINE)
 
 def law_size(spec: ModelSpec) -> int:
     """How many numbers the model of a contact is kept in: a `Model` of ``model.h``."""
-    return len(spec.variables) + len(spec.inputs) + len(spec.indicators) + int(spec.macros["N_CACHE"])
+    return 1 + len(spec.variables) + len(spec.inputs) + len(spec.indicators) + int(spec.macros["N_CACHE"])
 
 
 def distinct(elements: tuple[Element, ...]) -> tuple[list[Element], list[int]]:

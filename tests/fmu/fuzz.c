@@ -74,6 +74,7 @@ int main(int count, char **arguments)
     fmi2EventInfo info;
     size_t size = 0, n, i;
     long k, ok = 0;
+    int j;
     char *before, *after;
     for (k = 0; k < N_STATES; k++) {
         derivatives[k] = (fmi2ValueReference)(FIRST_DERIVATIVE + k);
@@ -157,11 +158,16 @@ int main(int count, char **arguments)
             numbers = status != fmi2OK || finite(values, NULL, N_STATES);
             break;
         case 20:
-            n = any(3);
+            n = any(2) ? N_CONTACTS : any(3);
             status = fmi2GetEventIndicators(c, values, n);
             numbers = status != fmi2OK || finite(values, NULL, n);
             break;
-        case 21: status = fmi2SetContinuousStates(c, seeds, N_STATES); break;
+        case 21:
+            for (j = 0; j < N_STATES; j++) {
+                values[j] = ((double)any(100) - 50.0) * core_variables[FIRST_STATE + j].nominal * (any(1000) ? 0.05 : 1e9);
+            }
+            status = fmi2SetContinuousStates(c, values, N_STATES);
+            break;
         case 22: status = fmi2CompletedIntegratorStep(c, fmi2True, &flag, &flag); break;
         case 23: status = any(2) ? fmi2EnterContinuousTimeMode(c) : fmi2EnterEventMode(c); break;
         case 24: status = fmi2SetTime(c, anything(1.0)); break;

@@ -76,6 +76,7 @@ int main(int count, char **arguments)
     fmi3Int32 orders[MOST];
     size_t size = 0, n, i;
     long k, ok = 0;
+    int j;
     uint8_t *before, *after;
     for (k = 0; k < N_STATES; k++) {
         derivatives[k] = (fmi3ValueReference)(FIRST_DERIVATIVE + k);
@@ -155,11 +156,16 @@ int main(int count, char **arguments)
             numbers = status != fmi3OK || finite(values, NULL, N_STATES);
             break;
         case 20:
-            n = any(3);
+            n = any(2) ? N_CONTACTS : any(3);
             status = fmi3GetEventIndicators(c, values, n);
             numbers = status != fmi3OK || finite(values, NULL, n);
             break;
-        case 21: status = fmi3SetContinuousStates(c, seeds, N_STATES); break;
+        case 21:
+            for (j = 0; j < N_STATES; j++) {
+                values[j] = ((double)any(100) - 50.0) * core_variables[FIRST_STATE + j].nominal * (any(1000) ? 0.05 : 1e9);
+            }
+            status = fmi3SetContinuousStates(c, values, N_STATES);
+            break;
         case 22: status = fmi3CompletedIntegratorStep(c, fmi3True, &a, &b); break;
         case 23:
         case 24:

@@ -125,7 +125,13 @@ def export(
         "platforms": built,
         **verdict,
     }
-    version = "FMI", f"{fmi}.0", "co-simulation" if bearing else "co-simulation and model exchange"
+    alone = bearing and not exported.exchange
+    uses = (
+        "co-simulation alone: model exchange is of planar bearings"
+        if alone
+        else "co-simulation and model exchange"
+    )
+    version = "FMI", f"{fmi}.0", uses
     rows = [
         *_about(exported, system),
         version,
@@ -244,7 +250,9 @@ def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> li
     findings = ("findings", str(len(found.findings)), "of fmpy's validation; there should be none")
     if found.bearing:
         run = f"largest error of forces and moments, over those in Python; {found.states} steps"
-        return [findings, ("forces", f"{found.bearing:.1e}", run), ("verified", "yes", "")]
+        moved = "largest error of the states' rates in model exchange, over those in Python"
+        rates = [("rates", f"{found.rates:.1e}", moved)] if found.rates else []
+        return [findings, ("forces", f"{found.bearing:.1e}", run), *rates, ("verified", "yes", "")]
     if rotor:
         return [
             findings,

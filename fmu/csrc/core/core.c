@@ -21,6 +21,7 @@ void core_start(State *s, Kind kind)
     s->tolerance = DEFAULT_TOLERANCE;
     s->phase = INSTANTIATED;
     s->kind = (int)kind;
+    s->model.stage = kind == MODEL_EXCHANGE ? STARTING : IN_STEPS;
     s->stale = STALE_LAW | STALE_OUTPUTS | STALE_RATES;
 }
 
@@ -142,7 +143,7 @@ Fault core_get(State *s, const unsigned int references[], size_t count, Type typ
             return refuse(unknown);
         }
         role = core_variables[references[i]].role;
-        if (role == OUTPUT || role == MEASURE) {
+        if (role == OUTPUT || role == MEASURE || (role == STATE && s->phase == INITIALIZATION)) {
             fault = core_outputs(s);
         } else if (role == DERIVATIVE) {
             fault = core_rates(s);
@@ -180,6 +181,9 @@ Fault core_exit_initialization(State *s)
     }
     memcpy(s->now, s->model.input, sizeof s->now);
     s->contact = core_contact(s);
+    if (s->kind == MODEL_EXCHANGE) {
+        s->model.stage = IN_CONTINUOUS_TIME;
+    }
     s->phase = s->kind == MODEL_EXCHANGE ? EVENT : STEPPING;
     return fine;
 }
@@ -208,6 +212,11 @@ unsigned long long core_contact(const State *s)
 {
     unsigned long long contact = 0;
     int i;
+#ifdef PLAIN_STEPS
+    if (s->kind == CO_SIMULATION) {
+        return 0;
+    }
+#endif
     for (i = 0; i < N_CONTACTS; i++) {
         contact |= (s->model.indicator[i] > 0.0 ? 1ULL : 0ULL) << i;
     }

@@ -359,8 +359,10 @@ static Fault check_references(State *s, const unsigned int unknowns[], size_t n_
 {
     size_t i;
     int rates = 0;
-#ifdef CO_SIMULATION_ONLY
-    return refuse("this FMU has no partial derivatives");
+#ifdef PLAIN_STEPS
+    if (s->kind == CO_SIMULATION) {
+        return refuse("this FMU has no partial derivatives in co-simulation");
+    }
 #endif
     for (i = 0; i < n_unknowns; i++) {
         if (!is_unknown(unknowns[i])) {
@@ -460,7 +462,7 @@ Fault core_output_slope(State *s, unsigned int reference, double *value)
     if (!is_unknown(reference) || core_variables[reference].role == DERIVATIVE) {
         return refuse("not a real output");
     }
-#ifdef CO_SIMULATION_ONLY
+#ifdef PLAIN_STEPS
     return refuse("this FMU has no derivatives of its outputs");
 #endif
     fault = core_rates(s);

@@ -43,10 +43,13 @@ int set_states(void *c, const double states[], size_t count, const char *functio
 
 int get_states(void *c, double states[], size_t count, const char *function)
 {
-    const Fault fine = {FINE, NULL};
-    const Instance *instance = sized(c, READABLE, states, count, N_STATES, function);
+    Fault fault = {FINE, NULL};
+    Instance *instance = sized(c, READABLE, states, count, N_STATES, function);
+    if (instance != NULL && instance->state.phase == INITIALIZATION) {
+        fault = core_outputs(&instance->state);
+    }
     return instance == NULL ? FAILED
-        : hand_out(instance, fine, &instance->state.model.value[FIRST_STATE], states, count, function);
+        : hand_out(instance, fault, &instance->state.model.value[FIRST_STATE], states, count, function);
 }
 
 int get_nominals(void *c, double nominals[], size_t count, const char *function)

@@ -28,7 +28,12 @@ static inline Fault fault(Severity severity, const char *reason)
     return f;
 }
 
+/* What moves the states: steps of co-simulation; in model exchange the importer, but up to the end of initialization those
+ * that are calculated follow from inputs and parameters. */
+typedef enum { IN_STEPS, STARTING, IN_CONTINUOUS_TIME } Stage;
+
 typedef struct {
+    double stage;                /* of Stage */
     double value[N_VARIABLES];   /* by value reference; a Boolean is 0 or 1 */
     double input[N_INPUTS];      /* that the outputs belong to: those that were set, or those of the end of a step */
     double indicator[N_CONTACTS > 0 ? N_CONTACTS : 1]; /* of each contact: > 0 while the surfaces push */

@@ -22,6 +22,7 @@ typedef struct {
     double entrained[2][2];  /* [race]: sum of both surface speeds over the speed of the shaft [m] */
     double lift[2];          /* [race]: see Thickness */
     double force[2];         /* [race] N */
+    double film[2];          /* [race]: see RaceForce */
     double angle[2];         /* [race] rad */
 } Ball;
 

@@ -122,7 +122,7 @@ typedef struct {
 /* Dry compressions that share the gyroscopic moment, by the tables of the lowest speed. */
 static void compressions(const BallStep *step, const double b[2], double pressed[2])
 {
-    static const SpeedRow lowest = {0, 0.0};
+    static const SpeedRow lowest = {0, 0.0, 0.0};
     double s[2], slope, lift;
     int race;
     pressed[INNER_RACE] = pressed[OUTER_RACE] = 0.0;
@@ -376,6 +376,8 @@ static const char *press_all(const Setup *setup, const Bearing *before, Bearing 
         orbit[k] = p.at.orbit;
         ball->force[INNER_RACE] = p.inner.force;
         ball->force[OUTER_RACE] = p.outer.force;
+        ball->film[INNER_RACE] = p.inner.film;
+        ball->film[OUTER_RACE] = p.outer.film;
         for (j = 0; j < 2; j++) {
             ball->place[1][j] = h > 0.0 ? old->place[0][j] : b[j];
             ball->place[0][j] = b[j];

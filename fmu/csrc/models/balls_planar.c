@@ -23,7 +23,7 @@ static void press(const BallStep *step, double delta, double rate, double w, Rac
 }
 
 /* Balances a ball whose rings come closer by delta, at a rate; w is its place. Returns whether there is a balance. */
-static int balance(const BallStep *step, double delta, double rate, double *w, double force[2])
+static int balance(const BallStep *step, double delta, double rate, double *w, Ball *ball)
 {
     const double gain = step->gain, heavy = BALL_INERTIA * gain;
     double low = -HUGE_VAL, high = HUGE_VAL, reach = first_step;
@@ -42,8 +42,10 @@ static int balance(const BallStep *step, double delta, double rate, double *w, d
                 *w -= off / tangent;
                 press(step, delta, rate, *w, &inner, &outer);
             }
-            force[INNER_RACE] = inner.force;
-            force[OUTER_RACE] = outer.force;
+            ball->force[INNER_RACE] = inner.force;
+            ball->force[OUTER_RACE] = outer.force;
+            ball->film[INNER_RACE] = inner.film;
+            ball->film[OUTER_RACE] = outer.film;
             return 1;
         }
         if (off > 0.0) {
@@ -104,7 +106,7 @@ static const char *press_all(const Setup *setup, const Bearing *before, Bearing 
                 race_prepare(c, h);
             }
         }
-        if (!balance(&step, delta, rate, &w, ball->force)) {
+        if (!balance(&step, delta, rate, &w, ball)) {
             return "a ball finds no balance: a shorter step, or a smaller displacement, can help";
         }
         own = moving ? d.gain * (w - step.history) : 0.0;

@@ -66,6 +66,17 @@ static inline Dual power(Dual a, Dual n)
     return dual(x, x * (n.x * a.d / a.x + (n.d != 0.0 ? n.d * log(a.x) : 0.0)));
 }
 
+static inline Dual logarithm(Dual a)
+{
+    return dual(log(a.x), a.d / a.x);
+}
+
+/* A value that depends on one number, with slope `by`. */
+static inline Dual chained(double x, double by, Dual a)
+{
+    return dual(x, by * a.d);
+}
+
 static inline Dual level(Dual a)
 {
     const double t = tanh(a.x);

@@ -1,16 +1,22 @@
-/* A ball bearing: force on the inner ring under a given motion of it, co-simulation alone; equations in README.md. */
+/* A ball bearing: force on the inner ring under a given motion of it. With states, that of a planar one, it is for model
+ * exchange too; in steps they are those of the end of the step. Equations in README.md. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "dual.h"
+#include "model.h"
+#if N_STATES > 0
+#include "continuous_time.h"
+#else
 #include "balls.h"
+#endif
 #if HAS_FILMS
 #include "bearing_films.h"
 #endif
 #include "bearing_races.h"
 #include "bearing_seat.h"
 #include "bearing_speeds.h"
-#include "model.h"
 
 enum { VELOCITY = FREEDOMS, SPEED = 2 * FREEDOMS }; /* inputs; those before are the place */
 enum { TOO_FAST = 1, OVERLOADED = 2 };               /* bits of model_outside */
@@ -76,107 +82,152 @@ static void pass_seat(const Bearing *before, Bearing *after, double h, double fo
 /* Where films stand in their tables: rows of speeds, and share of the next; loads likewise. */
 typedef struct {
     int row, node;
-    double by_speed, by_load;
+    Dual by_speed, by_load;
 } FilmPlace;
 
-static FilmPlace at_speed(double omega)
+static FilmPlace at_speed(Dual omega)
 {
-    FilmPlace at = {0, 0, 0.0, 0.0};
+    FilmPlace at = {0, 0, {0.0, 0.0}, {0.0, 0.0}};
 #if SPEED_ROWS > 1
-    at.row = speed_row(omega).row;
-    at.by_speed = log(film_speed(omega) / table_speeds[at.row]) / log(table_speeds[at.row + 1] / table_speeds[at.row]);
+    const double rolling = film_speed(omega.x);
+    at.row = speed_row(omega.x).row;
+    {
+        const double per_ratio = 1.0 / log(table_speeds[at.row + 1] / table_speeds[at.row]);
+        at.by_speed.x = per_ratio * log(rolling / table_speeds[at.row]);
+        at.by_speed.d = rolling == omega.x ? per_ratio / rolling * omega.d : 0.0;
+    }
 #else
     (void)omega;
 #endif
     return at;
 }
 
-static FilmPlace at_load(FilmPlace at, int race, double load)
+static FilmPlace at_load(FilmPlace at, int race, Dual load)
 {
-    const double x = load > 0.0 ? (log(load) - film_x0[race]) / film_dx[race] : 0.0;
-    if (x > 0.0) {
-        at.node = x >= FILM_NODES - 1 ? FILM_NODES - 2 : (int)x;
-        at.by_load = x >= FILM_NODES - 1 ? 1.0 : x - at.node;
+    const double x = load.x > 0.0 ? (log(load.x) - film_x0[race]) / film_dx[race] : 0.0;
+    if (x >= FILM_NODES - 1) {
+        at.node = FILM_NODES - 2;
+        at.by_load = number(1.0);
+    } else if (x > 0.0) {
+        at.node = (int)x;
+        at.by_load = dual(x - at.node, load.d / (load.x * film_dx[race]));
     }
     return at;
 }
 
-/* A quantity of a film, tabulated as its logarithm over those of load and speed. */
-static double of_table(int race, int what, FilmPlace at)
+static Dual between(const double *here, Dual share)
 {
-    const double *here = &film_tables[race][at.row][what][at.node];
-    double y = here[0] + at.by_load * (here[1] - here[0]);
+    return dual(here[0] + share.x * (here[1] - here[0]), share.d * (here[1] - here[0]));
+}
+
+/* A quantity of a film, tabulated as its logarithm over those of load and speed. */
+static Dual of_table(int race, int what, FilmPlace at)
+{
+    Dual y = between(&film_tables[race][at.row][what][at.node], at.by_load);
 #if SPEED_ROWS > 1
-    const double *next = &film_tables[race][at.row + 1][what][at.node];
-    y += at.by_speed * (next[0] + at.by_load * (next[1] - next[0]) - y);
+    y = add(y, mul(at.by_speed, sub(between(&film_tables[race][at.row + 1][what][at.node], at.by_load), y)));
 #endif
-    return exp(y);
+    return chained(exp(y.x), exp(y.x), y);
 }
 
 /* Films of a contact, and the torque that it takes from the inner ring. */
-static double show_film(const Bearing *b, const Ball *ball, int race, FilmPlace speed, double films[2])
+static Dual show_film(const Bearing *b, const Ball *ball, int race, Dual load, FilmPlace speed, Dual films[2])
 {
-    const FilmPlace at = at_load(speed, race, ball->force[race]);
+    const FilmPlace at = at_load(speed, race, load);
     const double factor = FREEDOMS == 5 ? ball->factor[race][0] : 1.0;
     const double rolls = FREEDOMS == 5 ? ball->entrained[race][0] : ROLLING_RADIUS;
-    films[0] = factor * of_table(race, CENTRAL, at);
-    films[1] = factor * of_table(race, SMALLEST, at);
-    return b->omega > 0.0 ? 0.5 * rolls * of_table(race, MOMENT, at) / rolling_radius[race] : 0.0;
+    films[0] = times(factor, of_table(race, CENTRAL, at));
+    films[1] = times(factor, of_table(race, SMALLEST, at));
+    return b->omega > 0.0 ? times(0.5 * rolls / rolling_radius[race], of_table(race, MOMENT, at)) : number(0.0);
 }
 
 #endif
 
-static void show_balls(Model *m, const Bearing *b)
+/* Values of variables, or their changes along a direction; either may be NULL. */
+typedef struct {
+    double *value, *along;
+} Shown;
+
+static void put(Shown to, int reference, Dual x)
 {
-    double *value = m->value, largest[2] = {0.0, 0.0};
+    if (to.value != NULL) {
+        to.value[reference] = x.x;
+    }
+    if (to.along != NULL) {
+        to.along[reference] = x.d;
+    }
+}
+
+/* Loads and films of all balls, the largest and the smallest, and the torque. */
+static void show_balls(const Bearing *b, Dual omega, Dual load[][2], int film, Shown to)
+{
+    Dual largest[2] = {{0.0, 0.0}, {0.0, 0.0}};
     int k, race;
 #if HAS_FILMS
-    const FilmPlace speed = at_speed(b->omega);
-    double smallest = HUGE_VAL, torque = 0.0;
+    const FilmPlace speed = at_speed(omega);
+    Dual smallest = number(film ? HUGE_VAL : 0.0), torque = number(0.0);
+#else
+    (void)b, (void)omega, (void)film;
 #endif
     for (k = 0; k < BALLS; k++) {
-        const Ball *ball = &b->ball[k];
-        double *shown = &value[FIRST_BALL + k * PER_BALL];
+        int shown = FIRST_BALL + k * PER_BALL;
         for (race = 0; race < 2; race++) {
-            const double load = ball->force[race];
-            largest[race] = fmax(largest[race], load);
-            *shown++ = load;
-#if HAS_FILMS
-            if (value[VR_film] != 0.0) {
-                torque += show_film(b, ball, race, speed, shown);
-                smallest = fmin(smallest, shown[1]);
-            } else {
-                shown[0] = shown[1] = smallest = 0.0;
+            if (load[k][race].x > largest[race].x) {
+                largest[race] = load[k][race];
             }
-            shown += 2;
+            put(to, shown++, load[k][race]);
+#if HAS_FILMS
+            {
+                Dual films[2] = {{0.0, 0.0}, {0.0, 0.0}};
+                if (film) {
+                    torque = add(torque, show_film(b, &b->ball[k], race, load[k][race], speed, films));
+                    smallest = films[1].x < smallest.x ? films[1] : smallest;
+                }
+                put(to, shown++, films[0]);
+                put(to, shown++, films[1]);
+            }
 #endif
 #if FREEDOMS == 5
-            *shown++ = ball->angle[race];
+            put(to, shown++, number(b->ball[k].angle[race]));
 #endif
         }
     }
-    value[VR_largest_load_inner] = largest[INNER_RACE];
-    value[VR_largest_load_outer] = largest[OUTER_RACE];
+    put(to, VR_largest_load_inner, largest[INNER_RACE]);
+    put(to, VR_largest_load_outer, largest[OUTER_RACE]);
 #if HAS_FILMS
-    value[VR_smallest_film] = smallest;
-    value[VR_rolling_torque] = torque;
+    put(to, VR_smallest_film, smallest);
+    put(to, VR_rolling_torque, torque);
 #if HAS_ROUGHNESS
-    value[VR_smallest_lambda] = smallest / ROUGHNESS;
+    put(to, VR_smallest_lambda, times(1.0 / ROUGHNESS, smallest));
 #endif
 #endif
-    value[VR_cage_angle] = b->angle;
-    value[VR_outside_speed] = b->omega > (1.0 + by_rounding) * MOST_SPEED;
-    value[VR_outside_load] = largest[INNER_RACE] > most_load[INNER_RACE] || largest[OUTER_RACE] > most_load[OUTER_RACE];
-    value[VR_outside_validity] = value[VR_outside_speed] != 0.0 || value[VR_outside_load] != 0.0;
 }
 
+/* Outputs, and what the bearing remembers. */
 static void show(Model *m, const Bearing *b, const double force[])
 {
-    int j;
+    double *value = m->value;
+    const Shown to = {value, NULL};
+    const int per_ball = N_CONTACTS / BALLS;
+    Dual load[BALLS][2];
+    int j, k, race;
     for (j = 0; j < FREEDOMS; j++) {
-        m->value[FIRST_FORCE + j] = -force[j];
+        value[FIRST_FORCE + j] = -force[j];
     }
-    show_balls(m, b);
+    for (k = 0; k < BALLS; k++) {
+        for (race = 0; race < 2; race++) {
+            load[k][race] = number(b->ball[k].force[race]);
+        }
+        for (race = 0; race < per_ball; race++) {
+            m->indicator[k * per_ball + race] = b->ball[k].film[race];
+        }
+    }
+    show_balls(b, number(b->omega), load, value[VR_film] != 0.0, to);
+    value[VR_cage_angle] = b->angle;
+    value[VR_outside_speed] = b->omega > (1.0 + by_rounding) * MOST_SPEED;
+    value[VR_outside_load] = value[VR_largest_load_inner] > most_load[INNER_RACE]
+                             || value[VR_largest_load_outer] > most_load[OUTER_RACE];
+    value[VR_outside_validity] = value[VR_outside_speed] != 0.0 || value[VR_outside_load] != 0.0;
     memcpy(m->cache, b, sizeof *b);
 }
 
@@ -229,37 +280,247 @@ Fault model_prepare(Model *m)
 #endif
 }
 
-/* Before the first step: at rest where the inputs are. Then outputs are those of the last step, whatever the inputs. */
+/* At rest with the ring at q: what the bearing remembers, and the force on its balls. */
+static const char *rest(const Model *m, const double q[], Bearing *bearing, double force[])
+{
+    const Setup setup = setup_of(m->value);
+    const char *reason = check(q, m->input[SPEED]);
+    if (reason == NULL) {
+        bearing->angle = m->value[VR_cage_angle_start];
+        reason = balls_rest(&setup, bearing, m->input[SPEED], q, force);
+    }
+    if (reason == NULL) {
+        reason = check_forces(force);
+    }
+    if (reason == NULL) {
+        pass_seat(bearing, bearing, 0.0, force);
+    }
+    return reason;
+}
+
+#if N_STATES > 0
+
+/* ---- continuous time ---- */
+
+enum { SEAT = FIRST_OF_BALLS + BALLS * BALL_STATES };
+
+/* The states of a bearing at rest or at the end of a step. */
+static void states_of(const Bearing *b, double states[])
+{
+    int k, race, j;
+    states[CAGE_ANGLE] = b->angle;
+    for (k = 0; k < BALLS; k++) {
+        double *state = &states[FIRST_OF_BALLS + k * BALL_STATES];
+        if (OWN_STATES > 0) {
+            *state++ = b->ball[k].place[0][0];
+        }
+        if (OWN_STATES > 1) {
+            *state++ = b->ball[k].rate[0];
+        }
+        for (race = 0; race < 2 && FILM_STATES > 0; race++) {
+            const FilmState *film = &b->film[k][race];
+            *state++ = film->inlet;
+            *state++ = film->fast;
+            memcpy(state, film->chain, sizeof film->chain);
+            state += LAGS;
+        }
+    }
+    for (k = 0; k < SEAT_FILTERS; k++) {
+        for (j = 0; j < FREEDOMS; j++) {
+            states[SEAT + k * FREEDOMS + j] = b->seat[1 + k][j];
+        }
+    }
+}
+
+/* States, rates and forces, with their changes along a direction. */
+typedef struct {
+    Dual states[N_STATES], rates[N_STATES], force[FREEDOMS];
+    RingMotion ring;
+    BallLoads balls;
+} InTime;
+
+/* What follows from the inputs and these states, along `seed` (NULL: no direction); at the start from the inputs alone. */
+static const char *in_time(const Model *m, const double states[], const double *seed, InTime *t)
+{
+    const Setup setup = setup_of(m->value);
+    const int starts = m->stage == STARTING, wet = setup.race[INNER_RACE].nodes > 0;
+    double q[FREEDOMS], force[FREEDOMS];
+    Bearing still;
+    const char *reason;
+    int i, j, k;
+    place_of(m->value, m->input, q);
+    reason = check(q, m->input[SPEED]);
+    if (reason != NULL) {
+        return reason;
+    }
+    for (j = 0; j < FREEDOMS; j++) {
+        t->ring.q[j] = dual(q[j], seed != NULL ? seed[j] : 0.0);
+        t->ring.v[j] = dual(m->input[VELOCITY + j], seed != NULL ? seed[VELOCITY + j] : 0.0);
+    }
+    t->ring.omega = dual(m->input[SPEED], seed != NULL ? seed[SPEED] : 0.0);
+    for (i = 0; i < N_STATES; i++) {
+        t->states[i] = dual(states[i], seed != NULL && !starts ? seed[FIRST_STATE + i] : 0.0);
+    }
+    if (OWN_STATES < 2 && !wet) {
+        memcpy(&still, m->cache, sizeof still);
+        still.angle = states[CAGE_ANGLE];
+        reason = balls_rest(&setup, &still, m->input[SPEED], q, force);
+    }
+    for (k = 0; k < BALLS && starts && OWN_STATES > 0; k++) {
+        Dual *w = &t->states[FIRST_OF_BALLS + k * BALL_STATES];
+        *w = rest_place(&setup, &t->ring, t->states[CAGE_ANGLE], k, w->x);
+    }
+    if (reason == NULL) {
+        reason = bearing_rates(&setup, &t->ring, &still, t->states, t->rates, &t->balls);
+    }
+    for (j = 0; j < FREEDOMS && reason == NULL; j++) {
+        const Dual raw = t->balls.force[j];
+        t->force[j] = raw;
+#if SEAT_FILTERS > 0
+        for (k = 0; k < SEAT_FILTERS; k++) {
+            Dual *held = &t->states[SEAT + k * FREEDOMS + j], lost;
+            held->d = starts ? raw.d : held->d;
+            lost = sub(raw, *held);
+            t->rates[SEAT + k * FREEDOMS + j] = times(seat_rates[k], lost);
+            t->force[j] = add(t->force[j], times(seat_gains[k], lost));
+        }
+#endif
+        reason = isfinite(t->force[j].x) ? NULL : "the forces are too large for a floating-point number";
+    }
+    for (i = 0; i < N_STATES && reason == NULL; i++) {
+        reason = isfinite(t->rates[i].x) ? NULL : "a derivative of a state is too large for a floating-point number";
+    }
+    return reason;
+}
+
+static void show_rates(Model *m, const InTime *t)
+{
+    int i;
+    for (i = 0; i < N_STATES; i++) {
+        m->value[FIRST_DERIVATIVE + i] = t->rates[i].x;
+    }
+}
+
+/* Outputs and derivatives of model exchange: with the states that were set, at the start with those at rest. */
+static Fault evaluate_in_time(Model *m)
+{
+    double states[N_STATES], force[FREEDOMS], q[FREEDOMS];
+    const char *reason = NULL;
+    Bearing b;
+    InTime t;
+    int i, j, k;
+    memcpy(&b, m->cache, sizeof b);
+    memcpy(states, &m->value[FIRST_STATE], sizeof states);
+    if (m->stage == STARTING) {
+        place_of(m->value, m->input, q);
+        reason = rest(m, q, &b, force);
+        states_of(&b, states);
+    }
+    for (i = 0; i < N_STATES && reason == NULL; i++) {
+        if (!isfinite(states[i])) {
+            return fault(REFUSE, "the states must be finite");
+        }
+    }
+    if (reason == NULL) {
+        reason = in_time(m, states, NULL, &t);
+    }
+    if (reason != NULL) {
+        return fault(DISCARD, reason);
+    }
+    for (k = 0; k < BALLS; k++) {
+        for (j = 0; j < 2; j++) {
+            b.ball[k].force[j] = t.balls.load[k][j].x;
+            b.ball[k].film[j] = t.balls.film[k][j];
+        }
+    }
+    for (j = 0; j < FREEDOMS; j++) {
+        force[j] = t.force[j].x;
+    }
+    b.angle = states[CAGE_ANGLE];
+    b.omega = m->input[SPEED];
+    memcpy(&m->value[FIRST_STATE], states, sizeof states);
+    show_rates(m, &t);
+    show(m, &b, force);
+    return fine;
+}
+
+void model_direction(const Model *m, const double seed[], double along[])
+{
+    const Shown to = {NULL, along};
+    Bearing b;
+    InTime t;
+    int i, j;
+    if (in_time(m, &m->value[FIRST_STATE], seed, &t) != NULL) {
+        return; /* not of an evaluated model */
+    }
+    memcpy(&b, m->cache, sizeof b);
+    for (j = 0; j < FREEDOMS; j++) {
+        along[FIRST_FORCE + j] = -t.force[j].d;
+    }
+    for (i = 0; i < N_STATES; i++) {
+        along[FIRST_STATE + i] = t.states[i].d;
+        along[FIRST_DERIVATIVE + i] = t.rates[i].d;
+    }
+    show_balls(&b, t.ring.omega, t.balls.load, m->value[VR_film] != 0.0, to);
+}
+
+#else
+
+void model_direction(const Model *m, const double seed[], double along[])
+{
+    (void)m, (void)seed, (void)along;
+}
+
+#endif
+
+/* ---- steps ---- */
+
+static void show_step(Model *m, const Bearing *b, const double force[])
+{
+    show(m, b, force);
+#if N_STATES > 0
+    states_of(b, &m->value[FIRST_STATE]);
+#endif
+}
+
+/* In steps: before the first one at rest where the inputs are; then outputs are those of the last, whatever the inputs. */
 Fault model_evaluate(Model *m)
 {
     Bearing bearing;
-    Setup setup = setup_of(m->value);
     double q[FREEDOMS], force[FREEDOMS];
     const char *reason;
+#if N_STATES > 0
+    if (m->stage != IN_STEPS) {
+        return evaluate_in_time(m);
+    }
+#endif
     memcpy(&bearing, m->cache, sizeof bearing);
     if (bearing.h > 0.0) {
         return fine;
     }
     place_of(m->value, m->input, q);
-    reason = check(q, m->input[SPEED]);
-    if (reason == NULL) {
-        bearing.angle = m->value[VR_cage_angle_start];
-        reason = balls_rest(&setup, &bearing, m->input[SPEED], q, force);
-    }
-    if (reason == NULL) {
-        reason = check_forces(force);
-    }
+    reason = rest(m, q, &bearing, force);
     if (reason != NULL) {
         return fault(DISCARD, reason);
     }
-    pass_seat(&bearing, &bearing, 0.0, force);
-    show(m, &bearing, force);
+    show_step(m, &bearing, force);
     return fine;
 }
 
 Fault model_rates(Model *m)
 {
+#if N_STATES > 0
+    if (m->stage == IN_STEPS) {
+        InTime t;
+        const char *reason = in_time(m, &m->value[FIRST_STATE], NULL, &t);
+        if (reason != NULL) {
+            return fault(DISCARD, reason);
+        }
+        show_rates(m, &t);
+    }
+#else
     (void)m;
+#endif
     return fine;
 }
 
@@ -287,14 +548,9 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
         return fault(DISCARD, reason);
     }
     pass_seat(&before, &after, h, force);
-    show(m, &after, force);
+    show_step(m, &after, force);
     memcpy(m->input, inputs, sizeof inputs);
     return fine;
-}
-
-void model_direction(const Model *m, const double seed[], double along[])
-{
-    (void)m, (void)seed, (void)along;
 }
 
 unsigned long long model_outside(const Model *m)

@@ -12,8 +12,7 @@ static const double cutoff_gap = CUTOFF_GAP;
 
 /* ---- the static curve ---- */
 
-/* Curve of one speed; k is where to begin to look for the interval of u, and that found. */
-static double at_row(const Race *race, int row, double u, int *k, double *slope)
+double race_curve(const Race *race, int row, double u, int *k, double *slope)
 {
     const double *nodes = &race->u[row * race->nodes], *term;
     const int last = race->nodes - 2;
@@ -52,10 +51,10 @@ static double curve(const Race *race, SpeedRow at, double u, int *k, double *slo
         *slope = u > 0.0 ? 1.0 : 0.0;
         return u > 0.0 ? u : 0.0;
     }
-    g = at_row(race, at.row, u, k, slope);
+    g = race_curve(race, at.row, u, k, slope);
     if (at.weight > 0.0) {
         int next = *k;
-        const double other = at_row(race, at.row + 1, u, &next, &other_slope);
+        const double other = race_curve(race, at.row + 1, u, &next, &other_slope);
         g += at.weight * (other - g);
         *slope += at.weight * (other_slope - *slope);
     }
@@ -125,8 +124,7 @@ static double film_made(const RaceStep *c, double x)
     return here + weight * (made_at(c, k + 1) - here);
 }
 
-/* Share of its force that a film carries at an approach, and its slope. */
-static double cutoff(double u, double *slope)
+double race_cutoff(double u, double *slope)
 {
     const double gap = -u / cutoff_gap, t = 2.0 * gap - 1.0;
     *slope = 0.0;
@@ -219,7 +217,7 @@ RaceForce race_force(const RaceStep *c, double u, double v)
 {
     const Race *race = c->race;
     StepFilters *f = c->filters;
-    RaceForce out = {0.0, 0.0, 0.0};
+    RaceForce out = {0.0, 0.0, 0.0, 0.0};
     double g_u, lift, root, x, per_x, weight, tau, e, t, here, there, per_made, share, share_u, slope;
     double m0, me, mt, step, q0, qe, qt, more, carried, w, w_u;
     const double g = race_gap(c, u, &g_u, &lift);
@@ -228,6 +226,7 @@ RaceForce race_force(const RaceStep *c, double u, double v)
     if (race->nodes == 0) {
         out.force = race->kn * g * root;
         out.stiffness = 1.5 * race->kn * root * g_u;
+        out.film = u;
         return out;
     }
     x = race->log_kn + 1.5 * log(g);
@@ -265,12 +264,13 @@ RaceForce race_force(const RaceStep *c, double u, double v)
     w = g + m0 + me * e + mt * t + carried;
     me += per_made * qe;
     mt += per_made * qt;
+    out.film = w;
     if (w <= 0.0) {
         return out;
     }
     w_u = g_u + mt + (0.5 * me * e + 1.5 * per_x * step) * g_u / g;
     root = sqrt(w);
-    share = cutoff(u, &share_u);
+    share = race_cutoff(u, &share_u);
     slope = 1.5 * race->kn * root;
     out.force = race->kn * w * root;
     out.stiffness = share * slope * w_u + share_u * out.force;

@@ -19,10 +19,10 @@ typedef struct {
     const double *made;  /* [rows][nodes] film that a unit of the inlet's state lets into the chain */
 } Race;
 
-/* Row of the tables, and weight of the next. */
+/* Row of the tables, and weight of the next with its slope by the speed of the shaft. */
 typedef struct {
     int row;
-    double weight;
+    double weight, slope;
 } SpeedRow;
 
 /* A film that is not that of the tables: its thickness over that, and a guess of v - u, see race_gap. */
@@ -43,8 +43,9 @@ typedef struct {
     int interval, weighed; /* of the curve used last; whose gains have been weighed, -1 for none */
 } StepFilters;
 
+/* The force and its slopes; `film` is the compression whose power 3/2 it is, below 0 where the surfaces have parted. */
 typedef struct {
-    double force, stiffness, damping;
+    double force, stiffness, damping, film;
 } RaceForce;
 
 /* A contact in a step: its law, speeds and filters. */
@@ -56,6 +57,13 @@ typedef struct {
     const FilmState *before;   /* at the start */
     StepFilters *filters;
 } RaceStep;
+
+/* Curve of one speed, dry compression g at an approach and its slope; k is where to begin to look for the interval of u, and
+ * that found. */
+double race_curve(const Race *race, int row, double u, int *k, double *slope);
+
+/* Share of its force that a film carries at an approach, and its slope. */
+double race_cutoff(double u, double *slope);
 
 /* Dry compression g at an approach, and its slope; v - u of a film that is not that of the tables goes to `lift`. */
 double race_gap(const RaceStep *contact, double u, double *slope, double *lift);
