@@ -21,6 +21,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
+from ehlcontact.supply import OilLayer
 
 _SI, _MOES, _LAWS = "A ball of a bearing, in SI", "Or a point without dimensions", "Laws of the oil"
 _DISC = "Or a ball on a disc, in SI (with --oil, --temp, --load)"
@@ -318,6 +319,31 @@ class Surfaces(Options):
         """For JSON, likewise."""
         ratio = self.lambda_ratio(h_min)
         return {} if ratio is None else {"lambda_ratio": ratio}
+
+
+class Supply(Options):
+    """How much oil reaches the contact; flooded where neither is given."""
+
+    panel: ClassVar[str | None] = "Oil supply (flooded if left out)"
+    layer: Annotated[e.OilThickness | None, typer.Option("--layer", help=None)] = None
+    layer_ratio: Annotated[e.LayerRatio | None, typer.Option("--layer-ratio", help=None)] = None
+
+    def chosen(self, contact: Contact) -> OilLayer | None:
+        """The layer, or None for a flooded inlet.
+
+        Raises
+        ------
+        InputError
+            Both options; a layer in micrometres at a point without a unit of length.
+        """
+        if self.layer is not None and self.layer_ratio is not None:
+            raise InputError("--layer", self.layer, "given without --layer-ratio")
+        if self.layer is not None and not contact.in_si:
+            allowed = "--layer-ratio instead: a point of --M --L --kappa has no unit of length"
+            raise InputError("--layer", self.layer, allowed)
+        if self.layer is not None:
+            return OilLayer(1e-6 * self.layer)
+        return None if self.layer_ratio is None else OilLayer(over_flooded=self.layer_ratio)
 
 
 class Frequencies(Options):

@@ -151,6 +151,14 @@ DensityLaw = Annotated[Literal["dowson-higginson", "incompressible"], meaning("l
 
 # Surfaces, grids and motions.
 Roughness = Annotated[Finite, Physical(Quantity("um", (1e-3, 100.0), (1e-3, 10.0), {"m": 1e6, "nm": 1e-3}))]
+OilThickness = Annotated[
+    Positive,
+    Physical(Quantity("um", (1e-6, 1e3), (1e-3, 500.0), {"m": 1e6, "mm": 1e3, "nm": 1e-3})),
+    meaning("layer of oil on both surfaces together ahead of the contact"),
+]
+LayerRatio = Annotated[
+    Positive, Field(le=1e6), meaning("that layer over what the flooded film of the contact lets through")
+]
 Intervals = Annotated[Whole, Field(ge=16, le=2048, multiple_of=16)]
 Frequency = Annotated[Finite, Field(ge=SLOWEST, le=FASTEST)]  # dimensionless
 Steps = Annotated[Whole, Field(ge=20, le=2000, description="time steps in each of them")]

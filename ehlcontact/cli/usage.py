@@ -22,6 +22,10 @@ _PRELOAD = (
     "`ehlcontact bearing --axial` is that of one bearing, with a --clearance below 0 radially; "
     "--pair has that of two"
 )
+_SUPPLY = (
+    "a layer of oil ahead of the contact is, as --layer of `ehlcontact steady` and `impedance`; "
+    "films of the other commands are flooded"
+)
 _FILMS = "films are fully flooded and isothermal, without sliding; what that leaves out stands in the answer"
 # What people ask for and no command computes, by the option that they try.
 NOT_IN_THE_MODEL = {
@@ -29,8 +33,9 @@ NOT_IN_THE_MODEL = {
     **dict.fromkeys(("--moment", "--tilt", "--misalignment"), f"{_RADIAL} (--moment-x, --tilt-x)"),
     **dict.fromkeys(("--preload", "--axial-preload"), _PRELOAD),
     **dict.fromkeys(
-        ("--starvation", "--grease", "--thermal", "--heat", "--sliding", "--slip", "--traction"), _FILMS
+        ("--starvation", "--starved"), "`ehlcontact steady` and `impedance` have --layer; elsewhere " + _FILMS
     ),
+    **dict.fromkeys(("--grease", "--thermal", "--heat", "--sliding", "--slip", "--traction"), _FILMS),
 }
 
 

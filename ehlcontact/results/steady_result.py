@@ -231,15 +231,24 @@ class SteadyResult(ScaledTable, Origin):
             *note_line(self.outside_assumptions),
         ]
 
+    @property
+    def front(self) -> float | None:
+        """X of the first node under pressure on Y = 0, up to which an oil supply fills the gap in part only.
+
+        None for a flooded inlet.
+        """
+        return None if self.layer is None else float(self.X[int(np.argmax(self.P[:, 0] > 0.0))])
+
     def _supply_line(self, size: float, unit: str) -> str:
         """Layer that enters, and where the full film begins, in words."""
         assert self.layer is not None
         layers = sorted({f"{size * h:.4g}" for h in (self.layer.min(), self.layer.max())})
-        front = self.X[int(np.argmax(self.P[:, 0] > 0.0))]
-        return f"layer of oil {' to '.join(layers)} {unit}; the film is full from X = {front:.3g} on"
+        return f"layer of oil {' to '.join(layers)} {unit}; the film is full from X = {self.front:.3g} on"
 
     def to_dict(self) -> dict[str, Any]:
         """Numbers without the fields, status and origin, ready for JSON; of an SI point with ``si``."""
-        said = {"status": str(self.status), "advice": self.status.advice, "reservation": self.reservation}
-        said["outside_assumptions"] = self.outside_assumptions
+        said: dict[str, Any] = {"status": str(self.status), "advice": self.status.advice}
+        said |= {"reservation": self.reservation, "outside_assumptions": self.outside_assumptions}
+        if self.supply is not None:
+            said |= {"supply": self.supply.to_dict(), "front": self.front}
         return ScaledTable.to_dict(self) | said | self.origin_dict()

@@ -256,3 +256,25 @@ def test_rows_of_an_element_are_the_answers_of_the_atlas_with_their_bars(call, g
         assert numbers[0] == pytest.approx(value, rel=6e-4), (start, found)
         told = float(re.search(r"± (\d\S*)", found)[1])
         assert told == pytest.approx(bar, rel=0.5) and told == float(f"{bar:.1g}"), (start, found)
+
+
+def test_a_layer_of_oil(call, refused):
+    """`--layer` in um, or over the flooded film; the front of the full film is in the table."""
+    point = "--M", "20", "--L", "10", "--kappa", "1", "--n", "32"
+    flooded, starved = (
+        json.loads(call("steady", *point, *given, "--json", "-").out) for given in ((), ("--layer-ratio", "0.5"))
+    )
+    assert 0.45 < starved["h_central"] / flooded["h_central"] < 0.5
+    assert starved["supply"] == {"over_flooded": 0.5}
+    shown = call("steady", *options(), *COARSE, "--layer", "0.2").out
+    assert re.search(r"layer of oil +0\.2 µm +full from X = -1", shown)
+    full, short = (
+        json.loads(call("impedance", *point, *given, "--Omega", "1", "--json", "-").out)["damping"][0]
+        for given in ((), ("--layer-ratio", "0.5"))
+    )
+    assert short < 0.5 * full
+    refused(("--layer = 1.0", "--layer-ratio instead"), "steady", *point, "--layer", "1")
+    refused(("--layer = 2e-07", "in m? then 0.2 um"), "steady", *options(), "--layer", "2e-7")
+    refused(
+        ("--layer = 0.2", "without --layer-ratio"), "steady", *options(), "--layer", "0.2", "--layer-ratio", "1"
+    )

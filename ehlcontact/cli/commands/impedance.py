@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Frequencies
+from ehlcontact.cli.contact import Contact, Frequencies, Supply
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import complain
 from ehlcontact.cli.progress import progress
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 
 @o.grouped
-def impedance(contact: Contact, grid: o.Grid, frequencies: Frequencies, out: o.Output) -> None:
+def impedance(contact: Contact, supply: Supply, grid: o.Grid, frequencies: Frequencies, out: o.Output) -> None:
     """Linearise the steady film: stiffness K and damping C over frequency."""
     from ehlcontact.impedance import impedance as solve
 
-    point, chosen = contact.solvable(), grid.chosen()
+    point, chosen = contact.solvable(), grid.chosen() | {"supply": supply.chosen(contact)}
     at = frequencies.named(contact)
     out.check()
     with progress("linearised contact"):

@@ -11,7 +11,8 @@ import typer
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Surfaces
+from ehlcontact.cli.contact import Contact, Supply, Surfaces
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, outside_rows, quantity_rows, run_rows, share_text
@@ -61,6 +62,7 @@ class Solving(o.Options):
 @o.grouped
 def steady(
     contact: Contact,
+    supply: Supply,
     surfaces: Surfaces,
     grid: o.Grid,
     solving: Solving,
@@ -69,7 +71,8 @@ def steady(
     """Solve the steady film of a contact, in SI for a ball of a bearing."""
     from ehlcontact.steady import solve_steady
 
-    point, chosen = contact.solvable(), grid.chosen() | solving.model_dump()
+    chosen = grid.chosen() | solving.model_dump() | {"supply": supply.chosen(contact)}
+    point = contact.solvable()
     surfaces.check(contact)
     out.check()
     with progress("steady film") as update:
@@ -119,8 +122,17 @@ def _rows(result: SteadyResult) -> list[Row]:
         ("residual", f"{result.residual:.1e}", "over the dry start's"),
         ("load balance", f"{result.load_residual:.1e}", "over the load"),
         ("cycles", f"{result.cycles}", ""),
+        *_supply_rows(result),
         *run_rows(result),
     ]
+
+
+def _supply_rows(result: SteadyResult) -> list[Row]:
+    """Layer of oil that arrives, and where the film begins to be full."""
+    if result.layer is None:
+        return []
+    size, unit = (1.0, "dry approaches") if result.scales is None else (1e6 * result.scales.length, "µm")
+    return [("layer of oil", f"{numeral(size * result.layer[0])} {unit}", f"full from X = {result.front:.3g} on")]
 
 
 def _left_out(result: SteadyResult) -> str:
