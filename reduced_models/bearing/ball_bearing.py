@@ -270,13 +270,13 @@ class BallBearing(Summary):
 
         Those under an axial load are `BearingState.orders`.
         """
-        return DefectFrequencies.of(self.balls, self.gamma * self._cosine)
+        return DefectFrequencies.of(self.balls, self.gamma, self._cosine)
 
     @takes(speed_rpm="rev/min")
     def frequencies(self, speed_rpm: float) -> DefectFrequencies:
         """Defect frequencies [Hz] at a speed of the shaft [rev/min]."""
         turns = require_nonnegative("speed_rpm", speed_rpm) * RPM_TO_HZ
-        return DefectFrequencies.of(self.balls, self.gamma * self._cosine, turns)
+        return DefectFrequencies.of(self.balls, self.gamma, self._cosine, turns)
 
     @property
     def roughness(self) -> float | None:

@@ -35,13 +35,18 @@ class DefectFrequencies:
     bsf: float
 
     @classmethod
-    def of(cls, balls: int, gamma: float, turns: float = 1.0) -> DefectFrequencies:
-        """Frequencies for `balls` balls of diameter ratio `gamma`, at `turns` shaft turns per unit of time."""
+    def of(cls, balls: int, ratio: float, cosine: float = 1.0, turns: float = 1.0) -> DefectFrequencies:
+        """Frequencies for `balls` balls of diameter `ratio` D/dm, at `turns` shaft turns per unit of time.
+
+        At a contact angle, of that `cosine`, the cage follows gamma = D/dm cos(angle). A ball turns dm/(2 D)
+        (1 - gamma^2) times: over its diameter, not over gamma (Harris, Rolling Bearing Analysis, ch. 8).
+        """
+        gamma = ratio * cosine
         return cls(
             ftf=cage_ratio(gamma) * turns,
             bpfo=balls * cage_ratio(gamma) * turns,
             bpfi=balls * 0.5 * (1.0 + gamma) * turns,
-            bsf=0.5 * (1.0 - gamma * gamma) / gamma * turns,
+            bsf=0.5 * (1.0 - gamma * gamma) / ratio * turns,
         )
 
 

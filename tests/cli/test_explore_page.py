@@ -114,7 +114,7 @@ def test_defect_frequencies_at_a_contact_angle(seen):
     found = seen(TEXTS, "#contact_angle=9.71&load=500")
     assert found["refused"] is False and "at a contact angle of 9.71°" in found["defects"]
     bearing = BallBearing.catalogue("6205")
-    for name, order in asdict(DefectFrequencies.of(9, bearing.gamma * np.cos(np.radians(9.71)))).items():
+    for name, order in asdict(DefectFrequencies.of(9, bearing.gamma, np.cos(np.radians(9.71)))).items():
         assert name.upper() in found["defects"] and f"{order:.5g}" in found["defects"]
     found = seen(TEXTS, "#contact_angle=50")
     assert "contact_angle" in found["invalid"] and "0 to 45" in found["refused"]

@@ -144,6 +144,20 @@ def test_orders_of_a_6205_with_clearance_and_axial_load():
     assert bearing.equilibrium((0.0, -1000.0)).orders is None
 
 
+@pytest.mark.parametrize("name", ["7205 C", "7205", "7205 B"])
+def test_spin_of_a_ball_at_a_contact_angle(name):
+    """BSF = dm/(2 D) (1 - (D/dm cos a)^2); with control of a race a ball turns about an axis at b, and spins."""
+    bearing = BallBearing.catalogue(name)
+    ratio, a = bearing.ball_diameter / bearing.pitch_diameter, bearing.contact_angle
+    by_hand = (1.0 - (ratio * np.cos(a)) ** 2) / (2.0 * ratio)
+    assert bearing.orders.bsf == pytest.approx(by_hand, rel=1e-12)
+    assert bearing.frequencies(3000.0).bsf == pytest.approx(50.0 * by_hand, rel=1e-12)
+    for control, sign in (("outer", 1.0), ("inner", -1.0)):
+        b = np.arctan2(np.sin(a), np.cos(a) + sign * ratio)
+        state = BallBearing.catalogue(name, race_control=control).equilibrium((0.0, 0.0, 1.0))
+        assert state.orders.bsf == pytest.approx(by_hand / np.cos(a - b), rel=3e-4)
+
+
 @pytest.mark.parametrize("control", CONTROLS)
 def test_balls_against_their_equations_written_out(control):
     """Four equations of a ball as in the books, by scipy's root."""

@@ -33,8 +33,8 @@ class Bearing {
   // Defect frequencies per turn of the shaft at a contact angle [degrees] (reduced_models.bearing.kinematics).
   orders(angle = 0) {
     if (!(angle >= 0 && angle <= LARGEST_ANGLE)) throw new InputError("contact_angle", angle, `0 to ${LARGEST_ANGLE} degrees`);
-    const gamma = this.ball_diameter / this.pitch_diameter * Math.cos(angle * Math.PI / 180), cage = 0.5 * (1 - gamma);
-    return { FTF: cage, BPFO: this.balls * cage, BPFI: this.balls * 0.5 * (1 + gamma), BSF: 0.5 * (1 - gamma * gamma) / gamma };
+    const ratio = this.ball_diameter / this.pitch_diameter, gamma = ratio * Math.cos(angle * Math.PI / 180), cage = 0.5 * (1 - gamma);
+    return { FTF: cage, BPFO: this.balls * cage, BPFI: this.balls * 0.5 * (1 + gamma), BSF: 0.5 * (1 - gamma * gamma) / ratio };
   }
 
   // Both contacts and the centrifugal force at a speed [rev/min].
