@@ -52,7 +52,8 @@ typedef struct {
     unsigned long long contact, noticed; /* bits: contacts that push; bounds whose leaving has been logged */
     int phase, kind;
     int has_stop_time, n_given; /* n_given: steps in given, at most 2 */
-    double missed, moved; /* squares of what was missed of the changes of rates, and of these, in a block of steps */
+    double missed[N_INPUTS], moved[N_INPUTS]; /* squares of what was missed of the changes of rates, and of these, in a block */
+    double most_moved;                        /* of any rate in any block */
     int stale, judged, too_long, told; /* too_long: blocks on end whose steps were; told: whether that has been logged */
 } State;
 

@@ -140,6 +140,16 @@ static double missed_share(const State *s, int k, double time)
     return missed > 1.0 ? 1.0 : missed < -1.0 ? -1.0 : isfinite(missed) ? missed : 0.0;
 }
 
+/* Whether an input is a displacement or its rate. Others, the speed of a shaft, are held in a step: beyond what was given they
+ * could be what no shaft does. */
+static int moves(int k)
+{
+    int j;
+    for (j = 0; j < N_INPUTS && rate_of[j] != k; j++) {
+    }
+    return rate_of[k] >= 0 || j < N_INPUTS;
+}
+
 /* Lengthens paths by `length` from where they end; `middle` of the master's step there, from the inputs. */
 static void go_on(const State *s, double time, double middle, double length, Motion *motion)
 {
@@ -148,7 +158,7 @@ static void go_on(const State *s, double time, double middle, double length, Mot
         Path *p = &motion->input[k];
         p->start = p->end;
         if (rate_of[k] < 0) {
-            p->slope = slope_after(s, k, time, middle);
+            p->slope = moves(k) || is_set(s, 1, k) ? slope_after(s, k, time, middle) : 0.0;
         } else {
             p->bend = is_set(s, 2, k) ? s->input_slope[1][k]
                                       : motion->input[rate_of[k]].slope * (1.0 + missed_share(s, k, time));
@@ -187,29 +197,44 @@ static double motion_of(const State *s, double time, double h, Motion *motion, M
 
 #ifndef LEAD_OF_INPUTS
 
-/* Where inputs go on beyond what was given: how well they did, in blocks of steps. Of a vibration w is missed (w h)^2 of the
- * change of its rate; a jump spoils one block, or two. */
+/* Where inputs go on beyond what was given: how well they did, in blocks of steps, each rate by itself. Of a vibration w is
+ * missed (w h)^2 of the change of its rate; a jump spoils one block, or two. */
+static int block_is_too_long(State *s)
+{
+    static const double most = 0.02;   /* w h = 0.17 with slower motion beside it: the damping of a contact is 5 % too large */
+    static const double still = 1e-6;  /* of the nominal rate: no motion */
+    static const double small = 0.01;  /* of the largest motion so far: what is left of it, or noise beside it */
+    int k, found = 0;
+    for (k = 0; k < N_INPUTS; k++) {
+        s->most_moved = s->moved[k] > s->most_moved ? s->moved[k] : s->most_moved;
+    }
+    for (k = 0; k < N_INPUTS; k++) {
+        const double moved = s->moved[k], least = small * small * s->most_moved;
+        found |= s->missed[k] > most * most * moved && moved > still * still && moved >= least;
+        s->missed[k] = s->moved[k] = 0.0;
+    }
+    return found;
+}
+
 static void judge_step(State *s)
 {
     enum { BLOCK = 64 };
-    static const double most = 0.02; /* w h = 0.17 with slower motion beside it: the damping of a contact is 5 % too large */
-    static const double still = 1e-6; /* of the nominal rate: no motion */
     int k;
     if (s->n_given < 2 || !core_path_is_known(s)) {
         return;
     }
     for (k = 0; k < N_INPUTS; k++) {
         if (rate_of[k] >= 0) {
-            const double unit = 1.0 / core_variables[rate_of[k]].nominal, now = s->model.value[rate_of[k]];
-            const double missed = unit * (now - s->now[rate_of[k]]), moved = unit * (now - s->given[0][rate_of[k]]);
-            s->missed += missed * missed;
-            s->moved += moved * moved;
+            const int rate = rate_of[k];
+            const double unit = 1.0 / core_variables[rate].nominal, now = s->model.value[rate];
+            const double missed = unit * (now - s->now[rate]), moved = unit * (now - s->given[0][rate]);
+            s->missed[k] += missed * missed;
+            s->moved[k] += moved * moved;
         }
     }
     if (++s->judged == BLOCK) {
-        s->too_long = s->missed > most * most * s->moved && s->moved > still * still ? s->too_long + 1 : 0;
+        s->too_long = block_is_too_long(s) ? s->too_long + 1 : 0;
         s->judged = 0;
-        s->missed = s->moved = 0.0;
     }
 }
 

@@ -241,7 +241,8 @@ static const char *check(const double place[], double omega)
     }
     for (j = 0; j < FREEDOMS; j++) {
         if (!(fabs(place[j]) <= (j < 3 ? LARGEST_PLACE : LARGEST_TILT))) {
-            return "the inner ring is farther from the outer one than the groove of a race is deep";
+            return "the inner ring is farther from the outer one than the groove of a race is deep "
+                   "(a coupling with too long steps does that)";
         }
     }
     return NULL;

@@ -259,6 +259,58 @@ def test_steps_that_are_too_long_for_the_motion_are_told(made, dt, struck, told)
     assert sum(words in message for message in messages) == int(told)
 
 
+def messages_of(one, motion, dt, steps=400):
+    """What an FMU logs while its ring has ``x, y, velocity_x, velocity_y = motion(t)``."""
+    messages = []
+    slave = Slave(one.folder, one.description, messages, loggingOn=True)
+    slave.start(lead=1.5, cage_angle_start=START, y=-1.3e-5, speed=RPM * RPM_TO_RAD_S)
+    for k in range(steps):
+        slave.set(**dict(zip(("x", "y", "velocity_x", "velocity_y"), motion(k * dt), strict=True)))
+        slave.step(dt)
+    slave.free()
+    return messages
+
+
+def test_a_small_fast_motion_beside_a_slow_one_is_told(made):
+    """Across, 3 um at 400 Hz, for which the steps are short enough; along the load 0.3 um at 650 Hz."""
+    slow, fast = 2.0 * np.pi * 400.0, 2.0 * np.pi * 650.0
+
+    def motion(t, a=3e-6, b=3e-7):
+        velocities = a * slow * np.cos(slow * t), b * fast * np.cos(fast * t)
+        return a * np.sin(slow * t), -1.3e-5 + b * np.sin(fast * t), *velocities
+
+    words = "the communication steps are too long for this motion"
+    assert any(words in message for message in messages_of(made("planar"), motion, 4.5e-5))
+    alone = messages_of(made("planar"), lambda t: motion(t, b=0.0), 4.5e-5)
+    assert not any(words in message for message in alone)
+
+
+def test_what_is_left_of_a_motion_is_not_told(made):
+    """A vibration that has decayed to a thousandth, and beside it one for which the steps would be too long."""
+    omega = 2.0 * np.pi * 650.0
+
+    def motion(t):
+        size = 1e-6 if t < 4e-3 else 1e-9
+        w = omega if t < 4e-3 else 4.0 * omega
+        return 0.0, -1.3e-5 + size * np.sin(w * t), 0.0, size * w * np.cos(w * t)
+
+    assert not any("too long" in message for message in messages_of(made("planar"), motion, 2e-5, 800))
+
+
+@pytest.mark.parametrize("lead", [0.0, 0.5, 1.0, 1.5])
+def test_a_coast_down_ends_at_standstill(made, lead):
+    """The speed goes on by none of its changes: beyond its last value it could be below 0, or above the tables."""
+    one, messages, highest = made("planar"), [], RPM * RPM_TO_RAD_S
+    slave = Slave(one.folder, one.description, messages, loggingOn=True)
+    slave.start(lead=lead, cage_angle_start=START, y=-1.3e-5, speed=0.5 * highest)
+    for share in (*np.linspace(0.5, 1.0, 30), 1.0, 1.0, *np.linspace(1.0, 0.0, 40), 0.0, 0.0):
+        slave.set(y=-1.3e-5, velocity_y=0.0, speed=share * highest)
+        slave.step(1e-4)
+        assert slave.get("force_y")[0] > 0.0
+    slave.free()
+    assert not messages
+
+
 def test_export_leaves_nothing_behind_where_it_fails(tmp_path):
     with pytest.raises(InputError):
         export_bearing(bearing(), tmp_path / "x.fmu", speeds_rpm=1e6)
