@@ -267,7 +267,7 @@ class Support(Summary):
         All bearings of a set are on the shaft at this position, each with the arm of its own position in the set;
         facings, offsets and spring are those of the set.
     cage_angle : float
-        Of the first ball at the start [rad].
+        Of the first ball at the start [rad]; -pi/2, in -y, where it is left out.
     journal_mass : float
         Beside that of the shaft [kg]: inner ring, sleeve, or, of a shaft without mass, its share.
     housing_mass : float, optional

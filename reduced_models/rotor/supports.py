@@ -47,7 +47,7 @@ class BearingMount(Summary):
     housing : tuple of int or None, optional
         Those of the housing along x, y and, with `z`, z, which the outer ring moves with; None: the ground.
     cage_angle : float
-        Of the first ball at the start [rad].
+        Of the first ball at the start [rad]; -pi/2, in -y, where it is left out.
     facing : {"+z", "-z"}
         Direction in which the inner ring is pressed against the outer one: of an angular contact bearing that of
         the axial force of the shaft that it carries.
