@@ -46,7 +46,7 @@ _ADVICE = {
     Status.STARVED: "The layer of oil is so thin that the film is zero or negative on this grid: raise n, or let "
     "more oil in.",
     Status.BEYOND_REGION: "The layer of oil is so thick that the full film begins ahead of the computed region: "
-    "give a region with a longer inlet, or none, or leave the supply out, which is a flooded inlet.",
+    "leave grid out, or give Grid(domain=) with a longer inlet; a flooded inlet has no supply.",
     Status.STEP_TOO_SMALL: "However short the step, it does not meet its tolerance: allow a larger error, or "
     "smooth what jumps (a load, a surface).",
     Status.INTERRUPTED: "Stopped by the user; what was computed until then is kept.",

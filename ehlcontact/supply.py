@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 
 THICKEST = {"h": 1e-3, "over_flooded": 1e6, "H": 1e6}  # in m; flooded films; dry approaches
 UNITS = {"h": "m", "over_flooded": "flooded films", "H": "dry approaches"}
+NARROWEST = 0.01  # y/b: below, the places of a profile were given in m
 SLIP = 0.05  # m: below, a thickness that is too large is one in um
 
 
@@ -47,7 +48,8 @@ class OilLayer:
     Raises
     ------
     InputError
-        None or several of the three; a thickness below 0, above 1 mm, or 0 everywhere; places that do not fit.
+        None or several of the three; a thickness below 0, above 1 mm, or 0 everywhere; places that do not fit, or
+        are in m.
 
     Examples
     --------
@@ -74,6 +76,9 @@ class OilLayer:
                 raise InputError("length of y of the supply", places.size, f"{np.size(values)}, as of the layer")
             if places[0] < 0.0:
                 raise InputError("y of the supply", float(places[0]), ">= 0: the layer is even in y")
+            if 0.0 < places[-1] < NARROWEST:
+                allowed = f"over the semi-axis b, the largest at least {NARROWEST:g} (given in m?)"
+                raise InputError("y of the supply", float(places[-1]), allowed)
             object.__setattr__(self, "y", tuple(places.tolist()))
         object.__setattr__(self, name, values)
 

@@ -173,9 +173,7 @@ class BearingSet(Summary):
         given = {"preload": preload, "offset": offset, "spring": spring}
         given = {name: value for name, value in given.items() if value is not None}
         if len(given) > 1:
-            raise InputError(
-                " and ".join(given), list(given.values()), "one of them: they preload in different ways"
-            )
+            raise InputError(" and ".join(given), list(given.values()), f"{' or '.join(given)}, not together")
         if given and arrangement == "tandem":
             name, value = next(iter(given.items()))
             raise InputError(name, value, "left out: bearings in tandem do not press each other")

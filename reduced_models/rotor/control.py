@@ -110,7 +110,8 @@ def rotor_to_control(
     speed_rpm : float
         Of the shaft.
     inputs, outputs : mapping of str to int, or sequence of int, optional
-        Degrees of freedom by name; without names they are F0, F1, ... [N, N m] and q0, q1, ... [m, rad]. By default all.
+        Degrees of freedom by name; without names they are F0, F1, ... [N, N m] and q0, q1, ... [m, rad]. By
+        default all.
     cage_turns : bool
         Whether balls go round with the cage as time goes on; they start at the angles of the mounts.
     name : str

@@ -168,8 +168,20 @@ def test_numbers_of_the_headline(results):
         assert f"{decay['decrements'][name]['decrement']:.3g}" in answer
     assert f"damper of {results['at_rotor_speed']['damping']:.3g} N s/m" in answer
     low, high = results["damper_of_fit"]["interval"]
-    assert f"95 %: {low:.3g} to {high:.3g}" in answer
+    sure = f"95 %: {low:.3g} to {high:.3g}" if low > 0.0 else "not determined by the fit"
+    assert f"N s/m ({sure})" in answer
     assert "The film decides it" in answer and "NOT SETTLED" not in answer and "loses contact" not in answer
+
+
+def test_a_damper_that_the_fit_does_not_determine_says_so():
+    told = SimpleNamespace(
+        at_rotor_speed={"stiffness": 1e8, "damping": 60.0},
+        damper_of_fit={"damping": 53.8, "interval": [-17.5, 125.0]},
+        study=SimpleNamespace(rotor_hz=50.0),
+    )
+    assert headline.damper(told).endswith("53.8 N s/m (not determined by the fit).")
+    told.damper_of_fit["interval"] = [17.5, 90.0]
+    assert headline.damper(told).endswith("53.8 N s/m (95 %: 17.5 to 90).")
 
 
 def test_warnings_are_shown(finished, results):

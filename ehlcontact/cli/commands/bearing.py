@@ -41,6 +41,7 @@ NOTHING = 6  # decimal places beyond which moments [N m], tilts [mrad] and spin 
 FORCES = "x", "y", "z"  # directions with forces; beyond them tilts with moments
 AXIAL = FORCES.index("z")
 PAIR = "along", "across"  # directions of a planar bearing
+PASSAGE = "means over a ball passage"
 # Of the entries of the JSON, whatever they are nested in; other entries have no unit, or have it in their name.
 UNITS = {
     "load": "N; radial; of a state (x, y), downwards is -y",
@@ -166,7 +167,7 @@ class BearingOptions(o.Options):
     load: Annotated[
         e.NotNegative | None,
         typer.Option("--load", "--radial", rich_help_panel=_LOAD),
-        e.meaning("radial load, N; a NAME needs it, or --axial"),
+        e.meaning("radial load, N; a NAME needs it, --axial or --pair"),
     ] = None
     axial: Annotated[
         e.AxialLoad | None,
@@ -433,7 +434,11 @@ def _of_pair(job: BearingJob, state: Any) -> list[Row]:
     return [
         *([("PRELOAD USED UP", "", kept)] if beyond else []),
         ("axial forces", f"{forces} N", "of the bearings, along their facings"),
-        ("axial rigidity", in_unit(state.stiffness[AXIAL, AXIAL], "N/m"), "slope of the static force"),
+        (
+            "axial rigidity",
+            in_unit(state.stiffness[AXIAL, AXIAL], "N/m"),
+            "static, with a ball under the load",
+        ),
     ]
 
 
@@ -510,7 +515,7 @@ def _small_vibrations(at: BearingCoefficients, directions: tuple[tuple[str, int]
                 rows += [(name, in_unit(stiffness, "N/m"), in_unit(damping, "N s/m"))]
             else:
                 rows += [(name, f"{numeral(1e-3 * stiffness)} N m/mrad", f"{numeral(damping)} N m s/rad")]
-        remark = "that of the shaft" if math.isclose(hz, shaft) else ""
+        remark = ", ".join([*(["that of the shaft"] if math.isclose(hz, shaft) else []), PASSAGE])
         rows += [("these at" if len(directions) > len(PAIR) else "both at", f"{numeral(hz)} Hz", remark)]
     return rows
 

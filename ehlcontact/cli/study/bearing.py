@@ -193,7 +193,15 @@ class BearingJob:
         tilt = 0.0 if self.tilt is None else 1e3 * self.tilt[0]
         load = -self.load[1] if self.planar else (-self.load[1], *self.load[2:])
         with _called(self.source, self.given, {"load": load, "tilt": tilt}):
-            yield
+            try:
+                yield
+            except InputError as error:
+                loose = self.pair is not None and self.preload is None and self.pair.sprung is None
+                if not (loose and error.allowed.startswith("one that seats the ring")):
+                    raise
+                missing = "pair.preload or pair.spring" if self.source else "--preload or --spring"
+                allowed = f"{error.allowed.partition(';')[0]}; {missing} is missing"
+                raise InputError(error.field, error.value, allowed) from None
 
 
 def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:

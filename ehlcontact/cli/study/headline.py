@@ -88,13 +88,14 @@ def contact(found: Findings) -> str:
 def damper(found: Findings) -> str:
     """Spring and damper at the rotor's frequency, from the impedance; the fit and its interval beside them."""
     own, fitted = found.at_rotor_speed, found.damper_of_fit
-    low, high = (numeral(end, 3) for end in fitted["interval"])
+    low, high = fitted["interval"]
+    sure = f"95 %: {numeral(low, 3)} to {numeral(high, 3)}" if low > 0.0 else "not determined by the fit"
     spring = numeral(own["stiffness"] * 1e-6, 3)
     return (
         f"At the rotor's {numeral(found.study.rotor_hz)} Hz a contact is a spring of {spring} "
         f"N/\N{MICRO SIGN}m with a damper of {numeral(own['damping'], 3)} N s/m, by its impedance there; the "
         f"cubic fitted to a harmonic load of this frequency has {numeral(fitted['damping'], 3)} N s/m "
-        f"(95 %: {low} to {high})."
+        f"({sure})."
     )
 
 

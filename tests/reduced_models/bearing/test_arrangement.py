@@ -352,7 +352,10 @@ def test_bad_input():
     pair = BearingSet.pair
     refused("arrangement = 'O': must be one of back to back", lambda: pair(SPINDLE, "O"))
     refused("preload = 100.0: .*tandem do not press", lambda: pair(SPINDLE, "tandem", preload=100.0))
-    refused("preload and spring = .*one of them", lambda: pair(SPINDLE, preload=100.0, spring=100.0))
+    refused(
+        "preload and spring = .*preload or spring, not together",
+        lambda: pair(SPINDLE, preload=100.0, spring=100.0),
+    )
     refused("preload = -5.0: must be a finite number > 0", lambda: pair(SPINDLE, preload=-5.0))
     refused("preload = 1000000.0: must be one whose contact angles stay", lambda: pair(SPINDLE, preload=1e6))
     refused(r"offset.* = .*in µm\? then", lambda: pair(SPINDLE, offset=10.0))
