@@ -57,6 +57,8 @@ def simulate(
 ) -> SimulationResult:
     """Integrate the transient contact (eqs. 1, 3, 5, 6) from rest under the given motion.
 
+    The inlet is flooded; a layer of oil (`OilLayer`) is for `solve_steady` and `impedance`.
+
     Parameters
     ----------
     point : MoesPoint or OperatingPoint
