@@ -29,7 +29,7 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import Purpose, allows_newton, mesh_for
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
-from ehlcontact.transient import film as film_module
+from ehlcontact.transient import transient_film as film_module
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.features import Surface
 from ehlcontact.transient.record import History

@@ -109,7 +109,7 @@ def test_speed_of_a_rotor_is_checked_before_the_run(shipped):
                   lambda: rotor().check([fast.copy()]),
                   lambda: rotor().static_equilibrium([fast.copy()])):  # fmt: skip
         with pytest.warns(
-            OutsideValidityWarning, match=r": 50 Hz \(fitted 23570 to 25940 Hz\); it is for the band"
+            OutsideValidityWarning, match=r": 50 Hz \(fitted 23420 to 25940 Hz\); it is for the band"
         ):
             start()
     wrapped = ScaledContact(shipped.element(POINT.moes, "cubic", Omega=6.0), POINT.scales)

@@ -1,7 +1,7 @@
 """A rigid rotor of Exudyn on the FMUs of two angular contact bearings, preloaded against each other.
 
     pip install exudyn
-    python examples/rotor_in_exudyn.py [rotor_in_exudyn.png]  # a minute
+    python examples/studies/rotor_in_exudyn.py [rotor_in_exudyn.png]  # a minute
 
 A body of 3 kg that turns at 6000 rev/min is held by two 7205, 100 mm apart, and struck along the shaft and across
 it. What one learns: the FMUs need displacements and velocities of two points of the body before each step, and
