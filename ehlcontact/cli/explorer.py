@@ -27,7 +27,7 @@ from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.lubricant.oil_laws import ROELANDS_LOG, ROELANDS_P0
 from ehlcontact.store import load
 from reduced_models import BallBearing
-from reduced_models.atlas import frequency_curve
+from reduced_models.atlas import frequency_curve, interpolation
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.table import AtlasTable
@@ -43,6 +43,7 @@ UNITS = {"ball_diameter": "mm", "pitch_diameter": "mm", "eta0": "mPa s", "alpha"
 # Numbers of the library's own rules, by the modules that have them
 RULES: Mapping[Any, tuple[str, ...]] = {
     frequency_curve: ("SPLINE_SHARE",),
+    interpolation: ("THICKEST",),
     race: ("INSIDE", "PER_DECADE", "NEAR"),
     film_curve: ("DECADE", "RIGID_SLOPE"),
     film_response: ("DRY", "LEAST_VISCOUS", "SMALL_OMEGA"),

@@ -26,6 +26,7 @@ from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Interpolation
 _Floats = NDArray[np.float64]
 
 LOBE = 2  # column of ln(Hm/Hc)
+THICKEST = 3.0  # film 1 - u up to which K of another oil differs the more the thicker the film
 BLOCK = 256  # points looked at together: their distances to all nodes stay in the cache
 
 
@@ -154,7 +155,7 @@ class AtlasSurface:
         """Answers and half widths of their error bars, both shape (n, 5 + 2 k).
 
         Where nodes lie far apart the bars grow with the square of their distance. `extra`, per unit of the film
-        1 - u up to 1 for K, adds to the bars of the smooth variables; shape (5 + 2 k,).
+        1 - u up to `THICKEST` for K, adds to the bars of the smooth variables; shape (5 + 2 k,).
         """
         blocks = [self._block(points[i : i + BLOCK], extra) for i in range(0, len(points), BLOCK)]
         values, bars = zip(*blocks, strict=True)
@@ -172,7 +173,7 @@ class AtlasSurface:
         stiffness, damping = slice(HEAD, HEAD + k), slice(HEAD + k, None)
         if extra.any():
             added = np.tile(extra, (len(points), 1))
-            added[:, stiffness] *= np.minimum(1.0 - values[:, :1], 1.0)
+            added[:, stiffness] *= np.minimum(1.0 - values[:, :1], THICKEST)
             smooth += added
         bars = slopes * smooth
         # over the low-frequency damping, whose error comes on top

@@ -26,7 +26,7 @@ from ehlcontact.lubricant.oil_laws import secant_over_slope
 from ehlcontact.store import load
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.build import OIL, gain_equations, smooth_gains
-from reduced_models.atlas.interpolation import LOBE, coordinates, films, left_out_errors, to_smooth
+from reduced_models.atlas.interpolation import LOBE, THICKEST, coordinates, films, left_out_errors, to_smooth
 from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.solve import respond
 from reduced_models.atlas.table import HEAD, AtlasTable
@@ -102,31 +102,36 @@ def best_rates(table: AtlasTable, most: int = 300) -> Found:
 def oil_slopes(points: Sequence[MoesPoint] = OIL_POINTS) -> dict[str, tuple[float, float]]:
     """Largest error of ln of films, of K, of C and of the moment per unit of ln alpha, and per unit of ln eta0.
 
-    Of what another oil is read from: the oil of the atlas at the L that the correction of `OtherOil` gives.
-    That of K is over the film 1 - u, up to 1. C counts where it is above a tenth of its largest value; its bar has
-    the slope twice, in C over the low-frequency damping and in that: a slope of 0.18 covers a change of 0.25.
+    The error is against the oil of the atlas at the L at which another oil is read (`OtherOil`). That of K is over
+    the film 1 - u, up to `THICKEST`. C counts where it is above a tenth of its largest value; its bar has the
+    slope twice, in C over the low-frequency damping and in that: a slope of 0.13 covers a change of 0.18.
     """
     slopes = {name: [0.0, 0.0] for name in ("film", "stiffness", "damping", "moment")}
     for point in points:
         for i, name in enumerate(("alpha", "eta0")):
             for factor in OIL_SHIFTS:
                 oil = replace(point, **{name: factor * getattr(point, name)})
-                secants = [secant_over_slope(one.alpha, one.eta0, OIL.secant) for one in (oil, point)]
-                other, read = _answers(oil), _answers(replace(point, L=point.L * secants[0] / secants[1]))
+                other, read = answers(oil), answers(read_at(oil, point))
                 for kind, (value, weight) in read.items():
                     change = np.abs(np.log(other[kind][0] / value))[weight > 0.0] / weight[weight > 0.0]
                     slopes[kind][i] = max(slopes[kind][i], float(change.max()) / abs(log(factor)))
     return {name: (first, second) for name, (first, second) in slopes.items()}
 
 
-def _answers(point: MoesPoint) -> dict[str, tuple[_Floats, _Floats]]:
+def read_at(oil: MoesPoint, own: MoesPoint) -> MoesPoint:
+    """`own`, a point in the oil of the atlas, at the L at which the atlas is read for that of `oil`."""
+    secants = [secant_over_slope(one.alpha, one.eta0, OIL.secant) for one in (oil, own)]
+    return replace(own, L=own.L * secants[0] / secants[1])
+
+
+def answers(point: MoesPoint) -> dict[str, tuple[_Floats, _Floats]]:
     """Films, K, C and moment of a point solved, each with what its changes are divided by; 0 leaves one out."""
     found = respond(point, impedance_grid(point))
     film = np.array([1.0 - found["approach"], found["h_central"], found["h_min"]])
     K, C = np.array(found["stiffness"]), np.array(found["damping"])
     return {
         "film": (film, np.ones(3)),
-        "stiffness": (K, np.full(K.size, min(film[0], 1.0))),
+        "stiffness": (K, np.full(K.size, min(film[0], THICKEST))),
         "damping": (C, (C > 0.1 * C.max()).astype(float)),
         "moment": (np.array([found["moment"]]), np.ones(1)),
     }

@@ -9,6 +9,7 @@ from programs import script
 from ehlcontact import MoesPoint
 from ehlcontact.store import load, save
 from reduced_models.atlas.atlas import SHIPPED
+from reduced_models.atlas.sample import sample_points
 from reduced_models.atlas.table import AtlasTable
 from reduced_models.elements.film_response import FilterRates
 
@@ -77,6 +78,25 @@ def test_slopes_for_other_oils_cover_a_light_load(shipped):
     for kind, found in slopes.items():
         allowed = np.array(getattr(shipped.oil, kind)) * (2.0**0.5 if kind == "damping" else 1.0)
         assert np.all(np.array(found) <= allowed) and min(found) > 0.0
+
+
+@pytest.mark.slow
+def test_what_widens_the_bars_covers_other_oils(shipped):
+    """Random oils at random points, by which no setting was chosen: 95 % of films, K, C and moment."""
+    rng, inside = np.random.default_rng(77), []
+    points = [p for p in sample_points(48, 24, seed=77).values() if p.inlet_width > 0.13 and p.L < 28.0]
+    for k in rng.permutation(len(points))[:14].tolist():
+        point = points[k]
+        alpha, eta0 = np.exp(rng.uniform(np.log([1e-8, 0.002]), np.log([4e-8, 1.0]))).tolist()
+        oil = replace(point, alpha=alpha, eta0=eta0)
+        if oil.p_hertz > shipped.box.p_hertz:
+            continue
+        away = np.abs(np.log([alpha / point.alpha, eta0 / point.eta0]))
+        own, other = tune.answers(tune.read_at(oil, point)), tune.answers(oil)
+        for kind, (value, weight) in own.items():
+            bar = weight * (getattr(shipped.oil, kind) @ away) * (2.0**0.5 if kind == "damping" else 1.0)
+            inside += (np.abs(np.log(other[kind][0] / value)) <= bar)[weight > 0.0].tolist()
+    assert len(inside) > 500 and np.mean(inside) >= 0.95
 
 
 def test_command_line(few, tmp_path, capsys):

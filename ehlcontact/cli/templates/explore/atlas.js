@@ -1,7 +1,7 @@
 // The atlas: reduced_models.atlas.interpolation and .frequency. Points are { M, L, kappa, alpha, eta0 }, dimensionless.
 
 const LOBE = 2, LOW = 3, HEAD = 5; // of a row of answers: ln(Hm/Hc), low-frequency C; then K and C over frequency
-const { SPLINE_SHARE } = DATA.rules;
+const { SPLINE_SHARE, THICKEST } = DATA.rules;
 
 class Atlas {
   constructor(data) {
@@ -110,7 +110,7 @@ class Atlas {
     const far = Math.max(distance[order[nearest - 1]] / this.usual_reach, 1) ** 2;
     const away = ["alpha", "eta0"].map(name => Math.abs(Math.log(point[name] / this[name])));
     const extra = kind => this.oil[kind][0] * away[0] + this.oil[kind][1] * away[1];
-    const film = extra("film"), K = extra("stiffness") * Math.min(1 - values[0], 1), C = extra("damping");
+    const film = extra("film"), K = extra("stiffness") * Math.min(1 - values[0], THICKEST), C = extra("damping");
     const head = [film, film, film, C, extra("moment")];
     const smooth = slopes.map((_, j) => {
       const squares = order.reduce((sum, i) => sum + this.leftOut[i * this.smooth + j] ** 2, 0);
