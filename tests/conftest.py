@@ -126,3 +126,9 @@ def own_cache(common_folder):
         patch.setenv("EHLCONTACT_CACHE", str(common_folder / "compiled"))
         patch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)  # or each of 200 programs compiles 200 modules
         yield
+
+
+@pytest.fixture
+def quiet(monkeypatch):
+    """No lines of progress: a first compilation brings them about, and a long silence before a test."""
+    monkeypatch.setattr("ehlcontact.cli.progress.Lines.write_due", lambda self, now: None)

@@ -44,6 +44,8 @@ from ehlcontact.jit import plain
 from reduced_models import Atlas, BallBearing, CubicContact
 
 ROOT = Path(__file__).parents[2]
+pytestmark = pytest.mark.usefixtures("quiet")
+
 SECONDS = 2.0  # of the processor
 SAMPLE = [
     ("init", STUDY),
@@ -108,7 +110,8 @@ def refused(good, compiled, capsys, monkeypatch):
             main([str(part) for part in arguments])
         spent, said = time.process_time() - started, capsys.readouterr()
         assert stop.value.code == 2 and said.out == "", said
-        (line,) = said.err.splitlines()
+        assert len(said.err.splitlines()) == 1, said.err
+        line = said.err.strip()
         assert line.startswith("ehlcontact: ") and [word for word in words if word not in line] == [], line
         assert spent < SECONDS and contents(folder) == before
 

@@ -46,9 +46,8 @@ def refused(call):
 
 
 @pytest.fixture(autouse=True)
-def quiet(monkeypatch):
-    """No lines of progress, which a first compilation would bring about; their own tests call them."""
-    monkeypatch.setattr("ehlcontact.cli.progress.Lines.write_due", lambda self, now: None)
+def every_command_is_quiet(quiet):
+    """Their own tests call the lines of progress."""
 
 
 @pytest.fixture(scope="session")
