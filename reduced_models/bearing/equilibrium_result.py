@@ -15,7 +15,7 @@ from ehlcontact.quantities import FORCE, LENGTH, MOMENT, NUMBER, RADIAN, SPEED, 
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import note_line
-from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words
+from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words, place_words
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, DefectFrequencies
 
 _Floats = NDArray[np.float64]
@@ -127,7 +127,7 @@ class BearingState(QuantityTable):
         lines = [
             f"{self.name or 'ball bearing'}, load {load_words(self.load)} at {self.speed_rpm:.5g} rev/min",
             f"{self.loaded} of {len(self.angles)} balls carry, the heaviest {self.force[k, 0]:.4g} N",
-            f"ring displaced by ({', '.join(f'{u:.4g}' for u in 1e6 * self.displacement[:3])}) µm",
+            f"ring displaced by {place_words(self.displacement)}",
         ]
         if self.contact_angles is not None:
             low, high = np.degrees([self.contact_angles[k].min(), self.contact_angles[k].max()])

@@ -37,6 +37,7 @@ FACINGS = ("+z", "-z")
 MIXED = {"N": "N, N m", "m": "m, rad", "N/m": "N/m, N, N m", "N s/m": "N s/m, N s, N m s"}
 FARTHEST_OFFSET = 0.1  # of a ball diameter, of a ring along the shaft: grooves end before
 LARGEST_TILT = 0.1  # rad, of a ring: fifty times what a deep-groove bearing bears
+NOTHING = 6  # decimal places beyond which N, N m, µm, nm, mrad and spin-to-roll ratios are rounding
 
 
 def bearing_load(load: ArrayLike) -> _Floats:
@@ -103,6 +104,14 @@ def labelled(display: Display, size: int) -> Display:
 
 def load_words(load: _Floats) -> str:
     """A load in words, for summaries."""
-    text = ", ".join(f"{one:.4g}" for one in load[:3].tolist())
-    moments = ", ".join(f"{one:.4g}" for one in load[3:].tolist())
-    return f"({text}) N" + (f" and ({moments}) N m" if moments else "")
+    moments = _listed(load[3:])
+    return f"({_listed(load[:3])}) N" + (f" and ({moments}) N m" if moments else "")
+
+
+def place_words(displacement: _Floats) -> str:
+    """Likewise where it has displaced a ring or a shaft, without tilts."""
+    return f"({_listed(1e6 * displacement[:3])}) µm"
+
+
+def _listed(values: _Floats) -> str:
+    return ", ".join(f"{round(one, NOTHING) + 0.0:.4g}" for one in values.tolist())  # no "-0"

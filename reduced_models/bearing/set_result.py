@@ -15,7 +15,7 @@ from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import note_line
 from reduced_models.bearing.equilibrium_result import BearingState
-from reduced_models.bearing.freedoms import FIVE, in_freedoms, load_words
+from reduced_models.bearing.freedoms import FIVE, in_freedoms, load_words, place_words
 
 _Floats = NDArray[np.float64]
 
@@ -73,13 +73,13 @@ class SetState(QuantityTable):
     def _summary_lines(self) -> list[str]:
         k = int(np.argmax([one.force[one.heaviest, 0] for one in self.bearings]))
         most = self.bearings[k]
+        axial = 1e-6 * self.stiffness[2, 2]
         forces = ", ".join(f"{one:.4g}" for one in self.axial_forces.tolist())
-        place = ", ".join(f"{u:.4g}" for u in 1e6 * self.displacement[:3])
         film = "no film: dry" if most.h_min is None else f"smallest film {1e6 * np.nanmin(most.h_min):.4g} µm"
         return [
             f"{self.name or 'set of bearings'}, load {load_words(self.load)} at {self.speed_rpm:.5g} rev/min",
             f"axial forces of bearings facing {', '.join(self.facings)}: {forces} N",
-            f"shaft displaced by ({place}) µm, axial stiffness {1e-6 * self.stiffness[2, 2]:.4g} N/µm",
+            f"shaft displaced by {place_words(self.displacement)}, axial stiffness {axial:.4g} N/µm",
             f"heaviest ball {most.force[most.heaviest, 0]:.4g} N in bearing {k}; {film}",
             *note_line(self.outside_assumptions),
         ]

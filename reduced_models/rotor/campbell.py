@@ -88,12 +88,15 @@ class Campbell(QuantityTable):
         which a vibration grows where it is above 0.
     whirl : ndarray, shape (k, n)
         1 forward, -1 backward, 0 on straight lines.
+    axial_share : ndarray, shape (k, n)
+        Share of the squared displacements that is along the shaft.
     """
 
     speed_rpm: Annotated[_Floats, SPEED.over("speed_rpm")]
     omega: Annotated[_Floats, FREQUENCY.over("speed_rpm mode")]
     growth: Annotated[_Floats, PER_SECOND.over("speed_rpm mode")]
     whirl: Annotated[_Floats, NUMBER.over("speed_rpm mode")]
+    axial_share: Annotated[_Floats, NUMBER.over("speed_rpm mode")]
 
     DISPLAY: ClassVar[Display] = Display(rows="speed_rpm", first=0)
 
@@ -211,8 +214,9 @@ def campbell(rotor: Rotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, passage
             what = f"{len(found)} of {len(rows[-1])} modes oscillate at {speed:g} rev/min: ask for fewer (count)"
             raise ConvergenceError(f"Campbell diagram: only {what}", None)
         rows.append(_tracked(rows[-1], found) if rows else found[:count])
-    modes = np.array([[(m.omega, m.eigenvalue.real, m.whirl) for m in row] for row in rows])
-    return Campbell(speed_rpm=speeds, omega=modes[..., 0], growth=modes[..., 1], whirl=modes[..., 2])
+    columns = np.array([[(m.omega, m.eigenvalue.real, m.whirl, m.axial_share) for m in row] for row in rows])
+    omega, growth, whirl, axial_share = np.moveaxis(columns, -1, 0)
+    return Campbell(speed_rpm=speeds, omega=omega, growth=growth, whirl=whirl, axial_share=axial_share)
 
 
 def _tracked(before: list[RotorMode], found: list[RotorMode]) -> list[RotorMode]:

@@ -26,6 +26,7 @@ from reduced_models.rotor.jeffcott import JeffcottRotor
 from reduced_models.rotor.linear_contact import ContactImpedance, LinearElement
 from reduced_models.rotor.linear_system import eigenmodes
 from reduced_models.rotor.modes import (
+    ALONG,
     CANDIDATES,
     CLOSED,
     CLOSED_BY_STEPS,
@@ -50,7 +51,6 @@ SHOWN = 8  # modes, unless another number is given
 SLOW = 1e-3  # rad/s, stands for rest where damping is computed: films forget in less than a second
 FREE = 1e-9  # of the largest stiffness, what rounding leaves where a rotor is free
 UNLOADED = 1e-9  # of its heaviest ball, the load of a preloaded bearing that is the rounding of none
-ALONG = 0.5  # share of the motion of a mode from which it is along the shaft
 VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 
 

@@ -38,6 +38,7 @@ PROBE = 1e-5  # of |s|: difference quotients of Z, which only steer Newton's met
 SAME = 1e-6  # relative difference of eigenvalues that may be one
 NEW = 1e-3  # least singular value of the shapes that have one eigenvalue: below, one of them is not its own
 CANDIDATES = 6  # that are tried for a mode
+ALONG = 0.5  # share of the motion of a mode from which it is along the shaft
 CREEPING = 0.01  # imaginary over real part, below which what dies away is no vibration: e^-600 in a period
 NO_OSCILLATION = 1e-7  # of the fastest mode: below, a frequency is the rounding of none
 

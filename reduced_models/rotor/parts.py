@@ -282,8 +282,8 @@ class Support(Summary):
         rigid preload by ground rings or spacers; growth of a shaft, which relieves bearings back to back.
     preload : float, optional
         Force of a spring on an outer ring that is free to move along the shaft, pressing the bearing [N]; 0: a
-        floating bearing. By default the outer ring is fixed along the shaft. The spring pushes the outer ring
-        against `facing`.
+        floating deep-groove bearing. By default the outer ring is fixed along the shaft. The spring pushes the
+        outer ring against `facing`.
     preload_stiffness : float
         Of that spring [N/m]; 0: its force is constant.
     outer_ring_mass : float, optional
@@ -352,6 +352,9 @@ class Support(Summary):
                 object.__setattr__(self, name, column)
         if self.preload is not None:
             require_nonnegative("preload", self.preload)
+            if self.preload == self.preload_stiffness == 0.0 and getattr(self.bearing, "contact_angle", None):
+                allowed = "> 0: nothing else keeps an angular contact bearing together whose outer ring is free"
+                raise InputError("preload", self.preload, allowed)
             if self.offset != 0.0:
                 raise InputError("offset", self.offset, "left out beside preload: the outer ring gives way to it")
         if self.spring is not None and self.housing_mass is not None:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.results.picture import COLOURS, GRID, Panel, draw, written
+from reduced_models.rotor.modes import ALONG
 
 SIZE = (9.0, 4.4)  # inches
 GREY, INNER, OUTER = "#7f7f7f", "#0072b2", "#e69f00"
@@ -164,7 +165,7 @@ def _name_modes(axes: Any, campbell: Any, most: float) -> None:
     for k in np.argsort(ends).tolist():
         last = max(float(ends[k]), last + LINE)
         axes.annotate(
-            f"{k + 1} {whirl_name(float(campbell.whirl[-1, k]))}",
+            f"{k + 1} {mode_name(campbell, k)}",
             xy=(1.01, last),
             xycoords="axes fraction",
             va="center",
@@ -173,8 +174,11 @@ def _name_modes(axes: Any, campbell: Any, most: float) -> None:
         )
 
 
-def whirl_name(whirl: float) -> str:
-    """Forward, backward or straight."""
+def mode_name(campbell: Any, k: int) -> str:
+    """Axial, forward, backward or straight: mode `k` of the diagram at the highest speed."""
+    whirl = float(campbell.whirl[-1, k])
+    if campbell.axial_share[-1, k] > ALONG:
+        return "axial"
     if abs(whirl) < STRAIGHT:
         return "straight"
     return "forward" if whirl > 0.0 else "backward"

@@ -74,6 +74,8 @@ def test_results_and_report(found):
     assert sentence(SimpleNamespace(at_angles=None)) == ""
     figures = {name: draw() for name, draw in drawings_at_angles(at).items()}
     assert set(figures) == {"angles_balls", "angles_coefficients", "angles_campbell"}
+    names = {trace.name for trace in figures["angles_campbell"].data}
+    assert sum("axial" in name for name in names) == 1  # of the three that are followed
     shown = next(t for t in figures["angles_balls"].data if t.type == "scatter" and t.name == "outer race")
     np.testing.assert_allclose(np.sort(shown.y), np.sort(np.degrees(at.state.contact_angles[:, 1])))
 

@@ -278,6 +278,8 @@ def test_a_deep_groove_bearing_with_clearance_and_axial_load(call):
     changed = ("--clearance", "9.1", "--axial", "30", "--speed-rpm", "0")
     found = json.loads(call("bearing", "6205", *changed, "--json", "-").out)
     assert found["orders_under_load"][0]["bpfo"] == pytest.approx(3.6022, abs=1e-4)
+    shown = call("bearing", "6205", *changed).out  # rounding reads 0
+    assert "0 µm down" in shown and "0 nm up and down" in shown and "e-" not in shown
 
 
 def test_a_file_with_axial_load(call, file):

@@ -19,8 +19,8 @@ from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, in_unit
 from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.errors import InputError
-
-HERTZ = 1.0 / 60.0  # per second, of one turn per minute
+from reduced_models.bearing.freedoms import NOTHING
+from reduced_models.bearing.kinematics import RPM_TO_HZ
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.bearing import BearingJob
@@ -37,7 +37,6 @@ DEFECTS = {  # names of the defect frequencies, and what they are of
     "BSF": "spin of a ball",
 }
 _OIL, _BEARING, _LOAD, _PAIR = "Oil", "Bearing", "Load", "Pair"
-NOTHING = 6  # decimal places beyond which moments [N m], tilts [mrad] and spin are rounding
 FORCES = "x", "y", "z"  # directions with forces; beyond them tilts with moments
 AXIAL = FORCES.index("z")
 PAIR = "along", "across"  # directions of a planar bearing
@@ -118,7 +117,7 @@ class BearingReport:
         under_load = [[None if one is None else asdict(one) for one in row] for row in orders]
         hertz = [
             [
-                None if one is None else {name: order * (at.speed_rpm * HERTZ) for name, order in one.items()}
+                None if one is None else {name: order * (at.speed_rpm * RPM_TO_HZ) for name, order in one.items()}
                 for one in row
             ]
             for at, row in zip(self.states, under_load, strict=True)
@@ -428,7 +427,7 @@ def _of_pair(job: BearingJob, state: Any) -> list[Row]:
     """Axial forces and axial rigidity of a pair, and whether its preload is used up."""
     if job.pair is None:
         return []
-    forces, axial = ", ".join(map(numeral, state.axial_forces)), job.load[AXIAL]
+    forces, axial = ", ".join(numeral(round(one, NOTHING)) for one in state.axial_forces.tolist()), job.load[AXIAL]
     beyond = any(axial * (1.0 if direction == "+z" else -1.0) >= load for direction, load in _at_rest(job).items())
     kept = "without them and at rest a bearing is unloaded: only films and centrifugal force press its balls"
     return [
@@ -444,14 +443,9 @@ def _of_pair(job: BearingJob, state: Any) -> list[Row]:
 
 def _at_speed(b: BallBearing, state: BearingState | SetState, at: BearingCoefficients) -> list[Row]:
     """Deflection, stiffness, damping, resistance and frequencies at a speed."""
-    peak_to_peak = at.peak_to_peak[1] * 1e9
     return [
         *_outside(state),
-        (
-            "deflection",
-            in_unit(-at.displacement[1], "m"),
-            f"{numeral(peak_to_peak, 3)} nm up and down at ball passage",
-        ),
+        ("deflection", _micrometres(-at.displacement[1]), _at_passage(at)),
         *_small_vibrations(at, (("along the load", 1), ("across it", 0))),
         *_resistance(state),
         *_defects(b, state),
@@ -460,18 +454,14 @@ def _at_speed(b: BallBearing, state: BearingState | SetState, at: BearingCoeffic
 
 def _at_angles(job: BearingJob, state: BearingState | SetState, at: BearingCoefficients) -> list[Row]:
     """The same of a bearing or a pair with contact angles: in all five degrees of freedom."""
-    down, along, tilts = in_unit(-at.displacement[1], "m"), in_unit(at.displacement[2], "m"), at.displacement[3:]
+    down, along = _micrometres(-at.displacement[1]), _micrometres(at.displacement[2])
     moments = " and ".join(numeral(round(one, NOTHING)) for one in state.load[3:].tolist())
-    turned = " and ".join(numeral(round(1e3 * one, NOTHING)) for one in tilts.tolist())
+    turned = " and ".join(numeral(round(1e3 * one, NOTHING)) for one in at.displacement[3:].tolist())
     return [
         *_outside(state),
-        ("deflection", f"{down} down", f"{numeral(at.peak_to_peak[1] * 1e9, 3)} nm up and down at ball passage"),
-        ("axial", f"{along}", f"displacement of the {'inner ring' if job.pair is None else 'shaft'} in +z"),
-        (
-            "tilts",
-            f"{turned} mrad",
-            f"moments {moments} N m, about x and y",
-        ),
+        ("deflection", f"{down} down", _at_passage(at)),
+        ("axial", along, f"displacement of the {'inner ring' if job.pair is None else 'shaft'} in +z"),
+        ("tilts", f"{turned} mrad", f"moments {moments} N m, about x and y"),
         *_of_pair(job, state),
         ("contact angles", _angle_span(state), "of balls that carry, at both races"),
         (
@@ -485,6 +475,16 @@ def _at_angles(job: BearingJob, state: BearingState | SetState, at: BearingCoeff
         *_resistance(state),
         *_defects(job.bearing, state),
     ]
+
+
+def _micrometres(displacement: float) -> str:
+    """A displacement [m], 0 where it is rounding."""
+    return f"{numeral(round(1e6 * displacement, NOTHING))} µm"
+
+
+def _at_passage(at: BearingCoefficients) -> str:
+    """Vibration of the ring as balls pass slowly, in words."""
+    return f"{numeral(round(1e9 * at.peak_to_peak[1], NOTHING), 3)} nm up and down at ball passage"
 
 
 def _angle_span(state: BearingState | SetState) -> str:
@@ -507,7 +507,7 @@ def _outside(state: BearingState | SetState) -> list[Row]:
 
 def _small_vibrations(at: BearingCoefficients, directions: tuple[tuple[str, int], ...]) -> list[Row]:
     """Stiffness and damping in directions, at every frequency."""
-    shaft, rows = at.speed_rpm / 60.0, []
+    shaft, rows = at.speed_rpm * RPM_TO_HZ, []
     for k, hz in enumerate(at.hz.tolist()):
         for name, way in directions:
             stiffness, damping = at.stiffness[k, way, way], at.damping[k, way, way]
@@ -549,7 +549,7 @@ def _defects(b: BallBearing, state: BearingState | SetState) -> list[Row]:
         found, which = _orders(b, one), f"{title.partition(',')[0]}: " if title else ""
         for name, meaning in DEFECTS.items() if found is not None else ():
             order = getattr(found, name.lower())
-            hertz, words = numeral(order * (state.speed_rpm * HERTZ), 4), numeral(order, 5)
+            hertz, words = numeral(order * (state.speed_rpm * RPM_TO_HZ), 4), numeral(order, 5)
             rows.append((name, f"{hertz} Hz", f"{which}{words} per turn: {meaning}"))
     return rows
 

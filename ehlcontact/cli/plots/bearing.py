@@ -28,7 +28,7 @@ from ehlcontact.cli.plots.style import (
 from ehlcontact.results.picture import COLOURS
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.picture import from_load
-from reduced_models.rotor.picture import amplitudes, whirl_name
+from reduced_models.rotor.picture import amplitudes, mode_name
 
 LOOKS: dict[str, dict[str, Any]] = {
     "memory": {"color": BLUE},
@@ -278,7 +278,7 @@ def campbell(diagram: Any) -> go.Figure:
     dashes = "solid", "dash", "dot"
     for k in range(hz.shape[1]):
         line = {"color": COLOURS[k % len(COLOURS)], "dash": dashes[k // len(COLOURS) % 3]}
-        name = f"{k + 1} {whirl_name(float(diagram.whirl[-1, k]))}"
+        name = f"{k + 1} {mode_name(diagram, k)}"
         for row, values in ((1, hz), (2, diagram.decrement)):
             figure.add_scatter(x=rpm, y=values[:, k], line=line, name=name, row=row, col=1)
     once: Any = {"color": GREY, "width": 1.2, "dash": "dashdot"}
