@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -10,8 +9,8 @@ from functools import cached_property
 
 from ehlcontact.errors import InputError
 
-# Exponents of the SI base units, by unit name, and a factor where it is not 1; "1" has none.
-UNITS: dict[str, dict[str, int | float]] = {
+# Exponents of the SI base units, by unit name; "1" has none.
+UNITS: dict[str, dict[str, int]] = {
     "1": {},
     "m": {"m": 1},
     "m/s": {"m": 1, "s": -1},
@@ -25,10 +24,11 @@ UNITS: dict[str, dict[str, int | float]] = {
     "N.s3.m-3": {"kg": 1, "m": -2, "s": 1},
     "N.s.m-2": {"kg": 1, "m": -1, "s": -1},
     "N.m": {"kg": 1, "m": 2, "s": -2},
+    "N.m/rad": {"kg": 1, "m": 2, "s": -2, "rad": -1},
+    "N.m.s/rad": {"kg": 1, "m": 2, "s": -1, "rad": -1},
     "rad": {"rad": 1},
     "rad/s": {"rad": 1, "s": -1},
     "rad/s2": {"rad": 1, "s": -2},
-    "rev/min": {"rad": 1, "s": -1, "factor": math.pi / 30.0},
     "1/s": {"s": -1},
     "s": {"s": 1},
     "kg": {"kg": 1},

@@ -25,7 +25,7 @@ def compare_rotor(slave: Any, exchange: Any, model: RotorModel, spec: ModelSpec)
     run = model.run
     names = [variable.name for variable in spec.states]
     moving = names[: run.motion.shape[1]]
-    settings = {"unbalance": run.rotor.unbalance, "speed_rpm": run.rotor.speed_rpm, "inner_step": run.dt}
+    settings = {"inner_step": run.dt}
     start = dict(zip(moving, run.motion[0].tolist(), strict=True)) | {k: v[0] for k, v in run.inputs.items()}
     slave.start(force_lead=ROTOR.at_end, **settings, **start)
     exchange.start(**settings)
@@ -33,8 +33,7 @@ def compare_rotor(slave: Any, exchange: Any, model: RotorModel, spec: ModelSpec)
     ours, wrong = [run.motion[0]], 0
     for n in range(1, len(run.motion)):
         inputs = {name: float(history[n]) for name, history in run.inputs.items()}
-        if inputs:
-            slave.set(**inputs)
+        slave.set(**inputs)
         slave.step(run.dt)
         ours.append(np.array(slave.get(*moving)))
         if n % EVERY == 0:
@@ -71,11 +70,11 @@ class _Equations:
         felt = felt_by(self.elements, states[count + 1 :], u, rate) if self.elements else None
         force = np.array([inputs[f"force[{i}]"] for i in mounts]) if felt is None else felt.force
         wanted = np.concatenate(
-            [velocity, accelerations(rotor, motion, float(states[count]), force, inputs), [rotor.omega]]
+            [velocity, accelerations(rotor, motion, float(states[count]), force, inputs), [inputs["speed"]]]
         )
         # what balances within an acceleration, or in the rate of a film, is much larger than what is left of it
         heavy = 1e3 * load_size(rotor) / np.diag(rotor.matrices()[0])
-        scales = np.concatenate([np.full(size, np.abs(velocity).max()), heavy, [rotor.omega]])
+        scales = np.concatenate([np.full(size, np.abs(velocity).max()), heavy, [inputs["speed"]]])
         self._note("exchange", rates[: count + 1], wanted, scales)
         if felt is not None:
             if felt.rates.size:

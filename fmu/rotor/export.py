@@ -28,13 +28,16 @@ def export_rotor(
 ) -> Path:
     """Write a Jeffcott rotor as an FMU for co-simulation and model exchange, once it is verified against it.
 
-    Inputs are further forces on journal and disc, `journal_force_x`, ..., `disc_force_y`; outputs positions and
-    velocities of both, `journal_x`, `journal_velocity_x`, `disc_x`, ..., and `approach[i]` and `rate[i]` of every
-    mount. `unbalance` and `speed_rpm` are tunable. Without contacts their forces are inputs too, `force[i]`, as
-    the FMU of a contact gives them: connect the two to close the rotor. With contacts they are inside, steps are
-    balanced by Newton's method, and `force[i]` are outputs, of one bearing. In co-simulation a step is cut into
-    inner ones of at most `inner_step`, a fixed parameter that resolves shaft and contacts by default:
-    generalised-alpha steps, those of `simulate_rotor`. Start values of positions and velocities can be set.
+    Inputs are `unbalance`, `speed` [rad/s], `angular_acceleration`, and further forces on journal and disc,
+    `journal_force_x`, ..., `disc_force_y`; outputs positions and velocities of both, `journal_x`,
+    `journal_velocity_x`, `disc_x`, ..., and `approach[i]` and `rate[i]` of every mount. `disc_mass`,
+    `journal_mass`, `shaft_stiffness`, `shaft_damping` and `disc_damping` can be set before initialization.
+    Without contacts their forces are inputs too, `force[i]`, as the FMU of a contact gives them: connect the two
+    to close the rotor. With contacts they are inside, steps are balanced by Newton's method, and `force[i]` are
+    outputs, of one bearing. In co-simulation a step is cut into inner ones of at most `inner_step`, a fixed
+    parameter that resolves shaft and contacts by default: generalised-alpha steps, those of `simulate_rotor`.
+    Start values of positions and velocities can be set; where they are not, the rotor starts in equilibrium with
+    the parameters that are set.
 
     Parameters
     ----------

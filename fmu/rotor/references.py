@@ -31,8 +31,9 @@ def rotor_references(model: RotorModel, spec: ModelSpec) -> References:
     run = model.run
     names = [variable.name for variable in spec.states]
     count = run.motion.shape[1]
-    parameters = {ROTOR.name: ROTOR.at_end, "unbalance": run.rotor.unbalance, "speed_rpm": run.rotor.speed_rpm}
-    parameters |= {"inner_step": run.dt} | dict(zip(names[:count], run.motion[0].tolist(), strict=True))
+    parameters = {ROTOR.name: ROTOR.at_end, "inner_step": run.dt} | dict(
+        zip(names[:count], run.motion[0].tolist(), strict=True)
+    )
     # positions: of velocities the errors of the balance show more
     results = dict(zip(names[: count // 2], run.motion.T[: count // 2], strict=True))
     if model.elements:
@@ -42,7 +43,7 @@ def rotor_references(model: RotorModel, spec: ModelSpec) -> References:
 
 
 def _points(model: RotorModel, names: list[str]) -> Trial:
-    """Derivatives in states of the run, with films away from rest, at the rotor's own unbalance."""
+    """Derivatives in states of the run, with films away from rest."""
     rotor, run = model.rotor, model.run
     count = run.motion.shape[1]
     at = np.arange(EVERY, len(run.motion), EVERY)
@@ -57,7 +58,7 @@ def _points(model: RotorModel, names: list[str]) -> Trial:
         u, v = rotor.normals @ motion[journal] + rotor.offsets, rotor.normals @ motion[size:][journal]
         felt = felt_by(model.elements, films[k], u, v) if model.elements else None
         force = run.force[n] if felt is None else felt.force
-        rates = [motion[size:], accelerations(rotor, motion, float(angle[k]), force, inputs), [rotor.omega]]
+        rates = [motion[size:], accelerations(rotor, motion, float(angle[k]), force, inputs), [inputs["speed"]]]
         rows.append(np.concatenate([*rates, np.empty(0) if felt is None else felt.rates]))
         forces.append(force)
     unknowns = dict(zip((f"der({name})" for name in names), np.array(rows).T, strict=True))

@@ -76,13 +76,13 @@ Fault core_set(State *s, const unsigned int references[], size_t count, Type typ
     for (i = 0; i < count; i++) {
         const Role role = core_variables[references[i]].role;
         s->model.value[references[i]] = values[i];
-        stale |= role == TUNABLE ? STALE_LAW : role == INPUT ? STALE_INPUTS : 0;
+        stale |= role == TUNABLE || role == FIXED ? STALE_LAW : role == INPUT ? STALE_INPUTS : 0;
     }
     s->stale |= stale;
     return fine;
 }
 
-/* Outputs by parameters that were tuned; on a copy, so that a law that is refused changes nothing. */
+/* Outputs by parameters that were set; on a copy, so that a law that is refused changes nothing. */
 static Fault tuned(Model *model)
 {
     Model anew = *model;

@@ -5,8 +5,6 @@
 
 #include "rotor.h"
 
-static const Fault fine = {FINE, NULL};
-
 /* ---- mounts ---- */
 
 double rotor_rate(int mount, const double velocity[])
@@ -48,10 +46,15 @@ void rotor_carry(int mount, double force, double carried[])
 
 /* ---- forces ---- */
 
-/* Direction of the unbalance along the axis k that moves; with one axis that is y. */
+/* Direction of the unbalance along the axis k that moves, and its derivative by the angle; with one axis that is y. */
 static double pointing(double angle, int k)
 {
     return k + 2 - AXES == 0 ? cos(angle) : sin(angle);
+}
+
+static double turning(double angle, int k)
+{
+    return k + 2 - AXES == 0 ? -sin(angle) : cos(angle);
 }
 
 double rotor_shaft(const double value[], const double d[], const double v[], int k)
@@ -60,17 +63,28 @@ double rotor_shaft(const double value[], const double d[], const double v[], int
            - value[VR_shaft_damping] * (v[DISC + k] - v[JOURNAL + k]);
 }
 
+void rotor_loads(const double value[], double loads[])
+{
+    int k;
+    for (k = 0; k < AXES; k++) {
+        loads[DISC + k] = value[VR_disc_mass] * rotor_gravity[k] + rotor_force[k];
+        loads[JOURNAL + k] = value[VR_journal_mass] * rotor_gravity[k];
+    }
+}
+
 void rotor_applied(const double value[], const double inputs[], double angle, double applied[])
 {
-    const double omega = per_rpm * value[VR_speed_rpm], swing = value[VR_unbalance] * omega * omega;
+    const double omega = inputs[VR_speed], unbalance = inputs[VR_unbalance];
     double carried[AXES] = {0.0};
     int i, k;
+    rotor_loads(value, applied);
     for (i = 0; i < MOUNT_FORCES; i++) {
         rotor_carry(i, inputs[MOUNT_FORCE + i], carried);
     }
     for (k = 0; k < AXES; k++) {
-        applied[DISC + k] = rotor_load[DISC + k] + swing * pointing(angle, k) + inputs[DISC_FORCE + k];
-        applied[JOURNAL + k] = rotor_load[JOURNAL + k] + inputs[JOURNAL_FORCE + k] - carried[k];
+        applied[DISC + k] += inputs[DISC_FORCE + k]
+                             + unbalance * (omega * omega * pointing(angle, k) - inputs[VR_angular_acceleration] * turning(angle, k));
+        applied[JOURNAL + k] += inputs[JOURNAL_FORCE + k] - carried[k];
     }
 }
 
@@ -87,23 +101,64 @@ void rotor_accelerations(const double value[], const double applied[], const dou
 
 /* ---- functions of model.h ---- */
 
+static const char *check(const double value[])
+{
+    static const struct {
+        int reference, positive;
+        const char *reason;
+    } ranges[] = {
+        {VR_disc_mass, 1, "disc_mass must be finite and > 0"},
+        {VR_journal_mass, 1, "journal_mass must be finite and > 0"},
+        {VR_shaft_stiffness, 1, "shaft_stiffness must be finite and > 0"},
+        {VR_shaft_damping, 0, "shaft_damping must be finite and >= 0"},
+        {VR_disc_damping, 0, "disc_damping must be finite and >= 0"},
+    };
+    size_t i;
+    for (i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+        const double x = value[ranges[i].reference];
+        if (!(isfinite(x) && x >= 0.0 && (x > 0.0 || !ranges[i].positive))) {
+            return ranges[i].reason;
+        }
+    }
+    return value[VR_inner_step] >= LEAST_INNER_STEP && isfinite(value[VR_inner_step])
+               ? NULL : "inner_step must be finite and at least a millionth of its default";
+}
+
+/* Equilibrium with the parameters as they are now, where no other start has been set than that of the last equilibrium. */
+static const char *settle(Model *m)
+{
+    double *rest = &m->cache[REST], *d = &m->value[POSITION], loads[FREEDOMS], carried[AXES];
+    const char *reason;
+    int i, k;
+    for (i = 0; i < FREEDOMS; i++) {
+        if (d[i] != rest[i] || m->value[VELOCITY + i] != 0.0) {
+            return NULL;
+        }
+    }
+    rotor_loads(m->value, loads);
+    for (k = 0; k < AXES; k++) {
+        carried[k] = loads[DISC + k] + loads[JOURNAL + k];
+    }
+    reason = contacts_rest(m, carried, &rest[JOURNAL]);
+    for (k = 0; k < AXES; k++) {
+        rest[DISC + k] = rest[JOURNAL + k] + loads[DISC + k] / m->value[VR_shaft_stiffness];
+    }
+    memcpy(d, rest, FREEDOMS * sizeof rest[0]);
+    return reason;
+}
+
 Fault model_prepare(Model *m)
 {
-    const double *value = m->value;
-    if (!(value[VR_unbalance] >= 0.0 && isfinite(value[VR_unbalance]))) {
-        return fault(REFUSE, "unbalance must be finite and >= 0");
-    }
-    if (!(value[VR_speed_rpm] >= 0.0 && isfinite(value[VR_speed_rpm]))) {
-        return fault(REFUSE, "speed_rpm must be finite and >= 0");
-    }
-    if (!(value[VR_inner_step] >= LEAST_INNER_STEP && isfinite(value[VR_inner_step]))) {
-        return fault(REFUSE, "inner_step must be finite and at least a millionth of its default");
-    }
-    if (m->cache[READY] == 0.0) {
+    const char *reason = check(m->value);
+    if (reason == NULL && m->cache[READY] == 0.0) {
         m->cache[READY] = 1.0;
-        return fault(REFUSE, contacts_start(m));
+        memcpy(&m->cache[REST], rotor_rest, sizeof rotor_rest);
+        reason = contacts_start(m);
     }
-    return fine;
+    if (reason == NULL && STARTS_AT_REST) {
+        reason = settle(m);
+    }
+    return fault(REFUSE, reason);
 }
 
 Fault model_evaluate(Model *m)
@@ -137,7 +192,7 @@ Fault model_rates(Model *m)
     rotor_applied(m->value, m->input, m->value[ANGLE], applied);
     memcpy(rates, &m->value[VELOCITY], FREEDOMS * sizeof rates[0]);
     rotor_accelerations(m->value, applied, carried, rates + FREEDOMS);
-    rates[2 * FREEDOMS] = per_rpm * m->value[VR_speed_rpm];
+    rates[2 * FREEDOMS] = m->input[VR_speed];
     found = fault(DISCARD, contacts_rates(&next));
     for (i = 0; i < 2 * FREEDOMS && found.severity == FINE; i++) {
         if (!isfinite(rates[i])) {
@@ -153,9 +208,11 @@ Fault model_rates(Model *m)
 void model_direction(const Model *m, const double seed[], double along[])
 {
     const double *d = &seed[POSITION], *v = &seed[VELOCITY], angle = m->value[ANGLE];
-    const double omega = per_rpm * m->value[VR_speed_rpm], unbalance = m->value[VR_unbalance];
+    const double omega = m->input[VR_speed], alpha = m->input[VR_angular_acceleration], unbalance = m->input[VR_unbalance];
     const double swing = seed[VR_unbalance] * omega * omega
-                         + 2.0 * unbalance * omega * per_rpm * seed[VR_speed_rpm];
+                         + unbalance * (2.0 * omega * seed[VR_speed] + alpha * seed[ANGLE]);
+    const double pushed = seed[VR_unbalance] * alpha
+                          + unbalance * (seed[VR_angular_acceleration] - omega * omega * seed[ANGLE]);
     double applied[FREEDOMS], carried[AXES] = {0.0};
     double *rates = &along[FIRST_DERIVATIVE];
     int i, k;
@@ -168,11 +225,8 @@ void model_direction(const Model *m, const double seed[], double along[])
         rotor_carry(i, seed[MOUNT_FORCE + i], carried);
     }
     for (k = 0; k < AXES; k++) {
-        /* a quarter of a turn on, the pointer is its own derivative by the angle */
-        const double turned = k + 2 - AXES == 0 ? -sin(angle) : cos(angle);
         const double pull = rotor_shaft(m->value, d, v, k);
-        applied[DISC + k] = swing * pointing(angle, k) + unbalance * omega * omega * turned * seed[ANGLE]
-                            + seed[DISC_FORCE + k];
+        applied[DISC + k] = swing * pointing(angle, k) - pushed * turning(angle, k) + seed[DISC_FORCE + k];
         applied[JOURNAL + k] = seed[JOURNAL_FORCE + k];
         rates[DISC + k] = v[DISC + k];
         rates[JOURNAL + k] = v[JOURNAL + k];
@@ -180,5 +234,5 @@ void model_direction(const Model *m, const double seed[], double along[])
             (applied[DISC + k] + pull - m->value[VR_disc_damping] * v[DISC + k]) / m->value[VR_disc_mass];
         rates[FREEDOMS + JOURNAL + k] = (applied[JOURNAL + k] - pull - carried[k]) / m->value[VR_journal_mass];
     }
-    rates[2 * FREEDOMS] = per_rpm * seed[VR_speed_rpm];
+    rates[2 * FREEDOMS] = seed[VR_speed];
 }

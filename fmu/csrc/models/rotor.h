@@ -1,13 +1,11 @@
 /* A Jeffcott rotor, alone or on its contacts: reduced_models.rotor. Equations in README.md. AXES, N_MOUNTS, BEARINGS and
  * the value references FIRST_... are generated, and so is rotor_data.h: rotor_normals and rotor_offsets of the mounts,
- * rotor_load on disc and journal. */
+ * rotor_gravity, rotor_force on the disc, and rotor_rest, the positions at rest with the parameters of the export. */
 #ifndef ROTOR_H
 #define ROTOR_H
 
 #include "model.h"
 #include "rotor_data.h"
-
-static const double per_rpm = 0.10471975511965977; /* rad/s: pi/30 */
 
 /* Degrees of freedom, in the order of JeffcottRotor.matrices: the disc along the axes that move, then the journal. */
 enum { DISC = 0, JOURNAL = AXES, FREEDOMS = 2 * AXES };
@@ -21,11 +19,12 @@ enum {
     FILM_STATES = N_STATES - 2 * FREEDOMS - 1
 };
 
-/* Inputs: forces on journal and disc, and those of the contacts, where they are not inside. */
-enum { JOURNAL_FORCE = 0, DISC_FORCE = AXES, MOUNT_FORCE = 2 * AXES, MOUNT_FORCES = N_INPUTS - MOUNT_FORCE };
+/* Inputs: forces on journal and disc, and those of the contacts, where they are not inside; unbalance, speed and its rate. */
+enum { JOURNAL_FORCE = 0, DISC_FORCE = AXES, MOUNT_FORCE = 2 * AXES, MOUNT_FORCES = VR_unbalance - MOUNT_FORCE };
 
 /* Entries of the cache: the contacts are ready; a step has been made; what rounding took from the angle; accelerations,
- * applied forces and the contacts' force on the journal at the end of the last step; the contacts' own numbers. */
+ * applied forces and the contacts' force on the journal at the end of the last step; positions at rest; the contacts' own
+ * numbers. */
 enum {
     READY,
     MOVING,
@@ -33,7 +32,8 @@ enum {
     ACCELERATION,
     APPLIED = ACCELERATION + FREEDOMS,
     CARRIED = APPLIED + FREEDOMS,
-    CONTACTS = CARRIED + AXES
+    REST = CARRIED + AXES,
+    CONTACTS = REST + FREEDOMS
 };
 
 /* How far a contact is pressed with the journal there, and how fast at a velocity. */
@@ -49,6 +49,9 @@ void rotor_carry(int mount, double force, double carried[]);
 /* Force of the shaft on the disc along the axis k, at displacements d and velocities v of disc and journal. */
 double rotor_shaft(const double value[], const double d[], const double v[], int k);
 
+/* Weight and constant forces on the degrees of freedom. */
+void rotor_loads(const double value[], double loads[]);
+
 /* Forces applied to the degrees of freedom at an angle of the unbalance, with these inputs. */
 void rotor_applied(const double value[], const double inputs[], double angle, double applied[]);
 
@@ -58,6 +61,9 @@ void rotor_accelerations(const double value[], const double applied[], const dou
 /* ---- the contacts: rotor_contacts.c, or rotor_free.c where they are not inside ---- */
 
 const char *contacts_start(Model *model);
+
+/* Moves the journal from q to where the contacts carry this load at rest, with their films as they are. */
+const char *contacts_rest(Model *model, const double load[], double q[]);
 
 /* Forces and all that is shown of the contacts in a state. */
 const char *contacts_evaluate(Model *model);

@@ -39,6 +39,77 @@ const char *contacts_start(Model *m)
     return reason;
 }
 
+/* Solves A x = b by elimination, b becoming x; what balances the journal is positive definite. */
+static void solve(double A[AXES][AXES], double b[AXES])
+{
+    int i, j, k;
+    for (k = 0; k < AXES; k++) {
+        for (i = k + 1; i < AXES; i++) {
+            const double factor = A[i][k] / A[k][k];
+            for (j = k; j < AXES; j++) {
+                A[i][j] -= factor * A[k][j];
+            }
+            b[i] -= factor * b[k];
+        }
+    }
+    for (k = AXES - 1; k >= 0; k--) {
+        for (j = k + 1; j < AXES; j++) {
+            b[k] -= A[k][j] * b[j];
+        }
+        b[k] /= A[k][k];
+    }
+}
+
+/* Whether contacts of this stiffness hold the journal along every axis. */
+static int holds(double A[AXES][AXES])
+{
+    const int last = AXES - 1;
+    return A[0][0] > 0.0 && (AXES == 1 || A[0][0] * A[last][last] > A[0][last] * A[last][0]);
+}
+
+const char *contacts_rest(Model *m, const double load[], double q[])
+{
+    double slopes[AXES][AXES], residual[AXES], previous = HUGE_VAL;
+    int iteration, i, j, k;
+    for (iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
+        double error = 0.0, size = 0.0;
+        for (k = 0; k < AXES; k++) {
+            residual[k] = -load[k];
+            size = hypot(size, load[k]);
+        }
+        memset(slopes, 0, sizeof slopes);
+        for (i = 0; i < N_MOUNTS; i++) {
+            ContactForce found;
+            const char *reason = law_of[i]->evaluate(numbers_of(m, i), &m->value[FILMS + law_film[i]],
+                                                     rotor_approach(i, q), 0.0, &found);
+            if (reason != NULL) {
+                return reason;
+            }
+            rotor_carry(i, found.force, residual);
+            for (j = 0; j < AXES; j++) {
+                for (k = 0; k < AXES; k++) {
+                    slopes[j][k] += BEARINGS * found.stiffness * rotor_normals[i][j] * rotor_normals[i][k];
+                }
+            }
+        }
+        for (k = 0; k < AXES; k++) {
+            error = hypot(error, residual[k]);
+        }
+        if (error <= by_rounding * size || (error <= balanced * size && error >= previous)) {
+            return NULL;
+        }
+        if (!holds(slopes)) {
+            break;
+        }
+        previous = error;
+        solve(slopes, residual);
+        for (k = 0; k < AXES; k++) {
+            q[k] -= residual[k];
+        }
+    }
+    return "the contacts do not carry the rotor at rest with these masses";
+}
+
 const char *contacts_evaluate(Model *m)
 {
     ContactForce found;
@@ -124,27 +195,6 @@ static const char *move(const Model *before, Model *after, const Balance *b, dou
         }
     }
     return NULL;
-}
-
-/* Solves A x = b by elimination, b becoming x; what balances the journal is positive definite. */
-static void solve(double A[AXES][AXES], double b[AXES])
-{
-    int i, j, k;
-    for (k = 0; k < AXES; k++) {
-        for (i = k + 1; i < AXES; i++) {
-            const double factor = A[i][k] / A[k][k];
-            for (j = k; j < AXES; j++) {
-                A[i][j] -= factor * A[k][j];
-            }
-            b[i] -= factor * b[k];
-        }
-    }
-    for (k = AXES - 1; k >= 0; k--) {
-        for (j = k + 1; j < AXES; j++) {
-            b[k] -= A[k][j] * b[j];
-        }
-        b[k] /= A[k][k];
-    }
 }
 
 const char *contacts_balance(Model *m, const Balance *b, double h, double q[], double carried[])

@@ -168,8 +168,9 @@ static void turn(Model *m, double by)
 
 Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
 {
-    const double count = ceil(h / m->value[VR_inner_step] - by_rounding), omega = per_rpm * m->value[VR_speed_rpm];
+    const double count = ceil(h / m->value[VR_inner_step] - by_rounding);
     double inputs[N_INPUTS], applied[FREEDOMS];
+    double omega = motion->input[VR_speed].start;
     Model next = *m;
     Condensed c;
     int i, steps;
@@ -185,8 +186,9 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
     begin(&next, motion);
     for (i = 1; i <= steps; i++) {
         const char *reason;
-        turn(&next, omega * c.h);
         inputs_at(motion, i * c.h, i == steps, inputs);
+        turn(&next, 0.5 * c.h * (omega + inputs[VR_speed]));
+        omega = inputs[VR_speed];
         rotor_applied(next.value, inputs, next.value[ANGLE], applied);
         reason = advance(&next, &c, applied);
         if (reason != NULL) {

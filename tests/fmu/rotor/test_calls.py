@@ -22,8 +22,9 @@ def status_of(call, *arguments, **named):
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("unbalance", -1e-6), ("unbalance", np.nan), ("speed_rpm", -1.0), ("speed_rpm", np.inf), ("inner_step", 0.0),
-     ("inner_step", 1e-15),      ("inner_step", np.nan), ("journal_x", np.nan), ("disc_velocity_y", np.inf)],
+    [("unbalance", np.nan), ("speed", np.inf), ("inner_step", 0.0), ("inner_step", 1e-15), ("inner_step", np.nan),
+     ("journal_x", np.nan), ("disc_velocity_y", np.inf), ("disc_mass", 0.0), ("journal_mass", -1.0),
+     ("shaft_stiffness", np.nan), ("shaft_damping", -1.0), ("disc_damping", np.inf)],
 )  # fmt: skip
 def test_impossible_settings_are_refused_at_the_start(instance, name, value):
     slave = instance("mixed")
@@ -35,7 +36,7 @@ def test_a_refused_step_changes_nothing(instance):
     slave.step(1e-5)
     before = slave.get("journal_x", "journal_y", "force[1]", "angle")
     for name, value, expected in (
-        ("unbalance", -1.0, ERROR),
+        ("speed", np.inf, ERROR),
         ("disc_force_x", np.nan, ERROR),
         ("disc_force_x", 1e305, DISCARD),
     ):

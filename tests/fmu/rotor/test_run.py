@@ -1,12 +1,17 @@
 """The FMU of a rotor in co-simulation, against `simulate_rotor` and against what can be solved by hand."""
 
+from dataclasses import replace
 from itertools import pairwise
 
+import fmpy
 import numpy as np
 import pytest
+from fmpy.fmi1 import FMICallException
 from scipy.linalg import expm
 
-from reduced_models import RotorState, simulate_rotor
+from fmu import RotorModel, export_rotor
+from fmu.driver import Slave
+from reduced_models import RotorState, SpeedProfile, simulate_rotor
 
 EXTRAPOLATED, END, HELD = 0.0, 1.0, 0.5  # values of force_lead
 # the elements are for other frequencies than that of the speed
@@ -169,7 +174,7 @@ def test_a_force_that_jumps_is_felt_at_once(instance, rotors):
     assert velocity == pytest.approx(force / rotor.journal_mass * h, rel=1e-3)
 
 
-def test_speed_and_unbalance_can_be_tuned_on_the_way(instance, rotors, motion_of, moving):
+def test_speed_and_unbalance_are_inputs(instance, rotors, motion_of, moving):
     """The angle goes on; the unbalance is of the new speed from there."""
     model, dt = rotors["wide"], 1e-5
     slave = instance("wide")
@@ -178,21 +183,97 @@ def test_speed_and_unbalance_can_be_tuned_on_the_way(instance, rotors, motion_of
         slave.step(dt)
     turned = slave.get("angle")[0]
     assert turned == pytest.approx(300 * dt * model.rotor.omega, rel=1e-12)
-    slave.set(speed_rpm=0.0)
+    slave.set(speed=0.0)
+    slave.step(dt)
+    turned = slave.get("angle")[0]
     for _ in range(10):
         slave.step(dt)
     assert slave.get("angle")[0] == turned
-    slave.set(unbalance=0.0, speed_rpm=3000.0)
+    slave.set(unbalance=0.0, speed=0.0)
     slave.step(dt)
-    assert slave.get("angle")[0] == pytest.approx(turned + dt * 100.0 * np.pi, rel=1e-12)
+    slave.set(speed=100.0 * np.pi)
+    slave.step(dt)  # on along the last change of the speed
+    assert slave.get("angle")[0] == pytest.approx(turned + 1.5 * dt * 100.0 * np.pi, rel=1e-12)
 
 
 def test_angle_loses_nothing_in_many_steps(instance, rotors):
     slave = instance("alone in y")
-    slave.start(force_lead=EXTRAPOLATED, inner_step=1e-6, speed_rpm=7654.321)
+    slave.start(force_lead=EXTRAPOLATED, inner_step=1e-6, speed=7654.321)
     for _ in range(200):
         slave.step(1e-4)
-    assert slave.get("angle")[0] == pytest.approx(200 * 1e-4 * 7654.321 * np.pi / 30.0, rel=3e-15)
+    assert slave.get("angle")[0] == pytest.approx(200 * 1e-4 * 7654.321, rel=3e-15)
+
+
+@pytest.mark.parametrize("name", ["wide", "wide in y"])
+def test_a_run_up_is_that_of_simulate_rotor(instance, rotors, motion_of, moving, name):
+    """The unbalance has a force from the angular acceleration too, a tenth of the other one here at the start."""
+    model, dt, steps = rotors[name], 1e-5, 1000
+    profile = SpeedProfile.ramp(3000.0, 15000.0, (steps + 1) * dt)
+    speed, angle, rise = profile.at(dt * np.arange(steps + 1))
+    expected = reference(model, steps, dt, speed_rpm=profile)
+    inputs = {"speed": speed, "angular_acceleration": rise}
+    names = [*moving(model.rotor)[: 2 * len(model.rotor.axes)], "angle"]
+    found = run(instance(name), names, steps, dt, lead=END, inputs=inputs, inner_step=dt)
+    wanted = np.column_stack([motion_of(expected)[:, : len(names) - 1], angle])
+    assert (np.abs(found - wanted).max(axis=0) <= 1e-7 * np.ptp(wanted, axis=0)).all()
+
+
+OTHER = {
+    "disc_mass": 2.6,
+    "journal_mass": 0.2,
+    "shaft_stiffness": 1.5e8,
+    "shaft_damping": 90.0,
+    "disc_damping": 3.0,
+}
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("name", ["alone", "wide", "mixed", "wide in y"])
+def test_other_masses_springs_and_dampers(instance, rotors, motion_of, moving, name, fmi):
+    """Set before initialization: the run of a rotor that has them, from its own equilibrium on."""
+    model, steps, dt = rotors[name], 500, 1e-5
+    other = RotorModel(replace(model.rotor, **OTHER), model.contacts)
+    names = moving(other.rotor)
+    found = run(instance(name, fmi), names, steps, dt, inner_step=dt if model.elements else 1e-6, **OTHER)
+    start = np.concatenate(other.rotor.motion(other.state))
+    assert found[0] == pytest.approx(start, rel=1e-12, abs=1e-12 * np.abs(start).max())
+    if model.elements:
+        wanted = motion_of(reference(other, steps, dt))
+        allowed = np.where([("velocity" in one) for one in names], 1e-5, 1e-7)
+        assert (np.abs(found - wanted).max(axis=0) <= allowed * np.ptp(wanted, axis=0)).all()
+    else:
+        T = dt * np.arange(steps + 1)
+        wanted = twin(other.rotor, T, np.array([other.rotor.applied_force(t) for t in T]))
+        assert (np.abs(found - wanted).max(axis=0) <= 1e-3 * np.ptp(wanted, axis=0)).all()
+
+
+def test_equilibrium_follows_until_a_start_is_set(instance, rotors, moving):
+    """In any order of calls; a start of one's own stays, whatever the masses."""
+    slave = instance("wide")
+    slave.raw.setupExperiment(startTime=0.0)
+    slave.raw.enterInitializationMode()
+    found = []
+    for mass in (OTHER["disc_mass"], 4.0):
+        slave.set(disc_mass=mass)
+        other = RotorModel(replace(rotors["wide"].rotor, disc_mass=mass), rotors["wide"].contacts)
+        found.append(slave.get("journal_y", "disc_y"))
+        assert found[-1] == pytest.approx([other.state.journal[1], other.state.disc[1]], rel=1e-12)
+    slave.set(journal_y=1e-6)
+    slave.set(disc_mass=3.0)
+    assert slave.get("journal_y", "disc_y") == [1e-6, found[-1][1]]
+
+
+def test_masses_that_the_contacts_do_not_carry(rotors, tmp_path):
+    """Lifted from its contact by its load, once it is lighter."""
+    model, messages = rotors["wide in y"], []
+    path = export_rotor(replace(model.rotor, load=(0.0, 15.0)), tmp_path / "x.fmu", model.contacts)
+    folder = fmpy.extract(str(path), unzipdir=str(tmp_path / "x"))
+    slave = Slave(folder, fmpy.read_model_description(str(path)), messages)
+    slave.raw.fmi2SetDebugLogging(slave.raw.component, True, 0, None)
+    with pytest.raises(FMICallException):
+        slave.start(force_lead=0.0, disc_mass=1.0)
+    slave.free()
+    assert len(messages) == 1 and "do not carry the rotor" in messages[0]
 
 
 def test_a_start_of_ones_own(instance, rotors, motion_of, moving):
