@@ -30,6 +30,7 @@ module                   responsibility
 ``bearing/``             FMU of a ball bearing whose inner ring is moved from outside
 ``rotor/``               FMU of a Jeffcott rotor, alone or with its contacts
 ``shaft/``               FMU of a shaft whose bearings are outside, with the torque of its motor
+``controller/``          FMU of a speed controller: torque of that motor
 ``system/``              `export_system`, `export_drive`: system archives (SSP) of a rotor, of a drive
 ``csrc/``                C sources: core, interface of each FMI version, models; equations in its README
 =======================  ===========================================================================
@@ -43,6 +44,8 @@ from inspect import ismodule as _ismodule
 from fmu.bearing.export import export_bearing as export_bearing
 from fmu.bearing.model import BearingModel as BearingModel
 from fmu.binaries import BuildError as BuildError
+from fmu.controller.export import export_controller as export_controller
+from fmu.controller.model import SpeedController as SpeedController
 from fmu.export import export_contact as export_contact
 from fmu.references.check import ReferenceCheck as ReferenceCheck
 from fmu.references.check import verify_references as verify_references

@@ -13,6 +13,8 @@ from fmu.bearing.variables import bearing_spec
 from fmu.comparison import compare_film, compare_spring
 from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element, Film
+from fmu.controller.comparison import compare_controller, controller_references
+from fmu.controller.model import SpeedController, controller_spec
 from fmu.lead import HELD_PARALLEL
 from fmu.references.contact_references import contact_references
 from fmu.references.series import References
@@ -27,7 +29,7 @@ from fmu.spec import ModelSpec
 from fmu.verification import Verification
 from reduced_models import JeffcottRotor
 
-Source = Element | RotorModel | BearingModel | ShaftModel  # what an FMU is made from
+Source = Element | RotorModel | BearingModel | ShaftModel | SpeedController  # what an FMU is made from
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +55,7 @@ class FmuModel:
 
 
 def fmu_model(source: Source, model_name: str | None = None, lead: float | None = None) -> FmuModel:
-    """Model of the FMU of a contact element, a rotor, a bearing or a shaft.
+    """Model of the FMU of a contact element, a rotor, a bearing, a shaft or a speed controller.
 
     `lead` is the start value of `lead` or `force_lead`, by default that of the kind.
 
@@ -75,6 +77,9 @@ def fmu_model(source: Source, model_name: str | None = None, lead: float | None 
     elif isinstance(source, ShaftModel):
         spec, elements = shaft_spec(source, model_name, lead), ()
         compare, references = compare_shaft, shaft_references
+    elif isinstance(source, SpeedController):
+        spec, elements = controller_spec(source, model_name, lead), ()
+        compare, references = compare_controller, controller_references
     else:
         spec, elements = contact_spec(source, model_name, HELD_PARALLEL if lead is None else lead), (source,)
         compare = compare_film if isinstance(source, Film) else compare_spring

@@ -20,6 +20,7 @@ def draw(name: str) -> Path:
     spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
     if spec is None or spec.loader is None or not (EXAMPLES / f"{name}.py").is_file():
         raise SystemExit(f"{name}: no such example")
+    sys.path.insert(0, str(EXAMPLES))  # one may use another
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     PICTURES.mkdir(exist_ok=True)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact.checks import require_positive
+from ehlcontact.checks import require_instance, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import write_bytes
 from fmu.archive import pack
@@ -21,6 +21,8 @@ from fmu.bearing.variables import FORCES, RATES
 from fmu.binaries import choose, this_machine
 from fmu.binaries.libraries import Progress
 from fmu.contact_spec import checked_name
+from fmu.controller.export import export_controller
+from fmu.controller.model import SpeedController
 from fmu.export import free_target
 from fmu.lead import CONTACT, HELD_PARALLEL, force_lead_for
 from fmu.shaft.export import export_shaft
@@ -52,6 +54,7 @@ def export_drive(
     speeds_rpm: Any,
     speed_rpm: float = 0.0,
     torque: float = 0.0,
+    controller: SpeedController | None = None,
     start: Any = None,
     fmi: int = 2,
     model_name: str = NAME,
@@ -66,6 +69,8 @@ def export_drive(
     Component ``shaft`` is the FMU of `export_shaft`, ``bearing_1`` and so on are those of `export_bearing`:
     motions of the rings and the speed go from the shaft to the bearings, forces and rolling torques back. The
     input `torque` of the shaft is free: it starts at `torque`, and a motor, or a controller, may be wired to it.
+    With `controller` the FMU of `export_controller` is the component ``controller``: the speed goes from the shaft
+    to it and the torque back, and its input `speed_set_point` is free.
 
     Nothing is written that is not verified: each FMU against what it was made from, the description against the
     schema of the standard, and a run of the whole against `simulate_rotor` with the speed of that run.
@@ -83,7 +88,9 @@ def export_drive(
     speed_rpm : float
         At the start; the rotor then is at rest under its load, or where `start` puts it, as in `export_shaft`.
     torque : float
-        Of the motor, at the start [N m].
+        Of the motor, at the start [N m]; with a controller its integral part.
+    controller : SpeedController, optional
+        Of the speed; its `speed_rpm` is the set point at the start.
     step : float, optional
         Of the default experiment [s]. By default a tenth of 1/w, 1, 2 or 5 times a power of ten, for the fastest
         vibration w of the shaft on its bearings.
@@ -110,7 +117,9 @@ def export_drive(
     names = [one.name for one in choose(platforms, fmi)]
     target = free_target(path, overwrite, ".ssp")
     step = default_drive_step(model) if step is None else require_positive("step", step)
-    drive = _Drive(model, speeds_rpm, model_name, step, CONTACT.check(lead), fmi)
+    if controller is not None:
+        require_instance("controller", controller, SpeedController, "a SpeedController")
+    drive = _Drive(model, speeds_rpm, model_name, step, CONTACT.check(lead), fmi, controller)
     content = drive.archive(names, progress)
     own = this_machine()
     if own is not None and own.folder(fmi) is not None:
@@ -149,6 +158,7 @@ class _Drive:
     step: float
     lead: float
     fmi: int
+    controller: SpeedController | None
 
     def archive(self, platforms: list[str], progress: Progress | None) -> bytes:
         """All of it, its FMUs verified one by one; equal bearings share one."""
@@ -189,6 +199,17 @@ class _Drive:
                         progress=progress,
                     )
                 )
+            if self.controller is not None:
+                files.append(
+                    export_controller(
+                        self.controller,
+                        Path(folder, "controller.fmu"),
+                        fmi=self.fmi,
+                        model_name="controller",
+                        platforms=platforms,
+                        progress=progress,
+                    )
+                )
             content = {f"resources/{file.name}": file.read_bytes() for file in files}
             return pack(content | {"SystemStructure.ssd": self._description(files)})
 
@@ -219,6 +240,14 @@ class _Drive:
             wires.append(Wire(("shaft", "speed"), (part, "speed")))
             back = [*(FORCES[k] for k in mount.directions), *({"rolling_torque"} & there)]
             wires += [Wire((part, k), ("shaft", f"bearing[{b}].{k}")) for k in back]
+        if self.controller is not None:
+            wanted = self.controller.speed_rpm * RPM_TO_RAD_S
+            values = {"speed_set_point": wanted, "speed": omega, "integral_start": model.torque}
+            ports = connectors(files[-1])
+            components.append(Component("controller", f"resources/{files[-1].name}", ports, values))
+            wires += [Wire(("shaft", "speed"), ("controller", "speed"))]
+            wires += [Wire(("controller", "torque"), ("shaft", "torque"))]
+            starts["torque"] = float(self.controller.torque([0.0], [omega], start=model.torque)[0])
         shaft = Component("shaft", "resources/shaft.fmu", connectors(files[0]), starts)
         text = "A shaft in its bearings under the torque of a motor, in SI units"
         return system_structure(

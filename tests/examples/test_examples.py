@@ -300,6 +300,19 @@ def test_a_gear_free_drive(tmp_path):
     assert 0.01 < found["drag"][half].mean() == pytest.approx(found["lost"][half].mean(), rel=0.1)
 
 
+@pytest.mark.slow  # 30 000 steps of four FMUs
+def test_a_speed_controlled_drive(tmp_path, monkeypatch):
+    """As `simulate_rotor` at its speed, which is that of the law of torque; the speed hardly overshoots."""
+    monkeypatch.syspath_prepend(FOLDER)
+    module = example("speed_controlled_drive")
+    found = module.main(str(tmp_path / "drive.png"))
+    assert (tmp_path / "drive.png").read_bytes().startswith(PNG)
+    assert found["gap"] < 2e-3 and found["off"] < 1e-3
+    assert found["torque"].max() == module.TORQUE and abs(found["torque"][-1]) < 1.0
+    assert module.LAST < found["speed"].max() < 1.01 * module.LAST
+    assert found["speed"][-1] == pytest.approx(module.LAST, rel=1e-3)
+
+
 def test_orders_of_defects(tmp_path):
     """Clearances of the issue for 9.6 degrees; damping of films falls with preload (Mitsuya et al., 1998)."""
     module = example("orders_of_defects")

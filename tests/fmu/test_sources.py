@@ -19,7 +19,7 @@ from fmpy.build import build_platform_binary
 from fmpy.validation import validate_fmu
 
 from ehlcontact import Lubricant
-from fmu import BearingModel, ShaftModel, export_contact, verify
+from fmu import BearingModel, ShaftModel, SpeedController, export_contact, verify
 from fmu.archive import content_guid
 from fmu.comparison import film_motion, state_grid
 from fmu.contact_spec import contact_spec
@@ -37,6 +37,7 @@ CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]
 ROTORS = ["rotor alone", "rotor mixed", "rotor wide in y"]
 BEARINGS = ["bearing planar", "bearing five"]
 SHAFTS = ["shaft"]
+CONTROLLERS = ["controller"]
 FUZZ = {2: "fuzz.c", 3: "fuzz3.c"}
 MANY = 1_250_000  # calls of each version of FMI, over all kinds
 FEW = 20_000  # of each kind, in the default suite
@@ -72,7 +73,10 @@ def models(elements, rotors):
         discs=[Disc(position=0.25, mass=4.0, diametral_inertia=0.01, polar_inertia=0.02, unbalance=1e-4)],
         supports=[Support(position=at, bearing=BallBearing.catalogue("6205")) for at in (0.02, 0.38)],
     )
-    shafts = {"shaft": ShaftModel(shaft, 3e3, inertia=0.02)}
+    shafts = {
+        "shaft": ShaftModel(shaft, 3e3, inertia=0.02),
+        "controller": SpeedController(3e3, proportional_gain=1.0, integral_gain=1e4, torque_limit=50.0),
+    }
     return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings | shafts
 
 
@@ -120,6 +124,9 @@ def random_calls_of(name):
         # the first of them must not be negative, as motions may be
         given = {"INPUTS": "0,FIRST_DRIVE", "OUTPUTS": "VR_mass_scale,VR_angle,FIRST_VELOCITY"}
         return [f"-DFUZZ_{macro}={text}" for macro, text in (given | {"USUAL": "1e2", "STEP": "1e-5"}).items()]
+    if name in CONTROLLERS:
+        given = {"INPUTS": "0,1", "OUTPUTS": "VR_torque_limit,VR_torque,VR_lead", "USUAL": "1e2", "STEP": "1e-5"}
+        return [f"-DFUZZ_{macro}={text}" for macro, text in given.items()]
     if name not in ROTORS:
         return []
     first = "FIRST_STATE+4*AXES" if "alone" in name else "FIRST_FORCE"  # the angle, or a force
@@ -128,7 +135,7 @@ def random_calls_of(name):
 
 
 @pytest.mark.parametrize(
-    "name", ["rotor alone", "rotor mixed", "rotor alone in y", *BEARINGS, "bearing dry", *SHAFTS]
+    "name", ["rotor alone", "rotor mixed", "rotor alone in y", *BEARINGS, "bearing dry", *SHAFTS, *CONTROLLERS]
 )
 def test_strict_warnings_of_rotors(compiled, name):
     """Those of contacts: in the tests of libraries and of the driver."""
@@ -153,7 +160,8 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
 
 
 @pytest.mark.parametrize(
-    ("fmi", "name"), [*((2, name) for name in CONTACTS + ROTORS + BEARINGS + SHAFTS), (3, "cubic"), (3, "wide_si")]
+    ("fmi", "name"),
+    [*((2, name) for name in CONTACTS + ROTORS + BEARINGS + SHAFTS + CONTROLLERS), (3, "cubic"), (3, "wide_si")],
 )
 def test_random_calls_under_sanitizers(compiled, fmi, name):
     calls = 2 * FEW if name in ROTORS else FEW // 4 if name in BEARINGS + SHAFTS else FEW
@@ -162,7 +170,7 @@ def test_random_calls_under_sanitizers(compiled, fmi, name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CONTACTS + BEARINGS + SHAFTS)
+@pytest.mark.parametrize("name", CONTACTS + BEARINGS + SHAFTS + CONTROLLERS)
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_million_random_calls_under_sanitizers(compiled, fmi, name):
     program = compiled(name, fmi, SANITIZED, FUZZ[fmi], random_calls_of(name))

@@ -10,7 +10,15 @@ from other_masters import ecospy, libcosimpy, ours
 from scipy.integrate import solve_ivp
 
 from ehlcontact import InputError, Lubricant
-from fmu import ShaftModel, VerificationError, export_drive, export_shaft, verify, verify_references
+from fmu import (
+    ShaftModel,
+    SpeedController,
+    VerificationError,
+    export_drive,
+    export_shaft,
+    verify,
+    verify_references,
+)
 from fmu.driver import Slave
 from fmu.system.master import SystemRun
 from reduced_models import (
@@ -309,6 +317,41 @@ def test_a_drive_in_masters_of_others(drive, run_of_ours, master):
     found = master(drive[0], STEP, 300, "shaft", [*NAMES, "speed"])[-300:]
     size = np.ptp(run_of_ours[:301], axis=0)  # ours passes on no rolling torque before the first step
     assert (np.abs(found - run_of_ours[1:301]).max(axis=0) < 1e-4 * size).all()
+
+
+@pytest.fixture(scope="module")
+def controlled(rotors, tmp_path_factory):
+    """The same with a controller of the speed, which is below its set point."""
+    path = tmp_path_factory.mktemp("controlled") / "drive.ssp"
+    controller = SpeedController(1.02 * RPM, proportional_gain=0.1, integral_gain=30.0, torque_limit=TORQUE)
+    export_drive(
+        rotors["rigid"], path, inertia=INERTIA, speeds_rpm=(2000.0, 4000.0), speed_rpm=RPM, controller=controller
+    )
+    return path, controller
+
+
+def test_the_torque_of_a_drive_is_that_of_its_controller(controlled):
+    """At the speed of the run, a step later; the shaft gains what it leaves."""
+    path, controller = controlled
+    with SystemRun(path.read_bytes()) as run:
+        watched = [("shaft", "speed"), ("controller", "torque"), ("bearing_1", "rolling_torque")]
+        speed, torque, drag = run.run(STEP, STEPS, [*watched]).T
+        run.set("controller", speed_set_point=0.9 * RPM * RPM_TO_RAD_S)
+        run.step(STEP)
+        assert run.get("controller", "torque")[0] < torque[-1]
+    e = (controller.speed_rpm * RPM_TO_RAD_S - speed)[:-1]
+    wanted = controller.proportional_gain * e + controller.integral_gain * STEP * np.cumsum(e)
+    assert torque[1:] == pytest.approx(wanted, rel=1e-9) and torque.max() < TORQUE
+    gained = np.diff(speed)[10:] * INERTIA / STEP
+    assert gained == pytest.approx((torque - 2.0 * drag)[9:-2], rel=0.05)
+
+
+@pytest.mark.parametrize("master", [ecospy, libcosimpy])
+def test_a_controlled_drive_in_masters_of_others(controlled, master):
+    wanted = ours(controlled[0], STEP, 300, "controller", ["torque"])[1:]
+    found = master(controlled[0], STEP, 300, "controller", ["torque"])[-300:]
+    assert np.ptp(wanted) > 0.05 * TORQUE
+    assert np.abs(found - wanted).max() < 1e-4 * np.ptp(wanted)
 
 
 def test_a_step_that_is_too_long_is_not_written(rotors, tmp_path):
