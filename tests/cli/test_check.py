@@ -1,5 +1,10 @@
-"""The section [check] of a study: without it nothing is solved twice, and no output mentions it."""
+"""The section [check] of a study: without it nothing is solved twice, and no output mentions it.
 
+Nor does a compiler that cannot be started cost more than the FMUs.
+"""
+
+import contextlib
+import io
 import json
 import shutil
 
@@ -16,7 +21,10 @@ HALF_STEP = ("rotor_half_step", "decay_half_step")
 
 @pytest.fixture(scope="module")
 def unchecked(finished, tmp_path_factory):
-    """The tiny study without its [check], and the folder of its run, which finds all its stages in a copy."""
+    """The tiny study without its [check], and folder and stderr of its run, which finds all its stages in a copy.
+
+    There is no C compiler.
+    """
     root = tmp_path_factory.mktemp("unchecked")
     file, folder = root / "tiny.toml", root / "out"
     file.write_text(finished[0].read_text().replace("[check]\nhalf_step = true\n", ""))
@@ -24,10 +32,26 @@ def unchecked(finished, tmp_path_factory):
     for name in HALF_STEP:
         (folder / f"{name}.h5").unlink()
         (folder / "store" / stage_key(stage_named(name), load_study(finished[0]))).unlink()
-    with pytest.raises(SystemExit) as stop:
+    said = io.StringIO()
+    with (
+        pytest.raises(SystemExit) as stop,
+        contextlib.redirect_stderr(said),
+        pytest.MonkeyPatch.context() as patch,
+    ):
+        patch.setenv("EHLCONTACT_CC", "/none/cc")
         main(["run", str(file), "-o", str(folder)])
-    assert not stop.value.code
-    return file, folder
+    assert stop.value.code == 1
+    return file, folder, said.getvalue()
+
+
+def test_a_study_without_its_fmus_has_all_the_rest(unchecked):
+    _, folder, said = unchecked
+    assert "Traceback" not in said
+    for name, line in zip(("contact.fmu", "contact_film.fmu"), said.splitlines()[-2:], strict=True):
+        assert f"{name}: cannot start the C compiler /none/cc" in line
+    results = json.loads((folder / "results.json").read_text())
+    assert results["fmu"]["passes"] is False and "/none/cc" in results["fmu"]["error"]
+    assert (folder / "report.html").is_file()
 
 
 def test_stages_of_the_check_are_opt_in(finished, unchecked):
@@ -41,7 +65,7 @@ def test_stages_of_the_check_are_opt_in(finished, unchecked):
 
 def test_results_of_a_study_without_a_check(finished, unchecked):
     """Its numbers are those of the study with the check, whose stages it keeps."""
-    _, folder = unchecked
+    folder = unchecked[1]
     assert not any((folder / f"{name}.h5").exists() for name in HALF_STEP)
     own, checked = (json.loads((path / "results.json").read_text()) for path in (folder, finished[1]))
     for name in ("half_step", "step_full", "step_reduced"):

@@ -164,20 +164,6 @@ def test_error_of_an_fmu_in_the_results_of_a_study(tmp_path, monkeypatch, what):
     json.dumps(found, allow_nan=False)
 
 
-def test_a_study_without_its_fmu_has_all_the_rest(call, finished, tmp_path, monkeypatch):
-    study, folder = finished
-    shutil.copytree(folder, tmp_path / "out")
-    (tmp_path / "out" / "report.html").unlink()
-    monkeypatch.setenv("EHLCONTACT_CC", "/none/cc")
-    result = call("run", study, "-o", tmp_path / "out")
-    assert result.code == 1 and "Traceback" not in result.err
-    for name, line in zip(("contact.fmu", "contact_film.fmu"), result.err.splitlines()[-2:], strict=True):
-        assert f"{name}: cannot start the C compiler /none/cc" in line
-    results = json.loads((tmp_path / "out" / "results.json").read_text())
-    assert results["fmu"]["passes"] is False and "/none/cc" in results["fmu"]["error"]
-    assert (tmp_path / "out" / "report.html").is_file()
-
-
 def test_a_study_as_a_system(call, refused, element, tmp_path):
     """Rotor and contacts, each its FMU; an element alone is no system."""
     target = tmp_path / "rotor.ssp"

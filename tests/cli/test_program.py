@@ -1,6 +1,5 @@
 """The program itself: help, version, and usage errors in one line."""
 
-import os
 import shlex
 import subprocess
 import sys
@@ -47,19 +46,27 @@ def test_help_ends_in_examples_that_the_parser_takes(call, name):
         command.make_context(name, words)
 
 
-@pytest.mark.parametrize(
-    ("line", "offered"),
-    [
-        ("ehlcontact imp", ["impedance"]),
-        ("ehlcontact steady --bea", ["--bearing"]),
-        ("ehlcontact steady --bearing 631", ["6310", "6311", "6312"]),
-    ],
-)
-def test_completion_in_a_shell(line, offered):
-    asked = {"_EHLCONTACT_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(line.split()) - 1)}
-    command = [sys.executable, "-c", "from ehlcontact.cli import main; main()"]
-    found = subprocess.run(command, capture_output=True, text=True, check=False, env=os.environ | asked)
-    assert (found.returncode, found.stdout.split(), found.stderr) == (0, offered, "")
+def test_completion_in_a_shell():
+    """A subcommand, an option and a value, in one process, which has the program's name."""
+    asked = {
+        "ehlcontact imp": ["impedance"],
+        "ehlcontact steady --bea": ["--bearing"],
+        "ehlcontact steady --bearing 631": ["6310", "6311", "6312"],
+    }
+    code = f"""
+import os
+from ehlcontact.cli import main
+os.environ["_EHLCONTACT_COMPLETE"] = "complete_bash"
+for line in {list(asked)}:
+    os.environ |= {{"COMP_WORDS": line, "COMP_CWORD": str(line.count(" "))}}
+    try:
+        main()
+    except SystemExit as stop:
+        print("", stop.code)
+"""
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    expected = [word for offered in asked.values() for word in (*offered, "0")]
+    assert (found.returncode, found.stdout.split(), found.stderr) == (0, expected, "")
 
 
 def test_version(call):

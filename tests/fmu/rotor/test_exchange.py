@@ -59,7 +59,12 @@ def test_a_loop_around_it_converges_to_co_simulation(instance, rotors, motion_of
 
 
 @pytest.mark.parametrize(
-    ("name", "fmi"), [("alone", 2), ("mixed", 2), ("wide in y", 2), ("alone in y", 2), ("mixed", 3)]
+    ("name", "fmi"),
+    [
+        ("wide in y", 2),
+        ("mixed", 3),
+        *(pytest.param(name, 2, marks=pytest.mark.slow) for name in ("alone", "mixed", "alone in y")),
+    ],
 )
 def test_every_partial_derivative_against_differences(instance, rotors, name, fmi):
     unit, states, x0 = started(instance, name, fmi)

@@ -84,11 +84,17 @@ def altered(monkeypatch, tmp_path, file, old, new):
     ("name", "file", "old", "new"),
     [
         ("alone", "rotor_step.c", "rho = 0.8;", "rho = 0.9;"),
-        ("alone", "model_rotor.c", "carried[k] += BEARINGS * force", "carried[k] += force"),
+        pytest.param(
+            *("alone", "model_rotor.c", "carried[k] += BEARINGS * force", "carried[k] += force"),
+            marks=pytest.mark.slow,
+        ),
         ("wide in y", "rotor_contacts.c", "motion.start_rate = before", "motion.start_rate = 0.0 * before"),
-        ("cubic", "model_rotor.c", "- pull - carried[k]) / m->value", "- pull + carried[k]) / m->value"),
+        pytest.param(
+            *("cubic", "model_rotor.c", "- pull - carried[k]) / m->value", "- pull + carried[k]) / m->value"),
+            marks=pytest.mark.slow,
+        ),
     ],
-)  # fmt: skip
+)
 def test_nothing_wrong_is_written(rotors, monkeypatch, tmp_path, name, file, old, new):
     altered(monkeypatch, tmp_path, file, old, new)
     model, target = rotors[name], tmp_path / "x.fmu"

@@ -37,8 +37,13 @@ def reference(model, steps, dt, **options):
     return simulate_rotor(model.rotor, contacts, dt=dt, until=steps * dt, tolerance=1e-11, **options)
 
 
-@pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize("name", ["wide", "cubic", "mixed", "wide in y"])
+@pytest.mark.parametrize(
+    ("name", "fmi"),
+    [
+        *(("wide", 2), ("cubic", 2), ("wide in y", 2), ("mixed", 3)),
+        *(pytest.param(*case, marks=pytest.mark.slow) for case in (("mixed", 2), ("wide", 3), ("wide in y", 3))),
+    ],
+)
 def test_closed_rotor_is_that_of_simulate_rotor(instance, rotors, motion_of, moving, name, fmi):
     """Orbit, velocities and forces, from the static equilibrium on."""
     model, steps, dt = rotors[name], 1500, 1e-5
