@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -32,7 +32,6 @@ def compare_spring(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> 
     instant = [exchange.evaluate(none, approach=u, rate=v)[0] for u, v in zip(approach, rate, strict=True)]
     differences = [difference(values[:, k], expected[k], scales[k]) for k in range(3)]
     return Verification(
-        findings=(),
         states=approach.size,
         outside=int((~((element.low <= approach) & (approach <= element.high))).sum()),
         parted=int((expected[0] == 0.0).sum()),
@@ -112,11 +111,19 @@ def film_motion(element: Any) -> tuple[_Floats, _Floats, _Floats]:
     _, length, time = element._units
     T = np.concatenate([[0.0], np.cumsum(np.resize(STEPS, round(DURATION / sum(STEPS)) * len(STEPS)))])
     u, v = element.approach_at(element._units[0]) / length + 0.4 * np.sin(2.5 * T), np.cos(2.5 * T)
-    for size, at, width in ((1.2, 7.0, 1.5), (-2.5, 15.0, 1.5)):
+    u, v = with_pulses(T, u, v, ((1.2, 7.0), (-2.5, 15.0)), 1.5)
+    return T * time, u * length, v * length / time
+
+
+def with_pulses(
+    T: _Floats, u: _Floats, v: _Floats, pulses: Iterable[tuple[float, float]], width: float
+) -> tuple[_Floats, _Floats]:
+    """A motion and its rate with Gaussian pulses, each (size, time)."""
+    for size, at in pulses:
         s = (T - at) / width
         pulse = size * np.exp(-s * s)
         u, v = u + pulse, v - 2.0 * s / width * pulse
-    return T * time, u * length, v * length / time
+    return u, v
 
 
 def film_walk(
@@ -187,7 +194,6 @@ def compare_film(slave: Any, exchange: Any, element: Any, spec: ModelSpec) -> Ve
     scales = [f, *[f / length, f / length * time] * 3, f]
     gaps = [difference(ours[:, k], theirs[:, k], scale) for k, scale in enumerate(scales)]
     return Verification(
-        findings=(),
         states=T.size - 1,
         outside=int(((u[1:] < element.low) | (u[1:] > element.high)).sum()),
         parted=int((theirs[:, 0] == 0.0).sum()),

@@ -47,14 +47,14 @@ class Verification(Summary):
         Of a planar bearing in model exchange, largest difference of rates over the largest of their kind.
     """
 
-    findings: tuple[str, ...]
-    states: int
-    outside: int
-    parted: int
-    force: float
-    tangents: float
-    derivatives: float
-    flags: int
+    findings: tuple[str, ...] = ()
+    states: int = 0
+    outside: int = 0
+    parted: int = 0
+    force: float = 0.0
+    tangents: float = 0.0
+    derivatives: float = 0.0
+    flags: int = 0
     exchange: float = 0.0
     motion: float = 0.0
     bearing: float = 0.0

@@ -14,7 +14,7 @@ from ehlcontact.assumptions.contact import KnownFilm
 from ehlcontact.checks.admissible_range import INPUTS, Given
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.options import Options, called
+from ehlcontact.cli.options import Options, called, option_of
 from ehlcontact.cli.rows import Row
 from ehlcontact.cli.study.schema import lubricant_of, oil_grade
 from ehlcontact.errors import InputError
@@ -84,7 +84,7 @@ class Contact(Options):
         """The error for an option that has to be given."""
         field = type(self).model_fields[name]
         words = "; ".join(part for part in (e.meaning_of(field), e.allowed_of(field)) if part)
-        return InputError(f"--{name.replace('_', '-')}", None, f"given ({words}){beside}")
+        return InputError(option_of(type(self), name), None, f"given ({words}){beside}")
 
     @property
     def in_si(self) -> bool:
@@ -93,14 +93,11 @@ class Contact(Options):
 
     @property
     def _of_bearing(self) -> dict[str, Any]:
-        options = {"--bearing": self.bearing, "--oil": self.oil, "--temp": self.temp, "--load": self.load}
-        options |= {"--speed-rpm": self.speed_rpm, "--contact": self.race}
-        return {name: value for name, value in options.items() if value is not None}
+        return self.by_option("bearing", "oil", "temp", "load", "speed_rpm", "race")
 
     @property
     def _of_disc(self) -> dict[str, Any]:
-        options = {"--ball-diameter": self.ball_diameter, "--entrainment": self.entrainment, "--flat": self.flat}
-        return {name: value for name, value in options.items() if value is not None}
+        return self.by_option("ball_diameter", "entrainment", "flat")
 
     def point(self) -> Point:
         """Check the options and make the operating point of them.
@@ -110,17 +107,17 @@ class Contact(Options):
         InputError
             An option of a kind that is missing, or impossible; some of two kinds.
         """
-        numbers = {"--M": self.M, "--L": self.L, "--kappa": self.kappa}
-        given, of_bearing = {k: v for k, v in numbers.items() if v is not None}, self._of_bearing
+        numbers = "M", "L", "kappa"
+        given, of_bearing = self.by_option(*numbers), self._of_bearing
         if given and (of_bearing or self._of_disc):
             self._refuse_mixture(given, self._of_disc or of_bearing)
         if self._of_disc:
             return self._ball_on_disc()
         if of_bearing:
             return self._ball()
-        for name, value in numbers.items():
-            if value is None:
-                raise self._missing(name[2:], f", {BESIDE}")
+        for name in numbers:
+            if getattr(self, name) is None:
+                raise self._missing(name, f", {BESIDE}")
         laws = {name: getattr(self, name) for name in ("alpha", "eta0") if getattr(self, name) is not None}
         laws |= {"viscosity": self.viscosity, "density": self.density}
         return MoesPoint(M=self.M, L=self.L, kappa=self.kappa, **laws)  # type: ignore[arg-type]

@@ -44,6 +44,11 @@ class Options(Section):
 
     panel: ClassVar[str | None] = None  # heading in the help
 
+    def by_option(self, *names: str) -> dict[str, Any]:
+        """Values that are given, by option as "--speed-rpm"; of some fields, or of all."""
+        found = {name: getattr(self, name) for name in names or type(self).model_fields}
+        return {option_of(type(self), name): value for name, value in found.items() if value not in (None, [])}
+
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
     """Let a command take groups of options: a parameter of a class of `Options` becomes its fields for typer."""
@@ -87,6 +92,12 @@ def group_of(group: type[Options], values: Mapping[str, Any]) -> Options:
         choices = _choices(get_type_hints(group)[name])
         allowed = f"one of {', '.join(choices)}" if choices else found.allowed
         raise InputError(name, found.value, allowed) from None
+
+
+def option_of(group: type[Options], name: str) -> str:
+    """The option of a field, by the first of its names."""
+    info = next(rule for rule in group.model_fields[name].metadata if isinstance(rule, ParameterInfo))
+    return next(one for one in (info.default, *(info.param_decls or ())) if isinstance(one, str))
 
 
 def _parameters(group: type[Options]) -> Iterator[inspect.Parameter]:

@@ -58,8 +58,8 @@ def _drawn(name: str, draw: Callable[[], Any]) -> Any:
         return grid(titles=[escape(shorten(reason, 100))])
 
 
-def cell(value: float | str | None, digits: int = 5) -> str:
+def cell(value: float | str | None) -> str:
     """A table cell in words: nothing for None, counts as they are."""
     if value is None:
         return ""
-    return str(value) if isinstance(value, str | int) else numeral(value, digits)
+    return str(value) if isinstance(value, str | int) else numeral(value, 5)

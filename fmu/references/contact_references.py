@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu.comparison import STEPS, bounds, film_rates_at, film_walk, tangents
+from fmu.comparison import STEPS, bounds, film_rates_at, film_walk, tangents, with_pulses
 from fmu.contact_variables import Element, Film
 from fmu.lead import CONTACT
 from fmu.references.series import References, Trial
@@ -79,10 +79,7 @@ def _motion(
     T = np.concatenate([np.arange(steps + 1) * sample, steps * sample + np.cumsum(STEPS[:-1])])
     u = middle - share * length * np.cos(omega * T)
     v = share * length * omega * np.sin(omega * T)
-    for size, at in ((pulse, loaded), (-parting, parted)):
-        s = (T - at) / width
-        hump = size * np.exp(-s * s)
-        u, v = u + hump, v - 2.0 * s / width * hump
+    u, v = with_pulses(T, u, v, ((pulse, loaded), (-parting, parted)), width)
     v[0] = 0.0
     return _rounded(T * unit), _rounded(u), _rounded(v / unit)
 

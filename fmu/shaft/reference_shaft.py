@@ -43,14 +43,14 @@ class ShaftTrial:
     speed: _Floats
 
 
-def shaft_trial(model: ShaftModel, steps: int = STEPS, dt: float = DT) -> ShaftTrial:
+def shaft_trial(model: ShaftModel) -> ShaftTrial:
     """A run with forces that vary and a speed that rises, step by step."""
     rng = np.random.default_rng(1)
     start = np.concatenate(model.forces)
     drive = 1 if model.inertia is None else 1 + len(model.stations)
     unbalances = [unbalance.amount for unbalance in model.rotor.unbalances]
-    time = np.asarray(dt * np.arange(steps + 1), np.float64)
-    inputs = np.zeros((steps + 1, start.size + len(unbalances) + drive))
+    time = np.asarray(DT * np.arange(STEPS + 1), np.float64)
+    inputs = np.zeros((STEPS + 1, start.size + len(unbalances) + drive))
     size = np.maximum(np.abs(start), 0.1 * np.abs(start).max()) if start.any() else np.ones(start.size)
     omega = 2.0 * np.pi * rng.uniform(50.0, 2000.0, start.size)
     inputs[:, : start.size] = start + PUSH * size * np.sin(omega * time[:, None])
@@ -61,7 +61,7 @@ def shaft_trial(model: ShaftModel, steps: int = STEPS, dt: float = DT) -> ShaftT
     else:
         inputs[:, -drive] = 0.1 * first * model.inertia / time[-1]
         inputs[:, 1 - drive :] = 0.01 * inputs[:, [-drive]]
-    return run_shaft(model, dt, inputs, first)
+    return run_shaft(model, DT, inputs, first)
 
 
 def run_shaft(model: ShaftModel, dt: float, inputs: _Floats, omega: float) -> ShaftTrial:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
@@ -18,6 +19,7 @@ from ehlcontact.cli.output import STDOUT, show_columns, show_table
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, in_unit
 from ehlcontact.cli.study.schema import oil_grade
+from ehlcontact.cli.study.whole_bearing import bearings_of
 from ehlcontact.errors import InputError
 from reduced_models.bearing.freedoms import NOTHING
 from reduced_models.bearing.kinematics import RPM_TO_HZ
@@ -113,7 +115,7 @@ class BearingReport:
     def summary(self) -> dict[str, Any]:
         """For JSON; arrays over balls have a row per ball, with inner and outer race."""
         job, bearing = self.job, self.job.bearing
-        orders = [[_orders(bearing, one) for one in _each(state)] for state in self.states]
+        orders = [[_orders(bearing, one) for one in bearings_of(state).values()] for state in self.states]
         under_load = [[None if one is None else asdict(one) for one in row] for row in orders]
         hertz = [
             [
@@ -244,28 +246,14 @@ class BearingOptions(o.Options):
     ] = None
 
     def given(self) -> dict[str, Any]:
-        """Values by option, None where one is not given."""
-        grade = None if self.oil is None else oil_grade(self.oil, "--oil")
-        values: dict[str, Any] = {
-            "--load": self.load,
-            "--speed-rpm": self.speed_rpm or None,
-            "--oil": grade,
-            "--temp": self.temp,
-        }
-        values |= {"--axial": self.axial, "--moment-x": self.moment_x, "--moment-y": self.moment_y}
-        values |= {"--tilt-x": self.tilt_x, "--tilt-y": self.tilt_y, "--hz": self.hz or None}
-        values |= {"--contact-angle": self.contact_angle, "--race-control": self.race_control}
-        values |= {"--pair": self.pair, "--preload": self.preload}
-        values |= {"--spring": self.spring, "--distance-mm": self.distance_mm}
-        return values | {"--clearance": _clearance(self.clearance), "--rq": self.rq}
-
-
-def _clearance(text: str | None) -> float | str | None:
-    """A number [um], or the name of a class."""
-    try:
-        return None if text is None else float(text)
-    except ValueError:
-        return text
+        """Values by option, of those that are given."""
+        found = self.by_option()
+        if self.oil is not None:
+            found["--oil"] = oil_grade(self.oil, "--oil")
+        if self.clearance is not None:
+            with suppress(ValueError):  # the name of a class
+                found["--clearance"] = float(self.clearance)
+        return found
 
 
 @o.grouped
@@ -335,19 +323,8 @@ def _show(report: BearingReport, json_to: str | None) -> None:
     for state, found in zip(report.states, report.coefficients, strict=True):
         rows = _at_speed(bearing, state, found) if job.planar else _at_angles(job, state, found)
         show_table(f"at {numeral(state.speed_rpm)} rpm", rows, json_to)
-        for one, title in zip(_each(state), _titles(state), strict=True):
+        for title, one in bearings_of(state).items():
             _show_balls(one, title)
-
-
-def _each(state: Any) -> tuple[BearingState, ...]:
-    """The bearings of a state: one, or both of a pair."""
-    return getattr(state, "bearings", None) or (state,)
-
-
-def _titles(state: BearingState | SetState) -> tuple[str, ...]:
-    """What tells the bearings of a pair apart, in the words of messages; empty of a single one."""
-    facings: tuple[str, ...] = getattr(state, "facings", ())
-    return tuple(f"bearing {k}, facing {facing}" for k, facing in enumerate(facings)) or ("",)
 
 
 def _single(rows: list[list[Any]]) -> list[Any]:
@@ -489,14 +466,18 @@ def _at_passage(at: BearingCoefficients) -> str:
 
 def _angle_span(state: BearingState | SetState) -> str:
     """Least and largest contact angle of the balls that carry."""
-    found = [one.contact_angles[one.force[:, 0] > 0.0] for one in _each(state) if one.contact_angles is not None]
+    found = [
+        one.contact_angles[one.force[:, 0] > 0.0]
+        for one in bearings_of(state).values()
+        if one.contact_angles is not None
+    ]
     angles = np.concatenate(found)
     return f"{numeral(math.degrees(angles.min()))} .. {numeral(math.degrees(angles.max()))}°"
 
 
 def _largest_spin(state: BearingState | SetState) -> float:
     """Largest spin-to-roll ratio of the balls that carry."""
-    return max(one.largest_spin or 0.0 for one in _each(state))
+    return max(one.largest_spin or 0.0 for one in bearings_of(state).values())
 
 
 def _outside(state: BearingState | SetState) -> list[Row]:
@@ -527,7 +508,9 @@ def _resistance(state: BearingState | SetState) -> list[Row]:
         ("rolling", "without sliding, cage, churning"),
         ("friction", "its sliding part by SKF's published model"),
     ):
-        torques, losses = ([getattr(one, f"{name}_{what}") for one in _each(state)] for what in ("torque", "loss"))
+        torques, losses = (
+            [getattr(one, f"{name}_{what}") for one in bearings_of(state).values()] for what in ("torque", "loss")
+        )
         if None not in torques:
             title = "films resist rolling" if name == "rolling" else "friction of the bearing"
             rows.append((title, in_unit(sum(torques), "N m"), f"{numeral(sum(losses))} W; {remark}"))
@@ -545,7 +528,7 @@ def _orders(b: BallBearing, state: BearingState) -> DefectFrequencies | None:
 def _defects(b: BallBearing, state: BearingState | SetState) -> list[Row]:
     """Defect frequencies at a speed in Hz, with their orders."""
     rows = []
-    for one, title in zip(_each(state), _titles(state), strict=True):
+    for title, one in bearings_of(state).items():
         found, which = _orders(b, one), f"{title.partition(',')[0]}: " if title else ""
         for name, meaning in DEFECTS.items() if found is not None else ():
             order = getattr(found, name.lower())

@@ -93,9 +93,8 @@ class MotionOptions(o.Options):
             Not exactly one motion, one in Hz at a point without a unit of time, or an option that belongs to
             another one.
         """
-        motions = {"--free": self.free, "--harmonic": self.harmonic, "--ramp": self.ramp}
-        in_hz = {"--free-hz": self.free_hz, "--harmonic-hz": self.harmonic_hz}
-        given = {name: value for name, value in {**motions, **in_hz}.items() if value is not None}
+        in_hz = self.by_option("free_hz", "harmonic_hz")
+        given = self.by_option("free", "harmonic", "ramp") | in_hz
         if len(given) != 1:
             raise InputError("motion", " ".join(given) or None, "exactly one of --free, --harmonic, --ramp")
         name, value = next(iter(given.items()))

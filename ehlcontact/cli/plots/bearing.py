@@ -80,9 +80,7 @@ def drawings_at_angles(found: Any) -> dict[str, Callable[[], go.Figure]]:
         f"angles_balls{k or ''}": partial(balls_at_angles, state)
         for k, state in enumerate(found.bearings.values())
     }
-    figures |= {
-        "angles_coefficients": lambda: five_coefficients(found),
-    }
+    figures["angles_coefficients"] = partial(five_coefficients, found)
     if not isinstance(found.diagram, str):
         figures["angles_campbell"] = lambda: campbell(found.diagram)
     return figures
@@ -163,16 +161,10 @@ def load_zone(figure: go.Figure, state: Any) -> None:
 
 def films(figure: go.Figure, state: Any, row: int = 1, col: int = 2) -> None:
     """Smallest film of every ball over its place, or the approaches of a dry bearing."""
-    place = from_load(state)
-    order = np.argsort(place)
     dry = state.h_min is None
-    shown = (state.approach if dry else state.h_min) * 1e6
-    for column, (name, colour, _) in enumerate(RACES):
-        look: Any = {"mode": "lines+markers", "line_color": colour, "name": name}
-        figure.add_scatter(x=place[order], y=shown[order, column], **look, row=row, col=col)
+    _around(figure, state, (state.approach if dry else state.h_min) * 1e6, row, col)
     label = f"approach [{MICRO}]; below 0 a gap" if dry else f"smallest film [{MICRO}]"
     label_axes(figure, "angle from the load [degrees]", label, row, col, type="linear" if dry else "log")
-    figure.update_xaxes(dtick=60, row=row, col=col)
     if state.lambda_ratio is not None and not dry:
         rough = float(state.h_min.flat[0] / state.lambda_ratio.flat[0]) * 1e6
         name = f"composite roughness; least lambda {float(np.nanmin(state.lambda_ratio)):.3g}"

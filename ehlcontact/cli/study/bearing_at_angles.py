@@ -45,13 +45,7 @@ class BearingAtAngles:
     @property
     def bearings(self) -> dict[str, BearingState]:
         """State of the bearing, or of both of a pair, by its title."""
-        found = bearings_of(self.state)
-        titles = (
-            [""]
-            if self.pair is None
-            else [f"bearing {k}, facing {one}" for k, one in enumerate(self.pair.facings)]
-        )
-        return dict(zip(titles, found, strict=True))
+        return bearings_of(self.state)
 
     @property
     def frequencies(self) -> list[Mapping[str, float]]:

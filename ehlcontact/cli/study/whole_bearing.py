@@ -114,15 +114,18 @@ def heaviest_ball(study: Any) -> tuple[float, float]:
     load, race = ring_load(study), int(study.bearing.race == "outer")
     under: dict[str, Any] = {"speed_rpm": study.bearing.speed_rpm, "tilt": tilt_of(study.whole_bearing)}
     state = carrier(study, oil=False).equilibrium(load, **under)
-    most = max(bearings_of(state), key=lambda one: float(one.force[:, race].max()))
+    most = max(bearings_of(state).values(), key=lambda one: float(one.force[:, race].max()))
     assert most.contact_angles is not None
     ball = int(np.argmax(most.force[:, race]))
     return float(most.force[ball, race]), float(most.contact_angles[ball, race])
 
 
-def bearings_of(state: BearingState | SetState) -> tuple[BearingState, ...]:
-    """The bearing of a state, or both of a pair."""
-    return state.bearings if isinstance(state, SetState) else (state,)
+def bearings_of(state: BearingState | SetState) -> dict[str, BearingState]:
+    """The bearing of a state, or both of a pair by the words that tell them apart in messages."""
+    if not isinstance(state, SetState):
+        return {"": state}
+    pairs = zip(state.facings, state.bearings, strict=True)
+    return {f"bearing {k}, facing {facing}": one for k, (facing, one) in enumerate(pairs)}
 
 
 def require_whole_bearing(study: Any) -> None:
