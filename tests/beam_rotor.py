@@ -117,5 +117,5 @@ class StillBearing(BallBearing):
 def with_balls(bearing, balls, speed_rpm=3000.0):
     """A copy of a bearing with other parameters of its kernels at a speed."""
     changed = replace(bearing)
-    changed._known["kernel", speed_rpm] = balls
+    changed._cache["kernel", speed_rpm] = balls
     return changed

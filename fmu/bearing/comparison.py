@@ -44,9 +44,13 @@ def compare_bearing(slave: Any, exchange: Any, model: BearingModel, spec: ModelS
     slave.raw.terminate()
     forces, rates = (0.0, 0.0) if exchange is None else exchange_differences(exchange, state_points(model), spec)
     return Verification(
+        findings=(),
         states=len(found),
         outside=sum(outside),
         parted=int((trial.balls[:, :, 0] == 0.0).any(axis=1).sum()),
+        force=0.0,
+        tangents=0.0,
+        derivatives=0.0,
         flags=wrong,
         bearing=max(largest_difference(np.array(found), trial), forces),
         rates=rates,

@@ -110,4 +110,4 @@ class _Equations:
 
     def found(self) -> Verification:
         """Differences of the states compared so far; those of the run itself are not in it."""
-        return Verification(outside=self._outside, **self._gaps)
+        return Verification((), 0, self._outside, 0, tangents=0.0, flags=0, **self._gaps)

@@ -13,7 +13,7 @@ Seen with z to the right, the contact lines of a bearing that faces "+z" meet th
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from math import inf, sin
 from typing import Any, Self
 
@@ -98,7 +98,6 @@ class BearingSet(Summary):
     sprung: str | None = None
     may_lift_off: bool = False
     name: str = ""
-    _known: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         bearings = tuple(self.bearings)
@@ -322,7 +321,7 @@ class BearingSet(Summary):
         """
         force, speed = bearing_load(load), self.speed(speed_rpm)
         angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
-        at = self._stand(force, speed, [angle] * len(self.bearings), held_tilt(tilt, force.size))
+        at = self._set_equilibrium(force, speed, [angle] * len(self.bearings), held_tilt(tilt, force.size))
         rows = zip(self.bearings, at.bearings, strict=True)
         return SetState(
             name=self.name,
@@ -373,7 +372,7 @@ class BearingSet(Summary):
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
         turns = [bearing._cage_angles(force, cage_angle) for bearing in self.bearings]
         held = held_tilt(tilt, force.size)
-        places = [self._stand(force, speed, angles, held) for angles in zip(*turns, strict=True)]
+        places = [self._set_equilibrium(force, speed, angles, held) for angles in zip(*turns, strict=True)]
         by_bearing = [[at.bearings[k] for at in places] for k in range(len(self.bearings))]
         rows = list(zip(self.bearings, by_bearing, strict=True))
         small = SmallSet([bearing._small_angular(speed, own) for bearing, own in rows], self._rows)
@@ -460,7 +459,9 @@ class BearingSet(Summary):
         """Of all bearings, the first ball of each at its angle."""
         return [one._static_ring(speed, angle, 5) for one, angle in zip(self.bearings, angles, strict=True)]
 
-    def _stand(self, load: _Floats, speed: float, angles: Sequence[float], tilt: _Floats) -> SetEquilibrium:
+    def _set_equilibrium(
+        self, load: _Floats, speed: float, angles: Sequence[float], tilt: _Floats
+    ) -> SetEquilibrium:
         """Shaft in equilibrium; raises `InputError` for a load that the set does not take."""
         if load.size > AXIAL:
             self._require_carried(load)

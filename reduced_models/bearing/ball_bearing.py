@@ -173,7 +173,7 @@ class BallBearing(Summary):
     race_control: str = "outer"
     shoulder_inner: float | None = None
     shoulder_outer: float | None = None
-    _known: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
+    _cache: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def _summary_lines(self) -> list[str]:
         play = 1e6 * self.clearance
@@ -204,7 +204,7 @@ class BallBearing(Summary):
         if self.contact_angle is not None:
             require_contact_angle(self.contact_angle)
         races = {name: race_of(self, name) for name in RACES}
-        self._known["races"] = races
+        self._cache["races"] = races
         room = self.pitch_diameter * sin(pi / self.balls)
         if self.ball_diameter >= room:
             most = int(pi / np.arcsin(self.ball_diameter / self.pitch_diameter))
@@ -220,7 +220,7 @@ class BallBearing(Summary):
             if abs(self.clearance - own) > SAME_CLEARANCE * own:
                 allowed = f"left out beside a contact angle, which makes it {own:.4g} m with these conformities"
                 raise InputError("clearance", self.clearance, allowed)
-        self._known["shoulders"] = {name: shoulder_angle(self, name) for name in RACES}
+        self._cache["shoulders"] = {name: shoulder_angle(self, name) for name in RACES}
         if self.oil is not None:
             for race in races.values():
                 race.require_in_atlas()
@@ -287,13 +287,13 @@ class BallBearing(Summary):
     @property
     def highest_speed(self) -> float:
         """Speed [rev/min] up to which the atlas has films for it; infinite where it is dry."""
-        return inf if self.oil is None else min(race.highest_speed for race in self._known["races"].values())
+        return inf if self.oil is None else min(race.highest_speed for race in self._cache["races"].values())
 
     def race(self, name: str) -> Race:
         """The contact with the "inner" or the "outer" race."""
         if name not in RACES:
             raise InputError("race", name, f"one of {', '.join(RACES)}")
-        return self._known["races"][name]
+        return self._cache["races"][name]
 
     @takes(speed_rpm="rev/min")
     def element(self, race: str, speed_rpm: float) -> WideRangeContact:
@@ -301,9 +301,9 @@ class BallBearing(Summary):
         contact, speed = self.race(race), self.speed(speed_rpm)
         if self.oil is None:
             raise InputError("oil", None, "given, for a film")
-        if (race, speed) not in self._known:
-            self._known[race, speed] = contact.element(speed)
-        return self._known[race, speed]
+        if (race, speed) not in self._cache:
+            self._cache[race, speed] = contact.element(speed)
+        return self._cache[race, speed]
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad", tilt="rad")
     def equilibrium(
@@ -338,8 +338,8 @@ class BallBearing(Summary):
         angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
         held = held_tilt(tilt, force.size)
         if force.size > len(PLANAR):
-            return self._angular_state(self._stand_at_angles(force, speed, angle, held), speed, angle)
-        at = self._stand(force, speed, angle)
+            return self._angular_state(self._angular_equilibrium(force, speed, angle, held), speed, angle)
+        at = self._planar_equilibrium(force, speed, angle)
         return BearingState(
             name=self.name,
             load=force,
@@ -391,23 +391,23 @@ class BallBearing(Summary):
         w, held = radians_per_second(None, omega=omega, hz=hz, rpm=rpm), held_tilt(tilt, force.size)
         if force.size > len(PLANAR):
             cages = self._cage_angles(force, cage_angle)
-            places = [self._stand_at_angles(force, speed, at, held) for at in cages]
+            places = [self._angular_equilibrium(force, speed, at, held) for at in cages]
             small = self._small_angular(speed, places)
             full = np.mean([at.load for at in places], axis=0)
             outside = "" if self.oil is None else assumptions_at_angles(self, speed, places).headline
             return BearingCoefficients.of(full, speed, cage_angle, w, small.coefficients(w), places, outside)
-        standings = self.ring_equilibria(force, speed, cage_angle)
-        balls = SmallBalls.of(self._kernel(speed), self._speed_state(speed), standings)
-        matrices, forces = balls.coefficients(w), np.array([standing.force for standing in standings])
+        equilibria = self.ring_equilibria(force, speed, cage_angle)
+        balls = SmallBalls.of(self._kernel(speed), self._speed_state(speed), equilibria)
+        matrices, forces = balls.coefficients(w), np.array([at.force for at in equilibria])
         outside = "" if self.oil is None else assumptions_under(self, speed, forces).headline
-        return BearingCoefficients.of(force, speed, cage_angle, w, matrices, standings, outside)
+        return BearingCoefficients.of(force, speed, cage_angle, w, matrices, equilibria, outside)
 
     def ring_equilibria(
         self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None
     ) -> list[RingEquilibrium]:
         """The ring at rest under a load [N], at positions of the cage over a ball passage or at one [rad]."""
         force, speed = radial_load(load), self.speed(speed_rpm)
-        return [self._stand(force, speed, angle) for angle in self._cage_angles(force, cage_angle)]
+        return [self._planar_equilibrium(force, speed, angle) for angle in self._cage_angles(force, cage_angle)]
 
     def _cage_angles(self, load: _Floats, cage_angle: float | None) -> list[float]:
         """Angles of the first ball [rad] over a ball passage, or the one that is given."""
@@ -459,15 +459,16 @@ class BallBearing(Summary):
         frequency = {"omega": omega, "hz": hz, "rpm": rpm}
         return bearing_element(self, node, speeds_rpm, load, frequency, **options)
 
-    def _stand(self, load: _Floats, speed: float, angle: float) -> RingEquilibrium:
+    def _planar_equilibrium(self, load: _Floats, speed: float, angle: float) -> RingEquilibrium:
+        """With axial motion and tilts held; raises `InputError` for a load that the bearing does not take."""
         try:
-            standing = ring_equilibrium(self._static_balls(speed, angle), load)
+            at = ring_equilibrium(self._static_balls(speed, angle), load)
         except ConvergenceError:
             self._require_bearable_by_all(load, speed)
             raise
-        self._require_bearable(standing.force, load, speed)
-        require_below_shoulders(self, np.zeros_like(standing.force), standing.force, load)
-        return standing
+        self._require_bearable(at.force, load, speed)
+        require_below_shoulders(self, np.zeros_like(at.force), at.force, load)
+        return at
 
     def _require_bearable(self, force: _Floats, load: _Floats, speed: float) -> None:
         """Raise `InputError` for forces on the balls, shape (balls, 2) [N], that a race does not bear."""
@@ -498,17 +499,13 @@ class BallBearing(Summary):
             raise InputError("load", force.tolist(), f"{allowed} (a BearingSet has others that face -z)")
         return force
 
-    def _stand_at_angles(
-        self,
-        load: _Floats,
-        speed: float,
-        angle: float,
-        tilt: _Floats | None = None,
-        first: _Floats | None = None,
+    def _angular_equilibrium(
+        self, load: _Floats, speed: float, angle: float, tilt: _Floats | None = None
     ) -> AngularEquilibrium:
+        """With five degrees of freedom; raises `InputError` for a load that the bearing does not take."""
         self._require_bearable_by_all(load, speed)
         ring = self._static_ring(speed, angle, load.size, tilt)
-        at = angular_equilibrium(ring, load, first)
+        at = angular_equilibrium(ring, load)
         self._require_in_grooves(at.found, load, speed)
         return at
 
@@ -553,7 +550,7 @@ class BallBearing(Summary):
         """Parameters of the kernels for balls at contact angles (`reduced_models.bearing.angular_balls`)."""
         speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
         key = ("angular", *speeds.tolist())
-        if key not in self._known:
+        if key not in self._cache:
             distance = self._groove_distance
             inner, outer = ((f - 0.5) * self.ball_diameter for f in (self.conformity_inner, self.conformity_outer))
             # without a given angle the outer groove is at 0 along the shaft, and the inner one with it
@@ -578,10 +575,10 @@ class BallBearing(Summary):
             )
             laws = self._law("inner", speeds), self._law("outer", speeds)
             omega = speeds * RPM_TO_RAD_S
-            self._known[key] = AngularBalls(
+            self._cache[key] = AngularBalls(
                 *laws, self.balls, grooves, float(omega[0]), omega, loss_of(self.loss_factor)
             )
-        return self._known[key]
+        return self._cache[key]
 
     @property
     def _groove_distance(self) -> float:
@@ -611,8 +608,8 @@ class BallBearing(Summary):
             raise InputError("contact_angle", self.contact_angle, allowed)
         speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
         key = ("kernel", *speeds.tolist())
-        if key not in self._known:
-            self._known[key] = Balls(
+        if key not in self._cache:
+            self._cache[key] = Balls(
                 inner=self._law("inner", speeds),
                 outer=self._law("outer", speeds),
                 number=self.balls,
@@ -624,7 +621,7 @@ class BallBearing(Summary):
                 loss=loss_of(self.loss_factor),
                 inertia=ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0,
             )
-        return self._known[key]
+        return self._cache[key]
 
     def _law(self, race: str, speeds: _Floats) -> Any:
         if self.oil is None:

@@ -37,7 +37,7 @@ FACINGS = ("+z", "-z")
 MIXED = {"N": "N, N m", "m": "m, rad", "N/m": "N/m, N, N m", "N s/m": "N s/m, N s, N m s"}
 FARTHEST_OFFSET = 0.1  # of a ball diameter, of a ring along the shaft: grooves end before
 LARGEST_TILT = 0.1  # rad, of a ring: fifty times what a deep-groove bearing bears
-NOTHING = 6  # decimal places beyond which N, N m, µm, nm, mrad and spin-to-roll ratios are rounding
+DECIMALS = 6  # decimal places beyond which N, N m, µm, nm, mrad and spin-to-roll ratios are rounding
 
 
 def bearing_load(load: ArrayLike) -> _Floats:
@@ -114,4 +114,4 @@ def place_words(displacement: _Floats) -> str:
 
 
 def _listed(values: _Floats) -> str:
-    return ", ".join(f"{round(one, NOTHING) + 0.0:.4g}" for one in values.tolist())  # no "-0"
+    return ", ".join(f"{round(one, DECIMALS) + 0.0:.4g}" for one in values.tolist())  # no "-0"

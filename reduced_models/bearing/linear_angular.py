@@ -45,14 +45,14 @@ class SmallAngularBalls(NamedTuple):
 
     @classmethod
     def of(
-        cls, balls: AngularBalls, standings: Sequence[AngularEquilibrium], loss: Loss, inertia: float
+        cls, balls: AngularBalls, equilibria: Sequence[AngularEquilibrium], loss: Loss, inertia: float
     ) -> SmallAngularBalls:
         """From where the ring stands at each position."""
         force, approach, speed_sum, angles, geometric, maps = (
-            np.concatenate([getattr(at, name) for at in standings])
+            np.concatenate([getattr(at, name) for at in equilibria])
             for name in ("force", "approach", "speed_sum", "angles", "geometric", "maps")
         )
-        slope = np.concatenate([at.found[:, SLOPE : SLOPE + 2] for at in standings])
+        slope = np.concatenate([at.found[:, SLOPE : SLOPE + 2] for at in equilibria])
         inner, outer = (
             SmallMotion.stack(
                 [
@@ -62,7 +62,7 @@ class SmallAngularBalls(NamedTuple):
             )
             for j, law in enumerate((balls.inner, balls.outer))
         )
-        return cls(inner, outer, angles, geometric, maps, len(standings), loss, inertia)
+        return cls(inner, outer, angles, geometric, maps, len(equilibria), loss, inertia)
 
     def impedance(self, s: ArrayLike) -> _Complex:
         """Of the ring at frequencies s [1/s] of exp(s t), shape of `s` + (5, 5)."""

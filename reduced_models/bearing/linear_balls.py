@@ -74,16 +74,16 @@ class SmallBalls(NamedTuple):
     inertia: float  # of a ball along its normal [kg]
 
     @classmethod
-    def of(cls, balls: Balls, at_speed: SpeedState, standings: Sequence[RingEquilibrium]) -> SmallBalls:
+    def of(cls, balls: Balls, at_speed: SpeedState, equilibria: Sequence[RingEquilibrium]) -> SmallBalls:
         """From where the ring stands at each position."""
-        approach = np.concatenate([standing.approach for standing in standings])
+        approach = np.concatenate([at.approach for at in equilibria])
         races = (balls.inner, at_speed.inner, approach[:, 0]), (balls.outer, at_speed.outer, approach[:, 1])
         inner, outer = (
             SmallMotion.stack([small_motion(law, transit, at_speed.speed_row, u) for u in places.tolist()])
             for law, transit, places in races
         )
-        normals = np.concatenate([at.normals for at in standings])
-        return cls(inner, outer, normals, len(standings), balls.loss, balls.inertia)
+        normals = np.concatenate([at.normals for at in equilibria])
+        return cls(inner, outer, normals, len(equilibria), balls.loss, balls.inertia)
 
     def impedance(self, s: ArrayLike) -> _Complex:
         """Of the ring [N/m] at frequencies s [1/s] of exp(s t), shape of `s` + (2, 2)."""
@@ -106,7 +106,7 @@ def stiffness_and_damping(impedance: Callable[[_Complex], _Complex], omega: _Flo
     return Z.real.copy(), Z.imag / w[:, None, None]
 
 
-class Standing(Protocol):
+class RingAtRest(Protocol):
     """A ring in equilibrium at a position of the cage."""
 
     @property
@@ -194,10 +194,10 @@ class BearingCoefficients(FrequencyResponse):
         cage_angle: float | None,
         omega: _Floats,
         matrices: tuple[_Floats, _Floats],
-        standings: Sequence[Standing],
+        equilibria: Sequence[RingAtRest],
         outside_assumptions: str = "",
     ) -> BearingCoefficients:
         """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""
-        places = np.array([standing.displacement for standing in standings])
+        places = np.array([at.displacement for at in equilibria])
         mean, peak_to_peak = places.mean(axis=0), np.ptp(places, axis=0)
         return cls(load, speed_rpm, cage_angle, omega, *matrices, mean, peak_to_peak, outside_assumptions)

@@ -19,7 +19,7 @@ from ehlcontact.quantities import FREQUENCY, HERTZ, NUMBER, PER_SECOND, SPEED
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import span
-from reduced_models.rotor.linearise import SHOWN, linearise
+from reduced_models.rotor.linearise import DEFAULT_MODES, linearise
 from reduced_models.rotor.modes import RotorMode, mode_distance
 from reduced_models.rotor.rotor import Rotor
 
@@ -185,7 +185,7 @@ def _sides(off: _Floats) -> tuple[int, int]:
 
 
 @takes(speeds_rpm="rev/min")
-def campbell(rotor: Rotor, speeds_rpm: ArrayLike, *, count: int = SHOWN, passage: bool = True) -> Campbell:
+def campbell(rotor: Rotor, speeds_rpm: ArrayLike, *, count: int = DEFAULT_MODES, passage: bool = True) -> Campbell:
     """Modes of a rotor on ball bearings at increasing speeds.
 
     Parameters

@@ -72,7 +72,7 @@ class ModelRun:
     linear: LinearRotor
     largest_load: float | None = None  # of any ball, in the whole run [N]
 
-    def lines(self, hz: tuple[float, ...]) -> _Floats:
+    def amplitudes_at(self, hz: tuple[float, ...]) -> _Floats:
         """Amplitudes of the disc's height at some frequencies, all fitted at once with a mean."""
         angles = 2.0 * pi * self.t[:, None] * np.array(hz)
         columns = np.hstack([np.ones((self.t.size, 1)), np.cos(angles), np.sin(angles)])
@@ -81,7 +81,7 @@ class ModelRun:
 
     def to_dict(self, speed_hz: float, passage_hz: float) -> dict[str, Any]:
         """All numbers, SI; swings from end to end, x and y."""
-        once, _, passing, _ = self.lines((speed_hz, 2.0 * speed_hz, passage_hz, 2.0 * passage_hz)).tolist()
+        once, _, passing, _ = self.amplitudes_at((speed_hz, 2.0 * speed_hz, passage_hz, 2.0 * passage_hz)).tolist()
         moving = self.largest_load is not None  # constant springs have neither balls nor a place of rest
         modes = {"vertical": self.vertical, "horizontal": self.horizontal}
         return {

@@ -28,8 +28,8 @@ from reduced_models.rotor.linear_system import eigenmodes
 from reduced_models.rotor.modes import (
     ALONG,
     CANDIDATES,
-    CLOSED,
-    CLOSED_BY_STEPS,
+    CONVERGED,
+    CONVERGED_BY_STEPS,
     RotorMode,
     eigenvectors,
     is_new,
@@ -47,7 +47,7 @@ _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
 NEAR = 0.5  # relative distance of an eigenvalue from that with frozen supports, within which it may be its own
-SHOWN = 8  # modes, unless another number is given
+DEFAULT_MODES = 8  # modes, unless another number is given
 SLOW = 1e-3  # rad/s, stands for rest where damping is computed: films forget in less than a second
 FREE = 1e-9  # of the largest stiffness, what rounding leaves where a rotor is free
 UNLOADED = 1e-9  # of its heaviest ball, the load of a preloaded bearing that is the rounding of none
@@ -121,7 +121,7 @@ class LinearRotor(Summary):
         M, C, K = self.matrices
         return np.asarray(s * s * M + s * C + K + self.support_impedance(s))
 
-    def modes(self, count: int | None = SHOWN) -> tuple[RotorMode, ...]:
+    def modes(self, count: int | None = DEFAULT_MODES) -> tuple[RotorMode, ...]:
         """Modes that oscillate, the slowest first; None: all.
 
         Raises
@@ -285,8 +285,8 @@ class LinearRotor(Summary):
     def _near(self, s: complex, q: _Complex) -> list[tuple[complex, _Complex]]:
         """Roots near one of frozen bearings: of one eigenvalue problem, or by Newton's method."""
         if self._exact is None:
-            closed = CLOSED_BY_STEPS if self.contacts else CLOSED
-            return [refine_root(self.dynamic_stiffness, s, q, closed)]
+            tolerance = CONVERGED_BY_STEPS if self.contacts else CONVERGED
+            return [refine_root(self.dynamic_stiffness, s, q, tolerance)]
         values, vectors = self._exact
         off = np.abs(values - s)
         near = [j for j in np.argsort(off).tolist() if off[j] < NEAR * abs(s)]

@@ -29,17 +29,17 @@ _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 Matrices = tuple[_Floats, _Floats, _Floats]
 
-CLOSED = 1e-8  # relative change of an eigenvalue that ends Newton's method: what it leaves is of its square
+CONVERGED = 1e-8  # relative change of an eigenvalue that ends Newton's method: what it leaves is of its square
 # Likewise where Z is known on the imaginary axis alone: its change with the frequency is no part of the slopes, so
 # what is left falls by a factor only
-CLOSED_BY_STEPS = 1e-12
+CONVERGED_BY_STEPS = 1e-12
 MOST_ROUNDS = 50  # of it: five, in a rotor whose bearings damp it little
 PROBE = 1e-5  # of |s|: difference quotients of Z, which only steer Newton's method
 SAME = 1e-6  # relative difference of eigenvalues that may be one
 NEW = 1e-3  # least singular value of the shapes that have one eigenvalue: below, one of them is not its own
 CANDIDATES = 6  # that are tried for a mode
 ALONG = 0.5  # share of the motion of a mode from which it is along the shaft
-CREEPING = 0.01  # imaginary over real part, below which what dies away is no vibration: e^-600 in a period
+OVERDAMPED = 0.01  # imaginary over real part, below which what dies away is no vibration: e^-600 in a period
 NO_OSCILLATION = 1e-7  # of the fastest mode: below, a frequency is the rounding of none
 
 
@@ -154,12 +154,12 @@ def eigenvectors(matrices: Matrices, impedance: _Complex, omega: float) -> tuple
     values, vectors = linalg.eig(A)
     order = np.argsort(values.imag)
     order = order[values.imag[order] > NO_OSCILLATION * np.abs(values).max()]
-    order = order[values.imag[order] > CREEPING * np.abs(values.real[order])]
+    order = order[values.imag[order] > OVERDAMPED * np.abs(values.real[order])]
     return values[order], vectors[:size, order]
 
 
 def refine_root(
-    dynamic: Callable[[complex], _Complex], s: complex, q: _Complex, closed: float = CLOSED
+    dynamic: Callable[[complex], _Complex], s: complex, q: _Complex, tolerance: float = CONVERGED
 ) -> tuple[complex, _Complex]:
     """Newton's method for T(s) q = 0 from near a root; `dynamic` gives T."""
     size, fixed = len(q), q.conj() / np.vdot(q, q)
@@ -174,8 +174,8 @@ def refine_root(
         change = np.linalg.solve(system, -residual)
         q, s = q + change[:size], s + complex(change[size])
         moved, last = abs(change[size]), moved
-        by_rounding = 0.5 * last <= moved <= CLOSED * abs(s)
-        if moved <= closed * abs(s) or by_rounding:
+        by_rounding = 0.5 * last <= moved <= CONVERGED * abs(s)
+        if moved <= tolerance * abs(s) or by_rounding:
             return s, q
     raise ConvergenceError(f"mode near {s.imag / (2.0 * pi):.4g} Hz not found", None)
 

@@ -215,19 +215,19 @@ def fake(**changes):
 
 
 def test_sentences_without_a_finding_are_empty():
-    for sentence in (headline.unsettled, headline.step_check, headline.happenings, headline.failures):
+    for sentence in (headline.unsettled, headline.step_check, headline.contact_events, headline.failures):
         assert sentence(fake()) == ""
 
 
 def test_lift_off_is_in_the_headline():
     bounced = ContactEvents(3, 2, 0.18, (0.0, 90.0), None, None, None, None)
-    told = headline.happenings(fake(unbalance={"events": {"full": (bounced,)}}))
+    told = headline.contact_events(fake(unbalance={"events": {"full": (bounced,)}}))
     assert (
         "under unbalance the full film loses contact" in told
         and "3 lift-offs, 2 impacts, 18 % of the time" in told
     )
     outside = replace(bounced, lost_share=0.0, outside_load=0.25)
-    told = headline.happenings(fake(decay={"events": {"rotor_band": (outside,)}}))
+    told = headline.contact_events(fake(decay={"events": {"rotor_band": (outside,)}}))
     assert told == "NOTE: after the kick the cubic of the rotor's band is outside its load for 25 % of the time."
 
 
@@ -241,10 +241,10 @@ def test_a_coarse_grid_is_in_the_headline(tmp_path):
     text = (Path(__file__).parents[2] / "examples" / "small_study.toml").read_text()
     (tmp_path / "heavy.toml").write_text(text.replace("radial_load = 70.0", "radial_load = 3000.0"))
     assert "radial_load = 70.0" in text
-    told = headline.grids(SimpleNamespace(study=load_study(tmp_path / "heavy.toml")))
+    told = headline.mesh_warnings(SimpleNamespace(study=load_study(tmp_path / "heavy.toml")))
     assert told.startswith("NOT AS SURE AS IT LOOKS: solver.n = 64: a mesh of ") and "too coarse" in told
     (tmp_path / "light.toml").write_text(text)
-    assert headline.grids(SimpleNamespace(study=load_study(tmp_path / "light.toml"))) == ""
+    assert headline.mesh_warnings(SimpleNamespace(study=load_study(tmp_path / "light.toml"))) == ""
 
 
 def test_a_long_step_is_in_the_headline():

@@ -21,7 +21,7 @@ from ehlcontact.cli.rows import Row, in_unit
 from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.cli.study.whole_bearing import bearings_of
 from ehlcontact.errors import InputError
-from reduced_models.bearing.freedoms import NOTHING
+from reduced_models.bearing.freedoms import DECIMALS, FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_HZ
 
 if TYPE_CHECKING:
@@ -39,9 +39,7 @@ DEFECTS = {  # names of the defect frequencies, and what they are of
     "BSF": "spin of a ball",
 }
 _OIL, _BEARING, _LOAD, _PAIR = "Oil", "Bearing", "Load", "Pair"
-FORCES = "x", "y", "z"  # directions with forces; beyond them tilts with moments
-AXIAL = FORCES.index("z")
-PAIR = "along", "across"  # directions of a planar bearing
+AXIAL = FIVE.index("z")  # up to it directions have forces, beyond it tilts have moments
 PASSAGE = "means over a ball passage"
 # Of the entries of the JSON, whatever they are nested in; other entries have no unit, or have it in their name.
 UNITS = {
@@ -404,7 +402,10 @@ def _of_pair(job: BearingJob, state: Any) -> list[Row]:
     """Axial forces and axial rigidity of a pair, and whether its preload is used up."""
     if job.pair is None:
         return []
-    forces, axial = ", ".join(numeral(round(one, NOTHING)) for one in state.axial_forces.tolist()), job.load[AXIAL]
+    forces, axial = (
+        ", ".join(numeral(round(one, DECIMALS)) for one in state.axial_forces.tolist()),
+        job.load[AXIAL],
+    )
     beyond = any(axial * (1.0 if direction == "+z" else -1.0) >= load for direction, load in _at_rest(job).items())
     kept = "without them and at rest a bearing is unloaded: only films and centrifugal force press its balls"
     return [
@@ -432,8 +433,8 @@ def _at_speed(b: BallBearing, state: BearingState | SetState, at: BearingCoeffic
 def _at_angles(job: BearingJob, state: BearingState | SetState, at: BearingCoefficients) -> list[Row]:
     """The same of a bearing or a pair with contact angles: in all five degrees of freedom."""
     down, along = _micrometres(-at.displacement[1]), _micrometres(at.displacement[2])
-    moments = " and ".join(numeral(round(one, NOTHING)) for one in state.load[3:].tolist())
-    turned = " and ".join(numeral(round(1e3 * one, NOTHING)) for one in at.displacement[3:].tolist())
+    moments = " and ".join(numeral(round(one, DECIMALS)) for one in state.load[3:].tolist())
+    turned = " and ".join(numeral(round(1e3 * one, DECIMALS)) for one in at.displacement[3:].tolist())
     return [
         *_outside(state),
         ("deflection", f"{down} down", _at_passage(at)),
@@ -456,12 +457,12 @@ def _at_angles(job: BearingJob, state: BearingState | SetState, at: BearingCoeff
 
 def _micrometres(displacement: float) -> str:
     """A displacement [m], 0 where it is rounding."""
-    return f"{numeral(round(1e6 * displacement, NOTHING))} µm"
+    return f"{numeral(round(1e6 * displacement, DECIMALS))} µm"
 
 
 def _at_passage(at: BearingCoefficients) -> str:
     """Vibration of the ring as balls pass slowly, in words."""
-    return f"{numeral(round(1e9 * at.peak_to_peak[1], NOTHING), 3)} nm up and down at ball passage"
+    return f"{numeral(round(1e9 * at.peak_to_peak[1], DECIMALS), 3)} nm up and down at ball passage"
 
 
 def _angle_span(state: BearingState | SetState) -> str:
@@ -492,12 +493,12 @@ def _small_vibrations(at: BearingCoefficients, directions: tuple[tuple[str, int]
     for k, hz in enumerate(at.hz.tolist()):
         for name, way in directions:
             stiffness, damping = at.stiffness[k, way, way], at.damping[k, way, way]
-            if way < len(FORCES):
+            if way <= AXIAL:
                 rows += [(name, in_unit(stiffness, "N/m"), in_unit(damping, "N s/m"))]
             else:
                 rows += [(name, f"{numeral(1e-3 * stiffness)} N m/mrad", f"{numeral(damping)} N m s/rad")]
         remark = ", ".join([*(["that of the shaft"] if math.isclose(hz, shaft) else []), PASSAGE])
-        rows += [("these at" if len(directions) > len(PAIR) else "both at", f"{numeral(hz)} Hz", remark)]
+        rows += [("these at" if len(directions) > len(PLANAR) else "both at", f"{numeral(hz)} Hz", remark)]
     return rows
 
 
@@ -542,7 +543,7 @@ def _show_balls(state: BearingState, title: str) -> None:
     films = None if state.h_min is None else state.h_min * 1e6
     angles = None if state.contact_angles is None else state.contact_angles * 180.0 / math.pi
     columns = {"force [N]": state.force, "contact angle [°]": angles, "smallest film [µm]": films}
-    spin = None if state.spin_to_roll is None else state.spin_to_roll.round(NOTHING)
+    spin = None if state.spin_to_roll is None else state.spin_to_roll.round(DECIMALS)
     columns |= {"lambda": state.lambda_ratio, "spin to roll": spin}
     known = {head: values for head, values in columns.items() if values is not None}
     turned = [math.degrees(angle - state.angles[0]) for angle in state.angles.tolist()]

@@ -130,7 +130,7 @@ def spectrum(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> go
     for col, (label, signal) in enumerate(pairs, start=1):
         highest = 0.0
         for name in [name for name in DRAWN if name in runs]:
-            frequency, amplitude = lines(settled_part(runs[name], how)[0], signal)
+            frequency, amplitude = spectrum_lines(settled_part(runs[name], how)[0], signal)
             seen = frequency <= HARMONICS * speed
             marker = {"symbol": MARKERS[name], "size": 8, "color": LOOKS[name]["color"], "line": {"width": 1.5}}
             look = {"mode": "markers", "marker": marker, "name": names[name]}
@@ -143,7 +143,7 @@ def spectrum(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> go
     return figure
 
 
-def lines(run: RotorResult, signal: Any) -> tuple[np.ndarray, np.ndarray]:
+def spectrum_lines(run: RotorResult, signal: Any) -> tuple[np.ndarray, np.ndarray]:
     """Frequencies [Hz] above 0 and amplitudes of a signal over whole revolutions."""
     values = signal(run)[1:]
     amplitude = 2.0 / values.size * np.abs(np.fft.rfft(values))

@@ -167,7 +167,7 @@ class BearingJob:
         return len(self.load) == 2
 
     @property
-    def carrier(self) -> BallBearing | BearingSet:
+    def bearing_or_pair(self) -> BallBearing | BearingSet:
         """What carries the load: the bearing, or the pair."""
         return self.bearing if self.pair is None else self.pair
 
@@ -180,12 +180,12 @@ class BearingJob:
 
     def state(self, speed_rpm: float) -> BearingState | SetState:
         """At rest with a ball under the load."""
-        return self.carrier.equilibrium(self.load, speed_rpm=speed_rpm, tilt=self.tilt)
+        return self.bearing_or_pair.equilibrium(self.load, speed_rpm=speed_rpm, tilt=self.tilt)
 
     def coefficients(self, speed_rpm: float) -> BearingCoefficients:
         """Means over a ball passage."""
         at = {"hz": self.hz} if self.hz else {"rpm": speed_rpm}
-        return self.carrier.coefficients(self.load, speed_rpm=speed_rpm, tilt=self.tilt, **at)
+        return self.bearing_or_pair.coefficients(self.load, speed_rpm=speed_rpm, tilt=self.tilt, **at)
 
     @contextmanager
     def called(self) -> Iterator[None]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ehlcontact.cli.study.ring_load import tilt_of
-from ehlcontact.cli.study.whole_bearing import bearings_of, carrier, ring_load, whole_bearing
+from ehlcontact.cli.study.whole_bearing import bearing_or_pair, bearings_of, ring_load, whole_bearing
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import BallBearing, BearingSet, Campbell, Disc, Shaft, Support, linearise, rotor_on_bearings
 from reduced_models.bearing.freedoms import FIVE
@@ -89,7 +89,7 @@ def run_at_angles(study: Study) -> BearingAtAngles | None:
     """The bearing at contact angles where the study has [whole_bearing] with an axial load."""
     if "whole_bearing" not in study.model_fields_set or study.whole_bearing.axial_load is None:
         return None
-    wet, dry = (carrier(study, oil=oil) for oil in (True, False))
+    wet, dry = (bearing_or_pair(study, oil=oil) for oil in (True, False))
     load, speed = ring_load(study), study.bearing.speed_rpm
     under: dict[str, Any] = {"speed_rpm": speed, "tilt": tilt_of(study.whole_bearing)}
     span = SPAN if study.whole_bearing.span_mm is None else 1e-3 * study.whole_bearing.span_mm

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ehlcontact import store
-from ehlcontact.cli.study.reduction import CHOSEN, DRY, FULL, UNDAMPED
+from ehlcontact.cli.study.reduction import DRY, FULL, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.rotor import kicked_mode, linear_rotors, run_decay_reduced, run_reduced
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
@@ -160,14 +160,14 @@ def compare_rotors(
     An element on which the rotor does not converge is left out and reported; the chosen one raises.
     """
     mode = kicked_mode(study, response)
-    ran: dict[str, _Ran] = {}
+    ran: dict[str, _RunsOn] = {}
     failed: dict[str, str] = {}
     for name, element in elements.items():
         try:
             turning = run_reduced(study, element, 0)
-            ran[name] = _Ran(element, turning, run_decay_reduced(study, element, mode, response, 0))
+            ran[name] = _RunsOn(element, turning, run_decay_reduced(study, element, mode, response, 0))
         except ConvergenceError as error:
-            if name == CHOSEN[0]:
+            if name == ROTOR_BAND[0]:
                 raise
             failed[name] = str(error)
     linear = linear_rotors(study, response, {name: one.element for name, one in ran.items()})
@@ -181,7 +181,7 @@ def compare_rotors(
     )
 
 
-class _Ran(NamedTuple):
+class _RunsOn(NamedTuple):
     """An element and the rotor on it: turning with unbalance, and decaying after the kick."""
 
     element: ContactElement
@@ -194,7 +194,7 @@ def events_dict(events: Events) -> dict[str, list[dict[str, Any]]]:
     return {name: [contact.to_dict() for contact in contacts] for name, contacts in events.items()}
 
 
-def _unbalance(study: Study, ran: Mapping[str, _Ran], folder: Path) -> Unbalance:
+def _unbalance(study: Study, ran: Mapping[str, _RunsOn], folder: Path) -> Unbalance:
     load = study.ball_load
     full = store.load(folder / "rotor_full.h5", RotorResult)
     reduced = {name: one.turning for name, one in ran.items()}
@@ -211,11 +211,11 @@ def _unbalance(study: Study, ran: Mapping[str, _Ran], folder: Path) -> Unbalance
         | {name: _events(one, one.turning, load) for name, one in ran.items()},
         whole={name: compare(full, run) for name, run in reduced.items()},
         settled=after,
-        check=_half_step(study, full, ran[CHOSEN[0]], folder) if study.check.half_step else None,
+        check=_half_step(study, full, ran[ROTOR_BAND[0]], folder) if study.check.half_step else None,
     )
 
 
-def _half_step(study: Study, full: RotorResult, chosen: _Ran, folder: Path) -> HalfStep:
+def _half_step(study: Study, full: RotorResult, chosen: _RunsOn, folder: Path) -> HalfStep:
     full_half = store.load(folder / "rotor_half_step.h5", RotorResult)
     reduced_half = run_reduced(study, chosen.element, 1)
     return HalfStep(
@@ -227,7 +227,7 @@ def _half_step(study: Study, full: RotorResult, chosen: _Ran, folder: Path) -> H
 
 
 def _decay(
-    study: Study, mode: RotorMode, ran: Mapping[str, _Ran], response: ImpedanceResult, folder: Path
+    study: Study, mode: RotorMode, ran: Mapping[str, _RunsOn], response: ImpedanceResult, folder: Path
 ) -> Decay:
     load = study.ball_load
     full = store.load(folder / "decay.h5", RotorResult)
@@ -235,7 +235,7 @@ def _decay(
     half: dict[str, RotorResult] = {}
     if study.check.half_step:
         half[FULL] = store.load(folder / "decay_half_step.h5", RotorResult)
-        half[CHOSEN[0]] = run_decay_reduced(study, ran[CHOSEN[0]].element, mode, response, 1)
+        half[ROTOR_BAND[0]] = run_decay_reduced(study, ran[ROTOR_BAND[0]].element, mode, response, 1)
     return Decay(
         mode=mode,
         runs=runs,
@@ -246,5 +246,5 @@ def _decay(
     )
 
 
-def _events(ran: _Ran, run: RotorResult, load: float) -> tuple[ContactEvents, ...]:
+def _events(ran: _RunsOn, run: RotorResult, load: float) -> tuple[ContactEvents, ...]:
     return contact_events(run, load, [ran.element] * run.force.shape[1])

@@ -12,7 +12,7 @@ from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.study.bearing_rotor import NAMES
 from ehlcontact.cli.study.differences import Events
 from ehlcontact.cli.study.forecast import cautions
-from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, UNDAMPED, WRONG
+from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
 
 # Change by half the step, over the standard deviation of a signal or the decrement, that has a sentence.
@@ -35,7 +35,7 @@ def verdict(found: Findings) -> str:
     d, op, rough = found.rotors.decay, found.operating_point, found.study.roughness
     own, nearest = d.decrements[FULL], d.nearest_without
     said = [f"Log decrement {numeral(own.decrement, 3)} at {numeral(own.hz)} Hz on the full film"]
-    elements = {name: abs(d.off(name)) for name in (CHOSEN[0], MEMORY) if name in d.decrements}
+    elements = {name: abs(d.off(name)) for name in (ROTOR_BAND[0], MEMORY) if name in d.decrements}
     if elements:
         best = min(elements, key=lambda name: elements[name])
         said.append(f"{percent(elements[best], 2)} off with the {CONTACTS[best]}")
@@ -63,7 +63,7 @@ def findings(found: Findings) -> list[str]:
 
 def reservations(found: Findings) -> list[str]:
     """Reservations about the findings, a text per subject."""
-    return _sentences(found, unsettled, step_check, grids, happenings, failures, assumed)
+    return _sentences(found, unsettled, step_check, mesh_warnings, contact_events, failures, broken_assumptions)
 
 
 def _sentences(found: Findings, *parts: Callable[[Findings], str]) -> list[str]:
@@ -105,7 +105,7 @@ def decay(found: Findings) -> str:
     own = d.decrements[FULL]
     rest = [
         f"the {CONTACTS[name]} gives {numeral(d.decrements[name].decrement, 3)} ({off(d.off(name))})"
-        for name in (CHOSEN[0], MEMORY, WRONG[0], UNDAMPED, DRY)
+        for name in (ROTOR_BAND[0], MEMORY, CONTACT_BAND[0], UNDAMPED, DRY)
         if name in d.decrements
     ]
     text = (
@@ -132,7 +132,7 @@ def unbalance(found: Findings) -> str:
     said = [
         f"the {CONTACTS[name]} by {percent(c.displacement_vibration, 2)} and {percent(c.force_vibration, 2)}"
         for name, c in u.best.items()
-        if name in (CHOSEN[0], MEMORY, DRY)
+        if name in (ROTOR_BAND[0], MEMORY, DRY)
     ]
     part = "settled" if u.settled else "not settled"
     return (
@@ -215,13 +215,13 @@ def step_check(found: Findings) -> str:
     return f"THE STEP IS LONG: half of it changes {' and '.join(said)}, on the full film." if said else ""
 
 
-def grids(found: Findings) -> str:
+def mesh_warnings(found: Findings) -> str:
     """Warnings of `validate`: a mesh too coarse for this film, numbers beyond the measured range."""
     said = cautions(found.study)
     return f"NOT AS SURE AS IT LOOKS: {'; '.join(said)}." if said else ""
 
 
-def happenings(found: Findings) -> str:
+def contact_events(found: Findings) -> str:
     """Contacts lost and regained, and time outside what elements stand for."""
     runs: Mapping[str, Events] = {
         "under unbalance": found.rotors.unbalance.events,
@@ -236,7 +236,7 @@ def happenings(found: Findings) -> str:
                     f"{when} the {CONTACTS[name]} loses contact (of one contact: {lost.lift_offs} lift-offs, "
                     f"{lost.impacts} impacts, {percent(lost.lost_share, 2)} of the time without contact)"
                 )
-            for quantity in ("approach", "rate", "load", "omega") if name in (CHOSEN[0], MEMORY) else ():
+            for quantity in ("approach", "rate", "load", "omega") if name in (ROTOR_BAND[0], MEMORY) else ():
                 shares = [getattr(c, f"outside_{quantity}") or 0.0 for c in contacts]
                 if max(shares) > 0.0:
                     what = "frequency" if quantity == "omega" else quantity
@@ -251,6 +251,6 @@ def failures(found: Findings) -> str:
     return f"The rotor could not be run on: {'; '.join(said)}." if said else ""
 
 
-def assumed(found: Findings) -> str:
+def broken_assumptions(found: Findings) -> str:
     """Assumptions that do not hold."""
     return found.assumptions.headline

@@ -37,15 +37,15 @@ RECORDS = {
 }
 MODELS: tuple[Literal["linear", "cubic"], ...] = ("linear", "cubic")
 MEMORY = "memory"  # the film-memory element, fitted to all records and the impedance together
-CHOSEN = ("rotor_band", "cubic")  # the element of the FMU and of the rotor: fitted at its load and frequency
-WRONG = ("harmonic", "cubic")  # fitted in the contact's own band, not in the rotor's
+ROTOR_BAND = ("rotor_band", "cubic")  # the element of the FMU and of the rotor: fitted at its load and frequency
+CONTACT_BAND = ("harmonic", "cubic")  # fitted in the contact's own band, not in the rotor's
 FULL, UNDAMPED, DRY = "full", "undamped", "dry"  # the whole film; and what there is without film, or its damper
 # What a rotor runs on, in words.
 CONTACTS = {
     FULL: "full film",
-    CHOSEN[0]: "cubic of the rotor's band",
+    ROTOR_BAND[0]: "cubic of the rotor's band",
     MEMORY: "film memory",
-    WRONG[0]: "cubic of the contact's band",
+    CONTACT_BAND[0]: "cubic of the contact's band",
     UNDAMPED: "cubic without damper",
     DRY: "dry Hertz contact",
 }
@@ -80,16 +80,20 @@ class Reduction:
         InputError
             It could not be fitted.
         """
-        element = self.element_si(*CHOSEN)
+        element = self.element_si(*ROTOR_BAND)
         if element is None:
-            raise InputError("rotor_band fit", self.refused[CHOSEN], "a cubic element; raise rotor.fit_amplitude")
+            raise InputError(
+                "rotor_band fit", self.refused[ROTOR_BAND], "a cubic element; raise rotor.fit_amplitude"
+            )
         return element
 
     @property
     def rotor_elements(self) -> dict[str, Any]:
         """SI elements that the rotor runs on: the chosen one, two others where they were fitted, and baselines."""
-        others = {MEMORY: self.memory_si, WRONG[0]: self.element_si(*WRONG)}
-        fitted = {CHOSEN[0]: self.chosen} | {name: found for name, found in others.items() if found is not None}
+        others = {MEMORY: self.memory_si, CONTACT_BAND[0]: self.element_si(*CONTACT_BAND)}
+        fitted = {ROTOR_BAND[0]: self.chosen} | {
+            name: found for name, found in others.items() if found is not None
+        }
         return fitted | {UNDAMPED: without_damper(self.chosen), DRY: dry_contact(self.scales)}
 
 
@@ -111,18 +115,18 @@ def reduce_records(
         data = records[record]
         for model in MODELS:
             try:
-                fits[record, model] = _knowing(fit(data, model, _window(simulation)), known)
+                fits[record, model] = _with_source(fit(data, model, _window(simulation)), known)
             except InputError as error:
                 refused[record, model] = str(error)
     memory: MemoryFit | str
     try:
-        memory = _knowing(fit_memory(_spread(response), list(records.values())), known)
+        memory = _with_source(fit_memory(_at_memory_frequencies(response), list(records.values())), known)
     except (InputError, ConvergenceError) as error:
         memory = str(error)
     return Reduction(fits, refused, memory, response, scales)
 
 
-def _spread(response: ImpedanceResult) -> ImpedanceResult:
+def _at_memory_frequencies(response: ImpedanceResult) -> ImpedanceResult:
     """At the frequencies that a film memory is fitted at: more at the slow end would outweigh the others."""
     kept = np.isin(response.Omega, OMEGAS)
     names = ("Omega", "stiffness", "damping", "residual")
@@ -139,7 +143,7 @@ def contact_text(study: Study) -> str:
     )
 
 
-def _knowing(found: Any, known: Mapping[str, Any]) -> Any:
+def _with_source(found: Any, known: Mapping[str, Any]) -> Any:
     """The fit with an element that keeps what is known of it."""
     source = {**(found.element.source or {}), **known}
     return replace(found, element=replace(found.element, source=source))

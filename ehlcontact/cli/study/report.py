@@ -12,7 +12,7 @@ from ehlcontact.cli.plots.impedance import impedance
 from ehlcontact.cli.plots.instants import instants
 from ehlcontact.cli.study.bearing_rotor import NAMES
 from ehlcontact.cli.study.headline import findings, reservations, verdict
-from ehlcontact.cli.study.reduction import CHOSEN, CONTACTS, DRY, FULL, MEMORY, RECORDS, UNDAMPED, WRONG
+from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, RECORDS, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.stages import STAGES
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
@@ -33,9 +33,9 @@ FILES = {
 }
 MEANINGS = {
     FULL: "film solved in every contact and step: what the others are judged by",
-    CHOSEN[0]: "cubic spring and damper fitted at the frequency of the rotor's speed",
+    ROTOR_BAND[0]: "cubic spring and damper fitted at the frequency of the rotor's speed",
     MEMORY: "element with the memory of the film, for all frequencies",
-    WRONG[0]: "cubic spring and damper fitted near the contact's own frequency",
+    CONTACT_BAND[0]: "cubic spring and damper fitted near the contact's own frequency",
     UNDAMPED: "cubic spring without the damping of the film",
     DRY: "spring of the steel alone, without a film",
 }

@@ -17,10 +17,10 @@ from ehlcontact.cli.study.bearing_rotor import run_whole
 from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
 from ehlcontact.cli.study.points.log import versions
 from ehlcontact.cli.study.reduction import (
-    CHOSEN,
     CONTACTS,
     FULL,
     RECORDS,
+    ROTOR_BAND,
     Reduction,
     contact_text,
     export_fmu,
@@ -153,13 +153,13 @@ class Findings:
     @property
     def damper_of_fit(self) -> dict[str, Any]:
         """The chosen element's damper and its 95 % interval [N s/m]."""
-        found, unit = self.reduction.fits[CHOSEN], self.study.point.scales.damping
+        found, unit = self.reduction.fits[ROTOR_BAND], self.study.point.scales.damping
         return {"damping": self.reduction.chosen.C1, "interval": [unit * end for end in found.intervals["C1"]]}
 
     @property
     def rotor_loop(self) -> dict[str, float]:
         """Over the load, in the rotor's band: largest force of the cubic's damper, and the cubic's rms misfit."""
-        found, run = self.reduction.fits[CHOSEN], self.simulations[CHOSEN[0]]
+        found, run = self.reduction.fits[ROTOR_BAND], self.simulations[ROTOR_BAND[0]]
         fitted = (run.T >= found.window[0][0]) & (run.T <= found.window[0][1])
         return {
             "damper": found.parameters["C1"] * float(np.abs(run.rate[fitted]).max()),

@@ -71,7 +71,7 @@ def whole_bearing(study: Any, *, oil: bool) -> BallBearing:
     )
 
 
-def carrier(study: Any, *, oil: bool) -> BallBearing | BearingSet:
+def bearing_or_pair(study: Any, *, oil: bool) -> BallBearing | BearingSet:
     """What carries the load: the bearing, or the pair.
 
     Raises
@@ -113,7 +113,7 @@ def heaviest_ball(study: Any) -> tuple[float, float]:
     """Load [N] and contact angle [rad] of the ball that presses most on the race of the study, without films."""
     load, race = ring_load(study), int(study.bearing.race == "outer")
     under: dict[str, Any] = {"speed_rpm": study.bearing.speed_rpm, "tilt": tilt_of(study.whole_bearing)}
-    state = carrier(study, oil=False).equilibrium(load, **under)
+    state = bearing_or_pair(study, oil=False).equilibrium(load, **under)
     most = max(bearings_of(state).values(), key=lambda one: float(one.force[:, race].max()))
     assert most.contact_angles is not None
     ball = int(np.argmax(most.force[:, race]))
@@ -140,7 +140,7 @@ def require_whole_bearing(study: Any) -> None:
     if len(load) > len(PLANAR):
         names["load"] = "bearing.radial_load, whole_bearing.axial_load"
     try:
-        bearing = carrier(study, oil=True)
+        bearing = bearing_or_pair(study, oil=True)
         bearing.equilibrium(load, speed_rpm=study.bearing.speed_rpm, tilt=tilt_of(whole))
     except InputError as error:
         value, allowed = error.value, error.allowed.removesuffix(" (or may_lift_off=True)")

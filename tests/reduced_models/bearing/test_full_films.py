@@ -109,7 +109,7 @@ def test_contacts_at_angles_of_a_7205(ball, race):
     )
     load, rpm, column = np.array([500.0, -200.0, 1000.0]), 12000.0, ("inner", "outer").index(race)
     state = bearing.equilibrium(load, speed_rpm=rpm)
-    at = bearing._stand_at_angles(load, rpm, state.cage_angle)
+    at = bearing._angular_equilibrium(load, rpm, state.cage_angle)
     angle, speed_sum = float(at.angles[ball, column]), float(at.speed_sum[ball, column])
     own = bearing.race(race).at_angle(bearing.pitch_diameter, angle, speed_sum)
     point = own.point(float(state.force[ball, column]), rpm)

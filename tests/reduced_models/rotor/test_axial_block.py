@@ -62,7 +62,7 @@ def coupled(diagonal):
 def test_states_have_the_coefficients_of_the_bearing(bearing, load):
     """Stiffness and damping, 5 x 5, from 20 Hz to 20 kHz: within 1e-10 and 1e-8."""
     rpm, angle = 3000.0, -np.pi / 2.0
-    at = bearing._stand_at_angles(np.array(load), rpm, angle)
+    at = bearing._angular_equilibrium(np.array(load), rpm, angle)
     space = bearing_system(bearing._small_angular(rpm, [at]))
     hz = np.geomspace(20.0, 20e3, 7)
     found = bearing.coefficients(load, speed_rpm=rpm, cage_angle=angle, hz=hz)
