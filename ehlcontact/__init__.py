@@ -11,10 +11,11 @@ room              responsibility
 ``steady``        `solve_steady`
 ``supply``        `OilLayer`: the oil that the surfaces carry to a contact
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
+``excitation``    `excitation`: force of waves on a surface, likewise
 ``transient/``    film through time: motions, surfaces, `simulate`, `FullContact`
 ``assumptions/``  assumptions of every solve, each with the number that shows whether it holds
 ``quantities``    units, scales and dimensions of quantities, declared once in the annotations of results
-``results/``      results of a steady solve and of an impedance; tables, SI values and figures of all results
+``results/``      results of films at rest and of linearised ones; tables, SI values and figures of all results
 ``origin``        contact, mesh and version that a result or an element comes from
 ``version``       of the distribution
 ``film/``         films for display: maps, mid-planes, fringes, film waves
@@ -40,11 +41,12 @@ stay in their modules.
 from ehlcontact import process as process  # first: from here on Ctrl-C ends the command line in one line
 from ehlcontact.assumptions import assumptions
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.excitation import excitation
 from ehlcontact.film import film_history, film_of, film_wave, interferogram, track_wave
 from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
-from ehlcontact.results import ImpedanceResult, SteadyResult
+from ehlcontact.results import ExcitationResult, ImpedanceResult, SteadyResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
@@ -65,6 +67,7 @@ __all__ = [
     "ConvergenceError",
     "Dent",
     "Domain",
+    "ExcitationResult",
     "FreeVibration",
     "FullContact",
     "Geometry",
@@ -90,6 +93,7 @@ __all__ = [
     "Waviness",
     "__version__",
     "assumptions",
+    "excitation",
     "film_history",
     "film_of",
     "film_wave",

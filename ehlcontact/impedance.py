@@ -17,7 +17,8 @@ small least-squares problem, whose residual is the error measure: the frequency 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -100,11 +101,12 @@ def impedance(
     require_grid(grid)
     threads = require_threads("threads", threads)
     meshes = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
-    steady = _steady(point, meshes, grid.deflection, supply, threads)
+    steady = film_to_linearise(point, meshes, grid.deflection, supply, threads)
     moving = np.maximum(w, NEAR_ZERO)
     solved = held(steady, grid.deflection, threads)
     Z, residual = LinearisedContact(solved).respond(moving, TOLERANCE)
-    bars = response_error(moving, [Z, *_on_coarser_grids(solved, moving)])
+    coarser = [LinearisedContact(film).respond(moving, TOLERANCE)[0] for film in coarser_films(solved)]
+    bars = response_error(moving, [Z, *coarser])
     return ImpedanceResult(
         point=moes,
         scales=scales,
@@ -125,7 +127,7 @@ def impedance(
     )
 
 
-def _steady(
+def film_to_linearise(
     point: Point, meshes: Iterable[Mesh], deflection: str, supply: OilLayer | None, threads: int
 ) -> SteadyResult:
     """The film to linearise, on the first of the meshes whose region holds it."""
@@ -153,20 +155,20 @@ def held(film: SteadyResult, deflection: str = "fft", threads: int = 1) -> Multi
     return multigrid
 
 
-def _on_coarser_grids(solved: Multigrid, omega: Array) -> list[Complex]:
-    """Impedances on half and a quarter of the intervals, as far as they tell an error, each shape (k,).
+def coarser_films(solved: Multigrid) -> Iterator[Multigrid]:
+    """The film on half and a quarter of the intervals, as far as they tell an error.
 
     A film that is negative somewhere still tells it on half of them, not on a quarter.
     """
-    found: list[Complex] = []
     multigrid = solved
-    while len(found) < 2 and multigrid.mesh.n // 2 >= LEAST_INTERVALS:
+    for first in (True, False):
+        if multigrid.mesh.n // 2 < LEAST_INTERVALS:
+            return
         multigrid = settled_on_half(multigrid, Balance.of_load())
         lowest = multigrid.finest.H.min()
-        if not np.isfinite(lowest) or (found and lowest <= 0.0):
-            break
-        found.append(LinearisedContact(multigrid).respond(omega, TOLERANCE)[0])
-    return found
+        if not np.isfinite(lowest) or not (first or lowest > 0.0):
+            return
+        yield multigrid
 
 
 class LinearisedContact:
@@ -183,7 +185,7 @@ class LinearisedContact:
 
     def __init__(self, multigrid: Multigrid) -> None:
         self._multigrid = multigrid
-        level = self._level = multigrid.finest
+        level = self.level = multigrid.finest
         self._free = level.P > 0.0
         self.nodes = np.flatnonzero(self._free)
         self.weights = level.force_weights.ravel()[self.nodes]
@@ -203,22 +205,30 @@ class LinearisedContact:
 
     def solve(self, omega: float, start: Complex, tolerance: float) -> Complex:
         """Complex solution dP for du = 1 at one frequency, improving on `start`, both (m,)."""
-        system = LinearFilm(self._level, self._free, PRESCRIBED, 1j * omega)
+        system = self.system(omega)
+        x = np.zeros(self._free.size + 1, dtype=complex)
+        x[self.nodes], x[-1] = start, 1.0
+        b: NDArray[Any] = -system(x)
+        b[-1] = 0.0
+        drop = tolerance * linalg.norm(self.j + 1j * omega * self.b) / linalg.norm(b)
+        return (x + self.change(omega, system, b, drop))[self.nodes]
+
+    def system(self, omega: float) -> LinearFilm:
+        """Equations of a vibration of one frequency."""
+        return LinearFilm(self.level, self._free, PRESCRIBED, 1j * omega)
+
+    def change(self, omega: float, system: LinearFilm, b: NDArray[Any], rtol: float) -> Complex:
+        """Solution (nodes + 1,) of ``system(x) = b`` to ``|b - system(x)| <= rtol |b|``, system that of omega."""
         reach = [abs(omega - w) for w, _ in self._near]
         if not reach or min(reach) > KEEP_FACTORS:
             if self._free.size > MANY_NODES:
                 self._near.clear()
                 reach.clear()
-            self._near.append((omega, NearCorrection(self._level, system)))
+            self._near.append((omega, NearCorrection(self.level, system)))
             reach.append(0.0)
         near = self._near[int(np.argmin(reach))][1]
         preconditioner = Preconditioner(self._multigrid.levels, system, near)
-        x = np.zeros(self._free.size + 1, dtype=complex)
-        x[self.nodes], x[-1] = start, 1.0
-        b = -system(x)
-        b[-1] = 0.0
-        drop = tolerance * linalg.norm(self.j + 1j * omega * self.b) / linalg.norm(b)
-        return (x + solve_linear(system, preconditioner, b, drop).x)[self.nodes]
+        return np.asarray(solve_linear(system, preconditioner, b, rtol).x)
 
     def respond(self, omega: Array, tolerance: float) -> tuple[Complex, Array]:
         """Impedance at each frequency > 0, and the relative residual of its linear system, both (k,).
@@ -226,7 +236,7 @@ class LinearisedContact:
         `tolerance` is for the residuals, their imaginary part counted relative to Omega below Omega = 1. Where
         a solve fails to reach it, the residual returned is larger.
         """
-        if self._level.inflow.size:
+        if self.level.inflow.size:
             return self._respond_one_by_one(omega, tolerance)
         basis: list[Array] = []
         products: list[Array] = [self.j, self.b]
@@ -268,7 +278,7 @@ class LinearisedContact:
 
     def residual(self, omega: float, dP: Complex) -> float:
         """Relative residual of the solution dP for du = 1."""
-        system = LinearFilm(self._level, self._free, PRESCRIBED, 1j * omega)
+        system = self.system(omega)
         x = np.zeros(self._free.size + 1, dtype=complex)
         x[-1] = 1.0
         alone = system(x)[self.nodes]

@@ -1,21 +1,24 @@
-"""Results of a steady solve and of an impedance, and what all results share: tables, SI values, figures.
+"""Results of films at rest and of linearised ones, and what all results share: tables, SI values, figures.
 
-==================== =================================================================================
-module               responsibility
-==================== =================================================================================
-``steady_result``    `SteadyResult`: the film at rest
-``impedance_result`` `ImpedanceResult`: stiffness and damping over frequency
-``frequency``        `FrequencyResponse`: impedance and python-control system of K and C
-``table``            `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
-``contact_map``      pressure and film of a contact as a figure
-``picture``          plain figures; matplotlib is imported where one is drawn
-==================== =================================================================================
+===================== =================================================================================
+module                responsibility
+===================== =================================================================================
+``steady_result``     `SteadyResult`: the film at rest
+``impedance_result``  `ImpedanceResult`: stiffness and damping over frequency
+``excitation_result`` `ExcitationResult`: force of waves on a surface over frequency
+``frequency``         `FrequencyResponse`: impedance and python-control system of K and C
+``table``             `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
+``contact_map``       pressure and film of a contact as a figure
+``picture``           plain figures; matplotlib is imported where one is drawn
+===================== =================================================================================
 """
 
+from ehlcontact.results.excitation_result import ExcitationResult
 from ehlcontact.results.impedance_result import ImpedanceResult
 from ehlcontact.results.steady_result import SteadyResult
 
 __all__ = [
+    "ExcitationResult",
     "ImpedanceResult",
     "SteadyResult",
 ]

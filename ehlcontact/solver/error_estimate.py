@@ -97,6 +97,25 @@ def response_error(omega: Floats, found: Sequence[Complex]) -> tuple[Floats, Flo
     return stiffness + NOISE[0] * K, damping + NOISE[1] * C
 
 
+def wave_error(found: Sequence[Complex], impedance: Floats) -> Floats:
+    """Estimated error of the first of these forces of waves, shape (k,), whatever its phase.
+
+    `NOISE` is over the impedance: where both halves of the contact cancel, the force is no measure.
+
+    Parameters
+    ----------
+    found : sequence of ndarray, shape (k,)
+        Forces, as in `response_error`.
+    impedance : ndarray, shape (k,)
+        Size of the impedance.
+    """
+    differences = [np.abs(one - other) for one, other in pairwise(found)]
+    if not differences:
+        return np.maximum(np.abs(found[0]), impedance)
+    error = differences[0] if len(differences) == 1 else _falling(differences[0], differences[1], RESPONSE_SHARE)
+    return np.asarray(error + NOISE[0] * impedance)
+
+
 def _turned(omega: Floats, difference: Complex) -> tuple[Floats, Floats]:
     """Size of a difference in stiffness and in damping, whatever its phase."""
     stiffness, damping = np.abs(difference.real), np.abs(difference.imag) / omega

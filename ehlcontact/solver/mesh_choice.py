@@ -44,6 +44,7 @@ NEAREST_DOMAIN = Domain(-1.5, 1.2, 1.25)  # around such a film where it is very 
 
 # How fine? ------------------------------------------------------------------------------------------------------
 LARGEST_MESH = 0.12  # semi-axes: what the pressure itself asks for, however thick the film
+WAVE_NODES = 16.0  # nodes to a wave on a surface whose force is asked for
 SPIKE_MESH = 0.05  # for the pressure spike of stiff oil, where the film moves
 # The side lobes of long contacts: mesh over inlet width that keeps their film positive where it is very thin; and
 # those for which it is within some ten per cent, taken as long as the grid has no more nodes than AFFORDABLE_GRID.
@@ -105,6 +106,15 @@ def mesh_for(point: MoesPoint, purpose: Purpose, grid: Grid = AUTOMATIC, *, larg
     if n is None:
         n = _intervals(point, domain, purpose)
     return Mesh(n, domain, point.kappa)
+
+
+def grid_for_waves(point: MoesPoint, grid: Grid, shortest: float) -> Grid:
+    """`grid`, with the intervals that waves of this length, in semi-axes a, need where the film needs fewer."""
+    if grid.n is not None:
+        return grid
+    mesh, (_, counts, largest) = mesh_for(point, Purpose.DAMPING, grid), FINENESS[Purpose.DAMPING]
+    n = _first(point, mesh.domain, shortest / WAVE_NODES, counts, largest)
+    return grid if n <= mesh.n else replace(grid, n=n)
 
 
 def damping_mesh(point: MoesPoint) -> float:
