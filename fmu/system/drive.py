@@ -112,7 +112,39 @@ def export_drive(
         The system differs from the rotor, or `step` is too long for it; nothing is written.
     """
     require_positive("inertia", inertia)
-    model = ShaftModel(rotor, speed_rpm, inertia, torque, start)
+    return export_verified_drive(
+        ShaftModel(rotor, speed_rpm, inertia, torque, start),
+        path,
+        speeds_rpm=speeds_rpm,
+        controller=controller,
+        fmi=fmi,
+        model_name=model_name,
+        step=step,
+        lead=lead,
+        platforms=platforms,
+        overwrite=overwrite,
+        progress=progress,
+    )[0]
+
+
+def export_verified_drive(
+    model: ShaftModel,
+    path: str | os.PathLike[str],
+    *,
+    speeds_rpm: Any,
+    controller: SpeedController | None = None,
+    fmi: int = 2,
+    model_name: str = NAME,
+    step: float | None = None,
+    lead: float = HELD_PARALLEL,
+    platforms: str | Iterable[str] | None = None,
+    overwrite: bool = False,
+    progress: Progress | None = None,
+) -> tuple[Path, SystemVerification | None]:
+    """As `export_drive`, of a shaft with inertia; returns what was found too.
+
+    None was found where this machine can run no such FMU.
+    """
     checked_name(model_name)
     names = [one.name for one in choose(platforms, fmi)]
     target = free_target(path, overwrite, ".ssp")
@@ -122,11 +154,12 @@ def export_drive(
     drive = _Drive(model, speeds_rpm, model_name, step, CONTACT.check(lead), fmi, controller)
     content = drive.archive(names, progress)
     own = this_machine()
+    found = None
     if own is not None and own.folder(fmi) is not None:
         # A system for other machines is verified by this one's binaries of the same sources.
-        verify_drive(content if own.name in names else drive.archive([own.name], None), drive)
+        found = verify_drive(content if own.name in names else drive.archive([own.name], None), drive)
     free_target(path, overwrite, ".ssp")  # still
-    return write_bytes(target, content)
+    return write_bytes(target, content), found
 
 
 def default_drive_step(model: ShaftModel) -> float:

@@ -255,3 +255,46 @@ def test_a_bearing_file_becomes_the_fmu_of_its_bearing(call, refused, tmp_path):
     tilted.write_text(text.replace("radial_load", "tilt_x_mrad = 1.0\naxial_load = 100.0\nradial_load"), "utf-8")
     refused(("operation.tilt_x_mrad", "1.0", "left out"), "export", tilted, "-o", tmp_path / "x.fmu")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["6205.fmu", "tilted.toml"]
+
+
+def test_a_study_becomes_a_shaft_and_a_drive(call, refused, tmp_path):
+    """Its rotor between its whole bearings, whose FMUs are outside or wired."""
+    drive, shaft = tmp_path / "drive.ssp", tmp_path / "shaft.fmu"
+    more = "--drive", "--inertia", "0.001", "--torque", "0.5", "--top-rpm", "6000"
+    done = call("export", STUDY, *more, "-o", drive, "--json", "-")
+    assert done.code == 0, done
+    found = json.loads(done.out)
+    assert found["passes"] is True and 0.0 < found["deviation"] < 0.02
+    with zipfile.ZipFile(drive) as archive:
+        assert {"resources/shaft.fmu", "resources/bearing_1.fmu"} < set(archive.namelist())
+    done = call("export", STUDY, "--shaft", "-o", shaft)
+    assert done.code == 0 and "co-simulation alone" in done.out and "forces are inputs" in done.out, done
+    about = {v.name: v for v in fmpy.read_model_description(str(shaft)).modelVariables}
+    study = load_study(STUDY)
+    assert float(about["speed"].start) == pytest.approx(study.bearing.speed_rpm * pi / 30.0, rel=1e-15)
+    assert float(about["bearing[1].force_y"].start) == pytest.approx(study.bearing.radial_load, rel=1e-3)
+
+
+def test_shafts_and_drives_that_cannot_be_exported(refused, tmp_path):
+    fmu, ssp = tmp_path / "x.fmu", tmp_path / "x.ssp"
+    text = STUDY.read_text(encoding="utf-8")
+    bare, axial = tmp_path / "bare.toml", tmp_path / "axial.toml"
+    bare.write_text(text[: text.index("[whole_bearing]")], "utf-8")
+    axial.write_text(text.replace("[whole_bearing]", "[whole_bearing]\naxial_load = 50.0"), "utf-8")
+    for words, arguments in (
+        (("--inertia", "given with --drive"), (STUDY, "--drive", "-o", ssp)),
+        (("--inertia", "> 0"), (STUDY, "--drive", "--inertia", "0", "-o", ssp)),
+        (("--top-rpm", "at least the speed"), (STUDY, "--drive", "--inertia", "1", "--top-rpm", "9", "-o", ssp)),
+        (("--output", ".fmu"), (STUDY, "--shaft", "-o", ssp)),
+        (("--shaft", "one of both"), (STUDY, "--shaft", "--drive", "-o", ssp)),
+        (("--torque", "without inertia"), (STUDY, "--shaft", "--torque", "3", "-o", fmu)),
+        (("--torque", "--drive"), (STUDY, "--torque", "3", "-o", fmu)),
+        (("--top-rpm", "no part of a shaft"), (STUDY, "--shaft", "--top-rpm", "6000", "-o", fmu)),
+        (("--lead", "left out"), (STUDY, "--shaft", "--lead", "1", "-o", fmu)),
+        (("--contact", "left out"), (STUDY, "--shaft", "--contact", "e.json", "-o", fmu)),
+        (("--shaft", "[whole_bearing]"), (BEARING, "--shaft", "-o", fmu)),
+        (("bare.toml", "[whole_bearing]"), (bare, "--shaft", "-o", fmu)),
+        (("whole_bearing.axial_load", "planar"), (axial, "--shaft", "-o", fmu)),
+    ):
+        refused(words, "export", *arguments)
+    assert not fmu.exists() and not ssp.exists()

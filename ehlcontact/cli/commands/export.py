@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ehlcontact.checks import require_positive
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import USAGE, check_new, complain
 from ehlcontact.cli.progress import progress
@@ -16,7 +17,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.store import load
 
 if TYPE_CHECKING:
-    from fmu import BearingModel, RotorModel, Verification
+    from fmu import BearingModel, RotorModel, ShaftModel, Verification
     from fmu.system.check import SystemVerification
 
 
@@ -58,6 +59,40 @@ def export(
             " docs/coupling.md.",
         ),
     ] = None,
+    shaft: Annotated[
+        bool,
+        typer.Option(
+            "--shaft", help="Of a study with [whole_bearing]: its rotor without these bearings, which are outside."
+        ),
+    ] = False,
+    drive: Annotated[
+        bool,
+        typer.Option(
+            "--drive",
+            help="Of a study with [whole_bearing]: that shaft, its bearings and the torque of a motor as a system"
+            " archive (SSP).",
+        ),
+    ] = False,
+    inertia: Annotated[
+        float | None,
+        typer.Option(
+            "--inertia",
+            metavar="KG_M2",
+            help="Polar moment of inertia of all that turns with the shaft; without it the speed of --shaft is an"
+            " input.",
+        ),
+    ] = None,
+    torque: Annotated[
+        float | None, typer.Option("--torque", metavar="N_M", help="Of the motor, at the start; with --inertia.")
+    ] = None,
+    top_rpm: Annotated[
+        float | None,
+        typer.Option(
+            "--top-rpm",
+            metavar="REV/MIN",
+            help="Highest speed that the bearings of --drive have tables for; the speed of the study by default.",
+        ),
+    ] = None,
     fmi: Annotated[int, typer.Option("--fmi", help="FMI version, 2 or 3.")] = 2,
     name: Annotated[str | None, typer.Option("--name", help="Model name.")] = None,
     platform: Annotated[
@@ -72,27 +107,42 @@ def export(
     force: Annotated[bool, typer.Option("--force", help="Replace the file if there is one.")] = False,
 ) -> None:
     """Export a contact, a bearing, or the rotor of a study as an FMU or a system of FMUs, once it is verified."""
+    turning = shaft or drive
     if fmi not in (2, 3):
         raise InputError("--fmi", fmi, "2 or 3")
     toml = file.suffix.lower() == ".toml"
     bearing = toml and "operation" in read_toml(str(file), "file")  # which no study has
     study = toml and not bearing
-    if contact is not None and not study:
-        raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor")
+    if contact is not None and (not study or turning):
+        raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor on contacts")
+    _check_turning(output, study, shaft=shaft, drive=drive, inertia=inertia, torque=torque, top_rpm=top_rpm)
     if not study and output.suffix.lower() == ".ssp":
         allowed = "a file name ending in .fmu: a system (.ssp) is made of a study (.toml) with a rotor"
         raise InputError("--output", str(output), allowed)
     if lead is not None and study and output.suffix.lower() == ".fmu":
-        raise InputError("--lead", lead, "left out: the contacts of this rotor are inside its FMU")
+        inside = "the bearings are no part of it" if shaft else "the contacts of this rotor are inside its FMU"
+        raise InputError("--lead", lead, f"left out: {inside}")
     out.check(file, contact, beside={"--output": (output, (".fmu", ".ssp") if study else (".fmu",))})
     check_new("--output", output, force)
     from fmu import BuildError, VerificationError
     from fmu.binaries import choose
     from reduced_models import ContactElement
 
-    exported: Any = (
-        _bearing_of(file) if bearing else _rotor_of(file, contact) if study else load(file, ContactElement)
-    )
+    exported: Any
+    more: dict[str, Any] = {}
+    if turning:
+        exported = _shaft_of(file, inertia, torque)
+        if drive:
+            top = exported.speed_rpm if top_rpm is None else top_rpm
+            if top < exported.speed_rpm:
+                raise InputError(
+                    "--top-rpm", top, f"at least the speed of the study, {exported.speed_rpm:g} rev/min"
+                )
+            more = {"speeds_rpm": (exported.speed_rpm, top)}
+    elif study:
+        exported = _rotor_of(file, contact)
+    else:
+        exported = _bearing_of(file) if bearing else load(file, ContactElement)
     system = output.suffix.lower() == ".ssp"
     try:
         names = {
@@ -101,10 +151,11 @@ def export(
             "path": "--output",
             "lead": "--lead",
             "element": str(file),
+            "speed_rpm": "--top-rpm",
         }
         with progress("compiling") as told, o.called(**names):
             built = [one.name for one in choose(platform or None, fmi)]
-            _, found = _exporter(system)(
+            _, found = _exporter(system, drive=drive)(
                 exported,
                 output,
                 fmi=fmi,
@@ -113,6 +164,7 @@ def export(
                 progress=told,
                 **({} if name is None else {"model_name": name}),
                 **({} if lead is None else {"lead": lead}),
+                **more,
             )
     except (BuildError, VerificationError) as error:
         complain(f"no {'system' if system else 'FMU'} was written: {error}")
@@ -125,12 +177,11 @@ def export(
         "platforms": built,
         **verdict,
     }
-    alone = bearing and not exported.exchange
-    uses = (
-        "co-simulation alone: model exchange is of planar bearings"
-        if alone
-        else "co-simulation and model exchange"
-    )
+    uses = "co-simulation and model exchange"
+    if bearing and not exported.exchange:
+        uses = "co-simulation alone: model exchange is of planar bearings"
+    elif turning:
+        uses = "co-simulation alone"
     version = "FMI", f"{fmi}.0", uses
     rows = [
         *_about(exported, system),
@@ -138,11 +189,37 @@ def export(
         ("binaries", str(len(built)), ", ".join(built)),
         *_advice(exported, found),
     ]
-    out.deliver(document, (str(output), [*rows, *_rows(found, rotor=study)]))
+    out.deliver(document, (str(output), [*rows, *_rows(found, rotor=study, shaft=shaft)]))
 
 
-def _exporter(system: bool) -> Any:
+def _check_turning(output: Path, study: bool, *, shaft: bool, drive: bool, **values: float | None) -> None:
+    """Options of shafts and drives: of a study alone, one of both, with a file of its kind."""
+    given = {f"--{name.replace('_', '-')}": value for name, value in values.items() if value is not None}
+    if shaft and drive:
+        raise InputError("--shaft", "--drive", "one of both")
+    if not (shaft or drive):
+        for option, value in given.items():
+            raise InputError(option, value, "left out, but with --shaft or --drive")
+        return
+    option, ending = ("--shaft", ".fmu") if shaft else ("--drive", ".ssp")
+    if not study:
+        raise InputError(option, "another file", "with a study (.toml) that has [whole_bearing]")
+    if output.suffix.lower() != ending:
+        raise InputError("--output", str(output), f"a file name ending in {ending}, for {option}")
+    if shaft and "--top-rpm" in given:
+        raise InputError("--top-rpm", given["--top-rpm"], "left out: the bearings are no part of a shaft")
+    if drive and "--inertia" not in given:
+        raise InputError("--inertia", None, "given with --drive")
+    for name in {"--inertia", "--top-rpm"} & given.keys():
+        require_positive(name, given[name])
+
+
+def _exporter(system: bool, *, drive: bool) -> Any:
     """What writes such a file."""
+    if drive:
+        from fmu.system.drive import export_verified_drive
+
+        return export_verified_drive
     if system:
         from fmu.system.export import export_verified_system
 
@@ -196,10 +273,35 @@ def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
     return model
 
 
+def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftModel:
+    """The rotor of a study between its whole bearings, at its speed, at rest under the load on them."""
+    from ehlcontact.cli.study.bearing_rotor import whole_rotor
+    from ehlcontact.cli.study.schema import load_study
+    from ehlcontact.cli.study.whole_bearing import whole_bearing
+    from fmu import ShaftModel
+
+    study = load_study(file)
+    if "whole_bearing" not in study.model_fields_set:
+        raise InputError("file", str(file), "a study with a table [whole_bearing], for --shaft and --drive")
+    if (axial := study.whole_bearing.axial_load) is not None:
+        allowed = "left out: --shaft and --drive have planar bearings; others by export_drive in Python"
+        raise InputError("whole_bearing.axial_load", axial, allowed)
+    rotor = whole_rotor(study, whole_bearing(study, oil=True))
+    with o.called(torque="--torque", inertia="--inertia"):
+        return ShaftModel(rotor, study.bearing.speed_rpm, inertia, torque or 0.0)
+
+
 def _about(exported: Any, system: bool) -> list[Row]:
     """What it is."""
-    from fmu import BearingModel, RotorModel
+    from fmu import BearingModel, RotorModel, ShaftModel
 
+    if isinstance(exported, ShaftModel):
+        wired = "each an FMU, wired" if system else "outside; their forces are inputs"
+        turns = "an input" if exported.inertia is None else f"at the start; {exported.inertia:g} kg m2 turn"
+        return [
+            ("bearings", str(len(exported.stations)), wired),
+            ("speed", f"{exported.speed_rpm:g} rpm", turns),
+        ]
     if isinstance(exported, BearingModel):
         speeds = " to ".join(f"{speed:g}" for speed in sorted({exported.speeds[0], exported.speeds[-1]}))
         of = f"{exported.bearing.balls} balls; displacements {', '.join(exported.names)}"
@@ -221,17 +323,17 @@ def _advice(exported: Any, found: Any) -> list[Row]:
         return [
             ("step", f"{step:g} s", "of the default experiment; longer ones damp more, and blow up in the end")
         ]
-    from fmu import BearingModel, RotorModel
+    from fmu import BearingModel, RotorModel, ShaftModel
     from fmu.steps import step_advice
 
-    if isinstance(exported, BearingModel):
+    if isinstance(exported, BearingModel | ShaftModel):
         return [("step", "1e-05 s", "of the default experiment; how long one may be: docs/coupling.md")]
     if isinstance(exported, RotorModel):
         return [("inner step", f"{exported.inner_step:g} s", "steps of the master are cut into such ones")]
     return step_advice(exported)
 
 
-def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> list[Row]:
+def _rows(found: Verification | SystemVerification | None, *, rotor: bool, shaft: bool) -> list[Row]:
     """What the verification found."""
     if found is None:
         return [("verified", "no", "this machine can run no such FMU")]
@@ -243,7 +345,7 @@ def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> li
             (
                 "deviation",
                 f"{found.deviation:.1e}",
-                "of the journal from simulate_rotor, over its way after a load step",
+                "of the rotor at its bearings from simulate_rotor, over its way in a short run",
             ),
             ("verified", "yes", "and every FMU by itself"),
         ]
@@ -253,6 +355,9 @@ def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> li
         moved = "largest error of the states' rates in model exchange, over those in Python"
         rates = [("rates", f"{found.rates:.1e}", moved)] if found.rates else []
         return [findings, ("forces", f"{found.bearing:.1e}", run), *rates, ("verified", "yes", "")]
+    if shaft:
+        run = f"largest error, over that in Python; {found.states} steps"
+        return [findings, ("motion", f"{found.motion:.1e}", run), ("verified", "yes", "")]
     if rotor:
         return [
             findings,
