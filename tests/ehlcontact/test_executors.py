@@ -74,16 +74,15 @@ def test_a_task_whose_worker_dies_is_tried_again_and_named(executor, tmp_path):
 
 
 @pytest.mark.parametrize("hurry", [False, True])
-def test_interruption_and_the_end_of_patience(hurry):
+def test_interruption_and_the_end_of_patience(hurry, tmp_path):
     """SIGINT raises `KeyboardInterrupt` in the task; one that does not listen is killed."""
-    deaf = "import signal, time; signal.signal(signal.SIGINT, signal.SIG_IGN); time.sleep(100)"
-    task = (exec, deaf) if hurry else (time.sleep, 100)
+    deaf = "import signal, time; signal.signal(signal.SIGINT, signal.SIG_IGN); " if hurry else "import time; "
+    task = (exec, f"{deaf}open({str(tmp_path / 'begun')!r}, 'w').close(); time.sleep(100)")
     started = time.monotonic()
     with executor_for(1) as executor:
         running, waiting = executor.submit(*task), executor.submit(*task)
-        while not running.running():
+        while not (tmp_path / "begun").exists():
             time.sleep(0.01)
-        time.sleep(3.0)
         executor.interrupt(20.0, lambda: hurry)
     assert isinstance(running.exception(), WorkerDiedError if hurry else KeyboardInterrupt)
     assert waiting.cancelled() and time.monotonic() - started < 20.0

@@ -297,7 +297,7 @@ def test_a_budget_ends_the_attempts_with_the_best_film(monkeypatch):
     point = MoesPoint(246.7, 19.94, 1.298)
     full, every = solve_steady(point, budget=inf), runs[:]
     assert full.error_estimate.h_min < 0.03 and len(every) == 3
-    for count in (1, 2, 3):
+    for count in (1, 3):
         runs.clear()
         found = solve_steady(point, budget=1.01 * CYCLES_TIME * sum(every[:count]))
         assert runs == every[:count] and found.status.ok

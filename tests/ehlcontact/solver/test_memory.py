@@ -63,7 +63,7 @@ def free(monkeypatch):
     [
         ("cycles", 512, 0.5),
         pytest.param("cycles", 512, 0.05, marks=pytest.mark.slow),
-        ("newton", 256, 0.5),
+        pytest.param("newton", 256, 0.5, marks=pytest.mark.slow),
         pytest.param("impedance", 256, 0.5, marks=pytest.mark.slow),
         pytest.param("cycles", 1024, 0.5, marks=pytest.mark.slow),
         pytest.param("cycles", 1024, 0.1, marks=pytest.mark.slow),

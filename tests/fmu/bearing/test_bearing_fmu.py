@@ -48,7 +48,14 @@ def driven(slave, model, trial, shift=None):
     return np.array(found)
 
 
-@pytest.mark.parametrize(("name", "fmi"), [*((name, 2) for name in ALLOWED), ("planar", 3), ("five", 3)])
+@pytest.mark.parametrize(
+    ("name", "fmi"),
+    [
+        *(("planar", 2), ("five", 2), ("angular", 2), ("planar", 3)),
+        *(pytest.param(name, 2, marks=pytest.mark.slow) for name in ("range", "dry", "inner", "shared")),
+        pytest.param("five", 3, marks=pytest.mark.slow),
+    ],
+)
 def test_forces_are_those_of_python(made, name, fmi):
     """Another run than that of the verification at export: longer, other vibrations, with lift-off."""
     one = made(name, fmi)
@@ -213,7 +220,7 @@ def test_bad_models(arguments, field):
     assert error.value.field == field
 
 
-@pytest.mark.parametrize(("dt", "within"), [(1e-5, 0.005), (3e-5, 0.05)])
+@pytest.mark.parametrize(("dt", "within"), [(1e-5, 0.005), pytest.param(3e-5, 0.05, marks=pytest.mark.slow)])
 def test_a_mass_that_holds_the_force_keeps_the_damping(tmp_path, dt, within):
     """5 kg on a 6305, both stepping at once: decay of half the difference of two runs, kicked up and down."""
     model, mass, load, until, kick = BearingModel(bearing("6305"), RPM, 500.0), 5.0, 500.0, 0.012, 1e-4

@@ -73,6 +73,7 @@ def test_shipped_rates_fit_nearly_best(shipped):
     assert found.least == tune.rates_error(shipped, FilterRates(rates.lags, *found.best))
 
 
+@pytest.mark.slow
 def test_slopes_for_other_oils_cover_a_light_load(shipped):
     slopes = tune.oil_slopes([MoesPoint(8.0, 5.0, 0.5)])
     for kind, found in slopes.items():

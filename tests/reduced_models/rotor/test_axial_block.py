@@ -133,6 +133,7 @@ def test_the_state_space_is_that_of_differences(make, changes):
 
 
 # scipy's BDF subtracts room it has not written yet, in its first steps: a warning where that holds an infinity.
+@pytest.mark.slow  # a planar one likewise in test_block.py; rates of this one by every state and input above
 @pytest.mark.filterwarnings("ignore:invalid value encountered in subtract:RuntimeWarning:scipy")
 def test_block_in_time_is_the_run():
     """A rotor that is pushed along, across and by a moment while its balls go round: within 2e-5 of its motion."""
