@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from math import sqrt
 from typing import Annotated, Any, ClassVar
 
@@ -41,18 +42,9 @@ def known_bearings() -> list[str]:
     return list(DEEP_GROOVE)
 
 
-def _moes(name: str) -> Any:
-    return typer.Option(name, rich_help_panel=_MOES, show_default=False)
-
-
-def _disc(name: str, metavar: str | None = None, **more: Any) -> Any:
-    return typer.Option(name, metavar=metavar, rich_help_panel=_DISC, **({"show_default": False} | more))
-
-
-def _law(*names: str, **more: Any) -> Any:
-    return typer.Option(*names, rich_help_panel=_LAWS, **more)
-
-
+_moes = partial(typer.Option, rich_help_panel=_MOES, show_default=False)
+_disc = partial(typer.Option, rich_help_panel=_DISC, show_default=False)
+_law = partial(typer.Option, rich_help_panel=_LAWS)
 OIL_NAME = typer.Option("--oil", metavar="GRADE", help='ISO grade of a mineral oil, as "ISO VG 68".')
 
 
@@ -69,9 +61,9 @@ class Contact(Options):
     speed_rpm: Annotated[e.Speed | None, typer.Option("--speed-rpm", show_default=False)] = None
     load: Annotated[e.Load | None, typer.Option("--load", show_default=False)] = None
     race: Annotated[e.Race | None, typer.Option("--contact", metavar="RACE", show_default="inner")] = None
-    ball_diameter: Annotated[e.BallDiameter | None, _disc("--ball-diameter", "MM")] = None
-    entrainment: Annotated[e.Entrainment | None, _disc("--entrainment", "M/S")] = None
-    flat: Annotated[e.Flat | None, _disc("--flat", "MATERIAL", show_default="steel")] = None
+    ball_diameter: Annotated[e.BallDiameter | None, _disc("--ball-diameter", metavar="MM")] = None
+    entrainment: Annotated[e.Entrainment | None, _disc("--entrainment", metavar="M/S")] = None
+    flat: Annotated[e.Flat | None, _disc("--flat", metavar="MATERIAL", show_default="steel")] = None
     M: Annotated[float | None, _moes("--M"), e.meaning("Moes load parameter, > 0")] = None
     L: Annotated[float | None, _moes("--L"), e.meaning("Moes lubricant parameter, >= 0")] = None
     kappa: Annotated[float | None, _moes("--kappa"), e.meaning("ellipse ratio a/b, 0.01 to 100")] = None

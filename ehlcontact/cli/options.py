@@ -18,15 +18,7 @@ from typer.models import ParameterInfo
 
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.cli.entries import Intervals, Section, allowed_of, meaning_of
-from ehlcontact.cli.output import (
-    check_apart,
-    check_json,
-    deliver,
-    save_to,
-    show_table,
-    write_json,
-    write_to,
-)
+from ehlcontact.cli.output import check_apart, check_json, deliver, save_to, show_table, write_json, write_to
 from ehlcontact.cli.rows import Row
 from ehlcontact.cli.study.schema_errors import first_error
 from ehlcontact.errors import InputError

@@ -38,7 +38,9 @@ DEFECTS = {  # names of the defect frequencies, and what they are of
     "BPFI": "balls on the inner race",
     "BSF": "spin of a ball",
 }
-_OIL, _BEARING, _LOAD, _PAIR = "Oil", "Bearing", "Load", "Pair"
+_oil, _bearing, _load, _pair = (
+    partial(typer.Option, rich_help_panel=panel) for panel in ("Oil", "Bearing", "Load", "Pair")
+)
 AXIAL = FIVE.index("z")  # up to it directions have forces, beyond it tilts have moments
 PASSAGE = "means over a ball passage"
 # Of the entries of the JSON, whatever they are nested in; other entries have no unit, or have it in their name.
@@ -165,39 +167,28 @@ class BearingOptions(o.Options):
 
     load: Annotated[
         e.NotNegative | None,
-        typer.Option("--load", "--radial", rich_help_panel=_LOAD),
+        _load("--load", "--radial"),
         e.meaning("radial load, N; a NAME needs it, --axial or --pair"),
     ] = None
     axial: Annotated[
         e.AxialLoad | None,
-        typer.Option("--axial", rich_help_panel=_LOAD),
+        _load("--axial"),
         e.meaning("axial load, +z: with it balls have contact angles; tilts are held"),
     ] = None
     moment_x: Annotated[
         e.Moment | None,
-        typer.Option("--moment-x", rich_help_panel=_LOAD),
+        _load("--moment-x"),
         e.meaning("moment about x (horizontal): with it, or --moment-y, the inner ring tilts freely"),
     ] = None
-    moment_y: Annotated[
-        e.Moment | None,
-        typer.Option("--moment-y", rich_help_panel=_LOAD),
-        e.meaning("moment about y (upwards)"),
-    ] = None
+    moment_y: Annotated[e.Moment | None, _load("--moment-y"), e.meaning("moment about y (upwards)")] = None
     tilt_x: Annotated[
-        e.Tilt | None,
-        typer.Option("--tilt-x", rich_help_panel=_LOAD),
-        e.meaning("misalignment: tilt about x at which the inner ring is held"),
+        e.Tilt | None, _load("--tilt-x"), e.meaning("misalignment: tilt about x at which the inner ring is held")
     ] = None
-    tilt_y: Annotated[
-        e.Tilt | None, typer.Option("--tilt-y", rich_help_panel=_LOAD), e.meaning("the same about y")
-    ] = None
-    pair: Annotated[e.Arrangement | None, typer.Option("--pair", rich_help_panel=_PAIR)] = None
-    preload: Annotated[e.Preload | None, typer.Option("--preload", rich_help_panel=_PAIR)] = None
-    spring: Annotated[e.Spring | None, typer.Option("--spring", rich_help_panel=_PAIR)] = None
-    distance_mm: Annotated[
-        e.Distance | None,
-        typer.Option("--distance-mm", rich_help_panel=_PAIR, show_default="side by side"),
-    ] = None
+    tilt_y: Annotated[e.Tilt | None, _load("--tilt-y"), e.meaning("the same about y")] = None
+    pair: Annotated[e.Arrangement | None, _pair("--pair")] = None
+    preload: Annotated[e.Preload | None, _pair("--preload")] = None
+    spring: Annotated[e.Spring | None, _pair("--spring")] = None
+    distance_mm: Annotated[e.Distance | None, _pair("--distance-mm", show_default="side by side")] = None
     speed_rpm: Annotated[
         list[float] | None,
         typer.Option("--speed-rpm"),
@@ -210,38 +201,32 @@ class BearingOptions(o.Options):
     ] = None
     oil: Annotated[
         str | None,
-        typer.Option(
+        _oil(
             "--oil",
             metavar="GRADE",
             help='ISO grade of a mineral oil, as "ISO VG 68"; without an oil the bearing is dry.',
-            rich_help_panel=_OIL,
         ),
     ] = None
-    temp: Annotated[e.Temperature | None, typer.Option("--temp", rich_help_panel=_OIL)] = None
+    temp: Annotated[e.Temperature | None, _oil("--temp")] = None
     clearance: Annotated[
         str | None,
-        typer.Option(
+        _bearing(
             "--clearance",
             metavar="UM|CLASS",
             help="Radial internal clearance, um, below 0 a preload; or C2, CN, C3, C4: the middle of that class.",
-            rich_help_panel=_BEARING,
         ),
     ] = None
     contact_angle: Annotated[
         e.ContactAngle | None,
-        typer.Option("--contact-angle", rich_help_panel=_BEARING),
+        _bearing("--contact-angle"),
         e.meaning("free contact angle, degrees, in place of that of NAME and of a clearance"),
     ] = None
     race_control: Annotated[
         e.RaceControl | None,
-        typer.Option("--race-control", rich_help_panel=_BEARING),
+        _bearing("--race-control"),
         e.meaning("what holds the gyroscopic moment of the balls; outer where left out"),
     ] = None
-    rq: Annotated[
-        e.Roughness | None,
-        typer.Option("--rq", rich_help_panel=_BEARING),
-        e.meaning("roughness of ball and race together"),
-    ] = None
+    rq: Annotated[e.Roughness | None, _bearing("--rq"), e.meaning("roughness of ball and race together")] = None
 
     def given(self) -> dict[str, Any]:
         """Values by option, of those that are given."""
@@ -411,11 +396,7 @@ def _of_pair(job: BearingJob, state: Any) -> list[Row]:
     return [
         *([("PRELOAD USED UP", "", kept)] if beyond else []),
         ("axial forces", f"{forces} N", "of the bearings, along their facings"),
-        (
-            "axial rigidity",
-            in_unit(state.stiffness[AXIAL, AXIAL], "N/m"),
-            "static, with a ball under the load",
-        ),
+        ("axial rigidity", in_unit(state.stiffness[AXIAL, AXIAL], "N/m"), "static, with a ball under the load"),
     ]
 
 

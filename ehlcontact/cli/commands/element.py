@@ -27,8 +27,7 @@ class Kind(o.Options):
 
     model: Annotated[str, typer.Option("--model", help="wide, memory or cubic.")] = "wide"
     atlas: Annotated[
-        Path | None,
-        typer.Option("--atlas", metavar="FILE", help="An atlas; the library's own by default."),
+        Path | None, typer.Option("--atlas", metavar="FILE", help="An atlas; the library's own by default.")
     ] = None
 
 

@@ -29,12 +29,7 @@ def impedance(contact: Contact, supply: Supply, grid: o.Grid, frequencies: Frequ
     static = "static load 1, dry approach 1, time unit 2a/u_sum"
     table = (
         f"impedance: force over approach, {static if result.scales is None else 'small vibrations about rest'}",
-        [
-            *contact.rows(point),
-            *outside_rows(found),
-            *_rows(result),
-            *run_rows(result),
-        ],
+        [*contact.rows(point), *outside_rows(found), *_rows(result), *run_rows(result)],
     )
     out.deliver({**result.to_dict(), **contact.about(point), "outside_assumptions": found.headline}, table)
     if result.reservation:

@@ -11,16 +11,7 @@ import typer
 
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import (
-    FAILED,
-    STDOUT,
-    USAGE,
-    complain,
-    prepare_folder,
-    say,
-    show_columns,
-    write_json,
-)
+from ehlcontact.cli.output import FAILED, STDOUT, USAGE, complain, prepare_folder, say, show_columns, write_json
 from ehlcontact.errors import InputError
 from ehlcontact.files import remove_leftovers, write_text
 from ehlcontact.point import moes_point

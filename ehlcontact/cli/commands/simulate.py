@@ -39,12 +39,10 @@ class MotionOptions(o.Options):
 
     panel: ClassVar[str | None] = _MOTION
     free: Annotated[
-        float | None,
-        typer.Option("--free", metavar="OMEGA_N", help="Free vibration, dimensionless."),
+        float | None, typer.Option("--free", metavar="OMEGA_N", help="Free vibration, dimensionless.")
     ] = None
     harmonic: Annotated[
-        float | None,
-        typer.Option("--harmonic", metavar="OMEGA", help="Harmonic load, dimensionless."),
+        float | None, typer.Option("--harmonic", metavar="OMEGA", help="Harmonic load, dimensionless.")
     ] = None
     ramp: Annotated[
         tuple[float, float] | None,
@@ -64,24 +62,18 @@ class MotionOptions(o.Options):
     ] = None
     harmonic_hz: Annotated[
         e.Positive | None,
-        typer.Option(
-            "--harmonic-hz",
-            metavar="HZ",
-            help="Of a bearing: harmonic load of this frequency, Hz.",
-        ),
+        typer.Option("--harmonic-hz", metavar="HZ", help="Of a bearing: harmonic load of this frequency, Hz."),
     ] = None
     Omega_n: Annotated[
         float | None,
         typer.Option("--Omega-n", help="Dimensionless Omega_n of the bodies, for --ramp and --harmonic."),
     ] = None
     offset: Annotated[
-        float | None,
-        typer.Option("--offset", help="Initial displacement in dry approaches, for --free."),
+        float | None, typer.Option("--offset", help="Initial displacement in dry approaches, for --free.")
     ] = None
     rate: Annotated[float | None, typer.Option("--rate", help="Initial rate du/dT, for --free.")] = None
     amplitude: Annotated[
-        float | None,
-        typer.Option("--amplitude", help="Of --harmonic, over the static load; 0.1 by default."),
+        float | None, typer.Option("--amplitude", help="Of --harmonic, over the static load; 0.1 by default.")
     ] = None
 
     def chosen(self, point: Point) -> Motion:
@@ -184,12 +176,10 @@ class RestartOptions(o.Options):
 
     panel: ClassVar[str | None] = _RESTART
     checkpoint: Annotated[
-        Path | None,
-        typer.Option("--checkpoint", metavar="FILE", help="Keep a file to restart from."),
+        Path | None, typer.Option("--checkpoint", metavar="FILE", help="Keep a file to restart from.")
     ] = None
     restart: Annotated[
-        Path | None,
-        typer.Option("--restart", metavar="FILE", help="Go on from a checkpoint of this run."),
+        Path | None, typer.Option("--restart", metavar="FILE", help="Go on from a checkpoint of this run.")
     ] = None
 
     @property

@@ -18,10 +18,7 @@ if TYPE_CHECKING:
 
 
 @o.grouped
-def validate(
-    out: o.Output,
-    options: o.StudyOptions,
-) -> None:
+def validate(out: o.Output, options: o.StudyOptions) -> None:
     """Check a study file and say what `run` will do with it, and about how long it takes. Nothing is solved."""
     from ehlcontact.cli.study.forecast import forecast
     from ehlcontact.cli.study.points.lists import load_points

@@ -13,18 +13,7 @@ import numpy as np
 import plotly.graph_objects as go
 
 from ehlcontact.cli.plots.rotor import MICRO, equal
-from ehlcontact.cli.plots.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    INK,
-    ORANGE,
-    RED,
-    grid,
-    label_axes,
-    running,
-    vertical,
-)
+from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, INK, ORANGE, RED, grid, label_axes, running, vertical
 from ehlcontact.results.picture import COLOURS
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.picture import from_load

@@ -10,18 +10,7 @@ import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.plots.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    RED,
-    grid,
-    label_axes,
-    shaded,
-    vertical,
-)
+from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, grid, label_axes, shaded, vertical
 from reduced_models import RotorResult
 from reduced_models.rotor.decay import Decrement
 from reduced_models.rotor.resonance import Resonances

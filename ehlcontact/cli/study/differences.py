@@ -13,14 +13,7 @@ from ehlcontact.cli.study.rotor import kicked_mode, linear_rotors, run_decay_red
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.results import ImpedanceResult
-from reduced_models import (
-    ContactElement,
-    LinearRotor,
-    RotorResult,
-    compare,
-    contact_events,
-    settling,
-)
+from reduced_models import ContactElement, LinearRotor, RotorResult, compare, contact_events, settling
 from reduced_models.rotor.compare import Comparison
 from reduced_models.rotor.decay import Decrement
 from reduced_models.rotor.events import ContactEvents

@@ -17,24 +17,12 @@ from ehlcontact.results import ImpedanceResult
 from ehlcontact.store import save
 from ehlcontact.transient.motion import HarmonicLoad
 from ehlcontact.transient.result import SimulationResult
-from reduced_models import (
-    ContactRecord,
-    CubicContact,
-    FitResult,
-    MemoryFit,
-    dry_contact,
-    fit,
-    fit_memory,
-)
+from reduced_models import ContactRecord, CubicContact, FitResult, MemoryFit, dry_contact, fit, fit_memory
 from reduced_models.elements.validity import frequency_text
 from reduced_models.fitting.memory_fit import OMEGAS
 from reduced_models.rotor.baselines import without_damper
 
-RECORDS = {
-    "free": "free vibration",
-    "harmonic": "harmonic, contact band",
-    "rotor_band": "harmonic, rotor band",
-}
+RECORDS = {"free": "free vibration", "harmonic": "harmonic, contact band", "rotor_band": "harmonic, rotor band"}
 MODELS: tuple[Literal["linear", "cubic"], ...] = ("linear", "cubic")
 MEMORY = "memory"  # the film-memory element, fitted to all records and the impedance together
 ROTOR_BAND = ("rotor_band", "cubic")  # the element of the FMU and of the rotor: fitted at its load and frequency

@@ -91,10 +91,7 @@ class Findings:
         runs = (self.rotors.unbalance.full, self.rotors.decay.runs[FULL])
         velocity = np.concatenate([np.linalg.norm(run.journal_velocity, axis=1) for run in runs])
         return assumptions(
-            self.study.point,
-            film=self.steady,
-            roughness=self.study.roughness,
-            vibration=float(velocity.max()),
+            self.study.point, film=self.steady, roughness=self.study.roughness, vibration=float(velocity.max())
         )
 
     @property
