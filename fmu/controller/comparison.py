@@ -8,7 +8,7 @@ import numpy as np
 
 from fmu.controller.model import SpeedController
 from fmu.lead import CONTACT
-from fmu.references.series import References, Trial
+from fmu.references.series import References, Trial, walk
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
 
@@ -31,26 +31,12 @@ def controller_trial(controller: SpeedController) -> Trial:
 
 def compare_controller(slave: Any, exchange: Any, controller: SpeedController, spec: ModelSpec) -> Verification:
     """Compare a controller step by step."""
-    trial = controller_trial(controller)
-    wanted = trial.unknowns["torque"]
-    slave.start(**_settings(), **{name: float(values[0]) for name, values in trial.knowns.items()})
-    found = [slave.get("torque")[0]]
-    for k in range(1, trial.time.size):
-        slave.set(**{name: float(values[k]) for name, values in trial.knowns.items()})
-        slave.step_to(float(trial.time[k]))
-        found.append(slave.get("torque")[0])
+    references = controller_references(controller, spec)
+    found = walk(slave, references)
     slave.raw.terminate()
-    return Verification(
-        findings=(),
-        states=len(found),
-        outside=0,
-        parted=0,
-        force=0.0,
-        tangents=0.0,
-        derivatives=0.0,
-        flags=0,
-        motion=float(np.abs(np.array(found) - wanted).max() / controller.torque_limit),
-    )
+    assert references.steps is not None
+    gap = np.abs(found[:, 0] - references.steps.unknowns["torque"]).max()
+    return Verification(states=len(found), motion=float(gap / controller.torque_limit))
 
 
 def controller_references(controller: SpeedController, spec: ModelSpec) -> References:

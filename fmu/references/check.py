@@ -15,9 +15,8 @@ from ehlcontact.summary import Summary
 from fmu.comparison import each_over, floored
 from fmu.fmu_file import FmuFile, opened
 from fmu.isolated import isolated, require_path
-from fmu.lead import inputs_at_end
 from fmu.references.files import POINTS, STEPS, changed_files, read_references
-from fmu.references.series import References, Trial
+from fmu.references.series import References, Trial, rows_of, walk
 from fmu.verification import findings_text
 
 _Floats = NDArray[np.float64]
@@ -128,7 +127,7 @@ def _interfaces(file: FmuFile, references: References) -> tuple[tuple[str, ...],
     findings, interfaces = [], []
     with file.running() as (slave, exchange):
         cases: tuple[tuple[str, Trial | None, Any, Callable[[Any, References], _Floats]], ...] = (
-            (STEPS, references.steps, slave, _walk),
+            (STEPS, references.steps, slave, walk),
             (POINTS, references.points, exchange, _visit),
         )
         for name, trial, instance, run in cases:
@@ -146,22 +145,6 @@ def _interfaces(file: FmuFile, references: References) -> tuple[tuple[str, ...],
     return tuple(findings), tuple(interfaces)
 
 
-def _walk(slave: Any, references: References) -> _Floats:
-    """Results of co-simulation for the inputs, shape (rows, variables)."""
-    trial = references.steps
-    assert trial is not None
-    names = tuple(trial.unknowns)
-    rows = _rows(trial)
-    ends = inputs_at_end(references.parameters)
-    slave.start(**references.parameters, **rows[0])
-    found = [slave.read(*names)]
-    for k in range(1, trial.time.size):
-        slave.set(**rows[k if ends else k - 1])
-        slave.step_to(float(trial.time[k]))
-        found.append(slave.read(*names))
-    return np.array(found)
-
-
 def _visit(exchange: Any, references: References) -> _Floats:
     """Derivatives and outputs at the points for model exchange, shape (rows, variables)."""
     trial = references.points
@@ -172,16 +155,12 @@ def _visit(exchange: Any, references: References) -> _Floats:
     others = [name for name in trial.unknowns if name not in places]
     exchange.start()
     found = []
-    for row in _rows(trial):
+    for row in rows_of(trial):
         x = np.array([row.pop(name) for name in states])
         rates = exchange.place(x, **row)
         read = dict(zip(others, exchange.read(*others), strict=True))
         found.append([rates[places[name]] if name in places else read[name] for name in trial.unknowns])
     return np.array(found)
-
-
-def _rows(trial: Trial) -> list[dict[str, float]]:
-    return [{name: float(values[k]) for name, values in trial.knowns.items()} for k in range(trial.time.size)]
 
 
 def _compared(name: str, trial: Trial, found: _Floats) -> Interface:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu.lead import inputs_at_end
 from fmu.verification import TOLERANCE
 
 _Floats = NDArray[np.float64]
@@ -56,3 +58,22 @@ class References:
     parameters: Mapping[str, float] = field(default_factory=dict)
     tolerance: float = TOLERANCE
     about: str = "Inputs, and what the model makes of them"
+
+
+def rows_of(trial: Trial) -> list[dict[str, float]]:
+    """What is set in each row, by variable."""
+    return [{name: float(values[k]) for name, values in trial.knowns.items()} for k in range(trial.time.size)]
+
+
+def walk(slave: Any, references: References) -> _Floats:
+    """What an instance for co-simulation makes of the reference inputs, shape (rows, variables)."""
+    trial = references.steps
+    assert trial is not None
+    names, rows, ends = tuple(trial.unknowns), rows_of(trial), inputs_at_end(references.parameters)
+    slave.start(**references.parameters, **rows[0])
+    found = [slave.read(*names)]
+    for k in range(1, trial.time.size):
+        slave.set(**rows[k if ends else k - 1])
+        slave.step_to(float(trial.time[k]))
+        found.append(slave.read(*names))
+    return np.array(found)

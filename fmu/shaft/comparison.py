@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
-from fmu.references.series import References, Trial
+from fmu.references.series import References, Trial, walk
 from fmu.shaft.model import ShaftModel
 from fmu.shaft.reference_shaft import ShaftTrial, shaft_trial
 from fmu.spec import ModelSpec
@@ -19,17 +19,12 @@ ABOUT = "The forces of the bearings vary while the speed rises, computed in Pyth
 
 def compare_shaft(slave: Any, exchange: Any, model: ShaftModel, spec: ModelSpec) -> Verification:
     """Compare a shaft, in a run with forces that vary and a speed that rises."""
-    trial = shaft_trial(model)
-    wanted, names = _outputs(trial, spec), [v.name for v in spec.inputs]
-    slave.start(**_settings(trial, model), **dict(zip(names, trial.inputs[0].tolist(), strict=True)))
-    found = [slave.get(*wanted)]
-    for k in range(1, trial.time.size):
-        slave.set(**dict(zip(names, trial.inputs[k - 1].tolist(), strict=True)))
-        slave.step_to(float(trial.time[k]))
-        found.append(slave.get(*wanted))
+    references = shaft_references(model, spec)
+    found = walk(slave, references)
     slave.raw.terminate()
-    histories = np.array(list(wanted.values())).T
-    gaps = np.abs(np.array(found) - histories).max(axis=0)
+    assert references.steps is not None
+    histories = np.array(list(references.steps.unknowns.values())).T
+    gaps = np.abs(found - histories).max(axis=0)
     return Verification(states=len(found), motion=float((gaps / _sizes(histories)).max()))
 
 
