@@ -61,6 +61,7 @@ from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.settings import KeepSettings, RunSettings, TimeSteps
 from ehlcontact.transient.simulate import simulate
+from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.version import __version__
 
 __all__ = [
@@ -86,6 +87,7 @@ __all__ = [
     "Roughness",
     "RunSettings",
     "SimulationResult",
+    "SpeedHistory",
     "Status",
     "SteadyResult",
     "TimeSteps",

@@ -37,7 +37,7 @@ class Factors:
 
     lu: tuple[Array, NDArray[np.int32]]  # of LAPACK
     free: Nodes
-    equation: tuple[float, float, float]  # time coefficient, balance stiffness and weight
+    equation: tuple[float, float, float, float]  # time coefficient, speed, balance stiffness and weight
 
 
 def coefficients(level: Level, c_t: complex) -> tuple[Any, Any]:
@@ -117,7 +117,7 @@ class CoarseNewton:
         level = self.level
         merit, free = self._evaluate(u, balance)
         target = max(self._drop * merit, 1e-14)
-        equation = (level.c_t, balance.stiffness, balance.weight)
+        equation = _equation(level, balance)
         renewals = 0
         for _ in range(CORRECTION_STEPS):
             if not merit > target:
@@ -148,7 +148,7 @@ class CoarseNewton:
         """LU factors of the Jacobian over the free nodes, bordered by u and its balance."""
         level = self.level
         lu = bordered_lu(level, free, coefficients(level, level.c_t), balance)
-        return Factors(lu, free, (level.c_t, balance.stiffness, balance.weight))
+        return Factors(lu, free, _equation(level, balance))
 
     def _direction(self, factors: Factors, free: Nodes, balance: Balance, u: float) -> tuple[Array, float, float]:
         """Newton direction in P and u, and the step length that keeps it within LARGEST_STEP.
@@ -167,6 +167,11 @@ class CoarseNewton:
         if level.inflow.size:
             dP *= wanted.reshape(dP.shape)  # a node that is partly filled jumps, were it taken for full
         return dP, float(solution[-1]), step_length(dP, float(solution[-1]), u)
+
+
+def _equation(level: Level, balance: Balance) -> tuple[float, float, float, float]:
+    """What factors are made for."""
+    return level.c_t, level.speed, balance.stiffness, balance.weight
 
 
 def step_length(dP: Array, du: float, u: float) -> float:

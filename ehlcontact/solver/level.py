@@ -22,6 +22,7 @@ from ehlcontact.solver.mesh import Mesh
 Array = NDArray[np.float64]
 
 FLANK_SQUEEZE = 0.5  # squeeze term over wedge term, above which a step needs few passes along the flanks
+STANDSTILL = 1e-9  # speed that is as good as none, and keeps sweeps from a division by zero
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
 LEAST_ACROSS = 4  # intervals along Y of the coarsest level
 SHARED_FROM = 20000  # nodes: on smaller levels threads wait longer for each other than they work
@@ -59,6 +60,7 @@ class Level:
         self.X = np.linspace(domain.x_in, domain.x_out, nx + 1)
         self.Y = np.linspace(0.0, domain.y_max, ny + 1)
         self.hx, self.hy = (domain.x_out - domain.x_in) / nx, domain.y_max / ny
+        self.speed = 1.0
         self.set_point(point)
         S = shape_factor(point.kappa)
         self.gap = S * self.X**2 + (1.0 - S) * self.Y[:, None] ** 2
@@ -100,11 +102,17 @@ class Level:
         self.stencil = reynolds.Stencil(
             cx=self.hx**-2,
             cy=point.kappa**2 * self.hy**-2,
-            inv_hx=1.0 / self.hx,
+            inv_hx=self.speed / self.hx,
             lam=point.lam,
+            speed=self.speed,
             # On a mesh finer along X, smooth changes of P deflect the film further beyond the near coefficients.
             crowding=max(1.0, 0.5 * self.hy / (point.kappa * self.hx)),
         )
+
+    def set_speed(self, speed: float) -> None:
+        """Let the surfaces move at `speed`, over that of the operating point; 0 is taken as `STANDSTILL`."""
+        self.speed = max(speed, STANDSTILL)
+        self.stencil = self.stencil._replace(speed=self.speed, inv_hx=self.speed / self.hx)
 
     def set_supply(self, layer: Array | None) -> None:
         """Let a layer of this thickness enter on each line, shape (ny + 1,), or a full gap for None."""
@@ -290,7 +298,7 @@ class Level:
     @property
     def squeeze_dominates(self) -> bool:
         """Whether a step in time is so short that its squeeze term holds the flanks, once they are right."""
-        return self.c_t > FLANK_SQUEEZE * 1.5 / self.hx
+        return self.c_t > FLANK_SQUEEZE * 1.5 * self.stencil.inv_hx
 
     def relax_flanks(self) -> None:
         """Passes along the steep flanks from the state of the last `update`; P, H and flow written there."""

@@ -87,7 +87,14 @@ LARGEST_ATTEMPTS = 4  # meshes for one film, the first one included
 LARGEST_NEWTON = 300_000  # nodes for Newton as a last resort: sparse factors take minutes and gigabytes beyond
 
 
-def mesh_for(point: MoesPoint, purpose: Purpose, grid: Grid = AUTOMATIC, *, largest_load: float = 1.0) -> Mesh:
+def mesh_for(
+    point: MoesPoint,
+    purpose: Purpose,
+    grid: Grid = AUTOMATIC,
+    *,
+    largest_load: float = 1.0,
+    reverses: bool = False,
+) -> Mesh:
     """Return the mesh that the expected film needs, with the intervals and the region that the caller gave.
 
     Parameters
@@ -98,11 +105,15 @@ def mesh_for(point: MoesPoint, purpose: Purpose, grid: Grid = AUTOMATIC, *, larg
         Intervals and region given by the caller.
     largest_load : float
         That the contact will have to carry; the static load is 1.
+    reverses : bool
+        Whether its surfaces roll back: the region is then as long behind the contact as ahead of it.
     """
     n, domain = grid.n, grid.domain
     if domain is None:
         closes_in = purpose is Purpose.DAMPING or (purpose is Purpose.FILM and n is None and largest_load <= 1.0)
         domain = (closes_in and _thin_film_domain(point)) or Domain.for_point(point, largest_load)
+        if reverses:
+            domain = Domain(domain.x_in, -domain.x_in, domain.y_max)
     if n is None:
         n = _intervals(point, domain, purpose)
     return Mesh(n, domain, point.kappa)
@@ -172,6 +183,7 @@ def wider_meshes(
     grid: Grid = AUTOMATIC,
     *,
     largest_load: float = 1.0,
+    reverses: bool = False,
     solve: Solve = Solve.CYCLES,
 ) -> Iterator[Mesh]:
     """Yield the mesh of `mesh_for`, then meshes on wider regions, for a film that leaves the region before.
@@ -180,7 +192,7 @@ def wider_meshes(
 
     Parameters
     ----------
-    point, purpose, grid, largest_load
+    point, purpose, grid, largest_load, reverses
         As in `mesh_for`.
     solve : Solve
         What the mesh is solved with.
@@ -190,7 +202,7 @@ def wider_meshes(
     InputError
         The first mesh would not fit into memory.
     """
-    mesh = mesh_for(point, purpose, grid, largest_load=largest_load)
+    mesh = mesh_for(point, purpose, grid, largest_load=largest_load, reverses=reverses)
     mesh.require_memory(solve)
     yield mesh
     for _ in range(1, LARGEST_ATTEMPTS):

@@ -6,6 +6,7 @@ module           responsibility
 ``bodies``       `Motion`, and bodies under a load, by Newmark's rule
 ``motion``       free vibration, harmonic load, ramp
 ``prescribed``   loads and approaches given by a table
+``speed``        `SpeedHistory`: speed of the surfaces over time
 ``features``     surface features: `Dent`, `TransverseRidge`, `Waviness`
 ``roughness``    `Roughness`: rough surfaces, synthetic or measured
 ``transient_film`` `TransientFilm`: one implicit step of the film

@@ -96,6 +96,8 @@ class Checkpoint:
         theirs = asked.motion.to_dict()
         for key, value in ours.motion.to_dict().items():
             same(f"motion.{key}", value, theirs.get(key))
+        speeds = [None if one.speed is None else one.speed.to_dict() for one in (ours, asked)]
+        same("speed", *speeds)
         if ours.steps.local_error is None and dT is not None:
             wanted = even_step(ours.steps.until, min(dT, ours.steps.until))
             if abs(ours.steps.dT - wanted) > SAME * ours.steps.dT:

@@ -22,13 +22,20 @@ CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a cor
 Table = tuple[Array, Array]  # times and values, shape (k,) each
 
 
-def _as_table(times: ArrayLike, values: ArrayLike, names: tuple[str, str] = ("T", "values")) -> Table:
+def as_table(times: ArrayLike, values: ArrayLike, names: tuple[str, str] = ("T", "values")) -> Table:
     """Copies of both columns: four rows or more, with times that increase from 0; `names` are for messages."""
     of_times, of_values = names
     column = as_column(of_times, times, least=4, increasing=True)
     if column[0] != 0.0:
         raise InputError(f"{of_times}[0]", float(column[0]), "0, where the run begins")
     return column, as_column(of_values, values, size=column.size)
+
+
+def corners_of(T: Array, values: Array) -> tuple[float, ...]:
+    """Times of a table at which its slope jumps by more than `CORNER` of its steepest slope."""
+    slope = np.diff(values) / np.diff(T)
+    jump = np.abs(np.diff(slope)) > CORNER * np.abs(slope).max()
+    return tuple(T[1:-1][jump].tolist())
 
 
 class Tabulated(Motion):
@@ -78,7 +85,7 @@ class PrescribedLoad(Tabulated, UnderLoad):
     _table: Table = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        table = _as_table(self.T, self.values)
+        table = as_table(self.T, self.values)
         if not (table[1] > 0.0).all():
             raise InputError("values", float(table[1].min()), "loads > 0 (the contact must stay loaded)")
         if self.Omega_n is not None:
@@ -98,7 +105,7 @@ class PrescribedLoad(Tabulated, UnderLoad):
             As of the class; a dimensionless point.
         """
         scales = scales_at(point, "PrescribedLoad(T, values)")
-        times, values = _as_table(t, load, ("t", "load"))
+        times, values = as_table(t, load, ("t", "load"))
         Omega_n = None if mass is None else point.Omega_n(mass)
         return cls(times / scales.time, values / scales.force, Omega_n=Omega_n)
 
@@ -118,10 +125,7 @@ class PrescribedLoad(Tabulated, UnderLoad):
     @property
     def corners(self) -> tuple[float, ...]:
         """Times of the table at which its slope jumps by more than `CORNER` of its steepest slope."""
-        T, values = self._table
-        slope = np.diff(values) / np.diff(T)
-        jump = np.abs(np.diff(slope)) > CORNER * np.abs(slope).max()
-        return tuple(T[1:-1][jump].tolist())
+        return corners_of(*self._table)
 
     @property
     def largest_load(self) -> float:
@@ -168,7 +172,7 @@ class PrescribedApproach(Tabulated):
     def __post_init__(self) -> None:
         from scipy.interpolate import CubicSpline
 
-        table = _as_table(self.T, self.values)
+        table = as_table(self.T, self.values)
         object.__setattr__(self, "_table", table)
         object.__setattr__(self, "_spline", CubicSpline(*table))
 
@@ -183,7 +187,7 @@ class PrescribedApproach(Tabulated):
             As of the class; a dimensionless point.
         """
         scales = scales_at(point, "PrescribedApproach(T, values)")
-        times, values = _as_table(t, approach, ("t", "approach"))
+        times, values = as_table(t, approach, ("t", "approach"))
         return cls(times / scales.time, values / scales.length)
 
     def approach(self, T: float) -> float:

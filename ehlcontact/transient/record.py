@@ -41,8 +41,7 @@ class Entry:
             load,
             level.central_film(),
             level.lowest_film(),
-            level.H[0].copy(),
-            level.P[0].copy(),
+            *film.midplane,
             step,
         )
 
@@ -120,11 +119,11 @@ class History:
         history.snapshots = list(taken)
         return history
 
-    def take_snapshot(self, T: float, level: Level) -> None:
+    def take_snapshot(self, T: float, film: TransientFilm) -> None:
         """Copy the whole fields for every time of `wanted` that has been reached."""
         while self.wanted and T >= self.wanted[0] - SAME_TIME:
             self.wanted.pop(0)
-            self.snapshots.append((T, level.H.T.copy(), level.P.T.copy()))
+            self.snapshots.append((T, *film.fields))
 
     def record(self, level: Level, entries: int | None = None) -> Record:
         """All entries, or the first `entries`, with the snapshots until then; `level` gives their shape."""

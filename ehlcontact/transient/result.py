@@ -33,6 +33,7 @@ from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, span
 from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.transient.time_step import coarse_step_note, coarse_tolerance_note
 
 Array = NDArray[np.float64]
@@ -77,6 +78,8 @@ class SimulationResult(ScaledTable, Origin):
     Attributes
     ----------
     motion : Motion
+    speed : SpeedHistory or None
+        Speed of the surfaces over time; None where it is constant.
     X, Y : ndarray, shape (nx + 1,), (ny + 1,)
         x/a and y/b >= 0; fields are even in Y. In SI ``x``, ``y`` [m].
     T : ndarray, shape (steps + 1,)
@@ -118,6 +121,7 @@ class SimulationResult(ScaledTable, Origin):
     """
 
     motion: Motion
+    speed: SpeedHistory | None = None
     X: Annotated[Array, ALONG.over("X", listed=False)]
     Y: Annotated[Array, ACROSS.over("Y", listed=False)]
     T: Annotated[Array, TIME.over("T")]

@@ -12,6 +12,7 @@ from ehlcontact.transient.bodies import Motion, MotionState
 from ehlcontact.transient.features import Surface, surface_height, surface_step
 from ehlcontact.transient.record import Entry, History
 from ehlcontact.transient.settings import StepPlan
+from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.transient.time_step import (
     StepControl,
     difference,
@@ -57,8 +58,9 @@ class Run:
         history: History,
         control: StepControl | None,
         watch: Callable[[Run], None],
+        speed: SpeedHistory | None = None,
     ) -> None:
-        self.film, self.motion, self.surface = film, motion, surface
+        self.film, self.motion, self.surface, self.speed = film, motion, surface, speed
         self.history, self.control = history, control
         self.static_approach = film.u
         self.film_error: ErrorEstimate | None = None  # of the film at T = 0
@@ -69,6 +71,8 @@ class Run:
     def start(self) -> Status:
         """Static state, then the state the motion starts from, with the acceleration that its force gives."""
         film, motion = self.film, self.motion
+        if self.speed is not None:
+            film.set_speed(self.speed(0.0))
         G = surface_height(self.surface, film.level.X, film.level.Y, 0.0)
         balance = Balance.of_load()
         step = film.start_steady(balance, surface=G)
@@ -97,6 +101,8 @@ class Run:
         """Step of length `dT` to time `T`; film and motion move, nothing is recorded."""
         film, motion, now = self.film, self.motion, self.state
         balance, guess = motion.balance(now, T, dT)
+        if self.speed is not None:
+            film.set_speed(self.speed(T))
         feature = surface_step(self.surface, film.level.X, film.level.Y, T, dT, film.last_step)
         step = film.advance(dT, balance, guess, feature)
         self.state = motion.after(now, film.u, T, dT)
@@ -104,7 +110,7 @@ class Run:
 
     def keep(self, *entries: Entry) -> None:
         """Record the entries, the last of which is the present state."""
-        self.history.take_snapshot(self.state.T, self.film.level)
+        self.history.take_snapshot(self.state.T, self.film)
         self.history.entries.extend(entries)
         if entries[-1].step.status.ok:
             self._mark()
@@ -150,7 +156,8 @@ def march_controlled(run: Run, until: float) -> RunEnd:
     control = run.control
     assert control is not None
     motion, entries = run.motion, run.history.entries
-    corners = [c for c in motion.corners if c < until]
+    turns = () if run.speed is None else run.speed.corners
+    corners = [c for c in (*motion.corners, *turns) if 0.0 < c < until]
     stops = sorted({*corners, *run.history.wanted, until})
     shortest, longest = shortest_step(motion), longest_step(motion)
     while run.state.T < until:

@@ -17,6 +17,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.transient.time_step import default_tol
 
 LARGEST_ERROR = 0.1
@@ -218,6 +219,7 @@ class RunInputs:
     steps: StepPlan
     snapshots: tuple[float, ...]  # times whose whole fields are kept
     deflection: str  # engine
+    speed: SpeedHistory | None = None
 
 
 def even_step(until: float, dT: float) -> float:

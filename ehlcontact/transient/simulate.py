@@ -37,6 +37,7 @@ from ehlcontact.transient.settings import (
     require_groups,
     snapshot_times,
 )
+from ehlcontact.transient.speed import SpeedHistory, require_speed
 from ehlcontact.transient.time_step import StepControl, default_fixed_step
 from ehlcontact.transient.transient_film import TransientFilm
 
@@ -51,6 +52,7 @@ def simulate(
     *,
     grid: Grid = AUTOMATIC,
     time: TimeSteps = BY_MOTION,
+    speed: SpeedHistory | None = None,
     surface: Surface | None = None,
     keep: KeepSettings = HISTORY_ONLY,
     run: RunSettings = UNATTENDED,
@@ -71,6 +73,10 @@ def simulate(
         engine of the elastic deflection.
     time : TimeSteps
         End, step, tolerances; in seconds for an `OperatingPoint`, in 2a/u_sum for a `MoesPoint`.
+    speed : SpeedHistory, optional
+        Speed of the surfaces over time, constant by default. The film begins steady at its first speed; all scales
+        stay those of `point`. Where surfaces roll back, the region is as long behind the contact as ahead of it,
+        and what is ahead then counts as flooded.
     surface : callable, optional
         Feature G(X, Y, T) added to the gap, even in Y: `Dent`, `TransverseRidge`, `Waviness`, `Roughness`, or a
         function of one's own. At rest for T <= 0. One made for another `kappa` gives a warning.
@@ -99,16 +105,18 @@ def simulate(
     moes = require_solvable(point, motion.largest_load)
     require_grid(grid)
     require_groups(time, keep, run)
-    wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load)
+    require_surface(surface)
+    require_speed(speed, surface, grid)
+    reverses = speed is not None and speed.reverses
+    wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load, reverses=reverses)
     mesh = next(wider)
     meshes = chain([mesh], wider)
-    require_surface(surface)
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
     scales = scales_of(point)
     unit = 1.0 if scales is None else scales.time
-    steps = StepPlan.of(motion, time, unit, default_fixed_step(motion, surface, spacing))
-    inputs = RunInputs(moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection)
+    steps = StepPlan.of(motion, time, unit, default_fixed_step(motion, surface, spacing, speed))
+    inputs = RunInputs(moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed)
     if keep.checkpoint is not None:
         require_replaceable(keep.checkpoint, keep.restart)
     threads = require_threads("threads", run.threads)
@@ -141,7 +149,7 @@ def simulate(
         keeper.inputs = replace(inputs, mesh=mesh)
         film = film_on(mesh)
         control = None if steps.local_error is None else StepControl(steps.local_error, steps.dT)
-        film_run = Run(film, motion, surface, History(inputs.snapshots), control, watch)
+        film_run = Run(film, motion, surface, History(inputs.snapshots), control, watch, speed)
         end = RunEnd(film_run.start())
         return film_run, march(film_run, steps) if end.status.ok else end
 
@@ -150,7 +158,7 @@ def simulate(
         inputs = keeper.inputs = replace(inputs, mesh=mesh)
     else:
         history = History.of(earlier.record, inputs.snapshots)
-        film_run = Run(film, motion, surface, history, earlier.control, watch)
+        film_run = Run(film, motion, surface, history, earlier.control, watch, speed)
         film_run.resume(earlier.film, earlier.scale, earlier.static_approach, earlier.film_error)
         end = march(film_run, steps)
     unkept = None
@@ -209,6 +217,7 @@ def _result(
         domain=inputs.mesh.domain,
         n=inputs.mesh.n,
         motion=inputs.motion,
+        speed=inputs.speed,
         X=level.X.copy(),
         Y=level.Y.copy(),
         **numbers,

@@ -23,10 +23,11 @@ from math import inf
 
 import numpy as np
 
-from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.bodies import LONGEST_ABRUPT, Motion
 from ehlcontact.transient.features import Dent, Surface, TransverseRidge, Waviness
 from ehlcontact.transient.record import Array, Entry
 from ehlcontact.transient.roughness import Roughness
+from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.transient.transient_film import CHANGE_SHARE
 
 # Steps in which a wave of a surface feature passes. Against four times as many, 40 steps leave an error of up to
@@ -52,9 +53,12 @@ SMALLEST_TOL = 1e-6  # smallest default; smaller motions need a `tol` of their o
 COARSE = 3.0  # times the fitting tol, above which a result has a note
 
 
-def default_fixed_step(motion: Motion, surface: Surface | None, mesh: float) -> float:
+def default_fixed_step(
+    motion: Motion, surface: Surface | None, mesh: float, speed: SpeedHistory | None = None
+) -> float:
     """Default fixed step of a run under this motion, on a grid of this mesh size along X."""
-    return min(motion.default_step, motion.film_step, _feature_step(surface, mesh))
+    film = motion.film_step if speed is None else min(motion.film_step, LONGEST_ABRUPT) / max(speed.largest, 1.0)
+    return min(motion.default_step, film, _feature_step(surface, mesh))
 
 
 def _feature_step(surface: Surface | None, mesh: float) -> float:

@@ -50,6 +50,7 @@ class FilmState:
     surface: Array | float
     factors: Factors | None  # of the coarsest grid; immutable, so the reference is enough
     past_u: tuple[float, ...]  # approach at the same times as the pressures of `past`
+    turned: bool = False  # the surfaces roll back: fields are those seen from the other side
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +90,7 @@ class TransientFilm:
         self._mass = self.level.P.copy()
         self._mass_before = self._mass.copy()
         self._dT = 0.0
+        self.turned = False
 
     @property
     def level(self) -> Level:
@@ -99,6 +101,34 @@ class TransientFilm:
     def u(self) -> float:
         """Mutual approach."""
         return self.multigrid.u
+
+    @property
+    def midplane(self) -> tuple[Array, Array]:
+        """Film and pressure along Y = 0, (nx + 1,) each."""
+        return self._seen(self.level.H)[0].copy(), self._seen(self.level.P)[0].copy()
+
+    @property
+    def fields(self) -> tuple[Array, Array]:
+        """Film and pressure, (nx + 1, ny + 1) each."""
+        return self._seen(self.level.H).T.copy(), self._seen(self.level.P).T.copy()
+
+    def _seen(self, field: Array) -> Array:
+        return field[:, ::-1] if self.turned else field
+
+    def set_speed(self, speed: float) -> None:
+        """Let the surfaces move at `speed`, over that of the operating point; the next steps are at it.
+
+        Where it turns back, the fields are turned round, for the equations look upstream to the left.
+        """
+        if speed != 0.0 and (speed < 0.0) != self.turned:
+            self.turned = not self.turned
+            self._mass, self._mass_before = self._mass[:, ::-1].copy(), self._mass_before[:, ::-1].copy()
+            self._past = tuple((dT, P[:, ::-1].copy()) for dT, P in self._past)
+            self.level.P[...] = self.level.P[:, ::-1].copy()
+            self.level.update_film(self.u)
+            self.multigrid.newton.factors = None
+        for level in self.multigrid.levels:
+            level.set_speed(abs(speed))
 
     def start_steady(self, balance: Balance, u: float | None = None, surface: Array | float = 0.0) -> Step:
         """Solve the steady film over a resting `surface` and make it the state for all T <= 0."""
@@ -200,6 +230,7 @@ class TransientFilm:
             surface=self.level.film_shift,
             factors=self.multigrid.newton.factors,
             past_u=self._past_u,
+            turned=self.turned,
         )
 
     def restore_state(self, state: FilmState) -> None:
@@ -207,7 +238,7 @@ class TransientFilm:
         self.level.P[...] = state.P
         self._past, self._past_u = state.past, state.past_u
         self._mass, self._mass_before = state.mass, state.mass_before
-        self.multigrid.u, self._dT = state.u, state.dT
+        self.multigrid.u, self._dT, self.turned = state.u, state.dT, state.turned
         self.level.film_shift = state.surface
         self.multigrid.newton.factors = state.factors
         self.level.update_film(state.u)

@@ -65,7 +65,7 @@ def switch_value(stencil, c_t):
     The squeeze term, unlike the wedge term, does not vanish for smooth changes. Plain changes of P, whose
     smooth part deflects the film far beyond the near coefficients, are then safe only at larger eps.
     """
-    return SWITCH * stencil.crowding * (1.0 + SQUEEZE * c_t / (1.5 * stencil.inv_hx))
+    return SWITCH * stencil.crowding * stencil.speed * (1.0 + SQUEEZE * c_t / (1.5 * stencil.inv_hx))
 
 
 @jit_loop

@@ -29,8 +29,9 @@ class Stencil(NamedTuple):
 
     cx: float  # 1/hx^2
     cy: float  # kappa^2/hy^2
-    inv_hx: float  # 1/hx
+    inv_hx: float  # U/hx: of the first derivative, which transport alone has
     lam: float  # Reynolds coefficient lambda
+    speed: float  # U, of the surfaces over that of the operating point
     crowding: float  # 1, and more where nodes lie closer along X than the lines: half the ratio of their distances
 
 

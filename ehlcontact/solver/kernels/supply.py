@@ -112,7 +112,7 @@ def linearise_pressed_in(P, flow, stencil, p_coef, h_coef, target):
     else -1. All three written.
     """
     nx = P.shape[1] - 1
-    still = Stencil(stencil.cx, stencil.cy, 0.0, stencil.lam, stencil.crowding)
+    still = Stencil(stencil.cx, stencil.cy, 0.0, stencil.lam, stencil.speed, stencil.crowding)
     target[:] = -1
     for j in range(P.shape[0] - 1):
         front = -1
