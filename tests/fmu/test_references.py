@@ -129,7 +129,10 @@ def test_any_importer_finds_them_again(fmus, kind, tmp_path):
     ("kind", "source", "old", "new", "wrong"),
     [
         ("cubic", "model_contact.c", "times(3.0, K3)", "times(3.0000001, K3)", "stiffness"),
-        ("wide", "config.h", "#define LAG_RATE 5.4", "#define LAG_RATE 5.4000001", "force"),
+        pytest.param(
+            *("wide", "config.h", "#define LAG_RATE 5.4", "#define LAG_RATE 5.4000001", "force"),
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_a_coefficient_altered_in_the_source_is_found(fmus, tmp_path, kind, source, old, new, wrong):

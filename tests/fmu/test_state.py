@@ -45,7 +45,7 @@ def test_rollback_is_bit_identical_while_parted_too(slave, elements, kind, lead)
         unit.raw.freeFMUState(one)
 
 
-@pytest.mark.parametrize("kind", FILM_KINDS)
+@pytest.mark.parametrize("kind", [pytest.param("memory", marks=pytest.mark.slow), "wide_si"])
 def test_state_moves_to_another_process(slave, elements, extracted, kind, tmp_path):
     unit, element = slave(kind), elements[kind]
     T = np.linspace(0.0, 3.0, 151)
