@@ -18,6 +18,10 @@ from reduced_models.atlas.atlas import Atlas as Atlas
 from reduced_models.bearing.arrangement import BearingSet as BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
 from reduced_models.bearing.equilibrium_result import BearingState as BearingState
+from reduced_models.bearing.excitation import BearingExcitation as BearingExcitation
+from reduced_models.bearing.features import BallDiameter as BallDiameter
+from reduced_models.bearing.features import BallWaviness as BallWaviness
+from reduced_models.bearing.features import RaceWaviness as RaceWaviness
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
 from reduced_models.bearing.set_result import SetState as SetState
 from reduced_models.elements.base import ContactElement as ContactElement

@@ -41,6 +41,7 @@ from fmu.references.check import Interface
 from reduced_models import (
     Atlas,
     BallBearing,
+    BallDiameter,
     BearingMount,
     BearingSet,
     ContactMount,
@@ -76,6 +77,7 @@ INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no r
 WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
     **dict.fromkeys(("SpeedHistory", "SpeedController"), INPUT),
+    **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
     **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),
@@ -141,6 +143,7 @@ def results(point):
         fit(record, model="linear"), linearise(rotor, 3000.0), linearise(rotor, 3000.0).modes(1)[0],
         *films_of(film, run), *rotors(atlas.element(point, "cubic", rpm=3000), bearing), sensitivity(record),
         pair, pair.equilibrium((0.0, 0.0, 0.0), speed_rpm=3000.0),
+        bearing.excitation([BallDiameter(ball=0, excess=1e-7)], (0.0, 0.0, 300.0), speed_rpm=3000.0),
         SpeedProfile.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
         FullContact(point, grid=Grid(n=32)),
         *verifications(),

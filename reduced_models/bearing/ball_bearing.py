@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from math import acos, cos, degrees, hypot, inf, pi, sin
 from typing import Any, Self
@@ -42,6 +42,14 @@ from reduced_models.bearing.equilibrium import (
     ring_equilibrium,
 )
 from reduced_models.bearing.equilibrium_result import BearingState
+from reduced_models.bearing.excitation import (
+    BearingExcitation,
+    FeaturedBalls,
+    excitation_of,
+    require_features,
+    turns_of,
+)
+from reduced_models.bearing.features import Feature
 from reduced_models.bearing.five_degrees import (
     AngularEquilibrium,
     StaticRing,
@@ -401,6 +409,50 @@ class BallBearing(Summary):
         matrices, forces = balls.coefficients(w), np.array([at.force for at in equilibria])
         outside = "" if self.oil is None else assumptions_under(self, speed, forces).headline
         return BearingCoefficients.of(force, speed, cage_angle, w, matrices, equilibria, outside)
+
+    @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
+    def excitation(
+        self,
+        features: Sequence[Feature],
+        load: ArrayLike,
+        *,
+        speed_rpm: float = 0.0,
+        cage_angle: float = 0.0,
+    ) -> BearingExcitation:
+        """Forces by which features of balls and races excite the bearing, linear in their heights, as lines.
+
+        The ring is held where the load puts it. `reduced_models.bearing.excitation` has the equations.
+
+        Parameters
+        ----------
+        features : sequence of RaceWaviness, BallWaviness and BallDiameter
+        load : tuple of 2, 3 or 5 float
+            As in `coefficients` [N], [N m].
+        speed_rpm : float
+            Speed of the shaft [rev/min].
+        cage_angle : float
+            Of the first ball with the shaft at 0 [rad]; for phases.
+
+        Raises
+        ------
+        InputError
+            No feature, or one of a ball that there is not; what `equilibrium` refuses.
+        """
+        own = require_features(features, self.balls)
+        force, speed, cage_angle = self._bearing_load(load), self.speed(speed_rpm), angle_of(cage_angle)
+        cages = self._cage_angles(force, None)
+        if force.size > len(PLANAR):
+            places = [self._angular_equilibrium(force, speed, at) for at in cages]
+            small: SmallBalls | SmallAngularBalls = self._small_angular(speed, places)
+            forces, approach = (np.array([getattr(at, name) for at in places]) for name in ("force", "approach"))
+            full, turns = np.mean([at.load for at in places], axis=0), turns_of(places)
+        else:
+            rings = self.ring_equilibria(force, speed)
+            small = SmallBalls.of(self._kernel(speed), self._speed_state(speed), rings)
+            forces, approach = (np.array([getattr(at, name) for at in rings]) for name in ("force", "approach"))
+            full, turns = force, (self.orders.ftf, self.orders.bsf)
+        balls = FeaturedBalls(self, small, forces, cages[0], speed, *turns)
+        return excitation_of(balls, full, float(approach.sum(axis=-1).max()), own, cage_angle)
 
     def ring_equilibria(
         self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None

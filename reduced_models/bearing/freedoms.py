@@ -34,7 +34,7 @@ PLANAR = ("x", "y")
 FIVE = ("x", "y", "z", "tilt_x", "tilt_y")
 FACINGS = ("+z", "-z")
 # Units of matrices and columns over all five: of the first three entries, and with tilts
-MIXED = {"N": "N, N m", "m": "m, rad", "N/m": "N/m, N, N m", "N s/m": "N s/m, N s, N m s"}
+MIXED = {"N": "N, N m", "m": "m, rad", "N/m": "N/m, N, N m", "N s/m": "N s/m, N s, N m s", "rad": "rad"}
 FARTHEST_OFFSET = 0.1  # of a ball diameter, of a ring along the shaft: grooves end before
 LARGEST_TILT = 0.1  # rad, of a ring: fifty times what a deep-groove bearing bears
 DECIMALS = 6  # decimal places beyond which N, N m, µm, nm, mrad and spin-to-roll ratios are rounding

@@ -1,0 +1,268 @@
+"""Forces by which features of balls and races excite a bearing whose ring is held: lines over the shaft's turns.
+
+A height h, positive out of the surface, presses its contact by Z W h, with the impedance Z of the film and the
+contact filter W (`ehlcontact.excitation`), here that of dry contacts: sin(k)/k with the wave number k per
+semi-axis. The ball follows as in `linear_balls` and `linear_angular`: with the balance R of a ball over its
+place b and the force P of the ring on it,
+
+    R_b db + R_h = 0,    R_h = Z_i W_i h_i n_i - Z_o W_o h_o n_o,    dP = P_h + P_b db,    P_h = Z_i W_i h_i n_i,
+
+at the frequency at which the ball meets the waves, while it stands at psi: the force D(psi) per height, the sum of
+D_m exp(i m psi) over m. The n waves of a race that has turned by r are met by all Z balls. With the cage at theta
+their forces add up where m + n is a multiple of Z:
+
+    F = Re sum over j of Z D_(jZ-n) A exp(i (j Z theta - n r - phase)).
+
+Under axial load D has m = 0 along the shaft and m = +-1 across it and in tilts. So waves of n = kZ excite axial
+vibrations and n = kZ +- 1 radial ones and tilts: those of the inner race at the orders k BPFI and k BPFI +- 1, of
+the outer race at k BPFO (the table of Wardle, Proc. IMechE C 202 (1988) 305).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import cos
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.checks import require_instance
+from ehlcontact.errors import InputError
+from ehlcontact.hertz import hertz_contact
+from ehlcontact.quantities import FORCE, HERTZ, LENGTH, NUMBER, RADIAN, SPEED, Quantity
+from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.summary import span
+from reduced_models.bearing.features import BallDiameter, BallWaviness, Feature, RaceWaviness
+from reduced_models.bearing.five_degrees import AngularEquilibrium
+from reduced_models.bearing.freedoms import PLANAR, in_freedoms, labelled, load_words
+from reduced_models.bearing.kinematics import RPM_TO_HZ, RPM_TO_RAD_S
+from reduced_models.bearing.linear_angular import SmallAngularBalls
+from reduced_models.bearing.linear_balls import SmallBalls
+from reduced_models.bearing.loss import response
+
+if TYPE_CHECKING:
+    from reduced_models.bearing.ball_bearing import BallBearing
+
+_Floats = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
+
+NO_LINE = 1e-6  # of the height over the approach of the heaviest ball times its force: below is rounding
+SAME_ORDER = 9  # decimal places of orders that are one line
+LARGE = 0.1  # height over the approach of both contacts of the heaviest ball, from which a result says so
+
+
+@dataclass(frozen=True, eq=False)
+class BearingExcitation(QuantityTable):
+    """Forces of the balls on a ring that is held in n = 2 or 5 degrees of freedom, as lines.
+
+    ``F = Re sum of amplitude exp(i (2 pi order turns + phase))`` over the turns of the shaft, beside the load.
+
+    Attributes
+    ----------
+    order : ndarray, shape (lines,)
+        Of the lines, per turn of the shaft, increasing; ``hz`` has them in Hz.
+    amplitude : ndarray, shape (lines, n)
+        In x, y (, z, tilt_x, tilt_y) [N], [N m].
+    phase : ndarray, shape (lines, n)
+        In rad.
+    load : ndarray, shape (n,)
+        Force on the ring [N], [N m].
+    speed_rpm : float
+        Of the shaft.
+    height : float
+        Largest amplitude of the features [m], half of a ball's excess diameter.
+    approach : float
+        Of both contacts of the heaviest ball together [m].
+    """
+
+    order: Annotated[_Floats, NUMBER.over("order")]
+    amplitude: Annotated[_Floats, FORCE.over("order axis")]
+    phase: Annotated[_Floats, RADIAN.over("order axis")]
+    load: Annotated[_Floats, FORCE.over("axis")]
+    speed_rpm: Annotated[float, SPEED]
+    height: Annotated[float, LENGTH]
+    approach: Annotated[float, LENGTH]
+
+    DISPLAY: ClassVar[Display] = Display(rows="order", panels=("amplitude",), labels={"axis": ("x", "y")})
+
+    @property
+    def hz(self) -> Annotated[_Floats, HERTZ.over("order")]:
+        """Frequencies of the lines [Hz]."""
+        return np.asarray(self.order * self.speed_rpm * RPM_TO_HZ)
+
+    @property
+    def reservation(self) -> str:
+        """What the result leaves open, in words: heights for which contacts are not linear; else empty."""
+        if self.height <= LARGE * self.approach:
+            return ""
+        share = 100.0 * self.height / self.approach
+        return f"features are {share:.2g} % of the approach of the heaviest ball: forces are not linear in them"
+
+    def force(self, turns: ArrayLike) -> _Floats:
+        """Forces [N], [N m] at these turns of the shaft, shape of `turns` + (n,)."""
+        at = np.exp(2j * np.pi * np.asarray(turns, float)[..., None] * self.order)
+        return np.asarray((at @ (self.amplitude * np.exp(1j * self.phase))).real)
+
+    def _quantities(self) -> Mapping[str, Quantity]:
+        return in_freedoms(super()._quantities(), self.load.size)
+
+    def _display(self) -> Display:
+        return labelled(super()._display(), self.load.size)
+
+    def _summary_lines(self) -> list[str]:
+        largest = self.amplitude.max(axis=0, initial=0.0)
+        axial = [] if largest.size == len(PLANAR) else [f"axial up to {largest[2]:.4g} N"]
+        moments = [] if not axial else [f"moments up to {largest[3:].max():.4g} N m"]
+        return [
+            f"load {load_words(self.load)} at {self.speed_rpm:.5g} rev/min",
+            f"features up to {1e6 * self.height:.4g} µm: {self.order.size} lines of orders {span(self.order)}",
+            ", ".join([f"radial up to {largest[:2].max():.4g} N", *axial, *moments]),
+            *filter(None, [self.reservation]),
+        ]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return super().to_dict() | {"reservation": self.reservation}
+
+
+@dataclass(frozen=True)
+class FeaturedBalls:
+    """All balls of a bearing about rest, at positions of the cage over a ball passage.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+    small : SmallBalls or SmallAngularBalls
+        At these positions.
+    force : ndarray, shape (positions, balls, 2)
+        Static forces at the inner and the outer race [N].
+    first : float
+        Angle of the first ball at the first position [rad].
+    speed_rpm, cage, rotation : float
+        Of the shaft [rev/min]; turns of the cage, and of a ball about its axis, per turn of the shaft.
+    """
+
+    bearing: BallBearing
+    small: SmallBalls | SmallAngularBalls
+    force: _Floats
+    first: float
+    speed_rpm: float
+    cage: float
+    rotation: float
+
+    def harmonics(self, order: float, inner: _Floats, outer: _Floats) -> tuple[NDArray[np.int64], _Complex]:
+        """Numbers m and force D_m on the ring, (k, n), by heights met `order` times per turn of the shaft.
+
+        `inner` and `outer`, (positions, balls), are the heights at both contacts of every ball.
+        """
+        s = 1j * abs(order) * self.speed_rpm * RPM_TO_RAD_S
+        forces = _force_on_ring(self.small, s, inner.ravel(), outer.ravel())
+        forces = forces.conj() if order < 0.0 else forces
+        positions, balls, _ = self.force.shape
+        around = forces.reshape(positions, balls, -1).transpose(1, 0, 2).reshape(positions * balls, -1)
+        m = np.fft.fftfreq(len(around), 1.0 / len(around)).round().astype(np.int64)
+        found = np.fft.fft(around, axis=0) / len(around) * np.exp(-1j * m * self.first)[:, None]
+        kept = np.abs(m) < len(around) / 2.0
+        return m[kept], found[kept]
+
+    def filters(self, waves: int, ball: bool) -> tuple[_Floats, _Floats]:
+        """Contact filters of waves around a race, or the ball, at both contacts, (positions, balls)."""
+        b, found = self.bearing, []
+        for j, name in enumerate(("inner", "outer")):
+            body = b.race(name).geometry
+            a = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).a * np.cbrt(self.force[..., j])
+            side = -1.0 if name == "inner" else 1.0
+            race = 0.5 * (b.pitch_diameter + side * b.ball_diameter * cos(b.free_angle))
+            radius = 0.5 * b.ball_diameter if ball else race
+            found.append(np.sinc(waves * a / radius / np.pi))
+        return found[0], found[1]
+
+    def lines(self, feature: Feature, cage_angle: float) -> list[tuple[float, _Complex]]:
+        """Orders of the lines of one feature, negative ones too, and complex forces."""
+        balls, none = self.force.shape[1], np.zeros(self.force.shape[:2])
+        if isinstance(feature, RaceWaviness):
+            n, turning = feature.waves, 1.0 if feature.race == "inner" else 0.0
+            inner, outer = self.filters(n, ball=False)
+            heights = (inner, none) if feature.race == "inner" else (none, outer)
+            m, D = self.harmonics(n * (self.cage - turning), *heights)
+            met = (m + n) % balls == 0
+            theta = np.exp(1j * ((m + n) * cage_angle - feature.phase))
+            scale = balls * feature.amplitude * theta[:, None]
+            return list(zip(((m + n) * self.cage - n * turning)[met].tolist(), (D * scale)[met], strict=True))
+        if isinstance(feature, BallWaviness):
+            inner, outer = self.filters(feature.waves, ball=True)
+            turns, own = feature.waves * self.rotation, feature.amplitude * np.exp(-1j * feature.phase)
+            m, D = self.harmonics(turns, inner, outer * (-1.0) ** feature.waves)
+        else:
+            turns, own = 0.0, complex(feature.excess)
+            m, D = self.harmonics(0.0, none + 0.5, none + 0.5)
+        psi = cage_angle + 2.0 * np.pi * feature.ball / balls
+        scale = own * np.exp(1j * m * psi)[:, None]
+        return list(zip((m * self.cage + turns).tolist(), D * scale, strict=True))
+
+
+def excitation_of(
+    balls: FeaturedBalls, load: _Floats, approach: float, features: Sequence[Feature], cage_angle: float
+) -> BearingExcitation:
+    """Lines of all features together, those of one order added."""
+    found: dict[float, _Complex] = {}
+    for feature in features:
+        for signed, line in balls.lines(feature, cage_angle):
+            own, along = round(abs(signed), SAME_ORDER), line.conj() if signed < 0.0 else line
+            found[own] = found.get(own, np.zeros(load.size, complex)) + (along if own else along.real)
+    order = np.array(sorted(found))
+    force = np.array([found[one] for one in order.tolist()]).reshape(order.size, load.size)
+    heights = [0.5 * abs(f.excess) if isinstance(f, BallDiameter) else f.amplitude for f in features]
+    unit = np.ones(load.size)
+    unit[3:] = 0.5 * balls.bearing.pitch_diameter
+    least = NO_LINE * max(heights) * balls.force.max() / approach
+    kept = (np.abs(force) / unit).max(axis=1) > least
+    force, order = force[kept], order[kept]
+    return BearingExcitation(order, np.abs(force), np.angle(force), load, balls.speed_rpm, max(heights), approach)
+
+
+def require_features(features: object, balls: int) -> list[Feature]:
+    """Return the features as a list, or raise `InputError`: none, what is none, a ball that the bearing lacks."""
+    given: list[Any] = list(features) if isinstance(features, Sequence) else [features]
+    if not given:
+        raise InputError("features", [], "at least one, as RaceWaviness(...) or BallDiameter(...)")
+    for one in given:
+        require_instance("features", one, Feature, "RaceWaviness(...), BallWaviness(...) or BallDiameter(...)")
+        if not isinstance(one, RaceWaviness) and one.ball >= balls:
+            raise InputError("ball", one.ball, f"from 0 to {balls - 1}")
+    return given
+
+
+def turns_of(places: Sequence[AngularEquilibrium]) -> tuple[float, float]:
+    """Turns of the cage and of a ball per turn of the shaft: the mean of the balls, by their loads."""
+    weights = np.concatenate([at.force[:, 0] for at in places])
+    cage, rotation = (
+        float(np.average(np.concatenate([getattr(at, name) for at in places]), weights=weights))
+        for name in ("orbit", "ball_rotation")
+    )
+    return cage, rotation
+
+
+def _force_on_ring(small: SmallBalls | SmallAngularBalls, s: complex, inner: _Floats, outer: _Floats) -> _Complex:
+    """Force of every ball on the ring (contacts, n), by heights at both of its contacts at exp(s t)."""
+    inner_z, outer_z = (np.asarray(race.impedance(np.asarray(s))) for race in (small.inner, small.outer))
+    scale, heavy = -response(small.loss, np.asarray(s)), small.inertia * s * s
+    touched = np.abs(inner_z + outer_z) > 0.0
+    if isinstance(small, SmallBalls):
+        both = inner_z + outer_z + heavy
+        pressed = inner_z * (inner * (outer_z + heavy) + outer * outer_z)
+        carried = np.divide(pressed, both, out=np.zeros_like(both), where=touched)
+        return np.asarray(scale * carried[:, None] * small.normals)
+    n_i, n_o = (np.stack([np.cos(angle), np.sin(angle)], axis=-1) for angle in small.angles.T)
+    spring_i, spring_o = (
+        Z[:, None, None] * n[:, :, None] * n[:, None, :] for Z, n in ((inner_z, n_i), (outer_z, n_o))
+    )
+    by_b = small.geometric[:, :2, :2] - spring_i - spring_o - heavy * np.eye(2)
+    by_b = by_b - ~touched[:, None, None] * np.eye(2)
+    by_height = (inner_z * inner)[:, None] * n_i
+    moved = -np.linalg.solve(by_b, (by_height - (outer_z * outer)[:, None] * n_o)[..., None])
+    P = (small.geometric[:, 2:, :2] @ moved)[..., 0].astype(complex)
+    P[:, :2] += by_height - (spring_i @ moved)[..., 0]
+    return np.asarray(scale * (small.maps.transpose(0, 2, 1) @ P[..., None])[..., 0])
