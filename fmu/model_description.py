@@ -22,8 +22,10 @@ LOG_CATEGORIES = {
     "logStatusWarning": "Motion leaving the validity box; steps that are too long for it",
 }
 TIME = "time"  # name of the independent variable of FMI 3.0
-FLANGE = "Modelica.Mechanics.Translational.Interfaces.Flange_a"
-MEMBERS = (("s", "signal"), ("v", "signal"), ("f", "inflow"))  # of a flange: approach, rate, force
+# Kind of a flange and names of its members: place, its rate, force; angle, its rate, moment.
+TRANSLATIONAL = "Modelica.Mechanics.Translational.Interfaces.Flange_a", ("s", "v", "f")
+ROTATIONAL = "Modelica.Mechanics.Rotational.Interfaces.Flange_a", ("phi", "w", "tau")
+MEMBER_KINDS = ("signal", "signal", "inflow")
 SECTIONS_2 = {
     "Output": "Outputs",
     "ContinuousStateDerivative": "Derivatives",
@@ -257,7 +259,7 @@ def _structure(root: Element, spec: ModelSpec, fmi: int) -> None:
 
 
 def terminals(spec: ModelSpec) -> bytes:
-    """``terminalsAndIcons.xml``: place of the icon; approach, rate and force of each contact as a flange."""
+    """``terminalsAndIcons.xml``: place of the icon; place or tilt, rate, and force or moment as a flange."""
     root = Element("fmiTerminalsAndIcons", fmiVersion="3.0")
     ends = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
     shown = ElementTree.SubElement(root, "GraphicalRepresentation")
@@ -265,10 +267,11 @@ def terminals(spec: ModelSpec) -> bytes:
     ElementTree.SubElement(shown, "Icon", ends)
     parent = ElementTree.SubElement(root, "Terminals") if spec.flanges else root  # never an empty list
     for name, text, variables in spec.flanges:
+        flange_kind, members = ROTATIONAL if spec[variables[0]].unit == "rad" else TRANSLATIONAL
         flange = ElementTree.SubElement(
-            parent, "Terminal", name=name, matchingRule="bus", terminalKind=FLANGE, description=text
+            parent, "Terminal", name=name, matchingRule="bus", terminalKind=flange_kind, description=text
         )
-        for variable, (member, kind) in zip(variables, MEMBERS, strict=True):
+        for variable, member, kind in zip(variables, members, MEMBER_KINDS, strict=True):
             ElementTree.SubElement(
                 flange, "TerminalMemberVariable", variableName=variable, memberName=member, variableKind=kind
             )

@@ -79,9 +79,14 @@ def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float
         plain_steps=True,
         indicators=tuple(made.indicators),
         flanges=tuple(
-            (name, f"The inner ring along {name}: place, velocity, force", (name, RATES[name], FORCES[name]))
+            (
+                name,
+                f"The inner ring about {name[-1]}: tilt, its rate, moment"
+                if name.startswith("tilt")
+                else f"The inner ring along {name}: place, velocity, force",
+                (name, RATES[name], FORCES[name]),
+            )
             for name in model.names
-            if not name.startswith("tilt")
         ),
     )
 

@@ -53,12 +53,11 @@ def shaft_spec(model: ShaftModel, model_name: str | None = None, force_lead: flo
         flanges=tuple(
             (
                 f"bearing_{b}_{name}",
-                f"Inner ring of bearing {b} along {name}: place and velocity out, force in",
+                f"Inner ring of bearing {b}, {name}: place and rate out, force or moment in",
                 (f"bearing[{b}].{name}", f"bearing[{b}].{RATES[name]}", f"bearing[{b}].{FORCES[name]}"),
             )
             for b, mount in enumerate(model.stations, start=1)
             for name in mount.directions
-            if not name.startswith("tilt")
         ),
     )
 

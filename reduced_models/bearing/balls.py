@@ -118,9 +118,13 @@ def films_of(balls: Balls) -> Films:
 @inner
 @jit_exact_loop
 def row_of_speed(speeds, omega):
-    """Row of the tables made at increasing `speeds` of the shaft, and weight of the next, at the speed `omega`."""
+    """Row of the tables made at increasing `speeds` of the shaft, and weight of the next, at the speed `omega`.
+
+    Above the highest speed the tables of that speed hold.
+    """
     if speeds.size < 2:
         return 0, 0.0
+    omega = min(omega, speeds[-1])
     row = min(max(interval(speeds, omega), 0), speeds.size - 2)
     low, high = speeds[row] ** FILM_GROWTH, speeds[row + 1] ** FILM_GROWTH
     return row, (omega**FILM_GROWTH - low) / (high - low)

@@ -21,6 +21,10 @@ def flat_nodes(nodes: Mapping[str, Mapping[str, int]]) -> tuple[tuple[str, ...],
     return names, np.array([place for at in nodes.values() for place in at.values()], np.int64)
 
 
+class NodeError(InputError, AttributeError):
+    """A name that no node has; an `AttributeError` too, for `hasattr` of properties such as `disc`."""
+
+
 class ByNode:
     """Base of what has `names` of degrees of freedom, as "disc x", and their `places`."""
 
@@ -41,7 +45,7 @@ class ByNode:
         nodes = self.nodes
         if name not in nodes:
             known = f"one of {', '.join(nodes)}" if nodes else "none: the rotor has no names"
-            raise InputError("node", name, known)
+            raise NodeError("node", name, known)
         if nodes[name].keys().isdisjoint(PLANE):
             places = ", ".join(f"nodes[{name!r}][{one!r}] = {place}" for one, place in nodes[name].items())
             raise InputError("node", name, f"one that moves across the shaft; its degrees of freedom are {places}")

@@ -14,7 +14,7 @@ double film_speed(double omega)
 
 SpeedRow speed_row(double omega)
 {
-    const double rolling = film_speed(omega);
+    const double highest = table_speeds[SPEED_ROWS - 1], rolling = fmin(film_speed(omega), highest);
     SpeedRow at = {0, 0.0, 0.0};
 #if SPEED_ROWS > 1
     double low, high;
@@ -24,7 +24,7 @@ SpeedRow speed_row(double omega)
     low = pow(table_speeds[at.row], film_growth);
     high = pow(table_speeds[at.row + 1], film_growth);
     at.weight = (pow(rolling, film_growth) - low) / (high - low);
-    at.slope = rolling > table_speeds[0] ? film_growth * pow(rolling, film_growth - 1.0) / (high - low) : 0.0;
+    at.slope = rolling == omega && omega > table_speeds[0] ? film_growth * pow(rolling, film_growth - 1.0) / (high - low) : 0.0;
 #else
     (void)rolling;
     (void)film_growth;

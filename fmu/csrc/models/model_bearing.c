@@ -89,7 +89,7 @@ static FilmPlace at_speed(Dual omega)
 {
     FilmPlace at = {0, 0, {0.0, 0.0}, {0.0, 0.0}};
 #if SPEED_ROWS > 1
-    const double rolling = film_speed(omega.x);
+    const double rolling = fmin(film_speed(omega.x), table_speeds[SPEED_ROWS - 1]);
     at.row = speed_row(omega.x).row;
     {
         const double per_ratio = 1.0 / log(table_speeds[at.row + 1] / table_speeds[at.row]);

@@ -1,6 +1,8 @@
 """FMUs of ball bearings beside the bearings in Python: forces, parameters, films, faults, a mass on the ring."""
 
+import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -185,6 +187,27 @@ def test_what_no_bearing_does_is_told_and_leaves_a_usable_instance(made, wrong, 
     slave.step_to(float(trial.time[1]))
     assert slave.get("force_y")[0] == pytest.approx(trial.force[1, 1], rel=1e-9)
     slave.free()
+
+
+def test_films_hold_above_the_highest_speed_of_the_tables(made):
+    """At rest: films of that speed, which would be a fifth thicker."""
+    found = []
+    for share in (1.0, 1.3):
+        slave = made("range").started(x=0.0, y=-1.3e-5, speed=share * RPM * RPM_TO_RAD_S)
+        found.append(slave.get("smallest_film", "force_y"))
+        slave.free()
+    assert found[1] == pytest.approx(found[0], rel=5e-3)
+
+
+def test_tilts_have_terminals_too(made):
+    with zipfile.ZipFile(made("five", 3).path) as archive:
+        root = ElementTree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
+    found = {one.get("name"): one for one in root.iter("Terminal")}
+    assert list(found) == ["x", "y", "z", "tilt_x", "tilt_y"]
+    assert [m.get("variableName") for m in found["tilt_y"]] == ["tilt_y", "tilt_rate_y", "moment_y"]
+    assert [m.get("memberName") for m in found["tilt_y"]] == ["phi", "w", "tau"]
+    assert "Rotational" in found["tilt_y"].get("terminalKind")
+    assert "Translational" in found["z"].get("terminalKind")
 
 
 def test_speed_and_loads_beyond_the_tables_are_flagged(made):

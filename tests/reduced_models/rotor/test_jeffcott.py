@@ -5,6 +5,7 @@ import pytest
 
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import ContactMount, JeffcottRotor
+from reduced_models.rotor.modes import RotorMode
 
 BODY = {"disc_mass": 20.0, "journal_mass": 1.0, "shaft_stiffness": 2e7}
 
@@ -127,3 +128,10 @@ def test_bad_mounts():
         JeffcottRotor(mounts=(), **BODY)
     with pytest.raises(InputError, match="half_angle"):
         JeffcottRotor.vee(half_angle=2.0, **BODY)
+
+
+def test_a_node_that_is_not_there_is_no_attribute():
+    mode = RotorMode(-1.0 + 100.0j, np.ones(2, complex), 0.0, 0.5, ("hub x", "hub y"), np.array([0, 1]))
+    assert not hasattr(mode, "disc") and not hasattr(mode, "journal")
+    with pytest.raises(InputError, match="one of hub"):
+        mode.node("disc")

@@ -15,12 +15,18 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_rotor,
 )
-from reduced_models.bearing.balls import speed_state
+from reduced_models.bearing.balls import row_of_speed, speed_state
 from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.speed_profile import law_speeds, turning_forces
 
 RANGE = np.array([500.0, 9000.0])
+
+
+def test_the_highest_speed_of_the_tables_holds_above_it():
+    speeds = np.array([100.0, 200.0, 400.0])
+    assert row_of_speed(speeds, 900.0) == (1, 1.0) == row_of_speed(speeds, 400.0)
+    assert row_of_speed(speeds, 200.0) == (0, 1.0) or row_of_speed(speeds, 200.0) == (1, 0.0)
 
 
 def test_forces_at_rest_do_not_jump_where_laws_change(film):
