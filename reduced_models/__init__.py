@@ -22,6 +22,8 @@ from reduced_models.bearing.excitation import BearingExcitation as BearingExcita
 from reduced_models.bearing.features import BallDiameter as BallDiameter
 from reduced_models.bearing.features import BallWaviness as BallWaviness
 from reduced_models.bearing.features import RaceWaviness as RaceWaviness
+from reduced_models.bearing.measured_order import angle_from_order as angle_from_order
+from reduced_models.bearing.measured_order import clearance_from_order as clearance_from_order
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
 from reduced_models.bearing.set_result import SetState as SetState
 from reduced_models.elements.base import ContactElement as ContactElement

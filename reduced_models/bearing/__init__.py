@@ -16,6 +16,7 @@
 | arrangement | `BearingSet`: pairs and other sets on one shaft, their preload and growth |
 | static_set | forces and impedances of the bearings of a set, in the frame of the shaft |
 | kinematics | cage, balls and defect frequencies |
+| measured_order | contact angle and clearance from a measured defect order |
 | race | one contact: geometry, oil, element at a speed; the only module that imports the atlas |
 | race_table | load over deflection of a race and its memory gains, tabulated over approach and speed |
 | race_contact | compiled: time step of one ball on one race: filters once, force and tangents per iteration |
