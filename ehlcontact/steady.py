@@ -28,7 +28,7 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
-from ehlcontact.supply import OilLayer
+from ehlcontact.supply import OilLayer, require_supply
 
 LARGEST_RESIDUAL = 0.1  # relative, of a converged film: what is solved is judged by the pressure
 LOAD_TOLERANCE = 1e-7
@@ -117,8 +117,6 @@ def solve_steady(
     require_instance("refine", refine, bool | np.bool_, "True or False")
     require_choice("method", method, tuple(METHODS))
     require_grid(grid)
-    if supply is not None:
-        require_instance("supply", supply, OilLayer, "an OilLayer(h, ...)")
     threads = require_threads("threads", threads)
     if budget != inf:
         require_positive("budget", budget)
@@ -128,8 +126,7 @@ def solve_steady(
         balance = Balance.of_approach(require_finite("approach", approach))
         load = min(max(approach, 1.0), LARGEST_APPROACH) ** 1.5  # of a dry contact
     moes, scales = require_solvable(point, load), scales_of(point)
-    if supply is not None:
-        supply.unit(moes, scales, nan)  # raises where it has none
+    require_supply(supply, moes, scales)
     cut_short = max_cycles < MAX_CYCLES  # the caller's own limit: nothing else is what was asked for
     tried = []
     for attempt in attempts(
@@ -196,8 +193,7 @@ class _Film:
                 return status
             flooded = self.multigrid.finest.central_film()
             self.track = IterationHistory()
-        layer, unit = self.supply, self.supply.unit(self.multigrid.point, self.scales, flooded)
-        self.multigrid = self._make(supply=lambda Y: unit * layer.at(Y))
+        self.multigrid = self._make(supply=self.supply.lines(self.multigrid.point, self.scales, flooded))
         return self._solve(balance, tol, most, watch)
 
     def _solve(
@@ -271,6 +267,4 @@ def _content(level: Level) -> dict[str, Any]:
     through[:, 1:-1] = 0.5 * (carried[:, :-2] + carried[:, 1:-1])
     content = np.where(level.P > 0.0, 1.0, np.minimum(through / room, 1.0))
     content[-1] = content[-2]
-    leaving = carried[:, -2].copy()
-    leaving[-1] = leaving[-2]
-    return {"content": content.T.copy(), "layer": level.inflow.copy(), "layer_behind": leaving}
+    return {"content": content.T.copy(), "layer": level.inflow.copy(), "layer_behind": level.leaving()}

@@ -5,14 +5,15 @@ How the solver uses it: `ehlcontact.solver.kernels.supply`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import nan
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_nonnegative
+from ehlcontact.checks import as_column, require_instance, require_nonnegative
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.jit import plain
@@ -110,6 +111,11 @@ class OilLayer:
             return 1.0 / scales.length
         return flooded * float(plain(density)(1.0, point.law)[0]) if self.needs_flooded else 1.0
 
+    def lines(self, point: MoesPoint, scales: Scales | None, flooded: float) -> Callable[[Array], Array]:
+        """Layer at the lines Y in dry approaches, as the solver takes it; arguments as of `unit`."""
+        unit = self.unit(point, scales, flooded)
+        return lambda Y: unit * self.at(Y)
+
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON."""
         value = getattr(self, self._name)
@@ -120,6 +126,13 @@ class OilLayer:
     def from_dict(cls, entries: Mapping[str, Any]) -> OilLayer:
         """Back from `to_dict`."""
         return cls(**entries)
+
+
+def require_supply(supply: OilLayer | None, point: MoesPoint, scales: Scales | None) -> None:
+    """Raise `InputError` unless it is a layer that the point has a unit for, or None."""
+    if supply is not None:
+        require_instance("supply", supply, OilLayer, "an OilLayer(h, ...)")
+        supply.unit(point, scales, nan)
 
 
 def _thickness(name: str, value: Any) -> float | tuple[float, ...]:

@@ -11,7 +11,19 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.optimize import minimize_scalar
 
-from ehlcontact import Domain, Geometry, Grid, Lubricant, MoesPoint, OilLayer, OperatingPoint, solve_steady
+from ehlcontact import (
+    Domain,
+    Geometry,
+    Grid,
+    HarmonicLoad,
+    Lubricant,
+    MoesPoint,
+    OilLayer,
+    OperatingPoint,
+    TimeSteps,
+    simulate,
+    solve_steady,
+)
 
 IMAGES = Path(__file__).parents[1] / "images"
 POINTS = (MoesPoint(20, 10, 1), MoesPoint(200, 10, 1), MoesPoint(200, 10, 0.5), MoesPoint(2900, 19, 0.11))
@@ -94,7 +106,28 @@ def case_a() -> None:
         print(f"{1e6 * film.si.h_central:.3f} um, {1e6 * film.si.h_min:.3f} um", *str(film).splitlines()[4:5])
 
 
+def through_time() -> None:
+    """Central film under an oscillating load, and the layer that leaves."""
+    figure = Figure(figsize=(9.0, 3.6), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    motion, time = HarmonicLoad(amplitude=0.3, Omega=2.0), TimeSteps(periods=2, steps_per_period=60)
+    for ratio in (None, 1.5, 1.0, 0.6):
+        supply = None if ratio is None else OilLayer(over_flooded=ratio)
+        run = simulate(CIRCLE, motion, grid=Grid(128), supply=supply, time=time)
+        left.plot(run.T, run.h_central, label="flooded" if ratio is None else f"r = {ratio:g}")
+        if ratio == 1.0:
+            mesh = right.pcolormesh(
+                run.T, run.Y, run.layer_behind.T, cmap="cividis", shading="gouraud", rasterized=True
+            )
+    left.set(xlabel="T u_sum/(2a)", ylabel="central film over the dry approach", ylim=(0.0, None))
+    left.legend(ncols=2, loc="lower left")
+    right.set(xlabel="T u_sum/(2a)", ylabel="y/b", ylim=(0.0, 2.0))
+    figure.colorbar(mesh, ax=right, label="layer behind over the dry approach")
+    figure.savefig(IMAGES / "oil_through_time.png", dpi=130)
+
+
 if __name__ == "__main__":
+    through_time()
     map_of_a_film()
     grids()
     case_a()

@@ -45,6 +45,17 @@ class Fields(NamedTuple):
     h_coef: Array  # (6, ny + 1, nx + 1)
 
 
+class Fronts(NamedTuple):
+    """First full nodes behind partly filled ones, arrays (k,) each (`kernels.supply`)."""
+
+    nodes: NDArray[np.int64]  # flat numbers
+    by_pressure: Array  # derivatives of the flow pressed back over a cell's area: to their pressure,
+    by_film: Array  # to their film,
+    by_film_before: Array  # and to that of the node before
+    passed: Array  # way of the front over the cell between: 0 at the full node, 1 at the one before
+    stored: Array  # what the first full node stores while the front passes, over the flow pressed back meanwhile
+
+
 class Level:
     """One mesh of nx intervals along X and ny along Y >= 0, with its state P, H and its equations.
 
@@ -81,8 +92,9 @@ class Level:
         )
         self.rhs = np.zeros(shape)
         # Where oil runs short: the layer that enters, what the surfaces carry through the face behind each node,
-        # and right-hand sides with it
-        self.inflow, self.carried, self.supplied = np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0))
+        # what its cell holds, and right-hand sides with both
+        self.inflow = np.zeros(0)
+        self.carried, self.stored, self.supplied = (np.zeros((0, 0)) for _ in range(3))
         self.film_shift: Array | float = 0.0
         self.c_t = 0.0
         self.r = np.zeros(shape)  # residual of the Reynolds equation, zero on the border
@@ -122,7 +134,7 @@ class Level:
             self.inflow = np.zeros(0)
             return
         if not self.carried.size:
-            self.carried, self.supplied = np.zeros_like(self.rhs), np.zeros_like(self.rhs)
+            self.carried, self.stored, self.supplied = (np.zeros_like(self.rhs) for _ in range(3))
         self.inflow = layer
 
     def empty_inlet(self, u: float) -> None:
@@ -143,9 +155,14 @@ class Level:
         return bool(self.inflow.size) and self.inflow.max() < STARVED_SHARE * self.expected_film
 
     @property
-    def supply_arrays(self) -> tuple[Array, Array, Array, Array]:
+    def supply_arrays(self) -> tuple[Array, Array, Array, Array, Array]:
         """What the passes along the cavitation boundary carry a supply with, or go without one."""
-        return self.rhs, self.inflow, self.carried, self.given
+        return self.rhs, self.inflow, self.carried, self.stored, self.given
+
+    @property
+    def oil(self) -> Array:
+        """What the cell of each node holds, over its area: what changes in time in the equations."""
+        return self.stored if self.inflow.size else self.fields.flow.mass
 
     @property
     def given(self) -> Array:
@@ -160,6 +177,17 @@ class Level:
         full[:, 0] = (2.0 * m[:, 0] + 5.0 * m[:, 1] - m[:, 2]) / 6.0
         return full
 
+    def leaving(self) -> Array:
+        """Layer that the surfaces carry away on each line, shape (ny + 1,); empty where the inlet is flooded.
+
+        The last line, on the border, takes that of the line before it.
+        """
+        if not self.inflow.size:
+            return np.zeros(0)
+        behind = self.carried[:, -2].copy()
+        behind[-1] = behind[-2]
+        return behind
+
     def restrict_supply(self, fine: Level) -> None:
         """Take over from `fine` how much is missing of a full gap; rhs, of a full film, gets what goes with it.
 
@@ -173,7 +201,12 @@ class Level:
         short = np.zeros_like(self.rhs)
         short[:-1, :-1] = (fine.full_flow() - fine.carried)[:-1:across, :-1:along]
         self.rhs[:-1, 1:-1] += (short[:-1, 1:-1] - short[:-1, :-2]) / self.hx
-        self.set_supply(self.full_flow()[:, 0] - (missing - fine.inflow)[::across])
+        full = self.full_flow()
+        self.set_supply(full[:, 0] - (missing - fine.inflow)[::across])
+        if self.c_t > 0.0:
+            f = self.fields
+            supply.store_supply(0, self.ny, f.P, f.flow, self.stencil, full - short, self.stored)
+            self.rhs[:-1, 1:-1] += self.c_t * (f.flow.mass - self.stored)[:-1, 1:-1]
         self._carry_supply()
 
     def feeds(self, derivatives: tuple[Array, Array]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -188,15 +221,18 @@ class Level:
         feeding = np.flatnonzero(target >= 0)
         return feeding, target.ravel()[feeding]
 
-    def pressed_back(self) -> tuple[NDArray[np.int64], Array, Array, Array]:
-        """Flat numbers of the first full nodes, and derivatives of the flow that they press back.
-
-        To their pressure, to their film, and to that of the node before, over a cell's area.
-        """
-        before = np.flatnonzero(self.fields.flow.open.ravel() == 0.0)
-        slopes = np.empty((3, before.size))
-        supply.linearise_pressed_back(before, self.fields.P, self.fields.flow, self.stencil, slopes)
-        return before + 1, slopes[0], slopes[1], slopes[2]
+    def fronts(self) -> Fronts:
+        """Where full film begins behind partly filled nodes."""
+        f = self.fields
+        before = np.flatnonzero(f.flow.open.ravel() <= 0.0)
+        slopes = np.empty((4, before.size))
+        supply.linearise_pressed_back(before, f.P, f.flow, self.stencil, slopes)
+        full = self.full_flow().ravel()
+        back = self.hx * slopes[3]
+        given = self.carried.ravel()[before] - back
+        room, own = full[before] - given, f.flow.mass.ravel()[before + 1]
+        stored = (own - 0.5 * (given + full[before + 1])) / room
+        return Fronts(before + 1, slopes[0], slopes[1], slopes[2], back / room, stored)
 
     @property
     def P(self) -> Array:
@@ -244,8 +280,9 @@ class Level:
     def _carry_supply(self) -> None:
         f = self.fields
         if self.inflow.size:
-            given = (f.P, f.flow, self.rhs, self.inflow, self.stencil, self.carried, self.supplied)
-            self.team.run(supply.carry_supply, self.ny, *given, least=LIGHT)
+            given = (f.P, f.flow, self.rhs, self.inflow, self.stencil, self.c_t)
+            written = (self.carried, self.stored, self.supplied)
+            self.team.run(supply.carry_supply, self.ny, *given, *written, least=LIGHT)
 
     def density(self) -> Array:
         """Density at the present P, over ambient density."""

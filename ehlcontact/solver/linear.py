@@ -78,6 +78,12 @@ def stencil_matrix(offsets: Offsets, coefficients: Array, shape: tuple[int, int]
     return sparse.csr_matrix(entries, shape=(node.size, node.size))
 
 
+def _entries(size: int, *entries: tuple[Any, Any, Any]) -> Any:
+    """Square sparse matrix of rows, columns and values."""
+    rows, columns, values = (np.concatenate(part) for part in zip(*entries, strict=True))
+    return sparse.csr_matrix((values, (rows, columns)), shape=(size, size))
+
+
 class LinearFilm:
     """Linearisation of a level at its present P, H and eps over the free nodes, closed by a balance.
 
@@ -100,26 +106,41 @@ class LinearFilm:
         self.by_pressure = stencil_matrix(NEIGHBOUR_OFFSETS, p_coef, free.shape)
         self.by_film = stencil_matrix(NEIGHBOUR_OFFSETS, h_coef, free.shape)
         self.by_approach = -h_coef.sum(axis=0).ravel()
-        if feeding.size:  # what is pressed into partly filled nodes comes to the full one behind them, later
-            on_time = (1.0 + self.c_t * level.hx) ** -(fed - feeding)
-            passed_on = sparse.csr_matrix((on_time, (fed, feeding)), shape=(free.size, free.size))
-            self.by_pressure = self.by_pressure + passed_on @ self.by_pressure
-            self.by_film = self.by_film + passed_on @ self.by_film
-            self.by_approach = self.by_approach + passed_on @ self.by_approach
-        if level.inflow.size and self.c_t != 0.0:
-            self._move_front(level)
+        if level.inflow.size:
+            self._supply(level, feeding, fed)
         self.deflection = level.deflection
         self.weights = level.force_weights.ravel()
         self.scale = BALANCE_WEIGHT * sqrt(max(1.0, float(np.count_nonzero(free))))  # of the last row
 
-    def _move_front(self, level: Level) -> None:
-        """Add what the last partly filled nodes store of the flow pressed back into them: the front moves."""
-        front, by_pressure, by_own_film, by_film_before = level.pressed_back()
-        rate = 1.0 / (1.0 + self.c_t * level.hx) - 1.0
-        size, before = self.free.size, front - 1
-        self.by_pressure = self.by_pressure + sparse.csr_matrix((rate * by_pressure, (front, front)), (size, size))
-        film = sparse.csr_matrix((rate * by_own_film, (front, front)), (size, size))
-        film = film + sparse.csr_matrix((rate * by_film_before, (front, before)), (size, size))
+    def _supply(self, level: Level, feeding: NDArray[np.int64], fed: NDArray[np.int64]) -> None:
+        """Add what partly filled nodes pass on to the full ones behind them, later, and what moving fronts store.
+
+        `feeding` and `fed` as of `Level.feeds`. The stored oil is that of `kernels.supply`.
+        """
+        fronts, size, half = level.fronts(), self.free.size, 0.5 * self.c_t * level.hx
+        arrives = np.ones(size, dtype=np.result_type(half, float))  # share of a given flow that is not stored
+        arrives[fronts.nodes] -= half * (1.0 - fronts.passed + 2.0 * fronts.stored * fronts.passed)
+        if feeding.size:
+            lag = ((1.0 - half) / (1.0 + half)) ** (fed - feeding - 1) / (1.0 + half)
+            passed_on = sparse.csr_matrix((lag * arrives[fed], (fed, feeding)), shape=(size, size))
+            self.by_pressure = self.by_pressure + passed_on @ self.by_pressure
+            self.by_film = self.by_film + passed_on @ self.by_film
+            self.by_approach = self.by_approach + passed_on @ self.by_approach
+        if self.c_t == 0.0 or not fronts.nodes.size:
+            return
+        # The front: what is pressed back moves it, and what it passes is stored
+        own = fronts.nodes
+        back = -half / (1.0 + half) * arrives[own] - 2.0 * half * fronts.stored
+        self.by_pressure = self.by_pressure + _entries(size, (own, own, back * fronts.by_pressure))
+        film = _entries(size, (own, own, back * fronts.by_film), (own, own - 1, back * fronts.by_film_before))
+        # By the film: of a full gap at the node, through the face behind it, and through the face before it
+        rest, moved = 1.0 - fronts.passed, fronts.stored * fronts.passed
+        shares = (-moved, 5.0 * moved + 0.5 * rest, 3.5 * rest + 2.0 * moved, -rest)
+        entries = ((own, own + k - 2, self.c_t / 6.0 * share) for k, share in enumerate(shares))
+        mass = _entries(size, *entries)
+        flow = level.fields.flow
+        film = film + mass @ sparse.diags(flow.rho.ravel())
+        self.by_pressure = self.by_pressure + mass @ sparse.diags(flow.mass_slope.ravel())
         self.by_film = self.by_film + film
         self.by_approach = self.by_approach - np.asarray(film.sum(axis=1)).ravel()
 

@@ -34,7 +34,7 @@ from ehlcontact.version import __version__
 SAME = 1e-12  # of a time or a step: they differ by rounding only
 
 
-@stored("checkpoint of `simulate`")
+@stored("checkpoint of `simulate`", 2)
 @dataclass(frozen=True, slots=True, eq=False)
 class Checkpoint:
     """Content of the file: the run up to its last accepted state, and that state."""
@@ -87,7 +87,7 @@ class Checkpoint:
 
         same("version", self.version, __version__)
         ours = self.inputs
-        for name in ("point", "deflection"):
+        for name in ("point", "deflection", "supply"):
             same(name, getattr(ours, name), getattr(asked, name))
         for name in ("n", "domain"):
             same(name, getattr(ours.mesh, name), getattr(asked.mesh, name))
@@ -120,6 +120,7 @@ class Checkpoint:
         shapes: list[tuple[np.ndarray, tuple[int, ...]]] = [
             (record.numbers, (steps, len(COLUMNS))),
             *((profile, (steps, nx)) for profile in (record.film, record.pressure)),
+            (record.leaving, (steps, level.ny + 1 if self.inputs.supply is not None else 0)),
             *((snapshots, (kept, nx, level.ny + 1)) for snapshots in (record.snapshot_H, record.snapshot_P)),
             *((array, field) for array in (film.P, film.mass, film.mass_before, *(P for _, P in film.past))),
         ]

@@ -17,6 +17,7 @@ from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
+from ehlcontact.supply import OilLayer, require_supply
 from ehlcontact.transient.time_step import DEFAULT_TOL
 from ehlcontact.transient.transient_film import FilmState, Step, TransientFilm
 
@@ -33,6 +34,8 @@ class FullContact(Summary):
     grid : Grid
         Intervals along X, by default as many as the inlet needs, 80 or more; computed region, by default wide
         enough for `largest_load` and widened until it holds the film at rest; engine of the elastic deflection.
+    supply : OilLayer, optional
+        Oil that the surfaces carry to the contact, as in `simulate`; by default the inlet is flooded.
     largest_load : float
         Largest force to expect, in static loads.
     tol : float
@@ -72,6 +75,7 @@ class FullContact(Summary):
         point: Point,
         *,
         grid: Grid = AUTOMATIC,
+        supply: OilLayer | None = None,
         largest_load: float = 1.0,
         tol: float = DEFAULT_TOL,
         threads: int | None = None,
@@ -79,14 +83,15 @@ class FullContact(Summary):
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         require_grid(grid)
+        require_supply(supply, self.point, self.scales)
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)
         left: Step | None = None
         for mesh in wider_meshes(self.point, Purpose.CONTACT, grid, largest_load=load):
-            self._film = TransientFilm(self.point, mesh, tol, grid.deflection, threads)
+            self._film = TransientFilm.under(supply, self.point, self.scales, mesh, tol, grid.deflection, threads)
             self.n, self.domain = mesh.n, mesh.domain
             start = self._film.start_steady(Balance.of_load())
-            if start.status is not Status.OUT_OF_DOMAIN:
+            if start.status not in (Status.OUT_OF_DOMAIN, Status.BEYOND_REGION):
                 break
             left = left or start
         self._check(start if start.status.ok else left or start)

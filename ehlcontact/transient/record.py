@@ -29,6 +29,7 @@ class Entry:
     h_min: float
     film: Array  # (nx + 1,) along Y = 0
     pressure: Array  # (nx + 1,) along Y = 0
+    leaving: Array  # (ny + 1,): oil on the surfaces behind the contact; empty of a flooded inlet
     step: Step  # that led here
 
     @classmethod
@@ -42,16 +43,17 @@ class Entry:
             level.central_film(),
             level.lowest_film(),
             *film.midplane,
+            level.leaving(),
             step,
         )
 
     @classmethod
-    def of_numbers(cls, numbers: Sequence[float], film: Array, pressure: Array) -> Entry:
+    def of_numbers(cls, numbers: Sequence[float], film: Array, pressure: Array, leaving: Array) -> Entry:
         """Entry of a step that was solved, from its `numbers` and profiles."""
         T, u, rate, acceleration, force, load, h_central, h_min, residual, load_residual, cycles = numbers
         step = Step(residual, load_residual, int(cycles), Status.CONVERGED)
         motion = MotionState(T, u, rate, acceleration)
-        return cls(motion, force, load, h_central, h_min, film, pressure, step)
+        return cls(motion, force, load, h_central, h_min, film, pressure, leaving, step)
 
     def numbers(self) -> tuple[float, ...]:
         """All but the profiles, in the order of `COLUMNS`."""
@@ -82,6 +84,7 @@ class Record:
     numbers: Array  # (steps + 1, columns), see `COLUMNS`
     film: Array  # (steps + 1, nx + 1) along Y = 0
     pressure: Array  # (steps + 1, nx + 1) along Y = 0
+    leaving: Array  # (steps + 1, ny + 1), or (steps + 1, 0) of a flooded inlet
     snapshot_T: Array  # (k,)
     snapshot_H: Array  # (k, nx + 1, ny + 1)
     snapshot_P: Array  # (k, nx + 1, ny + 1)
@@ -97,9 +100,8 @@ class Record:
 
     def entries(self) -> list[Entry]:
         """The entries it was made of, each of which was solved."""
-        return [
-            Entry.of_numbers(*row) for row in zip(self.numbers.tolist(), self.film, self.pressure, strict=True)
-        ]
+        rows = zip(self.numbers.tolist(), self.film, self.pressure, self.leaving, strict=True)
+        return [Entry.of_numbers(*row) for row in rows]
 
 
 class History:
@@ -134,6 +136,7 @@ class History:
             numbers=np.array([entry.numbers() for entry in rows]),
             film=np.array([entry.film for entry in rows]),
             pressure=np.array([entry.pressure for entry in rows]),
+            leaving=np.array([entry.leaving for entry in rows]),
             snapshot_T=np.array([T for T, _, _ in taken]),
             snapshot_H=np.array([H for _, H, _ in taken]).reshape(shape),
             snapshot_P=np.array([P for _, _, P in taken]).reshape(shape),

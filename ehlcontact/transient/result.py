@@ -32,6 +32,7 @@ from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, span
+from ehlcontact.supply import OilLayer
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.transient.time_step import coarse_step_note, coarse_tolerance_note
@@ -70,7 +71,7 @@ class Instants(QuantityTable):
         ]
 
 
-@stored("result of simulate")
+@stored("result of simulate", 2)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SimulationResult(ScaledTable, Origin):
     """History of a transient contact, dimensionless; entry 0 is the initial state at T = 0. ``si`` has it in SI.
@@ -113,6 +114,12 @@ class SimulationResult(ScaledTable, Origin):
     status : Status
     tol : float or None
         Residual at which its steps counted as solved, relative to the central film at rest.
+    supply : OilLayer or None
+        As given to `simulate`; None of a flooded inlet, and with it the following two.
+    layer : ndarray or None, shape (ny + 1,)
+        Oil on both surfaces ahead of the contact, over the dry approach; in SI [m].
+    layer_behind : ndarray or None, shape (steps + 1, ny + 1)
+        Oil on both surfaces where they leave the computed region; in SI [m].
     film_error : ErrorEstimate or None
         How far approach and films at T = 0 may be from those of an endless fine mesh on the same region; None of a
         start that is not solved. In SI its approach is in m.
@@ -144,6 +151,9 @@ class SimulationResult(ScaledTable, Origin):
     status: Status
     tol: float | None = None
     film_error: ErrorEstimate | None = None
+    supply: OilLayer | None = None
+    layer: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
+    layer_behind: Annotated[Array | None, LENGTH.over("T Y", listed=False)] = None
 
     DISPLAY: ClassVar[Display] = Display(
         rows="T", panels=("force load", "approach", "h_central h_min", "h_midplane")
@@ -167,6 +177,19 @@ class SimulationResult(ScaledTable, Origin):
     def Omega_n(self) -> Annotated[float | None, MASS.in_si_only("mass")]:
         """Natural frequency of the motion (eq. 5), None without inertia; in SI the mass."""
         return getattr(self.motion, "Omega_n", None)
+
+    @property
+    def supply_behind(self) -> OilLayer:
+        """What the surfaces carry away at the end, as the supply of the next contact of the same size.
+
+        Raises
+        ------
+        InputError
+            The inlet was flooded.
+        """
+        if self.layer_behind is None:
+            raise InputError("supply", None, "given: what leaves a flooded contact is not known")
+        return OilLayer(H=self.layer_behind[-1], y=self.Y)
 
     @property
     def steps(self) -> int:
@@ -271,5 +294,6 @@ class SimulationResult(ScaledTable, Origin):
                 "reservation": self.reservation,
                 "motion": self.motion.to_dict(),
             }
+            | ({} if self.supply is None else {"supply": self.supply.to_dict()})
             | self.origin_dict()
         )

@@ -23,7 +23,8 @@ from ehlcontact.transient.time_step import (
 )
 from ehlcontact.transient.transient_film import FilmState, TransientFilm
 
-HOPELESS = (Status.OUT_OF_DOMAIN, Status.UNRESOLVED)  # no shorter step mends these
+# No shorter step mends these
+HOPELESS = (Status.OUT_OF_DOMAIN, Status.BEYOND_REGION, Status.UNRESOLVED, Status.STARVED)
 RESTART_CUT = 0.25  # of the step, where the motion turns a corner
 
 

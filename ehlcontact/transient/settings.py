@@ -16,6 +16,7 @@ from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.mesh import Mesh
+from ehlcontact.supply import OilLayer
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.transient.time_step import default_tol
@@ -220,6 +221,7 @@ class RunInputs:
     snapshots: tuple[float, ...]  # times whose whole fields are kept
     deflection: str  # engine
     speed: SpeedHistory | None = None
+    supply: OilLayer | None = None  # None of a flooded inlet
 
 
 def even_step(until: float, dT: float) -> float:

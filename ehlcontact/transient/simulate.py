@@ -21,6 +21,7 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.store import load
+from ehlcontact.supply import OilLayer, require_supply
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
 from ehlcontact.transient.features import Dent, Surface, require_surface, surface_height
@@ -51,6 +52,7 @@ def simulate(
     motion: Motion,
     *,
     grid: Grid = AUTOMATIC,
+    supply: OilLayer | None = None,
     time: TimeSteps = BY_MOTION,
     speed: SpeedHistory | None = None,
     surface: Surface | None = None,
@@ -58,8 +60,6 @@ def simulate(
     run: RunSettings = UNATTENDED,
 ) -> SimulationResult:
     """Integrate the transient contact (eqs. 1, 3, 5, 6) from rest under the given motion.
-
-    The inlet is flooded; a layer of oil (`OilLayer`) is for `solve_steady` and `impedance`.
 
     Parameters
     ----------
@@ -71,6 +71,10 @@ def simulate(
         Intervals along X, by default as many as the inlet needs, 128 or more; computed region, by default wide
         enough for the largest load of the motion (where the film leaves it, the run begins again on a wider one);
         engine of the elastic deflection.
+    supply : OilLayer, optional
+        Oil that the surfaces carry to the contact, the same at all times, as in `solve_steady`. What leaves is
+        ``result.layer_behind``. By default the inlet is flooded up to the border of the region. Not together with
+        `speed` or `surface`.
     time : TimeSteps
         End, step, tolerances; in seconds for an `OperatingPoint`, in 2a/u_sum for a `MoesPoint`.
     speed : SpeedHistory, optional
@@ -111,18 +115,24 @@ def simulate(
     wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load, reverses=reverses)
     mesh = next(wider)
     meshes = chain([mesh], wider)
+    require_supply(supply, moes, scales_of(point))
+    for name, value in (("surface", surface), ("speed", speed)):
+        if supply is not None and value is not None:
+            raise InputError(name, type(value).__name__, "left out with a supply")
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
     scales = scales_of(point)
     unit = 1.0 if scales is None else scales.time
     steps = StepPlan.of(motion, time, unit, default_fixed_step(motion, surface, spacing, speed))
-    inputs = RunInputs(moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed)
+    inputs = RunInputs(
+        moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed, supply
+    )
     if keep.checkpoint is not None:
         require_replaceable(keep.checkpoint, keep.restart)
     threads = require_threads("threads", run.threads)
 
     def film_on(mesh: Mesh) -> TransientFilm:
-        film = TransientFilm(moes, mesh, steps.tol, grid.deflection, threads)
+        film = TransientFilm.under(supply, moes, scales, mesh, steps.tol, grid.deflection, threads)
         if isinstance(surface, Roughness):
             surface.require_fit(film.level.X, film.level.Y, steps.until)
         return film
@@ -196,7 +206,7 @@ def _first_inside(
     left: tuple[Mesh, Run, RunEnd] | None = None
     for mesh in meshes:
         run, end = attempt(mesh)
-        if end.status is not Status.OUT_OF_DOMAIN:
+        if end.status not in (Status.OUT_OF_DOMAIN, Status.BEYOND_REGION):
             break
         left = left or (mesh, run, end)
     helped = end.status.ok or end.status is Status.INTERRUPTED
@@ -231,6 +241,9 @@ def _result(
         tol=inputs.steps.tol,
         film_error=run.film_error,
         seconds=seconds,
+        supply=inputs.supply,
+        layer=None if inputs.supply is None else level.inflow.copy(),
+        layer_behind=None if inputs.supply is None else record.leaving,
     )
 
 

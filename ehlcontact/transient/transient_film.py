@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
-from math import prod
+from math import nan, prod
 from typing import TypeVar
 
 import numpy as np
 
-from ehlcontact.point import MoesPoint
+from ehlcontact.errors import ConvergenceError
+from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse_newton import Factors
 from ehlcontact.solver.error_estimate import ErrorEstimate
@@ -22,8 +23,9 @@ from ehlcontact.solver.error_grids import estimate_error
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Array, Level
 from ehlcontact.solver.mesh import Mesh
-from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.solver.multigrid import Multigrid, Supply
 from ehlcontact.status import Status
+from ehlcontact.supply import OilLayer
 from ehlcontact.transient.features import SurfaceStep
 
 Quantity = TypeVar("Quantity", float, Array)
@@ -43,7 +45,7 @@ class FilmState:
 
     P: Array
     past: tuple[tuple[float, Array], ...]  # step that followed, and pressure, latest first
-    mass: Array  # rho H
+    mass: Array  # rho H, or the oil in the cells where it runs short
     mass_before: Array
     u: float
     dT: float  # the step that led here
@@ -77,12 +79,20 @@ class TransientFilm:
         Engine, as in `solve_steady`.
     threads : int
         As there.
+    supply : callable, optional
+        Layer of oil that enters at the lines Y, in dry approaches; by default the inlet is flooded.
     """
 
     def __init__(
-        self, point: MoesPoint, mesh: Mesh, tol: float, deflection: str = "fft", threads: int = 1
+        self,
+        point: MoesPoint,
+        mesh: Mesh,
+        tol: float,
+        deflection: str = "fft",
+        threads: int = 1,
+        supply: Supply | None = None,
     ) -> None:
-        self.multigrid = Multigrid(point, mesh, deflection=deflection, threads=threads)
+        self.multigrid = Multigrid(point, mesh, deflection=deflection, threads=threads, supply=supply)
         self.tol = tol
         self.scale = 1.0
         self._past: tuple[tuple[float, Array], ...] = ()
@@ -91,6 +101,35 @@ class TransientFilm:
         self._mass_before = self._mass.copy()
         self._dT = 0.0
         self.turned = False
+
+    @classmethod
+    def under(
+        cls,
+        supply: OilLayer | None,
+        point: MoesPoint,
+        scales: Scales | None,
+        mesh: Mesh,
+        tol: float,
+        deflection: str,
+        threads: int,
+    ) -> TransientFilm:
+        """Film under an oil supply, or flooded for None.
+
+        Raises
+        ------
+        ConvergenceError
+            The flooded film, which the supply is given over, was not solved.
+        """
+        if supply is None:
+            return cls(point, mesh, tol, deflection, threads)
+        flooded = nan
+        if supply.needs_flooded:
+            film = cls(point, mesh, tol, deflection, threads)
+            step = film.start_steady(Balance.of_load())
+            if not step.status.ok:
+                raise ConvergenceError(f"flooded film {step.status}: {step.status.advice}", step)
+            flooded = film.level.central_film()
+        return cls(point, mesh, tol, deflection, threads, supply.lines(point, scales, flooded))
 
     @property
     def level(self) -> Level:
@@ -142,7 +181,7 @@ class TransientFilm:
         # full multigrid may still overlap in the centre
         self.scale = max(self.level.central_film(), SMALLEST_SCALE)
         step = self._solve(balance, 2 * STEP_CYCLES)
-        self._mass = self.level.fields.flow.mass.copy()
+        self._mass = self.level.oil.copy()
         self._mass_before = self._mass
         self.forget_past()
         return step
@@ -199,7 +238,7 @@ class TransientFilm:
         step = self._solve(balance, STEP_CYCLES)
         self._past = ((dT, P_now), *self._past)[:PAST]
         self._past_u = (u_now, *self._past_u)[:PAST]
-        self._mass_before, self._mass = self._mass, level.fields.flow.mass.copy()
+        self._mass_before, self._mass = self._mass, level.oil.copy()
         self._dT = dT
         return step
 

@@ -82,7 +82,7 @@ def test_every_field_in_its_unit(steady, run):
     )
     for result, beside in (
         (steady, {"error_estimate", "layer", "layer_behind"}),  # no supply: the last two are None
-        (run, {"static_load", "mass", "omega", "hz", "film_error"}),
+        (run, {"static_load", "mass", "omega", "hz", "film_error", "layer", "layer_behind"}),
     ):
         si = result.si
         assert {name for name in UNITS if hasattr(result, UNITS[name][0])} | beside == names_of(si)

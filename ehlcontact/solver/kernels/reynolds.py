@@ -52,7 +52,9 @@ class Flow(NamedTuple):
     along_skew: Any
     across: Any  # mean of eps between j and j + 1
     across_skew: Any
-    open: Any  # between i and i + 1: 1, and 0 before a front of full film, through which a given flow comes
+    # Between i and i + 1: 1, and before a front of full film, through which a given flow comes, 0 or, in steps in
+    # time, less by the share of the flow pressed back that is felt behind it (`kernels.supply`)
+    open: Any
 
 
 def new_flow(shape: tuple[int, int]) -> Flow:
@@ -99,8 +101,9 @@ def update_node(j, i, P, H, law, stencil, flow):
 def update_along(j, i, flow):
     """Mean and skew between nodes i and i + 1; of eight nodes likewise."""
     mean, skew = flow_mean(at(flow.eps, j, i), at(flow.eps, j, i + 1))
-    put(flow.along, j, i, at(flow.open, j, i) * mean)
-    put(flow.along_skew, j, i, at(flow.open, j, i) * skew)
+    felt = larger(at(flow.open, j, i), -at(flow.open, j, i))
+    put(flow.along, j, i, felt * mean)
+    put(flow.along_skew, j, i, felt * skew)
 
 
 @jit_node

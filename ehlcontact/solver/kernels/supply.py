@@ -14,6 +14,18 @@ the face before it is closed to pressure, and its balance is written with Q in t
 there. So its pressure is that of a given flow, not of P = 0 beside it, also within the equations of a line. How
 far Q of the last partly filled node is from the layer towards G is where between two nodes the front lies:
 everything is continuous while the front moves through the nodes.
+
+What changes in time is the oil stored in the cells, dS/dT beside dQ/dX:
+
+- rho H where the gap is full, also at the node before;
+- half of Q through either face where it is partly filled, which is what moves with the surfaces; behind a full
+  node the share of G that Q is counts, of what makes S = rho H at Q = G;
+- behind the front ``s rho H + (1 - s)(Q' + G)/2``, with the flow Q' given through the face before it and
+  ``s = B/(G_before - Q')``: the flow B pressed back through that face over the largest that there can be, the way
+  of the front from this node to the one before.
+
+So while the front passes a cell, what is stored is that cell full less what the layer had brought into it, to
+second order, and it is continuous when nodes fill up. That makes the damping of starved contacts converge.
 """
 
 from ehlcontact.jit import inner, jit_loop, jit_node
@@ -46,48 +58,78 @@ def open_faces(first, last, flow):
     """Open all faces on lines `first` to `last` - 1."""
     for j in range(first, last):
         for i in range(flow.open.shape[1] - 1):
-            if flow.open[j, i] == 0.0:
+            if flow.open[j, i] != 1.0:
                 flow.open[j, i] = 1.0
                 update_along(j, i, flow)
 
 
+@jit_node
+def own_share(before, full, mass, behind_full):
+    """Part that Q has in the oil of a partly filled cell; Q through the face before it has one half."""
+    return (mass - 0.5 * before) / full if behind_full else 0.5
+
+
+@jit_node
+def stored_at_front(before, back, full_before, full, mass):
+    """Oil in the cell behind a front, by Q of the node before, of which `back` comes out of this cell."""
+    given = before - back
+    room = full_before - given
+    way = min(back / room, 1.0) if room > 0.0 else 1.0
+    return way * mass + (1.0 - way) * 0.5 * (given + full)
+
+
+@jit_node
+def front_weight(step):
+    """Share of the flow pressed back that the balance behind the front feels; `step` is c_t over 1/hx."""
+    return step / (1.0 + 0.5 * step)
+
+
 @inner
 @jit_loop
-def carry_line(j, P, flow, rhs, inflow, stencil, carried, supplied):
+def carry_line(j, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied):
     """`carry_supply` on line j."""
     h = 1.0 / stencil.inv_hx
+    weight = front_weight(c_t * h)
     full = full_flow(j, 0, flow.mass)
     carries = min(inflow[j], full)  # Q
     carried[j, 0] = carries
     short = full - carries  # of a full gap before this node
     partly = False  # the node before is; not the border, over which oil may flow back
-    pressed_back = 0.0  # into it, from the one behind it
+    behind_full = False
+    back = 0.0  # pressed into the node before, from this one
     for i in range(1, P.shape[1] - 1):
-        if flow.open[j, i] == 0.0:
+        if flow.open[j, i] != 1.0:
             flow.open[j, i] = 1.0
             update_along(j, i, flow)
-        full = full_flow(j, i, flow.mass)
+        full_before, full, mass = full, full_flow(j, i, flow.mass), flow.mass[j, i]
         fills = P[j, i] > 0.0
-        passed = full
+        passed, oil = full, mass
+        share = own_share(carries, full, mass, behind_full)
         if not fills:
-            passed = carries + h * (pressed_in(j, i, P, flow, stencil) - rhs[j, i])
+            given = carries + h * (pressed_in(j, i, P, flow, stencil) - rhs[j, i])
+            passed = (given - 0.5 * c_t * h * carries) / (1.0 + c_t * h * share)
             fills = passed > full
         if fills and partly:
-            flow.open[j, i - 1] = 0.0
-            flow.along[j, i - 1] = 0.0
-            flow.along_skew[j, i - 1] = 0.0
-            supplied[j, i] = rhs[j, i] - stencil.inv_hx * (carries - pressed_back)
-        else:
+            flow.open[j, i - 1] = -weight
+            update_along(j, i - 1, flow)
+            oil = stored_at_front(carries, back, full_before, full, mass)
+            supplied[j, i] = rhs[j, i] - stencil.inv_hx * (carries - back + weight * back) - c_t * (mass - oil)
+            supplied[j, i - 1] += stencil.inv_hx * weight * back  # what is pressed back has filled it already
+        elif fills:
             supplied[j, i] = rhs[j, i] + stencil.inv_hx * short
-        partly = not fills
-        pressed_back = h * stencil.cx * flow.along[j, i] * P[j, i + 1]
+        else:
+            supplied[j, i] = rhs[j, i] + stencil.inv_hx * short - c_t * (mass - 0.5 * carries - share * full)
+            oil = 0.5 * carries + share * passed
+        stored[j, i] = oil
+        partly, behind_full = not fills, fills
+        back = h * stencil.cx * flow.along[j, i] * P[j, i + 1]
         carries = full if fills else passed
         short = full - carries
         carried[j, i] = carries
 
 
 @jit_loop
-def carry_supply(first, last, P, flow, rhs, inflow, stencil, carried, supplied):
+def carry_supply(first, last, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied):
     """Flow through the faces of lines `first` to `last` - 1, from the inlet on, and right-hand sides with it.
 
     Parameters
@@ -96,12 +138,31 @@ def carry_supply(first, last, P, flow, rhs, inflow, stencil, carried, supplied):
         The layer that enters.
     carried : array (ny + 1, nx + 1)
         Q through the face behind each node, written; ``flow.open`` and ``flow.along`` likewise.
+    stored : array (ny + 1, nx + 1)
+        S of the cell of each node, written.
     supplied : array (ny + 1, nx + 1)
         Right-hand sides for which `reynolds.operator_at` is the balance above, written. Negative residuals at
         P = 0 are those of nodes that fill up.
     """
     for j in range(first, last):
-        carry_line(j, P, flow, rhs, inflow, stencil, carried, supplied)
+        carry_line(j, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied)
+
+
+@jit_loop
+def store_supply(first, last, P, flow, stencil, carried, stored):
+    """S of the cells of lines `first` to `last` - 1 with the Q of `carried`, all faces open; `stored` written."""
+    h = 1.0 / stencil.inv_hx
+    for j in range(first, last):
+        for i in range(1, P.shape[1] - 1):
+            mass, full, before = flow.mass[j, i], full_flow(j, i, flow.mass), carried[j, i - 1]
+            partly = i > 1 and P[j, i - 1] == 0.0
+            stored[j, i] = mass
+            if P[j, i] == 0.0:
+                share = own_share(before, full, mass, i > 1 and not partly)
+                stored[j, i] = 0.5 * before + share * carried[j, i]
+            elif partly:
+                back = h * stencil.cx * flow.along[j, i - 1] * P[j, i]
+                stored[j, i] = stored_at_front(before, back, full_flow(j, i - 1, flow.mass), full, mass)
 
 
 @jit_loop
@@ -123,7 +184,7 @@ def linearise_pressed_in(P, flow, stencil, p_coef, h_coef, target):
                 for q in range(NEIGHBOURS):
                     p_coef[q, j, i] = derivatives[q]
                     h_coef[q, j, i] = derivatives[NEIGHBOURS + q]
-            if flow.open[j, i - 1] == 0.0:
+            if flow.open[j, i - 1] <= 0.0:
                 front = j * (nx + 1) + i
             elif P[j, i - 1] > 0.0:
                 front = -1
@@ -131,10 +192,10 @@ def linearise_pressed_in(P, flow, stencil, p_coef, h_coef, target):
 
 @jit_loop
 def linearise_pressed_back(before, P, flow, stencil, slopes):
-    """Derivatives of the flow by pressure through the closed faces, as if they were open.
+    """Flow by pressure back through the closed faces, as if they were open, over a cell's area; its derivatives.
 
     `before` lists the flat numbers of the nodes before them; ``slopes[:, k]``, written, is to the pressure and to
-    the film of the node behind such a face, and to the film of that before it.
+    the film of the node behind such a face, and to the film of that before it, and last the flow itself.
     """
     width = P.shape[1]
     for k in range(len(before)):
@@ -145,3 +206,4 @@ def linearise_pressed_back(before, P, flow, stencil, slopes):
         slopes[0, k] = stencil.cx * mean + other * flow.eps_slope[j, i + 1]
         slopes[1, k] = other * flow.film_slope[j, i + 1]
         slopes[2, k] = own * flow.film_slope[j, i]
+        slopes[3, k] = drop * mean
