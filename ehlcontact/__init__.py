@@ -11,6 +11,7 @@ room              responsibility
 ``steady``        `solve_steady`
 ``supply``        `OilLayer`: the oil that the surfaces carry to a contact
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
+``speed_response`` `speed_response`: force over a change of speed, likewise
 ``excitation``    `excitation`: force of waves on a surface, likewise
 ``transient/``    film through time: motions, surfaces, `simulate`, `FullContact`
 ``assumptions/``  assumptions of every solve, each with the number that shows whether it holds
@@ -46,9 +47,10 @@ from ehlcontact.film import film_history, film_of, film_wave, interferogram, tra
 from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
-from ehlcontact.results import ExcitationResult, ImpedanceResult, SteadyResult
+from ehlcontact.results import ExcitationResult, ImpedanceResult, SpeedResponseResult, SteadyResult
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
+from ehlcontact.speed_response import speed_response
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.store import load, save
@@ -88,6 +90,7 @@ __all__ = [
     "RunSettings",
     "SimulationResult",
     "SpeedHistory",
+    "SpeedResponseResult",
     "Status",
     "SteadyResult",
     "TimeSteps",
@@ -105,6 +108,7 @@ __all__ = [
     "save",
     "simulate",
     "solve_steady",
+    "speed_response",
     "track_wave",
 ]
 

@@ -30,6 +30,7 @@ from ehlcontact import (
     interferogram,
     simulate,
     solve_steady,
+    speed_response,
 )
 from ehlcontact.assumptions.table import Assumption, Assumptions
 from ehlcontact.film import Film, FilmHistory, FilmWave, Interferogram, WaveTrack
@@ -134,6 +135,7 @@ def results(point):
         run, run.si, run.at([0.2, 0.3]),
         record, response, response.si, impedance(moes, Omega=1.0, grid=Grid(n=16)),
         excitation(point, hz=[5e3, 1e4], grid=Grid(n=32)), excitation(moes, wavelength=8.0, grid=Grid(n=16)),
+        speed_response(point, hz=[0.0, 1e4], grid=Grid(n=32)), speed_response(moes, Omega=3.0, grid=Grid(n=16)),
         atlas.at(point), atlas.at(point).si, atlas.at(moes), atlas.at(point).impedance(hz=50.0),
         atlas.over([20.0, 30.0], 5.0, 0.5), element, atlas.element(point), atlas.element(point, "cubic", rpm=3000),
         bearing.equilibrium(down, speed_rpm=3000.0), BallBearing.catalogue("6205").equilibrium(down),

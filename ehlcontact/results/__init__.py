@@ -6,6 +6,7 @@ module                responsibility
 ``steady_result``     `SteadyResult`: the film at rest
 ``impedance_result``  `ImpedanceResult`: stiffness and damping over frequency
 ``excitation_result`` `ExcitationResult`: force of waves on a surface over frequency
+``speed_response_result`` `SpeedResponseResult`: force over a change of speed, over frequency
 ``frequency``         `FrequencyResponse`: impedance and python-control system of K and C
 ``table``             `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
 ``contact_map``       pressure and film of a contact as a figure
@@ -15,11 +16,13 @@ module                responsibility
 
 from ehlcontact.results.excitation_result import ExcitationResult
 from ehlcontact.results.impedance_result import ImpedanceResult
+from ehlcontact.results.speed_response_result import SpeedResponseResult
 from ehlcontact.results.steady_result import SteadyResult
 
 __all__ = [
     "ExcitationResult",
     "ImpedanceResult",
+    "SpeedResponseResult",
     "SteadyResult",
 ]
 

@@ -23,6 +23,7 @@ from ehlcontact import (
     save,
     simulate,
     solve_steady,
+    speed_response,
 )
 from ehlcontact.lubricant import density, log_viscosity
 
@@ -215,6 +216,49 @@ def test_standstill_on_a_finer_grid():
     force, film, known_force, known_film = squeezed(192, 0.02)
     np.testing.assert_allclose(force, known_force, atol=1e-3)
     np.testing.assert_allclose(film[known_force > 0.4], known_film[known_force > 0.4], rtol=1.5e-3)
+
+
+def vibrating(point, grid, W, swing=0.02, periods=4, steps=40):
+    """Force over a relative change of speed at fixed approach, from a run."""
+    steady = solve_steady(point, grid=grid, tol=1e-9)
+    T = np.linspace(0.0, 2.0 * np.pi / W * periods, 2 * steps * periods + 1)
+    grid, still = Grid(n=grid.n, domain=steady.domain), PrescribedApproach(T, np.full(T.size, steady.approach))
+    time = TimeSteps(until=T[-1], dt=T[2], tol=1e-6)
+    run = simulate(point, still, grid=grid, time=time, speed=SpeedHistory(T, 1.0 + swing * np.sin(W * T)))
+    last = run.T > 0.5 * T[-1] + 1e-9
+    waves = np.stack([np.sin(W * run.T[last]), np.cos(W * run.T[last]), np.ones(last.sum())], axis=1)
+    sine, cosine, _ = np.linalg.lstsq(waves, run.force[last], rcond=None)[0] / swing
+    return sine + 1j * cosine
+
+
+@pytest.mark.parametrize("W", [0.3, 4.0])
+def test_response_to_a_vibrating_speed(W):
+    found = speed_response(POINT, Omega=W, grid=COARSE)
+    assert found.R[0] == pytest.approx(vibrating(POINT, COARSE, W), rel=0.01)
+    assert found.lift[0] > 0.0 > found.quadrature[0]
+
+
+def test_slow_response_is_the_derivative_of_the_steady_film():
+    """At constant load: how the approach changes with ln(u_sum)."""
+    found = speed_response(POINT, Omega=0.0, grid=COARSE)
+    near = [
+        solve_steady(
+            MoesPoint(20.0 * U**-0.75, 5.0 * U**0.25, 1.0), grid=Grid(n=64, domain=found.domain), tol=1e-10
+        )
+        for U in (0.99, 1.01)
+    ]
+    apart = (near[0].approach - near[1].approach) / np.log(1.01 / 0.99)
+    assert found.lift[0] == pytest.approx(apart, rel=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("W", [0.3, 1.0, 4.0])
+@pytest.mark.parametrize("point", [MoesPoint(20.0, 5.0, 1.0), MoesPoint(200.0, 10.0, 0.5)])
+def test_responses_of_the_page(point, W):
+    grid = Grid(n=128)
+    found, run = speed_response(point, Omega=W, grid=grid).R[0], vibrating(point, grid, W, periods=5, steps=80)
+    print(f"{point}, Omega {W:g}: {found:.4f}, {run:.4f}, {abs(run / found - 1.0):.2%} apart")
+    assert abs(run / found - 1.0) < 0.005
 
 
 def test_restart_after_it_turned(tmp_path):
