@@ -238,8 +238,9 @@ def _structure(root: Element, spec: ModelSpec, fmi: int) -> None:
     def unknown(parent: Element, tag: str, place: int, depends: tuple[str, ...], initial: bool = False) -> None:
         knowns = [_place(spec, name, fmi) for name in depends if initial or name in moving]
         entry = _child(parent, tag, **{"index" if fmi == 2 else "valueReference": str(place)})
-        entry.set("dependencies", " ".join(map(str, sorted(knowns))))
-        entry.set("dependenciesKind", " ".join(["dependent"] * len(knowns)))
+        if initial or len(knowns) < len(moving):  # without a list it depends on all, which the standard says
+            entry.set("dependencies", " ".join(map(str, sorted(knowns))))
+            entry.set("dependenciesKind", " ".join(["dependent"] * len(knowns)))
 
     for name, variables in _sections(spec).items():
         if not variables:

@@ -44,7 +44,7 @@ class Verification(Summary):
         Of a bearing's run, largest difference of forces and moments over the largest of each, in
         model exchange too.
     rates : float
-        Of a planar bearing in model exchange, largest difference of rates over the largest of their kind.
+        Of a bearing in model exchange, largest difference of rates over the largest of their kind.
     """
 
     findings: tuple[str, ...] = ()

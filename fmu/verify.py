@@ -29,8 +29,8 @@ def verify(path: str | os.PathLike[str], element: Source) -> Verification:
     same states in model exchange. With a memory: a motion with lift-off and a pulse of load, in steps from 1e-3 to
     1 of 2a/u_sum, against `drive`, and the film's states along it in model exchange against `state_rates`.
     A rotor: a short run with an unbalance that shows, against `simulate_rotor`, and its accelerations along it.
-    A bearing: a run of its ring with vibrations and lift-off, against the steps of `BearingMotion`; of a
-    planar one forces and rates in model exchange too, at some states.
+    A bearing: a run of its ring with vibrations and lift-off, against the steps of `BearingMotion`, and
+    forces and rates in model exchange at some states.
     A shaft: a run under forces that vary, against steps by matrix exponentials.
 
     A difference is relative to the magnitude of what is compared, with 1e-3 of its value at the upper end of the

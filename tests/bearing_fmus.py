@@ -20,6 +20,9 @@ MODELS = {
     "planar": lambda: BearingModel(bearing(clearance=5e-6, loss_factor=0.05, ball_inertia=True), RPM, 500.0),
     "range": lambda: BearingModel(bearing(clearance=5e-6), (2000.0, RPM), 500.0),
     "five": lambda: BearingModel(bearing(clearance="CN", loss_factor=0.05), RPM, (0.0, -500.0, 200.0)),
+    "five dry": lambda: BearingModel(
+        bearing(clearance="CN", oil=None, loss_factor=0.05), RPM, (0.0, -500.0, 200.0)
+    ),
     "lossy": lambda: BearingModel(bearing(clearance=5e-6, loss_factor=0.05), RPM, 500.0),
     "dry": lambda: BearingModel(BallBearing.catalogue("6205", clearance=5e-6), RPM, 500.0),
     "angular": lambda: BearingModel(bearing("7205"), (10000.0, 12000.0), (0.0, -300.0, 200.0)),

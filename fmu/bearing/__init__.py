@@ -6,7 +6,8 @@ module          responsibility
 ``model``       `BearingModel`: bearing, speeds, degrees of freedom; where the ring starts
 ``tables``      C text of its tables: races, films over load, losses, speeds
 ``variables``   its variables, constants and sources
-``continuous``  states of a planar bearing, and their rates in Python
+``places``      from where places of balls at contact angles are counted, and their damping across
+``continuous``  states of the bearing, and their rates in Python
 ``trial``       a run of the ring with lift-off, and its forces in Python
 ``comparison``  comparison of the FMU with that run; references stored in the FMU
 ``export``      `export_bearing`: bearing in, FMU file out

@@ -29,7 +29,7 @@ def export_bearing(
 ) -> Path:
     """Write a ball bearing as an FMU, once it is verified against it.
 
-    It is for co-simulation, that of a planar bearing for model exchange too, with exact partial derivatives.
+    It is for co-simulation and for model exchange, with exact partial derivatives.
 
     Inputs are displacement and velocity of the inner ring against the outer one, `x`, `y` and, with five degrees
     of freedom, `z`, `tilt_x`, `tilt_y`; `velocity_x`, ..., `tilt_rate_y`; and the `speed` of the shaft [rad/s].
@@ -38,8 +38,8 @@ def export_bearing(
     every ball are local variables. `clearance`, `offset` (axial preload), `cage_angle_start` and `film` (0: dry)
     can be set before initialization. The FMU starts at rest where its inputs are then. In a step balls move as in
     `BearingMotion`: in equilibrium, with the memory of every film. The states of model exchange, which can be read
-    in co-simulation as well, are the angle of the cage, places of balls (`ball[k].w`) and what films and rings
-    remember.
+    in co-simulation as well, are the angle of the cage, places of balls (`ball[k].w`, with five degrees of
+    freedom `ball[k].a` too) and what films and rings remember.
 
     Parameters
     ----------

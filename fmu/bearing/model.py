@@ -93,11 +93,6 @@ class BearingModel:
         five = self._axial or self.freedoms == len(FIVE)
         return FIVE if five else PLANAR
 
-    @property
-    def exchange(self) -> bool:
-        """Whether its FMU is for model exchange too, as that of a planar bearing is."""
-        return len(self.names) == len(PLANAR)
-
     @cached_property
     def place(self) -> _Floats:
         """Where the inner ring starts [m], [rad]."""

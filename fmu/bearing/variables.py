@@ -10,6 +10,7 @@ from math import log
 import numpy as np
 
 from fmu.bearing.model import BearingModel
+from fmu.bearing.places import LOAD, counted_from, rolling_speed_sum
 from fmu.bearing.tables import DEGREE, FILM_NODES, film_tables, race_tables, seat_tables, speed_tables
 from fmu.c_headers import c_double, c_table
 from fmu.contact_spec import checked_name
@@ -18,7 +19,6 @@ from fmu.lead import CONTACT, HELD_PARALLEL
 from fmu.spec import ModelSpec
 from fmu.variable_list import VariableList
 from reduced_models.bearing.angular_balls import AngularBalls
-from reduced_models.bearing.balls import Balls
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.loss import FILTERS
@@ -29,7 +29,7 @@ from reduced_models.elements.film_filters import DIRECT, FEW
 STEP = 1e-5  # s, of the default experiment
 FARTHEST = 0.1  # of the ball diameter: largest displacement, which no ring in its bearing reaches
 LARGEST_TILT = 0.1  # rad
-LOAD, SLOW = 100.0, 1e-3  # N on a ball and m/s, for which the nominal values of states are
+SLOW = 1e-3  # m/s, for which the nominal values of states are
 CAGE = "Angle of the first ball about z, from x towards y"
 
 FORCES = {"x": "force_x", "y": "force_y", "z": "force_z", "tilt_x": "moment_x", "tilt_y": "moment_y"}
@@ -40,9 +40,15 @@ RATES = {
     "tilt_x": "tilt_rate_x",
     "tilt_y": "tilt_rate_y",
 }
-SOURCES = ("core.c", "core_step.c", "model_bearing.c", "balls.c", "race_contact.c", "film_filters.c")
-HEADERS = ("core.h", "model.h", "dual.h", "balls.h", "race_contact.h", "film_filters.h")
-PLANAR_SOURCES = ("balls_planar.c", "continuous_time.c")
+SOURCES = (
+    "core.c", "core_step.c", "model_bearing.c", "balls.c", "race_contact.c", "contact_rates.c", "film_filters.c",
+)  # fmt: skip
+HEADERS = (
+    "core.h", "model.h", "dual.h", "balls.h", "race_contact.h", "contact_rates.h", "continuous_time.h",
+    "film_filters.h",
+)  # fmt: skip
+PLANAR_SOURCES = ("balls_planar.c", "continuous_planar.c")
+ANGULAR_SOURCES = ("balls_angular.c", "contact_angles.c", "continuous_angular.c")
 
 
 def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float | None = None) -> ModelSpec:
@@ -62,8 +68,8 @@ def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float
     return ModelSpec(
         name=checked_name(f"BallBearing {bearing.name}".strip() if model_name is None else model_name),
         description=f"Ball bearing {bearing.name}, {bearing.balls} balls, {oil}, at {span}; SI units",
-        sources=(*SOURCES, *(PLANAR_SOURCES if planar else ("balls_angular.c",))),
-        headers=(*HEADERS, *(("continuous_time.h",) if planar else ())),
+        sources=(*SOURCES, *(PLANAR_SOURCES if planar else ANGULAR_SOURCES)),
+        headers=(*HEADERS, *(() if planar else ("contact_angles.h",))),
         variables=tuple(made.variables),
         notes=_notes(model, span),
         macros=_macros(model, made),
@@ -75,7 +81,6 @@ def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float
             "film_inverse.h": _inverse(_lags(model)),
         },
         step=STEP,
-        exchange=model.exchange,
         plain_steps=True,
         indicators=tuple(made.indicators),
         flanges=tuple(
@@ -106,8 +111,7 @@ class _Variables(VariableList):
         self._inputs()
         self._outputs()
         self._parameters(lead)
-        if not self.five:
-            self._states()
+        self._states()
         self._balls()
 
     def _inputs(self) -> None:
@@ -135,9 +139,7 @@ class _Variables(VariableList):
         )  # fmt: skip
 
     def _outputs(self) -> None:
-        depends = tuple(v.name for v in self.variables) + self._fixed
-        if not self.five:
-            depends += self.states.names
+        depends = tuple(v.name for v in self.variables) + self._fixed + self.states.names
         self.first_force = len(self.variables)
         for name in self.model.names:
             tilt = name.startswith("tilt")
@@ -157,8 +159,6 @@ class _Variables(VariableList):
         if self.bearing.oil is not None:
             for name, unit, nominal, text in self._films():
                 self.add(name, "output", "continuous", text, unit=unit, nominal=nominal, depends=depends)
-        if self.five:
-            self.add("cage_angle", "output", "continuous", CAGE, unit="rad", nominal=1.0, depends=depends)
         for name, text in (
             ("outside_validity", "True where speed or loads leave the tables"),
             ("outside_speed", "True above the highest speed of the tables, whose films then hold"),
@@ -178,34 +178,44 @@ class _Variables(VariableList):
 
     def _states(self) -> None:
         """States and derivatives of the cage, of all balls and of the seat, as `continuous_time.h` has them."""
-        place, fixed = ("x", "y"), ("clearance", "cage_angle_start", "film")
-        angle = ("cage_angle",)
+        fixed, given = self._fixed, tuple(v.name for v in self.variables if v.causality == "input")
+        place, laws = (*self.model.names, "speed"), tuple(name for name in fixed if name != "cage_angle_start")
         self.add(
             "cage_angle", "output", "continuous", CAGE, unit="rad", nominal=1.0,
-            depends=angle, follows=("cage_angle_start",),
+            depends=("cage_angle",), follows=("cage_angle_start",),
         )  # fmt: skip
-        rates: list[tuple[str, str, tuple[str, ...]]] = [("cage_angle", "rad/s", ("speed",))]
-        moves = (*(v.name for v in self.variables if v.causality == "input"), "cage_angle", "film", "clearance")
-        own = (*place, "speed", "cage_angle", "film", "clearance")
+        # the cage of balls at contact angles turns at a speed that depends on all balls, and all depend on it;
+        # what depends on so many states may as well be said to depend on all of them: the list can be left out
+        all_balls = tuple(one.name for ball in self.states.balls for one in ball)
+        forces = (*given, "cage_angle", *laws, *all_balls, *(self.states.seat if self.five else ()))
+        rates: list[tuple[str, str, tuple[str, ...]]] = [
+            ("cage_angle", "rad/s", forces if self.five else ("speed",))
+        ]
         for ball in self.states.balls:
             for state in ball:
-                follows = ("speed", *place, *fixed) if state.kind == "w" else ()
+                follows = (*place, *fixed) if state.kind in ("w", "a") else ()
                 self.add(
                     state.name, "local", "continuous", state.text, unit=state.unit, nominal=state.nominal,
                     follows=follows,
                 )  # fmt: skip
                 if state.kind == "q":
-                    depends = (*own, ball[0].name, *state.fed, state.name)
+                    own = (one.name for one in ball if one.kind in ("w", "a"))
+                    depends = (*place, "cage_angle", *laws, *own, *state.fed, state.name)
                 elif state.kind == "w" and len(ball) > 1 and ball[1].kind == "v":
                     depends = (ball[1].name,)
+                elif self.five:
+                    depends = forces
                 else:
-                    depends = (*moves, *(one.name for one in ball))
+                    depends = (*given, "cage_angle", *laws, *(one.name for one in ball))
                 rates.append((state.name, f"{state.unit}/s", tuple(dict.fromkeys(depends))))
-        forces = (*moves, *(one.name for ball in self.states.balls for one in ball))
-        for name in self.states.seat:
-            text = f"Force of the balls along {name[5]}, as a lag of the losses of rings and fits has it"
-            self.add(name, "local", "continuous", text, unit="N", nominal=100.0, follows=("speed", *place, *fixed))
-            rates.append((name, "N/s", (*forces, name)))
+        for name, axis in self.states.seat.items():
+            what, unit = (f"Moment of the balls about {axis[-1]}", "N.m") if axis.startswith("tilt") else (
+                f"Force of the balls along {axis}", "N"
+            )  # fmt: skip
+            text = f"{what}, as a lag of the losses of rings and fits has it"
+            nominal = 100.0 if unit == "N" else 1.0
+            self.add(name, "local", "continuous", text, unit=unit, nominal=nominal, follows=(*place, *fixed))
+            rates.append((name, f"{unit}/s", tuple(dict.fromkeys((*forces, name)))))
         for name, unit, depends in rates:
             self.derivative(name, {"m/s/s": "m/s2"}.get(unit, unit), depends)
         contacts = ("inner", "outer") if self.bearing.ball_inertia else ("inner",)
@@ -261,7 +271,7 @@ class _Variables(VariableList):
 
 @dataclass(frozen=True)
 class BallState:
-    """One state of a ball; `kind`: w and v of its place, s, y and q of a film; `fed`: names of what feeds it."""
+    """One state of a ball; `kind`: w, a, v of its place, s, y, q of a film; `fed`: names of what feeds it."""
 
     name: str
     kind: str
@@ -273,22 +283,17 @@ class BallState:
 
 @dataclass(frozen=True)
 class BallStates:
-    """States of a planar bearing behind the angle of its cage: of every ball, and of the seat."""
+    """States of a bearing behind the angle of its cage: of every ball, and of the seat, with its direction."""
 
     balls: tuple[tuple[BallState, ...], ...]
-    seat: tuple[str, ...]
+    seat: dict[str, str]
 
     @classmethod
     def of(cls, model: BearingModel) -> BallStates:
-        """Those of a bearing; none of one with five degrees of freedom."""
-        bearing = model.bearing
-        if len(model.names) == len(FIVE):
-            return cls((), ())
-        filters = range(1, 1 + FILTERS * bool(bearing.loss_factor))
-        law = model.motion().balls
-        assert isinstance(law, Balls)
-        balls = tuple(tuple(_ball_states(model, law, k)) for k in range(1, bearing.balls + 1))
-        return cls(balls, tuple(f"seat_{axis}[{k}]" for k in filters for axis in "xy"))
+        """Those of a bearing."""
+        bearing, filters = model.bearing, range(1, 1 + FILTERS * bool(model.bearing.loss_factor))
+        balls = tuple(tuple(_ball_states(model, k)) for k in range(1, bearing.balls + 1))
+        return cls(balls, {f"seat_{axis}[{k}]": axis for k in filters for axis in model.names})
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -296,9 +301,13 @@ class BallStates:
         return ("cage_angle", *(one.name for ball in self.balls for one in ball), *self.seat)
 
 
-def _ball_states(model: BearingModel, balls: Balls, k: int) -> Iterator[BallState]:
-    bearing = model.bearing
-    if bearing.oil is not None or bearing.ball_inertia:
+def _ball_states(model: BearingModel, k: int) -> Iterator[BallState]:
+    bearing, balls, five = model.bearing, model.motion().balls, len(model.names) == len(FIVE)
+    if five and bearing.oil is not None:
+        text = f"Place of ball {k} {{}} the line between both groove centres of a ring in the middle"
+        yield BallState(f"ball[{k}].w", "w", "m", 1e-6, text.format("along"))
+        yield BallState(f"ball[{k}].a", "a", "m", 1e-6, text.format("across"))
+    elif bearing.oil is not None or bearing.ball_inertia:
         yield BallState(f"ball[{k}].w", "w", "m", 1e-6, f"Approach of ball {k} and the outer race")
     if bearing.ball_inertia:
         yield BallState(f"ball[{k}].v", "v", "m/s", 1e-3, f"Rate of ball[{k}].w")
@@ -306,7 +315,7 @@ def _ball_states(model: BearingModel, balls: Balls, k: int) -> Iterator[BallStat
         if law.x.size == 0:
             continue
         at = f"film of ball {k} at the {race} race"
-        transit = law.contact_length_factor / (balls.speed_sum * model.speeds[-1] * RPM_TO_RAD_S)
+        transit = law.contact_length_factor / (rolling_speed_sum(model) * model.speeds[-1] * RPM_TO_RAD_S)
         own = float(transit * (LOAD / law.kn) ** (1.0 / 3.0)) * SLOW
         made = float(own * np.interp(log(LOAD), law.x, law.film_made[-1]))
         s = f"ball[{k}].s_{race}"
@@ -344,7 +353,7 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
         "HAS_FILMS": int(bearing.oil is not None),
         "HAS_ROUGHNESS": int(bool(bearing.roughness)),
         "HAS_CLEARANCE": int(bearing.contact_angle is None),
-        "OWN_STATES": 2 if bearing.ball_inertia else int(bearing.oil is not None),
+        "OWN_STATES": 2 if bearing.ball_inertia else places * int(bearing.oil is not None),
         "FILM_STATES": 2 + lags if bearing.oil is not None else 0,
         "N_CACHE": remembered,
         "FIRST_FORCE": made.first_force,
@@ -361,10 +370,10 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
         "LARGEST_PLACE": FARTHEST * bearing.ball_diameter,
         "LARGEST_TILT": LARGEST_TILT,
         "DEFAULT_TOLERANCE": ALLOWED_ERROR,
-        "ROLLING_RADIUS": 0.5 * bearing.pitch_diameter * (1.0 - bearing.gamma**2),
+        "ROLLING_RADIUS": rolling_speed_sum(model),
     }
     if isinstance(balls, AngularBalls):
-        g = balls.grooves
+        g, at = balls.grooves, counted_from(model)
         counts["RACE_CONTROL"] = g.control
         numbers |= {
             "FREE_RADIAL": g.radial + (0.5 * bearing.clearance if bearing.contact_angle is None else 0.0),
@@ -380,6 +389,9 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
             "INNER_TORSION": g.inner_spin_moment,
             "OUTER_TORSION": g.outer_spin_moment,
             "TABLE_COSINE": g.cosine,
+            "PLACE_RADIAL": at.place[0, 0],
+            "PLACE_AXIAL": at.place[0, 1],
+            "ACROSS": at.across[0],
         }
     else:
         numbers |= {

@@ -24,7 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact
-from reduced_models.bearing.angular_balls import FREEDOMS, ring_map
+from reduced_models.bearing.angular_balls import FREEDOMS, AngularBalls, ring_map
+from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_angles import ball_forces, film_factors, inner_span, rolling
 from reduced_models.bearing.race_contact import curve, film_curve, film_cutoff, film_made, gain
 from reduced_models.elements.film_filters import DIRECT, filter_rates
@@ -34,6 +35,7 @@ _Floats = NDArray[np.float64]
 
 SMALL_STEP = 1e-14  # of the rates, that ends the search for w': rounding
 MOST_STEPS = 60  # of it: a handful
+CAGE_ROUNDS = 3  # evaluations that find the speed of a cage and the forces that it depends on, a thousandth each
 BALANCED = 1e-12  # imbalance of a ball across its contacts over its forces, below which only rounding is left
 
 
@@ -183,7 +185,8 @@ def angular_rates(balls, rest, angle, cage, states, q, v, rates, force):
     balls would turn it.
     """
     g, omega, inertia = balls.grooves, balls.omega, rest.inertia
-    wet, first = balls.inner.x.size > 0, 4 if inertia > 0.0 else 2
+    wet, first, rolling_speed = balls.inner.x.size > 0, 4 if inertia > 0.0 else 2, max(omega, balls.speeds[0])
+    row = row_of_speed(balls.speeds, rolling_speed)
     size_i = balls.inner.gains.shape[2] - 1 if wet else 0
     size_o = balls.outer.gains.shape[2] - 1 if wet else 0
     rows, turned = np.zeros((3, FREEDOMS)), np.zeros((2, FREEDOMS))
@@ -224,11 +227,11 @@ def angular_rates(balls, rest, angle, cage, states, q, v, rates, force):
         dry_i, dry_o = curve(u_i, 0, 0.0, balls.inner, 0)[0], curve(u_o, 0, 0.0, balls.outer, 0)[0]
         rolls = rolling(g, b_r, b_z, c_r, c_z, dry_i, dry_o)
         film_i, film_o = film_factors(g, rolls)
-        transit_i = balls.inner.contact_length_factor / (rolls.u_i * omega) if wet else 0.0
-        transit_o = balls.outer.contact_length_factor / (rolls.u_o * omega) if wet else 0.0
+        transit_i = balls.inner.contact_length_factor / (rolls.u_i * rolling_speed) if wet else 0.0
+        transit_o = balls.outer.contact_length_factor / (rolls.u_o * rolling_speed) if wet else 0.0
         second = at + first + size_i
-        inner = _held(balls.inner, transit_i, (0, 0.0), (film_i, 0.0), u_i, states, at + first)
-        outer = _held(balls.outer, transit_o, (0, 0.0), (film_o, 0.0), u_o, states, second)
+        inner = _held(balls.inner, transit_i, row, (film_i, 0.0), u_i, states, at + first)
+        outer = _held(balls.outer, transit_o, row, (film_o, 0.0), u_o, states, second)
         r_r, r_z, p_r, p_z, moment = ball_forces(g, omega, rolls, 0.0, 0.0)
         pushed = o_r * r_r + o_z * r_z, o_r * r_z - o_z * r_r
         moving = o_r * d_r + o_z * d_z, o_r * d_z - o_z * d_r
@@ -257,3 +260,20 @@ def angular_rates(balls, rest, angle, cage, states, q, v, rates, force):
             force[j] += rows[0, j] * p_r + rows[1, j] * p_z + rows[2, j] * moment
         carried, driven, free = carried + f_i, driven + f_i * rolls.orbit, free + rolls.orbit / balls.number
     return omega * (driven / carried if carried > 0.0 else free)
+
+
+def rates_with_cage(
+    balls: AngularBalls,
+    rest: RestingBalls,
+    angle: float,
+    states: _Floats,
+    q: _Floats,
+    v: _Floats,
+    rates: _Floats,
+    force: _Floats,
+) -> float:
+    """`angular_rates` with the cage at the speed that the balls give it, which is returned [rad/s]."""
+    cage = 0.0
+    for _ in range(CAGE_ROUNDS):
+        cage = float(angular_rates(balls, rest, angle, cage, states, q, v, rates, force))
+    return cage

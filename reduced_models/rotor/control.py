@@ -33,7 +33,12 @@ from reduced_models.bearing.balls import (
     press_balls,
     speed_state,
 )
-from reduced_models.bearing.continuous_time import RestingBalls, angular_rates, bearing_rates
+from reduced_models.bearing.continuous_time import (
+    RestingBalls,
+    angular_rates,
+    bearing_rates,
+    rates_with_cage,
+)
 from reduced_models.bearing.five_degrees import equilibrium_at
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -50,7 +55,6 @@ _Floats = NDArray[np.float64]
 Signals = Mapping[str, int] | Sequence[int] | None
 
 UNIT = 1e-6  # m, of the states
-CAGE_ROUNDS = 3  # evaluations that find the speed of a cage and the forces that it depends on, a thousandth each
 
 
 def rings_of(rotor: Rotor) -> _Floats:
@@ -273,11 +277,13 @@ class _AngularRing(_Ring):
         )
 
     def _press(self, t: float, states: _Floats, r: _Floats, v: _Floats, rates: _Floats) -> None:
-        angle, cage = self._angle + (states[-1] if self.shape.cage else 0.0), 0.0
+        angle = self._angle + (states[-1] if self.shape.cage else 0.0)
         if self.shape.of_balls:
-            for _ in range(CAGE_ROUNDS if self.shape.cage else 1):
-                turning = angular_rates(self.balls, self._resting, angle, cage, states, r, v, rates, self._pressed)
-                cage = turning if self.shape.cage else 0.0
+            given = states, r, v, rates, self._pressed
+            if self.shape.cage:
+                turning = rates_with_cage(self.balls, self._resting, angle, *given)
+            else:
+                turning = angular_rates(self.balls, self._resting, angle, 0.0, *given)
         else:
             self._static.angle = angle
             self._static.press(r)

@@ -177,11 +177,7 @@ def export(
         "platforms": built,
         **verdict,
     }
-    uses = "co-simulation and model exchange"
-    if bearing and not exported.exchange:
-        uses = "co-simulation alone: model exchange is of planar bearings"
-    elif turning:
-        uses = "co-simulation alone"
+    uses = "co-simulation alone" if turning else "co-simulation and model exchange"
     version = "FMI", f"{fmi}.0", uses
     rows = [
         *_about(exported, system),

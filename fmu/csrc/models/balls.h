@@ -3,6 +3,7 @@
 #ifndef BALLS_H
 #define BALLS_H
 
+#include "dual.h"
 #include "race_contact.h"
 
 enum { INNER_RACE, OUTER_RACE };
@@ -25,6 +26,13 @@ typedef struct {
     double film[2];          /* [race]: see RaceForce */
     double angle[2];         /* [race] rad */
 } Ball;
+
+/* Forces of the ring on all balls and at the contacts, and the compressions `film` that these have, see RaceForce; at contact
+ * angles what else a `Ball` has of them. */
+typedef struct {
+    Dual force[FREEDOMS], load[BALLS][2], factor[BALLS][2], entrained[BALLS][2], angle[BALLS][2];
+    double film[BALLS][2];
+} BallLoads;
 
 /* All that a bearing remembers: doubles alone. */
 typedef struct {

@@ -1,16 +1,11 @@
-/* A ball bearing: force on the inner ring under a given motion of it. With states, that of a planar one, it is for model
- * exchange too; in steps they are those of the end of the step. Equations in README.md. */
+/* A ball bearing: force on the inner ring under a given motion of it. Its states are those of model exchange; in steps they are
+ * those of the end of the step. Equations in README.md. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "dual.h"
-#include "model.h"
-#if N_STATES > 0
 #include "continuous_time.h"
-#else
-#include "balls.h"
-#endif
+#include "model.h"
 #if HAS_FILMS
 #include "bearing_films.h"
 #endif
@@ -131,14 +126,14 @@ static Dual of_table(int race, int what, FilmPlace at)
 }
 
 /* Films of a contact, and the torque that it takes from the inner ring. */
-static Dual show_film(const Bearing *b, const Ball *ball, int race, Dual load, FilmPlace speed, Dual films[2])
+static Dual show_film(const BallLoads *balls, int k, int race, double omega, FilmPlace speed, Dual films[2])
 {
-    const FilmPlace at = at_load(speed, race, load);
-    const double factor = FREEDOMS == 5 ? ball->factor[race][0] : 1.0;
-    const double rolls = FREEDOMS == 5 ? ball->entrained[race][0] : ROLLING_RADIUS;
-    films[0] = times(factor, of_table(race, CENTRAL, at));
-    films[1] = times(factor, of_table(race, SMALLEST, at));
-    return b->omega > 0.0 ? times(0.5 * rolls / rolling_radius[race], of_table(race, MOMENT, at)) : number(0.0);
+    const FilmPlace at = at_load(speed, race, balls->load[k][race]);
+    const Dual factor = FREEDOMS == 5 ? balls->factor[k][race] : number(1.0);
+    const Dual rolls = FREEDOMS == 5 ? balls->entrained[k][race] : number(ROLLING_RADIUS);
+    films[0] = mul(factor, of_table(race, CENTRAL, at));
+    films[1] = mul(factor, of_table(race, SMALLEST, at));
+    return omega > 0.0 ? mul(over(times(0.5, rolls), number(rolling_radius[race])), of_table(race, MOMENT, at)) : number(0.0);
 }
 
 #endif
@@ -159,7 +154,7 @@ static void put(Shown to, int reference, Dual x)
 }
 
 /* Loads and films of all balls, the largest and the smallest, and the torque. */
-static void show_balls(const Bearing *b, Dual omega, Dual load[][2], int film, Shown to)
+static void show_balls(const BallLoads *balls, Dual omega, int film, Shown to)
 {
     Dual largest[2] = {{0.0, 0.0}, {0.0, 0.0}};
     int k, race;
@@ -167,20 +162,21 @@ static void show_balls(const Bearing *b, Dual omega, Dual load[][2], int film, S
     const FilmPlace speed = at_speed(omega);
     Dual smallest = number(film ? HUGE_VAL : 0.0), torque = number(0.0);
 #else
-    (void)b, (void)omega, (void)film;
+    (void)omega, (void)film;
 #endif
     for (k = 0; k < BALLS; k++) {
         int shown = FIRST_BALL + k * PER_BALL;
         for (race = 0; race < 2; race++) {
-            if (load[k][race].x > largest[race].x) {
-                largest[race] = load[k][race];
+            const Dual load = balls->load[k][race];
+            if (load.x > largest[race].x) {
+                largest[race] = load;
             }
-            put(to, shown++, load[k][race]);
+            put(to, shown++, load);
 #if HAS_FILMS
             {
                 Dual films[2] = {{0.0, 0.0}, {0.0, 0.0}};
                 if (film) {
-                    torque = add(torque, show_film(b, &b->ball[k], race, load[k][race], speed, films));
+                    torque = add(torque, show_film(balls, k, race, omega.x, speed, films));
                     smallest = films[1].x < smallest.x ? films[1] : smallest;
                 }
                 put(to, shown++, films[0]);
@@ -188,7 +184,7 @@ static void show_balls(const Bearing *b, Dual omega, Dual load[][2], int film, S
             }
 #endif
 #if FREEDOMS == 5
-            put(to, shown++, number(b->ball[k].angle[race]));
+            put(to, shown++, balls->angle[k][race]);
 #endif
         }
     }
@@ -204,25 +200,21 @@ static void show_balls(const Bearing *b, Dual omega, Dual load[][2], int film, S
 }
 
 /* Outputs, and what the bearing remembers. */
-static void show(Model *m, const Bearing *b, const double force[])
+static void show(Model *m, const Bearing *b, const BallLoads *balls, const double force[])
 {
     double *value = m->value;
     const Shown to = {value, NULL};
     const int per_ball = N_CONTACTS / BALLS;
-    Dual load[BALLS][2];
     int j, k, race;
     for (j = 0; j < FREEDOMS; j++) {
         value[FIRST_FORCE + j] = -force[j];
     }
     for (k = 0; k < BALLS; k++) {
-        for (race = 0; race < 2; race++) {
-            load[k][race] = number(b->ball[k].force[race]);
-        }
         for (race = 0; race < per_ball; race++) {
-            m->indicator[k * per_ball + race] = b->ball[k].film[race];
+            m->indicator[k * per_ball + race] = balls->film[k][race];
         }
     }
-    show_balls(b, number(b->omega), load, value[VR_film] != 0.0, to);
+    show_balls(balls, number(b->omega), value[VR_film] != 0.0, to);
     value[VR_cage_angle] = b->angle;
     value[VR_outside_speed] = b->omega > (1.0 + by_rounding) * MOST_SPEED;
     value[VR_outside_load] = value[VR_largest_load_inner] > most_load[INNER_RACE]
@@ -299,8 +291,6 @@ static const char *rest(const Model *m, const double q[], Bearing *bearing, doub
     return reason;
 }
 
-#if N_STATES > 0
-
 /* ---- continuous time ---- */
 
 enum { SEAT = FIRST_OF_BALLS + BALLS * BALL_STATES };
@@ -313,10 +303,8 @@ static void states_of(const Bearing *b, double states[])
     for (k = 0; k < BALLS; k++) {
         double *state = &states[FIRST_OF_BALLS + k * BALL_STATES];
         if (OWN_STATES > 0) {
-            *state++ = b->ball[k].place[0][0];
-        }
-        if (OWN_STATES > 1) {
-            *state++ = b->ball[k].rate[0];
+            own_states(&b->ball[k], state);
+            state += OWN_STATES;
         }
         for (race = 0; race < 2 && FILM_STATES > 0; race++) {
             const FilmState *film = &b->film[k][race];
@@ -362,14 +350,13 @@ static const char *in_time(const Model *m, const double states[], const double *
     for (i = 0; i < N_STATES; i++) {
         t->states[i] = dual(states[i], seed != NULL && !starts ? seed[FIRST_STATE + i] : 0.0);
     }
-    if (OWN_STATES < 2 && !wet) {
+    if (!HEAVY && !wet) {
         memcpy(&still, m->cache, sizeof still);
         still.angle = states[CAGE_ANGLE];
         reason = balls_rest(&setup, &still, m->input[SPEED], q, force);
     }
     for (k = 0; k < BALLS && starts && OWN_STATES > 0; k++) {
-        Dual *w = &t->states[FIRST_OF_BALLS + k * BALL_STATES];
-        *w = rest_place(&setup, &t->ring, t->states[CAGE_ANGLE], k, w->x);
+        rest_place(&setup, &t->ring, t->states[CAGE_ANGLE], k, &t->states[FIRST_OF_BALLS + k * BALL_STATES]);
     }
     if (reason == NULL) {
         reason = bearing_rates(&setup, &t->ring, &still, t->states, t->rates, &t->balls);
@@ -409,7 +396,7 @@ static Fault evaluate_in_time(Model *m)
     const char *reason = NULL;
     Bearing b;
     InTime t;
-    int i, j, k;
+    int i, j;
     memcpy(&b, m->cache, sizeof b);
     memcpy(states, &m->value[FIRST_STATE], sizeof states);
     if (m->stage == STARTING) {
@@ -428,12 +415,6 @@ static Fault evaluate_in_time(Model *m)
     if (reason != NULL) {
         return fault(DISCARD, reason);
     }
-    for (k = 0; k < BALLS; k++) {
-        for (j = 0; j < 2; j++) {
-            b.ball[k].force[j] = t.balls.load[k][j].x;
-            b.ball[k].film[j] = t.balls.film[k][j];
-        }
-    }
     for (j = 0; j < FREEDOMS; j++) {
         force[j] = t.force[j].x;
     }
@@ -441,20 +422,18 @@ static Fault evaluate_in_time(Model *m)
     b.omega = m->input[SPEED];
     memcpy(&m->value[FIRST_STATE], states, sizeof states);
     show_rates(m, &t);
-    show(m, &b, force);
+    show(m, &b, &t.balls, force);
     return fine;
 }
 
 void model_direction(const Model *m, const double seed[], double along[])
 {
     const Shown to = {NULL, along};
-    Bearing b;
     InTime t;
     int i, j;
     if (in_time(m, &m->value[FIRST_STATE], seed, &t) != NULL) {
         return; /* not of an evaluated model */
     }
-    memcpy(&b, m->cache, sizeof b);
     for (j = 0; j < FREEDOMS; j++) {
         along[FIRST_FORCE + j] = -t.force[j].d;
     }
@@ -462,26 +441,27 @@ void model_direction(const Model *m, const double seed[], double along[])
         along[FIRST_STATE + i] = t.states[i].d;
         along[FIRST_DERIVATIVE + i] = t.rates[i].d;
     }
-    show_balls(&b, t.ring.omega, t.balls.load, m->value[VR_film] != 0.0, to);
+    show_balls(&t.balls, t.ring.omega, m->value[VR_film] != 0.0, to);
 }
-
-#else
-
-void model_direction(const Model *m, const double seed[], double along[])
-{
-    (void)m, (void)seed, (void)along;
-}
-
-#endif
 
 /* ---- steps ---- */
 
 static void show_step(Model *m, const Bearing *b, const double force[])
 {
-    show(m, b, force);
-#if N_STATES > 0
+    BallLoads balls;
+    int k, race;
+    for (k = 0; k < BALLS; k++) {
+        const Ball *ball = &b->ball[k];
+        for (race = 0; race < 2; race++) {
+            balls.load[k][race] = number(ball->force[race]);
+            balls.film[k][race] = ball->film[race];
+            balls.factor[k][race] = number(ball->factor[race][0]);
+            balls.entrained[k][race] = number(ball->entrained[race][0]);
+            balls.angle[k][race] = number(ball->angle[race]);
+        }
+    }
+    show(m, b, &balls, force);
     states_of(b, &m->value[FIRST_STATE]);
-#endif
 }
 
 /* In steps: before the first one at rest where the inputs are; then outputs are those of the last, whatever the inputs. */
@@ -490,11 +470,9 @@ Fault model_evaluate(Model *m)
     Bearing bearing;
     double q[FREEDOMS], force[FREEDOMS];
     const char *reason;
-#if N_STATES > 0
     if (m->stage != IN_STEPS) {
         return evaluate_in_time(m);
     }
-#endif
     memcpy(&bearing, m->cache, sizeof bearing);
     if (bearing.h > 0.0) {
         return fine;
@@ -510,7 +488,6 @@ Fault model_evaluate(Model *m)
 
 Fault model_rates(Model *m)
 {
-#if N_STATES > 0
     if (m->stage == IN_STEPS) {
         InTime t;
         const char *reason = in_time(m, &m->value[FIRST_STATE], NULL, &t);
@@ -519,9 +496,6 @@ Fault model_rates(Model *m)
         }
         show_rates(m, &t);
     }
-#else
-    (void)m;
-#endif
     return fine;
 }
 
