@@ -10,6 +10,7 @@ room              responsibility
 ``solver/``       film at one instant: mesh, equations, multigrid, Newton
 ``steady``        `solve_steady`
 ``supply``        `OilLayer`: the oil that the surfaces carry to a contact
+``heat``          `Heat`: what the heating of a film needs of oil and surfaces
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
 ``speed_response`` `speed_response`: force over a change of speed, likewise
 ``excitation``    `excitation`: force of waves on a surface, likewise
@@ -44,6 +45,7 @@ from ehlcontact.assumptions import assumptions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.excitation import excitation
 from ehlcontact.film import film_history, film_of, film_wave, interferogram, track_wave
+from ehlcontact.heat import Heat
 from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
@@ -76,6 +78,7 @@ __all__ = [
     "Geometry",
     "Grid",
     "HarmonicLoad",
+    "Heat",
     "ImpedanceResult",
     "InputError",
     "KeepSettings",

@@ -12,15 +12,18 @@ import numpy as np
 
 from ehlcontact.checks import require_choice, require_finite, require_instance, require_integer, require_positive
 from ehlcontact.checks.machine import require_threads
-from ehlcontact.errors import ConvergenceError
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.heat import Heat, require_heat
 from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
+from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.attempts import METHODS, Method, attempts
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
+from ehlcontact.solver.film_heat import FilmHeat, HeatedCycles
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Level
@@ -31,6 +34,7 @@ from ehlcontact.status import Status
 from ehlcontact.supply import OilLayer, require_supply
 
 LARGEST_RESIDUAL = 0.1  # relative, of a converged film: what is solved is judged by the pressure
+COLD_PRESSURE, COLD_APPROACH = 1e-3, 1e-5  # of an isothermal film that is a start: its centre is within 1e-4
 LOAD_TOLERANCE = 1e-7
 APPROACH_TOLERANCE = 1e-7
 BUDGET = 60.0  # s of one core: all but the thinnest side lobes take far less
@@ -44,6 +48,7 @@ def solve_steady(
     *,
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
+    thermal: Heat | None = None,
     approach: float | None = None,
     tol: float = 1e-5,
     max_cycles: int = MAX_CYCLES,
@@ -70,6 +75,9 @@ def solve_steady(
         Oil that the surfaces carry to the contact. The full film then begins where that oil fills the gap; ahead
         of it and behind the contact the gap is partly filled. By default the inlet is flooded up to the border of
         the region.
+    thermal : Heat, optional
+        Let the film heat up, and its viscosity follow: ``Heat()`` takes the data of the oil. The isothermal film
+        is solved first. By default the film has the temperature of the inlet.
     approach : float, optional
         Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
         force it takes.
@@ -107,7 +115,7 @@ def solve_steady(
     Raises
     ------
     InputError
-        An argument outside its range; a grid that would not fit into memory.
+        An argument outside its range; a grid that would not fit into memory; heat without the data that it takes.
     ConvergenceError
         Not converged; ``error.result`` holds the partial result.
     """
@@ -117,6 +125,11 @@ def solve_steady(
     require_instance("refine", refine, bool | np.bool_, "True or False")
     require_choice("method", method, tuple(METHODS))
     require_grid(grid)
+    if thermal is not None:
+        require_heat(thermal)
+        if supply is not None:
+            raise InputError("thermal", "given", "left out with a supply: heat is solved of flooded films")
+        thermal = thermal.at(point)
     threads = require_threads("threads", threads)
     if budget != inf:
         require_positive("budget", budget)
@@ -139,7 +152,7 @@ def solve_steady(
         budget=budget if grid.n is None else inf,
     ):
         tried.append(attempt)
-        film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads, supply, scales)
+        film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads, supply, thermal, scales)
         attempt.status = film.run(balance=balance, tol=tol, most=max_cycles, watch=callback)
         attempt.error_estimate = film.error_estimate
         if attempt.is_better:
@@ -165,9 +178,10 @@ class _Film:
         deflection: str,
         threads: int,
         supply: OilLayer | None,
+        thermal: Heat | None,
         scales: Scales | None,
     ) -> None:
-        self.mesh, self.method, self.supply, self.scales = mesh, method, supply, scales
+        self.mesh, self.method, self.supply, self.thermal, self.scales = mesh, method, supply, thermal, scales
         self._make = partial(
             Multigrid,
             point,
@@ -181,9 +195,38 @@ class _Film:
         self.scale = self.multigrid.finest.dry_residual()
         self.track = IterationHistory()
         self.error_estimate: ErrorEstimate | None = None
+        self.temperature: FilmTemperature | None = None
+        self.heats = thermal is not None and thermal.temperature_slope != 0.0  # so that the viscosity follows
 
     def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
         """Cycle, or take Newton steps, until the residuals say how it ended."""
+        if self.thermal is None:
+            return self._run_cold(balance, tol, most, watch)
+        assert self.scales is not None
+        point = self.multigrid.point
+        status = self._run_cold(balance, tol, most, watch)
+        if not status.ok:
+            return status
+        mg = self.multigrid
+        cold, heat = mg.finest.central_film(), FilmHeat(mg.finest, self.thermal.numbers(point, self.scales))
+        if self.heats:
+            self.track = IterationHistory()
+            status = self._solve(balance, tol, most, watch, heat)
+        heat.solve()
+        self.temperature = FilmTemperature(
+            inputs=self.thermal,
+            mean=heat.mean.T.copy(),
+            surfaces=heat.walls.transpose(0, 2, 1).copy(),
+            film_share=mg.finest.central_film() / cold,
+            thermal_load=self.thermal.load(point, self.scales),
+            balance=heat.balance(),
+        )
+        return status
+
+    def _run_cold(
+        self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None
+    ) -> Status:
+        """The film at the temperature of the inlet."""
         if self.supply is None:
             return self._solve(balance, tol, most, watch)
         flooded = nan
@@ -197,30 +240,50 @@ class _Film:
         return self._solve(balance, tol, most, watch)
 
     def _solve(
-        self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None
+        self,
+        balance: Balance,
+        tol: float,
+        most: int,
+        watch: Callable[[int, float], None] | None,
+        heat: FilmHeat | None = None,
     ) -> Status:
+        """From full multigrid, or with `heat` from the film at the temperature of the inlet."""
         mg = self.multigrid
         if balance.weight == 0.0:
             mg.u = balance.rhs
         goal = StoppingCriteria(
             self.scale, LARGEST_RESIDUAL, most, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=tol
         )
+        if self.heats and heat is None:  # a start, and the film that the heated one is held against
+            goal = goal._replace(approach=COLD_APPROACH, pressure=max(tol, COLD_PRESSURE))
         try:
-            return self._run(goal, balance, watch)
+            return self._run(goal, balance, watch, heat)
         except KeyboardInterrupt:
             return Status.INTERRUPTED
 
-    @np.errstate(over="ignore", invalid="ignore")  # of a film that runs away: its status says so
-    def _run(self, goal: StoppingCriteria, balance: Balance, watch: Callable[[int, float], None] | None) -> Status:
+    @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a film that runs away: its status says so
+    def _run(
+        self,
+        goal: StoppingCriteria,
+        balance: Balance,
+        watch: Callable[[int, float], None] | None,
+        heat: FilmHeat | None,
+    ) -> Status:
         mg = self.multigrid
         # With close lines cycles need the better start, which raises the load by cycles on the grid of half the
         # intervals; where those fail, in stiff oil, Newton steps do with the other one.
-        mg.full_multigrid(balance, nested=not self.method.newton)
-        if self.method.newton:
-            mg.cycle(balance)
-        advance = NewtonKrylov(mg).step if self.method.newton else AcceleratedCycles(mg).step
+        if heat is None:
+            mg.full_multigrid(balance, nested=not self.method.newton)
+            if self.method.newton:
+                mg.cycle(balance)
+        if heat is None:
+            advance = NewtonKrylov(mg).step if self.method.newton else AcceleratedCycles(mg).step
+        else:
+            cycles = HeatedCycles(mg, heat, NewtonKrylov(mg).step if self.method.newton else mg.cycle)
+            cycles.start(balance)
+            advance = cycles.step
         status = iterate(mg, balance, advance, goal, self.track, watch)
-        if status.ok:
+        if status.ok and (heat is not None or not self.heats):
             self.error_estimate = estimate_error(mg, balance)
         return status
 
@@ -250,6 +313,7 @@ class _Film:
             error_estimate=self.error_estimate,
             seconds=seconds,
             supply=self.supply,
+            temperature=self.temperature,
             **_content(level),
         )
 

@@ -77,8 +77,8 @@ INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no r
 # Public classes without `plot`, and why.
 WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
-    **dict.fromkeys(("SpeedHistory", "SpeedController"), INPUT),
     **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter"), INPUT),
+    **dict.fromkeys(("SpeedHistory", "SpeedController", "Heat"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
     **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),

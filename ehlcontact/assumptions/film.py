@@ -25,8 +25,8 @@ FORMULA_SCATTER = (
 )
 
 
-def isothermal(contact: Contact, slope: float, conductivity: float) -> Assumption:
-    """What shear in the inlet heats, and the film loses by it."""
+def isothermal(contact: Contact, slope: float, conductivity: float, solved: float | None = None) -> Assumption:
+    """What shear in the inlet heats, and the film loses by it; `solved` is the share left of a film with heat."""
     value, verdict = None, NO_SI
     details = {"temperature_slope": slope, "conductivity": conductivity}
     if contact.scales is not None:
@@ -38,6 +38,13 @@ def isothermal(contact: Contact, slope: float, conductivity: float) -> Assumptio
             f"shear heats the inlet: film {_percent(1.0 - value)} thinner, "
             f"{_percent(1.0 - other)} by Wilson and Sheu"
         )
+    if solved is not None and value is not None:
+        verdict = (
+            f"not assumed: solved with heat, film {_percent(1.0 - solved)} thinner in the centre; "
+            f"{_percent(1.0 - value)} by Gupta et al., {_percent(1.0 - other)} by Wilson and Sheu"
+        )
+        details |= {"solved": solved, "gupta": value}
+        value = None
     return Assumption(
         name="isothermal",
         number="inlet shear heating factor phi_T, film over isothermal film",

@@ -65,7 +65,8 @@ def assumptions(
     vibration : float, optional
         Largest speed that vibration adds along the surfaces [m/s].
     temperature_slope : float, optional
-        -d ln(eta0)/dT [1/K]; that of the oil, and where it has none that of a typical mineral oil.
+        -d ln(eta0)/dT [1/K]; that of the oil, and where it has none that of a typical mineral oil. Of a film that
+        was solved with heat this and the next are its own.
     conductivity : float
         Of the oil [W/(m K)].
     scales : Scales, optional
@@ -81,6 +82,9 @@ def assumptions(
         domain = getattr(film, "domain", None)
     if domain is not None:
         require_instance("domain", domain, Domain, "a Domain(x_in, x_out, y_max)")
+    heated = getattr(film, "temperature", None)
+    if heated is not None:
+        temperature_slope, conductivity = heated.inputs.temperature_slope or None, heated.inputs.conductivity
     if temperature_slope is None and isinstance(point, OperatingPoint):
         temperature_slope = point.lubricant.temperature_slope
     if temperature_slope is None:
@@ -91,7 +95,7 @@ def assumptions(
     shaken = None if vibration is None else require_nonnegative("vibration", vibration)
     return Assumptions(
         (
-            isothermal(contact, slope, k),
+            isothermal(contact, slope, k, None if heated is None else heated.film_share),
             newtonian(contact),
             smooth(contact, _composite(roughness)),
             *([fully_flooded(contact, domain)] if flooded else []),

@@ -19,6 +19,7 @@ from ehlcontact.cli.options import Options, called, option_of
 from ehlcontact.cli.rows import Row
 from ehlcontact.cli.study.schema import lubricant_of, oil_grade
 from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
@@ -333,6 +334,40 @@ class Supply(Options):
         if self.layer is not None:
             return OilLayer(1e-6 * self.layer)
         return None if self.layer_ratio is None else OilLayer(over_flooded=self.layer_ratio)
+
+
+class Heating(Options):
+    """Whether the film heats up."""
+
+    panel: ClassVar[str | None] = "Heat (isothermal if left out)"
+    thermal: Annotated[
+        bool,
+        typer.Option("--thermal", help="Let the film heat up and its viscosity follow; with --oil and --temp."),
+    ] = False
+    slide_roll: Annotated[float | None, typer.Option("--slide-roll", show_default="0"), e.SLIDE_ROLL] = None
+
+    def chosen(self, contact: Contact) -> Heat | None:
+        """Data of the heating, or None for an isothermal film.
+
+        Raises
+        ------
+        InputError
+            Sliding without heat; heat of an oil without its temperature, or at a point without units.
+        """
+        if not self.thermal:
+            if self.slide_roll is not None:
+                allowed = "given with --thermal: sliding heats the film, and does nothing else to it"
+                raise InputError("--slide-roll", self.slide_roll, allowed)
+            return None
+        if not contact.in_si:
+            allowed = "left out: a point of --M --L --kappa has no metres, seconds and kelvin"
+            raise InputError("--thermal", True, allowed)
+        if contact.oil is None:
+            allowed = (
+                "given with --oil and --temp: an oil by its grade has the change of viscosity with temperature"
+            )
+            raise InputError("--thermal", True, allowed)
+        return Heat(slide_roll=self.slide_roll or 0.0)
 
 
 class Frequencies(Options):

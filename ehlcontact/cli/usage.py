@@ -35,7 +35,11 @@ NOT_IN_THE_MODEL = {
     **dict.fromkeys(
         ("--starvation", "--starved"), "`ehlcontact steady` and `impedance` have --layer; elsewhere " + _FILMS
     ),
-    **dict.fromkeys(("--grease", "--thermal", "--heat", "--sliding", "--slip", "--traction"), _FILMS),
+    **dict.fromkeys(
+        ("--thermal", "--heat", "--sliding", "--slide-roll"),
+        "`ehlcontact steady` has --thermal and --slide-roll; elsewhere " + _FILMS,
+    ),
+    **dict.fromkeys(("--grease", "--slip", "--traction"), _FILMS),
 }
 
 

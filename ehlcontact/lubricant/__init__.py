@@ -15,6 +15,7 @@ from ehlcontact.lubricant.oil_laws import (
     FluidLaw,
     Lubricant,
     density,
+    heated,
     log_viscosity,
 )
 
@@ -25,6 +26,7 @@ __all__ = [
     "Lubricant",
     "MineralOil",
     "density",
+    "heated",
     "log_viscosity",
 ]
 

@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ehlcontact.checks import require_choice, require_nonnegative, require_positive
+from ehlcontact.checks import require_choice, require_finite, require_nonnegative, require_positive
 from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.elementary import exponential, logarithm
@@ -44,7 +44,7 @@ class FluidLaw(NamedTuple):
     d: float  # 5.9e8 Pa / p_h
 
 
-@fields_take(eta0="Pa s", alpha="1/Pa", temperature_slope="1/K")
+@fields_take(eta0="Pa s", alpha="1/Pa", temperature_slope="1/K", temperature="degrees Celsius")
 @dataclass(frozen=True, slots=True)
 class Lubricant:
     """Oil at inlet temperature; `iso_vg` makes one from its grade.
@@ -60,7 +60,9 @@ class Lubricant:
     eta0_scatter, alpha_scatter : float, optional
         How far, relative, the oil itself may be from `eta0` and `alpha`. Only kept: nothing is computed from them.
     temperature_slope : float, optional
-        -d ln(eta0)/dT [1/K], for what the heating of the inlet does; solves are isothermal.
+        -d ln(eta0)/dT [1/K], for what heat does to a film (`Heat`).
+    temperature : float, optional
+        Of the inlet, where eta0 holds, in degrees Celsius, for the same.
 
     Raises
     ------
@@ -75,6 +77,7 @@ class Lubricant:
     eta0_scatter: float | None = field(default=None, kw_only=True)
     alpha_scatter: float | None = field(default=None, kw_only=True)
     temperature_slope: float | None = field(default=None, kw_only=True)
+    temperature: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "eta0", require_positive("eta0", self.eta0))
@@ -84,6 +87,8 @@ class Lubricant:
         for name in ("eta0_scatter", "alpha_scatter", "temperature_slope"):
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, require_nonnegative(name, getattr(self, name)))
+        if self.temperature is not None:
+            object.__setattr__(self, "temperature", require_finite("temperature", self.temperature))
         if self.eta0 > INPUTS["eta0"].limits[1]:
             INPUTS["eta0"].require("eta0", self.eta0)
         if self.viscosity == "roelands" and math.log(self.eta0) + ROELANDS_LOG <= 0.0:
@@ -138,6 +143,7 @@ class Lubricant:
             eta0_scatter=GRADE_SCATTER,
             alpha_scatter=ALPHA_SCATTER,
             temperature_slope=oil.temperature_slope,
+            temperature=oil.temperature,
         )
 
     def law(self, p_hertz: float, alpha_bar: float) -> FluidLaw:
@@ -195,3 +201,13 @@ def log_viscosity(P, law):
         power = exponential(law.z * logarithm(base))
         return law.q * (power - 1.0), law.q * law.z * law.s * power / base
     return law.alpha_bar * P, law.alpha_bar + 0.0 * P
+
+
+@jit_node
+def heated(cold, heat, law):
+    """`log_viscosity` at another temperature, from that at the inlet's: Roelands' ln(eta) + 9.67, times 1 + heat.
+
+    So the temperature counts more under pressure; of Barus' law too.
+    """
+    log_eta, slope = cold
+    return log_eta + heat * (log_eta + law.q), slope * (1.0 + heat)

@@ -15,6 +15,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
 from ehlcontact.results.contact_map import contact_panels
+from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.solver.error_estimate import ALL, ErrorEstimate
 from ehlcontact.status import Status
@@ -46,7 +47,7 @@ def film_bars(error: ErrorEstimate) -> tuple[str, str]:
     return central, least
 
 
-@stored("result of solve_steady", 2)
+@stored("result of solve_steady", 3)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SteadyResult(ScaledTable, Origin):
     """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
@@ -89,6 +90,8 @@ class SteadyResult(ScaledTable, Origin):
         Part of the gap that oil fills: 1 under pressure.
     layer, layer_behind : ndarray or None, shape (ny + 1,)
         Oil on both surfaces ahead of the contact and behind it, over the dry approach; in SI [m].
+    temperature : FilmTemperature or None
+        Of a film that was solved with heat: temperatures [K], and the film over the isothermal one.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -112,6 +115,8 @@ class SteadyResult(ScaledTable, Origin):
     content: Annotated[Array | None, NUMBER.over("X Y", listed=False)] = None
     layer: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
     layer_behind: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
+
+    temperature: FilmTemperature | None = None
 
     DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
 
@@ -227,6 +232,7 @@ class SteadyResult(ScaledTable, Origin):
             f"approach {size * self.approach:.5g} {unit}; largest pressure {self.p_max:.4g} of the Hertz pressure",
             f"film {central:.4g}{bars[0]} in the centre, {least:.4g}{bars[1]} at least, {unit}",
             *([] if self.layer is None else [self._supply_line(size, unit)]),
+            *([] if self.temperature is None else [self._heat_line(self.temperature)]),
             *filter(None, [self.reservation]),
             *note_line(self.outside_assumptions),
         ]
@@ -245,10 +251,18 @@ class SteadyResult(ScaledTable, Origin):
         layers = sorted({f"{size * h:.4g}" for h in (self.layer.min(), self.layer.max())})
         return f"layer of oil {' to '.join(layers)} {unit}; the film is full from X = {self.front:.3g} on"
 
+    @staticmethod
+    def _heat_line(found: FilmTemperature) -> str:
+        """Loss of film by heat, and the warmest oil, in words."""
+        loss = 100.0 * (1.0 - found.film_share)
+        return f"heat makes the film {loss:.3g} % thinner in the centre; the oil warms by {found.largest:.3g} K"
+
     def to_dict(self) -> dict[str, Any]:
         """Numbers without the fields, status and origin, ready for JSON; of an SI point with ``si``."""
         said: dict[str, Any] = {"status": str(self.status), "advice": self.status.advice}
         said |= {"reservation": self.reservation, "outside_assumptions": self.outside_assumptions}
         if self.supply is not None:
             said |= {"supply": self.supply.to_dict(), "front": self.front}
+        if self.temperature is not None:
+            said |= {"temperature": self.temperature.to_dict()}
         return ScaledTable.to_dict(self) | said | self.origin_dict()

@@ -120,7 +120,14 @@ class Multigrid:
         mesh, across = replace(self.mesh, n=self.mesh.n // 2), self.finest.ny // 2
         half = Multigrid(self.point, mesh, across=across, **self._options)
         half.is_start = True
+        half.set_heat(self.finest.fields.flow.heat[: 2 * half.finest.ny + 1 : 2, ::2])
         return half
+
+    def set_heat(self, heat: Array) -> None:
+        """Heating of the oil at the nodes of the finest level (`kernels.reynolds.Flow`), on all levels."""
+        for level in self.levels:
+            across, along = self.finest.ny // level.ny, self.finest.nx // level.nx
+            level.fields.flow.heat[...] = heat[::across, ::along]
 
     def set_time_coefficient(self, c_t: float) -> None:
         """Coefficient of rho H in the implicit part of the squeeze term, on all levels."""

@@ -278,3 +278,20 @@ def test_a_layer_of_oil(call, refused):
     refused(
         ("--layer = 0.2", "without --layer-ratio"), "steady", *options(), "--layer", "0.2", "--layer-ratio", "1"
     )
+
+
+def test_heat(call, refused):
+    """`--thermal`, beside the published formulas; what it needs, and what it does not go with."""
+    cold, warm = (
+        json.loads(call("steady", *options(), *COARSE, *given, "--json", "-").out)
+        for given in ((), ("--thermal", "--slide-roll", "0.1"))
+    )
+    assert "temperature" not in cold
+    assert warm["h_central"] < cold["h_central"]
+    assert warm["temperature"]["inputs"]["slide_roll"] == 0.1
+    shown = call("steady", *options(), *COARSE, "--thermal").out
+    assert re.search(r"film by heat +0\.9\d+ +of the isothermal film; 0\.9\d+ by Gupta", shown)
+    refused(("--slide-roll = 0.1", "given with --thermal"), "steady", *options(), "--slide-roll", "0.1")
+    refused(("--slide-roll = 2.0", "between -1 and 1"), "steady", *options(), "--thermal", "--slide-roll", "2")
+    refused(("--thermal = True", "no metres"), "steady", "--M", "20", "--L", "10", "--kappa", "1", "--thermal")
+    refused(("--thermal: not in the model", "`ehlcontact steady` has"), "impedance", *options(), "--thermal")

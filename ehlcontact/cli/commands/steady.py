@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 import numpy as np
 import typer
 
+from ehlcontact.assumptions.judge import judged
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Supply, Surfaces
+from ehlcontact.cli.contact import Contact, Heating, Supply, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
@@ -63,6 +64,7 @@ class Solving(o.Options):
 def steady(
     contact: Contact,
     supply: Supply,
+    heating: Heating,
     surfaces: Surfaces,
     grid: o.Grid,
     solving: Solving,
@@ -72,6 +74,7 @@ def steady(
     from ehlcontact.steady import solve_steady
 
     chosen = grid.chosen() | solving.model_dump() | {"supply": supply.chosen(contact)}
+    chosen |= {"thermal": heating.chosen(contact)}
     point = contact.solvable()
     surfaces.check(contact)
     out.check()
@@ -123,6 +126,7 @@ def _rows(result: SteadyResult) -> list[Row]:
         ("load balance", f"{result.load_residual:.1e}", "over the load"),
         ("cycles", f"{result.cycles}", ""),
         *_supply_rows(result),
+        *_heat_rows(result),
         *run_rows(result),
     ]
 
@@ -133,6 +137,26 @@ def _supply_rows(result: SteadyResult) -> list[Row]:
         return []
     size, unit = (1.0, "dry approaches") if result.scales is None else (1e6 * result.scales.length, "µm")
     return [("layer of oil", f"{numeral(size * result.layer[0])} {unit}", f"full from X = {result.front:.3g} on")]
+
+
+def _heat_rows(result: SteadyResult) -> list[Row]:
+    """Loss of film by heat, beside published formulas, and temperatures."""
+    found = result.temperature
+    if found is None:
+        return []
+    row = judged(result)["isothermal"]
+    gupta, wilson = row.details["gupta"], row.details["wilson"]
+    beside = f"of the isothermal film; {gupta:.3g} by Gupta et al., {wilson:.3g} by Wilson and Sheu"
+    return [
+        ("film by heat", f"{found.film_share:.4g}", beside),
+        (
+            "warmest oil",
+            f"{found.largest:.3g} K",
+            f"mean over the film, above the inlet; Q = {found.thermal_load:.3g}",
+        ),
+        ("warmest surface", f"{found.surfaces.max():.3g} K", "above the inlet"),
+        ("heat balance", f"{found.balance:.1e}", "over the heat made"),
+    ]
 
 
 def _left_out(result: SteadyResult) -> str:

@@ -8,6 +8,7 @@ module        responsibility
 ``relax``     hybrid line relaxation of the whole level
 ``flanks``    line relaxation along the steep flanks of the pressure
 ``supply``    partly filled nodes: the flow that the surfaces carry through them
+``heat``      sweeps of the energy equation of a film
 ``cavitation``  passes along the cavitation boundary
 ``transfer``  from grid to grid
 ``mlmi``      the direct sum of the deflection, and one coarsening of multi-integration

@@ -18,7 +18,7 @@ import numpy as np
 from ehlcontact.elementary import exponential
 from ehlcontact.jit import jit_loop, jit_node
 from ehlcontact.lanes import LANES, at, eight, larger, put, root, where_positive
-from ehlcontact.lubricant import density, log_viscosity
+from ehlcontact.lubricant import density, heated, log_viscosity
 
 FILM_FLOOR = 1e-8  # where iterates overlap; keeps eps > 0 without touching any converged film
 TINY = 1e-290  # keeps 0/0 out where both Poiseuille coefficients underflow
@@ -55,6 +55,7 @@ class Flow(NamedTuple):
     # Between i and i + 1: 1, and before a front of full film, through which a given flow comes, 0 or, in steps in
     # time, less by the share of the flow pressed back that is felt behind it (`kernels.supply`)
     open: Any
+    heat: Any  # of ln(eta) + 9.67: its relative change by temperature, an input; 0 at that of the inlet
 
 
 def new_flow(shape: tuple[int, int]) -> Flow:
@@ -87,7 +88,7 @@ def update_node(j, i, P, H, law, stencil, flow):
     """What `flow` holds at one node, or eight."""
     p, film = at(P, j, i), at(H, j, i)
     rho, rho_slope = density(p, law)
-    log_eta, log_eta_slope = log_viscosity(p, law)
+    log_eta, log_eta_slope = heated(log_viscosity(p, law), at(flow.heat, j, i), law)
     h = larger(film, FILM_FLOOR)
     put(flow.eps, j, i, rho * h * h * h * exponential(-log_eta) / stencil.lam)
     put(flow.eps_slope, j, i, rho_slope / rho - log_eta_slope)

@@ -1,0 +1,169 @@
+"""`Heat`: what the heating of a film needs of oil and surfaces, as an input.
+
+How the solver uses it: `ehlcontact.solver.film_heat`; equations and sources: docs/heat.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from math import inf, log, pi, sqrt
+from typing import Any, NamedTuple
+
+from ehlcontact.checks import require_between, require_instance
+from ehlcontact.checks.quantity import fields_take
+from ehlcontact.errors import InputError
+from ehlcontact.lubricant.oil import KELVIN, typical_temperature_slope
+from ehlcontact.lubricant.oil_laws import ROELANDS_LOG
+from ehlcontact.point import MoesPoint, OperatingPoint, Point, Scales
+
+ROELANDS_COLD = 135.0  # K: Roelands counts temperatures from -135 C
+RANGES = {
+    "slide_roll": (-1.0, 1.0),
+    "temperature": (-50.0, 250.0),
+    "temperature_slope": (0.0, 0.2),
+    "conductivity": (0.05, 1.0),
+    "heat_capacity": (5e5, 5e6),
+    "expansion": (0.0, 2e-3),
+    "eyring_stress": (1e5, 1e9),
+}
+EFFUSIVITIES = (100.0, 1e5)
+MINERAL_OIL = 0.134  # W/(m K), measured of FVA 3 (Schwarz et al. 2023, table A1); mineral oils 0.12 to 0.15
+
+
+class HeatNumbers(NamedTuple):
+    """Numbers of the energy equation at an operating point, temperatures in K."""
+
+    convection: float  # rho c/p_h, 1/K
+    conduction: float  # 12 k a/(p_h u_mean delta_H^2), 1/K
+    expansion: float  # 1/K
+    inlet: float  # K
+    slide_roll: float  # without sign
+    shear: float  # ln of eta0 times the sliding speed over delta_H, over the Eyring stress; -inf without sliding
+    stress: float  # Eyring stress times a/(p_h delta_H)
+    walls: tuple[float, float]  # rise of each surface after a unit of heat over a unit of sqrt(X), K
+    temperature_scale: float  # of the inlet over Roelands' -135 C, K
+    exponent: float  # S0 of Roelands
+
+
+@fields_take(temperature="degrees Celsius", temperature_slope="1/K", conductivity="W/(m K)", eyring_stress="Pa")
+@dataclass(frozen=True, slots=True)
+class Heat:
+    """Data of oil and surfaces for a film that heats up.
+
+    Parameters
+    ----------
+    slide_roll : float
+        Slide-to-roll ratio: (u1 - u2)/u_mean, -1 to 1; u1 is the speed of the first body.
+    temperature : float, optional
+        Of the oil in the inlet and of the surfaces ahead of it, in degrees Celsius; by default the oil's.
+    temperature_slope : float, optional
+        -d ln(eta0)/dT [1/K] there; by default the oil's.
+    conductivity : float
+        Of the oil [W/(m K)].
+    heat_capacity : float
+        Of the oil per volume, rho c [J/(m3 K)].
+    expansion : float
+        Thermal expansion of the oil [1/K]: compression heats it.
+    effusivity : float or (float, float)
+        (k rho c)^(1/2) of both bodies, or of each [W s^0.5/(m2 K)]; bearing steel by default.
+    eyring_stress : float
+        Eyring stress [Pa], for the heat that sliding makes; the flow of the film is Newton's.
+
+    Raises
+    ------
+    InputError
+        A value outside its range.
+
+    Examples
+    --------
+    >>> Heat(slide_roll=0.05).conductivity
+    0.134
+    """
+
+    slide_roll: float = 0.0
+    temperature: float | None = None
+    temperature_slope: float | None = None
+    conductivity: float = MINERAL_OIL
+    heat_capacity: float = 1.7e6
+    expansion: float = 6.5e-4
+    effusivity: Any = 13_000.0
+    eyring_stress: float = 5e6
+
+    def __post_init__(self) -> None:
+        for name, ends in RANGES.items():
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, require_between(name, getattr(self, name), *ends))
+        pair = self.effusivity if isinstance(self.effusivity, tuple | list) else (self.effusivity,) * 2
+        if len(pair) != 2:
+            raise InputError("effusivity", self.effusivity, "one number, or a pair: of both bodies")
+        object.__setattr__(
+            self, "effusivity", tuple(require_between("effusivity", one, *EFFUSIVITIES) for one in pair)
+        )
+
+    def at(self, point: Point) -> Heat:
+        """The same with temperature and slope of the oil of this point, where they are not given.
+
+        Raises
+        ------
+        InputError
+            A dimensionless point, or an oil without these data.
+        """
+        if not isinstance(point, OperatingPoint):
+            allowed = "left out at a dimensionless point: heat has to do with metres, seconds and kelvin"
+            raise InputError("thermal", type(self).__name__, allowed)
+        oil = point.lubricant
+        slope = oil.temperature_slope if self.temperature_slope is None else self.temperature_slope
+        warm = oil.temperature if self.temperature is None else self.temperature
+        if slope is None:
+            typical = typical_temperature_slope(oil.eta0)
+            allowed = f"given in Heat [1/K]; a typical mineral oil of {oil.eta0:.3g} Pa s has {typical:.2g}, "
+            raise InputError("temperature_slope", None, allowed + "and one by its grade (iso_vg) its own")
+        if warm is None:
+            raise InputError("temperature", None, "given in Heat: that of the inlet in degrees Celsius")
+        return replace(self, temperature=warm, temperature_slope=slope)
+
+    def numbers(self, moes: MoesPoint, scales: Scales) -> HeatNumbers:
+        """Dimensionless numbers of the energy equation; temperature and slope are known (`at`)."""
+        assert self.temperature is not None and self.temperature_slope is not None
+        speed, film, p_hertz = scales.a / scales.time, scales.length, scales.pressure
+        slide = abs(self.slide_roll)
+        faster = 1.0 if self.slide_roll >= 0.0 else -1.0
+        unit = p_hertz * speed * film / scales.a  # W/m2
+        walls = (
+            unit * sqrt(scales.a / (pi * speed * (1.0 + 0.5 * slide * side))) / body
+            for side, body in zip((1.0, -1.0), self.effusivity[:: int(faster)], strict=True)
+        )
+        first, second = walls
+        above = self.temperature + ROELANDS_COLD
+        return HeatNumbers(
+            convection=self.heat_capacity / p_hertz,
+            conduction=12.0 * self.conductivity * scales.a / (p_hertz * speed * film * film),
+            expansion=self.expansion,
+            inlet=self.temperature + KELVIN,
+            slide_roll=slide,
+            shear=log(moes.eta0 * speed * slide / (film * self.eyring_stress)) if slide else -inf,
+            stress=self.eyring_stress * scales.a / (p_hertz * film),
+            walls=(first, second),
+            temperature_scale=above,
+            exponent=self.temperature_slope * above / (log(moes.eta0) + ROELANDS_LOG),
+        )
+
+    def load(self, moes: MoesPoint, scales: Scales) -> float:
+        """Thermal load Q: ``-d eta0/dT u_mean^2/k``."""
+        assert self.temperature_slope is not None
+        return self.temperature_slope * moes.eta0 * (scales.a / scales.time) ** 2 / self.conductivity
+
+    def to_dict(self) -> dict[str, Any]:
+        """Ready for JSON."""
+        return asdict(self) | {"effusivity": list(self.effusivity)}
+
+    @classmethod
+    def from_dict(cls, entries: Mapping[str, Any]) -> Heat:
+        """Back from `to_dict`."""
+        return cls(**entries)
+
+
+def require_heat(value: object) -> None:
+    """Raise `InputError` unless this is a `Heat`."""
+    require_instance("thermal", value, Heat, "a Heat(slide_roll=..., ...)")

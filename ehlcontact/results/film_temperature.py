@@ -1,0 +1,51 @@
+"""Temperatures of a film that was solved with heat."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.heat import Heat
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FilmTemperature:
+    """Temperatures above that of the inlet [K], at points in metres as at others.
+
+    Attributes
+    ----------
+    inputs : Heat
+        As given to `solve_steady`, with the data of the oil.
+    mean : ndarray, shape (nx + 1, ny + 1)
+        Mean over the film; without pressure that of the surfaces.
+    surfaces : ndarray, shape (2, nx + 1, ny + 1)
+        Of both surfaces, the faster one first.
+    film_share : float
+        Central film over that without heat, on the same grid.
+    thermal_load : float
+        Q = -d eta0/dT u_mean^2/k.
+    balance : float
+        Heat made in the film less heat given to the surfaces and carried away, over the former.
+    """
+
+    inputs: Heat
+    mean: Array
+    surfaces: Array
+    film_share: float
+    thermal_load: float
+    balance: float
+
+    @property
+    def largest(self) -> float:
+        """Largest mean temperature [K]."""
+        return float(self.mean.max())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Numbers without the fields, ready for JSON."""
+        numbers = {name: getattr(self, name) for name in ("film_share", "thermal_load", "balance", "largest")}
+        return numbers | {"inputs": self.inputs.to_dict()}

@@ -1,0 +1,254 @@
+"""Heat of a film: temperatures of oil and surfaces from pressure and film; equation numbers of docs/heat.md.
+
+The mean temperature follows from what the flow by pressure, sliding and compression make, what the oil carries on,
+and what goes into both surfaces, which are half-spaces that move through the heat. All terms are per area of a
+node, in units of p_h u_mean delta_H/a; temperatures are in K above that of the inlet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import toeplitz
+
+from ehlcontact.heat import HeatNumbers
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.kernels.heat import sweep
+from ehlcontact.solver.kernels.reynolds import FILM_FLOOR
+from ehlcontact.solver.level import Level
+from ehlcontact.solver.multigrid import Multigrid
+
+Array = NDArray[np.float64]
+
+INNER = 0.6  # of the heat of the flow by pressure; the rest is made beside the surfaces and goes into them (eq. 4)
+NET, BACK = 8.0 / 7.0, 1.0 / 7.0  # shares of the net flow, and of the surfaces' own, that carry the rise (eq. 5)
+BY_RISE, BY_PRESSURE, BY_SLIDING = 0.6, 12.0 / 175.0, 0.4  # temperature that the flow by pressure sees (eq. 8)
+COLDEST = -0.3  # of that of the inlet over Roelands' -135 C: only iterates are colder
+NEWTONIAN = 20.0  # ln of a stress over Eyring's, above which asinh is a logarithm
+SETTLED = 1e-9  # change of the temperatures in one round, over the largest
+MOST_ROUNDS, MOST_SWEEPS = 100, 50
+ROUNDS = 2  # after a cycle, whose film changes by more
+WALL_SHARE = 0.5  # of the change of the surfaces that a round takes where sliding heats: it falls with temperature
+LARGE_CHANGE, STEP = 0.3, 0.8  # of the heating in a cycle, over itself, of which it takes this share
+START = 0.75  # of the heating of an isothermal film: one with heat is thinner and has thinner oil
+REMEMBERED = 2  # cycles before the last
+HOTTEST = -0.95  # heating: ln(eta) + 9.67 stays above 0
+
+
+class _Terms(NamedTuple):
+    """Terms of the energy equation that belong to one state of pressure and film, (ny + 1, nx + 1) each."""
+
+    wet: NDArray[np.bool_]
+    H: Array
+    along: Array  # mass through the faces behind the nodes, and to the next line
+    across: Array
+    heat_along: Array  # heat that a rise of 1 carries through them
+    heat_across: Array
+    pressed: Array  # made by the flow by pressure
+    work: Array  # expansion times the work of compression
+    exchange: Array  # given to the surfaces by a rise of 1
+    cold: Array  # ln(eta) at the temperature of the inlet
+
+
+class FilmHeat:
+    """Temperatures on one level.
+
+    Attributes
+    ----------
+    rise : array (ny + 1, nx + 1)
+        Mean temperature over the film less that of the surfaces there; 0 where there is no pressure.
+    walls : array (2, ny + 1, nx + 1)
+        Temperatures of both surfaces, the faster one first.
+    """
+
+    def __init__(self, level: Level, numbers: HeatNumbers) -> None:
+        self.level, self.numbers = level, numbers
+        self.rise, self.walls = np.zeros(level.P.shape), np.zeros((2, *level.P.shape))
+        # Behind the centre what pressure makes goes straight to the surfaces: in the oil it would only move the
+        # pressure spike, which moves the heat, and cycles on fine grids would not settle.
+        self._ahead = level.X <= 0.0
+        behind = np.sqrt(np.append(0.0, (np.arange(level.nx + 1) + 0.5) * level.hx))
+        # Rise of a surface at one node by heat in the cell of another: of a half-space that moves
+        self._memory = toeplitz(2.0 * np.diff(behind), np.zeros(level.nx + 1)).T
+
+    @property
+    def mean(self) -> Array:
+        """Mean temperature over the film."""
+        return self.rise + self.walls.mean(axis=0)
+
+    def solve(self, rounds: int = MOST_ROUNDS) -> Array:
+        """Temperatures at the present P, film and flow; returns what ``Flow.heat`` becomes by them (eqs. 8, 9)."""
+        t, n = self._terms(), self.numbers
+        share = WALL_SHARE if n.slide_roll > 0.0 else 1.0
+        for _ in range(rounds):
+            before = np.concatenate([self.rise[None], self.walls])
+            slid, slope = self._sliding(t)
+            made = self._made(t) + slid - slope * self.rise
+            for _ in range(MOST_SWEEPS):
+                given = t.heat_along, t.heat_across, t.exchange - slope, made
+                if sweep(*given, self.rise) <= SETTLED * np.abs(self.rise).max():
+                    break
+            for k, heat in enumerate(self._into_walls(t)):
+                self.walls[k] += share * (n.walls[k] * (heat @ self._memory) - self.walls[k])
+            after = np.concatenate([self.rise[None], self.walls])
+            if np.abs(after - before).max() <= SETTLED * np.abs(after).max():
+                break
+        slid = self._sliding(t)[0]
+        beside = t.H / n.conduction * (BY_PRESSURE * t.pressed * self._ahead + BY_SLIDING * slid)
+        return self._heating(self.walls.mean(axis=0) + BY_RISE * self.rise + beside)
+
+    def balance(self) -> float:
+        """Heat made less heat given to the surfaces and carried away, over all that is made, in the whole film."""
+        t, n = self._terms(), self.numbers
+        slid, wall = self._sliding(t)[0], self.walls.mean(axis=0)
+        work = t.work * (n.inlet + self.mean)
+        rise = np.pad(self.rise, ((0, 1), (0, 1)))
+        along = np.maximum(t.heat_along, 0.0) * self.rise + np.minimum(t.heat_along, 0.0) * rise[:-1, 1:]
+        across = np.maximum(t.heat_across, 0.0) * self.rise + np.minimum(t.heat_across, 0.0) * rise[1:, :-1]
+        carried = _divergence(along, across) + self._with_walls(t, wall)
+        left = t.pressed + slid + work - sum(self._into_walls(t)) - np.where(t.wet, carried, 0.0)
+        weights = self.level.force_weights
+        return float(abs(np.vdot(weights, left)) / np.vdot(weights, t.pressed + slid + np.abs(work)))
+
+    def _terms(self) -> _Terms:
+        """Terms at the present state of the level (eqs. 2 to 5)."""
+        level, n, s = self.level, self.numbers, self.level.stencil
+        P, flow, H = level.P, level.fields.flow, np.maximum(level.H, FILM_FLOOR)
+        wet = P > 0.0
+        along, across, back = np.zeros_like(P), np.zeros_like(P), np.zeros_like(P)
+        step_x, step_y = np.diff(P, axis=1), np.diff(P, axis=0)
+        along[:, :-1] = s.inv_hx * level.full_flow()[:, :-1] - s.cx * flow.along[:, :-1] * step_x
+        across[:-1] = -s.cy * flow.across[:-1] * step_y
+        back[:, :-1] = 0.5 * s.inv_hx * (flow.mass[:, :-1] + flow.mass[:, 1:])
+        pressed = _at_nodes(s.cx * flow.along[:, :-1] * step_x**2, s.cy * flow.across[:-1] * step_y**2)
+        work = _at_nodes(along[:, :-1] * step_x, across[:-1] * step_y)
+        log_eta = np.log(flow.rho * H**3 / (s.lam * flow.eps))
+        return _Terms(
+            wet=wet,
+            H=H,
+            along=along,
+            across=across,
+            heat_along=n.convection * (NET * along - BACK * back),
+            heat_across=n.convection * NET * across,
+            pressed=np.where(wet, pressed / flow.rho, 0.0),
+            work=np.where(wet, n.expansion * work / flow.rho, 0.0),
+            exchange=np.where(wet, n.conduction / H, 0.0),
+            cold=(log_eta - flow.heat * level.law.q) / (1.0 + flow.heat),
+        )
+
+    def _made(self, t: _Terms) -> Array:
+        """Heat that enters the rise, but for that of sliding."""
+        wall = self.walls.mean(axis=0)
+        made = t.work * (self.numbers.inlet + self.rise + wall) + INNER * t.pressed
+        return made * self._ahead - np.where(t.wet, self._with_walls(t, wall), 0.0)
+
+    def _with_walls(self, t: _Terms, wall: Array) -> Array:
+        """What the oil carries on because it has the temperature of the surfaces."""
+        along, across = np.zeros_like(wall), np.zeros_like(wall)
+        along[:, :-1] = 0.5 * t.along[:, :-1] * (wall[:, :-1] + wall[:, 1:])
+        across[:-1] = 0.5 * t.across[:-1] * (wall[:-1] + wall[1:])
+        return self.numbers.convection * _divergence(along, across)
+
+    def _into_walls(self, t: _Terms) -> tuple[Array, Array]:
+        """Heat that goes into each surface (eq. 6)."""
+        straight = (1.0 - INNER * self._ahead) * t.pressed + ~self._ahead * t.work * (
+            self.numbers.inlet + self.mean
+        )
+        half = 0.5 * (t.exchange * self.rise + straight)
+        through = t.exchange / 12.0 * (self.walls[1] - self.walls[0])
+        return half + through, half - through
+
+    def _heating(self, temperature: Array) -> Array:
+        """Relative change of ln(eta) + 9.67 at a temperature above that of the inlet: Roelands (eq. 9)."""
+        n = self.numbers
+        return np.expm1(-n.exponent * np.log1p(np.maximum(temperature / n.temperature_scale, COLDEST)))
+
+    def _sliding(self, t: _Terms) -> tuple[Array, Array]:
+        """Heat of sliding under Eyring's stress at the mean temperature, and its slope over that, at most 0."""
+        n, mean = self.numbers, self.mean
+        if n.slide_roll == 0.0:
+            return np.zeros_like(mean), np.zeros_like(mean)
+        heat, above = self._heating(mean), t.cold + self.level.law.q
+        newton = n.shear + t.cold + heat * above - np.log(t.H)  # ln of Newton's stress over Eyring's
+        stress = np.arcsinh(np.exp(np.minimum(newton, NEWTONIAN)))
+        stress = np.where(newton > NEWTONIAN, newton + np.log(2.0), stress)
+        by_log = 1.0 / np.hypot(1.0, np.exp(-np.clip(newton, -NEWTONIAN, NEWTONIAN)))
+        slope = -by_log * above * n.exponent * (1.0 + heat) / (n.temperature_scale + mean)
+        power = np.where(t.wet, n.stress * n.slide_roll, 0.0)
+        return power * stress, power * np.minimum(slope, 0.0)
+
+
+class HeatedCycles:
+    """Cycles or Newton steps after each of which the viscosity follows the temperatures; `step` stands for one.
+
+    A cycle at given viscosity leaves little. How fast the viscosity settles depends on what pressure and film make
+    of it: a change comes back from the inlet by a fifth, with the other sign, and from where the pressure ends by
+    half, with its own. So changes are combined as in `acceleration`.
+    """
+
+    def __init__(self, multigrid: Multigrid, heat: FilmHeat, advance: Callable[[Balance], float]) -> None:
+        self.multigrid, self.heat, self._advance = multigrid, heat, advance
+        self._last: tuple[Array, Array] | None = None  # what the heating became, and its change
+        self._differences: list[tuple[Array, Array]] = []  # of both, from cycle to cycle
+
+    def start(self, balance: Balance) -> None:
+        """Full multigrid with what the isothermal film, which is on the levels, would heat, less some of it.
+
+        From the isothermal pressure itself cycles on fine grids diverge where the pressure ends.
+        """
+        self.multigrid.set_heat(START * self.heat.solve(ROUNDS))
+        self.multigrid.full_multigrid(balance)
+        self._follow()
+
+    def step(self, balance: Balance) -> float:
+        """One of them; returns the largest change of P."""
+        self.multigrid.sweep_factor = (
+            self.multigrid.least_sweep_factor
+        )  # what falls slowly is not the cycles' part
+        change = self._advance(balance)
+        self._follow()
+        return change
+
+    def _follow(self) -> None:
+        """Viscosity of the present temperatures; residuals with it."""
+        mg = self.multigrid
+        before = mg.finest.fields.flow.heat
+        heat = self.heat.solve(ROUNDS)
+        change = heat - before
+        large = bool(np.abs(change).max() > LARGE_CHANGE * np.abs(heat).max())
+        if self._last is not None and not large:
+            new = heat - self._last[0], change - self._last[1]
+            self._differences = [*self._differences, new][-REMEMBERED:]
+        self._last = None if large else (heat, change)
+        mg.set_heat(before + STEP * change if large else np.maximum(self._combined(heat, change), HOTTEST))
+        mg.finest.update(mg.u)
+
+    def _combined(self, heat: Array, change: Array) -> Array:
+        """The combination of what was remembered whose change would be smallest, in the mean."""
+        changes = [c for _, c in self._differences]
+        products = [[float(np.vdot(a, b)) for b in changes] for a in changes]
+        if not changes or not np.isfinite(products).all():
+            return heat
+        shares = np.linalg.lstsq(products, [float(np.vdot(c, change)) for c in changes], rcond=None)[0]
+        return heat - sum(share * h for share, (h, _) in zip(shares, self._differences, strict=True))
+
+
+def _at_nodes(along: Array, across: Array) -> Array:
+    """Half of what stands on the faces of a node, (ny + 1, nx) along and (ny, nx + 1) across, together."""
+    found = np.zeros((along.shape[0], across.shape[1]))
+    found[:, 1:-1] = 0.5 * (along[:, :-1] + along[:, 1:])
+    found[1:-1] += 0.5 * (across[:-1] + across[1:])
+    found[0] += across[0]
+    return found
+
+
+def _divergence(along: Array, across: Array) -> Array:
+    """What leaves a node through the faces behind it, less what comes through those before it."""
+    found = np.zeros_like(along)
+    found[:, 1:] = along[:, 1:] - along[:, :-1]
+    found[1:] += across[1:] - across[:-1]
+    found[0] += 2.0 * across[0]
+    return found
