@@ -15,6 +15,7 @@ from fmu.spec import DISPLAY_UNITS, UNITS, ModelSpec, Variable
 
 Element = ElementTree.Element
 
+LONGEST_LIST = 200  # of inputs and states; those of bearings would be half the text
 DEFAULT_STEPS = 1000  # of the default experiment
 LOG_CATEGORIES = {
     "logStatusError": "Calls that failed, always logged",
@@ -238,7 +239,8 @@ def _structure(root: Element, spec: ModelSpec, fmi: int) -> None:
     def unknown(parent: Element, tag: str, place: int, depends: tuple[str, ...], initial: bool = False) -> None:
         knowns = [_place(spec, name, fmi) for name in depends if initial or name in moving]
         entry = _child(parent, tag, **{"index" if fmi == 2 else "valueReference": str(place)})
-        if initial or len(knowns) < len(moving):  # without a list it depends on all, which the standard says
+        # without a list it depends on all, which the standard says
+        if initial or len(knowns) < len(moving) or len(knowns) <= LONGEST_LIST:
             entry.set("dependencies", " ".join(map(str, sorted(knowns))))
             entry.set("dependenciesKind", " ".join(["dependent"] * len(knowns)))
 
