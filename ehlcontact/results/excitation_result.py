@@ -39,7 +39,7 @@ class ExcitationResult(ScaledTable, Origin):
         ``|G/Z|`` with the impedance Z at the same frequency: share of the height that acts like an approach.
     amplitude_error : ndarray, shape (k,)
         How far G, whatever its phase, may be from that of an endless fine mesh on the same region, in f0/delta_H;
-        in SI in ``error_bars``, which has it by the names "in_phase", "quadrature", "amplitude" and, over |Z|,
+        in SI in ``error_bars``, which has it by the names "in_phase", "quadrature", "amplitude" and, over ``|Z|``,
         "contact_filter".
     residual : ndarray, shape (k,)
         Relative residual of the linear system.

@@ -91,7 +91,7 @@ class SpeedHistory:
 
     @property
     def largest(self) -> float:
-        """Largest |U|."""
+        """Largest ``abs(U)``."""
         return float(np.abs(self._table[1]).max())
 
     @property
