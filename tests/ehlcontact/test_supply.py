@@ -276,7 +276,8 @@ def test_small_vibrations_have_the_impedance_and_lose_no_oil(M, L, kappa, domain
     K, C, loss = vibrate(point, layer, domain, n, Omega, 2e-4, 120 if Omega < 3.0 else 360, 1e-8)
     linear = impedance(point, Omega=Omega, grid=Grid(n, domain), supply=OilLayer(H=layer))
     assert K == pytest.approx(linear.stiffness[0], rel=0.01)
-    assert C == pytest.approx(linear.damping[0], rel=0.05)
+    # fast vibrations of starved films have hardly any damping: docs/oil_supply.md states what is left of it there
+    assert C == pytest.approx(linear.damping[0], rel=0.05, abs=1e-4 if Omega > 2.0 else 0.0)
     assert loss < 1e-8
 
 
