@@ -269,16 +269,17 @@ VIBRATIONS = [
 @pytest.mark.parametrize(
     "Omega", [1.0, pytest.param(0.2, marks=pytest.mark.slow), pytest.param(3.0, marks=pytest.mark.slow)]
 )
-def test_small_vibrations_have_the_impedance_and_lose_no_oil(M, L, kappa, domain, ratio, Omega):
+def test_small_vibrations_have_the_impedance_and_lose_no_oil(request, M, L, kappa, domain, ratio, Omega):
     point, n = MoesPoint(M, L, kappa), 64 if M < 100 else 128
     flooded = solve_steady(point, grid=Grid(n, domain))
     layer = ratio * float(density(1.0, point.law)[0]) * flooded.h_central
     K, C, loss = vibrate(point, layer, domain, n, Omega, 2e-4, 120 if Omega < 3.0 else 360, 1e-8)
     linear = impedance(point, Omega=Omega, grid=Grid(n, domain), supply=OilLayer(H=layer))
     assert K == pytest.approx(linear.stiffness[0], rel=0.01)
-    # fast vibrations of starved films have hardly any damping: docs/oil_supply.md states what is left of it there
-    assert C == pytest.approx(linear.damping[0], rel=0.05, abs=1e-4 if Omega > 2.0 else 0.0)
     assert loss < 1e-8
+    if Omega == 3.0 and (M, ratio) in {(20, 0.3), (1000, 0.3)}:
+        request.applymarker(pytest.mark.xfail(strict=True, reason="C is nearly zero: off by .00009 and .00001"))
+    assert C == pytest.approx(linear.damping[0], rel=0.05)
 
 
 def test_simulation_under_a_supply(tmp_path):
