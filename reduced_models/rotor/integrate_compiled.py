@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import inner, jit_exact_loop
 from reduced_models.bearing.ball_steps import accept, begin_balls, press
+from reduced_models.bearing.compiled_list import CompiledList
 from reduced_models.rotor.prepared_run import DISPLACEMENTS, PreparedRun
 from reduced_models.rotor.time_step import Steps, rounding_hint
 
@@ -66,7 +67,9 @@ class CompiledSteps:
         load = max(float(np.linalg.norm(run.rotor.load)), float(np.abs(run.turning).max(initial=0.0)))
         self._limits = tolerance * max(load, 1.0), run.farthest
         r, force = run.histories.motion[0], run.histories.force[0]
-        balls = max(one.balls.number for one in run.balls)
+        self._balls = CompiledList(one.balls for one in run.balls)
+        self._films = CompiledList(one.films for one in run.balls)
+        balls = max(one.number for one in self._balls)
         points, ties, _ = run.rotor.geometry
         d = r.size // len(run.balls)
         pushed = np.zeros(d), np.zeros((d, d)), np.zeros((d, d))
@@ -88,9 +91,8 @@ class CompiledSteps:
         run, here = self._run, slice(first + 1, end + 1)
         course = run.omega[here], run.cage_angles[here], run.turning[here]
         d, v, r, rate, force, iterations = (history[here] for history in run.histories)
-        balls, films = tuple(one.balls for one in run.balls), tuple(one.films for one in run.balls)
         out = d, v, r, force, iterations
-        made, how = run_block(steps, balls, films, self._rings, run.state, course, self._limits, out)
+        made, how = run_block(steps, self._balls, self._films, self._rings, run.state, course, self._limits, out)
         rate[:] = v @ steps.B.T @ self._rings.ties.T
         self.made = first + int(made)
         lost = run.lost(first, self.made)
@@ -119,8 +121,8 @@ def run_block(steps, balls, films, rings, state, course, limits, out):
     Parameters
     ----------
     steps : Steps
-    balls, films : tuple
-        `Balls` and `Films` of every bearing.
+    balls, films : CompiledList
+        `Balls` and `Films` of every bearing, or `AngularBalls` and `AngularFilms`.
     rings : RingState
     state : ndarray, shape (4, N)
         Displacement, velocity and acceleration; room.
