@@ -7,6 +7,7 @@
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
 | bearing | ball bearings of such contacts: `BallBearing` |
 | rotor | rotors on contacts, full films and ball bearings: equilibrium, motion over time, responses |
+| signals | acceleration of nodes and housings, its spectra and features |
 
 Symbols and units: `ehlcontact.point`.
 """
@@ -76,6 +77,18 @@ from reduced_models.rotor.supports import BearingMount as BearingMount
 from reduced_models.rotor.supports import ContactMount as ContactMount
 from reduced_models.rotor.unbalance import unbalance_response as unbalance_response
 from reduced_models.rotor.unbalance_result import UnbalanceResponse as UnbalanceResponse
+from reduced_models.signals.indicators import indicators as indicators
+from reduced_models.signals.sampling import housing_acceleration as housing_acceleration
+from reduced_models.signals.sampling import node_acceleration as node_acceleration
+from reduced_models.signals.sampling import sampled as sampled
+from reduced_models.signals.sampling import shaft_angle as shaft_angle
+from reduced_models.signals.spectra import EnvelopeSpectrum as EnvelopeSpectrum
+from reduced_models.signals.spectra import OrderSpectrum as OrderSpectrum
+from reduced_models.signals.spectra import envelope_spectrum as envelope_spectrum
+from reduced_models.signals.spectra import order_spectrum as order_spectrum
+from reduced_models.signals.transfer_path import MeasuredPath as MeasuredPath
+from reduced_models.signals.transfer_path import ModalPath as ModalPath
+from reduced_models.signals.transfer_path import SystemPath as SystemPath
 
 
 def __dir__() -> list[str]:

@@ -7,6 +7,7 @@ import re
 import sys
 from dataclasses import fields, is_dataclass, replace
 
+import control
 import numpy as np
 import pytest
 
@@ -49,15 +50,20 @@ from reduced_models import (
     ContactRecord,
     Disc,
     JeffcottRotor,
+    MeasuredPath,
+    ModalPath,
     Rotor,
     Shaft,
     SpeedProfile,
     Support,
+    SystemPath,
     Unbalance,
     campbell,
     compare,
+    envelope_spectrum,
     fit,
     linearise,
+    order_spectrum,
     rotor_on_bearings,
     sensitivity,
     simulate_oscillator,
@@ -85,6 +91,7 @@ WITHOUT_PLOT = {
     **dict.fromkeys(
         ("BallBearing", "BearingSet", "LinearBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT
     ),
+    **dict.fromkeys(("MeasuredPath", "ModalPath", "SystemPath"), INPUT),
     **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
     **dict.fromkeys(("BearingModel", "ShaftModel"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
@@ -147,8 +154,18 @@ def results(point):
         pair, pair.equilibrium((0.0, 0.0, 0.0), speed_rpm=3000.0),
         bearing.excitation([BallDiameter(ball=0, excess=1e-7)], (0.0, 0.0, 300.0), speed_rpm=3000.0),
         SpeedProfile.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
-        FullContact(point, grid=Grid(n=32)),
+        FullContact(point, grid=Grid(n=32)), *spectra(),
         *verifications(),
+    ]  # fmt: skip
+
+
+def spectra():
+    tone, hz = np.sin(np.linspace(0.0, 3000.0, 2000)), np.array([0.0, 50.0, 100.0])
+    path = ModalPath(hz=[50.0, 80.0], damping=0.1 * np.ones(2), mass=[1.0, 2.0])
+    return [
+        path, MeasuredPath(hz, path.response(hz)), SystemPath(control.tf([1.0, 0.0, 0.0], [1.0, 10.0, 1e4])),
+        envelope_spectrum(tone, 1000.0, (100.0, 400.0)),
+        order_spectrum(tone, 1000.0, np.linspace(0.0, 200.0, 2000), most=20.0),
     ]  # fmt: skip
 
 

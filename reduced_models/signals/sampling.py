@@ -1,0 +1,149 @@
+"""Signals at an output rate from the steps of a run."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.checks import as_numbers, require_choice, require_integer, require_positive
+from ehlcontact.checks.quantity import takes
+from ehlcontact.errors import InputError
+from reduced_models.rotor.result import RotorResult
+from reduced_models.signals.transfer_path import TransferPath
+
+if TYPE_CHECKING:
+    from reduced_models.bearing.ball_bearing import BallBearing
+
+_Floats = NDArray[np.float64]
+
+FINEST = 10_000  # largest number of the fraction that a ratio of rates is
+STOP = ("kaiser", 8.0)  # window of the low-pass: 80 dB
+REACH, PASSED = 32, 0.92  # samples on either side; its edge over half the rate: it stops at 1.0
+LEAST_SAMPLES = 8  # per passage of a ball over a point of the inner race: its third harmonic, with room
+AXES = ("x", "y", "z")
+STENCIL = 5  # steps of a derivative of fourth order
+
+
+@takes(dt="s", rate="Hz")
+def sampled(values: ArrayLike, dt: float, rate: float) -> _Floats:
+    """Values at steps of `dt`, sampled at a lower rate after a low-pass at half of it.
+
+    By `scipy.signal.resample_poly` with a low-pass of linear phase, which passes up to 0.84 of half the rate and
+    stops by 80 dB from half the rate on. Entry 0 is at the time of the first step.
+
+    Parameters
+    ----------
+    values : array_like, shape (k,) or (k, columns)
+        At the steps, along the first axis.
+    dt, rate : float
+        Step [s] and output rate [Hz].
+
+    Raises
+    ------
+    InputError
+        A rate above that of the steps, or one whose ratio to it is no fraction of numbers up to 10 000.
+    """
+    column, dt, rate = as_numbers("values", values), require_positive("dt", dt), require_positive("rate", rate)
+    ratio = Fraction(rate * dt).limit_denominator(FINEST)
+    if not np.isfinite(column).all():
+        raise InputError("values", "nan or infinity", "finite numbers")
+    if rate * dt > 1.0 + 1e-9:
+        raise InputError("rate", rate, f"at most {1.0 / dt:.6g} Hz, that of the steps")
+    if not ratio or abs(float(ratio) - rate * dt) > 1e-9 * rate * dt:
+        raise InputError(
+            "rate", rate, f"{1.0 / dt:.10g} Hz of the steps times a fraction of numbers up to {FINEST}"
+        )
+    up, down = ratio.numerator, ratio.denominator
+    return resampled(column, up, down)
+
+
+@takes(speed_rpm="rev/min", rate="Hz")
+def require_sampling(bearing: BallBearing, speed_rpm: float, rate: float) -> None:
+    """Make sure that an output rate resolves passages of balls over a defect.
+
+    Raises
+    ------
+    InputError
+        Fewer than 8 samples per passage over a point of the inner race.
+    """
+    fastest = bearing.frequencies(speed_rpm).bpfi
+    if require_positive("rate", rate) < LEAST_SAMPLES * fastest:
+        allowed = f"at least {LEAST_SAMPLES * fastest:.4g} Hz: {LEAST_SAMPLES} samples per ball passage"
+        raise InputError("rate", rate, allowed)
+
+
+@takes(rate="Hz")
+def node_acceleration(run: RotorResult, node: str, rate: float) -> _Floats:
+    """Accelerations x, y of a node [m/s2] at an output rate, shape (samples, 2).
+
+    From velocities at the steps, by differences of fourth order.
+
+    Raises
+    ------
+    InputError
+        As `sampled`; a node that the rotor has not, a run of fewer than 5 steps.
+    """
+    from scipy.signal import savgol_filter
+
+    dt = _step(run)
+    rates = run.node_velocity(node)
+    return sampled(savgol_filter(rates, STENCIL, STENCIL - 1, deriv=1, delta=dt, axis=0), dt, rate)
+
+
+@takes(rate="Hz")
+def housing_acceleration(
+    run: RotorResult, path: TransferPath, rate: float, *, bearing: int = 0, axis: str = "y"
+) -> _Floats:
+    """Acceleration [m/s2] that a bearing's force gives to a housing, at an output rate.
+
+    The rotor runs as if the housing stood still; the path is at rest under the force at the start.
+
+    Parameters
+    ----------
+    run : RotorResult
+    path : TransferPath
+        From the force on the outer ring to the sensor.
+    rate : float
+        Of the output [Hz].
+    bearing : int
+        Number of the bearing, from 0.
+    axis : {"x", "y", "z"}
+
+    Raises
+    ------
+    InputError
+        As `sampled`; a bearing or an axis that the run has not.
+    """
+    force, dt = run.ring_force, _step(run)
+    require_choice("axis", axis, AXES[: min(force.shape[2], len(AXES))])
+    last = force.shape[1] - 1
+    if require_integer("bearing", bearing, f"a whole number from 0 to {last}", 0) > last:
+        raise InputError("bearing", bearing, f"a whole number from 0 to {last}")
+    moved = path.acceleration(force[:, bearing, AXES.index(axis)], 1.0 / dt)
+    return sampled(moved, dt, rate)
+
+
+def shaft_angle(t: ArrayLike, speed_rpm: ArrayLike) -> _Floats:
+    """Angle of the shaft [rad] at times [s], 0 at the first; speeds [rev/min] are straight between them."""
+    at, speed = np.asarray(t, float), np.broadcast_to(np.asarray(speed_rpm, float), np.shape(t)) * pi / 30.0
+    turned = 0.5 * (speed[1:] + speed[:-1]) * np.diff(at)
+    return np.concatenate([[0.0], np.cumsum(turned)])
+
+
+def resampled(values: _Floats, up: int, down: int) -> _Floats:
+    """`up` over `down` times as many values, without those above half the lower rate."""
+    from scipy.signal import firwin, resample_poly
+
+    coarser = max(up, down)
+    low_pass = firwin(2 * REACH * coarser + 1, PASSED / coarser, window=STOP)
+    return np.asarray(resample_poly(values, up, down, axis=0, window=low_pass, padtype="line"))
+
+
+def _step(run: RotorResult) -> float:
+    if run.t.size < STENCIL + 1:
+        raise InputError("steps of the run", run.t.size - 1, f"at least {STENCIL}")
+    return float((run.t[-1] - run.t[0]) / (run.t.size - 1))
