@@ -58,7 +58,10 @@ def _curve(law: RaceForceTable) -> _Floats:
     a, b, c, d = np.moveaxis(law.cells[:, :, cell, :], -1, 0)
     g = a + t * (b + t * (c + t * d))
     flat = chebyshev.chebfit(s, g.reshape(-1, s.size).T, DEGREE)
-    powers = np.array([chebyshev.cheb2poly(one) for one in flat.T])
+    powers = np.zeros((flat.shape[1], DEGREE + 1))
+    for row, one in zip(powers, flat.T, strict=True):
+        found = chebyshev.cheb2poly(one)  # without the last powers where they are zero
+        row[: found.size] = found
     return powers.reshape(*g.shape[:2], DEGREE + 1)
 
 

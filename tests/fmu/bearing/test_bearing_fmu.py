@@ -13,6 +13,7 @@ from mass_on_bearing import decay, in_one_run
 from ehlcontact import InputError
 from fmu import BearingModel, export_bearing, verify, verify_references
 from fmu.bearing.comparison import largest_difference
+from fmu.bearing.tables import _curve
 from fmu.bearing.trial import START, bearing_trial
 from fmu.bearing.variables import FORCES, RATES
 from fmu.driver import Slave
@@ -338,6 +339,16 @@ def test_a_coast_down_ends_at_standstill(made, lead):
         assert slave.get("force_y")[0] > 0.0
     slave.free()
     assert not messages
+
+
+def test_powers_of_a_curve_that_are_zero():
+    """A coefficient of an interval may come out as exactly 0; that of a 6205 in ISO VG 68 at 3000 rev/min did."""
+    law = bearing()._kernel([RPM]).inner
+    cells = law.cells.copy()
+    cells[:, 1] = 0.0
+    powers = _curve(law._replace(cells=cells))
+    assert (powers[:, 1] == 0.0).all()
+    np.testing.assert_array_equal(np.delete(powers, 1, axis=1), np.delete(_curve(law), 1, axis=1))
 
 
 def test_export_leaves_nothing_behind_where_it_fails(tmp_path):
