@@ -10,6 +10,9 @@ from dataclasses import asdict, dataclass, replace
 from math import inf, log, pi, sqrt
 from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ehlcontact.checks import require_between, require_instance
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
@@ -18,6 +21,7 @@ from ehlcontact.lubricant.oil_laws import ROELANDS_LOG
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, Scales
 
 ROELANDS_COLD = 135.0  # K: Roelands counts temperatures from -135 C
+COLDEST = -0.3  # of that of the inlet over Roelands' -135 C: only iterates are colder
 RANGES = {
     "slide_roll": (-1.0, 1.0),
     "temperature": (-50.0, 250.0),
@@ -44,6 +48,10 @@ class HeatNumbers(NamedTuple):
     walls: tuple[float, float]  # rise of each surface after a unit of heat over a unit of sqrt(X), K
     temperature_scale: float  # of the inlet over Roelands' -135 C, K
     exponent: float  # S0 of Roelands
+
+    def heating(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Relative change of ln(eta) + 9.67 at a temperature [K] above that of the inlet: Roelands (eq. 9)."""
+        return np.expm1(-self.exponent * np.log1p(np.maximum(temperature / self.temperature_scale, COLDEST)))
 
 
 @fields_take(temperature="degrees Celsius", temperature_slope="1/K", conductivity="W/(m K)", eyring_stress="Pa")

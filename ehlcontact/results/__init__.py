@@ -9,6 +9,7 @@ module                responsibility
 ``excitation_result`` `ExcitationResult`: force of waves on a surface over frequency
 ``speed_response_result`` `SpeedResponseResult`: force over a change of speed, over frequency
 ``frequency``         `FrequencyResponse`: impedance and python-control system of K and C
+``traction``          `Traction`: traction of a film over sliding
 ``table``             `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
 ``contact_map``       pressure and film of a contact as a figure
 ``picture``           plain figures; matplotlib is imported where one is drawn
@@ -19,12 +20,14 @@ from ehlcontact.results.excitation_result import ExcitationResult
 from ehlcontact.results.impedance_result import ImpedanceResult
 from ehlcontact.results.speed_response_result import SpeedResponseResult
 from ehlcontact.results.steady_result import SteadyResult
+from ehlcontact.results.traction import Traction
 
 __all__ = [
     "ExcitationResult",
     "ImpedanceResult",
     "SpeedResponseResult",
     "SteadyResult",
+    "Traction",
 ]
 
 

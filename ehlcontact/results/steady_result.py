@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import nan, pi
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions.judge import judged
 from ehlcontact.errors import InputError
@@ -22,6 +22,10 @@ from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, note_line
 from ehlcontact.supply import OilLayer
+
+if TYPE_CHECKING:
+    from ehlcontact.lubricant.traction_laws import TractionLaw
+    from ehlcontact.results.traction import Traction
 
 Array = NDArray[np.float64]
 
@@ -158,6 +162,27 @@ class SteadyResult(ScaledTable, Origin):
         cell = (self.X[1] - self.X[0]) * (self.Y[1] - self.Y[0])
         lines = self.P.sum(axis=1) - 0.5 * self.P[:, 0]
         return float(-1.5 / pi * 2.0 * cell * (self.X @ lines))
+
+    def traction(self, slide_roll: ArrayLike, law: TractionLaw) -> Traction:
+        """Traction, shear stress and power of this film while its surfaces slide (docs/traction.md).
+
+        Parameters
+        ----------
+        slide_roll : float or array_like, shape (k,)
+            Slide-to-roll ratios, difference over mean of the surface speeds: 0 to 2, where one surface stands still.
+            Of a heated film its own: `traction_curve` solves one for each.
+        law : TractionLaw
+            `Eyring`, `Carreau` or `LimitingShear`.
+
+        Raises
+        ------
+        InputError
+            A ratio out of range, or another than that of the heated film; no law; a film that has not converged,
+            or at a dimensionless point.
+        """
+        from ehlcontact.results.traction import traction_of  # which needs this module
+
+        return traction_of(self, slide_roll, law)
 
     @property
     def supply_behind(self) -> OilLayer:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.linalg import toeplitz
 
 from ehlcontact.heat import HeatNumbers
+from ehlcontact.lubricant.traction_laws import STRAIGHT, log_sinh_law
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.kernels.heat import sweep
 from ehlcontact.solver.kernels.reynolds import FILM_FLOOR
@@ -26,8 +27,6 @@ Array = NDArray[np.float64]
 INNER = 0.6  # of the heat of the flow by pressure; the rest is made beside the surfaces and goes into them (eq. 4)
 NET, BACK = 8.0 / 7.0, 1.0 / 7.0  # shares of the net flow, and of the surfaces' own, that carry the rise (eq. 5)
 BY_RISE, BY_PRESSURE, BY_SLIDING = 0.6, 12.0 / 175.0, 0.4  # temperature that the flow by pressure sees (eq. 8)
-COLDEST = -0.3  # of that of the inlet over Roelands' -135 C: only iterates are colder
-NEWTONIAN = 20.0  # ln of a stress over Eyring's, above which asinh is a logarithm
 SETTLED = 1e-9  # change of the temperatures in one round, over the largest
 MOST_ROUNDS, MOST_SWEEPS = 100, 50
 ROUNDS = 2  # after a cycle, whose film changes by more
@@ -98,7 +97,7 @@ class FilmHeat:
                 break
         slid = self._sliding(t)[0]
         beside = t.H / n.conduction * (BY_PRESSURE * t.pressed * self._ahead + BY_SLIDING * slid)
-        return self._heating(self.walls.mean(axis=0) + BY_RISE * self.rise + beside)
+        return self.numbers.heating(self.walls.mean(axis=0) + BY_RISE * self.rise + beside)
 
     def balance(self) -> float:
         """Heat made less heat given to the surfaces and carried away, over all that is made, in the whole film."""
@@ -161,21 +160,15 @@ class FilmHeat:
         through = t.exchange / 12.0 * (self.walls[1] - self.walls[0])
         return half + through, half - through
 
-    def _heating(self, temperature: Array) -> Array:
-        """Relative change of ln(eta) + 9.67 at a temperature above that of the inlet: Roelands (eq. 9)."""
-        n = self.numbers
-        return np.expm1(-n.exponent * np.log1p(np.maximum(temperature / n.temperature_scale, COLDEST)))
-
     def _sliding(self, t: _Terms) -> tuple[Array, Array]:
         """Heat of sliding under Eyring's stress at the mean temperature, and its slope over that, at most 0."""
         n, mean = self.numbers, self.mean
         if n.slide_roll == 0.0:
             return np.zeros_like(mean), np.zeros_like(mean)
-        heat, above = self._heating(mean), t.cold + self.level.law.q
+        heat, above = n.heating(mean), t.cold + self.level.law.q
         newton = n.shear + t.cold + heat * above - np.log(t.H)  # ln of Newton's stress over Eyring's
-        stress = np.arcsinh(np.exp(np.minimum(newton, NEWTONIAN)))
-        stress = np.where(newton > NEWTONIAN, newton + np.log(2.0), stress)
-        by_log = 1.0 / np.hypot(1.0, np.exp(-np.clip(newton, -NEWTONIAN, NEWTONIAN)))
+        stress = log_sinh_law(newton)
+        by_log = 1.0 / np.hypot(1.0, np.exp(-np.clip(newton, -STRAIGHT, STRAIGHT)))
         slope = -by_log * above * n.exponent * (1.0 + heat) / (n.temperature_scale + mean)
         power = np.where(t.wet, n.stress * n.slide_roll, 0.0)
         return power * stress, power * np.minimum(slope, 0.0)

@@ -1,0 +1,64 @@
+"""`traction_curve`: traction over sliding of a contact whose film is solved, isothermal or heated."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat, require_heat
+from ehlcontact.lubricant.traction_laws import Eyring, TractionLaw, require_law
+from ehlcontact.point import OperatingPoint
+from ehlcontact.results.traction import Traction, slide_rolls
+from ehlcontact.steady import solve_steady
+
+
+def traction_curve(
+    point: OperatingPoint, slide_roll: ArrayLike, law: TractionLaw, *, thermal: Heat | None = None, **options: Any
+) -> Traction:
+    """Solve the film and its traction over the slide-to-roll ratio.
+
+    Parameters
+    ----------
+    point : OperatingPoint
+    slide_roll : float or array_like, shape (k,)
+        Slide-to-roll ratios, 0 to 2.
+    law : TractionLaw
+        `Eyring`, `Carreau` or `LimitingShear`.
+    thermal : Heat, optional
+        Solve a heated film for each ratio, up to 1, heated by Eyring's stress of the law. By default one
+        isothermal film carries them all: without heat, sliding does not change the film here.
+    **options
+        Of `solve_steady`.
+
+    Raises
+    ------
+    InputError
+        As of `SteadyResult.traction` and `solve_steady`; heat with another law than Eyring's.
+    ConvergenceError
+        A film did not converge.
+    """
+    require_law(law)
+    ratios = slide_rolls(slide_roll)
+    if not isinstance(point, OperatingPoint):
+        allowed = "an OperatingPoint: stresses of an oil are in pascals, which a dimensionless point has not"
+        raise InputError("point", type(point).__name__, allowed)
+    if thermal is None:
+        return solve_steady(point, **options).traction(ratios, law)
+    require_heat(thermal)
+    if not isinstance(law, Eyring):
+        raise InputError("law", type(law).__name__, "Eyring with thermal: his stress heats the film")
+    heats = [replace(thermal, slide_roll=ratio, eyring_stress=law.stress) for ratio in ratios.tolist()]
+    return _together(
+        [solve_steady(point, thermal=heat, **options).traction(heat.slide_roll, law) for heat in heats]
+    )
+
+
+def _together(found: list[Traction]) -> Traction:
+    """One curve of tractions at one ratio each; the map and the mesh are those of the last."""
+    over = [f.name for f in fields(found[0]) if found[0].over_sliding(f.name)]
+    joined = {name: np.concatenate([getattr(one, name) for one in found]) for name in over}
+    return replace(found[-1], **joined, seconds=sum(one.seconds for one in found))
