@@ -4,13 +4,14 @@
 room              responsibility
 ================= ==========================================================================================
 ``point``         inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
-``lubricant/``    `Lubricant`, from its numbers or its grade; the laws of viscosity and density
+``lubricant/``    `Lubricant`, from its numbers or its grade; the laws of viscosity, density and traction
 ``hertz``         dry elliptic contact
 ``film_formulas``  published film and approach formulas: grids are chosen from them, results compared with them
 ``solver/``       film at one instant: mesh, equations, multigrid, Newton
 ``steady``        `solve_steady`
 ``supply``        `OilLayer`: the oil that the surfaces carry to a contact
 ``heat``          `Heat`: what the heating of a film needs of oil and surfaces
+``traction``      `traction_curve`: traction of a contact over sliding
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
 ``speed_response`` `speed_response`: force over a change of speed, likewise
 ``excitation``    `excitation`: force of waves on a surface, likewise
@@ -47,9 +48,9 @@ from ehlcontact.excitation import excitation
 from ehlcontact.film import film_history, film_of, film_wave, interferogram, track_wave
 from ehlcontact.heat import Heat
 from ehlcontact.impedance import impedance
-from ehlcontact.lubricant import Lubricant
+from ehlcontact.lubricant import Carreau, Eyring, LimitingShear, Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
-from ehlcontact.results import ExcitationResult, ImpedanceResult, SpeedResponseResult, SteadyResult
+from ehlcontact.results import ExcitationResult, ImpedanceResult, SpeedResponseResult, SteadyResult, Traction
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.speed_response import speed_response
@@ -57,6 +58,7 @@ from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.store import load, save
 from ehlcontact.supply import OilLayer
+from ehlcontact.traction import traction_curve
 from ehlcontact.transient.features import Dent, TransverseRidge, Waviness
 from ehlcontact.transient.full_contact import FullContact
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
@@ -69,10 +71,12 @@ from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.version import __version__
 
 __all__ = [
+    "Carreau",
     "ConvergenceError",
     "Dent",
     "Domain",
     "ExcitationResult",
+    "Eyring",
     "FreeVibration",
     "FullContact",
     "Geometry",
@@ -82,6 +86,7 @@ __all__ = [
     "ImpedanceResult",
     "InputError",
     "KeepSettings",
+    "LimitingShear",
     "Lubricant",
     "MoesPoint",
     "OilLayer",
@@ -97,6 +102,7 @@ __all__ = [
     "Status",
     "SteadyResult",
     "TimeSteps",
+    "Traction",
     "TransverseRidge",
     "Waviness",
     "__version__",
@@ -113,6 +119,7 @@ __all__ = [
     "solve_steady",
     "speed_response",
     "track_wave",
+    "traction_curve",
 ]
 
 

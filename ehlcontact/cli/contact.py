@@ -6,12 +6,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from math import sqrt
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import typer
 
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.assumptions.contact import KnownFilm
+from ehlcontact.assumptions.film import LARGEST_SLIDE_ROLL
+from ehlcontact.checks import require_between
 from ehlcontact.checks.admissible_range import INPUTS, Given
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.numerals import numeral
@@ -21,9 +23,12 @@ from ehlcontact.cli.study.schema import lubricant_of, oil_grade
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
 from ehlcontact.hertz import most_loaded_ball
-from ehlcontact.lubricant import Lubricant
+from ehlcontact.lubricant import Eyring, LimitingShear, Lubricant, TractionLaw
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
 from ehlcontact.supply import OilLayer
+
+if TYPE_CHECKING:
+    from ehlcontact.results import SteadyResult, Traction
 
 _SI, _MOES, _LAWS = "A ball of a bearing, in SI", "Or a point without dimensions", "Laws of the oil"
 _DISC = "Or a ball on a disc, in SI (with --oil, --temp, --load)"
@@ -344,20 +349,16 @@ class Heating(Options):
         bool,
         typer.Option("--thermal", help="Let the film heat up and its viscosity follow; with --oil and --temp."),
     ] = False
-    slide_roll: Annotated[float | None, typer.Option("--slide-roll", show_default="0"), e.SLIDE_ROLL] = None
 
-    def chosen(self, contact: Contact) -> Heat | None:
+    def chosen(self, contact: Contact, sliding: Sliding) -> Heat | None:
         """Data of the heating, or None for an isothermal film.
 
         Raises
         ------
         InputError
-            Sliding without heat; heat of an oil without its temperature, or at a point without units.
+            Heat of an oil without its temperature, at a point without units, or with a limiting shear stress.
         """
         if not self.thermal:
-            if self.slide_roll is not None:
-                allowed = "given with --thermal: sliding heats the film, and does nothing else to it"
-                raise InputError("--slide-roll", self.slide_roll, allowed)
             return None
         if not contact.in_si:
             allowed = "left out: a point of --M --L --kappa has no metres, seconds and kelvin"
@@ -367,7 +368,61 @@ class Heating(Options):
                 "given with --oil and --temp: an oil by its grade has the change of viscosity with temperature"
             )
             raise InputError("--thermal", True, allowed)
-        return Heat(slide_roll=self.slide_roll or 0.0)
+        law = sliding.law
+        if not isinstance(law, Eyring):
+            allowed = "left out with --thermal: Eyring's stress heats the film (--eyring-mpa)"
+            raise InputError("--limiting-shear", sliding.limiting_shear, allowed)
+        return Heat(slide_roll=sliding.slide_roll or 0.0, eyring_stress=law.stress)
+
+
+class Sliding(Options):
+    """Whether the surfaces slide, and the traction law of the oil."""
+
+    panel: ClassVar[str | None] = "Sliding (pure rolling if left out)"
+    slide_roll: Annotated[
+        float | None,
+        typer.Option(
+            "--slide-roll",
+            show_default="0",
+            help="Slide-to-roll ratio, difference over mean of the surface speeds: 0 to 2, with --thermal 0 to 1.",
+        ),
+    ] = None
+    eyring: Annotated[
+        float | None, typer.Option("--eyring-mpa", show_default="5", help="Eyring stress of the oil, MPa.")
+    ] = None
+    limiting_shear: Annotated[
+        float | None,
+        typer.Option(
+            "--limiting-shear", help="Limiting shear stress over pressure, as 0.05, in place of Eyring's law."
+        ),
+    ] = None
+
+    @property
+    def law(self) -> TractionLaw:
+        """Traction law; raises `InputError` for numbers out of range, or both laws."""
+        if self.limiting_shear is None:
+            stress = 5.0 if self.eyring is None else require_between("--eyring-mpa", self.eyring, 0.1, 1000.0)
+            return Eyring(1e6 * stress)
+        if self.eyring is not None:
+            raise InputError("--eyring-mpa", self.eyring, "left out with --limiting-shear: one traction law")
+        return LimitingShear(require_between("--limiting-shear", self.limiting_shear, 1e-3, 0.5))
+
+    def check(self, contact: Contact) -> None:
+        """Raise `InputError` for sliding that has no traction, before anything is solved."""
+        if self.slide_roll is None:
+            for name, value in (("--eyring-mpa", self.eyring), ("--limiting-shear", self.limiting_shear)):
+                if value is not None:
+                    raise InputError(name, value, "left out without --slide-roll: in pure rolling nothing slides")
+            return
+        require_between("--slide-roll", self.slide_roll, 0.0, LARGEST_SLIDE_ROLL)
+        if not contact.in_si:
+            allowed = "left out: a point of --M --L --kappa has no pascals, of which the stress of an oil is"
+            raise InputError("--slide-roll", self.slide_roll, allowed)
+        self.law  # noqa: B018  # which checks its numbers
+
+    def traction(self, film: SteadyResult) -> Traction | None:
+        """Traction of a film that has converged; None in pure rolling."""
+        return None if self.slide_roll is None or not film.status.ok else film.traction(self.slide_roll, self.law)
 
 
 class Frequencies(Options):

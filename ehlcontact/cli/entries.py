@@ -159,7 +159,6 @@ OilThickness = Annotated[
 LayerRatio = Annotated[
     Positive, Field(le=1e6), meaning("that layer over what the flooded film of the contact lets through")
 ]
-SLIDE_ROLL = meaning("slide-to-roll ratio, difference over mean of the surface speeds, -1 to 1")
 Intervals = Annotated[Whole, Field(ge=16, le=2048, multiple_of=16)]
 Frequency = Annotated[Finite, Field(ge=SLOWEST, le=FASTEST)]  # dimensionless
 Steps = Annotated[Whole, Field(ge=20, le=2000, description="time steps in each of them")]

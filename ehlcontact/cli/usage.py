@@ -39,7 +39,10 @@ NOT_IN_THE_MODEL = {
         ("--thermal", "--heat", "--sliding", "--slide-roll"),
         "`ehlcontact steady` has --thermal and --slide-roll; elsewhere " + _FILMS,
     ),
-    **dict.fromkeys(("--grease", "--slip", "--traction"), _FILMS),
+    **dict.fromkeys(
+        ("--traction", "--slip"), "`ehlcontact steady` has --slide-roll, with its traction; elsewhere " + _FILMS
+    ),
+    **dict.fromkeys(("--grease",), _FILMS),
 }
 
 

@@ -4,6 +4,7 @@
 module  responsibility
 ======= =======================================================================================
 ``oil_laws`` `Lubricant`; the laws of viscosity and density, dimensionless and compiled
+``traction_laws`` `Eyring`, `Carreau`, `LimitingShear`: shear stress of an oil that is sheared hard
 ``oil`` mineral oils by grade and temperature: viscosity, density, their slopes and scatter
 ======= =======================================================================================
 """
@@ -18,13 +19,18 @@ from ehlcontact.lubricant.oil_laws import (
     heated,
     log_viscosity,
 )
+from ehlcontact.lubricant.traction_laws import Carreau, Eyring, LimitingShear, TractionLaw
 
 __all__ = [
     "DENSITY_LAWS",
     "VISCOSITY_LAWS",
+    "Carreau",
+    "Eyring",
     "FluidLaw",
+    "LimitingShear",
     "Lubricant",
     "MineralOil",
+    "TractionLaw",
     "density",
     "heated",
     "log_viscosity",

@@ -169,8 +169,8 @@ class SteadyResult(ScaledTable, Origin):
         Parameters
         ----------
         slide_roll : float or array_like, shape (k,)
-            Slide-to-roll ratios, difference over mean of the surface speeds: 0 to 2, where one surface stands still.
-            Of a heated film its own: `traction_curve` solves one for each.
+            Slide-to-roll ratios, difference over mean of the surface speeds: 0 to 2, where one surface stands
+            still. Of a heated film its own: `traction_curve` solves one for each.
         law : TractionLaw
             `Eyring`, `Carreau` or `LimitingShear`.
 

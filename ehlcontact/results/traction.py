@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.assumptions.film import LARGEST_SLIDE_ROLL
 from ehlcontact.checks import as_column
 from ehlcontact.errors import InputError
 from ehlcontact.jit import plain
-from ehlcontact.lubricant import log_viscosity
-from ehlcontact.lubricant.traction_laws import TractionLaw, require_law
+from ehlcontact.lubricant import TractionLaw, log_viscosity
+from ehlcontact.lubricant.traction_laws import require_law
 from ehlcontact.origin import Origin
 from ehlcontact.point import Scales
 from ehlcontact.quantities import NUMBER, Quantity
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
     from ehlcontact.results.steady_result import SteadyResult
 
 Array = NDArray[np.float64]
-
-PURE_SLIDING = 2.0  # slide-to-roll ratio where one surface stands still
 
 
 @stored("traction of a film")
@@ -73,15 +72,19 @@ class Traction(QuantityTable, Origin):
     warming: Annotated[Array | None, Quantity("K").over("slide_roll")] = None
     law: TractionLaw
 
-    DISPLAY = Display(rows="slide_roll", panels=("coefficient", "power"))
+    DISPLAY = Display(rows="slide_roll", panels=("coefficient", "power"), logs="x")
 
     def _panels(self) -> Iterator[Any]:
         yield from QuantityTable._panels(self)
+        yield self.map()
+
+    def map(self) -> ContactMap:
+        """Map of `stress`, for figures."""
         assert self.scales is not None
         s, labels = self.scales, ("x along rolling [µm]", "y across [µm]", "shear stress [MPa]")
         field, axes = 1e-6 * self.stress, (1e6 * s.a, 1e6 * s.b)
         limits = (0.0, float(field.max()) or 1.0)
-        yield ContactMap(1e6 * self.x, 1e6 * self.y, field, labels, axes, "magma", limits)
+        return ContactMap(1e6 * self.x, 1e6 * self.y, field, labels, axes, "magma", limits)
 
     def _summary_lines(self) -> list[str]:
         most = f"; at most {self.limit:.4g} by its limiting stress" if self.limit < inf else ""
@@ -139,10 +142,10 @@ def traction_of(film: SteadyResult, slide_roll: ArrayLike, law: TractionLaw) -> 
 def slide_rolls(slide_roll: ArrayLike) -> Array:
     """Slide-to-roll ratios as an array, each from 0 to pure sliding."""
     ratios = as_column("slide_roll", np.atleast_1d(slide_roll) if np.isscalar(slide_roll) else slide_roll)
-    outside = (ratios < 0.0) | (ratios > PURE_SLIDING)
+    outside = (ratios < 0.0) | (ratios > LARGEST_SLIDE_ROLL)
     if outside.any():
         value = float(ratios[int(np.argmax(outside))])
-        percent = "; in per cent?" if value > PURE_SLIDING else "; traction changes its sign with it"
+        percent = "; in per cent?" if value > LARGEST_SLIDE_ROLL else "; traction changes its sign with it"
         raise InputError("slide_roll", value, f"between 0 and 2 (one surface stands still){percent}")
     return ratios
 
@@ -162,7 +165,7 @@ def _scales(film: SteadyResult) -> Scales:
 
 
 def _log_newton(film: SteadyResult, s: Scales) -> Array:
-    """ln of eta u_mean/h [Pa], of a slide-to-roll ratio of 1 (eqs. 1, 2); 0 where there is no pressure."""
+    """Logarithm of eta u_mean/h [Pa], of a slide-to-roll ratio of 1 (eqs. 1, 2); 0 where there is no pressure."""
     law, wet = film.point.law, film.P > 0.0
     found = np.zeros(film.P.shape)
     viscosity = plain(log_viscosity)

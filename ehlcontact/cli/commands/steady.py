@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
@@ -12,7 +13,7 @@ import typer
 from ehlcontact.assumptions.judge import judged
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Heating, Supply, Surfaces
+from ehlcontact.cli.contact import Contact, Heating, Sliding, Supply, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
@@ -21,7 +22,7 @@ from ehlcontact.results.contact_map import REACH
 from ehlcontact.solver.domain import Domain
 
 if TYPE_CHECKING:
-    from ehlcontact.results import SteadyResult
+    from ehlcontact.results import SteadyResult, Traction
 
 
 WAVELENGTH, REFRACTIVE_INDEX = 600e-9, 1.5  # of the light [m] and of the oil: fringes in the figure
@@ -65,6 +66,7 @@ def steady(
     contact: Contact,
     supply: Supply,
     heating: Heating,
+    sliding: Sliding,
     surfaces: Surfaces,
     grid: o.Grid,
     solving: Solving,
@@ -74,7 +76,8 @@ def steady(
     from ehlcontact.steady import solve_steady
 
     chosen = grid.chosen() | solving.model_dump() | {"supply": supply.chosen(contact)}
-    chosen |= {"thermal": heating.chosen(contact)}
+    sliding.check(contact)
+    chosen |= {"thermal": heating.chosen(contact, sliding)}
     point = contact.solvable()
     surfaces.check(contact)
     out.check()
@@ -90,8 +93,10 @@ def steady(
     found = contact.judged(point, result, surfaces) if result.status.ok else None
     outside = [] if found is None else outside_rows(found)
     about |= {"outside_assumptions": "" if found is None else found.headline}
-    table = "steady film", [*contact.rows(point), *outside, *_rows(result), *rough]
-    out.deliver({**result.to_dict(), **about}, table, save=result, figure=partial(_draw, result))
+    traction = sliding.traction(result)
+    about |= {} if traction is None else {"traction": traction.to_dict()}
+    table = "steady film", [*contact.rows(point), *outside, *_rows(result), *_traction_rows(traction), *rough]
+    out.deliver({**result.to_dict(), **about}, table, save=result, figure=partial(_draw, result, traction))
     if result.reservation:
         complain(f"warning: {result.reservation}")
     if not result.status.ok:
@@ -100,8 +105,8 @@ def steady(
         raise typer.Exit(FAILED)
 
 
-def _draw(result: SteadyResult, path: Path) -> None:
-    """Draw the contact, and its fringes where there is a unit of length."""
+def _draw(result: SteadyResult, traction: Traction | None, path: Path) -> None:
+    """Draw the contact, its fringes where there is a unit of length, and its shear stress where it slides."""
     from ehlcontact.film import film_of, interferogram
     from ehlcontact.film.plane import interpolated
     from ehlcontact.results.picture import draw
@@ -112,6 +117,8 @@ def _draw(result: SteadyResult, path: Path) -> None:
         film = film_of(result)
         X, Y = (np.linspace(max(-REACH, at[0]), min(REACH, at[-1]), POINTS) for at in (film.X, film.Y))
         panels += interferogram(interpolated(film, X, Y), WAVELENGTH, REFRACTIVE_INDEX).panels()
+    if traction is not None:
+        panels.append(traction.map())
     draw(f"steady film: {contact_text(result.point, result.scales)}", panels, path)
 
 
@@ -156,6 +163,21 @@ def _heat_rows(result: SteadyResult) -> list[Row]:
         ),
         ("warmest surface", f"{found.surfaces.max():.3g} K", "above the inlet"),
         ("heat balance", f"{found.balance:.1e}", "over the heat made"),
+    ]
+
+
+def _traction_rows(found: Traction | None) -> list[Row]:
+    """Traction and the power that it takes."""
+    if found is None:
+        return []
+    coefficient, force, power = (float(one[0]) for one in (found.coefficient, found.force, found.power))
+    most = f", at most {numeral(found.limit, 3)}" if isfinite(found.limit) else ""
+    stress = numeral(1e-6 * float(found.mean_stress[0]), 3)
+    beside = f"over the load{most}, at a slide-to-roll ratio of {found.slide_roll[0]:g}"
+    return [
+        ("traction", f"{numeral(coefficient, 3)}", beside),
+        ("traction force", f"{numeral(force, 3)} N", f"mean shear stress {stress} MPa"),
+        ("power of sliding", f"{numeral(power, 3)} W", ""),
     ]
 
 
