@@ -60,5 +60,5 @@ def traction_curve(
 def _together(found: list[Traction]) -> Traction:
     """One curve of tractions at one ratio each; the map and the mesh are those of the last."""
     over = [f.name for f in fields(found[0]) if found[0].over_sliding(f.name)]
-    joined = {name: np.concatenate([getattr(one, name) for one in found]) for name in over}
+    joined: dict[str, Any] = {name: np.concatenate([getattr(one, name) for one in found]) for name in over}
     return replace(found[-1], **joined, seconds=sum(one.seconds for one in found))

@@ -15,6 +15,7 @@ import ehlcontact
 import fmu
 import reduced_models
 from ehlcontact import (
+    Eyring,
     FullContact,
     Grid,
     HarmonicLoad,
@@ -85,6 +86,7 @@ WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
     **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter"), INPUT),
     **dict.fromkeys(("SpeedHistory", "SpeedController", "Heat"), INPUT),
+    **dict.fromkeys(("Eyring", "Carreau", "LimitingShear"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
     **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),
@@ -155,7 +157,7 @@ def results(point):
         bearing.excitation([BallDiameter(ball=0, excess=1e-7)], (0.0, 0.0, 300.0), speed_rpm=3000.0),
         SpeedProfile.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
         FullContact(point, grid=Grid(n=32)), *spectra(),
-        *verifications(),
+        *verifications(), film.traction([0.01, 0.1], Eyring()),
     ]  # fmt: skip
 
 

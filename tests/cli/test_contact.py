@@ -291,7 +291,44 @@ def test_heat(call, refused):
     assert warm["temperature"]["inputs"]["slide_roll"] == 0.1
     shown = call("steady", *options(), *COARSE, "--thermal").out
     assert re.search(r"film by heat +0\.9\d+ +of the isothermal film; 0\.9\d+ by Gupta", shown)
-    refused(("--slide-roll = 0.1", "given with --thermal"), "steady", *options(), "--slide-roll", "0.1")
     refused(("--slide-roll = 2.0", "between -1 and 1"), "steady", *options(), "--thermal", "--slide-roll", "2")
     refused(("--thermal = True", "no metres"), "steady", "--M", "20", "--L", "10", "--kappa", "1", "--thermal")
     refused(("--thermal: not in the model", "`ehlcontact steady` has"), "impedance", *options(), "--thermal")
+
+
+def test_traction(call, refused):
+    """`--slide-roll`: traction by Eyring's stress, or a limiting one; what it refuses."""
+
+    def answer(*given):
+        return json.loads(call("steady", *options(), *COARSE, *given, "--json", "-").out)
+
+    rolling, sliding = answer(), answer("--slide-roll", "0.1")
+    found = sliding.pop("traction")
+    assert "traction" not in rolling
+    assert sliding["h_central"] == rolling["h_central"]  # isothermal: sliding does nothing else
+    assert found["law"] == {"law": "Eyring", "stress": 5e6}
+    assert found["limit"] is None
+    force = found["coefficient"][0] * sliding["si"]["force"]
+    assert found["force"][0] == pytest.approx(force)
+    limited = answer("--slide-roll", "2", "--limiting-shear", "0.04")["traction"]
+    assert 0.03 < limited["coefficient"][0] < limited["limit"] == pytest.approx(0.04, rel=1e-3)
+    shown = call("steady", *options(), *COARSE, "--slide-roll", "0.1", "--eyring-mpa", "8").out
+    assert re.search(r"traction +0\.0\d+ +over the load, at a slide-to-roll", shown)
+    assert float(re.search(r"traction +(0\.\d+)", shown)[1]) > found["coefficient"][0]
+    assert re.search(r"power of sliding +0\.\d+ W", shown)
+
+    def bad(words, *given):
+        refused(words, "steady", *options(), *given)
+
+    bad(("--slide-roll = -0.1", "between 0 and 2"), "--slide-roll", "-0.1")
+    bad(("--slide-roll = 5.0", "between 0 and 2"), "--slide-roll", "5")
+    bad(("--slide-roll = nan", "between 0 and 2"), "--slide-roll", "nan")
+    bad(("--eyring-mpa = 0.0", "between 0.1 and 1000"), "--slide-roll", "0.1", "--eyring-mpa", "0")
+    bad(("--eyring-mpa = 5.0", "without --slide-roll"), "--eyring-mpa", "5")
+    bad(("--limiting-shear = -1.0", "between 0.001 and 0.5"), "--slide-roll", "0.1", "--limiting-shear", "-1")
+    both = ("--limiting-shear", "0.05", "--eyring-mpa", "5")
+    bad(("--eyring-mpa = 5.0", "one traction law"), "--slide-roll", "0.1", *both)
+    bad(("--limiting-shear = 0.05", "--thermal"), "--thermal", "--slide-roll", "0.1", *both[:2])
+    dimensionless = ("--M", "20", "--L", "10", "--kappa", "1", "--slide-roll", "0.1")
+    refused(("--slide-roll = 0.1", "no pascals"), "steady", *dimensionless)
+    refused(("--traction: not in the model", "has --slide-roll"), "impedance", *options(), "--traction")
