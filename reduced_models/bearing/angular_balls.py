@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.jit import inner, jit_exact, jit_exact_loop
 from reduced_models.bearing.contact_angles import Grooves, ball_forces, film_factors, inner_span, rolling
+from reduced_models.bearing.contact_heights import ContactHeights
 from reduced_models.bearing.loss import Loss
 from reduced_models.bearing.race_contact import curve, film_curve, film_cutoff
 from reduced_models.bearing.race_table import RaceForceTable
@@ -57,6 +58,7 @@ class AngularBalls(NamedTuple):
     omega: float  # of the shaft [rad/s], at rest: the first of `speeds`
     speeds: _Floats  # (rows of the tables,) of the shaft, increasing [rad/s]
     loss: Loss  # of rings and fits
+    heights: ContactHeights  # of features
 
 
 class BallPlaces(NamedTuple):
@@ -67,6 +69,7 @@ class BallPlaces(NamedTuple):
     geometric: _Floats  # (balls, 5, 4) forces of `ball_forces` by b and c, at constant approaches
     condensed: _Floats  # (balls, 3, 2) force of the ring on the ball and its moment, by c
     force: _Floats  # (balls, 3) the same force and moment
+    height: _Floats  # (balls, 2) of features at both contacts [m]
 
 
 def places_of(balls: AngularBalls) -> BallPlaces:
@@ -78,6 +81,7 @@ def places_of(balls: AngularBalls) -> BallPlaces:
         np.zeros((n, 5, 4)),
         np.zeros((n, 3, 2)),
         np.zeros((n, 3)),
+        np.zeros((n, 2)),
     )
 
 
@@ -93,16 +97,20 @@ def static_contact(law, u, film):
 
 
 @jit_exact
-def _press(balls, b_r, b_z, c_r, c_z):
-    """A ball at a given place: its rolling, both contacts (approach, force, slopes), all forces."""
+def _press(balls, h, b_r, b_z, c_r, c_z):
+    """A ball at a given place: its rolling, both contacts (approach, force, slopes), all forces.
+
+    `h` are the heights that its contacts meet [m].
+    """
     g = balls.grooves
     l_i, l_o = inner_span(b_r, b_z, c_r, c_z)[0], np.hypot(b_r, b_z)
-    g_i, by_i, _ = curve(l_i - g.inner, 0, 0.0, balls.inner, 0)
-    g_o, by_o, _ = curve(l_o - g.outer, 0, 0.0, balls.outer, 0)
+    free_i, free_o = g.inner - h[0], g.outer - h[1]
+    g_i, by_i, _ = curve(l_i - free_i, 0, 0.0, balls.inner, 0)
+    g_o, by_o, _ = curve(l_o - free_o, 0, 0.0, balls.outer, 0)
     at = rolling(g, b_r, b_z, c_r, c_z, g_i, g_o)
     film_i, film_o = film_factors(g, at)
-    inner = at.l_i - g.inner, *static_contact(balls.inner, at.l_i - g.inner, film_i)
-    outer = at.l_o - g.outer, *static_contact(balls.outer, at.l_o - g.outer, film_o)
+    inner = at.l_i - free_i, *static_contact(balls.inner, at.l_i - free_i, film_i)
+    outer = at.l_o - free_o, *static_contact(balls.outer, at.l_o - free_o, film_o)
     return at, inner, outer, ball_forces(g, balls.omega, at, inner[1], outer[1]), (g_i, by_i, g_o, by_o)
 
 
@@ -192,12 +200,12 @@ def _moved(b_r, b_z, d_r, d_z, t, arc):
 
 
 @jit_exact
-def _line_search(balls, b_r, b_z, d_r, d_z, c_r, c_z, slope, arc):
+def _line_search(balls, h, b_r, b_z, d_r, d_z, c_r, c_z, slope, arc):
     """Share of the step `d` at which the forces along it balance, roughly; `slope` is their sum at its start."""
     low, high, t = 0.0, 1.0, 1.0
     for _ in range(MOST_STEPS):
         r, z, e_r, e_z = _moved(b_r, b_z, d_r, d_z, t, arc)
-        forces = _press(balls, r, z, c_r, c_z)[3]
+        forces = _press(balls, h, r, z, c_r, c_z)[3]
         along = forces[0] * e_r + forces[1] * e_z
         if abs(along) <= ROUGHLY * slope:
             break
@@ -213,11 +221,11 @@ def _line_search(balls, b_r, b_z, d_r, d_z, c_r, c_z, slope, arc):
 
 @inner
 @jit_exact
-def _search(balls, b_r, b_z, c_r, c_z, geometric, full):
+def _search(balls, h, b_r, b_z, c_r, c_z, geometric, full):
     """Place of a ball in balance from `b`, and whether it was found."""
     reach, nearest, kept_r, kept_z, idle = FIRST_STEP, np.inf, b_r, b_z, 0
     longest = FAR * (balls.grooves.inner + balls.grooves.outer)
-    now = _press(balls, b_r, b_z, c_r, c_z)
+    now = _press(balls, h, b_r, b_z, c_r, c_z)
     for _ in range(MOST_STEPS):
         at, inner, outer, forces, _ = now
         size, stiff = np.hypot(forces[0], forces[1]), inner[2] + outer[2]
@@ -241,7 +249,7 @@ def _search(balls, b_r, b_z, c_r, c_z, geometric, full):
         if stiff <= 0.0 or not abs(det) > 1e-14 * stiff * stiff:  # nothing touches it
             b_r, b_z = b_r + reach * forces[0] / size, b_z + reach * forces[1] / size
             reach *= 2.0
-            now = _press(balls, b_r, b_z, c_r, c_z)
+            now = _press(balls, h, b_r, b_z, c_r, c_z)
             continue
         d_r = -(full[1, 1] * forces[0] - full[0, 1] * forces[1]) / det
         d_z = -(full[0, 0] * forces[1] - full[1, 0] * forces[0]) / det
@@ -251,12 +259,12 @@ def _search(balls, b_r, b_z, c_r, c_z, geometric, full):
         d_r, d_z = cut * d_r, cut * d_z
         arc = inner[2] < LIGHT * outer[2]
         new_r, new_z, _, _ = _moved(b_r, b_z, d_r, d_z, 1.0, arc)
-        now = _press(balls, new_r, new_z, c_r, c_z)
+        now = _press(balls, h, new_r, new_z, c_r, c_z)
         if not np.hypot(now[3][0], now[3][1]) < 0.5 * size and not near:
             slope = forces[0] * d_r + forces[1] * d_z
-            t = _line_search(balls, b_r, b_z, d_r, d_z, c_r, c_z, slope, arc)
+            t = _line_search(balls, h, b_r, b_z, d_r, d_z, c_r, c_z, slope, arc)
             new_r, new_z, _, _ = _moved(b_r, b_z, d_r, d_z, t, arc)
-            now = _press(balls, new_r, new_z, c_r, c_z)
+            now = _press(balls, h, new_r, new_z, c_r, c_z)
         b_r, b_z = new_r, new_z
     return b_r, b_z, False
 
@@ -266,23 +274,25 @@ def _search(balls, b_r, b_z, c_r, c_z, geometric, full):
 def _seat(balls, k, c_r, c_z, places, full):
     """Balance ball `k`: its force and tangents; not a number where it finds no balance."""
     g, geometric, condensed = balls.grooves, places.geometric[k], places.condensed[k]
+    h = places.height[k, 0], places.height[k, 1]
     geometric[:], condensed[:], places.force[k] = 0.0, 0.0, 0.0
-    if balls.omega == 0.0 and np.hypot(c_r, c_z) <= g.inner + g.outer:  # at rest between both races
+    reach = g.inner + g.outer - (h[0] + h[1])
+    if balls.omega == 0.0 and np.hypot(c_r, c_z) <= reach:  # at rest between both races
         b_r, b_z = _start(balls, c_r, c_z)
-        _note(balls, _press(balls, b_r, b_z, c_r, c_z), places.found[k])
+        _note(balls, _press(balls, h, b_r, b_z, c_r, c_z), places.found[k])
         places.place[k, 0], places.place[k, 1] = b_r, b_z
         return
     b_r, b_z, done = places.place[k, 0], places.place[k, 1], False
     if np.isfinite(b_r):
-        b_r, b_z, done = _search(balls, b_r, b_z, c_r, c_z, geometric, full)
+        b_r, b_z, done = _search(balls, h, b_r, b_z, c_r, c_z, geometric, full)
     if not done:
         b_r, b_z = _start(balls, c_r, c_z)
-        b_r, b_z, done = _search(balls, b_r, b_z, c_r, c_z, geometric, full)
+        b_r, b_z, done = _search(balls, h, b_r, b_z, c_r, c_z, geometric, full)
     if not done:
         places.place[k], places.force[k] = nan, nan
         return
     places.place[k, 0], places.place[k, 1] = b_r, b_z
-    now = _press(balls, b_r, b_z, c_r, c_z)
+    now = _press(balls, h, b_r, b_z, c_r, c_z)
     _note(balls, now, places.found[k])
     _geometric(balls, b_r, b_z, c_r, c_z, now, geometric)
     _stretched(geometric, now[0], now[1][2], now[2][2], full)

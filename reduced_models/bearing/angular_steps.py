@@ -27,6 +27,17 @@ from ehlcontact.jit import inner, jit_exact_loop, jit_exact_node
 from reduced_models.bearing.angular_balls import COMPLEX_STEP, FAR, FIRST_STEP, FREEDOMS, AngularBalls, ring_map
 from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_angles import INNER, SHARED, ball_forces, film_factors, inner_span, rolling
+from reduced_models.bearing.contact_heights import (
+    ANGLE_LAST,
+    ANGLE_NOW,
+    ANGLE_RATE,
+    HEIGHT,
+    HEIGHT_RATE,
+    HEIGHTS,
+    find_heights,
+    keep_heights,
+    rest_heights,
+)
 from reduced_models.bearing.loss import (
     Seat,
     accept_loss,
@@ -85,6 +96,8 @@ class AngularFilms(NamedTuple):
     steps: NDArray[np.int64]  # (1,) made
     maps: _Floats  # (balls, 2, 3, 5) of `ring_map`, and their derivative by the angle of the ball
     tangents: _Floats  # (2, 5, 4) work, see `_balance_ball`
+    heights: _Floats  # (contacts, HEIGHTS) of features, see `contact_heights`
+    turned: _Floats  # (1 + balls, 3) angles of the shaft and of all balls [rad], see there
     loss: Seat
 
 
@@ -113,6 +126,8 @@ def films_of_angular(balls: AngularBalls) -> AngularFilms:
         steps=np.zeros(1, np.int64),
         maps=np.zeros((n, 2, 3, FREEDOMS)),
         tangents=np.zeros((2, 5, 4)),
+        heights=np.zeros((contacts, HEIGHTS)),
+        turned=np.zeros((1 + n, 3)),
         loss=loss_state_of(balls.loss, FREEDOMS),
     )
 
@@ -123,6 +138,12 @@ def begin_angular_step(balls, omega, dt, films):
     films.omega[0], cage = omega, films.cage
     cage[0] = cage[1] + 0.5 * dt * (omega + films.omega[1]) * (1.5 * cage[2] - 0.5 * cage[3])
     _turn_maps(balls, films)
+    if balls.heights.raised.size > 0:
+        swept = 0.5 * dt * (omega + films.omega[1])
+        for k in range(balls.number + 1):
+            turned = films.turned[k]
+            turned[ANGLE_NOW] = turned[ANGLE_LAST] + swept * turned[ANGLE_RATE]
+        find_heights(balls, films, cage[0], 1.5 / dt)
     rolling_speed = max(omega, balls.speeds[0])
     row = row_of_speed(balls.speeds, rolling_speed)
     for k in range(balls.number):
@@ -233,6 +254,8 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
     for j in range(4):
         moved = c[j] - tried[j]
         b_r, b_z = b_r + follow[0, j] * moved, b_z + follow[1, j] * moved
+    free_i, up_i = g.inner - films.heights[2 * k, HEIGHT], films.heights[2 * k, HEIGHT_RATE]
+    free_o, up_o = g.outer - films.heights[2 * k + 1, HEIGHT], films.heights[2 * k + 1, HEIGHT_RATE]
     reach, previous, last_r, last_z = FIRST_STEP, np.inf, b_r, b_z
     longest = FAR * (g.inner + g.outer)
     nearly = NEARLY_SHARED if g.control in (INNER, SHARED) else NEARLY
@@ -244,9 +267,9 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
         i_r, i_z, o_r, o_z = x_r / l_i, x_z / l_i, b_r / l_o, b_z / l_o
         v_r, v_z = gain * (b_r - history[0]), gain * (b_z - history[1])
         e_r, e_z = d_r - v_r, d_z - v_z
-        rate_i, rate_o = i_r * e_r + i_z * e_z, o_r * v_r + o_z * v_z
-        f_i, k_i, d_i = contact_force(balls.inner, transit_i, row, film_i, films, 2 * k, l_i - g.inner, rate_i)
-        f_o, k_o, d_o = contact_force(balls.outer, transit_o, row, film_o, films, 2 * k + 1, l_o - g.outer, rate_o)
+        rate_i, rate_o = i_r * e_r + i_z * e_z + up_i, o_r * v_r + o_z * v_z + up_o
+        f_i, k_i, d_i = contact_force(balls.inner, transit_i, row, film_i, films, 2 * k, l_i - free_i, rate_i)
+        f_o, k_o, d_o = contact_force(balls.outer, transit_o, row, film_o, films, 2 * k + 1, l_o - free_o, rate_o)
         at = _rolls(balls, b_r, b_z, c_r, c_z)
         r_r, r_z, p_r, p_z, moment = ball_forces(g, omega, at, f_i, f_o)
         size = sqrt(r_r * r_r + r_z * r_z)
@@ -402,13 +425,14 @@ def accept_angular(balls, films, gain):
         at = _rolls(balls, b_r, b_z, c_r, c_z)
         kept = films.kept[k]
         v_r, v_z = gain * (b_r - kept[2, 0]), gain * (b_z - kept[2, 1])
-        rate_i = at.cos_i * (d_r - v_r) + at.sin_i * (d_z - v_z)
-        rate_o = at.cos_o * v_r + at.sin_o * v_z
+        i, o, heights = 2 * k, 2 * k + 1, films.heights
+        rate_i = at.cos_i * (d_r - v_r) + at.sin_i * (d_z - v_z) + heights[i, HEIGHT_RATE]
+        rate_o = at.cos_o * v_r + at.sin_o * v_z + heights[o, HEIGHT_RATE]
         film, u = films.film, films.speed_sum
-        i, o = 2 * k, 2 * k + 1
         transit_i = balls.inner.contact_length_factor / (u[i, 0] * rolling_speed) if rolling_speed > 0.0 else 0.0
         transit_o = balls.outer.contact_length_factor / (u[o, 0] * rolling_speed) if rolling_speed > 0.0 else 0.0
-        u_i, u_o, film_i, film_o = at.l_i - g.inner, at.l_o - g.outer, _film(films, i), _film(films, o)
+        u_i, u_o = at.l_i - (g.inner - heights[i, HEIGHT]), at.l_o - (g.outer - heights[o, HEIGHT])
+        film_i, film_o = _film(films, i), _film(films, o)
         film[i, 3] = accept_contact(balls.inner, transit_i, row, film_i, films, i, u_i, rate_i)
         film[o, 3] = accept_contact(balls.outer, transit_o, row, film_o, films, o, u_o, rate_o)
         factors = film_factors(g, at)
@@ -420,6 +444,8 @@ def accept_angular(balls, films, gain):
             kept[1, j], kept[0, j] = kept[0, j], films.place[k, j]
             films.largest[j] = max(films.largest[j], films.force[k, j])
         films.orbit[k] = at.orbit
+        own = films.turned[1 + k]
+        own[ANGLE_LAST], own[ANGLE_RATE] = own[ANGLE_NOW], at.ball_rotation
         carried, turned, free = (
             carried + films.force[k, 0],
             turned + films.force[k, 0] * at.orbit,
@@ -428,6 +454,8 @@ def accept_angular(balls, films, gain):
         if omega > 0.0 and (g.control in (INNER, SHARED) or (films.steps[0] + k) % RENEWED == 0):
             _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, films.inertia[k])
     films.steps[0] += 1
+    films.turned[0, ANGLE_LAST] = films.turned[0, ANGLE_NOW]
+    keep_heights(films)
     cage = films.cage
     cage[1], cage[3], cage[2] = cage[0], cage[2], turned / carried if carried > 0.0 else free
     films.omega[1] = omega
@@ -450,7 +478,7 @@ def rest_angular(balls, films, q, out):
             for j in range(3):
                 films.film[2 * k, j], films.film[2 * k + 1, j] = factors
             films.speed_sum[2 * k], films.speed_sum[2 * k + 1] = at.u_i, at.u_o
-            films.orbit[k] = at.orbit
+            films.orbit[k], films.turned[1 + k, ANGLE_RATE] = at.orbit, at.ball_rotation
             if omega > 0.0:
                 _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, films.inertia[k])
     press_angular(balls, films, q, still, 0.0, out[:3])
@@ -458,12 +486,15 @@ def rest_angular(balls, films, q, out):
     carried, turned, free = 0.0, 0.0, 0.0
     for k in range(balls.number):
         b_r, b_z, c_r, c_z = films.place[k, 0], films.place[k, 1], films.tried[k, 0], films.tried[k, 1]
-        films.state[2 * k, APPROACH] = inner_span(b_r, b_z, c_r, c_z)[0] - balls.grooves.inner
-        films.state[2 * k + 1, APPROACH] = np.hypot(b_r, b_z) - balls.grooves.outer
+        g, heights = balls.grooves, films.heights
+        films.state[2 * k, APPROACH] = inner_span(b_r, b_z, c_r, c_z)[0] - (g.inner - heights[2 * k, HEIGHT])
+        films.state[2 * k + 1, APPROACH] = np.hypot(b_r, b_z) - (g.outer - heights[2 * k + 1, HEIGHT])
         for j in range(2):
             films.kept[k, 0, j] = films.kept[k, 1, j] = films.place[k, j]
         carried += films.force[k, 0]
         turned += films.force[k, 0] * films.orbit[k]
         free += films.orbit[k] / balls.number
     films.cage[2] = films.cage[3] = turned / carried if carried > 0.0 else free
+    films.turned[0, ANGLE_RATE] = 1.0
+    rest_heights(films)
     rest_loss(films.loss)

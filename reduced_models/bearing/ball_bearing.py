@@ -33,6 +33,7 @@ from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.clearance import clearance_of_class
 from reduced_models.bearing.contact_angles import CONTROLS, HARRIS, Grooves
+from reduced_models.bearing.contact_heights import HEIGHT, ContactHeights
 from reduced_models.bearing.equilibrium import (
     RingEquilibrium,
     StaticBalls,
@@ -49,7 +50,7 @@ from reduced_models.bearing.excitation import (
     require_features,
     turns_of,
 )
-from reduced_models.bearing.features import Feature
+from reduced_models.bearing.features import Feature, feature_entries, features_from
 from reduced_models.bearing.five_degrees import (
     AngularEquilibrium,
     StaticRing,
@@ -61,6 +62,7 @@ from reduced_models.bearing.five_degrees import (
 )
 from reduced_models.bearing.freedoms import FIVE, PLANAR, bearing_load, held_tilt
 from reduced_models.bearing.friction import friction_under
+from reduced_models.bearing.height_tables import heights_of, require_features_fit, settle
 from reduced_models.bearing.kinematics import (
     RPM_TO_HZ,
     RPM_TO_RAD_S,
@@ -152,6 +154,9 @@ class BallBearing(Summary):
     name : str
     atlas : str, optional
         File of an atlas; by default the one that comes with the library.
+    features : sequence of RaceWaviness, BallWaviness, BallDiameter, Spall and Indentation
+        Of races and balls: they turn with the ring, the cage and the balls, and change equilibria and runs. What
+        is linear about rest, as coefficients and modes, is that of the smooth bearing.
 
     Raises
     ------
@@ -181,6 +186,7 @@ class BallBearing(Summary):
     race_control: str = "outer"
     shoulder_inner: float | None = None
     shoulder_outer: float | None = None
+    features: Sequence[Feature] = ()
     _cache: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def _summary_lines(self) -> list[str]:
@@ -195,7 +201,8 @@ class BallBearing(Summary):
             if self.oil is None
             else f"oil of {self.oil.eta0:.4g} Pa s, alpha {1e9 * self.oil.alpha:.4g} 1/GPa, flooded",
         ]
-        return [*lines, f"loss factor {self.loss_factor:.3g}"] if self.loss_factor else lines
+        lines += [f"loss factor {self.loss_factor:.3g}"] if self.loss_factor else []
+        return [*lines, f"features: {', '.join(map(str, self.features))}"] if self.features else lines
 
     def __post_init__(self) -> None:
         require_integer("balls", self.balls, "a whole number >= 3", 3)
@@ -228,6 +235,9 @@ class BallBearing(Summary):
             if abs(self.clearance - own) > SAME_CLEARANCE * own:
                 allowed = f"left out beside a contact angle, which makes it {own:.4g} m with these conformities"
                 raise InputError("clearance", self.clearance, allowed)
+        given = require_features(self.features, self.balls) if self.features else []
+        object.__setattr__(self, "features", tuple(given))
+        require_features_fit(self)
         self._cache["shoulders"] = {name: shoulder_angle(self, name) for name in RACES}
         if self.oil is not None:
             for race in races.values():
@@ -320,6 +330,7 @@ class BallBearing(Summary):
         *,
         speed_rpm: float = 0.0,
         cage_angle: float | None = None,
+        shaft_angle: float = 0.0,
         tilt: ArrayLike | None = None,
     ) -> BearingState:
         """State at rest under a load on the shaft.
@@ -333,6 +344,8 @@ class BallBearing(Summary):
             Speed of the shaft [rev/min], for the films and the inertia of the balls; 0 for a dry bearing only.
         cage_angle : float, optional
             Angle of the first ball from the x axis [rad]; by default it stands under the load.
+        shaft_angle : float
+            By which the inner ring and, rolling, the balls have turned [rad]: where their features are.
         tilt : (float, float), optional
             About x and y, of the ring under (Fx, Fy, Fz) [rad]: misalignment; by default 0.
 
@@ -344,10 +357,10 @@ class BallBearing(Summary):
         """
         force, speed = self._bearing_load(load), self.speed(speed_rpm)
         angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
-        held = held_tilt(tilt, force.size)
+        held, turned = held_tilt(tilt, force.size), angle_of(shaft_angle, "shaft_angle") if self.features else None
         if force.size > len(PLANAR):
-            return self._angular_state(self._angular_equilibrium(force, speed, angle, held), speed, angle)
-        at = self._planar_equilibrium(force, speed, angle)
+            return self._angular_state(self._angular_equilibrium(force, speed, angle, held, turned), speed, angle)
+        at = self._planar_equilibrium(force, speed, angle, turned)
         return BearingState(
             name=self.name,
             load=force,
@@ -511,10 +524,19 @@ class BallBearing(Summary):
         frequency = {"omega": omega, "hz": hz, "rpm": rpm}
         return bearing_element(self, node, speeds_rpm, load, frequency, **options)
 
-    def _planar_equilibrium(self, load: _Floats, speed: float, angle: float) -> RingEquilibrium:
-        """With axial motion and tilts held; raises `InputError` for a load that the bearing does not take."""
+    def _planar_equilibrium(
+        self, load: _Floats, speed: float, angle: float, turned: float | None = None
+    ) -> RingEquilibrium:
+        """With axial motion and tilts held; raises `InputError` for a load that the bearing does not take.
+
+        With the shaft `turned` by an angle [rad] its features are there; else it is smooth.
+        """
+        still = self._static_balls(speed, angle)
         try:
-            at = ring_equilibrium(self._static_balls(speed, angle), load)
+            at = ring_equilibrium(still, load)
+            if turned is not None:
+                heights = still.films.heights[:, HEIGHT].reshape(-1, 2)
+                at = settle(self, heights, (angle, turned), lambda: ring_equilibrium(still, load))
         except ConvergenceError:
             self._require_bearable_by_all(load, speed)
             raise
@@ -552,12 +574,20 @@ class BallBearing(Summary):
         return force
 
     def _angular_equilibrium(
-        self, load: _Floats, speed: float, angle: float, tilt: _Floats | None = None
+        self,
+        load: _Floats,
+        speed: float,
+        angle: float,
+        tilt: _Floats | None = None,
+        turned: float | None = None,
     ) -> AngularEquilibrium:
         """With five degrees of freedom; raises `InputError` for a load that the bearing does not take."""
         self._require_bearable_by_all(load, speed)
         ring = self._static_ring(speed, angle, load.size, tilt)
         at = angular_equilibrium(ring, load)
+        if turned is not None:
+            first = at.displacement
+            at = settle(self, ring.places.height, (angle, turned), lambda: angular_equilibrium(ring, load, first))
         self._require_in_grooves(at.found, load, speed)
         return at
 
@@ -628,7 +658,7 @@ class BallBearing(Summary):
             laws = self._law("inner", speeds), self._law("outer", speeds)
             omega = speeds * RPM_TO_RAD_S
             self._cache[key] = AngularBalls(
-                *laws, self.balls, grooves, float(omega[0]), omega, loss_of(self.loss_factor)
+                *laws, self.balls, grooves, float(omega[0]), omega, loss_of(self.loss_factor), self._heights
             )
         return self._cache[key]
 
@@ -672,8 +702,16 @@ class BallBearing(Summary):
                 speeds=speeds * RPM_TO_RAD_S,
                 loss=loss_of(self.loss_factor),
                 inertia=ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0,
+                heights=self._heights,
             )
         return self._cache[key]
+
+    @property
+    def _heights(self) -> ContactHeights:
+        """Heights of all features, as the kernels need them."""
+        if "heights" not in self._cache:
+            self._cache["heights"] = heights_of(self)
+        return self._cache["heights"]
 
     def _law(self, race: str, speeds: _Floats) -> Any:
         if self.oil is None:
@@ -696,18 +734,20 @@ class BallBearing(Summary):
 
     def to_dict(self) -> dict[str, Any]:
         """All arguments, ready for JSON."""
-        found = {f.name: getattr(self, f.name) for f in fields(self) if f.init}
-        return found | {"oil": None if self.oil is None else asdict(self.oil)}
+        found = {f.name: getattr(self, f.name) for f in fields(self) if f.init and f.name != "features"}
+        found["oil"] = None if self.oil is None else asdict(self.oil)
+        return found | ({"features": feature_entries(tuple(self.features))} if self.features else {})
 
     @classmethod
     def from_dict(cls, entries: Mapping[str, Any]) -> Self:
         """Rebuild a bearing from `to_dict`; raises `InputError` for entries that are missing, unknown or wrong."""
         oil = entries.get("oil")
         require_instance("oil", oil, dict | None, "an object, or null")
-        require_names(entries, [f.name for f in fields(cls) if f.init])
+        features = features_from(entries.get("features", []))
+        require_names({"features": [], **entries}, [f.name for f in fields(cls) if f.init])
         if oil is not None:
             require_names(oil, [f.name for f in fields(Lubricant)], "oil.")
-        return cls(**{**entries, "oil": None if oil is None else Lubricant(**oil)})
+        return cls(**{**entries, "oil": None if oil is None else Lubricant(**oil), "features": features})
 
 
 def require_contact_angle(angle: float) -> None:

@@ -11,7 +11,14 @@ from numba.extending import overload
 
 from reduced_models.bearing.angular_balls import AngularBalls
 from reduced_models.bearing.angular_steps import accept_angular, begin_angular_step, press_angular
-from reduced_models.bearing.balls import accept_balls, begin_step, directions, press_balls, speed_state
+from reduced_models.bearing.balls import (
+    accept_balls,
+    begin_step,
+    directions,
+    press_balls,
+    speed_state,
+    turn_planar,
+)
 
 _COMPILED: Any = {"jit_options": {"error_model": "numpy", "_nrt": False}}
 
@@ -39,6 +46,7 @@ def accept(balls, films, normals, omega, q, v, gain):
 
 def _begin_planar(balls, films, normals, omega, angle, dt):
     directions(balls, angle, normals)
+    turn_planar(balls, angle, films, 1.5 / dt)
     begin_step(balls, speed_state(balls, omega), dt, films)
 
 

@@ -20,6 +20,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import inner, jit_exact_loop, jit_exact_node
+from reduced_models.bearing.contact_heights import (
+    ANGLE_NOW,
+    ANGLE_RATE,
+    HEIGHT,
+    HEIGHT_RATE,
+    HEIGHTS,
+    ContactHeights,
+    find_heights,
+    keep_heights,
+    rest_heights,
+)
 from reduced_models.bearing.loss import (
     Loss,
     Seat,
@@ -72,6 +83,7 @@ class Balls(NamedTuple):
     speeds: _Floats  # (rows of the laws,) of the shaft, increasing
     loss: Loss  # of rings and fits
     inertia: float  # of a ball along n [kg]; 0: it has none
+    heights: ContactHeights  # of features
 
 
 class SpeedState(NamedTuple):
@@ -95,6 +107,8 @@ class Films(NamedTuple):
     balls: _Floats  # (balls, BALL_ENTRIES) place of each ball, the approach w at its outer race; entries above
     force: _Floats  # (balls, 2) at the inner and at the outer race [N]
     largest: _Floats  # (2,) force that any ball has had at either race [N]
+    heights: _Floats  # (contacts, HEIGHTS) of features, see `contact_heights`
+    turned: _Floats  # (1 + balls, 3) angles of the shaft and of all balls [rad], see there
     loss: Seat
 
 
@@ -111,6 +125,8 @@ def films_of(balls: Balls) -> Films:
         balls=np.zeros((balls.number, BALL_ENTRIES)),
         force=np.zeros((balls.number, 2)),
         largest=np.zeros(2),
+        heights=np.zeros((contacts, HEIGHTS)),
+        turned=np.zeros((1 + balls.number, 3)),
         loss=loss_state_of(balls.loss),
     )
 
@@ -154,6 +170,18 @@ def directions(balls, angle, normals):
 
 
 @jit_exact_loop
+def turn_planar(balls, angle, films, gain):
+    """Turn shaft and balls with the first ball to `angle`, and find the heights that contacts meet there."""
+    if balls.heights.raised.size == 0:
+        return
+    turned = films.turned
+    turned[0, ANGLE_NOW] = (angle - turned[0, ANGLE_RATE]) / balls.cage
+    for k in range(balls.number):
+        turned[1 + k, ANGLE_NOW] = balls.heights.rotation * turned[0, ANGLE_NOW]
+    find_heights(balls, films, angle, gain)
+
+
+@jit_exact_loop
 def begin_step(balls, at_speed, dt, films):
     """Begin a step of length `dt`, as long as the one before; returns the gain from w to its rate (BDF 2)."""
     for k in range(balls.number):
@@ -178,13 +206,16 @@ def begin_rest(films):
 def _ball(balls, at_speed, films, k, delta, rate, gain):
     """Balance ball `k`; returns the force of the ring on it, its derivatives by delta and delta'."""
     ball, heavy, row = films.balls[k], balls.inertia * gain, at_speed.speed_row
+    h_i, up_i = films.heights[2 * k, HEIGHT], films.heights[2 * k, HEIGHT_RATE]
+    h_o, up_o = films.heights[2 * k + 1, HEIGHT], films.heights[2 * k + 1, HEIGHT_RATE]
     history = ball[POSITION_HISTORY]
     w = ball[POSITION] + ball[BY_DELTA] * (delta - ball[TRIED_DELTA]) + ball[BY_RATE] * (rate - ball[TRIED_RATE])
     low, high, reach = -inf, inf, FIRST_STEP
     for _ in range(MOST_STEPS):
         v = gain * (w - history)
-        fi, ki, di = contact_force(balls.inner, at_speed.inner, row, None, films, 2 * k, delta - w, rate - v)
-        fo, ko, do = contact_force(balls.outer, at_speed.outer, row, None, films, 2 * k + 1, w, v)
+        u_i, v_i, u_o, v_o = delta - w + h_i, rate - v + up_i, w + h_o, v + up_o
+        fi, ki, di = contact_force(balls.inner, at_speed.inner, row, None, films, 2 * k, u_i, v_i)
+        fo, ko, do = contact_force(balls.outer, at_speed.outer, row, None, films, 2 * k + 1, u_o, v_o)
         inner, held = ki + gain * di, ko + gain * do
         outer = held + heavy * gain
         balance, tangent = fo + heavy * (v - ball[RATE_HISTORY]) - fi - at_speed.centrifugal, inner + outer
@@ -250,12 +281,16 @@ def accept_balls(balls, at_speed, films, normals, q, v, gain):
         w = ball[POSITION]
         own = gain * (w - ball[POSITION_HISTORY])
         row = at_speed.speed_row
-        accept_contact(balls.inner, at_speed.inner, row, None, films, 2 * k, delta - w, rate - own)
-        accept_contact(balls.outer, at_speed.outer, row, None, films, 2 * k + 1, w, own)
+        inner, outer = films.heights[2 * k], films.heights[2 * k + 1]
+        u_i, v_i = delta - w + inner[HEIGHT], rate - own + inner[HEIGHT_RATE]
+        u_o, v_o = w + outer[HEIGHT], own + outer[HEIGHT_RATE]
+        accept_contact(balls.inner, at_speed.inner, row, None, films, 2 * k, u_i, v_i)
+        accept_contact(balls.outer, at_speed.outer, row, None, films, 2 * k + 1, u_o, v_o)
         ball[POSITION_BEFORE], ball[POSITION_NOW] = ball[POSITION_NOW], w
         ball[RATE_BEFORE], ball[RATE_NOW] = ball[RATE_NOW], own
         films.largest[0] = max(films.largest[0], films.force[k, 0])
         films.largest[1] = max(films.largest[1], films.force[k, 1])
+    keep_heights(films)
     accept_loss(films.loss)
 
 
@@ -265,7 +300,9 @@ def rest_balls(balls, films, normals, q):
     films.state[:] = 0.0
     for k in range(balls.number):
         w = films.balls[k, POSITION]
-        films.state[2 * k, APPROACH] = normals[k, 0] * q[0] + normals[k, 1] * q[1] - balls.half_clearance - w
-        films.state[2 * k + 1, APPROACH] = w
+        delta = normals[k, 0] * q[0] + normals[k, 1] * q[1] - balls.half_clearance
+        films.state[2 * k, APPROACH] = delta - w + films.heights[2 * k, HEIGHT]
+        films.state[2 * k + 1, APPROACH] = w + films.heights[2 * k + 1, HEIGHT]
         films.balls[k, POSITION_NOW:RATE_HISTORY], films.balls[k, RATE_HISTORY:] = w, 0.0
+    rest_heights(films)
     rest_loss(films.loss)

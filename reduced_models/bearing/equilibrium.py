@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 from ehlcontact.checks import as_column, require_finite
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.balls import POSITION, Balls, SpeedState, begin_rest, directions, films_of, press_balls
+from reduced_models.bearing.contact_heights import HEIGHT
 
 _Floats = NDArray[np.float64]
 
@@ -181,7 +182,8 @@ def ring_equilibrium(still: StaticBalls, load: _Floats) -> RingEquilibrium:
         raise InputError("load", load.tolist(), allowed)
     w = still.films.balls[:, POSITION]
     inner = still.normals @ q - still.balls.half_clearance - w
-    return RingEquilibrium(q, still.normals, np.column_stack([inner, w]), still.films.force.copy(), stiffness)
+    approach = np.column_stack([inner, w]) + still.films.heights[:, HEIGHT].reshape(-1, 2)
+    return RingEquilibrium(q, still.normals, approach, still.films.force.copy(), stiffness)
 
 
 def direction_of(load: _Floats) -> float:
@@ -198,8 +200,8 @@ def radial_load(load: ArrayLike) -> _Floats:
     return as_column("load", load, size=2)
 
 
-def angle_of(angle: float) -> float:
-    """An angle of the cage [rad]; raises `InputError` for one in degrees."""
-    if abs(require_finite("cage_angle", angle)) > 2.0 * pi:
-        raise InputError("cage_angle", angle, "between -2 pi and 2 pi; angles are in radians")
+def angle_of(angle: float, name: str = "cage_angle") -> float:
+    """An angle of the cage, or another [rad]; raises `InputError` for one in degrees."""
+    if abs(require_finite(name, angle)) > 2.0 * pi:
+        raise InputError(name, angle, "between -2 pi and 2 pi; angles are in radians")
     return float(angle)

@@ -34,7 +34,7 @@ from ehlcontact.hertz import hertz_contact
 from ehlcontact.quantities import FORCE, HERTZ, LENGTH, NUMBER, RADIAN, SPEED, Quantity
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.summary import span
-from reduced_models.bearing.features import BallDiameter, BallWaviness, Feature, RaceWaviness
+from reduced_models.bearing.features import FEATURES, BallDiameter, BallWaviness, Feature, RaceWaviness
 from reduced_models.bearing.five_degrees import AngularEquilibrium
 from reduced_models.bearing.freedoms import PLANAR, in_freedoms, labelled, load_words
 from reduced_models.bearing.kinematics import RPM_TO_HZ, RPM_TO_RAD_S
@@ -229,9 +229,10 @@ def require_features(features: object, balls: int) -> list[Feature]:
     if not given:
         raise InputError("features", [], "at least one, as RaceWaviness(...) or BallDiameter(...)")
     for one in given:
-        require_instance("features", one, Feature, "RaceWaviness(...), BallWaviness(...) or BallDiameter(...)")
-        if not isinstance(one, RaceWaviness) and one.ball >= balls:
-            raise InputError("ball", one.ball, f"from 0 to {balls - 1}")
+        require_instance("features", one, Feature, FEATURES)
+        ball = getattr(one, "ball", None)
+        if ball is not None and ball >= balls:
+            raise InputError("ball", ball, f"from 0 to {balls - 1}")
     return given
 
 

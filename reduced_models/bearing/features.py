@@ -2,15 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import pi
+from typing import Any
 
-from ehlcontact.checks import require_choice, require_finite, require_integer, require_positive
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import (
+    require_choice,
+    require_finite,
+    require_instance,
+    require_integer,
+    require_names,
+    require_nonnegative,
+    require_positive,
+)
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from reduced_models.bearing.race import RACES
 
+_Floats = NDArray[np.float64]
+
 MOST_TURNS = 4.0 * pi  # rad, of a phase: more are degrees
+ONE_TURN = 2.0 * pi  # rad, of a place: more are degrees
 MOST_WAVES = 100_000  # around a race or a ball
 
 
@@ -103,10 +118,140 @@ class BallDiameter:
         require_finite("excess", self.excess)
 
 
-Feature = RaceWaviness | BallWaviness | BallDiameter
+@fields_take(angle="rad", length="m", depth="m", edge="m")
+@dataclass(frozen=True, kw_only=True)
+class Spall:
+    """A pit across the whole track of a race or a ball, of a depth that is the same but for its edges.
+
+    Parameters
+    ----------
+    race : {"inner", "outer"}, optional
+        The race that has it; else the ball.
+    ball : int, optional
+        From 0, which is the ball at the cage angle.
+    angle : float
+        Of its middle [rad]: on a race from the x axis, with the shaft at 0; on a ball in the plane of its
+        rolling, from the contact with the inner race with the shaft at 0.
+    length : float
+        Along the track, both edges included [m].
+    depth : float
+        In m.
+    edge : float
+        Length of each of both slopes at its ends [m]; 0 is a step.
+
+    Raises
+    ------
+    InputError
+        Neither or both of race and ball; lengths that are not positive, edges longer than half of it, an angle in
+        degrees. The bearing refuses what is longer than its track, or deeper than a ball's radius.
+    """
+
+    race: str | None = None
+    ball: int | None = None
+    angle: float
+    length: float
+    depth: float
+    edge: float = 0.0
+
+    def __post_init__(self) -> None:
+        _require_place(self)
+        if require_nonnegative("edge", self.edge) > 0.5 * self.length:
+            raise InputError("edge", self.edge, f"at most half of the length, {0.5 * self.length:g} m")
+
+    def height(self, x: _Floats) -> _Floats:
+        """Height [m] at distances x [m] from its middle along the track."""
+        inside = 0.5 * self.length - np.abs(x)
+        if self.edge == 0.0:
+            return np.where(inside >= 0.0, -self.depth, 0.0)
+        return -self.depth * np.clip(inside / self.edge, 0.0, 1.0)
 
 
-def _require_waves(feature: RaceWaviness | BallWaviness) -> None:
+@fields_take(angle="rad", length="m", depth="m", rim="m")
+@dataclass(frozen=True, kw_only=True)
+class Indentation:
+    """A dent that a hard particle has left: a smooth pit with raised rims, across the whole track.
+
+    ``-depth cos^2(pi x/length)`` within the length, and rims ``rim sin^2(2 pi x/length)`` half as long beside it.
+
+    Parameters
+    ----------
+    race, ball, angle
+        As of a `Spall`.
+    length : float
+        Of the pit along the track, without its rims [m].
+    depth : float
+        In m.
+    rim : float
+        Height of the rims [m].
+
+    Raises
+    ------
+    InputError
+        As `Spall`; a rim below 0.
+    """
+
+    race: str | None = None
+    ball: int | None = None
+    angle: float
+    length: float
+    depth: float
+    rim: float = 0.0
+
+    def __post_init__(self) -> None:
+        _require_place(self)
+        require_nonnegative("rim", self.rim)
+
+    def height(self, x: _Floats) -> _Floats:
+        """Height [m] at distances x [m] from its middle along the track."""
+        at = np.abs(x) / self.length
+        pit = -self.depth * np.cos(pi * at) ** 2
+        return np.where(at <= 0.5, pit, np.where(at <= 1.0, self.rim * np.sin(2.0 * pi * at) ** 2, 0.0))
+
+
+Waves = RaceWaviness | BallWaviness
+Defect = Spall | Indentation
+Feature = Waves | Defect | BallDiameter
+FEATURES = "RaceWaviness, BallWaviness, BallDiameter, Spall or Indentation"
+
+
+_KINDS: dict[str, type[Any]] = {
+    kind.__name__: kind for kind in (RaceWaviness, BallWaviness, BallDiameter, Spall, Indentation)
+}
+
+
+def features_from(entries: object) -> list[Feature]:
+    """Rebuild features from `feature_entries`; raises `InputError` for what is none."""
+    require_instance("features", entries, list, "a list of objects")
+    found = []
+    for k, one in enumerate(entries):  # type: ignore[var-annotated, arg-type]
+        require_instance(f"features[{k}]", one, dict, "an object")
+        kind = _KINDS[require_choice(f"features[{k}].kind", one.get("kind"), tuple(_KINDS))]
+        given = {name: value for name, value in one.items() if name != "kind"}
+        require_names(given, list(kind.__dataclass_fields__), f"features[{k}].")
+        found.append(kind(**given))
+    return found
+
+
+def feature_entries(features: tuple[Feature, ...]) -> list[dict[str, Any]]:
+    """All features with their arguments, ready for JSON."""
+    return [{"kind": type(one).__name__, **asdict(one)} for one in features]
+
+
+def _require_place(feature: Defect) -> None:
+    if (feature.race is None) == (feature.ball is None):
+        given = "neither" if feature.race is None else "both"
+        raise InputError("race, ball", given, 'one of them: race="inner" or "outer", or the number of a ball')
+    if feature.race is not None:
+        require_choice("race", feature.race, RACES)
+    else:
+        require_integer("ball", feature.ball, "a whole number >= 0", 0)
+    if not abs(require_finite("angle", feature.angle)) <= ONE_TURN:
+        raise InputError("angle", feature.angle, f"between {-ONE_TURN:.4g} and {ONE_TURN:.4g} rad (in degrees?)")
+    require_positive("length", feature.length)
+    require_positive("depth", feature.depth)
+
+
+def _require_waves(feature: Waves) -> None:
     if require_integer("waves", feature.waves, f"a whole number from 1 to {MOST_WAVES}", 1) > MOST_WAVES:
         raise InputError("waves", feature.waves, f"a whole number from 1 to {MOST_WAVES}")
     require_positive("amplitude", feature.amplitude)

@@ -31,12 +31,18 @@ from reduced_models.bearing.balls import (
     press_balls,
     rest_balls,
     speed_state,
+    turn_planar,
 )
+from reduced_models.bearing.contact_heights import ANGLE_RATE, HEIGHT, find_heights
 from reduced_models.bearing.equilibrium import angle_of
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 _Floats = NDArray[np.float64]
+
+
+SETTLED = 1e-9  # of the largest height, by which heights at rest may still change
+MOST_TIMES = 60  # that they are looked up for it: a handful
 
 
 class BallMotion:
@@ -61,14 +67,21 @@ class BallMotion:
         directions(self.balls, angle, self._normals)
         self.gain = begin_rest(self.films)
         self.at_speed = speed_state(self.balls, omega)._replace(cage=0.0)
-        force, _, _ = self.forces(q, np.zeros(2))
-        rest_balls(self.balls, self.films, self._normals, q)
+        self.films.turned[0, ANGLE_RATE] = angle
+        for _ in range(MOST_TIMES):
+            force, _, _ = self.forces(q, np.zeros(2))
+            rest_balls(self.balls, self.films, self._normals, q)
+            before = self.films.heights[:, HEIGHT].copy()
+            turn_planar(self.balls, angle, self.films, 0.0)
+            if _settled(before, self.films.heights[:, HEIGHT]):
+                break
         return force
 
     def begin(self, omega: float, angle: float, dt: float) -> None:
         """Begin a step of `dt` [s], at whose end the shaft turns at `omega` and the first ball is at `angle`."""
         self.at_speed = speed_state(self.balls, omega)
         directions(self.balls, angle, self._normals)
+        turn_planar(self.balls, angle, self.films, 1.5 / dt)
         self.gain = begin_step(self.balls, self.at_speed, dt, self.films)
 
     def forces(self, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats, _Floats]:
@@ -109,7 +122,12 @@ class AngularMotion:
     def rest(self, omega: float, angle: float, q: _Floats) -> _Floats:
         """Put balls and films at rest with the ring at `q`, shape (5,); force of the ring, shape (5,)."""
         begin_angular_rest(self.balls, omega, angle, self.films)
-        rest_angular(self.balls, self.films, q, (*self._out, np.zeros(len(FIVE))))
+        for _ in range(MOST_TIMES):
+            rest_angular(self.balls, self.films, q, (*self._out, np.zeros(len(FIVE))))
+            before = self.films.heights[:, HEIGHT].copy()
+            find_heights(self.balls, self.films, angle, 0.0)
+            if _settled(before, self.films.heights[:, HEIGHT]):
+                break
         self.gain = 0.0
         return self._out[0].copy()
 
@@ -270,6 +288,10 @@ def motion_of(bearing: BallBearing, speeds_rpm: list[float], freedoms: int) -> B
         allowed = "False in time with axial motion and tilts: balls are in equilibrium in every step"
         raise InputError("ball_inertia", True, allowed)
     return AngularMotion(bearing._angular_balls(speeds))
+
+
+def _settled(before: _Floats, heights: _Floats) -> bool:
+    return bool(np.abs(heights - before).max() <= SETTLED * np.abs(heights).max())
 
 
 def _finite(force: _Floats, q: _Floats) -> _Floats:

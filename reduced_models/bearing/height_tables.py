@@ -1,0 +1,243 @@
+"""Heights that the contacts of a bearing meet on its races and balls, filtered by the contact, as tables.
+
+A contact is replaced by a strip of springs along its track (x), each pressed by its own overlap. With the
+approach d of smooth surfaces and a height h(x), positive out of the surface, its force is that of the approach
+d + H:
+
+    (4/3) sqrt(2 R) (d + H)^1.5 = integral of (d + h(x) - x^2/(2 R))_+ dx,    R = a^2/(2 d).
+
+With Hertz' semi-axis a in R the strip has Hertz' force and contact length at every load. For heights far below d,
+H is their mean over the contact: the filter sin(k)/k of waves with the wave number k per semi-axis, that of dry
+contacts (`ehlcontact.excitation`). Where d + h <= x^2/(2 R) all along, nothing touches, and H is the height at
+which the strip would just touch: a ball does not fall to the bottom of a pit that is too short for it.
+
+H is tabulated over the angle of the contact on its track and the semi-axis. In a time step it is looked up at the
+compression that the contact had at the end of the last one (`contact_heights`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import ceil, cos, log2, pi, sqrt
+from typing import TYPE_CHECKING, Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks.admissible_range import LIMITS
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.hertz import hertz_contact
+from reduced_models.bearing.contact_heights import ANGLE_NOW, NONE, ContactHeights, height_of
+from reduced_models.bearing.features import BallDiameter, Feature, Waves
+from reduced_models.bearing.race import RACES, Race
+
+if TYPE_CHECKING:
+    from reduced_models.bearing.ball_bearing import BallBearing
+
+_Floats = NDArray[np.float64]
+
+LOADS = 17  # semi-axes of a table, from 0 to that of the heaviest load of elastic steel
+PER_AXIS = 10.0  # places around a track, at least, to a semi-axis at `USUAL_PRESSURE`
+USUAL_PRESSURE = 1e9  # Pa
+PER_WAVE, PER_LENGTH, PER_EDGE = 16, 32, 2  # the same to a wave, a defect, the edge of one
+MOST_PLACES = 2**16  # around a track
+SETTLED = 1e-7  # of the largest height, by which heights at rest may still change
+MOST_TIMES = 200  # that they are looked up for it: a handful
+RELAXED = 0.7  # share of a change that is made: contacts that lose load lose length
+
+
+def heights_of(bearing: BallBearing) -> ContactHeights:
+    """Tables of all features of a bearing."""
+    n, tables = bearing.balls if bearing.features else 0, []
+    scales, of_race, of_ball = [], np.full(2, NONE), np.full((n, 2), NONE)
+
+    def add(name: str, radius: float, found: Sequence[Feature]) -> int:
+        if not found:
+            return NONE
+        strip, axis = _strip(bearing.race(name))
+        tables.append(_profile(found, radius, axis))
+        scales.append((strip, radius, axis))
+        return len(tables) - 1
+
+    raised = np.zeros(n)
+    for column, name in enumerate(RACES):
+        own = [one for one in bearing.features if getattr(one, "race", None) == name]
+        of_race[column] = add(name, track_radius(bearing, name), own)
+        for ball in range(n):
+            own = [one for one in bearing.features if getattr(one, "ball", None) == ball]
+            of_ball[ball, column] = add(
+                name, 0.5 * bearing.ball_diameter, [one for one in own if not isinstance(one, BallDiameter)]
+            )
+            raised[ball] = 0.5 * sum(one.excess for one in own if isinstance(one, BallDiameter))
+    places = max((len(profile) for profile in tables), default=0)
+    found = [
+        filtered(_resampled(profile, places), 2.0 * pi * radius / places, strip, axis)
+        for profile, (strip, radius, axis) in zip(tables, scales, strict=True)
+    ]
+    return ContactHeights(
+        tables=np.array(found).reshape(len(found), places, LOADS),
+        per_root=np.array([(LOADS - 1) / axis * sqrt(2.0 * strip) for strip, _, axis in scales]),
+        of_race=of_race,
+        of_ball=of_ball,
+        raised=raised,
+        rotation=bearing.orders.bsf,
+    )
+
+
+class BallsAtRest(Protocol):
+    """A ring in equilibrium: forces [N] and approaches [m] of all contacts, shape (balls, 2)."""
+
+    @property
+    def force(self) -> _Floats:
+        """Forces."""
+
+    @property
+    def approach(self) -> _Floats:
+        """Approaches, heights included."""
+
+
+_AtRest = TypeVar("_AtRest", bound=BallsAtRest)
+
+
+def settle(
+    bearing: BallBearing, found: _Floats, angles: tuple[float, float], solve: Callable[[], _AtRest]
+) -> _AtRest:
+    """Equilibrium with the heights at which it has the compressions that these heights are for.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+    found : ndarray, shape (balls, 2)
+        Written: heights with which `solve` finds an equilibrium [m].
+    angles : (float, float)
+        Of the first ball and of the shaft [rad].
+    solve : callable
+
+    Raises
+    ------
+    ConvergenceError
+        The heights do not settle.
+    """
+    heights = bearing._heights
+    turned = np.zeros((1 + bearing.balls, 3))
+    turned[:, ANGLE_NOW] = heights.rotation * angles[1]
+    turned[0, ANGLE_NOW] = angles[1]
+    kn = np.array([bearing.race(name).kn for name in RACES])
+    for _ in range(MOST_TIMES):
+        at = solve()
+        pressed = np.where(at.force > 0.0, (np.maximum(at.force, 0.0) / kn) ** (2.0 / 3.0), at.approach)
+        new = np.empty_like(found)
+        for k, race in np.ndindex(*found.shape):
+            psi = angles[0] + 2.0 * pi * k / bearing.balls
+            new[k, race] = height_of(heights, k, race, psi, turned, float(pressed[k, race] - found[k, race]))
+        change = new - found
+        if np.abs(change).max() <= SETTLED * np.abs(new).max():
+            return at
+        found += RELAXED * change
+    raise ConvergenceError("static equilibrium not found: heights of features do not settle", None)
+
+
+def track_radius(bearing: BallBearing, name: str) -> float:
+    """Radius of the track on a race [m], at the contact angle without load."""
+    side = -1.0 if name == "inner" else 1.0
+    return 0.5 * (bearing.pitch_diameter + side * bearing.ball_diameter * cos(bearing.free_angle))
+
+
+def require_features_fit(bearing: BallBearing) -> None:
+    """Raise `InputError` for features that the bearing has no place for, or contacts no table fine enough."""
+    for one in bearing.features:
+        ball, race = getattr(one, "ball", None), getattr(one, "race", None)
+        if ball is not None and bearing.race_control == "shared" and not isinstance(one, BallDiameter):
+            allowed = "left out: with race_control = 'shared' it is open about which axis a ball turns"
+            raise InputError("ball", ball, allowed)
+        most = MOST_PLACES // PER_WAVE
+        if isinstance(one, Waves) and one.waves > most:
+            allowed = f"at most {most} of a bearing: {PER_WAVE} of the {MOST_PLACES} places of a table to a wave"
+            raise InputError("waves", one.waves, allowed)
+        if isinstance(one, Waves | BallDiameter):
+            continue
+        radius = 0.5 * bearing.ball_diameter if race is None else track_radius(bearing, race)
+        track = 2.0 * pi * radius
+        least = PER_LENGTH * track / MOST_PLACES
+        if not least <= one.length <= track:
+            where = "around the ball" if race is None else f"around the {race} race"
+            raise InputError("length", one.length, f"from {least:.2g} to {track:.4g} m, the track {where}")
+        if one.depth > 0.5 * bearing.ball_diameter:
+            raise InputError("depth", one.depth, f"at most {0.5 * bearing.ball_diameter:.4g} m, a ball's radius")
+
+
+def _strip(race: Race) -> tuple[float, float]:
+    """Radius R of the strip of springs [m], and semi-axis under the heaviest load of elastic steel [m]."""
+    body = race.geometry
+    unit = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced)
+    return unit.a**2 / (2.0 * unit.approach), unit.a * LIMITS.p_hertz / unit.pressure
+
+
+def _profile(features: Sequence[Feature], radius: float, axis: float) -> _Floats:
+    """Heights of all features of one track over its angle [m], at as many places as they and contacts need."""
+    needed = PER_AXIS * 2.0 * pi * radius / (axis * USUAL_PRESSURE / LIMITS.p_hertz)
+    for one in features:
+        if isinstance(one, Waves):
+            needed = max(needed, PER_WAVE * one.waves)
+        elif not isinstance(one, BallDiameter):
+            spacing = min(one.length / PER_LENGTH, (getattr(one, "edge", 0.0) or one.length) / PER_EDGE)
+            needed = max(needed, 2.0 * pi * radius / spacing)
+    places = min(2 ** ceil(log2(needed)), MOST_PLACES)
+    theta, heights = 2.0 * pi * np.arange(places) / places, np.zeros(places)
+    for one in features:
+        if isinstance(one, Waves):
+            heights += one.amplitude * np.cos(one.waves * theta - one.phase)
+        elif not isinstance(one, BallDiameter):
+            heights += one.height(radius * (np.remainder(theta - one.angle + pi, 2.0 * pi) - pi))
+    return heights
+
+
+def _resampled(profile: _Floats, places: int) -> _Floats:
+    return np.interp(
+        np.arange(places) * profile.size / places, np.arange(profile.size + 1), np.append(profile, profile[0])
+    )
+
+
+def filtered(profile: _Floats, spacing: float, strip: float, axis: float) -> _Floats:
+    """H at all places of a periodic profile and all semi-axes of a table, shape (places, LOADS) [m]."""
+    found = np.zeros((profile.size, LOADS))
+    highest, lowest = max(float(profile.max()), 0.0), min(float(profile.min()), 0.0)
+    envelope = _highest_touch(profile, spacing, strip, highest - lowest)
+    for column, a in enumerate(np.linspace(0.0, axis, LOADS).tolist()):
+        approach = a * a / (2.0 * strip)
+        pressed, flat = _pressed(profile, approach, highest, spacing, strip)
+        touching = pressed > 0.0
+        found[:, column] = np.where(touching, pressed - flat, np.minimum(envelope, -approach))
+    return found
+
+
+def _pressed(
+    profile: _Floats, approach: float, highest: float, spacing: float, strip: float
+) -> tuple[_Floats, float]:
+    """Approach of smooth surfaces with the force of the strip, at all places and of a flat profile."""
+    reach = ceil(sqrt(2.0 * strip * (approach + highest)) / spacing)
+    total, flat = np.zeros(profile.size), 0.0
+    for m in range(-reach, reach + 1):
+        x = m * spacing
+        gap, half = approach - x * x / (2.0 * strip), abs(x) / strip * 0.5 * spacing
+        total += _mean_overlap(gap + np.roll(profile, -m), half)
+        flat += float(_mean_overlap(np.array(gap), half))
+    scale = 0.75 * spacing / sqrt(2.0 * strip)
+    return (scale * total) ** (2.0 / 3.0), (scale * flat) ** (2.0 / 3.0)
+
+
+def _mean_overlap(middle: _Floats, half: float) -> _Floats:
+    """Mean over a cell of what is positive of a linear function from middle - half to middle + half."""
+    if half == 0.0:
+        return np.maximum(middle, 0.0)
+    within = np.clip(middle + half, 0.0, 2.0 * half)
+    return np.maximum(middle - half, 0.0) + within * within / (4.0 * half) + 0.0 * middle
+
+
+def _highest_touch(profile: _Floats, spacing: float, strip: float, depth: float) -> _Floats:
+    """Height at which a strip without load touches the profile, at all places."""
+    reach = min(ceil(sqrt(2.0 * strip * depth) / spacing), profile.size // 2)
+    found = profile.copy()
+    for m in range(-reach, reach + 1):
+        np.maximum(found, np.roll(profile, -m) - (m * spacing) ** 2 / (2.0 * strip), out=found)
+    return found
