@@ -22,7 +22,9 @@ from reduced_models.bearing.equilibrium_result import BearingState as BearingSta
 from reduced_models.bearing.excitation import BearingExcitation as BearingExcitation
 from reduced_models.bearing.features import BallDiameter as BallDiameter
 from reduced_models.bearing.features import BallWaviness as BallWaviness
+from reduced_models.bearing.features import Indentation as Indentation
 from reduced_models.bearing.features import RaceWaviness as RaceWaviness
+from reduced_models.bearing.features import Spall as Spall
 from reduced_models.bearing.measured_order import angle_from_order as angle_from_order
 from reduced_models.bearing.measured_order import clearance_from_order as clearance_from_order
 from reduced_models.bearing.motion import BearingMotion as BearingMotion

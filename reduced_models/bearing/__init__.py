@@ -25,7 +25,9 @@
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load; the ring of a bearing on its balls: `ring_equilibrium` |
 | linear_balls | a bearing about rest: impedance at complex frequencies, stiffness and damping over frequency |
-| features | waviness of races and balls, balls of another diameter: what excites a bearing |
+| features | waviness and defects of races and balls, balls of another diameter: what excites a bearing |
+| height_tables | their heights filtered by the contact, as tables over the angle and the load |
+| contact_heights | the same looked up in time steps, compiled |
 | excitation | forces of features on a ring that is held, as lines over the turns of the shaft |
 | ball_states | balls and films about rest as matrices of first order |
 | continuous_time | derivatives of the states of balls and films, compiled |

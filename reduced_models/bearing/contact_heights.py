@@ -45,7 +45,9 @@ def looked_up(heights, table, angle, compression):
     s, after = at - i, i + 1 if i + 1 < places else 0
     load = min(sqrt(max(compression, 0.0)) * heights.per_root[table], found.shape[1] - 1.0)
     j = min(int(load), found.shape[1] - 2)
-    t = load - j
+    t = (load * load - j * j) / (
+        2.0 * j + 1.0
+    )  # straight over d: so are lost contacts, and the mean of long waves
     here = found[i, j] + t * (found[i, j + 1] - found[i, j])
     return here + s * (found[after, j] + t * (found[after, j + 1] - found[after, j]) - here)
 

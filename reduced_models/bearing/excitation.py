@@ -22,7 +22,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import cos
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
@@ -34,9 +33,18 @@ from ehlcontact.hertz import hertz_contact
 from ehlcontact.quantities import FORCE, HERTZ, LENGTH, NUMBER, RADIAN, SPEED, Quantity
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.summary import span
-from reduced_models.bearing.features import FEATURES, BallDiameter, BallWaviness, Feature, RaceWaviness
+from reduced_models.bearing.features import (
+    FEATURES,
+    BallDiameter,
+    BallWaviness,
+    Defect,
+    Feature,
+    RaceWaviness,
+    Waves,
+)
 from reduced_models.bearing.five_degrees import AngularEquilibrium
 from reduced_models.bearing.freedoms import PLANAR, in_freedoms, labelled, load_words
+from reduced_models.bearing.height_tables import profile_of, track_radius
 from reduced_models.bearing.kinematics import RPM_TO_HZ, RPM_TO_RAD_S
 from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.linear_balls import SmallBalls
@@ -50,6 +58,9 @@ _Complex = NDArray[np.complex128]
 
 NO_LINE = 1e-6  # of the height over the approach of the heaviest ball times its force: below is rounding
 SAME_ORDER = 9  # decimal places of orders that are one line
+SHORTEST = (
+    4.0 * np.pi
+)  # wave number per semi-axis of the heaviest ball, to which defects are waves: 8 % get through
 LARGE = 0.1  # height over the approach of both contacts of the heaviest ball, from which a result says so
 
 
@@ -173,33 +184,57 @@ class FeaturedBalls:
         for j, name in enumerate(("inner", "outer")):
             body = b.race(name).geometry
             a = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).a * np.cbrt(self.force[..., j])
-            side = -1.0 if name == "inner" else 1.0
-            race = 0.5 * (b.pitch_diameter + side * b.ball_diameter * cos(b.free_angle))
-            radius = 0.5 * b.ball_diameter if ball else race
+            radius = 0.5 * b.ball_diameter if ball else track_radius(b, name)
             found.append(np.sinc(waves * a / radius / np.pi))
         return found[0], found[1]
 
     def lines(self, feature: Feature, cage_angle: float) -> list[tuple[float, _Complex]]:
         """Orders of the lines of one feature, negative ones too, and complex forces."""
+        if isinstance(feature, BallDiameter):
+            return self._ball_lines(feature.ball, 0, complex(0.5 * feature.excess), cage_angle)
+        found = []
+        for n, amplitude in self.waves_of(feature):
+            race, ball = getattr(feature, "race", None), getattr(feature, "ball", None)
+            if ball is None:
+                found += self._race_lines(str(race), n, amplitude, cage_angle)
+            else:
+                found += self._ball_lines(ball, n, amplitude, cage_angle)
+        return found
+
+    def waves_of(self, feature: Waves | Defect) -> list[tuple[int, complex]]:
+        """Waves n around a race or a ball and their complex amplitudes: heights ``Re sum A exp(i n theta)``."""
+        if isinstance(feature, RaceWaviness | BallWaviness):
+            return [(feature.waves, feature.amplitude * np.exp(-1j * feature.phase))]
+        race = feature.race or "inner"
+        radius = 0.5 * self.bearing.ball_diameter if feature.race is None else track_radius(self.bearing, race)
+        profile = profile_of(self.bearing, [feature], race, radius)
+        amplitude = np.fft.rfft(profile)[: profile.size // 2] * 2.0 / profile.size
+        amplitude[0] *= 0.5
+        body = self.bearing.race(race).geometry
+        a = hertz_contact(float(self.force.max()), body.radius_x, body.radius_y, body.e_reduced).a
+        last = min(int(SHORTEST * radius / a), amplitude.size - 1)
+        return list(enumerate(amplitude[: last + 1].tolist()))
+
+    def _race_lines(
+        self, race: str, n: int, amplitude: complex, cage_angle: float
+    ) -> list[tuple[float, _Complex]]:
         balls, none = self.force.shape[1], np.zeros(self.force.shape[:2])
-        if isinstance(feature, RaceWaviness):
-            n, turning = feature.waves, 1.0 if feature.race == "inner" else 0.0
-            inner, outer = self.filters(n, ball=False)
-            heights = (inner, none) if feature.race == "inner" else (none, outer)
-            m, D = self.harmonics(n * (self.cage - turning), *heights)
-            met = (m + n) % balls == 0
-            theta = np.exp(1j * ((m + n) * cage_angle - feature.phase))
-            scale = balls * feature.amplitude * theta[:, None]
-            return list(zip(((m + n) * self.cage - n * turning)[met].tolist(), (D * scale)[met], strict=True))
-        if isinstance(feature, BallWaviness):
-            inner, outer = self.filters(feature.waves, ball=True)
-            turns, own = feature.waves * self.rotation, feature.amplitude * np.exp(-1j * feature.phase)
-            m, D = self.harmonics(turns, inner, outer * (-1.0) ** feature.waves)
-        else:
-            turns, own = 0.0, complex(feature.excess)
-            m, D = self.harmonics(0.0, none + 0.5, none + 0.5)
-        psi = cage_angle + 2.0 * np.pi * feature.ball / balls
-        scale = own * np.exp(1j * m * psi)[:, None]
+        turning = 1.0 if race == "inner" else 0.0
+        inner, outer = self.filters(n, ball=False)
+        heights = (inner, none) if race == "inner" else (none, outer)
+        m, D = self.harmonics(n * (self.cage - turning), *heights)
+        met = (m + n) % balls == 0
+        scale = balls * amplitude * np.exp(1j * (m + n) * cage_angle)[:, None]
+        return list(zip(((m + n) * self.cage - n * turning)[met].tolist(), (D * scale)[met], strict=True))
+
+    def _ball_lines(
+        self, ball: int, n: int, amplitude: complex, cage_angle: float
+    ) -> list[tuple[float, _Complex]]:
+        inner, outer = self.filters(n, ball=True)
+        turns = n * self.rotation
+        m, D = self.harmonics(turns, inner, outer * (-1.0) ** n)
+        psi = cage_angle + 2.0 * np.pi * ball / self.force.shape[1]
+        scale = amplitude * np.exp(1j * m * psi)[:, None]
         return list(zip((m * self.cage + turns).tolist(), D * scale, strict=True))
 
 
@@ -214,13 +249,19 @@ def excitation_of(
             found[own] = found.get(own, np.zeros(load.size, complex)) + (along if own else along.real)
     order = np.array(sorted(found))
     force = np.array([found[one] for one in order.tolist()]).reshape(order.size, load.size)
-    heights = [0.5 * abs(f.excess) if isinstance(f, BallDiameter) else f.amplitude for f in features]
+    heights = [_height(one) for one in features]
     unit = np.ones(load.size)
     unit[3:] = 0.5 * balls.bearing.pitch_diameter
     least = NO_LINE * max(heights) * balls.force.max() / approach
     kept = (np.abs(force) / unit).max(axis=1) > least
     force, order = force[kept], order[kept]
     return BearingExcitation(order, np.abs(force), np.angle(force), load, balls.speed_rpm, max(heights), approach)
+
+
+def _height(feature: Feature) -> float:
+    if isinstance(feature, BallDiameter):
+        return 0.5 * abs(feature.excess)
+    return feature.amplitude if isinstance(feature, RaceWaviness | BallWaviness) else feature.depth
 
 
 def require_features(features: object, balls: int) -> list[Feature]:

@@ -18,7 +18,7 @@ compression that the contact had at the end of the last one (`contact_heights`).
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import ceil, cos, log2, pi, sqrt
+from math import ceil, cos, pi, sqrt
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
@@ -36,11 +36,10 @@ if TYPE_CHECKING:
 
 _Floats = NDArray[np.float64]
 
-LOADS = 17  # semi-axes of a table, from 0 to that of the heaviest load of elastic steel
-PER_AXIS = 10.0  # places around a track, at least, to a semi-axis at `USUAL_PRESSURE`
-USUAL_PRESSURE = 1e9  # Pa
-PER_WAVE, PER_LENGTH, PER_EDGE = 16, 32, 2  # the same to a wave, a defect, the edge of one
-MOST_PLACES = 2**16  # around a track
+LOADS = 25  # semi-axes of a table, from 0 to that of the heaviest load of elastic steel
+PER_AXIS, USUAL = 8.0, 0.2  # places around a track to a semi-axis, at least, and that one over the largest
+PER_WAVE, PER_LENGTH, PER_EDGE = 16, 64, 2  # the same to a wave, a defect, the edge of one
+MOST_PLACES, ROUNDED = 2**16, 2**10  # around a track, and a divisor of their number
 SETTLED = 1e-7  # of the largest height, by which heights at rest may still change
 MOST_TIMES = 200  # that they are looked up for it: a handful
 RELAXED = 0.7  # share of a change that is made: contacts that lose load lose length
@@ -55,7 +54,7 @@ def heights_of(bearing: BallBearing) -> ContactHeights:
         if not found:
             return NONE
         strip, axis = _strip(bearing.race(name))
-        tables.append(_profile(found, radius, axis))
+        tables.append(profile_of(bearing, found, name, radius))
         scales.append((strip, radius, axis))
         return len(tables) - 1
 
@@ -120,11 +119,11 @@ def settle(
     """
     heights = bearing._heights
     turned = np.zeros((1 + bearing.balls, 3))
-    turned[:, ANGLE_NOW] = heights.rotation * angles[1]
     turned[0, ANGLE_NOW] = angles[1]
     kn = np.array([bearing.race(name).kn for name in RACES])
     for _ in range(MOST_TIMES):
         at = solve()
+        turned[1:, ANGLE_NOW] = angles[1] * getattr(at, "ball_rotation", heights.rotation)
         pressed = np.where(at.force > 0.0, (np.maximum(at.force, 0.0) / kn) ** (2.0 / 3.0), at.approach)
         new = np.empty_like(found)
         for k, race in np.ndindex(*found.shape):
@@ -173,16 +172,20 @@ def _strip(race: Race) -> tuple[float, float]:
     return unit.a**2 / (2.0 * unit.approach), unit.a * LIMITS.p_hertz / unit.pressure
 
 
-def _profile(features: Sequence[Feature], radius: float, axis: float) -> _Floats:
-    """Heights of all features of one track over its angle [m], at as many places as they and contacts need."""
-    needed = PER_AXIS * 2.0 * pi * radius / (axis * USUAL_PRESSURE / LIMITS.p_hertz)
+def profile_of(bearing: BallBearing, features: Sequence[Feature], name: str, radius: float) -> _Floats:
+    """Heights of features of one track over its angle [m], at as many places as they and contacts need.
+
+    The track has a `radius` [m], and its contacts are those of the race `name`.
+    """
+    axis = _strip(bearing.race(name))[1]
+    needed = PER_AXIS * 2.0 * pi * radius / (USUAL * axis)
     for one in features:
         if isinstance(one, Waves):
             needed = max(needed, PER_WAVE * one.waves)
         elif not isinstance(one, BallDiameter):
             spacing = min(one.length / PER_LENGTH, (getattr(one, "edge", 0.0) or one.length) / PER_EDGE)
             needed = max(needed, 2.0 * pi * radius / spacing)
-    places = min(2 ** ceil(log2(needed)), MOST_PLACES)
+    places = min(ROUNDED * ceil(needed / ROUNDED), MOST_PLACES)
     theta, heights = 2.0 * pi * np.arange(places) / places, np.zeros(places)
     for one in features:
         if isinstance(one, Waves):

@@ -1,0 +1,238 @@
+"""Features as part of a bearing: runs and equilibria against the linear answer, tables against their integral."""
+
+from dataclasses import replace
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+
+from ehlcontact import InputError, Lubricant
+from ehlcontact.hertz import hertz_contact
+from reduced_models import BallBearing, BallDiameter, BallWaviness, Indentation, RaceWaviness, Spall
+from reduced_models.bearing.contact_heights import looked_up
+from reduced_models.bearing.height_tables import track_radius
+from reduced_models.bearing.motion import BearingMotion
+
+DRY = BallBearing.catalogue("6205", clearance=15e-6)
+OILED = replace(DRY, oil=Lubricant.iso_vg(68, temperature=50.0))
+SMALL = 2e-8  # m
+AXIAL = (0.0, 0.0, 300.0)
+CAGE = 0.7
+
+
+def held(bearing, load, rpm, steps_per_turn, turns, at=None):
+    """Force on the balls and forces of all balls with the ring held where `load` puts the smooth bearing."""
+    smooth = replace(bearing, features=())
+    q = smooth.equilibrium(load, speed_rpm=rpm, cage_angle=CAGE).displacement
+    motion = BearingMotion(bearing, rpm, 60.0 / rpm / steps_per_turn, cage_angle=CAGE, freedoms=q.size)
+    motion.rest(q)
+    count = round(steps_per_turn * turns)
+    return motion.drive(np.tile(q, (count, 1)), np.zeros((count, q.size)))
+
+
+def unit(bearing, size):
+    return np.append(np.ones(3), np.full(2, 0.5 * bearing.pitch_diameter))[:size]
+
+
+WAVES = {
+    "inner": RaceWaviness(race="inner", waves=10, amplitude=SMALL, phase=0.4),
+    "outer": RaceWaviness(race="outer", waves=8, amplitude=SMALL, phase=-1.0),
+    "short": RaceWaviness(race="inner", waves=226, amplitude=SMALL),
+    "ball": BallWaviness(ball=3, waves=4, amplitude=SMALL, phase=0.3),
+    "diameter": BallDiameter(ball=2, excess=2.0 * SMALL),
+}
+
+
+@pytest.mark.parametrize(
+    ("bearing", "load", "rpm"),
+    [
+        pytest.param(DRY, (50.0, 0.0, 300.0), 60.0, id="dry"),
+        pytest.param(OILED, AXIAL, 1500.0, id="oil"),
+        pytest.param(replace(OILED, clearance=-10e-6), (0.0, -1e-3), 1500.0, id="planar"),
+    ],
+)
+@pytest.mark.parametrize("name", WAVES)
+def test_runs_with_small_features_are_linear(name, bearing, load, rpm):
+    """Forces of a ring that is held within 1 % of the lines of `excitation`, in all degrees of freedom."""
+    feature, steps = WAVES[name], 2000
+    forces = [held(one, load, rpm, steps, 1.0)[0] for one in (replace(bearing, features=[feature]), bearing)]
+    found = forces[0] - forces[1]
+    lines = bearing.excitation([feature], load, speed_rpm=rpm, cage_angle=CAGE)
+    expected = -lines.force(np.arange(1, steps + 1) / steps)  # the ring's on the balls
+    scale = unit(bearing, found.shape[1])
+    largest = (np.abs(expected) / scale).max()
+    assert largest > 0.02
+    assert (np.abs(found - expected)[steps // 2 :] / scale).max() < 0.01 * largest
+
+
+def strip_height(profile, place, approach, strip):
+    """H of a strip of springs, by quadrature, at a `place` along the track."""
+    reach = sqrt(2.0 * strip * approach)
+    at = np.linspace(-reach, reach, 40_001)
+    overlap = np.maximum(approach - at * at / (2.0 * strip) + profile(place + at), 0.0)
+    total = np.trapezoid(overlap, at)
+    if total > 0.0:
+        return (0.75 * total / sqrt(2.0 * strip)) ** (2.0 / 3.0) - approach
+    wide = np.linspace(-2e-3, 2e-3, 40_001)
+    return float((profile(place + wide) - wide * wide / (2.0 * strip)).max())
+
+
+def strip_of(bearing, name):
+    body = bearing.race(name).geometry
+    one = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced)
+    return one.a**2 / (2.0 * one.approach), bearing.race(name).kn
+
+
+@pytest.mark.parametrize("defect", [
+    Spall(race="outer", angle=1.0, length=5e-4, depth=5e-6),
+    Spall(race="outer", angle=1.0, length=2e-3, depth=30e-6, edge=2e-4),
+    Indentation(race="outer", angle=1.0, length=4e-4, depth=8e-6, rim=1e-6),
+])  # fmt: skip
+def test_tables_are_those_of_a_strip_of_springs(defect):
+    """At light and heavy loads: compressions within 2 % of that of the smooth contact, heights 3 % of the depth."""
+    bearing = replace(DRY, features=[defect])
+    strip, kn = strip_of(bearing, "outer")
+    radius = track_radius(bearing, "outer")
+    for load in (20.0, 400.0, 1500.0):
+        approach = (load / kn) ** (2.0 / 3.0)
+        for place in np.linspace(-1.6e-3, 1.6e-3, 33):
+            angle = defect.angle + place / radius
+            found = looked_up(bearing._heights, bearing._heights.of_race[1], angle, approach)
+            expected = strip_height(defect.height, place, approach, strip)
+            pressed = max(approach + expected, 0.0)
+            assert max(approach + found, 0.0) == pytest.approx(pressed, abs=0.02 * approach), (load, place)
+            assert found == pytest.approx(expected, abs=0.03 * defect.depth), (load, place)
+
+
+def test_waves_are_filtered_by_the_length_of_the_contact():
+    """sin(k)/k at every load, of waves from three contact lengths down to less than one."""
+    strip, kn = strip_of(DRY, "inner")
+    radius = track_radius(DRY, "inner")
+    for waves in (150, 400, 800):
+        bearing = replace(DRY, features=[RaceWaviness(race="inner", waves=waves, amplitude=1e-9)])
+        for load in (50.0, 300.0, 1500.0):
+            approach = (load / kn) ** (2.0 / 3.0)
+            k = waves * sqrt(2.0 * strip * approach) / radius
+            found = looked_up(bearing._heights, bearing._heights.of_race[0], 0.0, approach) / 1e-9
+            assert found == pytest.approx(np.sinc(k / pi), abs=0.01), (waves, load)
+
+
+@pytest.mark.parametrize("load", [(50.0, 0.0, 300.0), (0.0, -1000.0)], ids=["five", "planar"])
+def test_a_ring_on_small_features_rests_where_their_forces_push_it(load):
+    features = [WAVES["inner"], WAVES["ball"], BallDiameter(ball=2, excess=-3e-8)]
+    bearing, (cage, shaft) = replace(DRY, features=features), (0.3, 1.1)
+    smooth = DRY.equilibrium(load, cage_angle=cage)
+    moved = bearing.equilibrium(load, cage_angle=cage, shaft_angle=shaft).displacement - smooth.displacement
+    assert np.abs(moved).max() > 1e-9
+    turns = shaft / (2.0 * pi)
+    start = cage - 2.0 * pi * (smooth.orders if len(load) > 2 else DRY.orders).ftf * turns
+    push = DRY.excitation(features, load, cage_angle=start).force(turns)
+    free = len(load)
+    expected = np.linalg.solve(smooth.stiffness[:free, :free], push[:free])
+    assert np.abs(moved[:free] - expected).max() < 0.02 * np.abs(expected).max()
+
+
+def test_a_ring_at_rest_carries_its_load_over_a_spall():
+    """Balance of the forces of all balls, one of which has lost its load."""
+    spall = Spall(race="outer", angle=-pi / 2, length=2e-3, depth=50e-6)
+    bearing = replace(DRY, clearance=5e-6, features=[spall])
+    found = bearing.equilibrium((0.0, -1000.0), cage_angle=-pi / 2)
+    normal = np.stack([np.cos(found.angles), np.sin(found.angles)], axis=1)
+    assert found.force[:, 1] @ normal == pytest.approx([0.0, -1000.0], abs=1e-3)
+    smooth = replace(bearing, features=()).equilibrium((0.0, -1000.0), cage_angle=-pi / 2)
+    assert found.force[0].max() == 0.0 and smooth.force[0].min() > 300.0
+    assert found.displacement[1] < smooth.displacement[1] - 1e-6
+    beside = bearing.equilibrium((0.0, -1000.0), cage_angle=-pi / 2 + 0.2)
+    assert beside.displacement == pytest.approx(
+        replace(bearing, features=()).equilibrium((0.0, -1000.0), cage_angle=-pi / 2 + 0.2).displacement, abs=1e-15
+    )
+
+
+@pytest.mark.parametrize("freedoms", [2, 5])
+def test_a_ball_loses_its_load_where_the_spall_begins(freedoms):
+    """Half of its force is lost within half a semi-axis of the edges; none is left in the middle."""
+    length, steps, ball = 2e-3, 40_000, 4
+    bearing = replace(DRY, features=[Spall(race="outer", angle=-pi / 2, length=length, depth=50e-6)])
+    load = (0.0, -800.0) if freedoms == 2 else (0.0, -800.0, 100.0)
+    (_, balls), (_, smooth) = (
+        held(one, load, 60.0, steps, 0.56) for one in (bearing, replace(bearing, features=()))
+    )
+    force, without = balls[:, ball, 1], smooth[:, ball, 1]
+    low = np.flatnonzero((force < 0.5 * without) & (without > 100.0))
+    ftf = DRY.orders.ftf if freedoms == 2 else DRY.equilibrium(load, speed_rpm=60.0, cage_angle=CAGE).orders.ftf
+    angle = CAGE + 2.0 * pi * (ball / 9 + ftf * (low[[0, -1]] + 1) / steps) - 1.5 * pi
+    a = hertz_contact(float(without[low[0]]), *_radii(bearing)).a
+    assert angle * track_radius(bearing, "outer") == pytest.approx([-length / 2, length / 2], abs=0.5 * a)
+    assert force[low[low.size // 2]] < 1e-3 and (np.diff(low) == 1).all()
+
+
+def _radii(bearing):
+    body = bearing.race("outer").geometry
+    return body.radius_x, body.radius_y, body.e_reduced
+
+
+@pytest.mark.parametrize("freedoms", [2, 5])
+def test_features_without_height_change_no_bit(freedoms):
+    load = (0.0, -500.0) if freedoms == 2 else (50.0, -100.0, 300.0)
+    runs = [
+        held(one, load, 1500.0, 500, 0.2)
+        for one in (OILED, replace(OILED, features=[BallDiameter(ball=0, excess=0.0)]))
+    ]
+    for smooth, featured in zip(*runs, strict=True):
+        np.testing.assert_array_equal(smooth, featured)
+    assert OILED._heights.raised.size == 0 and OILED._heights.tables.size == 0
+
+
+def test_features_are_written_and_read_with_the_bearing(tmp_path):
+    from ehlcontact import load, save
+
+    bearing = replace(OILED, features=[*WAVES.values(), Spall(ball=1, angle=0.2, length=1e-3, depth=1e-5)])
+    assert BallBearing.from_dict(bearing.to_dict()) == bearing
+    assert load(save(bearing, tmp_path / "bearing.json")) == bearing
+    assert "features" not in OILED.to_dict() and BallBearing.from_dict(OILED.to_dict()) == OILED
+
+
+SPALL = {"race": "outer", "angle": 0.0, "length": 1e-3, "depth": 1e-5}
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Spall(**{**SPALL, "race": None}), "race, ball = 'neither'"),
+        (lambda: Spall(**SPALL, ball=2), "race, ball = 'both'"),
+        (lambda: Spall(**{**SPALL, "race": "cage"}), "race = 'cage'"),
+        (lambda: Spall(**{**SPALL, "angle": 90.0}), "angle = 90.0: .*degrees"),
+        (lambda: Spall(**{**SPALL, "angle": float("nan")}), "angle = nan"),
+        (lambda: Spall(**{**SPALL, "length": 0.0}), "length = 0.0"),
+        (lambda: Spall(**{**SPALL, "depth": -1e-6}), "depth = -1e-06"),
+        (lambda: Spall(**SPALL, edge=6e-4), "edge = 0.0006: .*half"),
+        (lambda: Indentation(**SPALL, rim=-1e-6), "rim = -1e-06"),
+        (lambda: replace(DRY, features=[Spall(**{**SPALL, "length": 0.2})]), "length = 0.2: .* outer race"),
+        (lambda: replace(DRY, features=[Spall(**{**SPALL, "length": 1e-6})]), "length = 1e-06"),
+        (lambda: replace(DRY, features=[Spall(**{**SPALL, "depth": 5e-3})]), "depth = 0.005: .* ball's radius"),
+        (lambda: replace(DRY, features=[BallDiameter(ball=9, excess=1e-7)]), "ball = 9: must be from 0 to 8"),
+        (lambda: replace(DRY, features=["spall"]), "features = 'str'"),
+        (
+            lambda: replace(DRY, features=[RaceWaviness(race="inner", waves=5000, amplitude=1e-9)]),
+            "waves = 5000: must be at most 4096",
+        ),
+        (
+            lambda: replace(
+                DRY, race_control="shared", features=[Spall(ball=2, angle=0.0, length=1e-3, depth=1e-5)]
+            ),
+            "ball = 2: .*shared",
+        ),
+        (
+            lambda: replace(DRY, features=[WAVES["inner"]]).equilibrium(AXIAL, shaft_angle=90.0),
+            "shaft_angle = 90.0: .*radians",
+        ),
+        (lambda: BallBearing.from_dict({**DRY.to_dict(), "features": [{"kind": "Hole"}]}), r"features\[0\].kind"),
+        (
+            lambda: BallBearing.from_dict({**DRY.to_dict(), "features": [{"kind": "Spall", "size": 1}]}),
+            r"features\[0\].size",
+        ),
+    ],
+)
+def test_bad_input_is_one_line(make, message):
+    with pytest.raises(InputError, match=message):
+        make()
