@@ -56,6 +56,10 @@ class BearingModel:
         require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
         if self.bearing.balls > MOST_BALLS:
             raise InputError("bearing.balls", self.bearing.balls, f"at most {MOST_BALLS} in an FMU")
+        if self.bearing.features:
+            raise InputError(
+                "bearing.features", len(self.bearing.features), "none: an FMU has smooth races and balls"
+            )
         if self.freedoms not in (None, len(PLANAR), len(FIVE)):
             raise InputError("freedoms", self.freedoms, "2 or 5")
         if self.bearing.ball_inertia and 2 * self.bearing.balls > MOST_CONTACTS:
