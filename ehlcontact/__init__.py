@@ -12,6 +12,7 @@ room              responsibility
 ``supply``        `OilLayer`: the oil that the surfaces carry to a contact
 ``heat``          `Heat`: what the heating of a film needs of oil and surfaces
 ``traction``      `traction_curve`: traction of a contact over sliding
+``side_flow``     `oil_passes`: films on the oil that the last ones left; closed form of thin layers
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
 ``speed_response`` `speed_response`: force over a change of speed, likewise
 ``excitation``    `excitation`: force of waves on a surface, likewise
@@ -51,6 +52,7 @@ from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Carreau, Eyring, LimitingShear, Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
 from ehlcontact.results import ExcitationResult, ImpedanceResult, SpeedResponseResult, SteadyResult, Traction
+from ehlcontact.side_flow import layer_after_passes, oil_passes
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.speed_response import speed_response
@@ -113,7 +115,9 @@ __all__ = [
     "film_wave",
     "impedance",
     "interferogram",
+    "layer_after_passes",
     "load",
+    "oil_passes",
     "save",
     "simulate",
     "solve_steady",

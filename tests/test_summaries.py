@@ -21,6 +21,7 @@ from ehlcontact import (
     HarmonicLoad,
     Lubricant,
     MoesPoint,
+    OilLayer,
     OperatingPoint,
     RunSettings,
     TimeSteps,
@@ -53,6 +54,7 @@ from reduced_models import (
     JeffcottRotor,
     MeasuredPath,
     ModalPath,
+    OilBalance,
     Rotor,
     Shaft,
     SpeedProfile,
@@ -95,7 +97,7 @@ WITHOUT_PLOT = {
     ),
     **dict.fromkeys(("MeasuredPath", "ModalPath", "SystemPath"), INPUT),
     **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
-    **dict.fromkeys(("BearingModel", "ShaftModel"), INPUT),
+    **dict.fromkeys(("BearingModel", "ShaftModel", "OilBalance"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
     "RotorState": NUMBERS,
     **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),
@@ -130,6 +132,7 @@ def results(point):
     oil = point.lubricant
     bearing = BallBearing.catalogue("6205", oil=oil, rq_race=1e-7)
     down, element = (0.0, -500.0), atlas.element(MoesPoint(200, 10, 0.5), "memory")
+    oiled = OilBalance(bearing=bearing, load=down, speed_rpm=3000.0)
     pair = BearingSet.pair(bearing, preload=100.0, distance=0.1)
     rotor = Rotor(
         mass=5.0 * np.eye(2),
@@ -168,6 +171,8 @@ def spectra():
         path, MeasuredPath(hz, path.response(hz)), SystemPath(control.tf([1.0, 0.0, 0.0], [1.0, 10.0, 1e4])),
         envelope_spectrum(tone, 1000.0, (100.0, 400.0)),
         order_spectrum(tone, 1000.0, np.linspace(0.0, 200.0, 2000), most=20.0),
+        FullContact(point, grid=Grid(n=32)), oiled, oiled.history(OilLayer(over_flooded=1.0), [0.0, 1.0, 10.0]),
+        *verifications(),
     ]  # fmt: skip
 
 

@@ -5,6 +5,7 @@ python docs/site/oil_supply.py   # some minutes
 
 from __future__ import annotations
 
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -21,9 +22,15 @@ from ehlcontact import (
     OilLayer,
     OperatingPoint,
     TimeSteps,
+    oil_passes,
     simulate,
     solve_steady,
 )
+from ehlcontact.film_formulas import film_of_layer
+from ehlcontact.lubricant import density
+from ehlcontact.side_flow import layer_after_passes, side_flow
+from reduced_models import BallBearing, OilBalance
+from reduced_models.bearing.oil_balance import lost_share
 
 IMAGES = Path(__file__).parents[1] / "images"
 POINTS = (MoesPoint(20, 10, 1), MoesPoint(200, 10, 1), MoesPoint(200, 10, 0.5), MoesPoint(2900, 19, 0.11))
@@ -126,7 +133,62 @@ def through_time() -> None:
     figure.savefig(IMAGES / "oil_through_time.png", dpi=130)
 
 
+def passes() -> None:
+    """Film pass after pass, solved and by formulas; and the films of a bearing whose oil is cut off."""
+    figure = Figure(figsize=(9.0, 3.8), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    count = 100
+    for point, g, grid in ((CIRCLE, 2.67, Grid(256)), (POINTS[2], 4.11, Grid(256))):
+        flooded = solve_steady(point, grid=grid)
+        full = float(density(1.0, point.law)[0]) * flooded.h_central
+        growth = side_flow(point) * full**2
+        films = list(islice(oil_passes(point, OilLayer(H=full), grid=grid), count))
+        found = np.array([film.h_central for film in films]) / flooded.h_central
+        starved, both, ratio = [], [], 1.0
+        for n in range(1, count + 1):
+            starved.append((1.0 + n) ** (-1.0 / g))
+            both.append(film_of_layer(ratio, g))
+            ratio *= 1.0 - float(lost_share(ratio, g, growth))
+        at = np.arange(1, count + 1)
+        (line,) = left.loglog(at, found, ".", label=f"{point.M:g}, {point.L:g}, {point.kappa:g}")
+        left.loglog(at, both, color=line.get_color())
+        left.loglog(at, starved, "--", color=line.get_color(), linewidth=0.8)
+        print(f"{point}: solved, both losses, starvation alone")
+        for n in (1, 3, 5, 8, 20, 50, 100):
+            print(f"   {n:3d}: {found[n - 1]:.3f} {both[n - 1]:.3f} {starved[n - 1]:.3f}")
+        start = 0.3 * full
+        thin = list(islice(oil_passes(point, OilLayer(H=start), grid=grid), count))
+        for n in (1, 10, 50, 100):
+            closed = float(layer_after_passes(point, start, n))
+            print(
+                f"   from r = 0.3, {n}: {thin[n - 1].layer_behind[0]:.5f}, closed form {closed:.5f} of {start:.5f}"
+            )
+    left.set(xlabel="pass", ylabel="central film over the flooded one")
+    left.legend(title="M, L, kappa")
+    bearing = BallBearing.catalogue("6204", oil=Lubricant(eta0=0.0255, alpha=1.62e-8))
+    usual = {"bearing": bearing, "load": (0.0, -1000.0), "speed_rpm": 10000.0}
+    times = np.concatenate([[0.0], np.logspace(-2, 5, 141)])
+    for words, given in (
+        ("cut off", {}),
+        ("90 % comes back in 10 s", {"returned": 0.9, "return_time": 10.0}),
+        ("fed by 60 mm³/h", {"feed": 60e-9 / 3600.0}),
+    ):
+        balance = OilBalance(**usual, **given)
+        history = balance.history(OilLayer(over_flooded=2.0), times)
+        right.semilogx(history.t[1:], 1e6 * history.h_central[1:, 0], label=words)
+        shown = ", ".join(f"{t:g} s {h:.3f}" for t, h in zip(times[1::20], history.share[1::20, 0], strict=True))
+        print(f"{words}: {shown}")
+        if not given:
+            print(balance)
+            for ratio in (0.9, 0.5, 0.3):
+                print(f"   {3.6e12 * balance.feed_for(ratio * balance.full_layer):.3g} mm3/h for r = {ratio}")
+    right.set(xlabel="time after the start [s]", ylabel="central film of the heaviest ball [µm]", ylim=(0.0, None))
+    right.legend()
+    figure.savefig(IMAGES / "oil_passes.png", dpi=130)
+
+
 if __name__ == "__main__":
+    passes()
     through_time()
     map_of_a_film()
     grids()

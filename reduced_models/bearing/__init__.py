@@ -34,6 +34,7 @@
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
 | equilibrium_result | `BearingState`: a bearing at rest, ball by ball |
 | set_result | `SetState`: a set at rest, bearing by bearing |
+| oil_balance | `OilBalance`: oil on the tracks over time: layer, side flow, feed and return |
 | ross_bearing | export to ROSS: bearings as elements of a ROSS rotor |
 | friction | moment of friction by SKF's published model |
 | picture | figures |
