@@ -110,7 +110,7 @@ def oil_passes(contacts: Point | Sequence[Point], supply: OilLayer, **options: A
     >>> from ehlcontact import Grid, MoesPoint, OilLayer
     >>> films = islice(oil_passes(MoesPoint(20, 10, 1), OilLayer(H=0.15), grid=Grid(64)), 3)
     >>> [round(film.h_central, 4) for film in films]
-    [0.1282, 0.1262, 0.124]
+    [0.1295, 0.1273, 0.125]
     """
     points = list(contacts) if isinstance(contacts, Sequence) else [contacts]
     require_instance("supply", supply, OilLayer, "an OilLayer(h, ...)")

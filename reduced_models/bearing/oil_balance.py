@@ -12,8 +12,8 @@ together take
     L = 2 u/l sum_k m x_k(m),    x_k^3 = (1 - h/(h_ff r))^3 + (1 - (1 + S m^2)^(-1/2))^3
 
 off it: x is the share that leaves the track in a pass, ahead of a starved film (`film_formulas.film_of_layer`,
-thick layers) and by side flow (`ehlcontact.side_flow`, thin ones). Cubes, because films of a circle lose that here,
-within 7 %; in wide contacts one part is large where the other is small.
+thick layers) and by side flow (`ehlcontact.side_flow`, thin ones). Cubes: films of a circle lose that here, within
+7 %; in wide contacts one part is large where the other is small.
 """
 
 from __future__ import annotations
@@ -86,6 +86,11 @@ class OilBalance(Summary):
         tau, after which it does [s].
     sharpness : float, optional
         g of the film over its layer (`ehlcontact.film_formulas`), by default that of each contact's ellipse.
+
+    Attributes
+    ----------
+    state : BearingState
+        Loads and flooded films of all balls.
 
     Raises
     ------
