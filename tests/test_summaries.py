@@ -161,6 +161,7 @@ def results(point):
         SpeedProfile.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
         FullContact(point, grid=Grid(n=32)), *spectra(),
         *verifications(), film.traction([0.01, 0.1], Eyring()),
+        oiled, oiled.history(OilLayer(over_flooded=1.0), [0.0, 1.0, 10.0]),
     ]  # fmt: skip
 
 
@@ -171,8 +172,6 @@ def spectra():
         path, MeasuredPath(hz, path.response(hz)), SystemPath(control.tf([1.0, 0.0, 0.0], [1.0, 10.0, 1e4])),
         envelope_spectrum(tone, 1000.0, (100.0, 400.0)),
         order_spectrum(tone, 1000.0, np.linspace(0.0, 200.0, 2000), most=20.0),
-        FullContact(point, grid=Grid(n=32)), oiled, oiled.history(OilLayer(over_flooded=1.0), [0.0, 1.0, 10.0]),
-        *verifications(),
     ]  # fmt: skip
 
 
