@@ -15,6 +15,7 @@ module                   responsibility
 ``export``               `export_contact`: element to model, files, verification, FMU file
 ``archive``              files of an FMU, and the zip archive of them
 ``model_description``    `ModelSpec` to ``modelDescription.xml`` and the other XML of FMI 2.0 and 3.0
+``description_rules``    rules of FMI for that file, as fmpy has them
 ``c_headers``            `ModelSpec` to the generated C headers
 ``sources``              C files of an FMU
 ``documentation``        `ModelSpec` to ``documentation/index.html``

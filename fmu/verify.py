@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact.errors import InputError
+from fmu.description_rules import findings
 from fmu.fmu_file import FmuFile, opened
 from fmu.fmu_model import FmuModel, Source, fmu_model
 from fmu.isolated import isolated, require_path
@@ -67,12 +68,10 @@ def verify(path: str | os.PathLike[str], element: Source) -> Verification:
 
 def verify_opened(file: FmuFile, model: FmuModel) -> Verification:
     """`verify` of an opened FMU."""
-    from fmpy.validation import validate_fmu
-
     known = _known_variables(file, model.spec)
-    findings = (*validate_fmu(str(file.path)), *_declarations(model.spec, known))
+    found = (*findings(file.path), *_declarations(model.spec, known))
     with file.running() as (slave, exchange):
-        return replace(model.compare(slave, exchange), findings=findings)
+        return replace(model.compare(slave, exchange), findings=found)
 
 
 def _known_variables(file: FmuFile, spec: ModelSpec) -> dict[str, Any]:

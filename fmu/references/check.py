@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.summary import Summary
 from fmu.comparison import each_over, floored
+from fmu.description_rules import findings
 from fmu.fmu_file import FmuFile, opened
 from fmu.isolated import isolated, require_path
 from fmu.references.files import POINTS, STEPS, changed_files, read_references
@@ -108,10 +109,8 @@ def verify_references(path: str | os.PathLike[str]) -> ReferenceCheck:
 
 
 def _checked(path: Path) -> ReferenceCheck:
-    from fmpy.validation import validate_fmu
-
     with opened(path) as file:
-        return check_references(file, tuple(validate_fmu(str(file.path))))
+        return check_references(file, findings(file.path))
 
 
 def check_references(file: FmuFile, findings: tuple[str, ...] = ()) -> ReferenceCheck:

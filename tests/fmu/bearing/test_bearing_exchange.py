@@ -10,7 +10,6 @@ import pytest
 from bearing_fmus import RPM
 from fmpy.fmi1 import FMICallException
 from fmpy.sundials import CVodeSolver
-from fmpy.validation import validate_fmu
 from scipy.integrate import solve_ivp
 
 from fmu.bearing.comparison import knowns_of
@@ -18,6 +17,7 @@ from fmu.bearing.continuous import rates_in_time, state_points
 from fmu.bearing.places import counted_from
 from fmu.bearing.trial import START
 from fmu.bearing.variables import FORCES, RATES, BallStates
+from fmu.description_rules import findings
 from fmu.driver import Exchange
 from fmu.fmu_model import fmu_model
 from reduced_models import BearingMount, Rotor, simulate_rotor
@@ -85,7 +85,7 @@ def test_equations_are_those_of_python(made, name, fmi):
     At contact angles that difference, 1e-8, is over what little force such a ball has across.
     """
     one = made(name, fmi)
-    assert validate_fmu(str(one.path)) == []
+    assert findings(one.path) == ()
     names, points, model = states_of(one), state_points(one.model, 30, seed=5), one.exchange()
     kinds, pressed = np.array([kind_of(n) for n in names]), 0
     for k, states in enumerate(points.states):
