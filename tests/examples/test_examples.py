@@ -327,3 +327,30 @@ def test_orders_of_defects(tmp_path):
         assert np.all(np.diff(ratio) < 0.0)
     assert found["ratios"]["axial"][0] == pytest.approx(0.0128, abs=5e-4)
     assert found["ratios"]["radial"][-1] == pytest.approx(0.0140, abs=5e-4)
+
+
+def test_lines_of_motor_bearing_defects_are_a_sum_of_cosines():
+    """The signal of whole periods is the plain sum of its lines."""
+    study, rng = example("motor_bearing_defects"), np.random.default_rng(3)
+    defect, j, k = 470.0 / study.TURNS, np.array([1, 5, -3, 14]), np.array([0, 1, 20, -2])
+    at = study.Lines(j * defect + k, rng.normal(size=(4, 5)) + 1j * rng.normal(size=(4, 5)), defect)
+    rpm, path = 1800.0, study.ModalPath(hz=2400.0, damping=0.02, mass=2.0)
+    found = study.acceleration(at, rpm, path)
+    t, wanted = np.arange(found.size) / study.RATE, 0.0
+    for order, force in zip(at.order, at.force[:, 1], strict=True):
+        hz = order * rpm / 60.0
+        wanted = wanted + (path.response(hz) * force * np.exp(2j * np.pi * hz * t)).real
+    np.testing.assert_allclose(found, wanted, atol=1e-9 * np.abs(wanted).max())
+
+
+@pytest.mark.slow  # a fit of 285 spectra
+def test_motor_bearing_defects(tmp_path):
+    """What a fit to one record gives of five others, and how many of the comparisons come out."""
+    found = example("motor_bearing_defects").main(str(tmp_path / "defects.png"))
+    assert (tmp_path / "defects.png").read_bytes().startswith(PNG)
+    met = {(row.file, row.what): row.met for row in found["rows"]}
+    assert all(met[file, "A2/A1"] for file in ("105", "106", "107", "130", "144", "169"))
+    assert all(met[file, "A3/A1"] for file in ("105", "106", "107", "130"))
+    assert not met["169", "order"] and not met["130", "A1 - 1 turn"] and not met["130/144", "6 over 3 o'clock"]
+    spans = [(curve.low, curve.high) for curve in found["curves"].values()]
+    assert np.all(np.max([low for low, _ in spans], axis=0) < np.min([high for _, high in spans], axis=0))
