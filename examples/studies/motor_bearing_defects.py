@@ -22,11 +22,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, ModalPath, RaceWaviness, clearance_from_order, envelope_spectrum
+from reduced_models import BallBearing, ModalPath, Spall, clearance_from_order, envelope_spectrum
 
 SIZE = {"balls": 9, "ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3}
 OIL, WEIGHT = Lubricant.iso_vg(100, temperature=40.0), 30.0  # of the grease; N of the rotor, an assumption
-RATE, BAND, HIGHEST = 12_000.0, (2000.0, 5500.0), 6000.0  # Hz
+RATE, BAND = 12_000.0, (2000.0, 5500.0)  # Hz
 TURNS, MOST = 87, 80  # of the shaft in a record; harmonics of the defect
 AXIAL, FREQUENCIES, DAMPING = (26.0, 32.0, 40.0), np.arange(2200.0, 4001.0, 100.0), (0.01, 0.015, 0.02, 0.03, 0.05)
 ERROR = 5e-4  # of a measured order
@@ -74,21 +74,11 @@ class Lines(NamedTuple):
     defect: float
 
 
-def pit(record: Record) -> list[RaceWaviness]:
-    """A pit of 1 nm as waves around the race, as many as reach the highest frequency."""
-    inner = record.race == "inner"
-    radius = 0.5 * (SIZE["pitch_diameter"] + (-1.0 if inner else 1.0) * SIZE["ball_diameter"])
-    n = np.arange(1, int(60.0 * HIGHEST / record.rpm / (0.6 if inner else 0.4)) + 12)
-    height = -1e-9 * record.length / (pi * radius) * np.sinc(n * record.length / (2.0 * pi * radius))
-    phase = (n * record.angle + np.where(height < 0.0, pi, 0.0)) % (2.0 * pi)
-    waves = zip(n.tolist(), np.abs(height).tolist(), phase.tolist(), strict=True)
-    return [RaceWaviness(race=record.race, waves=k, amplitude=a, phase=p) for k, a, p in waves if a > 0.0]
-
-
 def lines(record: Record, clearance: float, axial: float) -> Lines:
     """Force of the pit on the inner ring."""
     bearing, load = BallBearing(clearance=clearance, oil=OIL, **SIZE), (0.0, -WEIGHT, axial)
-    found = bearing.excitation(pit(record), load, speed_rpm=record.rpm)
+    pit = Spall(race=record.race, angle=record.angle, length=record.length, depth=1e-9)  # forces are linear in it
+    found = bearing.excitation([pit], load, speed_rpm=record.rpm)
     orders = bearing.equilibrium(load, speed_rpm=record.rpm).orders
     force = found.amplitude * np.exp(1j * found.phase)
     return Lines(found.order, force, orders.bpfi if record.race == "inner" else orders.bpfo)
