@@ -9,12 +9,6 @@ static const double two_pi = 6.283185307179586;
 static const double nearly = 1e-7;     /* imbalance of a ball, over its forces and 1 N, that one more step ends */
 static const double first_step = 1e-7; /* m, to a ball that nothing touches; doubled until a race is met */
 
-/* One ball in a step: its contacts, what its rates follow from, what presses it outward. */
-typedef struct {
-    RaceStep contact[2];
-    double gain, history, rate_history, centrifugal;
-} BallStep;
-
 static void press(const BallStep *step, double delta, double rate, double w, RaceForce *inner, RaceForce *outer)
 {
     const double v = step->gain * (w - step->history);
@@ -22,119 +16,191 @@ static void press(const BallStep *step, double delta, double rate, double w, Rac
     *outer = race_force(&step->contact[OUTER_RACE], w, v);
 }
 
-/* Balances a ball whose rings come closer by delta, at a rate; w is its place. Returns whether there is a balance. */
-static int balance(const BallStep *step, double delta, double rate, double *w, Ball *ball)
+/* A ball that has been balanced: its forces, and what they and its place change by with delta and its rate. */
+static void balanced(BallStep *step, double delta, double rate, double w, const RaceForce *inner, const RaceForce *outer,
+                     Ball *ball)
+{
+    const double held = outer->stiffness + step->gain * outer->damping + BALL_INERTIA * step->gain * step->gain;
+    const double tangent = inner->stiffness + step->gain * inner->damping + held, share = tangent > 0.0 ? held / tangent : 0.0;
+    step->place = w;
+    step->tried[0] = delta;
+    step->tried[1] = rate;
+    step->follow[0] = tangent > 0.0 ? inner->stiffness / tangent : 0.0;
+    step->follow[1] = tangent > 0.0 ? inner->damping / tangent : 0.0;
+    step->slope[0] = share * inner->stiffness;
+    step->slope[1] = share * inner->damping;
+    ball->force[INNER_RACE] = inner->force;
+    ball->force[OUTER_RACE] = outer->force;
+    ball->film[INNER_RACE] = inner->film;
+    ball->film[OUTER_RACE] = outer->film;
+}
+
+/* Balances a ball whose rings come closer by delta, at a rate. Returns whether there is a balance. */
+static int balance(BallStep *step, double delta, double rate, Ball *ball)
 {
     const double gain = step->gain, heavy = BALL_INERTIA * gain;
     double low = -HUGE_VAL, high = HUGE_VAL, reach = first_step;
+    double w = step->place + step->follow[0] * (delta - step->tried[0]) + step->follow[1] * (rate - step->tried[1]);
     RaceForce inner, outer;
     int i;
     for (i = 0; i < MOST_STEPS; i++) {
         double off, tangent;
-        press(step, delta, rate, *w, &inner, &outer);
-        off = outer.force + heavy * (gain * (*w - step->history) - step->rate_history) - inner.force - step->centrifugal;
+        press(step, delta, rate, w, &inner, &outer);
+        off = outer.force + heavy * (gain * (w - step->history) - step->rate_history) - inner.force - step->centrifugal;
         tangent = inner.stiffness + gain * inner.damping + outer.stiffness + gain * outer.damping + heavy * gain;
         if (!isfinite(off)) {
             return 0;
         }
         if (fabs(off) <= nearly * (1.0 + outer.force + inner.force + step->centrifugal)) {
             if (tangent > 0.0) {
-                *w -= off / tangent;
-                press(step, delta, rate, *w, &inner, &outer);
+                w -= off / tangent;
+                press(step, delta, rate, w, &inner, &outer);
             }
-            ball->force[INNER_RACE] = inner.force;
-            ball->force[OUTER_RACE] = outer.force;
-            ball->film[INNER_RACE] = inner.film;
-            ball->film[OUTER_RACE] = outer.film;
+            balanced(step, delta, rate, w, &inner, &outer, ball);
             return 1;
         }
         if (off > 0.0) {
-            high = *w;
+            high = w;
         } else {
-            low = *w;
+            low = w;
         }
         if (tangent > 0.0) {
-            *w -= off / tangent;
+            w -= off / tangent;
         } else {
-            *w -= copysign(reach, off);
+            w -= copysign(reach, off);
             reach *= 2.0;
         }
-        if (low > -HUGE_VAL && high < HUGE_VAL && !(low < *w && *w < high)) {
-            *w = 0.5 * (low + high);
+        if (low > -HUGE_VAL && high < HUGE_VAL && !(low < w && w < high)) {
+            w = 0.5 * (low + high);
         }
     }
     return 0;
 }
 
-/* All balls with the ring at q, moving at v. */
-static const char *press_all(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega,
-                             const double q[], const double v[], double force[])
+static void begin_ball(const Setup *setup, const Bearing *before, int k, double h, SpeedRow at, double u_sum, BallStep *step)
 {
-    const int moving = h > 0.0;
-    const double u_sum = ROLLING_RADIUS * film_speed(omega), shaft_cage = CAGE_RATIO * omega, cage = moving ? shaft_cage : 0.0;
+    const Ball *old = &before->ball[k];
+    int race;
+    for (race = 0; race < 2; race++) {
+        RaceStep *c = &step->contact[race];
+        c->race = &setup->race[race];
+        c->at = at;
+        c->transit = u_sum > 0.0 ? c->race->reach / u_sum : 0.0;
+        c->film = NULL;
+        c->before = &before->film[k][race];
+        c->filters = &step->filters[race];
+        c->filters->interval = 0;
+        race_at_rest(c->filters);
+        if (h > 0.0) {
+            race_prepare(c, h);
+        }
+    }
+    step->place = old->place[0][0];
+    step->tried[0] = step->tried[1] = step->follow[0] = step->follow[1] = 0.0;
+}
+
+void balls_begin(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega, BallsStep *step)
+{
+    const double u_sum = ROLLING_RADIUS * film_speed(omega), shaft_cage = CAGE_RATIO * omega;
     const SpeedRow at = speed_row(omega);
     Differences d = {0.0, 0.0, 0.0};
-    int k, race;
-    if (moving) {
+    int k;
+    *after = *before;
+    after->angle += 0.5 * h * (before->omega + omega) * CAGE_RATIO;
+    after->omega = omega;
+    after->h = h;
+    if (h > 0.0) {
         d = differences(h, before->h);
     }
-    force[0] = force[1] = 0.0;
+    step->setup = setup;
+    step->cage = h > 0.0 ? shaft_cage : 0.0;
     for (k = 0; k < BALLS; k++) {
-        const double psi = after->angle + two_pi * k / BALLS, x = cos(psi), y = sin(psi);
-        const double delta = x * q[0] + y * q[1] - 0.5 * setup->clearance;
-        const double rate = x * v[0] + y * v[1] + cage * (x * q[1] - y * q[0]);
+        const double psi = after->angle + two_pi * k / BALLS;
         const Ball *old = &before->ball[k];
-        Ball *ball = &after->ball[k];
-        StepFilters filters[2];
-        BallStep step;
-        double w = old->place[0][0], own;
-        step.gain = d.gain;
-        step.history = d.now * old->place[0][0] - d.before * old->place[1][0];
-        step.rate_history = d.now * old->rate[0] - d.before * old->rate[1];
-        step.centrifugal = BALL_SWING * shaft_cage * shaft_cage;
-        for (race = 0; race < 2; race++) {
-            RaceStep *c = &step.contact[race];
-            c->race = &setup->race[race];
-            c->at = at;
-            c->transit = u_sum > 0.0 ? c->race->reach / u_sum : 0.0;
-            c->film = NULL;
-            c->before = &before->film[k][race];
-            c->filters = &filters[race];
-            filters[race].interval = 0;
-            race_at_rest(c->filters);
-            if (moving) {
-                race_prepare(c, h);
-            }
-        }
-        if (!balance(&step, delta, rate, &w, ball)) {
+        BallStep *ball = &step->ball[k];
+        ball->x = cos(psi);
+        ball->y = sin(psi);
+        ball->gain = d.gain;
+        ball->history = d.now * old->place[0][0] - d.before * old->place[1][0];
+        ball->rate_history = d.now * old->rate[0] - d.before * old->rate[1];
+        ball->centrifugal = BALL_SWING * shaft_cage * shaft_cage;
+        begin_ball(setup, before, k, h, at, u_sum, ball);
+    }
+}
+
+const char *balls_press(BallsStep *step, Bearing *after, const double q[], const double v[], RingForce *ring)
+{
+    int k;
+    memset(ring, 0, sizeof *ring);
+    for (k = 0; k < BALLS; k++) {
+        BallStep *ball = &step->ball[k];
+        const double x = ball->x, y = ball->y;
+        const double delta = x * q[0] + y * q[1] - 0.5 * step->setup->clearance;
+        const double rate = x * v[0] + y * v[1] + step->cage * (x * q[1] - y * q[0]);
+        double by_x, by_y;
+        if (!balance(ball, delta, rate, &after->ball[k])) {
             return "a ball finds no balance: a shorter step, or a smaller displacement, can help";
         }
-        own = moving ? d.gain * (w - step.history) : 0.0;
+        by_x = ball->slope[0] * x - ball->slope[1] * step->cage * y;
+        by_y = ball->slope[0] * y + ball->slope[1] * step->cage * x;
+        ring->force[0] += after->ball[k].force[INNER_RACE] * x;
+        ring->force[1] += after->ball[k].force[INNER_RACE] * y;
+        ring->stiffness[0][0] += x * by_x;
+        ring->stiffness[0][1] += x * by_y;
+        ring->stiffness[1][0] += y * by_x;
+        ring->stiffness[1][1] += y * by_y;
+        ring->damping[0][0] += ball->slope[1] * x * x;
+        ring->damping[0][1] += ball->slope[1] * x * y;
+        ring->damping[1][0] += ball->slope[1] * x * y;
+        ring->damping[1][1] += ball->slope[1] * y * y;
+    }
+    return NULL;
+}
+
+void balls_accept(const BallsStep *step, const Bearing *before, Bearing *after)
+{
+    const int moving = after->h > 0.0;
+    int k;
+    for (k = 0; k < BALLS; k++) {
+        const BallStep *step_of = &step->ball[k];
+        const Ball *old = &before->ball[k];
+        const double w = step_of->place, delta = step_of->tried[0], rate = step_of->tried[1];
+        const double own = moving ? step_of->gain * (w - step_of->history) : 0.0;
+        Ball *ball = &after->ball[k];
+        FilmState *film = after->film[k];
         ball->place[1][0] = moving ? old->place[0][0] : w;
         ball->place[0][0] = w;
         ball->rate[1] = moving ? old->rate[0] : 0.0;
         ball->rate[0] = own;
         if (moving) {
-            race_accept(&step.contact[INNER_RACE], delta - w, rate - own, &after->film[k][INNER_RACE]);
-            race_accept(&step.contact[OUTER_RACE], w, own, &after->film[k][OUTER_RACE]);
+            race_accept(&step_of->contact[INNER_RACE], delta - w, rate - own, &film[INNER_RACE]);
+            race_accept(&step_of->contact[OUTER_RACE], w, own, &film[OUTER_RACE]);
         } else {
             memset(after->film[k], 0, sizeof after->film[k]);
-            after->film[k][INNER_RACE].approach = delta - w;
-            after->film[k][OUTER_RACE].approach = w;
+            film[INNER_RACE].approach = delta - w;
+            film[OUTER_RACE].approach = w;
         }
-        force[0] += ball->force[INNER_RACE] * x;
-        force[1] += ball->force[INNER_RACE] * y;
     }
-    return NULL;
+}
+
+static const char *press_all(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega,
+                             const double q[], const double v[], double force[])
+{
+    BallsStep step;
+    RingForce ring;
+    const char *reason;
+    balls_begin(setup, before, after, h, omega, &step);
+    reason = balls_press(&step, after, q, v, &ring);
+    if (reason == NULL) {
+        balls_accept(&step, before, after);
+        memcpy(force, ring.force, sizeof ring.force);
+    }
+    return reason;
 }
 
 const char *balls_step(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega, const double q[],
                        const double v[], double force[])
 {
-    *after = *before;
-    after->angle += 0.5 * h * (before->omega + omega) * CAGE_RATIO;
-    after->omega = omega;
-    after->h = h;
     return press_all(setup, before, after, h, omega, q, v, force);
 }
 
@@ -142,8 +208,7 @@ const char *balls_rest(const Setup *setup, Bearing *bearing, double omega, const
 {
     static const double still[FREEDOMS] = {0.0};
     const Bearing before = *bearing;
-    bearing->omega = omega;
-    bearing->h = 0.0;
+    const char *reason = press_all(setup, &before, bearing, 0.0, omega, q, still, force);
     bearing->cage[0] = bearing->cage[1] = CAGE_RATIO;
-    return press_all(setup, &before, bearing, 0.0, omega, q, still, force);
+    return reason;
 }
