@@ -27,9 +27,13 @@ from fmu.shaft.model import ShaftModel
 from fmu.shaft.variables import shaft_spec
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
+from fmu.whole_rotor.comparison import compare_whole_rotor, whole_rotor_references
+from fmu.whole_rotor.model import WholeRotorModel
+from fmu.whole_rotor.variables import whole_rotor_spec
 from reduced_models import JeffcottRotor
 
-Source = Element | RotorModel | BearingModel | ShaftModel | SpeedController  # what an FMU is made from
+# what an FMU is made from
+Source = Element | RotorModel | BearingModel | ShaftModel | SpeedController | WholeRotorModel
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +81,9 @@ def fmu_model(source: Source, model_name: str | None = None, lead: float | None 
     elif isinstance(source, ShaftModel):
         spec, elements = shaft_spec(source, model_name, lead), ()
         compare, references = compare_shaft, shaft_references
+    elif isinstance(source, WholeRotorModel):
+        spec, elements = whole_rotor_spec(source, model_name, lead), ()
+        compare, references = compare_whole_rotor, whole_rotor_references
     elif isinstance(source, SpeedController):
         spec, elements = controller_spec(source, model_name, lead), ()
         compare, references = compare_controller, controller_references

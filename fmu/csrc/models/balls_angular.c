@@ -5,7 +5,7 @@
 
 #include "contact_angles.h"
 
-enum { MOST_STEPS = 60, STALE = 5, SETTLED = 20 };
+enum { MOST_BALL_STEPS = 60, STALE = 5, SETTLED = 20 };
 static const double nearly = 1e-7, nearly_shared = 1e-10; /* imbalance of a ball, over its forces and 1 N, that one more step ends */
 static const double first_step = 1e-7; /* m, outward, of a ball that nothing touches; doubled until a race is met */
 static const double overshoot = 2.0;   /* growth of the imbalance that halves the way to the last place */
@@ -94,13 +94,13 @@ static int newton(const BallStep *step, const Pressed *p, double inertia[2][2], 
 }
 
 /* Balances a ball from b; returns whether there is a balance, which is then `p`. */
-static int balance(const BallStep *step, double b[2], Pressed *p)
+static int balance_ball(const BallStep *step, double b[2], Pressed *p)
 {
     const double close = BY_FORCES ? nearly_shared : nearly;
     double reach = first_step, previous = HUGE_VAL, last[2], move[2] = {0.0, 0.0}, inertia[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
     int i, j;
     memcpy(last, b, sizeof last);
-    for (i = 0; i < MOST_STEPS; i++) {
+    for (i = 0; i < MOST_BALL_STEPS; i++) {
         double size;
         *p = press(step, b);
         size = sqrt(p->sum[0] * p->sum[0] + p->sum[1] * p->sum[1]);
@@ -244,7 +244,7 @@ static const char *press_all(const Setup *setup, const Bearing *before, Bearing 
             if (attempt == 1) {
                 first_place(&step, b);
             }
-            done = balance(&step, b, &p);
+            done = balance_ball(&step, b, &p);
         }
         if (!done) {
             return "a ball finds no balance: a shorter step, or a smaller displacement, can help";

@@ -4,8 +4,8 @@
 
 #include "balls.h"
 
-enum { MOST_STEPS = 60 };
-static const double two_pi = 6.283185307179586;
+enum { MOST_BALL_STEPS = 60 };
+static const double one_turn = 6.283185307179586;
 static const double nearly = 1e-7;     /* imbalance of a ball, over its forces and 1 N, that one more step ends */
 static const double first_step = 1e-7; /* m, to a ball that nothing touches; doubled until a race is met */
 
@@ -36,14 +36,14 @@ static void balanced(BallStep *step, double delta, double rate, double w, const 
 }
 
 /* Balances a ball whose rings come closer by delta, at a rate. Returns whether there is a balance. */
-static int balance(BallStep *step, double delta, double rate, Ball *ball)
+static int balance_ball(BallStep *step, double delta, double rate, Ball *ball)
 {
     const double gain = step->gain, heavy = BALL_INERTIA * gain;
     double low = -HUGE_VAL, high = HUGE_VAL, reach = first_step;
     double w = step->place + step->follow[0] * (delta - step->tried[0]) + step->follow[1] * (rate - step->tried[1]);
     RaceForce inner, outer;
     int i;
-    for (i = 0; i < MOST_STEPS; i++) {
+    for (i = 0; i < MOST_BALL_STEPS; i++) {
         double off, tangent;
         press(step, delta, rate, w, &inner, &outer);
         off = outer.force + heavy * (gain * (w - step->history) - step->rate_history) - inner.force - step->centrifugal;
@@ -115,7 +115,7 @@ void balls_begin(const Setup *setup, const Bearing *before, Bearing *after, doub
     step->setup = setup;
     step->cage = h > 0.0 ? shaft_cage : 0.0;
     for (k = 0; k < BALLS; k++) {
-        const double psi = after->angle + two_pi * k / BALLS;
+        const double psi = after->angle + one_turn * k / BALLS;
         const Ball *old = &before->ball[k];
         BallStep *ball = &step->ball[k];
         ball->x = cos(psi);
@@ -138,7 +138,7 @@ const char *balls_press(BallsStep *step, Bearing *after, const double q[], const
         const double delta = x * q[0] + y * q[1] - 0.5 * step->setup->clearance;
         const double rate = x * v[0] + y * v[1] + step->cage * (x * q[1] - y * q[0]);
         double by_x, by_y;
-        if (!balance(ball, delta, rate, &after->ball[k])) {
+        if (!balance_ball(ball, delta, rate, &after->ball[k])) {
             return "a ball finds no balance: a shorter step, or a smaller displacement, can help";
         }
         by_x = ball->slope[0] * x - ball->slope[1] * step->cage * y;

@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-enum { MOST_STEPS = 60 };
+enum { MOST_RATE_STEPS = 60 };
 static const double small_step = 1e-14; /* of the rates, that ends the search for w': rounding */
 
 LawSpeed law_speed(Dual omega)
@@ -34,7 +34,7 @@ static Dual of_nodes(const double *entry, const LawSpeed *at, int rows, int stri
 }
 
 /* Dry compression at an approach; of a dry contact it says below zero how far the surfaces have parted. */
-static Dual curve(const Race *race, const LawSpeed *at, const Dual *factor, Dual u, int *k)
+static Dual curve_at(const Race *race, const LawSpeed *at, const Dual *factor, Dual u, int *k)
 {
     const Dual f = factor == NULL ? number(1.0) : *factor;
     const Thickness film = {f.x, 0.0};
@@ -66,7 +66,7 @@ Held held(const Race *race, const LawSpeed *at, Dual transit, const Dual *factor
     Held h;
     Dual g, x, weight, carried = number(0.0);
     int row = 0, j;
-    g = curve(race, at, factor, u, &row);
+    g = curve_at(race, at, factor, u, &row);
     h.film = g;
     h.dashpot = h.tau = number(0.0);
     h.kn = number(race->kn);
@@ -141,7 +141,7 @@ Dual rest_force(const Race *race, const LawSpeed *at, const Dual *factor, Dual u
     double slope;
     const double share = race_cutoff(u.x, &slope);
     const Dual kn = race->nodes == 0 ? number(race->kn) : dual(race->kn * share, race->kn * slope * u.d);
-    return pushed(kn, curve(race, at, factor, u, &k));
+    return pushed(kn, curve_at(race, at, factor, u, &k));
 }
 
 /* ---- one ball ---- */
@@ -170,7 +170,7 @@ int balance(const Held *inner, const Held *outer, Dual rate, Dual centrifugal, D
     alike = pow(ki / ko, 2.0 / 3.0);
     z = (alike * (ai + di * v) - ao) / (d_o + alike * di);
     scale = small_step * (fabs(ao) / d_o + fabs(ai) / di);
-    for (i = 0; i < MOST_STEPS; i++) {
+    for (i = 0; i < MOST_RATE_STEPS; i++) {
         double step;
         Dual film_i, film_o;
         z = within(z, low, high);

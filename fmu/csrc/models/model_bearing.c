@@ -43,9 +43,11 @@ static Setup setup_of(const double value[])
 
 /* ---- losses of rings and fits ---- */
 
-/* Force of the seat at the end of a step through which that of the balls runs straight; h = 0: at rest. */
-static void pass_seat(const Bearing *before, Bearing *after, double h, double force[])
+/* Force of the seat at the end of a step through which that of the balls runs straight; h = 0: at rest. Returns its slope by
+ * that of the balls. */
+static double pass_seat(const Bearing *before, Bearing *after, double h, double force[])
 {
+    double slope = 1.0;
     int j;
     for (j = 0; j < FREEDOMS; j++) {
         const double at_end = force[j];
@@ -58,6 +60,7 @@ static void pass_seat(const Bearing *before, Bearing *after, double h, double fo
             if (h > 0.0) {
                 const double mu = seat_rates[k] * h, left = exp(-mu), mean = -expm1(-mu) / mu;
                 *now = left * held + (mean - left) * at_start + (1.0 - mean) * at_end;
+                slope += j == 0 ? seat_gains[k] * mean : 0.0;
             } else {
                 *now = at_end;
             }
@@ -68,6 +71,7 @@ static void pass_seat(const Bearing *before, Bearing *after, double h, double fo
 #endif
         after->seat[0][j] = at_end;
     }
+    return slope;
 }
 
 /* ---- films and outputs ---- */

@@ -6,7 +6,7 @@
 
 #include "film_filters.h"
 
-enum { MOST_STEPS = 100 };
+enum { MOST_FILM_STEPS = 100 };
 static const double found = 1e-7; /* of g: last step of Newton's method for the film */
 static const double cutoff_gap = CUTOFF_GAP;
 
@@ -73,7 +73,7 @@ double race_gap(const RaceStep *c, double u, double *slope, double *lift)
     f = c->film->factor;
     v = u + c->film->lift;
     *slope = 1.0;
-    for (i = 0; i < MOST_STEPS; i++) {
+    for (i = 0; i < MOST_FILM_STEPS; i++) {
         double step;
         g = curve(race, c->at, v, &c->filters->interval, slope);
         stretch = (1.0 - f) * *slope + f;

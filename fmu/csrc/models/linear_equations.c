@@ -1,0 +1,57 @@
+/* Linear equations; see linear_equations.h. */
+#include "linear_equations.h"
+
+#include <math.h>
+
+static void exchange(double *a, double *b)
+{
+    const double kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+int factorise(int n, double a[], int pivot[])
+{
+    int i, j, k;
+    for (k = 0; k < n; k++) {
+        pivot[k] = k;
+        for (i = k + 1; i < n; i++) {
+            if (fabs(a[i * n + k]) > fabs(a[pivot[k] * n + k])) {
+                pivot[k] = i;
+            }
+        }
+        if (!(fabs(a[pivot[k] * n + k]) > 0.0)) {
+            return 0;
+        }
+        for (j = 0; j < n && pivot[k] != k; j++) {
+            exchange(&a[k * n + j], &a[pivot[k] * n + j]);
+        }
+        for (i = k + 1; i < n; i++) {
+            const double factor = a[i * n + k] / a[k * n + k];
+            a[i * n + k] = factor;
+            for (j = k + 1; j < n && factor != 0.0; j++) {
+                a[i * n + j] -= factor * a[k * n + j];
+            }
+        }
+    }
+    return 1;
+}
+
+void substitute(int n, const double a[], const int pivot[], double x[])
+{
+    int i, j;
+    for (i = 0; i < n; i++) {
+        exchange(&x[i], &x[pivot[i]]);
+    }
+    for (i = 0; i < n; i++) {
+        for (j = 0; j < i; j++) {
+            x[i] -= a[i * n + j] * x[j];
+        }
+    }
+    for (i = n - 1; i >= 0; i--) {
+        for (j = i + 1; j < n; j++) {
+            x[i] -= a[i * n + j] * x[j];
+        }
+        x[i] /= a[i * n + i];
+    }
+}

@@ -1,0 +1,108 @@
+"""A run of a rotor on its ball bearings by the steps of `simulate_rotor`, with inputs as its FMU has them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu.whole_rotor.model import WholeRotorModel
+from reduced_models.bearing.motion import motion_of
+from reduced_models.rotor.integrate_python import PythonSteps
+from reduced_models.rotor.prepared_run import PreparedRun
+from reduced_models.rotor.speed_profile import SpeedProfile, turning_forces
+
+_Floats = NDArray[np.float64]
+
+STEPS = 160
+TOLERANCE = 1e-11  # of the balance of a step
+RHO = 0.8  # of simulate_rotor
+SLOWER = 0.9  # of the highest speed, where there is only one: speed at the start
+PUSH = 1.5  # of the weight: forces that lift the rotor off
+LEVER = 0.02  # m, of forces that turn a node
+UNIT, MORE = 1e-6, 2e-5  # kg m, unbalances: by which forces are scaled; by which they grow
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WholeRotorTrial:
+    """Ends of equal steps, the first one at rest.
+
+    Attributes
+    ----------
+    time : ndarray, shape (k,)
+    inputs : ndarray, shape (k, inputs)
+        In the order of the FMU; straight between the ends of a step.
+    displacement, velocity : ndarray, shape (k, named directions + motions of rings)
+    force : ndarray, shape (k, motions of rings)
+        On the inner rings [N].
+    load : ndarray, shape (k, bearings, 2)
+        Largest of a ball at both races [N].
+    angle : ndarray, shape (k,)
+        Of the shaft [rad].
+    """
+
+    time: _Floats
+    inputs: _Floats
+    displacement: _Floats
+    velocity: _Floats
+    force: _Floats
+    load: _Floats
+    angle: _Floats
+
+
+class _Run(PreparedRun):
+    """A prepared run with the tables of the FMU, forces at named nodes, and unbalances that change."""
+
+    def __init__(self, model: WholeRotorModel, dt: float, course: SpeedProfile, given: _Floats) -> None:
+        self._model, self._given, self._course = model, given, course
+        super().__init__(model.rotor, course, dt, len(given) - 1, "static", RHO)
+
+    def _begin(self, start: Any) -> _Floats:
+        model, rotor, time = self._model, self._model.rotor, self.t
+        self.balls = tuple(motion_of(one.bearing, one.speeds.tolist(), 2) for one in model.bearings)
+        places = [place for _, _, place in model.shaft.points]
+        unit = replace(rotor, unbalances=tuple(replace(u, amount=UNIT) for u in rotor.unbalances))
+        omega, angle, rise = self._course.at(time)
+        turning, at = turning_forces(unit, omega, angle, rise)
+        amounts = self._given[:, len(places) :] / UNIT
+        self.turning = np.hstack([turning * np.repeat(amounts, 2, axis=1), self._given[:, : len(places)]])
+        self.at = np.hstack([at, np.eye(rotor.size)[:, places]])
+        return super()._begin(start)
+
+
+def whole_rotor_trial(model: WholeRotorModel, steps: int = STEPS) -> WholeRotorTrial:
+    """A run-up with forces that lift the rotor off its bearings, and unbalances that grow."""
+    rng, speeds = np.random.default_rng(1), model.bearings[0].speeds
+    dt, rotor, points = model.inner_step, model.rotor, model.shaft.points
+    time = dt * np.arange(steps + 1)
+    ends = (float(speeds[0]) if speeds.size > 1 else SLOWER * float(speeds[0]), float(speeds[-1]))
+    omega = 2.0 * np.pi * rng.uniform(1.0, 10.0, len(points)) / time[-1]
+    size = PUSH * max(float(np.abs(rotor.load).sum()), 1.0) / max(len(points), 1)
+    levers = np.array([LEVER if name.startswith("tilt") else 1.0 for _, name, _ in points])
+    amounts = np.array([u.amount for u in rotor.unbalances])
+    grown = amounts + MORE * np.outer(time / time[-1], np.ones(amounts.size))
+    given = np.hstack([size * levers * np.sin(omega * time[:, None]), grown])
+    run = _Run(model, dt, SpeedProfile.ramp(*ends, 2.0 * float(time[-1])), given)
+    return _recorded(model, run, given)
+
+
+def _recorded(model: WholeRotorModel, run: _Run, given: _Floats) -> WholeRotorTrial:
+    integrator = PythonSteps(run, TOLERANCE, 30)
+    loads = [[one.films.force.max(axis=0) for one in run.balls]]
+    for k in range(run.steps):
+        middle = float(0.5 * (run.omega[k] + run.omega[k + 1]))
+        integrator.advance(run._steps_at(middle), k, k + 1, lambda made: None)
+        loads.append([one.films.force.max(axis=0) for one in run.balls])
+    d, v, motion, rate, force, _ = run.histories
+    places = [place for _, _, place in model.shaft.points]
+    return WholeRotorTrial(
+        time=run.t,
+        inputs=np.column_stack([given, run.omega]),
+        displacement=np.hstack([d[:, places], motion + run.shift]),
+        velocity=np.hstack([v[:, places], rate]),
+        force=-force,
+        load=np.array(loads),
+        angle=run._course.at(run.t)[1],
+    )

@@ -1,0 +1,270 @@
+"""Variables, C tables and bearings of the FMU of a rotor with its ball bearings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from fmu.bearing.variables import FORCES, RATES, bearing_spec
+from fmu.c_headers import c_double, c_table
+from fmu.contact_spec import checked_name
+from fmu.contact_variables import ALLOWED_ERROR
+from fmu.lead import ROTOR
+from fmu.rotor.laws import law_file, law_size
+from fmu.shaft.variables import SCALES, node_name
+from fmu.spec import ModelSpec
+from fmu.variable_list import VariableList
+from fmu.whole_rotor.model import WholeRotorModel
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+
+LEAST_INNER_STEP = 1e-3  # of the default
+SHOWN = ("force_", "largest_", "smallest_", "rolling_", "outside_")  # outputs of a bearing that the rotor has
+ALL = "outside_validity"
+
+
+def whole_rotor_spec(
+    model: WholeRotorModel, model_name: str | None = None, force_lead: float | None = None
+) -> ModelSpec:
+    """Specification of the FMU of a rotor with its ball bearings.
+
+    Raises
+    ------
+    InputError
+        A name that is empty, too long or not printable, or another lead.
+    """
+    specs = [bearing_spec(bearing) for bearing in model.bearings]
+    made = _Variables(model, specs)
+    made.fill(0.0 if force_lead is None else force_lead)
+    laws = _laws(specs, made)
+    return ModelSpec(
+        name=checked_name("Rotor" if model_name is None else model_name),
+        description=f"Rotor of {model.rotor.size} degrees of freedom on {len(specs)} ball bearings; SI units",
+        sources=("core.c", "core_step.c", "model_whole_rotor.c", "linear_equations.c"),
+        headers=("core.h", "model.h", "bearing_law.h", "linear_equations.h"),
+        variables=tuple(made.variables),
+        notes=_notes(model, specs),
+        macros=_macros(model, made, specs),
+        tables={"rotor_data.h": _data(model), **laws},
+        step=model.inner_step,
+        exchange=False,
+        indicators=(),
+        flanges=tuple(
+            (
+                f"{node}_{name}",
+                f"{node} along {name}: displacement and rate out, force in",
+                (f"{node}.{name}", f"{node}.{RATES[name]}", f"{node}.{FORCES[name]}"),
+            )
+            for node, name, _ in _points(model)
+        ),
+    )
+
+
+def _points(model: WholeRotorModel) -> Iterator[tuple[str, str, int]]:
+    for node, name, place in model.shaft.points:
+        yield node_name(node), name, place
+
+
+class _Variables(VariableList):
+    """The variables of a rotor, numbered as they are made."""
+
+    def __init__(self, model: WholeRotorModel, specs: list[ModelSpec]) -> None:
+        super().__init__()
+        self.model, self.specs = model, specs
+        self.first: dict[str, int] = {}
+        self.shown_at: list[int] = []  # first output of each bearing
+        self.outside_at: list[int] = []
+        self.points = tuple(_points(model))
+
+    def fill(self, lead: float) -> None:
+        """All of them."""
+        self._inputs()
+        for moving in (False, True):
+            self._motions(moving)
+        self._bearings()
+        self._parameters(lead)
+
+    def _inputs(self) -> None:
+        model = self.model
+        for node, name, _ in self.points:
+            tilt = name.startswith("tilt")
+            text = f"{'Moment' if tilt else 'Force'} on {node}, {name}, beside the load"
+            self.add(
+                f"{node}.{FORCES[name]}", "input", "continuous", text,
+                unit="N.m" if tilt else "N", start=0.0, nominal=1.0 if tilt else 100.0,
+            )  # fmt: skip
+        self.first["UNBALANCE"] = len(self.variables)
+        for u, unbalance in enumerate(model.rotor.unbalances, start=1):
+            self.add(
+                f"unbalance[{u}]", "input", "continuous", "Unbalance: mass times eccentricity",
+                unit="kg.m", start=float(unbalance.amount), nominal=1e-4,
+            )  # fmt: skip
+        self.first["DRIVE"] = len(self.variables)
+        if model.inertia is None:
+            self.add(
+                "speed", "input", "continuous", "Speed of the shaft about z, reached at the end of a step",
+                unit="rad/s", start=model.shaft.speed_rpm * RPM_TO_RAD_S, nominal=100.0, minimum=0.0,
+            )  # fmt: skip
+        else:
+            text = "Torque of the motor about z"
+            self.add("torque", "input", "continuous", text, unit="N.m", start=0.0, nominal=1.0)
+
+    def _motions(self, moving: bool) -> None:
+        rings = [(f"bearing[{b}]", name) for b, mount in enumerate(self.model.stations, 1) for name in mount.directions]
+        self.first["VELOCITY" if moving else "PLACE"] = len(self.variables)
+        for what, name in [*((node, name) for node, name, _ in self.points), *rings]:
+            unit, nominal = ("rad", 1e-4) if name.startswith("tilt") else ("m", 1e-5)
+            self.add(
+                f"{what}.{RATES[name] if moving else name}", "output", "continuous",
+                f"{'Rate' if moving else 'Displacement'} of {what}, {name}",
+                unit=f"{unit}/s" if moving else unit, nominal=100.0 * nominal if moving else nominal,
+            )  # fmt: skip
+
+    def _bearings(self) -> None:
+        for b, spec in enumerate(self.specs, start=1):
+            self.shown_at.append(len(self.variables))
+            for one in _shown(spec):
+                if one.name == ALL:
+                    self.outside_at.append(len(self.variables))
+                self.add(
+                    f"bearing[{b}].{one.name}", "output", one.variability, one.description,
+                    type=one.type, unit=one.unit, nominal=one.nominal, minimum=one.minimum,
+                )  # fmt: skip
+        self.add("angle", "output", "continuous", "Angle of the shaft about z", unit="rad", nominal=1.0)
+        if self.model.inertia is not None:
+            self.add(
+                "speed", "output", "continuous", "Speed of the shaft about z", unit="rad/s", nominal=100.0,
+                depends=("speed_start",),
+            )  # fmt: skip
+        self.add(ALL, "output", "discrete", "True where a bearing is outside its tables", type="Boolean")
+
+    def _parameters(self, lead: float) -> None:
+        model = self.model
+        self.lead(ROTOR, lead)
+        self.add(
+            "inner_step", "parameter", "fixed", "Longest step inside one of co-simulation, which is cut evenly",
+            unit="s", start=model.inner_step, minimum=LEAST_INNER_STEP * model.inner_step,
+        )  # fmt: skip
+        for name, text in SCALES.items():
+            self.add(name, "parameter", "fixed", text, unit="1", start=1.0, minimum=0.0)
+        if model.inertia is not None:
+            self.add(
+                "inertia", "parameter", "fixed", "Polar moment of inertia of all that turns, times mass_scale",
+                unit="kg.m2", start=float(model.inertia), minimum=0.0,
+            )  # fmt: skip
+            self.add(
+                "speed_start", "parameter", "fixed", "Speed of the shaft at the start",
+                unit="rad/s", start=model.shaft.speed_rpm * RPM_TO_RAD_S, minimum=0.0,
+            )  # fmt: skip
+        self.first["OF_BEARINGS"] = len(self.variables)
+        for b, (mount, spec) in enumerate(zip(model.stations, self.specs, strict=True), start=1):
+            for name in ("clearance", "cage_angle_start", "film"):
+                one = spec[name]
+                start = mount.cage_angle if name == "cage_angle_start" else one.start
+                self.add(
+                    f"bearing[{b}].{name}", "parameter", "fixed", one.description,
+                    unit=one.unit, start=start, minimum=one.minimum, maximum=one.maximum,
+                )  # fmt: skip
+
+
+def _shown(spec: ModelSpec) -> list:
+    return [one for one in spec.outputs if one.name.startswith(SHOWN)]
+
+
+def _laws(specs: list[ModelSpec], made: _Variables) -> dict[str, str]:
+    """A C file for each bearing that differs, and ``rotor_laws.h``: which is where, and where its numbers stand."""
+    texts: dict[str, str] = {}
+    names = []
+    for spec in specs:
+        outputs = ", ".join(str(one.value_reference) for one in _shown(spec))
+        macros = {"LAW_WORK": str(_work(spec))}
+        text = law_file(
+            spec, "LAW_NAME", "bearing_law.c", spec.description, macros,
+            {"law_outputs.h": f"static const int law_outputs[] = {{{outputs}}};\n"},
+        )  # fmt: skip
+        names.append(texts.setdefault(text, f"bearing_law_{len(texts) + 1}"))
+    numbers = np.cumsum([0, *(law_size(spec) for spec in specs)]).tolist()
+    work = np.cumsum([0, *(_work(spec) for spec in specs)]).tolist()
+    tables = {
+        "law_numbers": numbers[:-1],
+        "law_work": work[:-1],
+        "law_shown_at": made.shown_at,
+        "law_outside": made.outside_at,
+    }
+    lines = [
+        "/* Generated by ehlcontact: the law of each bearing, where its numbers and its outputs stand. */",
+        *(f"extern const BearingLaw {name};" for name in texts.values()),
+        f"static const BearingLaw *const law_of[BEARINGS] = {{{', '.join(f'&{name}' for name in names)}}};",
+        *(f"static const int {name}[BEARINGS] = {{{', '.join(map(str, at))}}};" for name, at in tables.items()),
+        "",
+    ]
+    sources = {f"{name}.c": text.replace("LAW_NAME", name) for text, name in texts.items()}
+    return {"rotor_laws.h": "\n".join(lines), **sources}
+
+
+def _work(spec: ModelSpec) -> int:
+    """Numbers that a step of a bearing is kept in: `LawStep` of ``bearing_law.c``, or a few more."""
+    balls, lags = int(spec.macros["BALLS"]), int(spec.macros["LAGS"])
+    contact = 8 + 22 + 3 * lags  # `RaceStep` and `StepFilters`
+    return 32 + 2 * int(spec.macros["N_CACHE"]) + balls * (2 * contact + 16)
+
+
+def _data(model: WholeRotorModel) -> str:
+    rotor = model.rotor
+    M, C, K = rotor.matrices(0.0)
+    points, ties, _ = rotor.geometry
+    q, _ = model.shaft.motion
+    phases = [unbalance.phase for unbalance in rotor.unbalances] or [0.0]
+    at = [(u.x, u.y) for u in rotor.unbalances] or [(None, None)]
+    tables = {
+        "mass_matrix": M,
+        "mass_inverse": np.linalg.inv(M),
+        "damping_matrix": C,
+        "gyroscopic_matrix": rotor.gyroscopic,
+        "stiffness_matrix": K,
+        "load": rotor.load,
+        "points": points,
+        "ties": ties,
+        "ring_shift": model.shaft.shifts[: len(ties)],
+        "rest": q,
+        "unbalance_phase": np.array(phases),
+    }
+    pairs = ", ".join("{" + ", ".join("-1" if k is None else str(k) for k in pair) + "}" for pair in at)
+    shown = ", ".join(str(place) for _, _, place in model.shaft.points) or "0"
+    lines = [
+        "/* Generated by ehlcontact: matrices, points at which bearings act, and the place at rest. */",
+        *(c_table(*one) for one in tables.items()),
+        f"static const int unbalance_at[][2] = {{{pairs}}};",
+        f"static const int shown[] = {{{shown}}};",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def _macros(model: WholeRotorModel, made: _Variables, specs: list[ModelSpec]) -> dict[str, str]:
+    size, (points, ties, _) = model.rotor.size, model.rotor.geometry
+    counts = {
+        "FREEDOMS": size,
+        "POINTS": len(points),
+        "MOTIONS": len(ties),
+        "BEARINGS": len(specs),
+        "SHOWN": len(made.points),
+        "UNBALANCES": len(model.rotor.unbalances),
+        "HAS_TORQUE": int(model.inertia is not None),
+        "HAS_GYROSCOPIC": int(model.rotor.gyroscopic.any()),
+        "LAW_WORK": sum(_work(spec) for spec in specs),
+        "N_CACHE": 4 * size + 4 * len(points) + 7 + sum(law_size(spec) for spec in specs),
+        **{f"FIRST_{name}": at for name, at in made.first.items()},
+    }
+    numbers = {"DEFAULT_TOLERANCE": ALLOWED_ERROR, "LEAST_INNER_STEP": LEAST_INNER_STEP * model.inner_step}
+    return (
+        {k: str(v) for k, v in counts.items()} | {k: c_double(v) for k, v in numbers.items()} | dict(ROTOR.macros)
+    )
+
+
+def _notes(model: WholeRotorModel, specs: list[ModelSpec]) -> tuple[tuple[str, str], ...]:
+    turns = "its speed is an input" if model.inertia is None else "the torque of its motor decides on its speed"
+    lines = [("Rotor", f"{model.rotor.size} degrees of freedom; turns about z, from x towards y; {turns}")]
+    for b, spec in enumerate(specs, start=1):
+        lines += [(f"Bearing {b}: {label}", text) for label, text in spec.notes]
+    return tuple(lines)
