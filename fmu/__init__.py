@@ -31,6 +31,7 @@ module                   responsibility
 ``bearing/``             FMU of a ball bearing whose inner ring is moved from outside
 ``rotor/``               FMU of a Jeffcott rotor, alone or with its contacts
 ``shaft/``               FMU of a shaft whose bearings are outside, with the torque of its motor
+``whole_rotor/``         FMU of a rotor with its ball bearings inside
 ``controller/``          FMU of a speed controller: torque of that motor
 ``system/``              `export_system`, `export_drive`: system archives (SSP) of a rotor, of a drive
 ``csrc/``                C sources: core, interface of each FMI version, models; equations in its README
@@ -59,6 +60,8 @@ from fmu.system.export import export_system as export_system
 from fmu.verification import Verification as Verification
 from fmu.verify import verify as verify
 from fmu.verify_before_write import VerificationError as VerificationError
+from fmu.whole_rotor.export import export_whole_rotor as export_whole_rotor
+from fmu.whole_rotor.model import WholeRotorModel as WholeRotorModel
 
 
 def __dir__() -> list[str]:

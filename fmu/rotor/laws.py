@@ -85,7 +85,7 @@ def _joined(text: str, files: dict[str, str], done: set[str]) -> str:
         if name in done:
             return ""
         done.add(name)
-        return _joined(files[name], files, done)
+        return _joined(files.get(name, ""), files, done)  # a dry bearing has no films, and does not ask for them
 
     return _INCLUDE.sub(take, text)
 

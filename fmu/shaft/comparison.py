@@ -25,10 +25,10 @@ def compare_shaft(slave: Any, exchange: Any, model: ShaftModel, spec: ModelSpec)
     assert references.steps is not None
     histories = np.array(list(references.steps.unknowns.values())).T
     gaps = np.abs(found - histories).max(axis=0)
-    return Verification(states=len(found), motion=float((gaps / _sizes(histories)).max()))
+    return Verification(states=len(found), motion=float((gaps / sizes(histories)).max()))
 
 
-def _sizes(histories: Any) -> Any:
+def sizes(histories: Any) -> Any:
     """What each output moves in a run, or where it stands."""
     return np.maximum(np.maximum(np.ptp(histories, axis=0), 1e-3 * np.abs(histories).max(axis=0)), 1e-12)
 

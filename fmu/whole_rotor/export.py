@@ -37,7 +37,7 @@ def export_whole_rotor(
     `bearing[b].smallest_film`, ..., the `angle` of the shaft, and `outside_validity`. Bearings count from 1.
     `mass_scale`, `stiffness_scale`, `damping_scale`, `load_scale`, `inertia`, `speed_start`, and of every bearing
     `clearance`, `cage_angle_start` and `film`, can be set before initialization; the rotor then starts in
-    equilibrium under its load and the forces given. A step is cut into inner ones of at most `inner_step`.
+    equilibrium under its load. A step is cut into inner ones of at most `inner_step`.
 
     Parameters
     ----------

@@ -73,7 +73,9 @@ class WholeRotorModel:
     @cached_property
     def shaft(self) -> ShaftModel:
         """The rotor as the FMU of a shaft has it: named nodes, equilibrium at the start."""
-        found = np.atleast_1d(np.asarray(self.speeds_rpm, float)).max() if self.speed_rpm is None else self.speed_rpm
+        found = (
+            np.atleast_1d(np.asarray(self.speeds_rpm, float)).max() if self.speed_rpm is None else self.speed_rpm
+        )
         return ShaftModel(self.rotor, require_nonnegative("speed_rpm", float(found)), self.inertia)
 
     @cached_property

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu.whole_rotor.model import WholeRotorModel
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S, rolling_torque
 from reduced_models.bearing.motion import motion_of
+from reduced_models.bearing.race import RACES
 from reduced_models.rotor.integrate_python import PythonSteps
 from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.speed_profile import SpeedProfile, turning_forces
@@ -19,7 +22,6 @@ _Floats = NDArray[np.float64]
 STEPS = 160
 TOLERANCE = 1e-11  # of the balance of a step
 RHO = 0.8  # of simulate_rotor
-SLOWER = 0.9  # of the highest speed, where there is only one: speed at the start
 PUSH = 1.5  # of the weight: forces that lift the rotor off
 LEVER = 0.02  # m, of forces that turn a node
 UNIT, MORE = 1e-6, 2e-5  # kg m, unbalances: by which forces are scaled; by which they grow
@@ -39,8 +41,10 @@ class WholeRotorTrial:
         On the inner rings [N].
     load : ndarray, shape (k, bearings, 2)
         Largest of a ball at both races [N].
-    angle : ndarray, shape (k,)
-        Of the shaft [rad].
+    angle, speed : ndarray, shape (k,)
+        Of the shaft [rad], [rad/s].
+    parted : int
+        Balls that carried nothing at the inner race, over all ends of steps.
     """
 
     time: _Floats
@@ -50,6 +54,8 @@ class WholeRotorTrial:
     force: _Floats
     load: _Floats
     angle: _Floats
+    speed: _Floats
+    parted: int
 
 
 class _Run(PreparedRun):
@@ -72,37 +78,71 @@ class _Run(PreparedRun):
         return super()._begin(start)
 
 
+@lru_cache(maxsize=1)
 def whole_rotor_trial(model: WholeRotorModel, steps: int = STEPS) -> WholeRotorTrial:
     """A run-up with forces that lift the rotor off its bearings, and unbalances that grow."""
     rng, speeds = np.random.default_rng(1), model.bearings[0].speeds
     dt, rotor, points = model.inner_step, model.rotor, model.shaft.points
     time = dt * np.arange(steps + 1)
-    ends = (float(speeds[0]) if speeds.size > 1 else SLOWER * float(speeds[0]), float(speeds[-1]))
     omega = 2.0 * np.pi * rng.uniform(1.0, 10.0, len(points)) / time[-1]
-    size = PUSH * max(float(np.abs(rotor.load).sum()), 1.0) / max(len(points), 1)
+    size = PUSH * max(float(np.abs(rotor.load).sum()), 1.0)
     levers = np.array([LEVER if name.startswith("tilt") else 1.0 for _, name, _ in points])
     amounts = np.array([u.amount for u in rotor.unbalances])
     grown = amounts + MORE * np.outer(time / time[-1], np.ones(amounts.size))
     given = np.hstack([size * levers * np.sin(omega * time[:, None]), grown])
-    run = _Run(model, dt, SpeedProfile.ramp(*ends, 2.0 * float(time[-1])), given)
-    return _recorded(model, run, given)
+    course = SpeedProfile.ramp(float(speeds[0]), float(speeds[-1]), 2.0 * float(time[-1]))
+    return _recorded(model, _Run(model, dt, course, given), given)
 
 
 def _recorded(model: WholeRotorModel, run: _Run, given: _Floats) -> WholeRotorTrial:
     integrator = PythonSteps(run, TOLERANCE, 30)
-    loads = [[one.films.force.max(axis=0) for one in run.balls]]
+    forces, resisted = [[one.films.force.copy() for one in run.balls]], [0.0]
     for k in range(run.steps):
         middle = float(0.5 * (run.omega[k] + run.omega[k + 1]))
         integrator.advance(run._steps_at(middle), k, k + 1, lambda made: None)
-        loads.append([one.films.force.max(axis=0) for one in run.balls])
+        forces.append([one.films.force.copy() for one in run.balls])
+        resisted.append(_slowed(model, run, given[k + 1], k + 1))
     d, v, motion, rate, force, _ = run.histories
     places = [place for _, _, place in model.shaft.points]
+    drive = run.omega if model.inertia is None else _torque(model, run, forces, np.array(resisted))
     return WholeRotorTrial(
         time=run.t,
-        inputs=np.column_stack([given, run.omega]),
+        inputs=np.column_stack([given, drive]),
         displacement=np.hstack([d[:, places], motion + run.shift]),
         velocity=np.hstack([v[:, places], rate]),
         force=-force,
-        load=np.array(loads),
+        load=np.array([[one.max(axis=0) for one in row] for row in forces]),
         angle=run._course.at(run.t)[1],
+        speed=run.omega,
+        parted=sum(int((one[:, 0] == 0.0).sum()) for row in forces for one in row),
     )
+
+
+def _slowed(model: WholeRotorModel, run: _Run, given: _Floats, k: int) -> float:
+    """Torque that the unbalances take from the shaft at the end of a step, through their accelerations."""
+    angle, acceleration, found = float(run._course.at(run.t[k : k + 1])[1][0]), run.state[2], 0.0
+    for u, amount in zip(model.rotor.unbalances, given[len(model.shaft.points) :], strict=True):
+        for place, share in ((u.x, -np.sin(angle + u.phase)), (u.y, np.cos(angle + u.phase))):
+            found += 0.0 if place is None else float(amount * share * acceleration[place])
+    return found
+
+
+def _torque(model: WholeRotorModel, run: _Run, forces: list[list[_Floats]], resisted: _Floats) -> _Floats:
+    """Torque of a motor that makes the shaft turn as it does, against what resists."""
+    assert model.inertia is not None
+    for k, row in enumerate(forces):
+        speed = float(run.omega[k]) / RPM_TO_RAD_S
+        for one, force in zip(model.bearings, row, strict=True):
+            bearing = one.bearing
+            if bearing.oil is not None:
+                inner, outer = (
+                    bearing.race(name).films(speed, load, load)[2]
+                    for name, load in zip(RACES, force.T, strict=True)
+                )
+                resisted[k] += rolling_torque(inner, outer, bearing.ball_diameter, bearing.pitch_diameter)
+    on = 1.5 * resisted - 0.5 * np.append(resisted[:1], resisted[:-1])  # as the FMU has it go on in a step
+    means = model.inertia * np.diff(run.omega) / run.dt + on[:-1]
+    torque = np.append(means[0], means)
+    for k in range(1, torque.size):
+        torque[k] = 2.0 * means[k - 1] - torque[k - 1]  # it runs straight through a step
+    return torque

@@ -110,7 +110,9 @@ class _Variables(VariableList):
             self.add("torque", "input", "continuous", text, unit="N.m", start=0.0, nominal=1.0)
 
     def _motions(self, moving: bool) -> None:
-        rings = [(f"bearing[{b}]", name) for b, mount in enumerate(self.model.stations, 1) for name in mount.directions]
+        rings = [
+            (f"bearing[{b}]", name) for b, mount in enumerate(self.model.stations, 1) for name in mount.directions
+        ]
         self.first["VELOCITY" if moving else "PLACE"] = len(self.variables)
         for what, name in [*((node, name) for node, name, _ in self.points), *rings]:
             unit, nominal = ("rad", 1e-4) if name.startswith("tilt") else ("m", 1e-5)

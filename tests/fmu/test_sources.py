@@ -19,7 +19,7 @@ from fmpy.build import build_platform_binary
 from fmpy.validation import validate_fmu
 
 from ehlcontact import Lubricant
-from fmu import BearingModel, ShaftModel, SpeedController, export_contact, verify
+from fmu import BearingModel, ShaftModel, SpeedController, WholeRotorModel, export_contact, verify
 from fmu.archive import content_guid
 from fmu.comparison import film_motion, state_grid
 from fmu.contact_spec import contact_spec
@@ -36,7 +36,7 @@ HERE = Path(__file__).parent
 CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]
 ROTORS = ["rotor alone", "rotor mixed", "rotor wide in y"]
 BEARINGS = ["bearing planar", "bearing five"]
-SHAFTS = ["shaft"]
+SHAFTS = ["shaft", "whole rotor"]
 CONTROLLERS = ["controller"]
 FUZZ = {2: "fuzz.c", 3: "fuzz3.c"}
 MANY = 1_250_000  # calls of each version of FMI, over all kinds
@@ -73,8 +73,18 @@ def models(elements, rotors):
         discs=[Disc(position=0.25, mass=4.0, diametral_inertia=0.01, polar_inertia=0.02, unbalance=1e-4)],
         supports=[Support(position=at, bearing=BallBearing.catalogue("6205")) for at in (0.02, 0.38)],
     )
+    oiled = BallBearing.catalogue("6205", clearance=5e-6, oil=oil, loss_factor=0.05)
+    whole = rotor_on_bearings(
+        Shaft(length=0.4, diameter=0.03, density=0.0),
+        discs=[Disc(position=0.25, mass=4.0, unbalance=1e-4)],
+        supports=[
+            Support(position=at, bearing=bearing, journal_mass=0.2)
+            for at, bearing in ((0.02, oiled), (0.38, BallBearing.catalogue("6205")))
+        ],
+    )
     shafts = {
         "shaft": ShaftModel(shaft, 3e3, inertia=0.02),
+        "whole rotor": WholeRotorModel(whole, 3e3, inertia=0.02),
         "controller": SpeedController(3e3, proportional_gain=1.0, integral_gain=1e4, torque_limit=50.0),
     }
     return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings | shafts

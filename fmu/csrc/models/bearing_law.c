@@ -46,9 +46,14 @@ static void law_begin(const double numbers[], double work[], double h, double om
 {
     const Model *m = law_shown(numbers);
     LawStep *s = law_step_of(work);
+    int k;
     s->setup = setup_of(m->value);
     memcpy(&s->before, m->cache, sizeof s->before);
     balls_begin(&s->setup, &s->before, &s->after, h, omega, &s->step);
+    for (k = 0; k < BALLS; k++) { /* where a ball is looked for first */
+        const Ball *old = &s->before.ball[k];
+        s->step.ball[k].place = 2.0 * old->place[0][0] - old->place[1][0];
+    }
 }
 
 static const char *law_press(double work[], const double q[], const double v[], double force[], double stiffness[],

@@ -76,23 +76,16 @@ static void take(const double carried[POINTS], double weight, double force[FREED
     }
 }
 
-/* Load and forces that are given. */
-static void given(const double value[], const double inputs[], double force[FREEDOMS])
+/* Load, forces that are given, and those of the unbalances. */
+static void applied(const double value[], const double inputs[], double angle, double omega, double spin, double force[FREEDOMS])
 {
-    int i;
+    int i, u;
     for (i = 0; i < FREEDOMS; i++) {
         force[i] = value[VR_load_scale] * load[i];
     }
     for (i = 0; i < SHOWN; i++) {
         force[shown[i]] += inputs[i];
     }
-}
-
-/* The same with those of the unbalances. */
-static void applied(const double value[], const double inputs[], double angle, double omega, double spin, double force[FREEDOMS])
-{
-    int u;
-    given(value, inputs, force);
     for (u = 0; u < UNBALANCES; u++) {
         const double c = cos(angle + unbalance_phase[u]), s = sin(angle + unbalance_phase[u]);
         const double amount = inputs[FIRST_UNBALANCE + u];
@@ -262,10 +255,10 @@ static const char *show(Model *m)
     return isfinite(m->cache[ANGLE]) && isfinite(m->cache[SPEED]) ? NULL : "the speed is too large for a floating-point number";
 }
 
-/* ---- the start: equilibrium under the load and the forces given ---- */
+/* ---- the start: equilibrium under the load ---- */
 
-/* What stiffness and bearings exert on the rotor at q beyond the forces p. */
-static const char *imbalance(const Model *m, Carrying *c, const double p[], const double q[], double off[], double *size)
+/* What stiffness and bearings exert on the rotor at q beyond the load. */
+static const char *imbalance(const Model *m, Carrying *c, const double q[], double off[], double *size)
 {
     static const double still[POINTS] = {0.0};
     double r[POINTS], omega = m->cache[SPEED];
@@ -277,7 +270,7 @@ static const char *imbalance(const Model *m, Carrying *c, const double p[], cons
     begin_bearings(m, c, 0.0, omega);
     reason = press(c, r, still, 0.0);
     for (i = 0; i < FREEDOMS; i++) {
-        off[i] = m->value[VR_stiffness_scale] * product(stiffness_matrix[i], q, FREEDOMS) - p[i];
+        off[i] = m->value[VR_stiffness_scale] * product(stiffness_matrix[i], q, FREEDOMS) - m->value[VR_load_scale] * load[i];
     }
     take(c->carried, -1.0, off);
     *size = sqrt(product(off, off, FREEDOMS));
@@ -314,19 +307,19 @@ static const char *newton_of_rest(const Model *m, const Carrying *c, const doubl
 static const char *find_rest(Model *m)
 {
     enum { MOST = 60, HALVINGS = 30 };
-    const double allowed = 1e-10;
-    double p[FREEDOMS], off[FREEDOMS], step[FREEDOMS], tried[FREEDOMS], size, now, *q = &m->cache[PLACE];
+    const double allowed = 1e-10, by_rounding_of_rest = 10.0;
+    const double most = allowed * fmax(1.0, fabs(m->value[VR_load_scale]) * sqrt(product(load, load, FREEDOMS)));
+    double off[FREEDOMS], step[FREEDOMS], tried[FREEDOMS], size, now, *q = &m->cache[PLACE];
     Carrying c;
     const char *reason = start_bearings(m);
     int i, k, n;
     if (reason != NULL) {
         return reason;
     }
-    given(m->value, m->input, p);
     memcpy(q, rest, sizeof rest);
     memset(&m->cache[VELOCITY], 0, 2 * FREEDOMS * sizeof q[0]);
-    reason = imbalance(m, &c, p, q, off, &size);
-    for (n = 0; n < MOST && reason == NULL && !(size <= allowed * fmax(1.0, sqrt(product(p, p, FREEDOMS)))); n++) {
+    reason = imbalance(m, &c, q, off, &size);
+    for (n = 0; n < MOST && reason == NULL && !(size <= most); n++) {
         reason = newton_of_rest(m, &c, off, step);
         now = HUGE_VAL;
         for (k = 0; k < HALVINGS && reason == NULL && !(now < size); k++) {
@@ -334,7 +327,7 @@ static const char *find_rest(Model *m)
                 tried[i] = q[i] + step[i];
                 step[i] *= 0.5;
             }
-            if (imbalance(m, &c, p, tried, off, &now) != NULL) {
+            if (imbalance(m, &c, tried, off, &now) != NULL) {
                 now = HUGE_VAL;
             }
         }
@@ -344,13 +337,13 @@ static const char *find_rest(Model *m)
         memcpy(q, tried, sizeof tried);
         size = now;
     }
-    if (reason == NULL && !(size <= 10.0 * allowed * fmax(1.0, sqrt(product(p, p, FREEDOMS))))) {
+    if (reason == NULL && !(size <= by_rounding_of_rest * most)) {
         reason = "no equilibrium under this load with these parameters";
     }
     if (reason != NULL) {
         return reason;
     }
-    reason = imbalance(m, &c, p, q, off, &size);
+    reason = imbalance(m, &c, q, off, &size);
     for (i = 0; i < POINTS; i++) {
         m->cache[WAS + i] = m->cache[WAS + POINTS + i] = m->cache[WAS + 2 * POINTS + i] = product(points[i], q, FREEDOMS);
     }

@@ -1,0 +1,272 @@
+"""FMUs of rotors with their ball bearings inside, beside `simulate_rotor`; parameters, torque, faults, masters."""
+
+from dataclasses import replace
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.fmi1 import FMICallException
+
+from ehlcontact import InputError, Lubricant
+from fmu import WholeRotorModel, export_whole_rotor, verify, verify_references
+from fmu.driver import Slave
+from reduced_models import (
+    BallBearing,
+    Disc,
+    Rotor,
+    Shaft,
+    Support,
+    Unbalance,
+    rotor_on_bearings,
+    simulate_rotor,
+)
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.rotor.speed_profile import SpeedProfile
+from reduced_models.rotor.supports import BearingMount
+
+OIL = Lubricant.iso_vg(46, temperature=70.0)
+SPEEDS, INERTIA, STEP = (6000.0, 7000.0), 0.03, 1e-5
+RINGS = [f"bearing[{b}].{k}" for b in (1, 2) for k in "xy"]
+FORCES = [f"bearing[{b}].force_{k}" for b in (1, 2) for k in "xy"]
+
+
+def flexible(**more):
+    """On two 6205, with a disc out of the middle and an unbalance that lifts it: 90 N at 7000 rev/min, 40 N weight."""
+    bearing = BallBearing.catalogue("6205", oil=OIL, clearance=5e-6)
+    disc = Disc(position=0.25, mass=4.0, unbalance=1.7e-4, phase=0.3, **more)
+    return rotor_on_bearings(
+        Shaft(length=0.4, diameter=0.03, damping_time=1e-5, elements=2, density=0.0),
+        discs=[disc],
+        supports=[Support(position=at, bearing=bearing, journal_mass=0.2) for at in (0.02, 0.38)],
+    )
+
+
+def rigid():
+    """On two bearings that differ: a dry one, whose balls part, and one whose films lose their force."""
+    dry = BallBearing.catalogue("6205", clearance=5e-6)
+    thin = BallBearing.catalogue("6204", oil=OIL, clearance=4e-6, cutoff_gap=1e-6, loss_factor=0.05)
+    return Rotor(
+        mass=np.diag([2.0, 2.0, 1.5, 1.5]),
+        stiffness=np.zeros((4, 4)),
+        mounts=(BearingMount(bearing=dry, x=0, y=1), BearingMount(bearing=thin, x=2, y=3)),
+        load=np.array([0.0, -40.0, 10.0, -30.0]),
+        unbalances=(Unbalance(x=2, y=3, amount=1e-4, phase=-0.7),),
+        nodes={"a": {"x": 0, "y": 1}, "b": {"x": 2, "y": 3}},
+    )
+
+
+class Made:
+    """An exported rotor, and instances of it."""
+
+    def __init__(self, model, path, fmi=2):
+        self.model, self.path = model, path
+        export_whole_rotor(
+            model.rotor,
+            path,
+            speeds_rpm=model.speeds_rpm,
+            speed_rpm=model.speed_rpm,
+            inertia=model.inertia,
+            fmi=fmi,
+        )
+        self.folder = fmpy.extract(str(path), unzipdir=str(path.with_suffix("")))
+        self.description = fmpy.read_model_description(self.folder)
+        self.messages = []
+
+    def started(self, **values):
+        slave = Slave(self.folder, self.description, self.messages, loggingOn=True)
+        slave.start(**values)
+        return slave
+
+
+MODELS = {
+    "flexible": lambda: WholeRotorModel(flexible(), SPEEDS, SPEEDS[0]),
+    "motor": lambda: WholeRotorModel(flexible(), SPEEDS, SPEEDS[0], INERTIA),
+    "rigid": lambda: WholeRotorModel(rigid(), 6000.0),
+}
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """``made("motor", 3)``: exported once."""
+    known = {}
+
+    def make(name, fmi=2):
+        if (name, fmi) not in known:
+            known[name, fmi] = Made(MODELS[name](), tmp_path_factory.mktemp("whole") / "x.fmu", fmi)
+        return known[name, fmi]
+
+    return make
+
+
+@pytest.mark.parametrize(("name", "fmi"), [("flexible", 2), ("motor", 3), ("rigid", 3)])
+def test_verifies(made, name, fmi):
+    one = made(name, fmi)
+    found = verify(one.path, one.model)
+    assert found.passes and found.motion < 1e-9
+    assert (found.parted > 100) == (name == "rigid")  # with oil all over, a ball always carries a little
+    assert verify_references(one.path).passes
+
+
+def run_up(one, profile, steps):
+    slave, found = one.started(speed=profile.at(np.zeros(1))[0][0], force_lead=1.0), []
+    for k in range(1, steps + 1):
+        slave.set(speed=profile.at(np.array([k * STEP]))[0][0])
+        slave.step_to(k * STEP)
+        found.append(slave.get("disc.x", "disc.y", *RINGS, *FORCES))
+    slave.free()
+    return np.array(found)
+
+
+def by_simulate_rotor(rotor, profile, steps, **more):
+    found = simulate_rotor(rotor, speed_rpm=profile, dt=STEP, until=steps * STEP, **more)
+    disc = found.displacement[:, [rotor.nodes["disc"][k] for k in "xy"]]
+    return np.column_stack([disc, found.ring.reshape(len(disc), -1), -found.force])[1:]
+
+
+def test_is_simulate_rotor(made):
+    """In a run-up of two turns whose unbalance lifts the rotor off, with one table of speeds for both."""
+    one, steps = made("flexible"), 2000
+    profile = SpeedProfile.ramp(*SPEEDS, STEP * steps)
+    assert one.model.bearings[0].speeds.tolist() == pytest.approx([6000.0, 7000.0])
+    wanted = by_simulate_rotor(one.model.rotor, profile, steps)[:-1]  # the ramp has ended at the last of them
+    found = run_up(one, profile, steps - 1)
+    assert wanted[:, 7].min() < -20.0 < 20.0 < wanted[:, 7].max()  # N: pushed up, and down
+    assert (np.abs(found - wanted).max(axis=0) < 1e-9 * np.ptp(wanted, axis=0)).all()
+    coarse = by_simulate_rotor(one.model.rotor, profile, steps, rho_inf=0.7)[:-1]
+    assert np.abs(coarse - wanted).max(axis=0).max() > 1e-6 * np.ptp(wanted, axis=0).max()
+
+
+def test_starts_in_equilibrium_with_the_parameters_that_are_set(made, tmp_path):
+    one = made("flexible")
+    rotor = one.model.rotor
+    wide = replace(rotor.ball_bearings[1], bearing=replace(rotor.ball_bearings[1].bearing, clearance=12e-6))
+    other = replace(
+        rotor,
+        mounts=(rotor.mounts[0], wide),
+        mass=1.3 * rotor.mass,
+        stiffness=0.8 * rotor.stiffness,
+        damping=2.0 * rotor.damping,
+        load=0.9 * rotor.load,
+    )
+    values = {
+        "mass_scale": 1.3,
+        "stiffness_scale": 0.8,
+        "damping_scale": 2.0,
+        "load_scale": 0.9,
+        "bearing[2].clearance": 12e-6,
+    }
+    profile = SpeedProfile.constant(SPEEDS[0])
+    slave, found = one.started(speed=SPEEDS[0] * RPM_TO_RAD_S, force_lead=1.0, **values), []
+    rest = other.equilibrium(SPEEDS[0])
+    assert slave.get("disc.y")[0] == pytest.approx(rest[other.nodes["disc"]["y"]], rel=1e-8)
+    assert abs(rest[other.nodes["disc"]["y"]] - rotor.equilibrium(SPEEDS[0])[other.nodes["disc"]["y"]]) > 1e-6
+    for k in range(1, 101):
+        slave.step_to(k * STEP)
+        found.append(slave.get("disc.x", "disc.y", *RINGS, *FORCES))
+    slave.free()
+    # tables of the FMU are for two speeds: here those of the first hold
+    wanted = by_simulate_rotor(other, profile, 100)
+    assert (np.abs(np.array(found) - wanted).max(axis=0) < 1e-7 * np.ptp(wanted, axis=0)).all()
+
+
+def test_a_force_that_is_given_before_the_first_step_acts_from_then_on(made):
+    found = []
+    for reads in (False, True):
+        slave = made("flexible").started()
+        slave.set(**{"disc.force_x": 200.0})
+        if reads:
+            assert abs(slave.get("disc.x")[0]) < 1e-12
+        for _ in range(20):
+            slave.step(STEP)
+        found.append(slave.get("disc.x"))
+        slave.free()
+    assert found[0] == found[1] and found[0][0] > 5e-7
+
+
+def test_a_step_is_cut(made):
+    found = []
+    for h in (1e-4, STEP):
+        slave = made("flexible").started()
+        for k in range(1, round(2e-3 / h) + 1):
+            slave.step_to(k * h)
+        found.append(slave.get(*RINGS, *FORCES))
+        slave.free()
+    assert found[0] == pytest.approx(found[1], rel=1e-9)
+
+
+def test_torque_of_motor_and_films_turns_the_shaft(made):
+    slave = made("motor", 3).started(**{"unbalance[1]": 0.0})
+    drag, first = sum(slave.get("bearing[1].rolling_torque", "bearing[2].rolling_torque")), slave.get("speed")[0]
+    for _ in range(100):
+        slave.step(STEP)
+    assert 1e-3 < drag < 0.2
+    assert slave.get("speed")[0] - first == pytest.approx(-drag / INERTIA * 100 * STEP, rel=2e-2)
+    slave.set(torque=-1e4)  # brakes: the shaft stands, and does not turn backwards
+    slave.step(5e-3)
+    assert slave.get("speed") == [0.0]
+    slave.free()
+
+
+def test_says_where_a_bearing_is_outside_its_tables(made):
+    one = made("flexible")
+    slave = one.started()
+    assert not slave.flag("outside_validity")
+    slave.set(speed=1.1 * SPEEDS[1] * RPM_TO_RAD_S)
+    slave.step(STEP)
+    assert slave.flag("outside_validity") and slave.flag("bearing[2].outside_speed")
+    assert "speed above the tables" in one.messages[-1]
+    slave.free()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"mass_scale": 0.0}, "mass_scale must be"),
+        ({"damping_scale": -1.0}, "damping_scale and load_scale must be"),
+        ({"inner_step": 0.0}, "inner_step must be"),
+        ({"bearing[1].clearance": 1.0}, "clearance is too large"),
+        ({"load_scale": 1e9}, "farther from the outer one"),
+    ],
+)
+def test_bad_parameters(made, wrong, words):
+    one = made("flexible")
+    with pytest.raises(FMICallException):
+        one.started(**wrong)
+    assert words in one.messages[-1]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"), [({"speed": -1.0}, "speed must be >= 0"), ({"disc.force_x": 1e12}, "ball|farther|balance")]
+)
+def test_a_step_that_fails_leaves_a_usable_instance(made, wrong, words):
+    one = made("flexible")
+    slave = one.started()
+    slave.step(STEP)
+    before = slave.get(*RINGS)
+    slave.set(**wrong)
+    with pytest.raises(FMICallException):
+        slave.step(STEP)
+    assert any(word in one.messages[-1] for word in words.split("|"))
+    assert slave.get(*RINGS) == before
+    slave.set(speed=SPEEDS[0] * RPM_TO_RAD_S, **{"disc.force_x": 0.0})
+    slave.step(STEP)
+    slave.free()
+
+
+def test_bad_models():
+    rotor = flexible()
+    five = rotor_on_bearings(
+        Shaft(length=0.4, diameter=0.03, elements=2),
+        supports=[Support(position=at, bearing=BallBearing.catalogue("6205", oil=OIL)) for at in (0.02, 0.38)],
+        axial=True,
+    )
+    for wrong, field in (
+        ({"rotor": "shaft"}, "rotor"),
+        ({"rotor": five}, "rotor.mounts"),
+        ({"speed_rpm": -1.0}, "speed_rpm"),
+        ({"speeds_rpm": (7e3, 6e3)}, "speeds_rpm"),
+        ({"inertia": 0.0}, "inertia"),
+    ):
+        with pytest.raises(InputError) as error:
+            WholeRotorModel(**{"rotor": rotor, "speeds_rpm": SPEEDS} | wrong)
+        assert error.value.field == field
