@@ -17,7 +17,7 @@ from fmu.whole_rotor.trial import WholeRotorTrial, whole_rotor_trial
 from reduced_models.bearing.race import RACES
 
 TOLERANCE = 1e-6  # of references
-ABOUT = "The speed rises, unbalances grow, forces lift the rotor off its bearings; by the steps of simulate_rotor, in Python"
+ABOUT = "The speed rises, unbalances grow, forces lift the rotor off; steps of simulate_rotor, in Python"
 
 
 def compare_whole_rotor(slave: Any, exchange: Any, model: WholeRotorModel, spec: ModelSpec) -> Verification:

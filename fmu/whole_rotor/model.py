@@ -6,9 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
-from ehlcontact.checks import require_nonnegative
+from ehlcontact.checks import require_instance, require_nonnegative
 from ehlcontact.errors import InputError
 from fmu.bearing.model import BearingModel
 from fmu.shaft.model import MOST_INPUTS, ShaftModel
@@ -51,6 +49,7 @@ class WholeRotorModel:
     inertia: float | None = None
 
     def __post_init__(self) -> None:
+        require_instance("rotor", self.rotor, Rotor, "a Rotor")
         shaft, stations = self.shaft, self.stations
         if any(len(mount.directions) > 2 for mount in stations):
             allowed = "planar bearings (axial=False); others as a system of shaft and bearings, see export_drive"
@@ -63,7 +62,6 @@ class WholeRotorModel:
         if inputs > MOST_INPUTS:
             allowed = f"at most {MOST_INPUTS}: forces along the directions of named nodes, unbalances, speed"
             raise InputError("inputs", inputs, allowed)
-        _ = self.bearings
 
     @property
     def stations(self) -> tuple[BearingMount, ...]:
@@ -73,10 +71,10 @@ class WholeRotorModel:
     @cached_property
     def shaft(self) -> ShaftModel:
         """The rotor as the FMU of a shaft has it: named nodes, equilibrium at the start."""
-        found = (
-            np.atleast_1d(np.asarray(self.speeds_rpm, float)).max() if self.speed_rpm is None else self.speed_rpm
-        )
-        return ShaftModel(self.rotor, require_nonnegative("speed_rpm", float(found)), self.inertia)
+        start = self.speed_rpm
+        if start is None:
+            start = float(self.bearings[0].speeds[-1]) if self.bearings else 0.0
+        return ShaftModel(self.rotor, require_nonnegative("speed_rpm", start), self.inertia)
 
     @cached_property
     def bearings(self) -> tuple[BearingModel, ...]:
@@ -85,7 +83,7 @@ class WholeRotorModel:
 
     @cached_property
     def inner_step(self) -> float:
-        """Longest step [s]: 16 in every turn of the shaft and ball passage, as `simulate_rotor` wants it; 10 us."""
+        """Longest step [s]: 10 us, and 16 in every turn of the shaft and ball passage, as of `simulate_rotor`."""
         fastest = float(self.bearings[0].speeds[-1])
         passages = [mount.ball_bearing.frequencies(fastest).bpfo for mount in self.stations]
         return round_down(min(LONGEST_STEP, 1.0 / (LEAST_STEPS * max(fastest / 60.0, *passages))))

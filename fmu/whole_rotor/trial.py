@@ -19,7 +19,7 @@ from reduced_models.rotor.speed_profile import SpeedProfile, turning_forces
 
 _Floats = NDArray[np.float64]
 
-STEPS = 160
+STEPS = 100
 TOLERANCE = 1e-11  # of the balance of a step
 RHO = 0.8  # of simulate_rotor
 PUSH = 1.5  # of the weight: forces that lift the rotor off

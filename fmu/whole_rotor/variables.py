@@ -13,7 +13,7 @@ from fmu.contact_variables import ALLOWED_ERROR
 from fmu.lead import ROTOR
 from fmu.rotor.laws import law_file, law_size
 from fmu.shaft.variables import SCALES, node_name
-from fmu.spec import ModelSpec
+from fmu.spec import ModelSpec, Variable
 from fmu.variable_list import VariableList
 from fmu.whole_rotor.model import WholeRotorModel
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -169,12 +169,12 @@ class _Variables(VariableList):
                 )  # fmt: skip
 
 
-def _shown(spec: ModelSpec) -> list:
+def _shown(spec: ModelSpec) -> list[Variable]:
     return [one for one in spec.outputs if one.name.startswith(SHOWN)]
 
 
 def _laws(specs: list[ModelSpec], made: _Variables) -> dict[str, str]:
-    """A C file for each bearing that differs, and ``rotor_laws.h``: which is where, and where its numbers stand."""
+    """A C file for each bearing that differs; ``rotor_laws.h``: which is where, and where its numbers stand."""
     texts: dict[str, str] = {}
     names = []
     for spec in specs:

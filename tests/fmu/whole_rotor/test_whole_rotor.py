@@ -31,7 +31,7 @@ FORCES = [f"bearing[{b}].force_{k}" for b in (1, 2) for k in "xy"]
 
 
 def flexible(**more):
-    """On two 6205, with a disc out of the middle and an unbalance that lifts it: 90 N at 7000 rev/min, 40 N weight."""
+    """On two 6205, with a disc out of the middle and an unbalance of 90 N at 7000 rev/min, which lifts it."""
     bearing = BallBearing.catalogue("6205", oil=OIL, clearance=5e-6)
     disc = Disc(position=0.25, mass=4.0, unbalance=1.7e-4, phase=0.3, **more)
     return rotor_on_bearings(
