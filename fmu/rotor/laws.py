@@ -1,6 +1,6 @@
 """Laws of contacts and bearings inside a rotor: a C file each, with configuration and names of its own.
 
-A law is the model of the own FMU of a contact or bearing: its sources and headers, one after the other, in one file
+A law is the model of the own FMU of a contact or bearing: sources and headers, one after the other, in one file
 whose functions carry the name of the law, so that laws of different kinds and tables stand side by side.
 """
 
