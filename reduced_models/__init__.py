@@ -18,6 +18,7 @@ from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
 from reduced_models.atlas.atlas import Atlas as Atlas
 from reduced_models.bearing.arrangement import BearingSet as BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
+from reduced_models.bearing.cage_slip import cage_slip as cage_slip
 from reduced_models.bearing.equilibrium_result import BearingState as BearingState
 from reduced_models.bearing.excitation import BearingExcitation as BearingExcitation
 from reduced_models.bearing.features import BallDiameter as BallDiameter
@@ -31,6 +32,8 @@ from reduced_models.bearing.motion import BearingMotion as BearingMotion
 from reduced_models.bearing.oil_balance import OilBalance as OilBalance
 from reduced_models.bearing.oil_balance import OilHistory as OilHistory
 from reduced_models.bearing.set_result import SetState as SetState
+from reduced_models.bearing.sliding import BearingFriction as BearingFriction
+from reduced_models.bearing.sliding import bearing_friction as bearing_friction
 from reduced_models.elements.base import ContactElement as ContactElement
 from reduced_models.elements.film_memory import FilmMemoryContact as FilmMemoryContact
 from reduced_models.elements.polynomial import CubicContact as CubicContact

@@ -99,7 +99,7 @@ WITHOUT_PLOT = {
     **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
     **dict.fromkeys(("BearingModel", "ShaftModel", "OilBalance"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
-    "RotorState": NUMBERS,
+    **dict.fromkeys(("RotorState", "BearingFriction"), NUMBERS),
     **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),
     **dict.fromkeys(("InputError", "ConvergenceError", "OutsideValidityWarning", "BuildError"), KIND),
     **dict.fromkeys(("VerificationError", "Status"), KIND),

@@ -36,6 +36,8 @@
 | set_result | `SetState`: a set at rest, bearing by bearing |
 | oil_balance | `OilBalance`: oil on the tracks over time: layer, side flow, feed and return |
 | ross_bearing | export to ROSS: bearings as elements of a ROSS rotor |
+| sliding | sliding moment of the contacts under a traction law |
+| cage_slip | slip of the cage under a drag |
 | friction | moment of friction by SKF's published model |
 | picture | figures |
 """
