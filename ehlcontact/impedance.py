@@ -27,14 +27,17 @@ from scipy import linalg
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
+from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import response_error
 from ehlcontact.solver.error_grids import settled_on_half
+from ehlcontact.solver.film_heat import FilmHeat, HeatedCycles
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
+from ehlcontact.solver.linear_heat import HeatedPreconditioner, HeatedSystem, LinearHeat
 from ehlcontact.solver.mesh import Mesh, Solve
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.solver.multigrid import Multigrid
@@ -53,6 +56,7 @@ KEEP_FACTORS = 5.0  # change of Omega for which the factors of short waves serve
 MANY_NODES = 70_000  # beyond, factors of one band of frequencies are kept at a time: they take gigabytes
 SOLVE_SHARE = 0.3  # of the tolerance, for the solves themselves
 LEAST_INTERVALS = 12  # of the coarser grids that tell the error
+COARSE_CYCLES = 3  # of a coarser film with heat, after those at the viscosity of the finer one
 SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far
 
 
@@ -67,6 +71,7 @@ def impedance(
     rpm: ArrayLike | None = None,
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
+    thermal: Heat | None = None,
     threads: int | None = None,
 ) -> ImpedanceResult:
     """Linearise the converged steady contact and return K(Omega) and C(Omega).
@@ -83,6 +88,9 @@ def impedance(
     supply : OilLayer, optional
         Oil that the surfaces carry to the contact, as in `solve_steady`. The front of the full film moves with the
         approach: the oil that it takes up and leaves behind is part of the problem.
+    thermal : Heat, optional
+        Let the film heat up, as in `solve_steady`; its temperatures follow the vibration as fast as oil and
+        surfaces can (docs/heat.md).
     threads : int, optional
         As in `solve_steady`.
 
@@ -101,11 +109,11 @@ def impedance(
     require_grid(grid)
     threads = require_threads("threads", threads)
     meshes = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
-    steady = film_to_linearise(point, meshes, grid.deflection, supply, threads)
+    steady = film_to_linearise(point, meshes, grid.deflection, supply, threads, thermal)
     moving = np.maximum(w, NEAR_ZERO)
     solved = held(steady, grid.deflection, threads)
-    Z, residual = LinearisedContact(solved).respond(moving, TOLERANCE)
-    coarser = [LinearisedContact(film).respond(moving, TOLERANCE)[0] for film in coarser_films(solved)]
+    Z, residual = linearised(steady, solved).respond(moving, TOLERANCE)
+    coarser = [linearised(steady, film).respond(moving, TOLERANCE)[0] for film in coarser_films(solved)]
     bars = response_error(moving, [Z, *coarser])
     return ImpedanceResult(
         point=moes,
@@ -123,17 +131,23 @@ def impedance(
         h_min=steady.h_min,
         moment=steady.moment,
         supply=supply,
+        temperature=steady.temperature,
         seconds=time.perf_counter() - started,
     )
 
 
 def film_to_linearise(
-    point: Point, meshes: Iterable[Mesh], deflection: str, supply: OilLayer | None, threads: int
+    point: Point,
+    meshes: Iterable[Mesh],
+    deflection: str,
+    supply: OilLayer | None,
+    threads: int,
+    thermal: Heat | None = None,
 ) -> SteadyResult:
     """The film to linearise, on the first of the meshes whose region holds it."""
     for mesh in meshes:
         own = Grid(mesh.n, mesh.domain, deflection)
-        steady = solve_steady(point, grid=own, supply=supply, threads=threads, throw=False)
+        steady = solve_steady(point, grid=own, supply=supply, thermal=thermal, threads=threads, throw=False)
         if steady.status not in (Status.OUT_OF_DOMAIN, Status.BEYOND_REGION):
             break
     if steady.status is Status.INTERRUPTED:
@@ -152,7 +166,27 @@ def held(film: SteadyResult, deflection: str = "fft", threads: int = 1) -> Multi
     multigrid.finest.P[...] = film.P.T
     multigrid.u = film.approach
     multigrid.finest.update(multigrid.u)
+    if (heat := heat_of(film, multigrid)) is not None:
+        heat.set_viscosity(multigrid)
     return multigrid
+
+
+def heat_of(film: SteadyResult, multigrid: Multigrid) -> FilmHeat | None:
+    """Temperatures of a steady film on levels that hold it, or its coarser image; None of an isothermal one.
+
+    A coarser image is solved with temperatures of its own.
+    """
+    found, level = film.temperature, multigrid.finest
+    if found is None:
+        return None
+    assert film.scales is not None
+    heat = FilmHeat(level, found.inputs.numbers(film.point, film.scales))
+    if level.P.shape == film.P.T.shape:
+        heat.walls[...] = found.surfaces.transpose(0, 2, 1)
+        heat.rise[...] = found.mean.T - heat.walls.mean(axis=0)
+    else:
+        HeatedCycles(multigrid, heat, multigrid.cycle).settle(Balance.of_load(), COARSE_CYCLES)
+    return heat
 
 
 def coarser_films(solved: Multigrid) -> Iterator[Multigrid]:
@@ -171,6 +205,11 @@ def coarser_films(solved: Multigrid) -> Iterator[Multigrid]:
         yield multigrid
 
 
+def linearised(film: SteadyResult, multigrid: Multigrid) -> LinearisedContact:
+    """Derivatives of a contact at a steady film on levels that hold it, or its coarser image."""
+    return LinearisedContact(multigrid, heat_of(film, multigrid))
+
+
 class LinearisedContact:
     """Derivatives of the contact at its steady state.
 
@@ -181,10 +220,12 @@ class LinearisedContact:
     ----------
     multigrid : Multigrid
         It holds the steady state: P, film and flow of its finest level, approach.
+    heat : FilmHeat, optional
+        Temperatures of its finest level, which follow the vibration; by default they stand still.
     """
 
-    def __init__(self, multigrid: Multigrid) -> None:
-        self._multigrid = multigrid
+    def __init__(self, multigrid: Multigrid, heat: FilmHeat | None = None) -> None:
+        self._multigrid, self._heat = multigrid, heat
         level = self.level = multigrid.finest
         self._free = level.P > 0.0
         self.nodes = np.flatnonzero(self._free)
@@ -205,29 +246,47 @@ class LinearisedContact:
 
     def solve(self, omega: float, start: Complex, tolerance: float) -> Complex:
         """Complex solution dP for du = 1 at one frequency, improving on `start`, both (m,)."""
-        system = self.system(omega)
-        x = np.zeros(self._free.size + 1, dtype=complex)
-        x[self.nodes], x[-1] = start, 1.0
-        b: NDArray[Any] = -system(x)
-        b[-1] = 0.0
+        x = self._vector()
+        x[self.nodes] = start
+        return self._solve(omega, x, tolerance)[self.nodes]
+
+    def _vector(self) -> Complex:
+        """Unknowns at rest, with du = 1."""
+        x = np.zeros(self._free.size * (1 if self._heat is None else 2) + 1, dtype=complex)
+        x[self._free.size] = 1.0
+        return x
+
+    def _solve(self, omega: float, start: Complex, tolerance: float) -> Complex:
+        """All unknowns at one frequency, improving on `start`, where du is 1."""
+        system = self._equations(omega)
+        b: NDArray[Any] = -system(start)
+        b[self._free.size] = 0.0
         drop = tolerance * linalg.norm(self.j + 1j * omega * self.b) / linalg.norm(b)
-        return (x + self.change(omega, system, b, drop))[self.nodes]
+        return np.asarray(start + self.change(omega, system, b, drop))
 
     def system(self, omega: float) -> LinearFilm:
-        """Equations of a vibration of one frequency."""
+        """Equations of a vibration of one frequency, at given viscosity."""
         return LinearFilm(self.level, self._free, PRESCRIBED, 1j * omega)
 
-    def change(self, omega: float, system: LinearFilm, b: NDArray[Any], rtol: float) -> Complex:
-        """Solution (nodes + 1,) of ``system(x) = b`` to ``|b - system(x)| <= rtol |b|``, system that of omega."""
+    def _equations(self, omega: float) -> Any:
+        """The same, with temperatures that follow where there is heat."""
+        film = self.system(omega)
+        return film if self._heat is None else HeatedSystem(film, LinearHeat(self._heat, omega))
+
+    def change(self, omega: float, system: LinearFilm | HeatedSystem, b: NDArray[Any], rtol: float) -> Complex:
+        """Solution of ``system(x) = b`` to ``|b - system(x)| <= rtol |b|``, system that of omega."""
+        film = system.film if isinstance(system, HeatedSystem) else system
         reach = [abs(omega - w) for w, _ in self._near]
         if not reach or min(reach) > KEEP_FACTORS:
             if self._free.size > MANY_NODES:
                 self._near.clear()
                 reach.clear()
-            self._near.append((omega, NearCorrection(self.level, system)))
+            self._near.append((omega, NearCorrection(self.level, film)))
             reach.append(0.0)
         near = self._near[int(np.argmin(reach))][1]
-        preconditioner = Preconditioner(self._multigrid.levels, system, near)
+        preconditioner: Any = Preconditioner(self._multigrid.levels, film, near)
+        if isinstance(system, HeatedSystem):
+            preconditioner = HeatedPreconditioner(preconditioner)
         return np.asarray(solve_linear(system, preconditioner, b, rtol).x)
 
     def respond(self, omega: Array, tolerance: float) -> tuple[Complex, Array]:
@@ -236,7 +295,7 @@ class LinearisedContact:
         `tolerance` is for the residuals, their imaginary part counted relative to Omega below Omega = 1. Where
         a solve fails to reach it, the residual returned is larger.
         """
-        if self.level.inflow.size:
+        if self.level.inflow.size or self._heat is not None:
             return self._respond_one_by_one(omega, tolerance)
         basis: list[Array] = []
         products: list[Array] = [self.j, self.b]
@@ -267,22 +326,19 @@ class LinearisedContact:
                     products += self.products(basis[-1])
 
     def _respond_one_by_one(self, omega: Array, tolerance: float) -> tuple[Complex, Array]:
-        """`respond` where oil runs short: what comes later is not linear in the frequency, and no space serves."""
-        dP = np.zeros(self.nodes.size, dtype=complex)
+        """`respond` with a supply or heat: what comes later is not linear in Omega, and no space serves."""
+        x = self._vector()
         Z, residual = np.empty(omega.size, dtype=complex), np.empty(omega.size)
         for k in np.argsort(omega):
             w = float(omega[k])
-            dP = self.solve(w, dP, SOLVE_SHARE * tolerance * min(1.0, w))
-            Z[k], residual[k] = self.weights @ dP, self.residual(w, dP)
+            x = self._solve(w, x, SOLVE_SHARE * tolerance * min(1.0, w))
+            Z[k], residual[k] = self.weights @ x[self.nodes], self.residual(w, x)
         return Z, residual
 
-    def residual(self, omega: float, dP: Complex) -> float:
-        """Relative residual of the solution dP for du = 1."""
-        system = self.system(omega)
-        x = np.zeros(self._free.size + 1, dtype=complex)
-        x[-1] = 1.0
-        alone = system(x)[self.nodes]
-        x[self.nodes] = dP
+    def residual(self, omega: float, x: Complex) -> float:
+        """Relative residual of the equations of the nodes with the unknowns `x`, where du is 1."""
+        system = self._equations(omega)
+        alone = system(self._vector())[self.nodes]
         return float(linalg.norm(system(x)[self.nodes]) / linalg.norm(alone))
 
 

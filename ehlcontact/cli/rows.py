@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.assumptions import Assumptions
+from ehlcontact.assumptions.judge import judged
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.quantities import quantities_of, words
 from ehlcontact.solver.domain import Domain
@@ -69,6 +70,26 @@ def quantity_rows(result: Any, remarks: Mapping[str, str], error: Mapping[str, f
 def outside_rows(found: Assumptions) -> list[Row]:
     """A row for each assumption that does not hold."""
     return [(f"NOT {one.name}", "", one.verdict) for one in found.out_of_range]
+
+
+def heat_rows(result: Any) -> list[Row]:
+    """Loss of film by heat, beside published formulas, and temperatures."""
+    found = result.temperature
+    if found is None:
+        return []
+    row = judged(result)["isothermal"]
+    gupta, wilson = row.details["gupta"], row.details["wilson"]
+    beside = f"of the isothermal film; {gupta:.3g} by Gupta et al., {wilson:.3g} by Wilson and Sheu"
+    return [
+        ("film by heat", f"{found.film_share:.4g}", beside),
+        (
+            "warmest oil",
+            f"{found.largest:.3g} K",
+            f"mean over the film, above the inlet; Q = {found.thermal_load:.3g}",
+        ),
+        ("warmest surface", f"{found.surfaces.max():.3g} K", "above the inlet"),
+        ("heat balance", f"{found.balance:.1e}", "over the heat made"),
+    ]
 
 
 def share_text(error: float) -> str:

@@ -45,6 +45,12 @@ class FilmTemperature:
         """Largest mean temperature [K]."""
         return float(self.mean.max())
 
+    @property
+    def summary(self) -> str:
+        """Loss of film by heat, and the warmest oil, in words."""
+        loss = 100.0 * (1.0 - self.film_share)
+        return f"heat makes the film {loss:.3g} % thinner in the centre; the oil warms by {self.largest:.3g} K"
+
     def to_dict(self) -> dict[str, Any]:
         """Numbers without the fields, ready for JSON."""
         numbers = {name: getattr(self, name) for name in ("film_share", "thermal_load", "balance", "largest")}

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ehlcontact.assumptions.judge import judged
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, MOMENT, NUMBER, STIFFNESS
+from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.frequency import ScaledResponse
 from ehlcontact.results.steady_result import DOUBTFUL
 from ehlcontact.solver.error_estimate import ALL
@@ -26,7 +27,7 @@ Array = NDArray[np.float64]
 COARSE = 1.1  # mesh over the one that damping needs, from which a result says so
 
 
-@stored("result of impedance", 2)
+@stored("result of impedance", 3)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ImpedanceResult(ScaledResponse, Origin):
     """Stiffness and damping of a contact over frequency, dimensionless; ``si`` has it in SI.
@@ -52,6 +53,8 @@ class ImpedanceResult(ScaledResponse, Origin):
         Static load: 1; in SI [N].
     supply : OilLayer or None
         As given to `impedance`; None of a flooded inlet.
+    temperature : FilmTemperature or None
+        Of the steady film, where it was solved with heat.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -67,6 +70,7 @@ class ImpedanceResult(ScaledResponse, Origin):
     stiffness_error: Array | None = None
     damping_error: Array | None = None
     supply: OilLayer | None = None
+    temperature: FilmTemperature | None = None
 
     def require_complete(self, **sizes: int) -> None:
         """Raise `ValueError` unless all arrays have one value per frequency."""
@@ -132,11 +136,14 @@ class ImpedanceResult(ScaledResponse, Origin):
             contact_text(self.point, self.scales),
             f"{at}; linearised on n = {self.n}",
             ", ".join(found),
+            *([] if self.temperature is None else [self.temperature.summary]),
             *filter(None, [self.reservation]),
             *note_line(self.outside_assumptions),
         ]
 
     def to_dict(self) -> dict[str, Any]:
         """Quantities and origin, ready for JSON; of an SI point with ``si``."""
-        said = {"reservation": self.reservation, "outside_assumptions": self.outside_assumptions}
+        said: dict[str, Any] = {"reservation": self.reservation, "outside_assumptions": self.outside_assumptions}
+        if self.temperature is not None:
+            said |= {"temperature": self.temperature.to_dict()}
         return ScaledResponse.to_dict(self) | said | self.origin_dict()

@@ -257,7 +257,7 @@ class SteadyResult(ScaledTable, Origin):
             f"approach {size * self.approach:.5g} {unit}; largest pressure {self.p_max:.4g} of the Hertz pressure",
             f"film {central:.4g}{bars[0]} in the centre, {least:.4g}{bars[1]} at least, {unit}",
             *([] if self.layer is None else [self._supply_line(size, unit)]),
-            *([] if self.temperature is None else [self._heat_line(self.temperature)]),
+            *([] if self.temperature is None else [self.temperature.summary]),
             *filter(None, [self.reservation]),
             *note_line(self.outside_assumptions),
         ]
@@ -275,12 +275,6 @@ class SteadyResult(ScaledTable, Origin):
         assert self.layer is not None
         layers = sorted({f"{size * h:.4g}" for h in (self.layer.min(), self.layer.max())})
         return f"layer of oil {' to '.join(layers)} {unit}; the film is full from X = {self.front:.3g} on"
-
-    @staticmethod
-    def _heat_line(found: FilmTemperature) -> str:
-        """Loss of film by heat, and the warmest oil, in words."""
-        loss = 100.0 * (1.0 - found.film_share)
-        return f"heat makes the film {loss:.3g} % thinner in the centre; the oil warms by {found.largest:.3g} K"
 
     def to_dict(self) -> dict[str, Any]:
         """Numbers without the fields, status and origin, ready for JSON; of an SI point with ``si``."""

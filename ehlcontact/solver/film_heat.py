@@ -37,7 +37,7 @@ REMEMBERED = 2  # cycles before the last
 HOTTEST = -0.95  # heating: ln(eta) + 9.67 stays above 0
 
 
-class _Terms(NamedTuple):
+class Terms(NamedTuple):
     """Terms of the energy equation that belong to one state of pressure and film, (ny + 1, nx + 1) each."""
 
     wet: NDArray[np.bool_]
@@ -50,6 +50,14 @@ class _Terms(NamedTuple):
     work: Array  # expansion times the work of compression
     exchange: Array  # given to the surfaces by a rise of 1
     cold: Array  # ln(eta) at the temperature of the inlet
+
+
+class Sliding(NamedTuple):
+    """Heat that sliding makes, and its slopes, (ny + 1, nx + 1) each."""
+
+    made: Array
+    by_mean: Array  # over the mean temperature, at most 0
+    by_stress: Array  # over ln of Newton's stress
 
 
 class FilmHeat:
@@ -68,10 +76,15 @@ class FilmHeat:
         self.rise, self.walls = np.zeros(level.P.shape), np.zeros((2, *level.P.shape))
         # Behind the centre what pressure makes goes straight to the surfaces: in the oil it would only move the
         # pressure spike, which moves the heat, and cycles on fine grids would not settle.
-        self._ahead = level.X <= 0.0
+        self.ahead = level.X <= 0.0
         behind = np.sqrt(np.append(0.0, (np.arange(level.nx + 1) + 0.5) * level.hx))
         # Rise of a surface at one node by heat in the cell of another: of a half-space that moves
-        self._memory = toeplitz(2.0 * np.diff(behind), np.zeros(level.nx + 1)).T
+        self.memory = toeplitz(2.0 * np.diff(behind), np.zeros(level.nx + 1)).T
+
+    @property
+    def speeds(self) -> tuple[float, float]:
+        """Of both surfaces, over their mean, the faster one first."""
+        return 1.0 + 0.5 * self.numbers.slide_roll, 1.0 - 0.5 * self.numbers.slide_roll
 
     @property
     def mean(self) -> Array:
@@ -80,39 +93,53 @@ class FilmHeat:
 
     def solve(self, rounds: int = MOST_ROUNDS) -> Array:
         """Temperatures at the present P, film and flow; returns what ``Flow.heat`` becomes by them (eqs. 8, 9)."""
-        t, n = self._terms(), self.numbers
+        t, n = self.terms(), self.numbers
         share = WALL_SHARE if n.slide_roll > 0.0 else 1.0
         for _ in range(rounds):
             before = np.concatenate([self.rise[None], self.walls])
-            slid, slope = self._sliding(t)
+            slid, slope, _ = self.sliding(t)
             made = self._made(t) + slid - slope * self.rise
             for _ in range(MOST_SWEEPS):
                 given = t.heat_along, t.heat_across, t.exchange - slope, made
                 if sweep(*given, self.rise) <= SETTLED * np.abs(self.rise).max():
                     break
-            for k, heat in enumerate(self._into_walls(t)):
-                self.walls[k] += share * (n.walls[k] * (heat @ self._memory) - self.walls[k])
+            for k, heat in enumerate(self.into_walls(t)):
+                self.walls[k] += share * (n.walls[k] * (heat @ self.memory) - self.walls[k])
             after = np.concatenate([self.rise[None], self.walls])
             if np.abs(after - before).max() <= SETTLED * np.abs(after).max():
                 break
-        slid = self._sliding(t)[0]
-        beside = t.H / n.conduction * (BY_PRESSURE * t.pressed * self._ahead + BY_SLIDING * slid)
-        return self.numbers.heating(self.walls.mean(axis=0) + BY_RISE * self.rise + beside)
+        return self.numbers.heating(self.seen(t))
+
+    def seen(self, t: Terms) -> Array:
+        """Temperature that the flow by pressure sees (eq. 8)."""
+        by_pressure, slid = t.pressed * self.ahead, self.sliding(t).made
+        beside = t.H / self.numbers.conduction * (BY_PRESSURE * by_pressure + BY_SLIDING * slid)
+        return self.walls.mean(axis=0) + BY_RISE * self.rise + beside
+
+    def set_viscosity(self, multigrid: Multigrid) -> None:
+        """Viscosity of these temperatures on all levels; what the flow heats beside the surfaces goes with it."""
+        for _ in range(MOST_ROUNDS):
+            heating, before = self.numbers.heating(self.seen(self.terms())), self.level.fields.flow.heat
+            settled = np.abs(heating - before).max() <= SETTLED
+            multigrid.set_heat(heating)
+            multigrid.finest.update(multigrid.u)
+            if settled:
+                break
 
     def balance(self) -> float:
         """Heat made less heat given to the surfaces and carried away, over all that is made, in the whole film."""
-        t, n = self._terms(), self.numbers
-        slid, wall = self._sliding(t)[0], self.walls.mean(axis=0)
+        t, n = self.terms(), self.numbers
+        slid, wall = self.sliding(t).made, self.walls.mean(axis=0)
         work = t.work * (n.inlet + self.mean)
         rise = np.pad(self.rise, ((0, 1), (0, 1)))
         along = np.maximum(t.heat_along, 0.0) * self.rise + np.minimum(t.heat_along, 0.0) * rise[:-1, 1:]
         across = np.maximum(t.heat_across, 0.0) * self.rise + np.minimum(t.heat_across, 0.0) * rise[1:, :-1]
-        carried = _divergence(along, across) + self._with_walls(t, wall)
-        left = t.pressed + slid + work - sum(self._into_walls(t)) - np.where(t.wet, carried, 0.0)
+        carried = divergence(along, across) + self.with_walls(t, wall)
+        left = t.pressed + slid + work - sum(self.into_walls(t)) - np.where(t.wet, carried, 0.0)
         weights = self.level.force_weights
         return float(abs(np.vdot(weights, left)) / np.vdot(weights, t.pressed + slid + np.abs(work)))
 
-    def _terms(self) -> _Terms:
+    def terms(self) -> Terms:
         """Terms at the present state of the level (eqs. 2 to 5)."""
         level, n, s = self.level, self.numbers, self.level.stencil
         P, flow, H = level.P, level.fields.flow, np.maximum(level.H, FILM_FLOOR)
@@ -122,10 +149,10 @@ class FilmHeat:
         along[:, :-1] = s.inv_hx * level.full_flow()[:, :-1] - s.cx * flow.along[:, :-1] * step_x
         across[:-1] = -s.cy * flow.across[:-1] * step_y
         back[:, :-1] = 0.5 * s.inv_hx * (flow.mass[:, :-1] + flow.mass[:, 1:])
-        pressed = _at_nodes(s.cx * flow.along[:, :-1] * step_x**2, s.cy * flow.across[:-1] * step_y**2)
-        work = _at_nodes(along[:, :-1] * step_x, across[:-1] * step_y)
+        pressed = at_nodes(s.cx * flow.along[:, :-1] * step_x**2, s.cy * flow.across[:-1] * step_y**2)
+        work = at_nodes(along[:, :-1] * step_x, across[:-1] * step_y)
         log_eta = np.log(flow.rho * H**3 / (s.lam * flow.eps))
-        return _Terms(
+        return Terms(
             wet=wet,
             H=H,
             along=along,
@@ -138,40 +165,38 @@ class FilmHeat:
             cold=(log_eta - flow.heat * level.law.q) / (1.0 + flow.heat),
         )
 
-    def _made(self, t: _Terms) -> Array:
+    def _made(self, t: Terms) -> Array:
         """Heat that enters the rise, but for that of sliding."""
         wall = self.walls.mean(axis=0)
         made = t.work * (self.numbers.inlet + self.rise + wall) + INNER * t.pressed
-        return made * self._ahead - np.where(t.wet, self._with_walls(t, wall), 0.0)
+        return made * self.ahead - np.where(t.wet, self.with_walls(t, wall), 0.0)
 
-    def _with_walls(self, t: _Terms, wall: Array) -> Array:
+    def with_walls(self, t: Terms, wall: Array) -> Array:
         """What the oil carries on because it has the temperature of the surfaces."""
         along, across = np.zeros_like(wall), np.zeros_like(wall)
         along[:, :-1] = 0.5 * t.along[:, :-1] * (wall[:, :-1] + wall[:, 1:])
         across[:-1] = 0.5 * t.across[:-1] * (wall[:-1] + wall[1:])
-        return self.numbers.convection * _divergence(along, across)
+        return self.numbers.convection * divergence(along, across)
 
-    def _into_walls(self, t: _Terms) -> tuple[Array, Array]:
+    def into_walls(self, t: Terms) -> tuple[Array, Array]:
         """Heat that goes into each surface (eq. 6)."""
-        straight = (1.0 - INNER * self._ahead) * t.pressed + ~self._ahead * t.work * (
-            self.numbers.inlet + self.mean
-        )
+        straight = (1.0 - INNER * self.ahead) * t.pressed + ~self.ahead * t.work * (self.numbers.inlet + self.mean)
         half = 0.5 * (t.exchange * self.rise + straight)
         through = t.exchange / 12.0 * (self.walls[1] - self.walls[0])
         return half + through, half - through
 
-    def _sliding(self, t: _Terms) -> tuple[Array, Array]:
-        """Heat of sliding under Eyring's stress at the mean temperature, and its slope over that, at most 0."""
+    def sliding(self, t: Terms) -> Sliding:
+        """Heat of sliding under Eyring's stress at the mean temperature."""
         n, mean = self.numbers, self.mean
         if n.slide_roll == 0.0:
-            return np.zeros_like(mean), np.zeros_like(mean)
+            return Sliding(*(np.zeros_like(mean) for _ in Sliding._fields))
         heat, above = n.heating(mean), t.cold + self.level.law.q
         newton = n.shear + t.cold + heat * above - np.log(t.H)  # ln of Newton's stress over Eyring's
         stress = log_sinh_law(newton)
         by_log = 1.0 / np.hypot(1.0, np.exp(-np.clip(newton, -STRAIGHT, STRAIGHT)))
         slope = -by_log * above * n.exponent * (1.0 + heat) / (n.temperature_scale + mean)
         power = np.where(t.wet, n.stress * n.slide_roll, 0.0)
-        return power * stress, power * np.minimum(slope, 0.0)
+        return Sliding(power * stress, power * np.minimum(slope, 0.0), power * by_log)
 
 
 class HeatedCycles:
@@ -195,6 +220,15 @@ class HeatedCycles:
         self.multigrid.set_heat(START * self.heat.solve(ROUNDS))
         self.multigrid.full_multigrid(balance)
         self._follow()
+
+    def settle(self, balance: Balance, cycles: int) -> None:
+        """So many of them from a film that is near; viscosity and temperatures belong together at last."""
+        self.heat.solve()
+        self._follow()
+        for _ in range(cycles):
+            self.step(balance)
+        self.heat.solve()
+        self.heat.set_viscosity(self.multigrid)
 
     def step(self, balance: Balance) -> float:
         """One of them; returns the largest change of P."""
@@ -229,16 +263,16 @@ class HeatedCycles:
         return heat - sum(share * h for share, (h, _) in zip(shares, self._differences, strict=True))
 
 
-def _at_nodes(along: Array, across: Array) -> Array:
+def at_nodes(along: Array, across: Array) -> Array:
     """Half of what stands on the faces of a node, (ny + 1, nx) along and (ny, nx + 1) across, together."""
-    found = np.zeros((along.shape[0], across.shape[1]))
+    found = np.zeros((along.shape[0], across.shape[1]), along.dtype)
     found[:, 1:-1] = 0.5 * (along[:, :-1] + along[:, 1:])
     found[1:-1] += 0.5 * (across[:-1] + across[1:])
     found[0] += across[0]
     return found
 
 
-def _divergence(along: Array, across: Array) -> Array:
+def divergence(along: Array, across: Array) -> Array:
     """What leaves a node through the faces behind it, less what comes through those before it."""
     found = np.zeros_like(along)
     found[:, 1:] = along[:, 1:] - along[:, :-1]

@@ -169,9 +169,9 @@ class Level:
         """Right-hand side of `reynolds.operator_at`, with what partly filled nodes carry."""
         return self.supplied if self.inflow.size else self.rhs
 
-    def full_flow(self) -> Array:
-        """Couette flow of a full gap through the face behind each node; 0 of the last node."""
-        m = self.fields.flow.mass
+    def full_flow(self, mass: Array | None = None) -> Array:
+        """Couette flow of a full gap, or of a given `mass`, through the face behind each node; 0 of the last."""
+        m = self.fields.flow.mass if mass is None else mass
         full = np.zeros_like(m)
         full[:, 1:-1] = (2.0 * m[:, 2:] + 5.0 * m[:, 1:-1] - m[:, :-2]) / 6.0
         full[:, 0] = (2.0 * m[:, 0] + 5.0 * m[:, 1] - m[:, 2]) / 6.0

@@ -18,7 +18,7 @@ the flow terms are solved exactly.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import sqrt
 from typing import Any
@@ -265,7 +265,7 @@ class LinearSolution:
 
 
 def solve_linear(
-    system: LinearFilm, preconditioner: Preconditioner, b: NDArray[Any], rtol: float
+    system: Callable[[Any], Any], preconditioner: Callable[[Any, Any], Any], b: NDArray[Any], rtol: float
 ) -> LinearSolution:
     """Solve ``system(x) = b`` to ``|b - system(x)| <= rtol |b|`` by GCROT(m,k) (Hicken and Zingg 2010).
 

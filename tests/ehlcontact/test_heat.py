@@ -191,7 +191,7 @@ def test_heat_of_the_flow_by_pressure_is_the_power_of_the_surfaces():
     point = replace(bearing(oil=replace(OIL, density="incompressible")), load=100.0)
     film = solve_steady(point, grid=SMALL, tol=1e-8)
     level = held(film).finest
-    made = FilmHeat(level, Heat().at(point).numbers(point.moes, point.scales))._terms().pressed
+    made = FilmHeat(level, Heat().at(point).numbers(point.moes, point.scales)).terms().pressed
     power = -film.P.T * level.transport(level.H, np.zeros_like(level.H))
     assert np.vdot(level.force_weights, made) == pytest.approx(np.vdot(level.force_weights, power), rel=0.01)
 

@@ -5,22 +5,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Frequencies, Supply
+from ehlcontact.cli.contact import Contact, Frequencies, Heating, Supply
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import complain
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row, in_unit, outside_rows, run_rows
+from ehlcontact.cli.rows import Row, heat_rows, in_unit, outside_rows, run_rows
 
 if TYPE_CHECKING:
     from ehlcontact.results import ImpedanceResult
 
 
 @o.grouped
-def impedance(contact: Contact, supply: Supply, grid: o.Grid, frequencies: Frequencies, out: o.Output) -> None:
+def impedance(
+    contact: Contact, supply: Supply, heating: Heating, grid: o.Grid, frequencies: Frequencies, out: o.Output
+) -> None:
     """Linearise the steady film: stiffness K and damping C over frequency."""
     from ehlcontact.impedance import impedance as solve
 
-    point, chosen = contact.solvable(), grid.chosen() | {"supply": supply.chosen(contact)}
+    chosen = grid.chosen() | {"supply": supply.chosen(contact), "thermal": heating.chosen(contact)}
+    point = contact.solvable()
     at = frequencies.named(contact)
     out.check()
     with progress("linearised contact"):
@@ -29,7 +32,7 @@ def impedance(contact: Contact, supply: Supply, grid: o.Grid, frequencies: Frequ
     static = "static load 1, dry approach 1, time unit 2a/u_sum"
     table = (
         f"impedance: force over approach, {static if result.scales is None else 'small vibrations about rest'}",
-        [*contact.rows(point), *outside_rows(found), *_rows(result), *run_rows(result)],
+        [*contact.rows(point), *outside_rows(found), *_rows(result), *heat_rows(result), *run_rows(result)],
     )
     out.deliver({**result.to_dict(), **contact.about(point), "outside_assumptions": found.headline}, table)
     if result.reservation:

@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 import numpy as np
 import typer
 
-from ehlcontact.assumptions.judge import judged
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, Heating, Sliding, Supply, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row, outside_rows, quantity_rows, run_rows, share_text
+from ehlcontact.cli.rows import Row, heat_rows, outside_rows, quantity_rows, run_rows, share_text
 from ehlcontact.results.contact_map import REACH
 from ehlcontact.solver.domain import Domain
 
@@ -133,7 +132,7 @@ def _rows(result: SteadyResult) -> list[Row]:
         ("load balance", f"{result.load_residual:.1e}", "over the load"),
         ("cycles", f"{result.cycles}", ""),
         *_supply_rows(result),
-        *_heat_rows(result),
+        *heat_rows(result),
         *run_rows(result),
     ]
 
@@ -144,26 +143,6 @@ def _supply_rows(result: SteadyResult) -> list[Row]:
         return []
     size, unit = (1.0, "dry approaches") if result.scales is None else (1e6 * result.scales.length, "µm")
     return [("layer of oil", f"{numeral(size * result.layer[0])} {unit}", f"full from X = {result.front:.3g} on")]
-
-
-def _heat_rows(result: SteadyResult) -> list[Row]:
-    """Loss of film by heat, beside published formulas, and temperatures."""
-    found = result.temperature
-    if found is None:
-        return []
-    row = judged(result)["isothermal"]
-    gupta, wilson = row.details["gupta"], row.details["wilson"]
-    beside = f"of the isothermal film; {gupta:.3g} by Gupta et al., {wilson:.3g} by Wilson and Sheu"
-    return [
-        ("film by heat", f"{found.film_share:.4g}", beside),
-        (
-            "warmest oil",
-            f"{found.largest:.3g} K",
-            f"mean over the film, above the inlet; Q = {found.thermal_load:.3g}",
-        ),
-        ("warmest surface", f"{found.surfaces.max():.3g} K", "above the inlet"),
-        ("heat balance", f"{found.balance:.1e}", "over the heat made"),
-    ]
 
 
 def _traction_rows(found: Traction | None) -> list[Row]:

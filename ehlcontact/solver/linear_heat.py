@@ -1,0 +1,266 @@
+"""Linearised film with heat: temperatures that follow a vibration, beside pressure and approach.
+
+With the heating ``g`` of ln(eta) + 9.67 as a further unknown, the equations of `linear` become
+
+    Jp dP + Jh (K dP - du) + Jg dg = r,      dg - G(Omega) [dP, K dP - du, dg] = 0,
+
+and G is what the energy equation, linearised, makes of a vibration: oil and surfaces store heat, the oil is
+compressed in time too, and what a surface was given upstream comes later by the way over its speed (eqs. 10, 11 of
+docs/heat.md). Vectors hold dP, du and dg of all nodes.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import linalg
+from scipy.sparse.linalg import splu
+from scipy.special import fresnel
+
+from ehlcontact.errors import ConvergenceError
+from ehlcontact.solver.film_heat import (
+    BACK,
+    BY_PRESSURE,
+    BY_RISE,
+    BY_SLIDING,
+    INNER,
+    NET,
+    WALL_SHARE,
+    FilmHeat,
+    at_nodes,
+    divergence,
+)
+from ehlcontact.solver.linear import CROSS, SPARSE_LU, LinearFilm, Preconditioner, stencil_matrix
+
+Array = NDArray[Any]
+
+SETTLED = 1e-9  # change of the surfaces in one round, over the largest
+MOST_ROUNDS = 100
+STILL = 1e-12  # Omega that is as good as none, and keeps the surfaces' memory from a division by zero
+
+
+class Changes(NamedTuple):
+    """Changes of the terms of the energy equation by pressure, film and heating, (ny + 1, nx + 1) each."""
+
+    along: Array
+    across: Array
+    heat_along: Array
+    heat_across: Array
+    pressed: Array
+    work: Array
+    exchange: Array
+    slid: Array
+    mass: Array
+
+
+class LinearHeat:
+    """Energy equation of a film, linearised at its present state, for vibrations of one frequency.
+
+    Parameters
+    ----------
+    heat : FilmHeat
+        Its temperatures belong to the state of its level.
+    omega : float
+        Angular frequency, per unit 2a/u_sum of time.
+    """
+
+    def __init__(self, heat: FilmHeat, omega: float) -> None:
+        level, n = heat.level, heat.numbers
+        self.heat, self.level, self.rate = heat, level, 1j * omega
+        self.terms = t = heat.terms()
+        self.wall, self.mean = heat.walls.mean(axis=0), heat.mean
+        self._slid = heat.sliding(t)
+        self.above = t.cold + level.law.q
+        self.rho_slope = level.fields.flow.mass_slope / t.H / level.fields.flow.rho  # d ln(rho)/dP
+        seen = heat.seen(t)
+        self._by_seen = -n.exponent * (1.0 + heat.numbers.heating(seen)) / (n.temperature_scale + seen)
+        self._storage = np.where(t.wet, self.rate * n.convection * level.fields.flow.mass, 0.0)
+        # Of a unit of mean temperature: what compression and sliding make
+        self._warmer = t.work * heat.ahead + self._slid.by_mean
+        self._factorise()
+        self._memories = [_memory(level.nx, level.hx, omega / speed) for speed in heat.speeds]
+
+    def _factorise(self) -> None:
+        t, shape = self.terms, self.level.P.shape
+        along, across = t.heat_along, t.heat_across
+        west, south = np.zeros(shape), np.zeros(shape)
+        west[:, 1:], south[1:], south[0] = along[:, :-1], across[:-1], -across[0]
+        taken = (-np.maximum(west, 0.0), np.minimum(along, 0.0), -np.maximum(south, 0.0), np.minimum(across, 0.0))
+        given = np.maximum(along, 0.0) - np.minimum(west, 0.0) + np.maximum(across, 0.0) - np.minimum(south, 0.0)
+        own = given + t.exchange - self._warmer + self._storage
+        matrix = stencil_matrix(CROSS, np.array([own, *taken]), shape)
+        self._nodes = np.flatnonzero(t.wet)
+        self._lu = splu(matrix[self._nodes][:, self._nodes].tocsc(), **SPARSE_LU)
+
+    def viscous(self, d: Array) -> Array:
+        """Change of the Reynolds operator by a change d of ln(eps), (ny + 1, nx + 1)."""
+        s, P = self.level.stencil, self.level.P
+        along, across = self._means(d)
+        along, across = s.cx * along * np.diff(P, axis=1), s.cy * across * np.diff(P, axis=0)
+        return divergence(_padded(along, 1), _padded(across, 0))
+
+    def weight(self) -> float:
+        """Mean change of the Reynolds operator by a heating, over it; 1 without heating."""
+        heating = self.level.fields.flow.heat
+        size = linalg.norm(heating)
+        return float(linalg.norm(self.viscous(self.above * heating)) / size) if size > 0.0 else 1.0
+
+    def _means(self, d: Array) -> tuple[Array, Array]:
+        """Change of the coefficients on the faces by that of ln(eps) at nodes, (ny + 1, nx) and (ny, nx + 1)."""
+        flow = self.level.fields.flow
+        mean, skew = flow.along[:, :-1], flow.along_skew[:, :-1]
+        along = (0.5 * mean + skew) * d[:, :-1] + (0.5 * mean - skew) * d[:, 1:]
+        mean, skew = flow.across[:-1], flow.across_skew[:-1]
+        return along, (0.5 * mean + skew) * d[:-1] + (0.5 * mean - skew) * d[1:]
+
+    def changes(self, dP: Array, dH: Array, dg: Array) -> Changes:
+        """Changes of the terms."""
+        level, n, t = self.level, self.heat.numbers, self.terms
+        flow, s, P = level.fields.flow, level.stencil, level.P
+        step_x, step_y = np.diff(P, axis=1), np.diff(P, axis=0)
+        change_x, change_y = np.diff(dP, axis=1), np.diff(dP, axis=0)
+        mean_x, mean_y = self._means(flow.eps_slope * dP + flow.film_slope * dH - self.above * dg)
+        flow_x, flow_y = flow.along[:, :-1], flow.across[:-1]
+        mass = flow.mass_slope * dP + flow.rho * dH
+        along = s.inv_hx * level.full_flow(mass)
+        along[:, :-1] -= s.cx * (mean_x * step_x + flow_x * change_x)
+        across = _padded(-s.cy * (mean_y * step_y + flow_y * change_y), 0)
+        back = _padded(0.5 * s.inv_hx * (mass[:, :-1] + mass[:, 1:]), 1)
+        pressed = at_nodes(
+            s.cx * (mean_x * step_x + 2.0 * flow_x * change_x) * step_x,
+            s.cy * (mean_y * step_y + 2.0 * flow_y * change_y) * step_y,
+        )
+        work = at_nodes(
+            along[:, :-1] * step_x + t.along[:, :-1] * change_x, across[:-1] * step_y + t.across[:-1] * change_y
+        )
+        lighter = self.rho_slope * dP
+        return Changes(
+            along=along,
+            across=across,
+            heat_along=n.convection * (NET * along - BACK * back),
+            heat_across=n.convection * NET * across,
+            pressed=np.where(t.wet, pressed / flow.rho, 0.0) - lighter * t.pressed,
+            work=np.where(t.wet, n.expansion * work / flow.rho, 0.0) - lighter * t.work,
+            exchange=-t.exchange * dH / t.H,
+            slid=self._sliding(dP, dH),
+            mass=mass,
+        )
+
+    def _sliding(self, dP: Array, dH: Array) -> Array:
+        """Change of the heat of sliding at given temperatures."""
+        if self.heat.numbers.slide_roll == 0.0:
+            return np.zeros_like(dP)
+        flow = self.level.fields.flow
+        share = (1.0 + self.heat.numbers.heating(self.mean)) / (1.0 + flow.heat)
+        thicker = share * (self.rho_slope - flow.eps_slope) * dP  # of ln(eta), at the mean temperature
+        return self._slid.by_stress * (thicker - dH / self.terms.H)
+
+    def respond(self, dP: Array, dH: Array, dg: Array) -> Array:
+        """Heating dg that temperatures make which follow pressure, film and heating; all (ny + 1, nx + 1)."""
+        heat, n, t = self.heat, self.heat.numbers, self.terms
+        c = self.changes(dP, dH, dg)
+        # Compression in time, by the change of pressure at the node
+        squeezed = np.where(t.wet, self.rate * n.expansion * t.H * dP, 0.0)
+        compressed = (c.work + squeezed) * (n.inlet + self.mean)
+        rise, walls = self._temperatures(c, compressed)
+        slid = c.slid + self._slid.by_mean * (rise + walls.mean(axis=0))
+        beside = BY_PRESSURE * c.pressed * heat.ahead + BY_SLIDING * slid
+        was = BY_PRESSURE * t.pressed * heat.ahead + BY_SLIDING * self._slid.made
+        seen = walls.mean(axis=0) + BY_RISE * rise + (t.H * beside + dH * was) / n.conduction
+        return self._by_seen * seen
+
+    def _temperatures(self, c: Changes, compressed: Array) -> tuple[Array, Array]:
+        """Changes of the rise and of both surfaces; `compressed` is the heat of compression."""
+        heat, n, t = self.heat, self.heat.numbers, self.terms
+        carried = _with(c.along, c.across, self.wall) + self.rate * c.mass * self.mean
+        lost = _upwind(c.heat_along, c.heat_across, t, heat.rise) + n.convection * carried
+        exchanged = c.exchange * heat.rise
+        source = (compressed + INNER * c.pressed) * heat.ahead + c.slid - lost - exchanged
+        straight = (1.0 - INNER * heat.ahead) * c.pressed + ~heat.ahead * compressed + exchanged
+        through = c.exchange / 12.0 * (heat.walls[1] - heat.walls[0])
+        share = 1.0 if n.walls[0] == n.walls[1] else WALL_SHARE
+        walls, rise = np.zeros((2, *source.shape), complex), np.zeros(source.shape, complex)
+        for _ in range(MOST_ROUNDS):
+            wall, before = walls.mean(axis=0), walls.copy()
+            rhs = source + (self._warmer - self._storage) * wall - n.convection * _with(t.along, t.across, wall)
+            rise.ravel()[self._nodes] = self._lu.solve(rhs.ravel()[self._nodes].astype(complex))
+            half = 0.5 * (t.exchange * rise + straight + ~heat.ahead * t.work * (rise + wall))
+            cross = through + t.exchange / 12.0 * (walls[1] - walls[0])
+            for k, given in enumerate((half + cross, half - cross)):
+                walls[k] += share * (n.walls[k] * (given @ self._memories[k]) - walls[k])
+            if np.abs(walls - before).max() <= SETTLED * np.abs(walls).max():
+                return rise, walls
+        raise ConvergenceError("temperatures of the surfaces do not settle: the film is too thin for them", None)
+
+
+class HeatedSystem:
+    """Equations of a vibration, with the heating beside pressure and approach; vectors (2 nodes + 1,)."""
+
+    def __init__(self, film: LinearFilm, heat: LinearHeat) -> None:
+        self.film, self.heat = film, heat
+        self._cut = film.free.size + 1
+        # Rows of the heating count as what they do to those of the film
+        self.weight = heat.weight()
+
+    def split(self, x: Array) -> tuple[Array, Array]:
+        """Pressure and approach, and the heating."""
+        return x[: self._cut], x[self._cut :]
+
+    def __call__(self, x: Array) -> Array:
+        """Left-hand sides."""
+        film, g = self.split(x)
+        left = self.film(film)
+        given = g.reshape(self.film.free.shape)
+        left[:-1] += (self.heat.viscous(-self.heat.above * given) * self.film.free).ravel()
+        return np.concatenate([left, self.weight * (g - self.response(film, g))])
+
+    def response(self, film: Array, g: Array) -> Array:
+        """Heating that follows from pressure, approach and heating, flat."""
+        shape = self.film.free.shape
+        dP = film[:-1].reshape(shape)
+        dH = self.film.deflect(film[:-1]).reshape(shape) - film[-1]
+        return self.heat.respond(dP, dH, g.reshape(shape)).ravel()
+
+
+class HeatedPreconditioner:
+    """Film at given heating first, then the heating that follows from it."""
+
+    def __init__(self, film: Preconditioner) -> None:
+        self._film = film
+
+    def __call__(self, system: HeatedSystem, b: Array) -> Array:
+        """Approximate solution of ``system(x) = b``."""
+        left, g = system.split(b)
+        film = self._film(system.film, left)
+        return np.concatenate([film, g / system.weight + system.response(film, np.zeros_like(g))])
+
+
+def _padded(faces: Array, axis: int) -> Array:
+    """Values on faces with zeros behind the last node along an axis."""
+    return np.pad(faces, [(0, int(k == axis)) for k in (0, 1)])
+
+
+def _upwind(along: Array, across: Array, t: Any, rise: Array) -> Array:
+    """What leaves a node with the rise of where the steady flow comes from, of given flows through the faces."""
+    ahead, beside = np.pad(rise[:, 1:], ((0, 0), (0, 1))), np.pad(rise[1:], ((0, 1), (0, 0)))
+    return divergence(
+        along * np.where(t.heat_along > 0.0, rise, ahead), across * np.where(t.heat_across > 0.0, rise, beside)
+    )
+
+
+def _with(along: Array, across: Array, wall: Array) -> Array:
+    """What leaves a node with the temperature of the surfaces, of given flows through the faces."""
+    east = 0.5 * (wall + np.pad(wall[:, 1:], ((0, 0), (0, 1))))
+    north = 0.5 * (wall + np.pad(wall[1:], ((0, 1), (0, 0))))
+    return divergence(along * east, across * north)
+
+
+def _memory(nx: int, hx: float, omega: float) -> Array:
+    """Rise of a surface at one node by a vibration of the heat in the cell of another upstream (eq. 11)."""
+    w = max(omega, STILL)
+    edges = np.append(0.0, (np.arange(nx + 1) + 0.5) * hx)
+    sine, cosine = fresnel(np.sqrt(2.0 * w * edges / np.pi))
+    weights = np.diff(np.sqrt(2.0 * np.pi / w) * (cosine - 1j * sine))
+    return linalg.toeplitz(weights, np.zeros(nx + 1)).T

@@ -1,0 +1,191 @@
+"""Stiffness and damping of a film with heat: against steady films, a slow ramp, and temperatures at rest."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy import linalg
+
+from ehlcontact import (
+    Grid,
+    Heat,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OilLayer,
+    OperatingPoint,
+    impedance,
+    load,
+    save,
+    solve_steady,
+)
+from ehlcontact.impedance import LinearisedContact, heat_of, held
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.film_heat import FilmHeat, HeatedCycles
+from ehlcontact.solver.linear_heat import LinearHeat
+
+OIL = Lubricant.iso_vg(68, temperature=50.0)
+POINT = OperatingPoint.ball_bearing(
+    OIL, ball_diameter=12.3e-3, pitch_diameter=43.5e-3, conformity=0.52, speed_rpm=10_000.0, load=800.0
+)
+GRID = Grid(48)
+PAIR = Heat(0.3, effusivity=(13_000.0, 1_500.0))  # sliding on glass
+FILMS = {given: solve_steady(POINT, grid=GRID, thermal=given, tol=1e-8) for given in (Heat(), PAIR)}
+STEP = 1e-3  # of the approach, for differences of steady films
+
+
+def response(given, omega, follows=True):
+    """K and C of the film with heat, its temperatures following or standing still."""
+    film = FILMS[given]
+    solved = held(film)
+    Z = LinearisedContact(solved, heat_of(film, solved) if follows else None).respond(np.array([omega]), 1e-6)[0][
+        0
+    ]
+    return Z.real, Z.imag / omega
+
+
+class Neighbours:
+    """Differences between steady films on both sides of an approach, over that of the approach."""
+
+    def __init__(self, given):
+        film = FILMS[given]
+        heats = []
+        for side in (1.0, -1.0):
+            near = solve_steady(POINT, grid=GRID, thermal=given, approach=film.approach + side * STEP, tol=1e-9)
+            solved = held(near)
+            heats.append((near, heat_of(near, solved)))
+        self.stiffness = self.slope(heats, lambda near, heat: near.force)
+        self.pressure = self.slope(heats, lambda near, heat: heat.level.P)
+        self.mass = self.slope(heats, lambda near, heat: heat.level.fields.flow.mass)
+        self.stored = self.slope(heats, lambda near, heat: heat.level.fields.flow.mass * heat.mean)
+        self.given = [self.slope(heats, lambda near, heat, k=k: heat.into_walls(heat.terms())[k]) for k in (0, 1)]
+
+    @staticmethod
+    def slope(heats, of):
+        one, two = (np.array(of(*pair)) for pair in heats)
+        return (one - two) / (2.0 * STEP)
+
+
+class Ramp(FilmHeat):
+    """Temperatures while the approach changes at a slow rate, to first order in it.
+
+    What is stored is that of the steady films that are passed, and surfaces carry what they were given before.
+    """
+
+    rate, near = 0.0, None
+
+    def squeezed(self):
+        made = self.numbers.expansion * self.level.H * self.near.pressure * (self.numbers.inlet + self.mean)
+        return self.rate * np.where(self.level.P > 0.0, made, 0.0)
+
+    def _made(self, t):
+        stored = self.rate * self.numbers.convection * self.near.stored
+        return super()._made(t) + np.where(t.wet, self.squeezed() * self.ahead - stored, 0.0)
+
+    def into_walls(self, t):
+        edges = np.append(0.0, (np.arange(self.level.nx + 1) + 0.5) * self.level.hx)
+        later = linalg.toeplitz(np.diff(edges**1.5) / 1.5, np.zeros(self.level.nx + 1)).T
+        found = []
+        for k, heat in enumerate(super().into_walls(t)):
+            lag = -self.rate / self.speeds[k] * self.near.given[k] @ later
+            lag = linalg.solve_triangular(self.memory.T, lag.T, lower=True).T  # as heat that does the same at once
+            found.append(heat + lag + 0.5 * self.squeezed() * ~self.ahead)
+        return tuple(found)
+
+
+def force_on_a_ramp(given, near, rate):
+    """Force at the approach of the film while the approach grows at a rate."""
+    film = FILMS[given]
+    solved = held(film)
+    steady, balance = heat_of(film, solved), Balance.of_approach(film.approach)
+    heat = Ramp(solved.finest, steady.numbers)
+    heat.rise[...], heat.walls[...], heat.rate, heat.near = steady.rise, steady.walls, rate, near
+    solved.finest.rhs[...] = rate * near.mass
+    solved.finest.update(solved.u)
+    cycles = HeatedCycles(solved, heat, solved.cycle)
+    for _ in range(15):
+        cycles.step(balance)
+    return solved.finest.force()
+
+
+@pytest.mark.parametrize(("given", "tolerance"), [(Heat(), 2e-4), (PAIR, 2e-3)])
+def test_slow_vibrations_against_steady_films_and_a_ramp(given, tolerance):
+    """Stiffness of neighbouring steady films; damping from films that pass through them slowly.
+
+    With sliding on glass two sets of wet nodes at the outlet are solutions, whose forces are 5e-6 apart.
+    """
+    near, rate = Neighbours(given), 2e-3
+    K, C = response(given, 1e-4)
+    damping = (force_on_a_ramp(given, near, rate) - force_on_a_ramp(given, near, -rate)) / (2.0 * rate)
+    assert K == pytest.approx(near.stiffness, rel=tolerance)
+    assert C == pytest.approx(damping, rel=2.5 * tolerance)
+    still_K, still_C = response(given, 1e-4, follows=False)
+    assert abs(still_K / K - 1.0) > 0.01
+    assert abs(still_C / C - 1.0) > 0.1
+
+
+def test_temperatures_stand_still_in_fast_vibrations():
+    for omega, apart in ((30.0, 0.01), (100.0, 0.01)):
+        one, other = (np.array(response(Heat(), omega, follows)) for follows in (True, False))
+        np.testing.assert_allclose(one, other, rtol=apart)
+
+
+@pytest.mark.parametrize("given", FILMS)
+def test_temperatures_linearised_are_differences_of_temperatures(given):
+    """At rest, for any change of pressure, film and viscosity."""
+    film, step = FILMS[given], 1e-5
+    solved = held(film)
+    heat = heat_of(film, solved)
+    level = heat.level
+    state = level.P, level.H, level.fields.flow.heat
+    bump = np.exp(-4.0 * ((level.X + 0.8) ** 2 + level.Y[:, None] ** 2)) * (level.P > 0.0)
+    changes = bump, level.deflection(bump) - 1.0, 0.3 * bump
+    linear = LinearHeat(heat, 0.0).respond(*changes)
+    rest, found = [values.copy() for values in state], []
+    for side in (step, -step):
+        for values, start, change in zip(state, rest, changes, strict=True):
+            values[...] = start + side * change
+        level.update_residual()
+        for _ in range(40):  # each ends where a round changes little
+            seen = heat.solve()
+        found.append(seen)
+    np.testing.assert_allclose((found[0] - found[1]) / (2.0 * step), linear, atol=1e-5 * np.abs(linear).max())
+
+
+def test_without_a_slope_it_is_the_isothermal_one():
+    given = {"Omega": [0.0, 1.0], "grid": GRID}
+    cold, still = impedance(POINT, **given), impedance(POINT, thermal=Heat(temperature_slope=0.0), **given)
+    np.testing.assert_allclose(still.stiffness, cold.stiffness, rtol=1e-5)
+    np.testing.assert_allclose(still.damping, cold.damping, rtol=1e-4)
+
+
+def test_kept_and_said(tmp_path):
+    """Film, K and C with heat: its damping falls by more than the film that stands still would have it."""
+    found = impedance(POINT, Omega=[0.0, 1.0, 10.0], grid=Grid(64), thermal=Heat())
+    again = load(save(found, tmp_path / "heated.h5"))
+    assert again.temperature.inputs == found.temperature.inputs
+    assert again.to_dict() == found.to_dict()
+    assert found.to_dict()["temperature"]["film_share"] == pytest.approx(0.752, abs=0.005)
+    assert "heat makes the film 24.8" in repr(found)
+    assert "isothermal" not in found.outside_assumptions
+    cold = impedance(POINT, Omega=[0.0, 1.0, 10.0], grid=Grid(64))
+    share = found.damping / cold.damping
+    assert share[0] < 0.7 < share[1] < 1.0 < share[2]
+    assert (found.damping_error < 0.3 * found.damping).all()
+
+
+@pytest.mark.slow
+def test_damping_converges_with_the_grid():
+    found = [impedance(POINT, Omega=[0.0, 1.0], grid=Grid(n), thermal=Heat()) for n in (64, 128, 256)]
+    for coarse, fine in pairwise(found):
+        assert (np.abs(coarse.damping - found[-1].damping) < coarse.damping_error).all()
+        assert (fine.damping_error < 0.7 * coarse.damping_error).all()
+
+
+def test_what_is_refused():
+    with pytest.raises(InputError, match="left out with a supply"):
+        impedance(POINT, Omega=0.0, grid=GRID, thermal=Heat(), supply=OilLayer(1e-6))
+    with pytest.raises(InputError, match="left out at a dimensionless point"):
+        impedance(MoesPoint(200, 10, 0.5), Omega=0.0, thermal=Heat())
+    with pytest.raises(InputError, match="thermal = 'bool': must be a Heat"):
+        impedance(POINT, Omega=0.0, thermal=True)
