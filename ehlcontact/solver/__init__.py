@@ -20,6 +20,7 @@ module           responsibility
 ``multigrid``    full-approximation-scheme cycle and full multigrid
 ``acceleration`` Anderson acceleration of V cycles
 ``linear``       linearised film: operator, preconditioner, Krylov solution
+``linear_heat``  linearised film with temperatures that follow a vibration
 ``film_heat``    temperatures of a film: energy equation; cycles after which the viscosity follows them
 ``newton``       Newton steps on the finest grid
 ``iterate``      iteration of cycles or Newton steps until convergence or failure
