@@ -45,7 +45,11 @@ def draw(found):
     """K and C over frequency."""
     figure = Figure(figsize=(8.6, 3.9), layout="constrained")
     left, right = figure.subplots(1, 2)
-    styles = (("isothermal", "k--"), ("heated, temperatures at rest", "C0:"), ("heated, temperatures follow", "C3-"))
+    styles = (
+        ("isothermal", "k--"),
+        ("heated, temperatures at rest", "C0:"),
+        ("heated, temperatures follow", "C3-"),
+    )
     for (name, style), (K, C) in zip(styles, found, strict=True):
         left.plot(OMEGA, K * 1e-6, style, label=name)
         right.plot(OMEGA, C, style, label=name)

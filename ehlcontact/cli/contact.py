@@ -350,8 +350,8 @@ class Heating(Options):
         typer.Option("--thermal", help="Let the film heat up and its viscosity follow; with --oil and --temp."),
     ] = False
 
-    def chosen(self, contact: Contact, sliding: Sliding) -> Heat | None:
-        """Data of the heating, or None for an isothermal film.
+    def chosen(self, contact: Contact, sliding: Sliding | None = None) -> Heat | None:
+        """Data of the heating, or None for an isothermal film; in pure rolling without `sliding`.
 
         Raises
         ------
@@ -368,6 +368,8 @@ class Heating(Options):
                 "given with --oil and --temp: an oil by its grade has the change of viscosity with temperature"
             )
             raise InputError("--thermal", True, allowed)
+        if sliding is None:
+            return Heat()
         law = sliding.law
         if not isinstance(law, Eyring):
             allowed = "left out with --thermal: Eyring's stress heats the film (--eyring-mpa)"

@@ -37,7 +37,7 @@ NOT_IN_THE_MODEL = {
     ),
     **dict.fromkeys(
         ("--thermal", "--heat", "--sliding", "--slide-roll"),
-        "`ehlcontact steady` and `impedance` have --thermal and --slide-roll; elsewhere " + _FILMS,
+        "`ehlcontact steady` has --thermal and --slide-roll, `impedance` --thermal; elsewhere " + _FILMS,
     ),
     **dict.fromkeys(
         ("--traction", "--slip"), "`ehlcontact steady` has --slide-roll, with its traction; elsewhere " + _FILMS

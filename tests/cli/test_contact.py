@@ -293,7 +293,10 @@ def test_heat(call, refused):
     assert re.search(r"film by heat +0\.9\d+ +of the isothermal film; 0\.9\d+ by Gupta", shown)
     refused(("--slide-roll = 2.0", "between -1 and 1"), "steady", *options(), "--thermal", "--slide-roll", "2")
     refused(("--thermal = True", "no metres"), "steady", "--M", "20", "--L", "10", "--kappa", "1", "--thermal")
-    refused(("--thermal: not in the model", "`ehlcontact steady` has"), "impedance", *options(), "--thermal")
+    shaken = json.loads(call("impedance", *options(), *COARSE, "--thermal", "--hz", "10", "--json", "-").out)
+    assert shaken["temperature"]["film_share"] == pytest.approx(warm["temperature"]["film_share"], abs=0.02)
+    assert "film by heat" in call("impedance", *options(), *COARSE, "--thermal", "--hz", "10").out
+    refused(("--thermal: not in the model", "`ehlcontact steady` has"), "element", *options(), "--thermal")
 
 
 def test_traction(call, refused):
