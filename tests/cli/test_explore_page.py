@@ -192,7 +192,7 @@ def test_every_input_has_a_label_and_takes_the_keyboard(seen):
     body = """const inputs = [...document.querySelectorAll("input, select, button")];
     return inputs.map(input => [input.id, input.tabIndex, (input.labels?.[0] ?? input).textContent.trim()]);"""
     found = seen(body)
-    assert len(found) == 17
+    assert len(found) == 18
     assert all(index == 0 and len(text) > 3 for _, index, text in found)
 
 
