@@ -10,6 +10,7 @@ room              responsibility
 ``solver/``       film at one instant: mesh, equations, multigrid, Newton
 ``steady``        `solve_steady`
 ``supply``        `OilLayer`: the oil that the surfaces carry to a contact
+``asperities``    `Asperities`: rough surfaces that carry part of the load
 ``heat``          `Heat`: what the heating of a film needs of oil and surfaces
 ``traction``      `traction_curve`: traction of a contact over sliding
 ``side_flow``     `oil_passes`: films on the oil that the last ones left; closed form of thin layers
@@ -43,6 +44,7 @@ stay in their modules.
 """
 
 from ehlcontact import process as process  # first: from here on Ctrl-C ends the command line in one line
+from ehlcontact.asperities import Asperities
 from ehlcontact.assumptions import assumptions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.excitation import excitation
@@ -73,6 +75,7 @@ from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.version import __version__
 
 __all__ = [
+    "Asperities",
     "Carreau",
     "ConvergenceError",
     "Dent",

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact.asperities import Asperities, AsperityNumbers, require_asperities
 from ehlcontact.checks import require_choice, require_finite, require_instance, require_integer, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError, InputError
@@ -17,6 +18,7 @@ from ehlcontact.heat import Heat, require_heat
 from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
+from ehlcontact.results.asperity_contact import AsperityContact
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.attempts import METHODS, Method, attempts
@@ -28,6 +30,7 @@ from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.mesh import Mesh
+from ehlcontact.solver.mixed_film import MixedCycles
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
@@ -49,6 +52,7 @@ def solve_steady(
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
     thermal: Heat | None = None,
+    asperities: Asperities | None = None,
     approach: float | None = None,
     tol: float = 1e-5,
     max_cycles: int = MAX_CYCLES,
@@ -78,6 +82,9 @@ def solve_steady(
     thermal : Heat, optional
         Let the film heat up, and its viscosity follow: ``Heat()`` takes the data of the oil. The isothermal film
         is solved first. By default the film has the temperature of the inlet.
+    asperities : Asperities, optional
+        Let them carry part of the load where the film is thin, as ``result.asperities`` says. The film between
+        smooth surfaces is solved first. By default the surfaces are smooth.
     approach : float, optional
         Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
         force it takes.
@@ -130,6 +137,10 @@ def solve_steady(
         if supply is not None:
             raise InputError("thermal", "given", "left out with a supply: heat is solved of flooded films")
         thermal = thermal.at(point)
+    if asperities is not None:
+        require_asperities(asperities)
+        if thermal is not None:
+            raise InputError("asperities", "given", "left out with heat: that of their friction is not known")
     threads = require_threads("threads", threads)
     if budget != inf:
         require_positive("budget", budget)
@@ -140,6 +151,7 @@ def solve_steady(
         load = min(max(approach, 1.0), LARGEST_APPROACH) ** 1.5  # of a dry contact
     moes, scales = require_solvable(point, load), scales_of(point)
     require_supply(supply, moes, scales)
+    rough = None if asperities is None else (asperities, asperities.numbers(point))
     cut_short = max_cycles < MAX_CYCLES  # the caller's own limit: nothing else is what was asked for
     tried = []
     for attempt in attempts(
@@ -152,7 +164,7 @@ def solve_steady(
         budget=budget if grid.n is None else inf,
     ):
         tried.append(attempt)
-        film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads, supply, thermal, scales)
+        film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads, supply, thermal, scales, rough)
         attempt.status = film.run(balance=balance, tol=tol, most=max_cycles, watch=callback)
         attempt.error_estimate = film.error_estimate
         if attempt.is_better:
@@ -180,7 +192,9 @@ class _Film:
         supply: OilLayer | None,
         thermal: Heat | None,
         scales: Scales | None,
+        rough: tuple[Asperities, AsperityNumbers] | None,
     ) -> None:
+        self.rough = rough
         self.mesh, self.method, self.supply, self.thermal, self.scales = mesh, method, supply, thermal, scales
         self._make = partial(
             Multigrid,
@@ -196,10 +210,13 @@ class _Film:
         self.track = IterationHistory()
         self.error_estimate: ErrorEstimate | None = None
         self.temperature: FilmTemperature | None = None
+        self.asperities: AsperityContact | None = None
         self.heats = thermal is not None and thermal.temperature_slope != 0.0  # so that the viscosity follows
 
     def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
         """Cycle, or take Newton steps, until the residuals say how it ended."""
+        if self.rough is not None:
+            return self._run_mixed(self.rough, balance, tol, most, watch)
         if self.thermal is None:
             return self._run_cold(balance, tol, most, watch)
         assert self.scales is not None
@@ -220,6 +237,35 @@ class _Film:
             film_share=mg.finest.central_film() / cold,
             thermal_load=self.thermal.load(point, self.scales),
             balance=heat.balance(),
+        )
+        return status
+
+    def _run_mixed(
+        self,
+        rough: tuple[Asperities, AsperityNumbers],
+        balance: Balance,
+        tol: float,
+        most: int,
+        watch: Callable[[int, float], None] | None,
+    ) -> Status:
+        """The film that shares the load with asperities, from that between smooth surfaces."""
+        status = self._run_cold(balance, tol, most, watch)
+        if not status.ok:
+            return status
+        mg, self.track = self.multigrid, IterationHistory()
+        level, (inputs, numbers) = mg.finest, rough
+        smooth, cycles = level.central_film(), MixedCycles(mg, numbers, mg.cycle)
+        cycles.start()
+        try:
+            status = self._settle(self._goal(tol, most), balance, cycles.step, watch)
+        except KeyboardInterrupt:
+            status = Status.INTERRUPTED
+        self.asperities = AsperityContact(
+            inputs=inputs,
+            pressure=cycles.pressure.T.copy(),
+            load_share=level.asperity_load / level.force(),
+            lambda_ratio=level.central_film() / numbers.rq,
+            film_share=level.central_film() / smooth,
         )
         return status
 
@@ -251,15 +297,34 @@ class _Film:
         mg = self.multigrid
         if balance.weight == 0.0:
             mg.u = balance.rhs
-        goal = StoppingCriteria(
-            self.scale, LARGEST_RESIDUAL, most, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=tol
-        )
+        goal = self._goal(tol, most)
         if self.heats and heat is None:  # a start, and the film that the heated one is held against
             goal = goal._replace(approach=COLD_APPROACH, pressure=max(tol, COLD_PRESSURE))
         try:
             return self._run(goal, balance, watch, heat)
         except KeyboardInterrupt:
             return Status.INTERRUPTED
+
+    def _goal(self, tol: float, most: int) -> StoppingCriteria:
+        return StoppingCriteria(
+            self.scale, LARGEST_RESIDUAL, most, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=tol
+        )
+
+    @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a film that runs away: its status says so
+    def _settle(
+        self,
+        goal: StoppingCriteria,
+        balance: Balance,
+        advance: Callable[[Balance], float],
+        watch: Callable[[int, float], None] | None,
+    ) -> Status:
+        """Advance until the residuals say how it ended; then estimate the error."""
+        mg = self.multigrid
+        status = iterate(mg, balance, advance, goal, self.track, watch)
+        if status.ok:
+            oil = balance.shifted(-balance.weight * mg.finest.asperity_load)  # coarser grids carry no asperities
+            self.error_estimate = estimate_error(mg, oil)
+        return status
 
     @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a film that runs away: its status says so
     def _run(
@@ -314,6 +379,7 @@ class _Film:
             seconds=seconds,
             supply=self.supply,
             temperature=self.temperature,
+            asperities=self.asperities,
             **_content(level),
         )
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import typer
 
+from ehlcontact.asperities import Asperities
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.assumptions.contact import KnownFilm
 from ehlcontact.assumptions.film import LARGEST_SLIDE_ROLL
@@ -314,6 +315,31 @@ class Surfaces(Options):
         """For JSON, likewise."""
         ratio = self.lambda_ratio(h_min)
         return {} if ratio is None else {"lambda_ratio": ratio}
+
+
+class Mixed(Options):
+    """Whether asperities carry beside the film."""
+
+    panel: ClassVar[str | None] = _SI
+    asperities: Annotated[
+        bool, typer.Option("--asperities", help="Let asperities carry part of the load; with --rq.")
+    ] = False
+
+    def chosen(self, surfaces: Surfaces) -> Asperities | None:
+        """The asperities, or None for smooth surfaces.
+
+        Raises
+        ------
+        InputError
+            No roughness, or none at all.
+        """
+        if not self.asperities:
+            return None
+        if not surfaces.rq:
+            raise InputError(
+                "--asperities", True, "given with --rq above 0, the roughness of ball and race together"
+            )
+        return Asperities(1e-6 * surfaces.rq)
 
 
 class Supply(Options):

@@ -39,6 +39,7 @@ NOT_IN_THE_MODEL = {
         ("--thermal", "--heat", "--sliding", "--slide-roll"),
         "`ehlcontact steady` has --thermal and --slide-roll, `impedance` --thermal; elsewhere " + _FILMS,
     ),
+    "--asperities": "`ehlcontact steady` has --asperities with --rq; elsewhere films are between smooth surfaces",
     **dict.fromkeys(
         ("--traction", "--slip"), "`ehlcontact steady` has --slide-roll, with its traction; elsewhere " + _FILMS
     ),

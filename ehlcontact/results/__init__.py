@@ -5,6 +5,7 @@ module                responsibility
 ===================== =================================================================================
 ``steady_result``     `SteadyResult`: the film at rest
 ``film_temperature``  `FilmTemperature`: temperatures of a heated film
+``asperity_contact``  `AsperityContact`: load share of asperities beside a film
 ``impedance_result``  `ImpedanceResult`: stiffness and damping over frequency
 ``excitation_result`` `ExcitationResult`: force of waves on a surface over frequency
 ``speed_response_result`` `SpeedResponseResult`: force over a change of speed, over frequency

@@ -14,6 +14,7 @@ from ehlcontact.assumptions.judge import judged
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
+from ehlcontact.results.asperity_contact import AsperityContact
 from ehlcontact.results.contact_map import contact_panels
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
@@ -65,7 +66,7 @@ class SteadyResult(ScaledTable, Origin):
     approach : float
         Mutual approach over the dry approach; in SI [m].
     force : float
-        Film force over the static load; in SI [N].
+        Force over the static load, of the film and of asperities; in SI [N].
     h_central, h_min : float
         Film at X = Y = 0 and the smallest, between the nodes too, over the dry approach; in SI [m].
     p_max, pressure_error : float
@@ -96,6 +97,8 @@ class SteadyResult(ScaledTable, Origin):
         Oil on both surfaces ahead of the contact and behind it, over the dry approach; in SI [m].
     temperature : FilmTemperature or None
         Of a film that was solved with heat: temperatures [K], and the film over the isothermal one.
+    asperities : AsperityContact or None
+        Of a film that was solved with them: their pressure beside that of the oil, and their share of the load.
     point, scales, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
@@ -121,6 +124,7 @@ class SteadyResult(ScaledTable, Origin):
     layer_behind: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
 
     temperature: FilmTemperature | None = None
+    asperities: AsperityContact | None = None
 
     DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
 
@@ -229,8 +233,11 @@ class SteadyResult(ScaledTable, Origin):
 
     @property
     def reservation(self) -> str:
-        """What a converged film leaves open, in words: where its mesh does not show a film; else empty."""
-        return grid_doubt(self.error_estimate) if self.status.ok else ""
+        """What a converged film leaves open, in words: of its mesh, and of asperities; else empty."""
+        if not self.status.ok:
+            return ""
+        rough = "" if self.asperities is None else self.asperities.reservation
+        return "; ".join(filter(None, [grid_doubt(self.error_estimate), rough]))
 
     @property
     def outside_assumptions(self) -> str:
@@ -258,6 +265,7 @@ class SteadyResult(ScaledTable, Origin):
             f"film {central:.4g}{bars[0]} in the centre, {least:.4g}{bars[1]} at least, {unit}",
             *([] if self.layer is None else [self._supply_line(size, unit)]),
             *([] if self.temperature is None else [self.temperature.summary]),
+            *([] if self.asperities is None else [self.asperities.summary]),
             *filter(None, [self.reservation]),
             *note_line(self.outside_assumptions),
         ]
@@ -284,4 +292,6 @@ class SteadyResult(ScaledTable, Origin):
             said |= {"supply": self.supply.to_dict(), "front": self.front}
         if self.temperature is not None:
             said |= {"temperature": self.temperature.to_dict()}
+        if self.asperities is not None:
+            said |= {"asperities": self.asperities.to_dict()}
         return ScaledTable.to_dict(self) | said | self.origin_dict()

@@ -96,6 +96,7 @@ class Level:
         self.inflow = np.zeros(0)
         self.carried, self.stored, self.supplied = (np.zeros((0, 0)) for _ in range(3))
         self.film_shift: Array | float = 0.0
+        self.asperity_load = 0.0  # that is carried beside the film
         self.c_t = 0.0
         self.r = np.zeros(shape)  # residual of the Reynolds equation, zero on the border
         self.marks = np.zeros(shape, dtype=np.uint8)
@@ -245,8 +246,8 @@ class Level:
         return self.fields.H
 
     def force(self) -> float:
-        """Film force ``3/(2 pi) iint P`` (eq. 4)."""
-        return float(np.vdot(self.force_weights, self.fields.P))
+        """Force ``3/(2 pi) iint P`` (eq. 4), with what asperities carry."""
+        return float(np.vdot(self.force_weights, self.fields.P)) + self.asperity_load
 
     def update_film(self, u: float) -> None:
         """H from P and the approach u (eq. 3)."""

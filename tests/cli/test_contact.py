@@ -280,6 +280,20 @@ def test_a_layer_of_oil(call, refused):
     )
 
 
+def test_asperities(call, refused):
+    """`--asperities` with `--rq`: their share of the load, and the film that they lift."""
+    smooth, rough = (
+        json.loads(call("steady", *options(), *COARSE, "--rq", "0.2", *given, "--json", "-").out)
+        for given in ((), ("--asperities",))
+    )
+    assert "asperities" not in smooth and rough["h_central"] > smooth["h_central"]
+    assert 0.0 < rough["asperities"]["load_share"] < 0.1
+    shown = call("steady", *options(), *COARSE, "--rq", "0.2", "--asperities").out
+    assert re.search(r"load on asperities +\d\.\d+ % +their central film is 1\.0", shown)
+    refused(("--asperities = True", "with --rq above 0"), "steady", *options(), "--asperities")
+    refused(("--asperities: not in the model", "`ehlcontact steady` has"), "impedance", *options(), "--asperities")
+
+
 def test_heat(call, refused):
     """`--thermal`, beside the published formulas; what it needs, and what it does not go with."""
     cold, warm = (

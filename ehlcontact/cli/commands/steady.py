@@ -12,7 +12,7 @@ import typer
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Heating, Sliding, Supply, Surfaces
+from ehlcontact.cli.contact import Contact, Heating, Mixed, Sliding, Supply, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
@@ -67,6 +67,7 @@ def steady(
     heating: Heating,
     sliding: Sliding,
     surfaces: Surfaces,
+    mixed: Mixed,
     grid: o.Grid,
     solving: Solving,
     out: o.ResultOutput,
@@ -79,6 +80,7 @@ def steady(
     chosen |= {"thermal": heating.chosen(contact, sliding)}
     point = contact.solvable()
     surfaces.check(contact)
+    chosen |= {"asperities": mixed.chosen(surfaces)}
     out.check()
     with progress("steady film") as update:
         result = solve_steady(
@@ -133,6 +135,7 @@ def _rows(result: SteadyResult) -> list[Row]:
         ("cycles", f"{result.cycles}", ""),
         *_supply_rows(result),
         *heat_rows(result),
+        *_asperity_rows(result),
         *run_rows(result),
     ]
 
@@ -143,6 +146,15 @@ def _supply_rows(result: SteadyResult) -> list[Row]:
         return []
     size, unit = (1.0, "dry approaches") if result.scales is None else (1e6 * result.scales.length, "µm")
     return [("layer of oil", f"{numeral(size * result.layer[0])} {unit}", f"full from X = {result.front:.3g} on")]
+
+
+def _asperity_rows(result: SteadyResult) -> list[Row]:
+    """Load share of the asperities, and what they make of the film."""
+    found = result.asperities
+    if found is None:
+        return []
+    film = f"their central film is {found.film_share:.4g} of that between smooth surfaces"
+    return [("load on asperities", f"{100.0 * found.load_share:.3g} %", film)]
 
 
 def _traction_rows(found: Traction | None) -> list[Row]:

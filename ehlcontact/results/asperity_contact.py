@@ -1,0 +1,58 @@
+"""What the asperities of a film carry that was solved with them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.asperities import Asperities
+
+Array = NDArray[np.float64]
+
+PRESSED = 0.5  # central film over Rq, below which asperities are no longer single summits
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class AsperityContact:
+    """Load share of asperities beside a film.
+
+    Attributes
+    ----------
+    inputs : Asperities
+        As given to `solve_steady`.
+    pressure : ndarray, shape (nx + 1, ny + 1)
+        Mean pressure of the asperities over the Hertz pressure, beside that of the oil.
+    load_share : float
+        Of the force, that they carry.
+    lambda_ratio : float
+        Central film over `inputs.rq`.
+    film_share : float
+        Central film over that between smooth surfaces, on the same grid.
+    """
+
+    inputs: Asperities
+    pressure: Array
+    load_share: float
+    lambda_ratio: float
+    film_share: float
+
+    @property
+    def summary(self) -> str:
+        """Load share of the asperities, in words."""
+        share = 100.0 * self.load_share
+        return f"asperities carry {share:.3g} % of the load, the central film being {self.lambda_ratio:.3g} times their Rq"
+
+    @property
+    def reservation(self) -> str:
+        """What it leaves open, in words: asperities pressed further than their model holds; else empty."""
+        if self.lambda_ratio >= PRESSED:
+            return ""
+        return f"the central film is {self.lambda_ratio:.2g} Rq: asperities are a model from {PRESSED:g} Rq on"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Numbers without the field, ready for JSON."""
+        numbers = {name: getattr(self, name) for name in ("load_share", "lambda_ratio", "film_share")}
+        return numbers | {"inputs": self.inputs.to_dict()}
