@@ -54,8 +54,11 @@ def main():
         found = shares(contact(case))
         print(name)
         for row in found:
-            print("  lambda {:.2f}: {:.3g} %, law {:.3g} %, film {:.4f}, cycles {:.0f}".format(
-                row[0], 100 * row[1], 100 * row[2], *row[3:]))
+            print(
+                "  lambda {:.2f}: {:.3g} %, law {:.3g} %, film {:.4f}, cycles {:.0f}".format(
+                    row[0], 100 * row[1], 100 * row[2], *row[3:]
+                )
+            )
         (line,) = left.semilogy(found[:, 0], 100.0 * found[:, 1], "o", label=name)
         left.semilogy(found[:, 0], 100.0 * found[:, 2], "-", color=line.get_color(), lw=1.0)
     left.set(xlabel="central film over Rq", ylabel="load on asperities [%]", xlim=(0.4, 3.2), ylim=(1e-3, 20.0))
@@ -73,9 +76,10 @@ def main():
     point = contact((3000.0, 480.0))
     rough, e = Asperities(0.1e-6), point.geometry.e_reduced
     gap = rough.gap(point.scales.pressure, e)
-    print(f"at rest: gap {gap / rough.rq:.2f} Rq in the centre, p {point.scales.pressure / 1e6:.0f} MPa, "
-          f"unit {rough.unit(e) / 1e6:.0f} MPa, stiffness {rough.stiffness(gap, e) * pi * point.scales.a * point.scales.b / 1e6:.0f} N/um, "
-          f"Hertz {1.5 * point.load / point.scales.length / 1e6:.0f} N/um")
+    pressure, area = point.scales.pressure, pi * point.scales.a * point.scales.b
+    stiff, elastic = area * float(rough.stiffness(gap, e)), 1.5 * point.load / point.scales.length
+    print(f"at rest: gap {gap / rough.rq:.2f} Rq in the centre under {pressure / 1e6:.0f} MPa")
+    print(f"unit {rough.unit(e) / 1e6:.0f} MPa, stiffness {stiff / 1e6:.0f}, of Hertz {elastic / 1e6:.0f} N/um")
 
 
 if __name__ == "__main__":

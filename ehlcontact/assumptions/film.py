@@ -16,7 +16,7 @@ EYRING_STRESS = 5e6  # Pa, mineral oils, 2 to 10; Johnson and Tevaarwerk, Proc. 
 # and Cusano, J. Tribology 109 (1987) 648-654); the film is then 3 % thinner (Grubin's inlet, docs/assumptions.md).
 LARGEST_STRESS = 1.0
 LARGEST_SLIDE_ROLL = 2.0  # one surface stands still; beyond, the surfaces run against each other
-# A full film above the first, asperities carry the load below the other: Tallian, ASLE Trans. 10 (1967) 418-439
+# Time in contact, none above the first and all of it below the other: Tallian, ASLE Trans. 10 (1967) 418-439
 LEAST_LAMBDA, MIXED_LAMBDA = 3.0, 1.0
 SMOOTH_SCATTER = "on the safe side: the contact flattens long waves of a roughness measured outside it"
 FORMULA_SCATTER = (
@@ -149,7 +149,7 @@ def fully_flooded(contact: Contact, domain: Domain | None) -> Assumption:
 def _regime(ratio: float) -> str:
     if ratio >= LEAST_LAMBDA:
         return "a full film"
-    return "mixed, asperities touch" if ratio >= MIXED_LAMBDA else "boundary, asperities carry the load"
+    return "mixed, asperities touch" if ratio >= MIXED_LAMBDA else "boundary, asperities touch all the time"
 
 
 def _percent(share: float) -> str:

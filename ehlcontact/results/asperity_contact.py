@@ -42,8 +42,8 @@ class AsperityContact:
     @property
     def summary(self) -> str:
         """Load share of the asperities, in words."""
-        share = 100.0 * self.load_share
-        return f"asperities carry {share:.3g} % of the load, the central film being {self.lambda_ratio:.3g} times their Rq"
+        share, ratio = 100.0 * self.load_share, self.lambda_ratio
+        return f"asperities carry {share:.3g} % of the load, the central film being {ratio:.3g} times their Rq"
 
     @property
     def reservation(self) -> str:

@@ -21,7 +21,14 @@ from reduced_models.bearing.kinematics import RPM_TO_RAD_S, DefectFrequencies
 _Floats = NDArray[np.float64]
 
 OF_ANGLES = "contact_angles", "spin_to_roll", "orbit", "ball_rotation"  # those that a planar one does not have
-OF_FILMS = "h_central", "h_min", "lambda_ratio", "moment"  # arrays that a dry bearing does not have
+OF_FILMS = (
+    "h_central",
+    "h_min",
+    "lambda_ratio",
+    "asperity_share",
+    "moment",
+)  # arrays that a dry bearing does not have
+NOTICED = 1e-3  # load share of asperities, from which a summary says so
 
 
 @stored("state of a ball bearing")
@@ -51,6 +58,9 @@ class BearingState(QuantityTable):
         Central and smallest film [m]; None in a dry bearing.
     lambda_ratio : ndarray, shape (balls, 2), or None
         Smallest film over composite roughness; None where no roughness is given, or no film.
+    asperity_share : ndarray, shape (balls, 2), or None
+        Share of the load that typical asperities of that roughness carry, an estimate:
+        `ehlcontact.Asperities.load_share`. It is not in forces and films.
     moment : ndarray, shape (balls, 2), or None
         Rolling resistance of every film: moment of its pressure about the centre line [N m]. Contacts lighter than
         the atlas knows have that of its lightest load, as long as their film carries.
@@ -85,6 +95,7 @@ class BearingState(QuantityTable):
     h_central: Annotated[_Floats | None, LENGTH.over("ball race")] = None
     h_min: Annotated[_Floats | None, LENGTH.over("ball race")] = None
     lambda_ratio: Annotated[_Floats | None, NUMBER.over("ball race")] = None
+    asperity_share: Annotated[_Floats | None, NUMBER.over("ball race")] = None
     moment: Annotated[_Floats | None, MOMENT.over("ball race")] = None
     rolling_torque: Annotated[float | None, MOMENT] = None
     skf_rolling: Annotated[float | None, MOMENT] = None
@@ -137,6 +148,8 @@ class BearingState(QuantityTable):
         if self.h_min is not None:
             lines.append(f"smallest film there {1e6 * self.h_min[k].min():.4g} µm")
             lines[-1] += "" if self.lambda_ratio is None else f", lambda {self.lambda_ratio[k].min():.3g}"
+            if self.asperity_share is not None and (share := self.asperity_share[k].max()) > NOTICED:
+                lines[-1] += f", asperities carry about {100.0 * share:.2g} %"
         else:
             lines.append("no film: dry")
         torque = self.rolling_torque

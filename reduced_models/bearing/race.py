@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import Geometry, Lubricant, OperatingPoint, assumptions
+from ehlcontact.asperities import Asperities
 from ehlcontact.assumptions import Assumptions
 from ehlcontact.assumptions.judge import ROUGHEST
 from ehlcontact.checks import require_nonnegative
@@ -196,7 +197,20 @@ def films_under(bearing: Any, speed_rpm: float, force: _Floats, approach: _Float
     torque = rolling_torque(moment[:, 0], moment[:, 1], bearing.ball_diameter, bearing.pitch_diameter)
     found = {"h_central": h_central, "h_min": h_min, "moment": moment, "rolling_torque": torque}
     found["outside_assumptions"] = assumptions_under(bearing, speed_rpm, force).headline
-    return found | ({} if not bearing.roughness else {"lambda_ratio": h_min / bearing.roughness})
+    return found | rough_surfaces(bearing, force, h_central, h_min)
+
+
+def rough_surfaces(bearing: Any, force: _Floats, h_central: _Floats, h_min: _Floats) -> dict[str, Any]:
+    """Lambda ratios of films of a `BallBearing`, and load shares of typical asperities; none without roughness."""
+    if not bearing.roughness:
+        return {}
+    rough, share = Asperities(bearing.roughness), np.zeros_like(force)
+    for column, name in enumerate(RACES):
+        body, carry = bearing.race(name).geometry, force[:, column] > 0.0
+        unit = 2.0 / 3.0 * hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure
+        mean = unit * np.cbrt(force[carry, column])
+        share[carry, column] = rough.load_share(h_central[carry, column], mean, body.e_reduced)
+    return {"lambda_ratio": h_min / bearing.roughness, "asperity_share": share}
 
 
 def assumptions_under(bearing: Any, speed_rpm: float, force: _Floats) -> Assumptions:
@@ -259,7 +273,7 @@ def films_at_angles(bearing: Any, speed_rpm: float, at: AngularEquilibrium) -> d
     found: dict[str, Any] = {"h_central": h_central, "h_min": h_min, "moment": moment}
     found["rolling_torque"] = float(torque)
     found["outside_assumptions"] = assumptions_at_angles(bearing, speed_rpm, [at]).headline
-    return found | ({} if not bearing.roughness else {"lambda_ratio": h_min / bearing.roughness})
+    return found | rough_surfaces(bearing, at.force, h_central, h_min)
 
 
 def _conformity(race: Race, kappa: float) -> float | None:

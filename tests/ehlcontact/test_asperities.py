@@ -144,7 +144,7 @@ def test_the_share_without_a_solve(mixed):
     h = hertz_contact(point.load, point.geometry.radius_x, point.geometry.radius_y, point.geometry.e_reduced)
     mean = point.load / (pi * h.a * h.b)
     share = rough.load_share(mixed.si.h_central, mean, point.geometry.e_reduced)
-    assert share == pytest.approx(mixed.asperities.load_share, rel=0.25)
+    assert share == pytest.approx(mixed.asperities.load_share, rel=0.3)
 
 
 def test_a_film_is_kept_with_its_asperities(mixed, tmp_path):
@@ -162,7 +162,7 @@ def test_a_film_thinner_than_the_model_says_so():
 @pytest.mark.parametrize(
     ("words", "call"),
     [
-        ("rq = 0.1: must be up to 5e-06 m (given in um?)", lambda: Asperities(0.1)),
+        ("rq = 0.1: must be up to 2e-05 m (given in um?)", lambda: Asperities(0.1)),
         ("rq = -1e-07", lambda: Asperities(-1e-7)),
         ("rq = nan", lambda: Asperities(np.nan)),
         ("summits = 3.0", lambda: Asperities(1e-7, summits=3.0)),

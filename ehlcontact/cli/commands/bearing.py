@@ -21,6 +21,7 @@ from ehlcontact.cli.rows import Row, in_unit
 from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.cli.study.whole_bearing import bearings_of
 from ehlcontact.errors import InputError
+from reduced_models.bearing.equilibrium_result import NOTICED
 from reduced_models.bearing.freedoms import DECIMALS, FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_HZ
 
@@ -63,6 +64,7 @@ UNITS = {
     "h_central": "m",
     "h_min": "m",
     "lambda_ratio": "smallest film over composite roughness",
+    "asperity_share": "of the load, on typical asperities of that roughness, an estimate",
     "moment": "N m",
     "rolling_torque": "N m",
     "skf_rolling": "N m; by SKF's published model, as skf_sliding",
@@ -406,6 +408,7 @@ def _at_speed(b: BallBearing, state: BearingState | SetState, at: BearingCoeffic
         *_outside(state),
         ("deflection", _micrometres(-at.displacement[1]), _at_passage(at)),
         *_small_vibrations(at, (("along the load", 1), ("across it", 0))),
+        *_asperities(state),
         *_resistance(state),
         *_defects(b, state),
     ]
@@ -431,6 +434,7 @@ def _at_angles(job: BearingJob, state: BearingState | SetState, at: BearingCoeff
         *_small_vibrations(
             at, (("axial", 2), ("along the load", 1), ("across it", 0), ("tilt about x", 3), ("tilt about y", 4))
         ),
+        *_asperities(state),
         *_resistance(state),
         *_defects(job.bearing, state),
     ]
@@ -481,6 +485,15 @@ def _small_vibrations(at: BearingCoefficients, directions: tuple[tuple[str, int]
         remark = ", ".join([*(["that of the shaft"] if math.isclose(hz, shaft) else []), PASSAGE])
         rows += [("these at" if len(directions) > len(PLANAR) else "both at", f"{numeral(hz)} Hz", remark)]
     return rows
+
+
+def _asperities(state: BearingState | SetState) -> list[Row]:
+    """Estimated load share of asperities at the heaviest contact of every bearing with a roughness."""
+    return [
+        ("on asperities", f"{100.0 * share:.2g} %", "of the heaviest ball, an estimate; not in the forces")
+        for one in bearings_of(state).values()
+        if one.asperity_share is not None and (share := one.asperity_share[one.heaviest].max()) > NOTICED
+    ]
 
 
 def _resistance(state: BearingState | SetState) -> list[Row]:

@@ -113,7 +113,7 @@ function headline({ state, films, rq, there, still, ratio, hz }) {
   const lambda = Math.min(...films[0].map(film => film.h_min)) / rq, C = there.along.damping;
   const times = ratio * still.along.stiffness / C;
   const guess = times > 1 ? `${show(times, 2)} times that` : `${show(100 * times, 2)} % of that`;
-  const { smooth, mixed } = DATA.lambda, rough = lambda >= mixed ? ", mixed: asperities touch" : ", boundary: asperities carry the load";
+  const { smooth, mixed } = DATA.lambda, rough = lambda >= mixed ? ", mixed: asperities touch" : ", boundary: asperities touch all the time";
   return `${loaded} of ${state.balls.length} balls are pressed by both rings. The heaviest carries ${show(state.balls[0].force[0])} N `
     + `on a film of at least ${show(lambda * rq * 1e6)} µm: lambda ${show(lambda)}${lambda >= smooth ? "" : rough}. Along the load the films of the bearing damp `
     + `${show(C)} N s/m at ${show(hz, 4)} Hz; the guess is ${guess}.`;
