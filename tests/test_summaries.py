@@ -87,7 +87,7 @@ INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no r
 WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
     **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter"), INPUT),
-    **dict.fromkeys(("SpeedHistory", "SpeedController", "Heat"), INPUT),
+    **dict.fromkeys(("SpeedHistory", "SpeedController", "Heat", "Asperities"), INPUT),
     **dict.fromkeys(("Eyring", "Carreau", "LimitingShear"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),

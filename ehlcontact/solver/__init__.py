@@ -20,6 +20,7 @@ module           responsibility
 ``multigrid``    full-approximation-scheme cycle and full multigrid
 ``acceleration`` Anderson acceleration of V cycles
 ``linear``       linearised film: operator, preconditioner, Krylov solution
+``mixed_film``   cycles of a film that shares the load with asperities
 ``linear_heat``  linearised film with temperatures that follow a vibration
 ``film_heat``    temperatures of a film: energy equation; cycles after which the viscosity follows them
 ``newton``       Newton steps on the finest grid
