@@ -86,7 +86,7 @@ INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no r
 # Public classes without `plot`, and why.
 WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
-    **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter"), INPUT),
+    **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter", "Spall", "Indentation"), INPUT),
     **dict.fromkeys(("SpeedHistory", "SpeedController", "Heat", "Asperities"), INPUT),
     **dict.fromkeys(("Eyring", "Carreau", "LimitingShear"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
@@ -97,7 +97,7 @@ WITHOUT_PLOT = {
     ),
     **dict.fromkeys(("MeasuredPath", "ModalPath", "SystemPath"), INPUT),
     **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
-    **dict.fromkeys(("BearingModel", "ShaftModel", "OilBalance"), INPUT),
+    **dict.fromkeys(("BearingModel", "ShaftModel", "WholeRotorModel", "OilBalance"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
     **dict.fromkeys(("RotorState", "BearingFriction"), NUMBERS),
     **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),
