@@ -85,6 +85,11 @@ from reduced_models.rotor.supports import ContactMount as ContactMount
 from reduced_models.rotor.unbalance import unbalance_response as unbalance_response
 from reduced_models.rotor.unbalance_result import UnbalanceResponse as UnbalanceResponse
 from reduced_models.signals.indicators import indicators as indicators
+from reduced_models.signals.records import RecordCase as RecordCase
+from reduced_models.signals.records import VibrationRecord as VibrationRecord
+from reduced_models.signals.records import make_record as make_record
+from reduced_models.signals.records import make_records as make_records
+from reduced_models.signals.records import write_dataset as write_dataset
 from reduced_models.signals.sampling import housing_acceleration as housing_acceleration
 from reduced_models.signals.sampling import node_acceleration as node_acceleration
 from reduced_models.signals.sampling import sampled as sampled

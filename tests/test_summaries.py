@@ -55,12 +55,14 @@ from reduced_models import (
     MeasuredPath,
     ModalPath,
     OilBalance,
+    RecordCase,
     Rotor,
     Shaft,
     SpeedProfile,
     Support,
     SystemPath,
     Unbalance,
+    VibrationRecord,
     campbell,
     compare,
     envelope_spectrum,
@@ -95,7 +97,7 @@ WITHOUT_PLOT = {
     **dict.fromkeys(
         ("BallBearing", "BearingSet", "LinearBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT
     ),
-    **dict.fromkeys(("MeasuredPath", "ModalPath", "SystemPath"), INPUT),
+    **dict.fromkeys(("MeasuredPath", "ModalPath", "SystemPath", "RecordCase"), INPUT),
     **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
     **dict.fromkeys(("BearingModel", "ShaftModel", "WholeRotorModel", "OilBalance"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
@@ -165,12 +167,21 @@ def results(point):
     ]  # fmt: skip
 
 
+def record_case(path):
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=40.0))
+    return RecordCase(
+        bearing=bearing, load=(0.0, -300.0), speed_rpm=1800.0, path=path, label="healthy", seconds=2000 / 12e3
+    )
+
+
 def spectra():
     tone, hz = np.sin(np.linspace(0.0, 3000.0, 2000)), np.array([0.0, 50.0, 100.0])
     path = ModalPath(hz=[50.0, 80.0], damping=0.1 * np.ones(2), mass=[1.0, 2.0])
     return [
         path, MeasuredPath(hz, path.response(hz)), SystemPath(control.tf([1.0, 0.0, 0.0], [1.0, 10.0, 1e4])),
         envelope_spectrum(tone, 1000.0, (100.0, 400.0)),
+        VibrationRecord(signal=tone.astype(np.float32), rate=1e3, columns=record_case(path).columns()),
+        record_case(path),
         order_spectrum(tone, 1000.0, np.linspace(0.0, 200.0, 2000), most=20.0),
     ]  # fmt: skip
 

@@ -6,4 +6,5 @@
 | sampling | signals at an output rate from the steps of a run, without aliasing |
 | spectra | spectrum of the envelope, spectrum over orders of the shaft |
 | indicators | rms, kurtosis, crest factor and others |
+| records | labelled synthetic records: cases, their runs on many processes, files |
 """

@@ -1,0 +1,343 @@
+"""Labelled synthetic records: a bearing with its features in a run, heard through a path, and what it was.
+
+The columns are those of the metadata table of the package bearing-datasets (version 0.3, layout 2), which brings
+public measurements to one format: code for those takes synthetic records too. `make_records` keeps one file per
+record, `write_dataset` makes of them the Parquet files that `bearing_datasets.open` reads.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import hypot
+from pathlib import Path
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import (
+    as_column,
+    require_instance,
+    require_integer,
+    require_nonnegative,
+    require_positive,
+)
+from ehlcontact.checks.quantity import fields_take
+from ehlcontact.content_store import key_of
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.executors import executor_for, results_of
+from ehlcontact.files import remove_leftovers
+from ehlcontact.quantities import ACCELERATION, HERTZ
+from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.store import save, stored
+from ehlcontact.summary import Summary
+from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.features import Indentation, Spall
+from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.simulate import simulate_rotor
+from reduced_models.rotor.supports import BearingMount
+from reduced_models.signals.indicators import indicators
+from reduced_models.signals.sampling import housing_acceleration, require_sampling
+from reduced_models.signals.transfer_path import ModalPath
+
+_Floats = NDArray[np.float64]
+
+LEAD = 0.1  # s of a run before its record: what follows the start has faded
+FINER = 4  # steps per sample
+TILT_INERTIA, TILT_STIFFNESS = 1e-3, 1e5  # kg m2, N m/rad: a stiff shaft holds the ring against tilts
+SUFFIX = ".h5"
+LOCATION = "test_bearing"  # of bearing and sensor, in the words of bearing-datasets
+PARTS = {"inner": "inner", "outer": "outer"}  # fault types; others are of a ball
+BALL = "rolling_element"
+
+
+@fields_take(speed_rpm="rev/min", mass="kg", seconds="s", rate="Hz")
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RecordCase(Summary):
+    """What a synthetic record is made of: a mass on a bearing with features, a path to a sensor, noise.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+        With its features.
+    load : tuple of 2 or 3 float
+        On the inner ring along x, y (and z) [N]; with three the bearing has five degrees of freedom, and a stiff
+        shaft holds it against tilts.
+    speed_rpm : float
+        Of the shaft [rev/min].
+    path : ModalPath
+        From the force of the bearing along y to the sensor.
+    label : str
+        Of the fault, as the data set names it; letters, digits, ``-`` and ``_``.
+    mass : float
+        Turns with the inner ring [kg].
+    noise : float
+        Root of the mean square of white Gaussian noise that is added [m/s2].
+    seed : int
+        Of the noise.
+    seconds, rate : float
+        Length of the record [s], samples per s.
+
+    Raises
+    ------
+    InputError
+        A value out of its range, a speed of 0, a label that is no part of a file name, a rate that does not
+        resolve passages of balls.
+    """
+
+    bearing: BallBearing
+    load: tuple[float, ...]
+    speed_rpm: float
+    path: ModalPath
+    label: str
+    mass: float = 2.0
+    noise: float = 0.0
+    seed: int = 0
+    seconds: float = 10.0
+    rate: float = 12_000.0
+
+    def __post_init__(self) -> None:
+        require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
+        require_instance("path", self.path, ModalPath, "a ModalPath")
+        load = as_column("load", self.load, least=2)
+        if load.size > 3:
+            raise InputError("load", load.tolist(), "two or three forces [N]")
+        object.__setattr__(self, "load", tuple(load.tolist()))
+        if not self.label or not self.label.replace("-", "").replace("_", "").isalnum():
+            raise InputError("label", self.label, "letters, digits, - and _")
+        for name in ("speed_rpm", "mass", "seconds", "rate"):
+            require_positive(name, getattr(self, name))
+        require_nonnegative("noise", self.noise)
+        require_integer("seed", self.seed, "a whole number >= 0", 0)
+        require_sampling(self.bearing, self.speed_rpm, self.rate)
+
+    def _summary_lines(self) -> list[str]:
+        force = ", ".join(f"{value:.4g}" for value in self.load)
+        name = self.bearing.name or "ball bearing"
+        return [
+            f"{self.label}: {name} under ({force}) N at {self.speed_rpm:.5g} rev/min",
+            f"{self.seconds:g} s at {self.rate:g} Hz, noise of {self.noise:g} m/s2",
+        ]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything that the record depends on, ready for JSON."""
+        path = {name: np.asarray(getattr(self.path, name)).tolist() for name in ("hz", "damping", "mass")}
+        plain = ("load", "speed_rpm", "label", "mass", "noise", "seed", "seconds", "rate")
+        return {"bearing": self.bearing.to_dict(), "path": path} | {name: getattr(self, name) for name in plain}
+
+    @property
+    def recording_id(self) -> str:
+        """Label and a hash of everything: records of one name are the same."""
+        return f"{self.label}-{key_of(self.to_dict())}"
+
+    def rotor(self) -> Rotor:
+        """The mass on its bearing."""
+        if len(self.load) == 2:
+            mount = BearingMount(bearing=self.bearing, x=0, y=1)
+            return Rotor(
+                mass=self.mass * np.eye(2), stiffness=np.zeros((2, 2)), load=np.array(self.load), mounts=(mount,)
+            )
+        mass, held = [self.mass] * 3 + [TILT_INERTIA] * 2, [0.0] * 3 + [TILT_STIFFNESS] * 2
+        mount = BearingMount(bearing=self.bearing, x=0, y=1, z=2, tilt_x=3, tilt_y=4)
+        load = np.array([*self.load, 0.0, 0.0])
+        return Rotor(mass=np.diag(mass), stiffness=np.diag(held), load=load, mounts=(mount,))
+
+    def columns(self) -> dict[str, Any]:
+        """Row of the metadata table, in the columns of bearing-datasets; own ones at its end."""
+        b, faults = self.bearing, list(self.bearing.features)
+        kinds = sorted({PARTS.get(str(getattr(one, "race", None)), BALL) for one in faults})
+        defects = [one for one in faults if isinstance(one, Spall | Indentation)]
+        length = max((one.length for one in defects), default=0.0)
+        orders = b.equilibrium(self.load, speed_rpm=self.speed_rpm).orders or b.orders
+        size = round(self.seconds * self.rate)
+        words = "; ".join(f"length {1e3 * one.length:g} mm, depth {1e6 * one.depth:g} um" for one in defects)
+        graded = "not graded" if kinds else "none"
+        return {
+            "signal_id": f"{self.recording_id}/y", "recording_id": self.recording_id, "native_label": self.label,
+            "channel": "y", "sensor_location": LOCATION, "fs": self.rate, "n_samples": size,
+            "fault_type": "+".join(kinds) or "normal",
+            "fault_location": "+".join([LOCATION] * len(kinds)) or "none",
+            "sensor_at_fault": bool(kinds), "quantity": "acceleration", "unit": "m/s^2", "sensitivity": "none",
+            "axis": "y", "sensor_mounting": "pedestal", "speed_rpm": self.speed_rpm, "speed_profile": "constant",
+            "load": hypot(*self.load[:2]), "load_unit": "N",
+            "fault_origin": "artificial" if kinds else "none", "fault_size_mm": 1e3 * length,
+            "fault_severity": words or graded, "fault_severity_level": int(bool(kinds)),
+            "bearing_id": key_of(b.to_dict()), "bearing_model": b.name or "ball bearing",
+            "bpfo": orders.bpfo, "bpfi": orders.bpfi, "bsf": orders.bsf, "ftf": orders.ftf,
+            "axial_load_n": self.load[2] if len(self.load) == 3 else 0.0, "clearance_um": 1e6 * b.clearance,
+            "noise": self.noise, "seed": self.seed,
+        }  # fmt: skip
+
+
+OWN_COLUMNS = {
+    "axial_load_n": "axial load on the inner ring [N]",
+    "clearance_um": "radial internal clearance [um]",
+    "noise": "root of the mean square of the added white noise [m/s^2]",
+    "seed": "of the noise",
+}
+
+
+@stored("vibration record")
+@dataclass(frozen=True, eq=False, kw_only=True)
+class VibrationRecord(QuantityTable):
+    """A labelled signal.
+
+    Attributes
+    ----------
+    signal : ndarray, shape (k,)
+        Acceleration [m/s2], of single precision.
+    rate : float
+        Samples per s.
+    columns : dict
+        Metadata by column, as in bearing-datasets, without the name and files of a data set.
+    """
+
+    signal: Annotated[NDArray[np.float32], ACCELERATION.over("sample")]
+    rate: Annotated[float, HERTZ]
+    columns: dict[str, Any]
+
+    DISPLAY: ClassVar[Display] = Display(rows="sample", panels=("signal",), first=0)
+
+    def __post_init__(self) -> None:
+        if self.signal.ndim != 1 or self.signal.size != self.columns.get("n_samples"):
+            raise InputError("signal", self.signal.shape, f"{self.columns.get('n_samples')} samples")
+
+    def _summary_lines(self) -> list[str]:
+        at, found = self.columns, indicators(self.signal)
+        features = f"rms {found.rms:.4g} m/s2, kurtosis {found.kurtosis:.4g}"
+        return [
+            f"{at['fault_type']} ({at['native_label']}), {at['bearing_model']} at {at['speed_rpm']:.5g} rev/min",
+            f"{self.signal.size} samples at {self.rate:g} Hz, {features}",
+        ]
+
+
+def make_record(case: RecordCase) -> VibrationRecord:
+    """Run a case and record it.
+
+    Raises
+    ------
+    ConvergenceError
+        The run found no balance.
+    InputError
+        What the bearing refuses.
+    """
+    columns = case.columns()
+    size = columns["n_samples"]
+    dt = 1.0 / (FINER * case.rate)
+    run = simulate_rotor(case.rotor(), speed_rpm=case.speed_rpm, dt=dt, until=LEAD + (size + 1) / case.rate)
+    heard = housing_acceleration(run, case.path, case.rate)
+    first = round(LEAD * case.rate)
+    noise = case.noise * np.random.default_rng(case.seed).standard_normal(size)
+    signal = (heard[first : first + size] + noise).astype(np.float32)
+    return VibrationRecord(signal=signal, rate=case.rate, columns=columns)
+
+
+def make_records(
+    cases: Sequence[RecordCase],
+    folder: str | Path,
+    *,
+    processes: int = 1,
+    scheduler: str | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Path]:
+    """Files of all cases in their order, one each; those that are in the folder already are kept.
+
+    Parameters
+    ----------
+    cases : sequence of RecordCase
+    folder : path
+        Made if it does not exist. After an interruption the same call goes on where it was.
+    processes : int
+        Of this machine.
+    scheduler : str, optional
+        Address of a Dask scheduler, whose workers run the cases instead.
+    progress : callable, optional
+        Called with the numbers of records done and in all.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be written to; no case.
+    ConvergenceError
+        Cases found no balance, which the message names; all others are made first.
+    """
+    folder, wanted = Path(folder), {case.recording_id: case for case in cases}
+    if not wanted:
+        raise InputError("cases", [], "at least one")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError("folder", str(folder), f"one that can be made ({error.strerror})") from None
+    remove_leftovers(folder)
+    missing = {name: case for name, case in wanted.items() if not (folder / f"{name}{SUFFIX}").exists()}
+    failed, done = {}, len(wanted) - len(missing)
+    if missing:
+        with executor_for(processes, 1, scheduler=scheduler) as executor:
+            for name, found in results_of(executor, _tried, missing):
+                if isinstance(found, str):
+                    failed[name] = found
+                    continue
+                save(found, folder / f"{name}{SUFFIX}", "folder")
+                done += 1
+                if progress is not None:
+                    progress(done, len(wanted))
+    if failed:
+        name, reason = next(iter(failed.items()))
+        raise ConvergenceError(f"{len(failed)} of {len(wanted)} records were not made, as {name}: {reason}", None)
+    return [folder / f"{case.recording_id}{SUFFIX}" for case in cases]
+
+
+def _tried(case: RecordCase) -> VibrationRecord | str:
+    """The record, or why there is none."""
+    try:
+        return make_record(case)
+    except ConvergenceError as error:
+        return str(error)
+
+
+def write_dataset(records: Sequence[VibrationRecord], folder: str | Path, *, title: str = "") -> Path:
+    """Write records as a data set that `bearing_datasets.open(name, root)` reads; the folder's name is its name.
+
+    Parameters
+    ----------
+    records : sequence of VibrationRecord
+    folder : path
+        New or empty.
+    title : str
+
+    Raises
+    ------
+    InputError
+        pyarrow is not installed; no record, or one twice; the folder is not empty.
+    """
+    import json
+
+    try:
+        import pyarrow
+        from pyarrow import parquet
+    except ImportError:
+        raise InputError("pyarrow", None, "installed: pip install 'ehlcontact[records]'") from None
+    folder = Path(folder)
+    names = [record.columns["signal_id"] for record in records]
+    if not names or len(set(names)) < len(names):
+        raise InputError("records", names[:3], "at least one, each of them once")
+    if folder.exists() and any(folder.iterdir()):
+        raise InputError("folder", str(folder), "new or empty")
+    (folder / "signals").mkdir(parents=True, exist_ok=True)
+    file, rows = "part-float32.parquet", []
+    kinds = pyarrow.schema({"signal_id": pyarrow.string(), "signal": pyarrow.list_(pyarrow.float32())})
+    with parquet.ParquetWriter(folder / "signals" / file, kinds, compression="zstd") as writer:
+        for k, record in enumerate(records):
+            ends = pyarrow.array([0, record.signal.size], pyarrow.int32())
+            signal = pyarrow.ListArray.from_arrays(ends, pyarrow.array(record.signal, pyarrow.float32()))
+            writer.write_table(pyarrow.table([pyarrow.array([names[k]]), signal], schema=kinds))
+            place = {"signal_file": file, "signal_row_group": k, "signal_row": 0}
+            rows.append({"dataset": folder.name, **record.columns, **place})
+    parquet.write_table(pyarrow.Table.from_pylist(rows), folder / "metadata.parquet", compression="zstd")
+    manifest = {
+        "dataset": folder.name, "title": title, "license": "", "citation": "", "schema_version": 2,
+        "n_recordings": len(rows), "n_signals": len(rows), "columns": OWN_COLUMNS,
+    }  # fmt: skip
+    (folder / "manifest.json").write_text(json.dumps(manifest, indent=1), encoding="utf-8")
+    return folder

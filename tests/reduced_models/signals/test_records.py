@@ -1,0 +1,140 @@
+"""Labelled records: lines where the label says, resume, columns of bearing-datasets, bad input."""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlcontact import InputError, Lubricant, load
+from reduced_models import (
+    BallBearing,
+    ModalPath,
+    RecordCase,
+    Spall,
+    VibrationRecord,
+    envelope_spectrum,
+    indicators,
+    make_record,
+    make_records,
+    write_dataset,
+)
+
+OIL, PATH = Lubricant.iso_vg(68, temperature=40.0), ModalPath(hz=[2700.0], damping=[0.05], mass=[3.0])
+# of every row in version 0.3.0, but for the name of the data set and the three of its files
+REQUIRED = {
+    "signal_id", "recording_id", "native_label", "channel", "sensor_location", "fs", "n_samples", "fault_type",
+    "fault_location", "sensor_at_fault",
+}  # fmt: skip
+
+
+def case(race=None, seconds=0.5, **changes):
+    pits = [Spall(race=race, angle=-np.pi / 2.0, length=5e-4, depth=3e-6, edge=1e-4)] if race else []
+    bearing = BallBearing.catalogue("6205", clearance=8e-6, oil=OIL, features=pits)
+    given = {"load": (0.0, -300.0), "speed_rpm": 1800.0, "path": PATH, "label": race or "healthy", "seed": 7}
+    return RecordCase(**{**given, "bearing": bearing, "seconds": seconds, "noise": 0.01, **changes})
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    folder, seen = tmp_path_factory.mktemp("records"), []
+    cases = [case(), case("outer"), case("inner")]
+    made = make_records(cases, folder, progress=lambda *numbers: seen.append(numbers))
+    return folder, cases, made, seen
+
+
+def test_lines_are_where_the_label_says(files):
+    healthy, outer, inner = (load(path, VibrationRecord) for path in files[2])
+    for record, name in ((outer, "bpfo"), (inner, "bpfi")):
+        at = record.columns[name] * record.columns["speed_rpm"] / 60.0
+        found = envelope_spectrum(record.signal, record.rate, (2000.0, 5500.0))
+        assert found.line(at, 3.0).amplitude > 20.0 * np.median(found.amplitude)
+        assert indicators(record.signal).kurtosis > 4.0
+        assert record.columns["fault_type"] == name.replace("bpfo", "outer").replace("bpfi", "inner")
+    assert indicators(healthy.signal).kurtosis < 3.5 and healthy.columns["fault_type"] == "normal"
+    assert set(healthy.columns) >= REQUIRED and healthy.signal.size == healthy.columns["n_samples"] == 6000
+
+
+def test_made_once_and_again_the_same(files):
+    """A second call makes what is missing only; a record depends on its case alone."""
+    folder, cases, made, seen = files
+    assert seen == [(1, 3), (2, 3), (3, 3)]
+    before = [path.stat().st_mtime_ns for path in made[:2]]
+    kept = load(made[2]).signal
+    made[2].unlink()
+    again = []
+    assert make_records(cases, folder, progress=lambda *numbers: again.append(numbers)) == made
+    assert again == [(3, 3)] and [path.stat().st_mtime_ns for path in made[:2]] == before
+    assert np.array_equal(load(made[2]).signal, kept)
+    assert len({one.recording_id for one in (*cases, case(seed=8), case(speed_rpm=1801.0))}) == 5
+
+
+def test_dataset_of_parquet(files, tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    records = [load(path) for path in files[2]]
+    folder = write_dataset(records, tmp_path / "synthetic")
+    rows = parquet.read_table(folder / "metadata.parquet").to_pylist()
+    for record, row in zip(records, rows, strict=True):
+        table = parquet.ParquetFile(folder / "signals" / row["signal_file"]).read_row_group(
+            row["signal_row_group"]
+        )
+        assert table["signal_id"][row["signal_row"]].as_py() == row["signal_id"]
+        assert np.array_equal(np.float32(table["signal"][row["signal_row"]].as_py()), record.signal)
+        assert row["dataset"] == "synthetic" and None not in row.values()
+    with pytest.raises(InputError, match="new or empty"):
+        write_dataset(records, folder)
+
+
+def test_without_pyarrow_one_line(files, tmp_path, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
+    with pytest.raises(InputError, match=r"pip install 'ehlcontact\[records\]'"):
+        write_dataset([load(files[2][0])], tmp_path / "synthetic")
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"label": "a/b"}, "label"),
+        ({"load": (0.0,)}, "load"),
+        ({"load": (0.0, 1.0, 2.0, 3.0)}, "two or three"),
+        ({"noise": -1.0}, "noise"),
+        ({"rate": 1000.0}, "8 samples per ball passage"),
+        ({"seconds": np.nan}, "seconds"),
+        ({"path": 3.0}, "ModalPath"),
+    ],
+)
+def test_bad_input_is_one_line(changes, word):
+    with pytest.raises(InputError, match=word) as caught:
+        case(**changes)
+    assert "\n" not in str(caught.value)
+
+
+def test_no_cases(tmp_path):
+    with pytest.raises(InputError, match="at least one"):
+        make_records([], tmp_path)
+
+
+@pytest.mark.slow  # ten seconds of a bearing, in less than a minute of one core
+def test_cost_of_ten_seconds():
+    make_record(case("outer"))  # compiles
+    for one in (case("outer", seconds=10.0), replace(case("outer", seconds=10.0), load=(0.0, -100.0, 100.0))):
+        begun = time.process_time()
+        assert make_record(one).signal.size == 120_000
+        assert time.process_time() - begun < 60.0
+
+
+@pytest.mark.slow  # a hundred records
+def test_a_hundred_records_on_two_workers(tmp_path):
+    cases = [case(race, seconds=0.3, seed=k) for k in range(34) for race in (None, "inner", "outer")][:100]
+
+    def stop(done, _):
+        if done == 40:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        make_records(cases, tmp_path, processes=2, progress=stop)
+    kept = len(list(tmp_path.glob("*.h5")))
+    assert kept == 40
+    seen = []
+    assert len(make_records(cases, tmp_path, processes=2, progress=lambda *n: seen.append(n))) == 100
+    assert seen[0] == (41, 100) and seen[-1] == (100, 100)
