@@ -1,7 +1,7 @@
 """Tables of the FMU of a bearing as C text: races, films over load, losses, speeds.
 
-A race in Python has 128 cubics between two nodes of its static curve. Here one polynomial stands for them, through
-Chebyshev's points: within 1e-12 where the surfaces press each other, 1e-8 where they part.
+A race in Python has 128 cubics between two nodes of its static curve. Here one polynomial stands for them: within
+1e-13 of g a micrometre deep and beyond, and within 3e-10, about the error of the cubics, where the surfaces part.
 """
 
 from __future__ import annotations
@@ -21,7 +21,10 @@ from reduced_models.bearing.race_table import CELLS, RaceForceTable
 
 _Floats = NDArray[np.float64]
 
-DEGREE = 12  # of the polynomials
+DEGREE = 16  # of the polynomials at most; surfaces that press each other need 4 to 13
+POINTS = 4  # of every cubic, to which they are fitted
+NEGLIGIBLE, NEGLIGIBLE_IN_GAPS = 2e-14, 2e-11  # of g: last term of a polynomial; the cubics are 2e-10 off in gaps
+ROUNDED = 2.0**-54  # of g: unit of the coefficients
 FILM_NODES = 48  # loads of the films, even in their logarithm
 
 
@@ -37,11 +40,13 @@ def race_tables(model: BearingModel) -> str:
         ]
         nodes = law.x.size
         if nodes:
-            parts = {"x": law.x, "u": law.u, "curve": _curve(law), "gains": law.gains, "made": law.film_made}
+            curve, first = _curve(law)
+            parts = {"x": law.x, "u": law.u, "curve": curve, "gains": law.gains, "made": law.film_made}
             lines += [c_table(f"{name}_{part}", values.reshape(-1)) for part, values in parts.items()]
-            fields += [str(nodes), *(f"{name}_{part}" for part in parts)]
+            lines += [f"static const int {name}_first[] = {{{', '.join(map(str, first.tolist()))}}};"]
+            fields += [str(nodes), f"{name}_first", *(f"{name}_{part}" for part in parts)]
         else:
-            fields += ["0", "0", "0", "0", "0", "0"]
+            fields += ["0", "0", "0", "0", "0", "0", "0"]
         races.append(f"    {{{', '.join(fields)}}}")
     bearing, fastest = model.bearing, float(model.speeds[-1])
     most = np.array([bearing.race(name).heaviest(fastest)[0] for name in RACES])
@@ -49,20 +54,27 @@ def race_tables(model: BearingModel) -> str:
     return "\n".join([*lines, f"static const Race races[2] = {{\n{both}}};", c_table("most_load", most), ""])
 
 
-def _curve(law: RaceForceTable) -> _Floats:
-    """Powers of s = -1 to 1 over every interval, shape (speeds, nodes - 1, DEGREE + 1)."""
-    s = chebyshev.chebpts2(DEGREE + 1)
-    place = 0.5 * (s + 1.0) * CELLS
+def _curve(law: RaceForceTable) -> tuple[_Floats, NDArray[np.int64]]:
+    """Powers of s = -1 to 1 over every interval of every speed, and where those of each begin; the last one ends.
+
+    A least-squares fit, with as many terms as are needed, two at least. Coefficients are rounded to `ROUNDED` of
+    g: those of high powers then have few digits, and an FMU is smaller.
+    """
+    place = np.linspace(0.0, CELLS, POINTS * CELLS + 1)
     cell = np.minimum(place.astype(int), CELLS - 1)
     t = place - cell
     a, b, c, d = np.moveaxis(law.cells[:, :, cell, :], -1, 0)
-    g = a + t * (b + t * (c + t * d))
-    flat = chebyshev.chebfit(s, g.reshape(-1, s.size).T, DEGREE)
-    powers = np.zeros((flat.shape[1], DEGREE + 1))
-    for row, one in zip(powers, flat.T, strict=True):
-        found = chebyshev.cheb2poly(one)  # without the last powers where they are zero
-        row[: found.size] = found
-    return powers.reshape(*g.shape[:2], DEGREE + 1)
+    g = (a + t * (b + t * (c + t * d))).reshape(-1, place.size)
+    terms = chebyshev.chebfit(2.0 * place / CELLS - 1.0, g.T, DEGREE).T
+    negligible = np.where(law.u[:, 1:] < 0.0, NEGLIGIBLE_IN_GAPS, NEGLIGIBLE).ravel() * g[:, 0]
+    needed = np.abs(terms) > negligible[:, None]
+    counts = np.maximum(DEGREE + 1 - np.argmax(needed[:, ::-1], axis=1), 2)
+    units = 2.0 ** np.floor(np.log2(ROUNDED * g[:, 0]))
+    powers = [
+        np.pad(unit * np.rint(chebyshev.cheb2poly(row[:count]) / unit), (0, count))[:count]  # numpy drops zeros
+        for row, count, unit in zip(terms, counts.tolist(), units.tolist(), strict=True)
+    ]
+    return np.concatenate(powers), np.append(0, np.cumsum(counts))
 
 
 def film_tables(model: BearingModel) -> str:

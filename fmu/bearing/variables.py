@@ -11,7 +11,7 @@ import numpy as np
 
 from fmu.bearing.model import BearingModel
 from fmu.bearing.places import LOAD, counted_from, rolling_speed_sum
-from fmu.bearing.tables import DEGREE, FILM_NODES, film_tables, race_tables, seat_tables, speed_tables
+from fmu.bearing.tables import FILM_NODES, film_tables, race_tables, seat_tables, speed_tables
 from fmu.c_headers import c_double, c_table
 from fmu.contact_spec import checked_name
 from fmu.contact_variables import ALLOWED_ERROR
@@ -348,7 +348,6 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
         "LAGS": lags,
         "SEAT_FILTERS": filters,
         "SPEED_ROWS": model.speeds.size,
-        "CURVE_TERMS": DEGREE + 1,
         "FILM_NODES": FILM_NODES,
         "HAS_FILMS": int(bearing.oil is not None),
         "HAS_ROUGHNESS": int(bool(bearing.roughness)),

@@ -11,7 +11,7 @@ from fmu.contact_spec import checked_name, contact_spec, source_text
 from fmu.contact_variables import ALLOWED_ERROR
 from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
 from fmu.rotor.laws import law_tables, numbers_of_laws
-from fmu.rotor.model import RotorModel
+from fmu.rotor.model import STEPS_PER_PERIOD, RotorModel
 from fmu.spec import ModelSpec
 from fmu.variable_list import VariableList
 
@@ -225,7 +225,8 @@ class _Variables(VariableList):
         r = self.rotor
         self.lead(ROTOR, self.start_of_lead)
         self.add(
-            "inner_step", "parameter", "fixed", "Longest step inside one of co-simulation, which is cut evenly",
+            "inner_step", "parameter", "fixed",
+            "Longest step inside one of co-simulation, cut evenly; its start value follows a stiffer shaft",
             unit="s", start=self.model.inner_step, minimum=LEAST_INNER_STEP * self.model.inner_step,
         )  # fmt: skip
         for name, unit, text in (
@@ -268,6 +269,8 @@ def _macros(model: RotorModel, made: _Variables) -> dict[str, str]:
         "BEARINGS": float(model.rotor.bearings),
         "DEFAULT_TOLERANCE": ALLOWED_ERROR,
         "LEAST_INNER_STEP": LEAST_INNER_STEP * model.inner_step,
+        "DEFAULT_INNER_STEP": model.inner_step,
+        "SHAFT_STEP": 2.0 * math.pi / STEPS_PER_PERIOD,
     }
     return (
         {k: str(v) for k, v in counts.items()} | {k: c_double(v) for k, v in numbers.items()} | dict(ROTOR.macros)

@@ -24,6 +24,30 @@ static int bytes_of(fmi2Component c, char *bytes, size_t size)
     return fmi2FreeFMUstate(c, &saved) == fmi2OK && held;
 }
 
+/* Sets some fixed parameters at random. Where the FMU refuses them all together, they get their start values again, and
+ * the instance has to go on as a new one does. */
+static void set_parameters(fmi2Component c)
+{
+    const fmi2ValueReference outputs[] = {FUZZ_OUTPUTS};
+    fmi2Real found[3];
+    fmi2ValueReference k;
+    for (k = 0; k < N_VARIABLES; k++) {
+        if (core_variables[k].role == FIXED && k != VR_LEAD && any(3) == 0) {
+            const fmi2Real value = parameter(core_variables[k].start);
+            fmi2SetReal(c, &k, 1, &value);
+        }
+    }
+    if (fmi2EnterInitializationMode(c) == fmi2OK && fmi2GetReal(c, outputs, 3, found) == fmi2OK) {
+        return;
+    }
+    for (k = 0; k < N_VARIABLES; k++) {
+        if (core_variables[k].role == FIXED && k != VR_LEAD) {
+            fmi2SetReal(c, &k, 1, &core_variables[k].start);
+        }
+    }
+    fmi2EnterInitializationMode(c);
+}
+
 static fmi2Component start(fmi2Type type)
 {
     static const fmi2CallbackFunctions callbacks = {NULL, NULL, NULL, NULL, NULL};
@@ -42,7 +66,7 @@ static fmi2Component start(fmi2Type type)
     const fmi2Real value = 0.5 * any(2 * (unsigned int)MOST_LEAD + 1);
     fmi2SetupExperiment(c, any(2) ? fmi2True : fmi2False, 1e-5, 0.0, fmi2False, 0.0);
     fmi2SetReal(c, &lead, 1, &value);
-    fmi2EnterInitializationMode(c);
+    set_parameters(c);
     return c;
 }
 

@@ -23,6 +23,31 @@ static int bytes_of(fmi3Instance c, uint8_t *bytes, size_t size)
     return fmi3FreeFMUState(c, &saved) == fmi3OK && held;
 }
 
+/* As in fuzz.c. */
+static void set_parameters(fmi3Instance c)
+{
+    const bool tolerant = any(2) != 0;
+    const fmi3ValueReference outputs[] = {FUZZ_OUTPUTS};
+    fmi3Float64 found[3];
+    fmi3ValueReference k;
+    for (k = 0; k < N_VARIABLES; k++) {
+        if (core_variables[k].role == FIXED && k != VR_LEAD && any(3) == 0) {
+            const fmi3Float64 value = parameter(core_variables[k].start);
+            fmi3SetFloat64(c, &k, 1, &value, 1);
+        }
+    }
+    if (fmi3EnterInitializationMode(c, tolerant, 1e-5, 0.0, fmi3False, 0.0) == fmi3OK
+        && fmi3GetFloat64(c, outputs, 3, found, 3) == fmi3OK) {
+        return;
+    }
+    for (k = 0; k < N_VARIABLES; k++) {
+        if (core_variables[k].role == FIXED && k != VR_LEAD) {
+            fmi3SetFloat64(c, &k, 1, &core_variables[k].start, 1);
+        }
+    }
+    fmi3EnterInitializationMode(c, tolerant, 1e-5, 0.0, fmi3False, 0.0);
+}
+
 /* A slave, with event mode and early return or without, or a model. */
 static fmi3Instance start(int slave)
 {
@@ -43,7 +68,7 @@ static fmi3Instance start(int slave)
                            : fmi3InstantiateModelExchange("fuzz", MODEL_TOKEN, NULL, fmi3False, fmi3False, NULL, NULL);
 #endif
     fmi3SetFloat64(c, &lead, 1, &value, 1);
-    fmi3EnterInitializationMode(c, any(2) != 0, 1e-5, 0.0, fmi3False, 0.0);
+    set_parameters(c);
     return c;
 }
 

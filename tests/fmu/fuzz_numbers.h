@@ -18,3 +18,9 @@ static double anything(double usual)
     default: return usual * (0.5 + (double)any(1000) / 1000.0);
     }
 }
+
+/* A value for a fixed parameter: about its start value, or odd now and then. */
+static double parameter(double start)
+{
+    return any(8) ? start * (0.8 + (double)any(400) / 1000.0) : anything(start);
+}

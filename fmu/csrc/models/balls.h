@@ -18,7 +18,7 @@ typedef struct {
  * from the outer groove centre, outward and along the shaft), and what follows from it. */
 typedef struct {
     double place[2][PLACES];
-    double rate[2];          /* planar, of a ball with inertia */
+    double rate[2];          /* of the place: planar at the ends of both steps, at contact angles both of the last one */
     double factor[2][2];     /* [race]: film over that of the tables */
     double entrained[2][2];  /* [race]: sum of both surface speeds over the speed of the shaft [m] */
     double lift[2];          /* [race]: see Thickness */

@@ -258,6 +258,7 @@ static const char *press_all(const Setup *setup, const Bearing *before, Bearing 
         for (j = 0; j < 2; j++) {
             ball->place[1][j] = h > 0.0 ? old->place[0][j] : b[j];
             ball->place[0][j] = b[j];
+            ball->rate[j] = h > 0.0 ? p.v[j] : 0.0;
         }
         for (race = 0; race < 2; race++) {
             const double u = p.l[race] - (race == INNER_RACE ? INNER_REACH : OUTER_REACH);

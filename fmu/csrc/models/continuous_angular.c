@@ -178,7 +178,7 @@ static int rates_in_balance(const Between *b, Dual *p, Dual *t)
 }
 
 /* All rates with the cage at a given speed; that at which the balls would turn it is the rate of its angle. */
-static const char *rates_at(const Setup *setup, const RingMotion *ring, const Bearing *still, Dual cage, const Dual states[],
+static const char *rates_at(const Setup *setup, const RingMotion *ring, const Bearing *last, Dual cage, const Dual states[],
                             Dual rates[], BallLoads *out)
 {
     const LawSpeed law = law_speed(ring->omega);
@@ -203,7 +203,7 @@ static const char *rates_at(const Setup *setup, const RingMotion *ring, const Be
             own[1] = first[1];
         } else {
             double place[2];
-            own_states(&still->ball[k], place);
+            own_states(&last->ball[k], place);
             own[0] = number(place[0]);
             own[1] = number(place[1]);
             rest_place(setup, ring, states[CAGE_ANGLE], k, own);
@@ -226,7 +226,11 @@ static const char *rates_at(const Setup *setup, const RingMotion *ring, const Be
         b.pushed[0] = dot(o, forces.sum);
         b.pushed[1] = cross(o, forces.sum);
         if (wet) {
-            if (!rates_in_balance(&b, &along, &aside)) {
+            if (last->h > 0.0) {
+                const double *v = last->ball[k].rate;
+                along = add(times(v[0], o[0]), times(v[1], o[1]));
+                aside = sub(times(v[1], o[0]), times(v[0], o[1]));
+            } else if (!rates_in_balance(&b, &along, &aside)) {
                 return "a ball finds no balance: a smaller displacement can help";
             }
             {
@@ -264,14 +268,14 @@ static const char *rates_at(const Setup *setup, const RingMotion *ring, const Be
     return NULL;
 }
 
-const char *bearing_rates(const Setup *setup, const RingMotion *ring, const Bearing *still, const Dual states[], Dual rates[],
+const char *bearing_rates(const Setup *setup, const RingMotion *ring, const Bearing *last, const Dual states[], Dual rates[],
                           BallLoads *out)
 {
     const char *reason = NULL;
     Dual cage = number(0.0);
     int i;
     for (i = 0; i < CAGE_ROUNDS && reason == NULL; i++) { /* the cage turns as the balls carry, which move with it */
-        reason = rates_at(setup, ring, still, cage, states, rates, out);
+        reason = rates_at(setup, ring, last, cage, states, rates, out);
         cage = rates[CAGE_ANGLE];
     }
     return reason;

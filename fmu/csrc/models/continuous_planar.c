@@ -68,7 +68,7 @@ void own_states(const Ball *ball, double states[])
 
 /* ---- all balls ---- */
 
-const char *bearing_rates(const Setup *setup, const RingMotion *ring, const Bearing *still, const Dual states[], Dual rates[],
+const char *bearing_rates(const Setup *setup, const RingMotion *ring, const Bearing *last, const Dual states[], Dual rates[],
                           BallLoads *out)
 {
     const SpeedState at = speed_state(setup, ring->omega);
@@ -82,7 +82,7 @@ const char *bearing_rates(const Setup *setup, const RingMotion *ring, const Bear
         const Dual *first = &states[FIRST_OF_BALLS + k * BALL_STATES], *second = first + OWN_STATES + FILM_STATES;
         Dual *first_rate = &rates[FIRST_OF_BALLS + k * BALL_STATES], *second_rate = first_rate + OWN_STATES + FILM_STATES;
         const int placed = HEAVY || wet;
-        Dual w = placed ? first[0] : number(still->ball[k].place[0][0]), own = number(0.0), film[2];
+        Dual w = placed ? first[0] : number(last->ball[k].place[0][0]), own = number(0.0), film[2];
         Held inner, outer;
         if (!placed) {
             rest_place(setup, ring, states[CAGE_ANGLE], k, &w);
@@ -91,6 +91,8 @@ const char *bearing_rates(const Setup *setup, const RingMotion *ring, const Bear
         outer = held(outer_race, &at.law, at.transit[OUTER_RACE], NULL, w, second);
         if (HEAVY) {
             own = first[1];
+        } else if (wet && last->h > 0.0) {
+            own = number(last->ball[k].rate[0]);
         } else if (wet && !balance(&inner, &outer, b.rate, at.centrifugal, &own)) {
             return "a ball finds no balance: a smaller displacement can help";
         }

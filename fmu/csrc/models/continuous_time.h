@@ -20,9 +20,10 @@ void own_states(const Ball *ball, double states[]);
 /* Where a ball at rest is that is at `place` without the direction. */
 void rest_place(const Setup *setup, const RingMotion *ring, Dual angle, int k, Dual place[PLACES]);
 
-/* Rates of the states, and what balls carry. Dry balls without inertia are where they are at rest, those of `still`: they have
- * no rates. Returns why not, or NULL. */
-const char *bearing_rates(const Setup *setup, const RingMotion *ring, const Bearing *still, const Dual states[], Dual rates[],
+/* Rates of the states, and what balls carry. Dry balls without inertia are where those of `last` are, and have no rates. After a
+ * step others move at its rates: the rate at which forces balance is that of continuous time alone, and errors of a step are many
+ * times as large in it. Returns why not, or NULL. */
+const char *bearing_rates(const Setup *setup, const RingMotion *ring, const Bearing *last, const Dual states[], Dual rates[],
                           BallLoads *out);
 
 #endif

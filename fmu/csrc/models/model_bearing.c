@@ -338,7 +338,7 @@ static const char *in_time(const Model *m, const double states[], const double *
     const Setup setup = setup_of(m->value);
     const int starts = m->stage == STARTING, wet = setup.race[INNER_RACE].nodes > 0;
     double q[FREEDOMS], force[FREEDOMS];
-    Bearing still;
+    Bearing last;
     const char *reason;
     int i, j, k;
     place_of(m->value, m->input, q);
@@ -354,16 +354,16 @@ static const char *in_time(const Model *m, const double states[], const double *
     for (i = 0; i < N_STATES; i++) {
         t->states[i] = dual(states[i], seed != NULL && !starts ? seed[FIRST_STATE + i] : 0.0);
     }
+    memcpy(&last, m->cache, sizeof last);
     if (!HEAVY && !wet) {
-        memcpy(&still, m->cache, sizeof still);
-        still.angle = states[CAGE_ANGLE];
-        reason = balls_rest(&setup, &still, m->input[SPEED], q, force);
+        last.angle = states[CAGE_ANGLE];
+        reason = balls_rest(&setup, &last, m->input[SPEED], q, force);
     }
     for (k = 0; k < BALLS && starts && OWN_STATES > 0; k++) {
         rest_place(&setup, &t->ring, t->states[CAGE_ANGLE], k, &t->states[FIRST_OF_BALLS + k * BALL_STATES]);
     }
     if (reason == NULL) {
-        reason = bearing_rates(&setup, &t->ring, &still, t->states, t->rates, &t->balls);
+        reason = bearing_rates(&setup, &t->ring, &last, t->states, t->rates, &t->balls);
     }
     for (j = 0; j < FREEDOMS && reason == NULL; j++) {
         const Dual raw = t->balls.force[j];

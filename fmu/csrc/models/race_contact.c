@@ -15,7 +15,7 @@ static const double cutoff_gap = CUTOFF_GAP;
 double race_curve(const Race *race, int row, double u, int *k, double *slope)
 {
     const double *nodes = &race->u[row * race->nodes], *term;
-    const int last = race->nodes - 2;
+    const int last = race->nodes - 2, *first;
     double start, half, s, value, by_s;
     int i;
     while (*k > 0 && u < nodes[*k]) {
@@ -32,11 +32,13 @@ double race_curve(const Race *race, int row, double u, int *k, double *slope)
     }
     half = 0.5 * (nodes[*k + 1] - start);
     s = (u - start) / half - 1.0;
-    term = &race->curve[(row * (last + 1) + *k) * CURVE_TERMS];
-    value = term[CURVE_TERMS - 1];
+    first = &race->first[row * (last + 1) + *k];
+    term = &race->curve[first[0]];
+    i = first[1] - first[0] - 1;
+    value = term[i];
     by_s = 0.0;
     start = s > 1.0 ? 1.0 : s; /* beyond the table: straight on */
-    for (i = CURVE_TERMS - 2; i >= 0; i--) {
+    while (--i >= 0) {
         by_s = by_s * start + value;
         value = value * start + term[i];
     }

@@ -12,9 +12,10 @@ typedef struct {
     double kn, log_kn, reach; /* N/m^1.5; its logarithm; 2a over sqrt(g) [m^0.5] */
     double lag_rate, inlet_rate, fast_rate;
     int nodes;
+    const int *first;    /* [rows * (nodes - 1) + 1] first coefficient of every interval of `curve` */
     const double *x;     /* [nodes] ln F, increasing */
     const double *u;     /* [rows][nodes] approach there */
-    const double *curve; /* [rows][nodes - 1][CURVE_TERMS] g between, powers of s = -1 to 1 */
+    const double *curve; /* g between, powers of s = -1 to 1 */
     const double *gains; /* [rows][nodes][RACE_GAINS] */
     const double *made;  /* [rows][nodes] film that a unit of the inlet's state lets into the chain */
 } Race;

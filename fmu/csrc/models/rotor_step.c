@@ -166,9 +166,18 @@ static void turn(Model *m, double by)
     m->cache[ANGLE_REST] = more - (m->value[ANGLE] - old);
 }
 
+/* Longest step inside one. The start value of inner_step resolves the shaft of the export; where another has been set whose
+ * vibration against the journal is faster, it is resolved as well. */
+static double longest_step(const double value[])
+{
+    const double omega = sqrt(value[VR_shaft_stiffness] * (1.0 / value[VR_disc_mass] + 1.0 / value[VR_journal_mass]));
+    const double given = value[VR_inner_step];
+    return given == DEFAULT_INNER_STEP ? fmin(given, SHAFT_STEP / omega) : given;
+}
+
 Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
 {
-    const double count = ceil(h / m->value[VR_inner_step] - by_rounding);
+    const double count = ceil(h / longest_step(m->value) - by_rounding);
     double inputs[N_INPUTS], applied[FREEDOMS];
     double omega = motion->input[VR_speed].start;
     Model next = *m;

@@ -80,9 +80,9 @@ def indicators(model, count):
     ],
 )
 def test_equations_are_those_of_python(made, name, fmi):
-    """To rounding where balls carry load; elsewhere both have their own tables of one curve.
+    """To rounding where balls carry load; elsewhere to the error of the cubics in Python.
 
-    At contact angles that difference, 1e-8, is over what little force such a ball has across.
+    At contact angles little damps a ball across its contacts: rounding of the forces is over that damping.
     """
     one = made(name, fmi)
     assert findings(one.path) == ()
@@ -94,14 +94,18 @@ def test_equations_are_those_of_python(made, name, fmi):
         assert np.abs(force - points.force[k]).max() < 1e-9 * np.abs(points.force[k]).max()
         error = np.abs(rates - points.rates[k])
         largest = np.array([np.abs(points.rates[k][kinds == kind]).max() for kind in kinds])
-        assert np.all(error <= 2e-8 * largest)
+        assert np.all(error <= 2e-9 * largest)
         if "dry" in name:
             continue
         for ball, both in enumerate(approaches(one, states, points.place[k]).T, start=1):
             of_ball = np.array([n.startswith(f"ball[{ball}].") for n in names])
             if both.min() > DEEP:
                 pressed += 1
-                assert np.all(error[of_ball] <= 1e-12 * largest[of_ball])
+                rounding = np.zeros(of_ball.sum())
+                if len(one.model.names) == 5:
+                    load = max(model.get(f"ball[{ball}].load_inner", f"ball[{ball}].load_outer"))
+                    rounding[:2] = np.finfo(float).eps * load / counted_from(one.model).across[0]
+                assert np.all(error[of_ball] <= 1e-12 * largest[of_ball] + rounding)
                 assert np.all(error[of_ball] <= 1e-11 * np.abs(points.rates[k][of_ball]))
     assert pressed > 20 or "dry" in name
     model.free()
@@ -295,7 +299,9 @@ def test_a_bearing_without_its_film_is_the_dry_one(made, name, dry):
         model.free()
 
 
-@pytest.mark.parametrize(("name", "own"), [("planar", "ball[1].v"), ("five", "seat_tilt_x[2]")])
+@pytest.mark.parametrize(
+    ("name", "own"), [("planar", "ball[1].v"), ("five", "ball[1].a"), ("five", "seat_tilt_x[2]")]
+)
 def test_states_in_steps_move_by_their_rates(made, name, own):
     """In co-simulation they are read, and their derivatives; steps have no partial derivatives."""
     one = made(name)

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import fmpy
 import pytest
+from bearing_fmus import bearing
 from lxml import etree
 
 from ehlcontact import InputError
+from fmu import export_bearing
 from fmu.binaries import PLATFORMS, BuildError, choose, this_machine
 from fmu.binaries.compiler import compilers
 from fmu.model_description import build_description
@@ -171,3 +173,14 @@ def test_it_is_valid_and_names_every_file(spec):
     assert configuration.find("SourceFileSet").get("language") == "C99"
     (library,) = configuration.findall("Library")
     assert (library.get("name"), library.get("external")) == ("m", "true")
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:the first library for Windows")
+def test_bearing_with_tables_at_four_speeds_for_all_platforms_takes_less_than_a_megabyte(tmp_path):
+    path = tmp_path / "x.fmu"
+    export_bearing(
+        bearing("7205"), path, speeds_rpm=(1000.0, 12000.0), load=(0.0, -300.0, 200.0), fmi=3, platforms="all"
+    )
+    assert len(fmpy.supported_platforms(str(path))) == 5
+    assert path.stat().st_size < 1e6

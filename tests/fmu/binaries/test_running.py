@@ -1,18 +1,27 @@
-"""Binaries in a C program that knows nothing of Python: on this machine, on Linux on arm, on Windows."""
+"""Binaries in a C program without Python: on this machine, on Linux on arm, on Windows.
 
+Linux on arm by qemu-aarch64: with its C library (Debian's libc6-arm64-cross, or QEMU_LD_PREFIX) the library of the
+FMU is loaded; without it, its sources and musl are linked with the program.
+"""
+
+import os
 import shutil
 import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
+from bearing_fmus import MODELS
 
 from fmu.archive import content_guid
+from fmu.bearing.trial import bearing_trial
+from fmu.bearing.variables import RATES, bearing_spec
 from fmu.binaries import PLATFORMS, build_binaries, this_machine
 from fmu.binaries.compiler import compilers
 from fmu.comparison import film_motion
 from fmu.contact_spec import contact_spec
 from fmu.sources import compiled, source_files, standard_folder
+from reduced_models.bearing.race import RACES
 
 OWN = this_machine()
 LOADER = Path(__file__).parent / "loader.c"
@@ -20,23 +29,28 @@ KINDS = ("cubic", "cubic_si", "wide", "wide_si")
 pytestmark = pytest.mark.filterwarnings("ignore:the first library for Windows")
 
 
-def run_on(platform, element, folder, command):
-    """Compile an element for a platform, step it in the C program there and compare every force.
+def outputs_on(platform, spec, folder, start, knowns, unknowns, linked=False):
+    """Outputs by name after each step of a C program for a platform, along inputs over "time".
 
-    ``command(program)`` starts a program of that platform, with `folder` as the working directory.
+    ``start(program)`` starts a program of that platform, with `folder` as the working directory; `linked` links
+    sources with the program, in place of a library that it loads.
     """
-    spec = contact_spec(element)
-    sources = source_files(spec, content_guid(spec))
-    (library,) = build_binaries(sources, compiled(spec, 2), spec.identifier, [platform], fmi=3)[0].values()
-    folder.mkdir()
+    guid = content_guid(spec)
+    sources, units = source_files(spec, guid), compiled(spec, 2)
+    folder.mkdir(parents=True)
     path = folder / f"x{platform.suffix}"
-    path.write_bytes(library)
-    names = ("approach", "rate", "force", "stiffness", "damping", "lead")
-    references = [str(spec[name].value_reference) for name in names]
-    T, u, v = motion(element)
+    if linked:
+        for name, content in sources.items():
+            (folder / name).write_bytes(content)
+    else:
+        path.write_bytes(*build_binaries(sources, units, spec.identifier, [platform], fmi=3)[0].values())
+    given = [name for name in knowns if name != "time"]
+    references = [str(spec[name].value_reference) for name in ("lead", *given, *unknowns)]
+    program = built_loader(folder, platform, units if linked else ())
+    rows = zip(*(knowns[name].tolist() for name in ("time", *given)), strict=True)
     done = subprocess.run(
-        [*command(built_loader(folder, platform)), f"./{path.name}", content_guid(spec), *references],
-        input="".join(f"{t!r} {a!r} {b!r}\n" for t, a, b in zip(T.tolist(), u.tolist(), v.tolist(), strict=True)),
+        [*start(program), f"./{path.name}", guid, str(len(given)), *references],
+        input="".join(" ".join(map(repr, row)) + "\n" for row in rows),
         capture_output=True,
         text=True,
         check=False,
@@ -45,8 +59,16 @@ def run_on(platform, element, folder, command):
     )
     assert done.returncode == 0, done.stderr
     found = np.array([[float.fromhex(x) for x in row.split()] for row in done.stdout.splitlines()])
-    assert found.shape == (T.size - 1, 3)
-    assert_right(element, found[:, 0], T, u, v)
+    assert found.shape == (knowns["time"].size - 1, len(unknowns))
+    return dict(zip(unknowns, found.T, strict=True))
+
+
+def check_element(platform, element, folder, *how):
+    """Step an element on a platform and compare every force with that in Python."""
+    T, u, v = motion(element)
+    knowns = {"time": T, "approach": u, "rate": v}
+    found = outputs_on(platform, contact_spec(element), folder, *how[:1], knowns, ("force",), *how[1:])
+    assert_right(element, found["force"], T, u, v)
 
 
 def motion(element):
@@ -68,17 +90,48 @@ def assert_right(element, force, T, u, v):
     assert error.max() <= 1e-12
 
 
-def built_loader(folder, platform):
-    """The C program for a platform, as a file."""
+def built_loader(folder, platform, units):
+    """The C program for a platform, as a file; linked with these sources of the folder, if any."""
     own = platform is OWN and shutil.which("cc")
+    target = platform.target.split("-gnu")[0] + "-musl" if units else None
     command = ("cc",) if own else compilers(platform)[-1].command
+    if target is not None:
+        command = [target if part == platform.target else part for part in command]
     program = folder / ("loader.exe" if platform.system == "windows" else "loader")
-    line = [*command, "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-I", standard_folder(), LOADER]
-    line += ["-o", program]
-    line += [] if platform.system == "windows" else ["-ldl"]
+    line = [*command, "-std=c99", "-O1", "-I", standard_folder(), LOADER, "-o", program]
+    if units:
+        line += ["-static", "-DLINKED", "-ffp-contract=off", *(folder / unit for unit in units), "-lm"]
+    else:
+        line += ["-Wall", "-Wextra", "-Werror", *([] if platform.system == "windows" else ["-ldl"])]
     done = subprocess.run([str(part) for part in line], capture_output=True, text=True, check=False, timeout=600)
     assert done.returncode == 0, done.stderr
     return program
+
+
+def on_this_machine():
+    """How a program of this machine is started."""
+    return (lambda program: [program],)
+
+
+def on_arm(tmp_path_factory):
+    """How a program of Linux on arm is started, and whether sources have to be linked with it."""
+    emulator = shutil.which("qemu-aarch64") or shutil.which("qemu-aarch64-static")
+    if emulator is None:
+        pytest.skip("no package qemu-user")
+    root = Path(os.environ.get("QEMU_LD_PREFIX", "/usr/aarch64-linux-gnu"))
+    return lambda program: [emulator, "-L", root, program], not root.is_dir()
+
+
+def on_windows(tmp_path_factory):
+    """How a program of Windows is started."""
+    wine = next(filter(None, map(shutil.which, ("wine64", "wine", "wine64-stable"))), None)
+    if wine is None:
+        pytest.skip("no package wine64")
+    prefix = tmp_path_factory.getbasetemp() / "wine"
+    return (lambda program: ["env", f"WINEPREFIX={prefix}", "WINEDEBUG=-all", wine, program.name],)
+
+
+OTHERS = {"aarch64-linux": on_arm, "x86_64-windows": on_windows}
 
 
 @pytest.fixture(params=KINDS)
@@ -86,24 +139,33 @@ def element(request, elements):
     return elements[request.param]
 
 
-@pytest.mark.skipif(OWN.system == "windows", reason="the next but one is this machine's there")
+@pytest.mark.skipif(OWN.system == "windows", reason="the next one is this machine's there")
 def test_on_this_machine(element, tmp_path):
-    run_on(OWN, element, tmp_path / "mit Leerzeichen und Umläuten ß", lambda program: [program])
+    check_element(OWN, element, tmp_path / "mit Leerzeichen und Umläuten ß", *on_this_machine())
 
 
 @pytest.mark.slow
-def test_on_linux_on_arm(element, tmp_path):
-    emulator, root = shutil.which("qemu-aarch64-static"), Path("/usr/aarch64-linux-gnu")
-    if emulator is None or not root.is_dir():
-        pytest.skip("no packages qemu-user-static and libc6-arm64-cross")
-    run_on(PLATFORMS["aarch64-linux"], element, tmp_path / "x", lambda program: [emulator, "-L", root, program])
+@pytest.mark.parametrize("name", OTHERS)
+def test_on_another_machine(name, element, tmp_path, tmp_path_factory):
+    check_element(PLATFORMS[name], element, tmp_path / "x", *OTHERS[name](tmp_path_factory))
 
 
 @pytest.mark.slow
-def test_on_windows(element, tmp_path, tmp_path_factory, monkeypatch):
-    wine = next(filter(None, map(shutil.which, ("wine64", "wine", "wine64-stable"))), None)
-    if wine is None:
-        pytest.skip("no package wine64")
-    monkeypatch.setenv("WINEPREFIX", str(tmp_path_factory.getbasetemp() / "wine"))
-    monkeypatch.setenv("WINEDEBUG", "-all")
-    run_on(PLATFORMS["x86_64-windows"], element, tmp_path / "x", lambda program: [wine, program.name])
+@pytest.mark.skipif(OWN.system == "windows", reason="compares with Linux")
+@pytest.mark.parametrize("bearing", ("planar", "range", "five", "shared"))
+@pytest.mark.parametrize("name", OTHERS)
+def test_bearings_between_machines(name, bearing, tmp_path, tmp_path_factory):
+    how = OTHERS[name](tmp_path_factory)
+    model = MODELS[bearing]()
+    spec, trial = bearing_spec(model), bearing_trial(model, seed=3)
+    rates = [RATES[axis] for axis in model.names]
+    moved = np.hstack([trial.place, trial.velocity]).T
+    knowns = {"time": trial.time, "speed": trial.speed} | dict(zip((*model.names, *rates), moved, strict=True))
+    outputs = [one.name for one in spec.outputs if one.type == "Real"]
+    outputs += [f"ball[{k}].{what}_{race}" for k in (1, 2) for what in ("load", "film") for race in RACES]
+    assert (trial.balls[:, :, 0] == 0.0).any()  # balls part from the ring
+    here = outputs_on(OWN, spec, tmp_path / "here", *on_this_machine(), knowns, outputs)
+    there = outputs_on(PLATFORMS[name], spec, tmp_path / "there", how[0], knowns, outputs, *how[1:])
+    gaps = {axis: np.abs(there[axis] - here[axis]).max() / np.abs(here[axis]).max() for axis in outputs}
+    print(name, bearing, max(gaps.values()), max(gaps, key=gaps.get))  # the figures of docs/coupling.md
+    assert max(gaps.values()) <= 1e-10

@@ -98,6 +98,21 @@ def test_default_inner_step_resolves_shaft_and_contacts(rotors):
                 assert model.inner_step <= 0.05 * element.time, name
 
 
+def test_default_inner_step_follows_a_stiffer_shaft(instance, rotors, moving):
+    """A shaft 400 times as stiff is resolved as the exported one is; a step of one's own is taken as it is."""
+    rotor, default = rotors["alone"].rotor, rotors["alone"].inner_step
+    names, start = moving(rotor), {"disc_y": 1e-5}
+    stiff = {"shaft_stiffness": 400.0 * rotor.shaft_stiffness, "shaft_damping": 0.0, "disc_damping": 0.0}
+    exact = run(instance("alone"), names, 50, default, inner_step=default / 200.0, **stiff, **start)
+    size = np.ptp(exact, axis=0).max()
+    found = run(instance("alone"), names, 50, default, **stiff, **start)
+    longer = np.nextafter(default, 1.0)  # set, and so not the default
+    coarse = run(instance("alone"), names, 50, default, inner_step=longer, **stiff, **start)
+    error, before = (np.abs(one - exact).max() / size for one in (found, coarse))
+    print(error, before)
+    assert error < 0.1 * before
+
+
 def test_rotor_alone_under_the_forces_of_its_contacts(instance, rotors, moving, motion_of):
     """What the contacts gave the closed one moves it just so: they are the forces of one bearing."""
     model, steps, dt = rotors["wide"], 400, 1e-5
