@@ -153,6 +153,7 @@ def solve_steady(
     require_supply(supply, moes, scales)
     rough = None if asperities is None else (asperities, asperities.numbers(point))
     cut_short = max_cycles < MAX_CYCLES  # the caller's own limit: nothing else is what was asked for
+    inputs: dict[str, Any] = {"supply": supply, "thermal": thermal, "scales": scales, "rough": rough}
     tried = []
     for attempt in attempts(
         moes,
@@ -164,7 +165,7 @@ def solve_steady(
         budget=budget if grid.n is None else inf,
     ):
         tried.append(attempt)
-        film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads, supply, thermal, scales, rough)
+        film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads, **inputs)
         attempt.status = film.run(balance=balance, tol=tol, most=max_cycles, watch=callback)
         attempt.error_estimate = film.error_estimate
         if attempt.is_better:
@@ -189,10 +190,11 @@ class _Film:
         method: Method,
         deflection: str,
         threads: int,
-        supply: OilLayer | None,
-        thermal: Heat | None,
-        scales: Scales | None,
-        rough: tuple[Asperities, AsperityNumbers] | None,
+        *,
+        supply: OilLayer | None = None,
+        thermal: Heat | None = None,
+        scales: Scales | None = None,
+        rough: tuple[Asperities, AsperityNumbers] | None = None,
     ) -> None:
         self.rough = rough
         self.mesh, self.method, self.supply, self.thermal, self.scales = mesh, method, supply, thermal, scales
