@@ -1,0 +1,49 @@
+"""Studies of spalls: what they print is that of the documentation, on coarser grids and shorter runs."""
+
+import numpy as np
+import pytest
+
+from ehlcontact import MoesPoint
+from programs import script
+
+PNG = b"\x89PNG"
+
+
+def test_bearing_with_a_spall(tmp_path, monkeypatch, capsys):
+    """The bare step has several times the force above 5 kHz; the ball loses load at the edge of the spall."""
+    study = script("examples/studies/spalled_bearing.py")
+    monkeypatch.setattr(study, "UNTIL", 0.05)
+    monkeypatch.setattr(study, "SETTLED", 0.01)
+    length = study.LENGTHS[1]
+    filtered, bare = (
+        study.run(one, length) for one in (study.spalled(length), study.without_filter(study.spalled(length)))
+    )
+    hz, lines = study.spectrum(filtered)
+    high = (hz > 5.0) & (hz < 20.0)
+    assert np.hypot.reduce(study.spectrum(bare)[1][high]) > 4.0 * np.hypot.reduce(lines[high])
+    enters = filtered.passages[filtered.passages[:, 0] > study.SETTLED][0, 0]
+    before, after = (-np.interp(enters + dt, filtered.t, filtered.force) for dt in (-1e-4, 1e-4))
+    assert after < before - 100.0
+    path = tmp_path / "spall.png"
+    study.draw({one: (filtered, bare) for one in study.LENGTHS}, str(path))
+    assert path.read_bytes().startswith(PNG) and capsys.readouterr().out == ""
+
+
+@pytest.mark.slow
+def test_spall_in_a_full_film(tmp_path, monkeypatch, capsys):
+    """Filtered heights come nearer to the full film than bare ones; G does where the depth is small."""
+    study = script("examples/studies/spall_passage.py")
+    monkeypatch.setattr(study, "CASES", ((MoesPoint(200, 10, 0.5), 0.2), (MoesPoint(200, 10, 0.5), 0.5)))
+    path = tmp_path / "passage.png"
+    monkeypatch.setattr("sys.argv", ["spall_passage.py", str(path), "--n", "64"])
+    study.main()
+    assert path.read_bytes().startswith(PNG) and "200" in capsys.readouterr().out
+    for point, depth in study.CASES:
+        one = study.passage(point, depth, 64)
+        change = np.abs(one.full - 1.0).max()
+        off = {
+            name: np.sqrt(np.mean((getattr(one, name) - one.full) ** 2)) / change
+            for name in ("linear", "filtered", "bare")
+        }
+        assert off["filtered"] < 0.06 < 0.09 < off["bare"]
+        assert off["linear"] < (0.04 if depth < 0.3 else 0.1)
