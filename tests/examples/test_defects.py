@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from programs import script
 
 from ehlcontact import MoesPoint
-from programs import script
 
 PNG = b"\x89PNG"
 
@@ -45,5 +45,5 @@ def test_spall_in_a_full_film(tmp_path, monkeypatch, capsys):
             name: np.sqrt(np.mean((getattr(one, name) - one.full) ** 2)) / change
             for name in ("linear", "filtered", "bare")
         }
-        assert off["filtered"] < 0.06 < 0.09 < off["bare"]
+        assert off["filtered"] < 0.06 and off["bare"] > 0.09
         assert off["linear"] < (0.04 if depth < 0.3 else 0.1)
