@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing
+from reduced_models import BallBearing, Spall
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
 OIL = ("--oil", "68", "--temp", "50")
@@ -316,3 +316,39 @@ def test_mistakes_in_a_file_of_an_angular_contact_bearing(refused, file, changes
     if "radial_load" in changes:
         own["clearance_um = 0.0"] = ""
     refused(("b.toml", *words), "bearing", file(own | changes))
+
+
+def test_lines_of_a_spall(call):
+    """Those of the library; the table has the strongest, and names them by the orders of defect and shaft."""
+    given = ("--axial", "32", "--load", "30", "--speed-rpm", "1800", "--spall", "inner,0.18,0.05")
+    found = json.loads(call("bearing", "6205", *OIL, *given, "--json", "-").out)
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
+    pit = Spall(race="inner", angle=-np.pi / 2.0, length=0.18e-3, depth=0.05e-6)
+    lines = bearing.excitation([pit], (0.0, -30.0, 32.0), speed_rpm=1800.0)
+    (shown,) = found["spall"]["lines"]
+    np.testing.assert_array_equal(shown["amplitude"], lines.amplitude)
+    np.testing.assert_allclose(np.array(shown["hz"]), 30.0 * lines.order)
+    assert {"spall", "lines", "amplitude", "hz"} <= set(found["units"])
+    table = call("bearing", "6205", *OIL, *given).out
+    order = bearing.equilibrium((0.0, -30.0, 32.0), speed_rpm=1800.0).orders.bpfi
+    row = next(line for line in table.splitlines() if "BPFI - 1" in line and "2 BPFI" not in line)
+    assert row.split()[0] == f"{order - 1.0:.5g}" and "NOT LINEAR" not in table
+    deep = call("bearing", "6205", *OIL, "--load", "500", "--speed-rpm", "1800", "--spall", "outer, 0.5, 3").out
+    assert "NOT LINEAR" in deep and "BPFO" in deep
+
+
+@pytest.mark.parametrize(
+    ("spall", "more", "words"),
+    [
+        ("outer,0.5", (), "race,length,depth, as outer,0.5,3"),
+        ("middle,1,1", (), "race: one of inner, outer"),
+        ("outer,500,1", (), "length"),
+        ("outer,1,9000", (), "depth"),
+        ("outer,-1,1", (), "length: a finite number > 0"),
+        ("outer,1,nan", (), "depth: a finite number > 0"),
+        ("outer,1,1", ("--pair", "back-to-back", "--contact-angle", "25"), "without --pair"),
+        ("outer,1,1", ("--axial", "100", "--tilt-x", "0.1"), "without --tilt-x"),
+    ],
+)
+def test_a_spall_that_is_none(refused, spall, more, words):
+    refused(("--spall = ", words), "bearing", "6205", "--load", "500", "--speed-rpm", "0", "--spall", spall, *more)

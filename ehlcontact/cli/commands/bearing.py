@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,6 +14,7 @@ import typer
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
+from ehlcontact.cli import spall as defect
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import STDOUT, show_columns, show_table
 from ehlcontact.cli.progress import progress
@@ -27,7 +28,7 @@ from reduced_models.bearing.kinematics import RPM_TO_HZ
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.bearing import BearingJob
-    from reduced_models import BallBearing, BearingSet, BearingState, SetState
+    from reduced_models import BallBearing, BearingExcitation, BearingSet, BearingState, SetState, Spall
     from reduced_models.bearing.kinematics import DefectFrequencies
     from reduced_models.bearing.linear_balls import BearingCoefficients
 
@@ -113,6 +114,8 @@ class BearingReport:
     job: BearingJob
     states: tuple[BearingState | SetState, ...]
     coefficients: tuple[BearingCoefficients, ...]
+    spall: Spall | None = None
+    excitations: tuple[BearingExcitation, ...] = ()
 
     def summary(self) -> dict[str, Any]:
         """For JSON; arrays over balls have a row per ball, with inner and outer race."""
@@ -131,6 +134,9 @@ class BearingReport:
         if not job.planar:
             axial = {"axial_load": job.load[2], "moments": job.load[3:] or None, "tilt": job.tilt}
             axial["orders_under_load"] = _single(under_load) if job.pair is None else under_load
+        if self.spall is not None:
+            units |= defect.UNITS
+            axial["spall"] = defect.summary(self.spall, list(self.excitations))
         if job.pair is not None:
             units |= UNITS_OF_PAIRS
             pair = job.pair.to_dict()
@@ -228,11 +234,19 @@ class BearingOptions(o.Options):
         _bearing("--race-control"),
         e.meaning("what holds the gyroscopic moment of the balls; outer where left out"),
     ] = None
+    spall: Annotated[
+        str | None,
+        _bearing(
+            "--spall",
+            metavar="RACE,LENGTH,DEPTH",
+            help="Lines of force of a spall: inner or outer, mm along the track, um, as outer,0.5,3.",
+        ),
+    ] = None
     rq: Annotated[e.Roughness | None, _bearing("--rq"), e.meaning("roughness of ball and race together")] = None
 
     def given(self) -> dict[str, Any]:
         """Values by option, of those that are given."""
-        found = self.by_option()
+        found = self.by_option(*(name for name in type(self).model_fields if name != "spall"))
         if self.oil is not None:
             found["--oil"] = oil_grade(self.oil, "--oil")
         if self.clearance is not None:
@@ -266,9 +280,11 @@ def bearing(
     from ehlcontact.cli.study.bearing import load_job
 
     out.check(Path(source))
+    spall = None if options.spall is None else defect.spall_of(options.spall)
     job = load_job(source, options.given())
     with progress("bearing"), job.called():
-        report = _computed(job)
+        lines = () if spall is None else tuple(defect.excitations(job, spall))
+        report = replace(_computed(job), spall=spall, excitations=lines)
 
     def draw(path: Path) -> None:
         from reduced_models.bearing.picture import draw_over_speed
@@ -305,11 +321,13 @@ def _show(report: BearingReport, json_to: str | None) -> None:
     bearing = job.bearing
     name = bearing.name or "ball bearing" if job.pair is None else job.pair.name
     show_table(f"{name}, {_load_words(job)}", [*_rows(bearing), *_pair_rows(job)], json_to)
-    for state, found in zip(report.states, report.coefficients, strict=True):
+    for k, (state, found) in enumerate(zip(report.states, report.coefficients, strict=True)):
         rows = _at_speed(bearing, state, found) if job.planar else _at_angles(job, state, found)
         show_table(f"at {numeral(state.speed_rpm)} rpm", rows, json_to)
         for title, one in bearings_of(state).items():
             _show_balls(one, title)
+        if report.spall is not None:
+            defect.show(report.spall, _orders(bearing, one), report.excitations[k])
 
 
 def _single(rows: list[list[Any]]) -> list[Any]:

@@ -1,0 +1,109 @@
+"""``--spall`` of ``ehlcontact bearing``: a spall in words, and the strongest lines of force that it makes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import pi
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.output import show_columns, show_table
+from ehlcontact.errors import InputError
+from reduced_models.bearing.features import Spall
+from reduced_models.bearing.freedoms import FIVE
+
+if TYPE_CHECKING:
+    from ehlcontact.cli.study.bearing import BearingJob
+    from reduced_models import BearingExcitation
+    from reduced_models.bearing.kinematics import DefectFrequencies
+
+OPTION = "--spall"
+WORDS = "race,length,depth, as outer,0.5,3: mm along the track, um"
+SHOWN = 10  # lines in a table
+UNITS = {
+    "spall": "SI; its middle at angle [rad], on the outer race under the load",
+    "lines": "of the force on the ring, linear in the depth; reservation: where they are not",
+    "hz": "Hz; order times the speed of the shaft",
+    "amplitude": "N, N m; of each line, along x, y, z, moments about x, y",
+}
+
+
+def spall_of(text: str) -> Spall:
+    """The spall that an option gives: race, length in mm, depth in um.
+
+    Raises
+    ------
+    InputError
+        Not three of these; what a `Spall` refuses.
+    """
+    race, *sizes = (part.strip() for part in text.split(","))
+    try:
+        length, depth = map(float, sizes)
+    except ValueError:
+        raise InputError(OPTION, text, WORDS) from None
+    try:
+        return Spall(race=race, angle=-pi / 2.0, length=1e-3 * length, depth=1e-6 * depth)
+    except InputError as error:
+        raise InputError(OPTION, text, f"{WORDS}; {error.field}: {error.allowed}") from None
+
+
+def excitations(job: BearingJob, spall: Spall) -> list[BearingExcitation]:
+    """Lines of force of the spall at every speed.
+
+    Raises
+    ------
+    InputError
+        A pair, or a ring that is held at a tilt; a spall that the bearing has no place for.
+    """
+    for given, option in ((job.pair, "--pair"), (job.tilt, "--tilt-x, --tilt-y")):
+        if given is not None:
+            raise InputError(OPTION, f"{spall.race} race", f"without {option}")
+    try:
+        replace(job.bearing, features=[spall])  # whether it has a place for it
+    except InputError as error:
+        raise InputError(OPTION, spall.race, f"{WORDS}; {error.field} {error.allowed}") from None
+    return [job.bearing.excitation([spall], job.load, speed_rpm=speed) for speed in job.speeds]
+
+
+def summary(spall: Spall, found: list[BearingExcitation]) -> dict[str, Any]:
+    """For JSON: the spall, and the lines at every speed."""
+    names = "order", "hz", "amplitude", "phase", "speed_rpm", "reservation"
+    lines = [{name: getattr(one, name) for name in names} for one in found]
+    return {"race": spall.race, "angle": spall.angle, "length": spall.length, "depth": spall.depth, "lines": lines}
+
+
+def show(spall: Spall, orders: DefectFrequencies | None, found: BearingExcitation) -> None:
+    """Table of the strongest lines at one speed, by order."""
+    assert orders is not None  # a bearing that is loaded
+    defect, name = (orders.bpfi, "BPFI") if spall.race == "inner" else (orders.bpfo, "BPFO")
+    axes = FIVE[: min(found.load.size, 3)]
+    forces = found.amplitude[:, : len(axes)]
+    strongest = np.sort(np.where(found.order > 0.0, forces.max(axis=1), 0.0).argsort()[::-1][:SHOWN])
+    rows = [
+        [
+            numeral(float(found.order[k]), 5),
+            _of_defect(float(found.order[k]), defect, name),
+            numeral(float(found.hz[k]), 5),
+            *(numeral(float(value), 3) for value in forces[k]),
+        ]
+        for k in strongest.tolist()
+    ]
+    size = f"{numeral(1e3 * spall.length)} mm, {numeral(1e6 * spall.depth)} um deep"
+    title = f"spall of the {spall.race} race, {size}"
+    show_columns(["line", "of", "Hz", *(f"{axis} [N]" for axis in axes)], rows, title)
+    if found.reservation:
+        show_table("", [("NOT LINEAR", "", found.reservation)], None)
+
+
+def _of_defect(order: float, defect: float, name: str) -> str:
+    """An order as multiples of the defect's and of the shaft's, as ``2 BPFI - 1``."""
+    most = int(order / defect) + 10
+    times, turns = min(
+        ((j, round(order - j * defect)) for j in range(-most, most + 1)),
+        key=lambda pair: (round(abs(order - pair[0] * defect - pair[1]), 6), abs(pair[1])),
+    )
+    parts = [f"{times if times != 1 else ''} {name}".strip()] if times else []
+    parts += [f"{'-' if turns < 0 else '+'} {abs(turns)}"] if turns else []
+    return " ".join(parts)
