@@ -14,6 +14,7 @@ room              responsibility
 ``heat``          `Heat`: what the heating of a film needs of oil and surfaces
 ``traction``      `traction_curve`: traction of a contact over sliding
 ``side_flow``     `oil_passes`: films on the oil that the last ones left; closed form of thin layers
+``sliding``       `Sliding`: sliding that thins the oil of a film
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
 ``speed_response`` `speed_response`: force over a change of speed, likewise
 ``excitation``    `excitation`: force of waves on a surface, likewise
@@ -55,6 +56,7 @@ from ehlcontact.lubricant import Carreau, Eyring, LimitingShear, Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
 from ehlcontact.results import ExcitationResult, ImpedanceResult, SpeedResponseResult, SteadyResult, Traction
 from ehlcontact.side_flow import layer_after_passes, oil_passes
+from ehlcontact.sliding import Sliding
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.speed_response import speed_response
@@ -102,6 +104,7 @@ __all__ = [
     "Roughness",
     "RunSettings",
     "SimulationResult",
+    "Sliding",
     "SpeedHistory",
     "SpeedResponseResult",
     "Status",

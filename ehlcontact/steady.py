@@ -20,12 +20,14 @@ from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
 from ehlcontact.results.asperity_contact import AsperityContact
 from ehlcontact.results.film_temperature import FilmTemperature
+from ehlcontact.sliding import Sliding, require_sliding
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.attempts import METHODS, Method, attempts
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
 from ehlcontact.solver.film_heat import FilmHeat, HeatedCycles
+from ehlcontact.solver.film_thinning import FilmThinning
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Level
@@ -53,6 +55,7 @@ def solve_steady(
     supply: OilLayer | None = None,
     thermal: Heat | None = None,
     asperities: Asperities | None = None,
+    sliding: Sliding | None = None,
     approach: float | None = None,
     tol: float = 1e-5,
     max_cycles: int = MAX_CYCLES,
@@ -85,6 +88,9 @@ def solve_steady(
     asperities : Asperities, optional
         Let them carry part of the load where the film is thin, as ``result.asperities`` says. The film between
         smooth surfaces is solved first. By default the surfaces are smooth.
+    sliding : Sliding, optional
+        Let sliding thin the oil, and the film with it (docs/traction.md). The Newtonian film is solved first. By
+        default the film is that of pure rolling.
     approach : float, optional
         Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
         force it takes.
@@ -141,6 +147,12 @@ def solve_steady(
         require_asperities(asperities)
         if thermal is not None:
             raise InputError("asperities", "given", "left out with heat: that of their friction is not known")
+    if sliding is not None:
+        require_sliding(sliding, point)
+        others = {"supply": supply, "thermal": thermal, "asperities": asperities}
+        for other in (name for name, value in others.items() if value is not None):
+            allowed = f"left out with {other}: it thins flooded, isothermal films of smooth surfaces"
+            raise InputError("sliding", "given", allowed)
     threads = require_threads("threads", threads)
     if budget != inf:
         require_positive("budget", budget)
@@ -151,9 +163,9 @@ def solve_steady(
         load = min(max(approach, 1.0), LARGEST_APPROACH) ** 1.5  # of a dry contact
     moes, scales = require_solvable(point, load), scales_of(point)
     require_supply(supply, moes, scales)
-    rough = None if asperities is None else (asperities, asperities.numbers(point))
     cut_short = max_cycles < MAX_CYCLES  # the caller's own limit: nothing else is what was asked for
-    inputs: dict[str, Any] = {"supply": supply, "thermal": thermal, "scales": scales, "rough": rough}
+    inputs: dict[str, Any] = {"supply": supply, "thermal": thermal, "sliding": sliding, "scales": scales}
+    inputs["rough"] = None if asperities is None else (asperities, asperities.numbers(point))
     tried = []
     for attempt in attempts(
         moes,
@@ -193,11 +205,13 @@ class _Film:
         *,
         supply: OilLayer | None = None,
         thermal: Heat | None = None,
+        sliding: Sliding | None = None,
         scales: Scales | None = None,
         rough: tuple[Asperities, AsperityNumbers] | None = None,
     ) -> None:
         self.rough = rough
         self.mesh, self.method, self.supply, self.thermal, self.scales = mesh, method, supply, thermal, scales
+        self.sliding, self.thinned_share = sliding, nan
         self._make = partial(
             Multigrid,
             point,
@@ -213,12 +227,15 @@ class _Film:
         self.error_estimate: ErrorEstimate | None = None
         self.temperature: FilmTemperature | None = None
         self.asperities: AsperityContact | None = None
-        self.heats = thermal is not None and thermal.temperature_slope != 0.0  # so that the viscosity follows
+        # whether the viscosity follows what the film does
+        self.follows = sliding is not None or (thermal is not None and thermal.temperature_slope != 0.0)
 
     def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
         """Cycle, or take Newton steps, until the residuals say how it ended."""
         if self.rough is not None:
             return self._run_mixed(self.rough, balance, tol, most, watch)
+        if self.sliding is not None:
+            return self._run_sliding(self.sliding, balance, tol, most, watch)
         if self.thermal is None:
             return self._run_cold(balance, tol, most, watch)
         assert self.scales is not None
@@ -228,7 +245,7 @@ class _Film:
             return status
         mg = self.multigrid
         cold, heat = mg.finest.central_film(), FilmHeat(mg.finest, self.thermal.numbers(point, self.scales))
-        if self.heats:
+        if self.follows:
             self.track = IterationHistory()
             status = self._solve(balance, tol, most, watch, heat)
         heat.solve()
@@ -271,6 +288,26 @@ class _Film:
         )
         return status
 
+    def _run_sliding(
+        self,
+        sliding: Sliding,
+        balance: Balance,
+        tol: float,
+        most: int,
+        watch: Callable[[int, float], None] | None,
+    ) -> Status:
+        """The film that sliding thins, from the Newtonian one."""
+        assert self.scales is not None
+        mg = self.multigrid
+        status = self._run_cold(balance, tol, most, watch)
+        if not status.ok:
+            return status
+        newtonian, self.track = mg.finest.central_film(), IterationHistory()
+        thinning = FilmThinning(mg, sliding.law, sliding.log_newton(mg.point.eta0, self.scales))
+        status = self._solve(balance, tol, most, watch, thinning)
+        self.thinned_share = mg.finest.central_film() / newtonian
+        return status
+
     def _run_cold(
         self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None
     ) -> Status:
@@ -293,14 +330,14 @@ class _Film:
         tol: float,
         most: int,
         watch: Callable[[int, float], None] | None,
-        heat: FilmHeat | None = None,
+        heat: FilmHeat | FilmThinning | None = None,
     ) -> Status:
-        """From full multigrid, or with `heat` from the film at the temperature of the inlet."""
+        """From full multigrid, or with `heat` (or thinning) from the film at the temperature of the inlet."""
         mg = self.multigrid
         if balance.weight == 0.0:
             mg.u = balance.rhs
         goal = self._goal(tol, most)
-        if self.heats and heat is None:  # a start, and the film that the heated one is held against
+        if self.follows and heat is None:  # a start, and the film that the heated one is held against
             goal = goal._replace(approach=COLD_APPROACH, pressure=max(tol, COLD_PRESSURE))
         try:
             return self._run(goal, balance, watch, heat)
@@ -334,7 +371,7 @@ class _Film:
         goal: StoppingCriteria,
         balance: Balance,
         watch: Callable[[int, float], None] | None,
-        heat: FilmHeat | None,
+        heat: FilmHeat | FilmThinning | None,
     ) -> Status:
         mg = self.multigrid
         # With close lines cycles need the better start, which raises the load by cycles on the grid of half the
@@ -350,7 +387,7 @@ class _Film:
             cycles.start(balance)
             advance = cycles.step
         status = iterate(mg, balance, advance, goal, self.track, watch)
-        if status.ok and (heat is not None or not self.heats):
+        if status.ok and (heat is not None or not self.follows):
             self.error_estimate = estimate_error(mg, balance)
         return status
 
@@ -382,6 +419,8 @@ class _Film:
             supply=self.supply,
             temperature=self.temperature,
             asperities=self.asperities,
+            sliding=self.sliding,
+            thinned_share=None if self.sliding is None else self.thinned_share,
             **_content(level),
         )
 

@@ -90,7 +90,7 @@ WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
     **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter", "Spall", "Indentation"), INPUT),
     **dict.fromkeys(("SpeedHistory", "SpeedController", "Heat", "Asperities"), INPUT),
-    **dict.fromkeys(("Eyring", "Carreau", "LimitingShear"), INPUT),
+    **dict.fromkeys(("Eyring", "Carreau", "LimitingShear", "Sliding"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
     **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),

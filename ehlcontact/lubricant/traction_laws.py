@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from math import inf
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +21,7 @@ from ehlcontact.checks.quantity import fields_take
 Array = NDArray[np.float64]
 
 STRESS = Quantity("Pa", (1e5, 1e9), (5e5, 1e9), {"MPa": 1e6})  # Eyring's, of oils: 2 to 10 MPa
+LITTLE = -18.0  # ln of it, below which asinh is its argument
 STRAIGHT = 20.0  # ln of a stress over Eyring's, above which asinh is a logarithm
 
 
@@ -28,6 +29,7 @@ class TractionLaw:
     """Base of the traction laws."""
 
     __slots__ = ()
+    thins: ClassVar[bool] = False  # whether `thinning` is of use
 
     def of(self, log_newton: ArrayLike, p: ArrayLike) -> Array:
         """Shear stress [Pa].
@@ -44,6 +46,13 @@ class TractionLaw:
     def limit(self, p: ArrayLike) -> Array:
         """Stress [Pa] that no sliding exceeds at pressures p [Pa]; infinite where there is none."""
         return np.full(np.shape(p), inf)
+
+    def thinning(self, log_newton: ArrayLike) -> tuple[Array, Array]:
+        """Logarithms of the viscosities that a small flow beside the sliding sees, over Newton's: along, across.
+
+        The slope of the stress over Newton's, and its ratio to that (eqs. 14, 15).
+        """
+        raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
         """Name and numbers, ready for JSON."""
@@ -81,9 +90,18 @@ class Eyring(TractionLaw):
     """
 
     stress: float = 5e6
+    thins: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "stress", _stress(self.stress))
+
+    def thinning(self, log_newton: ArrayLike) -> tuple[Array, Array]:
+        """1/cosh(tau/tau_0) along, and (tau/tau_0)/sinh(tau/tau_0) across: `TractionLaw.thinning`."""
+        x = np.asarray(log_newton, float) - np.log(self.stress)
+        along = -0.5 * np.logaddexp(0.0, 2.0 * x)
+        little = x < LITTLE
+        across = np.where(little, 0.0, np.log(np.where(little, 1.0, log_sinh_law(x))) - np.where(little, 0.0, x))
+        return along, across
 
     def of(self, log_newton: ArrayLike, p: ArrayLike) -> Array:
         """Shear stress [Pa]: `TractionLaw.of` (eq. 3)."""
@@ -114,10 +132,18 @@ class Carreau(TractionLaw):
 
     stress: float = 5e6
     exponent: float = 0.5
+    thins: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "stress", _stress(self.stress))
         object.__setattr__(self, "exponent", require_between("exponent", self.exponent, 0.01, 1.0))
+
+    def thinning(self, log_newton: ArrayLike) -> tuple[Array, Array]:
+        """``((1 + n x^2)/(1 + x^2))`` of the viscosity along, all of it across: `TractionLaw.thinning`."""
+        square = 2.0 * (np.asarray(log_newton, float) - np.log(self.stress))  # ln of x^2
+        across = 0.5 * (self.exponent - 1.0) * np.logaddexp(0.0, square)
+        slope = np.logaddexp(0.0, square + np.log(self.exponent)) - np.logaddexp(0.0, square)
+        return across + slope, across
 
     def of(self, log_newton: ArrayLike, p: ArrayLike) -> Array:
         """Shear stress [Pa]: `TractionLaw.of` (eq. 4)."""

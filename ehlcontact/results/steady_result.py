@@ -18,6 +18,7 @@ from ehlcontact.results.asperity_contact import AsperityContact
 from ehlcontact.results.contact_map import contact_panels
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
+from ehlcontact.sliding import Sliding
 from ehlcontact.solver.error_estimate import ALL, ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
@@ -52,7 +53,7 @@ def film_bars(error: ErrorEstimate) -> tuple[str, str]:
     return central, least
 
 
-@stored("result of solve_steady", 3)
+@stored("result of solve_steady", 4)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SteadyResult(ScaledTable, Origin):
     """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
@@ -95,6 +96,10 @@ class SteadyResult(ScaledTable, Origin):
         Part of the gap that oil fills: 1 under pressure.
     layer, layer_behind : ndarray or None, shape (ny + 1,)
         Oil on both surfaces ahead of the contact and behind it, over the dry approach; in SI [m].
+    sliding : Sliding or None
+        As given to `solve_steady`; None of a Newtonian film.
+    thinned_share : float or None
+        Central film over the Newtonian one, on the same grid, where sliding thins the oil.
     temperature : FilmTemperature or None
         Of a film that was solved with heat: temperatures [K], and the film over the isothermal one.
     asperities : AsperityContact or None
@@ -125,6 +130,8 @@ class SteadyResult(ScaledTable, Origin):
 
     temperature: FilmTemperature | None = None
     asperities: AsperityContact | None = None
+    sliding: Sliding | None = None
+    thinned_share: float | None = None
 
     DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
 
@@ -266,6 +273,7 @@ class SteadyResult(ScaledTable, Origin):
             *([] if self.layer is None else [self._supply_line(size, unit)]),
             *([] if self.temperature is None else [self.temperature.summary]),
             *([] if self.asperities is None else [self.asperities.summary]),
+            *([] if self.sliding is None else [self._sliding_line(self.sliding)]),
             *filter(None, [self.reservation]),
             *note_line(self.outside_assumptions),
         ]
@@ -284,12 +292,20 @@ class SteadyResult(ScaledTable, Origin):
         layers = sorted({f"{size * h:.4g}" for h in (self.layer.min(), self.layer.max())})
         return f"layer of oil {' to '.join(layers)} {unit}; the film is full from X = {self.front:.3g} on"
 
+    def _sliding_line(self, sliding: Sliding) -> str:
+        """What sliding does to the film, in words."""
+        assert self.thinned_share is not None
+        share = 100.0 * self.thinned_share
+        return f"sliding at a ratio of {sliding.slide_roll:g} to rolling leaves {share:.4g} % of the central film"
+
     def to_dict(self) -> dict[str, Any]:
         """Numbers without the fields, status and origin, ready for JSON; of an SI point with ``si``."""
         said: dict[str, Any] = {"status": str(self.status), "advice": self.status.advice}
         said |= {"reservation": self.reservation, "outside_assumptions": self.outside_assumptions}
         if self.supply is not None:
             said |= {"supply": self.supply.to_dict(), "front": self.front}
+        if self.sliding is not None:
+            said |= {"sliding": self.sliding.to_dict(), "thinned_share": self.thinned_share}
         if self.temperature is not None:
             said |= {"temperature": self.temperature.to_dict()}
         if self.asperities is not None:

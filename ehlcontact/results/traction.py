@@ -116,6 +116,11 @@ def traction_of(film: SteadyResult, slide_roll: ArrayLike, law: TractionLaw) -> 
         raise InputError(
             "slide_roll", _shown(ratios), f"{its:g}, as of this heated film; traction_curve solves one for each"
         )
+    if film.asperities is not None:
+        raise InputError("film", "with asperities", "one of smooth surfaces: friction of asperities is not known")
+    if film.sliding is not None and ((ratios != film.sliding.slide_roll).any() or law != film.sliding.law):
+        own = f"{film.sliding.slide_roll:g} and {film.sliding.law}, which thin this film"
+        raise InputError("slide_roll and law", _shown(ratios), own)
     wet = film.P > 0.0
     p, at_unit, weights = s.pressure * film.P[wet], _log_newton(film, s)[wet], _weights(film)[wet]
     stresses = [law.of(at_unit + (log(ratio) if ratio else -inf), p) for ratio in ratios.tolist()]

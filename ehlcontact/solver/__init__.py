@@ -22,6 +22,7 @@ module           responsibility
 ``linear``       linearised film: operator, preconditioner, Krylov solution
 ``mixed_film``   cycles of a film that shares the load with asperities
 ``linear_heat``  linearised film with temperatures that follow a vibration
+``film_thinning`` viscosity of a film that sliding thins
 ``film_heat``    temperatures of a film: energy equation; cycles after which the viscosity follows them
 ``newton``       Newton steps on the finest grid
 ``iterate``      iteration of cycles or Newton steps until convergence or failure

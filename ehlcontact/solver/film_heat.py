@@ -8,7 +8,7 @@ node, in units of p_h u_mean delta_H/a; temperatures are in K above that of the 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -199,6 +199,13 @@ class FilmHeat:
         return Sliding(power * stress, power * np.minimum(slope, 0.0), power * by_log)
 
 
+class FollowedFilm(Protocol):
+    """What changes the viscosity of a film: `FilmHeat`, or `film_thinning.FilmThinning`."""
+
+    def solve(self, rounds: int = ..., /) -> Array:
+        """What ``Flow.heat`` becomes at the present film."""
+
+
 class HeatedCycles:
     """Cycles or Newton steps after each of which the viscosity follows the temperatures; `step` stands for one.
 
@@ -207,7 +214,7 @@ class HeatedCycles:
     half, with its own. So changes are combined as in `acceleration`.
     """
 
-    def __init__(self, multigrid: Multigrid, heat: FilmHeat, advance: Callable[[Balance], float]) -> None:
+    def __init__(self, multigrid: Multigrid, heat: FollowedFilm, advance: Callable[[Balance], float]) -> None:
         self.multigrid, self.heat, self._advance = multigrid, heat, advance
         self._last: tuple[Array, Array] | None = None  # what the heating became, and its change
         self._differences: list[tuple[Array, Array]] = []  # of both, from cycle to cycle
@@ -223,6 +230,7 @@ class HeatedCycles:
 
     def settle(self, balance: Balance, cycles: int) -> None:
         """So many of them from a film that is near; viscosity and temperatures belong together at last."""
+        assert isinstance(self.heat, FilmHeat)
         self.heat.solve()
         self._follow()
         for _ in range(cycles):

@@ -100,6 +100,7 @@ class Multigrid:
         for level in self.levels:
             level.share(threads)
         self.sweep_factor = self.least_sweep_factor = sweep_factor  # how often the sweeps of a cycle are repeated
+        self.aside: Array | None = None  # as of `set_aside`
         self.is_start = False  # of a finer grid, which goes on from whatever load is carried here
         if supply is not None:
             self.finest.set_supply(supply(self.finest.Y))
@@ -121,6 +122,8 @@ class Multigrid:
         half = Multigrid(self.point, mesh, across=across, **self._options)
         half.is_start = True
         half.set_heat(self.finest.fields.flow.heat[: 2 * half.finest.ny + 1 : 2, ::2])
+        if self.aside is not None:
+            half.set_aside(self.aside[: 2 * half.finest.ny + 1 : 2, ::2])
         return half
 
     def set_heat(self, heat: Array) -> None:
@@ -128,6 +131,14 @@ class Multigrid:
         for level in self.levels:
             across, along = self.finest.ny // level.ny, self.finest.nx // level.nx
             level.fields.flow.heat[...] = heat[::across, ::along]
+
+    def set_aside(self, log_ratio: Array) -> None:
+        """Viscosity along over that across at the nodes of the finest level, by its logarithm, on all levels."""
+        self.aside = log_ratio
+        for level in self.levels:
+            across, along = self.finest.ny // level.ny, self.finest.nx // level.nx
+            own = log_ratio[::across, ::along]
+            level.fields.flow.aside[:-1] = np.exp(0.5 * (own[:-1] + own[1:]))
 
     def set_time_coefficient(self, c_t: float) -> None:
         """Coefficient of rho H in the implicit part of the squeeze term, on all levels."""

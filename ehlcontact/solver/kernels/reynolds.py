@@ -55,13 +55,14 @@ class Flow(NamedTuple):
     # Between i and i + 1: 1, and before a front of full film, through which a given flow comes, 0 or, in steps in
     # time, less by the share of the flow pressed back that is felt behind it (`kernels.supply`)
     open: Any
+    aside: Any  # between j and j + 1: viscosity along over that across, an input; 1 but in oil that sliding thins
     heat: Any  # of ln(eta) + 9.67: its relative change by temperature, an input; 0 at that of the inlet
 
 
 def new_flow(shape: tuple[int, int]) -> Flow:
     """Return a `Flow` of zeros with all faces open."""
     flow = Flow(*(np.zeros(shape) for _ in Flow._fields))
-    flow.open[...] = 1.0
+    flow.open[...] = flow.aside[...] = 1.0
     return flow
 
 
@@ -111,8 +112,9 @@ def update_along(j, i, flow):
 def update_across(j, i, flow):
     """Mean and skew between nodes j and j + 1; of eight nodes likewise."""
     mean, skew = flow_mean(at(flow.eps, j, i), at(flow.eps, j + 1, i))
-    put(flow.across, j, i, mean)
-    put(flow.across_skew, j, i, skew)
+    aside = at(flow.aside, j, i)
+    put(flow.across, j, i, aside * mean)
+    put(flow.across_skew, j, i, aside * skew)
 
 
 @jit_loop

@@ -59,7 +59,7 @@ def test_nearly_geometric_for_neighbours_alike():
 def test_flow_factor_and_mass(level, point):
     level.H[2, 5] = -0.02  # overlapping bodies: eps floored, mass not
     flow = reynolds.Flow(*(np.full_like(level.P, np.nan) for _ in reynolds.Flow._fields))
-    flow.open[...], flow.heat[...] = 1.0, 0.0  # inputs
+    flow.open[...], flow.aside[...], flow.heat[...] = 1.0, 0.7, 0.0  # inputs
     reynolds.update_flow(level.P, level.H, level.law, level.stencil, flow)
     expected_eps, expected_mass = oracles.flow_and_mass(level.P, level.H, point)
     np.testing.assert_allclose(flow.eps, expected_eps, rtol=1e-11)
@@ -68,7 +68,7 @@ def test_flow_factor_and_mass(level, point):
     assert (flow.eps > 0.0).all()
     mean = np.vectorize(oracles.flow_mean)
     np.testing.assert_allclose(flow.along[:, :-1], mean(flow.eps[:, :-1], flow.eps[:, 1:]), rtol=1e-10)
-    np.testing.assert_allclose(flow.across[:-1], mean(flow.eps[:-1], flow.eps[1:]), rtol=1e-10)
+    np.testing.assert_allclose(flow.across[:-1], 0.7 * mean(flow.eps[:-1], flow.eps[1:]), rtol=1e-10)
 
 
 def test_slopes_of_the_flow(level):

@@ -1,0 +1,68 @@
+"""`Sliding`: sliding that thins the oil of a film, as an input.
+
+How the solver uses it: `ehlcontact.solver.film_thinning`; equations and sources: docs/traction.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import log
+from typing import Any
+
+from ehlcontact.assumptions.film import LARGEST_SLIDE_ROLL
+from ehlcontact.checks import require_between, require_instance
+from ehlcontact.errors import InputError
+from ehlcontact.lubricant.traction_laws import Eyring, TractionLaw, require_law
+from ehlcontact.point import OperatingPoint, Point, Scales
+
+
+@dataclass(frozen=True, slots=True)
+class Sliding:
+    """Sliding whose shear thins the oil in the flow by pressure.
+
+    Parameters
+    ----------
+    slide_roll : float
+        Slide-to-roll ratio, difference over mean of the surface speeds: 0 to 2.
+    law : TractionLaw
+        `Eyring` or `Carreau`; a limiting stress would leave no viscosity along the sliding.
+
+    Raises
+    ------
+    InputError
+        A ratio outside its range, or another law.
+    """
+
+    slide_roll: float
+    law: TractionLaw = field(default_factory=Eyring)
+
+    def __post_init__(self) -> None:
+        slide = require_between("slide_roll", self.slide_roll, 0.0, LARGEST_SLIDE_ROLL)
+        object.__setattr__(self, "slide_roll", slide)
+        require_law(self.law)
+        if not self.law.thins:
+            allowed = "Eyring or Carreau: a limiting stress leaves no viscosity along the sliding"
+            raise InputError("law", type(self.law).__name__, allowed)
+
+    def log_newton(self, eta0: float, scales: Scales) -> float:
+        """Logarithm of Newton's stress [Pa] at ambient viscosity in a film of one dry approach, or -inf."""
+        speed = self.slide_roll * scales.a / scales.time
+        return log(eta0 * speed / scales.length) if speed > 0.0 else -float("inf")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Ready for JSON."""
+        return {"slide_roll": self.slide_roll, "law": self.law.to_dict()}
+
+    @classmethod
+    def from_dict(cls, entries: Mapping[str, Any]) -> Sliding:
+        """Back from `to_dict`."""
+        return cls(entries["slide_roll"], TractionLaw.from_dict(entries["law"]))
+
+
+def require_sliding(value: object, point: Point) -> None:
+    """Raise `InputError` unless this is a `Sliding`, at an operating point in SI."""
+    require_instance("sliding", value, Sliding, "a Sliding(slide_roll, law)")
+    if not isinstance(point, OperatingPoint):
+        allowed = "left out at a dimensionless point: stresses of an oil are in pascals"
+        raise InputError("sliding", type(value).__name__, allowed)

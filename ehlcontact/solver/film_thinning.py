@@ -1,0 +1,42 @@
+"""Oil that sliding thins: its viscosities to the flow by pressure, along and across.
+
+Equation numbers are those of docs/traction.md. Sliding makes nearly all of the stress, so the flow by pressure is
+a small change of it: along the sliding it sees the slope of the law, across it the ratio of stress and shear rate.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.lubricant.traction_laws import TractionLaw
+from ehlcontact.solver.kernels.reynolds import FILM_FLOOR
+from ehlcontact.solver.multigrid import Multigrid
+
+Array = NDArray[np.float64]
+
+
+class FilmThinning:
+    """Viscosities of the film on the finest level of a multigrid, for `HeatedCycles`.
+
+    Parameters
+    ----------
+    multigrid : Multigrid
+    law : TractionLaw
+    log_newton : float
+        ln of Newton's stress [Pa] at ambient viscosity in a film of one dry approach.
+    """
+
+    def __init__(self, multigrid: Multigrid, law: TractionLaw, log_newton: float) -> None:
+        self.multigrid, self.law, self.log_newton = multigrid, law, log_newton
+
+    def solve(self, rounds: int = 1) -> Array:
+        """What ``Flow.heat`` becomes at the present P and H (eq. 14); the flow across is set too (eq. 15)."""
+        level = self.multigrid.finest
+        flow, H = level.fields.flow, np.maximum(level.H, FILM_FLOOR)
+        log_eta = np.log(flow.rho * H**3 / (level.stencil.lam * flow.eps))
+        cold = (log_eta - flow.heat * level.law.q) / (1.0 + flow.heat)
+        along, across = self.law.thinning(self.log_newton + cold - np.log(H))
+        wet = level.P > 0.0
+        self.multigrid.set_aside(np.where(wet, along - across, 0.0))
+        return np.where(wet, along / (cold + level.law.q), 0.0)

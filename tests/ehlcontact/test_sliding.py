@@ -1,0 +1,161 @@
+"""Films that sliding thins: viscosities against the flow resolved across the film, limits, and what is refused."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from ehlcontact import (
+    Asperities,
+    Carreau,
+    Eyring,
+    Grid,
+    Heat,
+    InputError,
+    LimitingShear,
+    Lubricant,
+    MoesPoint,
+    OilLayer,
+    OperatingPoint,
+    Sliding,
+    load,
+    save,
+    solve_steady,
+)
+from ehlcontact.solver.film_thinning import FilmThinning
+from ehlcontact.solver.level import Level
+
+OIL = Lubricant.iso_vg(68, temperature=50.0)
+SMALL = Grid(64)
+DISC = OperatingPoint.ball_on_flat(OIL, ball_diameter=19.05e-3, entrainment_speed=1.0, load=30.0)
+NEWTONIAN = solve_steady(DISC, grid=SMALL)
+THIN = solve_steady(DISC, grid=SMALL, sliding=Sliding(1.5))
+
+
+def rate(law, eta, stress):
+    """Shear rate of a stress, by the law turned round."""
+    newton = brentq(lambda ln: float(law.of(ln, 1.0)) - stress, -40.0, 60.0, xtol=1e-13)
+    return math.exp(newton) / eta
+
+
+def flow(law, eta, h, slide, gradient):
+    """Volume flow along and across, less u h, of oil between walls, resolved over the gap by its own law.
+
+    The stress is linear over the gap, (t_x + z p_x, t_y + z p_y); its middle follows from the speeds of the walls.
+    """
+    z = (np.arange(40) + 0.5) / 40 * h - 0.5 * h
+    middle = np.array([float(law.of(math.log(eta * slide / h), 1.0)), 0.0])
+
+    def rates(at):
+        along, across = at[0] + gradient[0] * z, at[1] + gradient[1] * z
+        size = np.hypot(along, across)
+        share = np.array([rate(law, eta, one) for one in size]) / size
+        return share * along, share * across
+
+    for _ in range(6):  # Newton's method for the walls
+        missing = np.array([one.mean() * h for one in rates(middle)]) - (slide, 0.0)
+        step = 1e-5 * middle[0]
+        slopes = np.column_stack(
+            [
+                (np.array([one.mean() * h for one in rates(middle + step * unit)]) - missing - (slide, 0.0)) / step
+                for unit in np.eye(2)
+            ]
+        )
+        middle = middle - np.linalg.solve(slopes, missing)
+    # int u dz = [u z] - int z du/dz dz, with the walls alike about the mean
+    return np.array([-(one * z).mean() * h for one in rates(middle)])
+
+
+@pytest.mark.parametrize("law", [Eyring(5e6), Carreau(5e6, 0.4)], ids=lambda law: type(law).__name__)
+@pytest.mark.parametrize("ratio", [0.3, 3.0, 100.0])
+def test_viscosities_against_the_flow_over_the_gap(law, ratio):
+    """A small gradient of pressure along and across beside the stress of sliding, eqs. 14 and 15."""
+    eta, h = 2.0, 0.3e-6
+    slide = ratio * 5e6 * h / eta
+    small = 1e-3 * 5e6 / h
+    along, across = law.thinning(math.log(eta * slide / h))
+    q = [flow(law, eta, h, slide, (small, 0.0))[0], flow(law, eta, h, slide, (0.0, small))[1]]
+    q[0] -= flow(law, eta, h, slide, (0.0, 0.0))[0]
+    midpoint = 1.0 - 1.0 / 40**2  # of the sum over z^2 in place of its integral
+    newton = -(h**3) * small / (12.0 * eta) * midpoint
+    assert q[0] / newton == pytest.approx(math.exp(-along), rel=2e-3)
+    assert q[1] / newton == pytest.approx(math.exp(-across), rel=2e-3)
+
+
+@pytest.mark.parametrize("law", [Eyring(3e6), Carreau(3e6, 0.3), Carreau(3e6, 1.0)], ids=str)
+def test_thinning_is_the_slope_and_the_ratio_of_the_law(law):
+    """Over twenty decades; nothing thins without sliding."""
+    x = np.linspace(-30.0, 30.0, 61)
+    step = 1e-5
+    slope = (law.of(x + step, 1.0) - law.of(x - step, 1.0)) / (np.exp(x + step) - np.exp(x - step))
+    along, across = law.thinning(x)
+    assert np.exp(along) == pytest.approx(slope, rel=1e-6)
+    assert np.exp(across) == pytest.approx(law.of(x, 1.0) / np.exp(x), rel=1e-9)
+    assert law.thinning(-math.inf) == (0.0, 0.0)
+
+
+def test_film_solves_reynolds_equation_with_these_viscosities():
+    """Residual of the thinned film with and without them, on a level of its own."""
+    level = Level(THIN.point, THIN.domain, THIN.n, THIN.Y.size - 1)
+    level.P[...] = THIN.P.T
+    inside = level.P > 0.0
+    newtonian = np.abs(level.update(THIN.approach))[inside].mean()
+    alone = type("Alone", (), {"finest": level, "set_aside": lambda self, ratio: set_aside(level, ratio)})()
+    thinning = FilmThinning(alone, THIN.sliding.law, THIN.sliding.log_newton(THIN.point.eta0, THIN.scales))
+    level.fields.flow.heat[...] = thinning.solve()
+    assert np.abs(level.update(THIN.approach))[inside].mean() < 1e-3 * newtonian
+
+
+def set_aside(level, ratio):
+    """Viscosity along over that across between the lines."""
+    level.fields.flow.aside[:-1] = np.exp(0.5 * (ratio[:-1] + ratio[1:]))
+
+
+def test_film_falls_with_sliding():
+    """Not by little of it; slightly by much."""
+    shares = [solve_steady(DISC, grid=SMALL, sliding=Sliding(slide)).thinned_share for slide in (0.0, 0.02, 0.5)]
+    assert shares[0] == pytest.approx(1.0, abs=2e-5)
+    assert shares[1] == pytest.approx(1.0, abs=1e-3)
+    assert 0.985 < shares[2] < 0.998
+    assert 0.94 < THIN.thinned_share < 0.985
+    assert THIN.thinned_share == pytest.approx(THIN.h_central / NEWTONIAN.h_central, rel=1e-4)
+    newton = solve_steady(DISC, grid=SMALL, sliding=Sliding(0.5, Carreau(exponent=1.0)))
+    assert newton.thinned_share == pytest.approx(1.0, abs=2e-5)
+
+
+def test_result(tmp_path):
+    """Stored and shown; its traction is that of its own sliding."""
+    again = load(save(THIN, tmp_path / "thin.h5"))
+    assert again.sliding == THIN.sliding
+    assert again.thinned_share == THIN.thinned_share
+    assert "of the central film" in repr(THIN)
+    assert THIN.to_dict()["sliding"] == {"slide_roll": 1.5, "law": {"law": "Eyring", "stress": 5e6}}
+    assert "sliding" not in NEWTONIAN.to_dict()
+    found = THIN.traction(1.5, Eyring()).coefficient
+    assert found == pytest.approx(NEWTONIAN.traction(1.5, Eyring()).coefficient, rel=0.01)
+    with pytest.raises(InputError, match=r"slide_roll and law = 0\.1: must be 1\.5 and Eyring"):
+        THIN.traction(0.1, Eyring())
+    with pytest.raises(InputError, match="slide_roll and law"):
+        THIN.traction(1.5, Eyring(4e6))
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: Sliding(-0.1), "slide_roll = -0.1: must be between 0 and 2"),
+        (lambda: Sliding(5.0), "slide_roll = 5.0: must be between 0 and 2"),
+        (lambda: Sliding(math.nan), "slide_roll = nan"),
+        (lambda: Sliding(0.1, 5e6), "law = 'float': must be a traction law"),
+        (lambda: Sliding(0.1, LimitingShear()), "law = 'LimitingShear': must be Eyring or Carreau"),
+        (lambda: solve_steady(DISC, sliding=0.1), "sliding = 'float': must be a Sliding"),
+        (lambda: solve_steady(MoesPoint(20.0, 10.0, 1.0), sliding=Sliding(0.1)), "sliding = .*pascals"),
+        (lambda: solve_steady(DISC, sliding=Sliding(0.1), thermal=Heat()), "sliding = 'given': .*thermal"),
+        (lambda: solve_steady(DISC, sliding=Sliding(0.1), supply=OilLayer(1e-6)), "sliding = 'given': .*supply"),
+        (lambda: solve_steady(DISC, sliding=Sliding(0.1), asperities=Asperities(1e-7)), "sliding = .*asperities"),
+    ],
+)
+def test_bad_input(call, words):
+    """One line that names the input."""
+    with pytest.raises(InputError, match=words):
+        call()
