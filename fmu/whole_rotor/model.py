@@ -27,7 +27,7 @@ class WholeRotorModel:
     Parameters
     ----------
     rotor : Rotor
-        On planar ball bearings; linear ones may be beside them.
+        On ball bearings; linear ones may be beside them.
     speeds_rpm : float or (float, float)
         Speed of the shaft [rev/min], or lowest and highest one: as of `BearingModel`.
     speed_rpm : float, optional
@@ -39,8 +39,7 @@ class WholeRotorModel:
     Raises
     ------
     InputError
-        Contacts as supports, no ball bearing, bearings with five degrees of freedom; else as `ShaftModel` and
-        `BearingModel`; too many balls.
+        Contacts as supports, no ball bearing, too many balls; else as `ShaftModel` and `BearingModel`.
     """
 
     rotor: Rotor
@@ -51,9 +50,6 @@ class WholeRotorModel:
     def __post_init__(self) -> None:
         require_instance("rotor", self.rotor, Rotor, "a Rotor")
         shaft, stations = self.shaft, self.stations
-        if any(len(mount.directions) > 2 for mount in stations):
-            allowed = "planar bearings (axial=False); others as a system of shaft and bearings, see export_drive"
-            raise InputError("rotor.mounts", "bearings with five degrees of freedom", allowed)
         balls = sum(mount.ball_bearing.balls for mount in stations)
         if balls > MOST_BALLS or len(stations) > MOST_BEARINGS:
             allowed = f"at most {MOST_BALLS} in {MOST_BEARINGS} bearings"
@@ -79,7 +75,9 @@ class WholeRotorModel:
     @cached_property
     def bearings(self) -> tuple[BearingModel, ...]:
         """Each ball bearing as its own FMU has it."""
-        return tuple(BearingModel(mount.ball_bearing, self.speeds_rpm) for mount in self.stations)
+        return tuple(
+            BearingModel(mount.ball_bearing, self.speeds_rpm, freedoms=len(mount.directions)) for mount in self.stations
+        )
 
     @cached_property
     def inner_step(self) -> float:

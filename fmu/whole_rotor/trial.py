@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from fmu.whole_rotor.model import WholeRotorModel
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, rolling_torque
-from reduced_models.bearing.motion import motion_of
 from reduced_models.bearing.race import RACES
 from reduced_models.rotor.integrate_python import PythonSteps
 from reduced_models.rotor.prepared_run import PreparedRun
@@ -67,7 +66,7 @@ class _Run(PreparedRun):
 
     def _begin(self, start: Any) -> _Floats:
         model, rotor, time = self._model, self._model.rotor, self.t
-        self.balls = tuple(motion_of(one.bearing, one.speeds.tolist(), 2) for one in model.bearings)
+        self.balls = tuple(one.motion() for one in model.bearings)
         places = [place for _, _, place in model.shaft.points]
         unit = replace(rotor, unbalances=tuple(replace(u, amount=UNIT) for u in rotor.unbalances))
         omega, angle, rise = self._course.at(time)

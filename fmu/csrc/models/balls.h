@@ -55,6 +55,9 @@ typedef struct {
 } Differences;
 Differences differences(double h, double h_before);
 
+/* All balls in a step. */
+typedef struct BallsStep BallsStep;
+
 #if FREEDOMS == 2
 /* A planar ball in a step: its contacts; its direction; what its rates follow from; what presses it outward. Where it was
  * balanced last, by delta and its rate, what its place and the force of the ring change by with both. */
@@ -62,28 +65,31 @@ typedef struct {
     RaceStep contact[2];
     StepFilters filters[2];
     double x, y, gain, history, rate_history, centrifugal;
-    double place, tried[2], follow[2], slope[2];
+    double place[PLACES], tried[2], follow[2], slope[2];
 } BallStep;
 
-/* All balls in a step. */
-typedef struct {
+struct BallsStep {
     const Setup *setup;
     double cage; /* rad/s */
     BallStep ball[BALLS];
-} BallsStep;
+};
+#endif
 
-/* Force of the ring on the balls at the end of a step, and its slopes by the place and the velocity of the ring. */
+/* Slopes of the force of the ring on the balls at the end of a step, by the place and the velocity of the ring. */
 typedef struct {
-    double force[FREEDOMS], stiffness[FREEDOMS][FREEDOMS], damping[FREEDOMS][FREEDOMS];
-} RingForce;
+    double stiffness[FREEDOMS][FREEDOMS], damping[FREEDOMS][FREEDOMS];
+} RingSlopes;
+
+/* Balls that have not been placed yet. */
+void balls_unmoved(Bearing *bearing);
 
 /* Begins a step of length h, or of rest where it is 0; balances all balls with the ring at q, moving at v, as often as it takes
- * to find the end of the step; and moves balls, films and cage to where they were balanced last. `setup` and `before` must
- * stay as they are. */
+ * to find the end of the step, with the slopes there; and moves balls, films and cage to where they were balanced last. `setup`
+ * and `before` must stay as they are. */
 void balls_begin(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega, BallsStep *step);
-const char *balls_press(BallsStep *step, Bearing *after, const double q[], const double v[], RingForce *ring);
+const char *balls_press(BallsStep *step, Bearing *after, const double q[], const double v[], double force[]);
+void balls_slopes(const BallsStep *step, RingSlopes *slopes);
 void balls_accept(const BallsStep *step, const Bearing *before, Bearing *after);
-#endif
 
 /* Moves all balls, films and the cage to the end of a step of length h, with the ring at q, moving at v; `force` is what the
  * ring exerts on the balls. Or puts them at rest. Returns why not, or NULL. */

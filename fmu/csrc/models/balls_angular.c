@@ -12,16 +12,6 @@ static const double overshoot = 2.0;   /* growth of the imbalance that halves th
 static const double longest = 0.05;    /* step over the distance of the groove centres */
 static const double singular = 1e-14;
 
-/* One ball in a step. */
-typedef struct {
-    const Setup *setup;
-    RaceStep contact[2];
-    Thickness film[2];
-    StepFilters filters[2];
-    double gain, history[2], omega;
-    GrooveCentre centre;
-} BallStep;
-
 /* Slopes of centrifugal force and friction by the place. */
 static void inertia_slopes(const BallStep *step, const double b[2], double slopes[2][2])
 {
@@ -35,15 +25,6 @@ static void inertia_slopes(const BallStep *step, const double b[2], double slope
         }
     }
 }
-
-/* Both contacts and all forces of a ball at b. */
-typedef struct {
-    Rolling at;
-    RaceForce inner, outer;
-    BallForces forces;
-    double l[2], cosine[2], sine[2], sum[2]; /* of `at` and `forces` */
-    double e[2], v[2], rate[2]; /* velocities along which the springs move; of both approaches */
-} Pressed;
 
 static Pressed press(const BallStep *step, const double b[2])
 {
@@ -203,106 +184,9 @@ static double cage_of(const Bearing *bearing, const double orbit[BALLS])
     return carried > 0.0 ? turned / carried : free;
 }
 
-/* All balls with the ring at q, moving at v; h = 0: at rest. */
-static const char *press_all(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega,
-                             const double q[], const double v[], double force[])
+void balls_unmoved(Bearing *bearing)
 {
-    const double cage = h > 0.0 ? omega * before->cage[0] : 0.0;
-    const SpeedRow at = speed_row(omega);
-    double orbit[BALLS];
-    Dual place[FREEDOMS], velocity[FREEDOMS], pushed[FREEDOMS];
-    Differences d = {0.0, 0.0, 0.0};
-    int k, j, race;
-    for (j = 0; j < FREEDOMS; j++) {
-        place[j] = number(q[j]);
-        velocity[j] = number(v[j]);
-        pushed[j] = number(0.0);
-    }
-    if (h > 0.0) {
-        d = differences(h, before->h);
-    }
-    for (k = 0; k < BALLS; k++) {
-        const Ball *old = &before->ball[k];
-        Ball *ball = &after->ball[k];
-        BallStep step;
-        Pressed p;
-        double b[2];
-        Dual factor[2];
-        int attempt, done = 0;
-        step.setup = setup;
-        step.gain = d.gain;
-        step.omega = omega;
-        for (j = 0; j < 2; j++) {
-            step.history[j] = d.now * old->place[0][j] - d.before * old->place[1][j];
-            b[j] = old->place[0][j];
-        }
-        step.centre = groove_centre(setup, place, velocity, number(after->angle), number(cage), k);
-        for (race = 0; race < 2; race++) {
-            ready(before, k, race, h, at, film_speed(omega), &step);
-        }
-        for (attempt = b[0] == 0.0 ? 1 : 0; attempt < 2 && !done; attempt++) {
-            if (attempt == 1) {
-                first_place(&step, b);
-            }
-            done = balance_ball(&step, b, &p);
-        }
-        if (!done) {
-            return "a ball finds no balance: a shorter step, or a smaller displacement, can help";
-        }
-        film_factors(&p.at, factor);
-        orbit[k] = p.at.orbit.x;
-        ball->force[INNER_RACE] = p.inner.force;
-        ball->force[OUTER_RACE] = p.outer.force;
-        ball->film[INNER_RACE] = p.inner.film;
-        ball->film[OUTER_RACE] = p.outer.film;
-        for (j = 0; j < 2; j++) {
-            ball->place[1][j] = h > 0.0 ? old->place[0][j] : b[j];
-            ball->place[0][j] = b[j];
-            ball->rate[j] = h > 0.0 ? p.v[j] : 0.0;
-        }
-        for (race = 0; race < 2; race++) {
-            const double u = p.l[race] - (race == INNER_RACE ? INNER_REACH : OUTER_REACH);
-            FilmState *film = &after->film[k][race];
-            if (h > 0.0) {
-                ball->lift[race] = race_accept(&step.contact[race], u, p.rate[race], film);
-            } else {
-                memset(film, 0, sizeof *film);
-                film->approach = u;
-                ball->lift[race] = 0.0;
-            }
-            ball->factor[race][1] = h > 0.0 ? old->factor[race][0] : factor[race].x;
-            ball->factor[race][0] = factor[race].x;
-            ball->entrained[race][1] = h > 0.0 ? old->entrained[race][0] : p.at.entrained[race].x;
-            ball->entrained[race][0] = p.at.entrained[race].x;
-            ball->angle[race] = atan2(p.sine[race], p.cosine[race]);
-        }
-        add_to_ring(&step.centre, &p.forces, pushed);
-    }
-    for (j = 0; j < FREEDOMS; j++) {
-        force[j] = pushed[j].x;
-    }
-    after->cage[1] = h > 0.0 ? before->cage[0] : cage_of(after, orbit);
-    after->cage[0] = cage_of(after, orbit);
-    return NULL;
-}
-
-const char *balls_step(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega, const double q[],
-                       const double v[], double force[])
-{
-    const double ratio = before->h > 0.0 ? h / before->h : 1.0;
-    const double cage = before->cage[0] + 0.5 * ratio * (before->cage[0] - before->cage[1]);
-    *after = *before;
-    after->angle += 0.5 * h * (before->omega + omega) * cage;
-    after->omega = omega;
-    after->h = h;
-    return press_all(setup, before, after, h, omega, q, v, force);
-}
-
-const char *balls_rest(const Setup *setup, Bearing *bearing, double omega, const double q[], double force[])
-{
-    static const double still[FREEDOMS] = {0.0};
-    const char *reason = NULL;
-    int i, k, race;
+    int k, race;
     memset(bearing->ball, 0, sizeof bearing->ball);
     for (k = 0; k < BALLS; k++) {
         for (race = 0; race < 2; race++) {
@@ -310,11 +194,212 @@ const char *balls_rest(const Setup *setup, Bearing *bearing, double omega, const
             bearing->ball[k].entrained[race][0] = bearing->ball[k].entrained[race][1] = 1.0;
         }
     }
-    bearing->omega = omega;
-    bearing->h = 0.0;
+}
+
+void balls_begin(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega, BallsStep *step)
+{
+    const double ratio = before->h > 0.0 ? h / before->h : 1.0;
+    const double turns = before->cage[0] + 0.5 * ratio * (before->cage[0] - before->cage[1]);
+    const SpeedRow at = speed_row(omega);
+    Differences d = {0.0, 0.0, 0.0};
+    int k, j, race;
+    *after = *before;
+    after->angle += 0.5 * h * (before->omega + omega) * turns;
+    after->omega = omega;
+    after->h = h;
+    if (h > 0.0) {
+        d = differences(h, before->h);
+    }
+    step->h = h;
+    step->omega = omega;
+    step->cage = h > 0.0 ? omega * before->cage[0] : 0.0;
+    for (k = 0; k < BALLS; k++) {
+        const Ball *old = &before->ball[k];
+        BallStep *ball = &step->ball[k];
+        ball->setup = setup;
+        ball->gain = d.gain;
+        ball->omega = omega;
+        for (j = 0; j < 2; j++) {
+            ball->history[j] = d.now * old->place[0][j] - d.before * old->place[1][j];
+            ball->place[j] = old->place[0][j];
+        }
+        for (race = 0; race < 2; race++) {
+            ready(before, k, race, h, at, film_speed(omega), ball);
+        }
+    }
+}
+
+const char *balls_press(BallsStep *step, Bearing *after, const double q[], const double v[], double force[])
+{
+    Dual place[FREEDOMS], velocity[FREEDOMS], pushed[FREEDOMS];
+    int k, j;
+    for (j = 0; j < FREEDOMS; j++) {
+        place[j] = number(q[j]);
+        velocity[j] = number(v[j]);
+        pushed[j] = number(0.0);
+    }
+    for (k = 0; k < BALLS; k++) {
+        BallStep *ball = &step->ball[k];
+        int attempt, done = 0;
+        ball->centre = groove_centre(ball->setup, place, velocity, number(after->angle), number(step->cage), k);
+        for (attempt = ball->place[0] == 0.0 ? 1 : 0; attempt < 2 && !done; attempt++) {
+            if (attempt == 1) {
+                first_place(ball, ball->place);
+            }
+            done = balance_ball(ball, ball->place, &ball->found);
+        }
+        if (!done) {
+            return "a ball finds no balance: a shorter step, or a smaller displacement, can help";
+        }
+        add_to_ring(&ball->centre, &ball->found.forces, pushed);
+    }
+    for (j = 0; j < FREEDOMS; j++) {
+        force[j] = pushed[j].x;
+    }
+    return NULL;
+}
+
+/* Forces of a ball along a direction of its place and of the groove centre, place and velocity. */
+static BallForces forces_along(const BallStep *step, const double moved[6])
+{
+    const Pressed *p = &step->found;
+    const Dual b[2] = {dual(step->place[0], moved[0]), dual(step->place[1], moved[1])};
+    const Dual c[2] = {dual(step->centre.c[0].x, moved[2]), dual(step->centre.c[1].x, moved[3])};
+    const Rolling at = roll(step->setup, b, c, NULL);
+    Dual force[2];
+    int race;
+    for (race = 0; race < 2; race++) {
+        const RaceForce *f = race == INNER_RACE ? &p->inner : &p->outer;
+        Dual rate = number(0.0);
+        int j;
+        for (j = 0; j < 2; j++) {
+            const double by_ball = step->gain * moved[j];
+            const Dual along = race == INNER_RACE ? dual(p->e[j], moved[4 + j] - by_ball) : dual(p->v[j], by_ball);
+            rate = add(rate, mul(j == 0 ? at.cosine[race] : at.sine[race], along));
+        }
+        force[race] = dual(f->force, f->stiffness * at.l[race].d + f->damping * rate.d);
+    }
+    return forces_on(&at, number(step->omega), force[INNER_RACE], force[OUTER_RACE]);
+}
+
+/* Force of the ring on a ball (r, z) and its moment by place and velocity of the groove centre, the ball following. */
+static void ball_slopes(const BallStep *step, double slopes[3][4])
+{
+    const RaceForce *f_i = &step->found.inner, *f_o = &step->found.outer;
+    const double stiff = f_i->stiffness + f_o->stiffness + step->gain * (f_i->damping + f_o->damping);
+    BallForces by[6];
+    double det;
+    int i, j;
+    for (j = 0; j < 6; j++) {
+        double moved[6] = {0.0};
+        moved[j] = 1.0;
+        by[j] = forces_along(step, moved);
+    }
+    det = by[0].sum[0].d * by[1].sum[1].d - by[1].sum[0].d * by[0].sum[1].d;
+    for (j = 0; j < 4; j++) {
+        const Dual *off = by[2 + j].sum;
+        double follow[2] = {0.0, 0.0};
+        if (fabs(det) > singular * stiff * stiff) {
+            follow[0] = (by[1].sum[0].d * off[1].d - by[1].sum[1].d * off[0].d) / det;
+            follow[1] = (by[0].sum[1].d * off[0].d - by[0].sum[0].d * off[1].d) / det;
+        }
+        for (i = 0; i < 2; i++) {
+            slopes[i][j] = by[2 + j].ring[i].d + by[0].ring[i].d * follow[0] + by[1].ring[i].d * follow[1];
+        }
+        slopes[2][j] = by[2 + j].moment.d + by[0].moment.d * follow[0] + by[1].moment.d * follow[1];
+    }
+}
+
+void balls_slopes(const BallsStep *step, RingSlopes *slopes)
+{
+    int k, i, j, m;
+    memset(slopes, 0, sizeof *slopes);
+    for (k = 0; k < BALLS; k++) {
+        const double x = step->ball[k].centre.x.x, y = step->ball[k].centre.y.x, lever = GROOVE_LEVER, cage = step->cage;
+        const double rows[3][FREEDOMS] = {
+            {x, y, 0.0, 0.0, 0.0}, {0.0, 0.0, 1.0, lever * y, -lever * x}, {0.0, 0.0, 0.0, -y, x}};
+        const double swept[2][FREEDOMS] = {{-cage * y, cage * x, 0.0, 0.0, 0.0},
+                                           {0.0, 0.0, 0.0, cage * lever * x, cage * lever * y}};
+        double by[3][4];
+        ball_slopes(&step->ball[k], by);
+        for (m = 0; m < 3; m++) {
+            for (j = 0; j < FREEDOMS; j++) {
+                const double rate = by[m][2] * rows[0][j] + by[m][3] * rows[1][j];
+                const double place = by[m][0] * rows[0][j] + by[m][1] * rows[1][j] + by[m][2] * swept[0][j] + by[m][3] * swept[1][j];
+                for (i = 0; i < FREEDOMS; i++) {
+                    slopes->stiffness[i][j] += rows[m][i] * place;
+                    slopes->damping[i][j] += rows[m][i] * rate;
+                }
+            }
+        }
+    }
+}
+
+void balls_accept(const BallsStep *step, const Bearing *before, Bearing *after)
+{
+    const double h = step->h;
+    double orbit[BALLS];
+    int k, j, race;
+    for (k = 0; k < BALLS; k++) {
+        const BallStep *in_step = &step->ball[k];
+        const Pressed *p = &in_step->found;
+        const Ball *old = &before->ball[k];
+        Ball *ball = &after->ball[k];
+        Dual factor[2];
+        film_factors(&p->at, factor);
+        orbit[k] = p->at.orbit.x;
+        ball->force[INNER_RACE] = p->inner.force;
+        ball->force[OUTER_RACE] = p->outer.force;
+        ball->film[INNER_RACE] = p->inner.film;
+        ball->film[OUTER_RACE] = p->outer.film;
+        for (j = 0; j < 2; j++) {
+            ball->place[1][j] = h > 0.0 ? old->place[0][j] : in_step->place[j];
+            ball->place[0][j] = in_step->place[j];
+            ball->rate[j] = h > 0.0 ? p->v[j] : 0.0;
+        }
+        for (race = 0; race < 2; race++) {
+            const double u = p->l[race] - (race == INNER_RACE ? INNER_REACH : OUTER_REACH);
+            FilmState *film = &after->film[k][race];
+            if (h > 0.0) {
+                ball->lift[race] = race_accept(&in_step->contact[race], u, p->rate[race], film);
+            } else {
+                memset(film, 0, sizeof *film);
+                film->approach = u;
+                ball->lift[race] = 0.0;
+            }
+            ball->factor[race][1] = h > 0.0 ? old->factor[race][0] : factor[race].x;
+            ball->factor[race][0] = factor[race].x;
+            ball->entrained[race][1] = h > 0.0 ? old->entrained[race][0] : p->at.entrained[race].x;
+            ball->entrained[race][0] = p->at.entrained[race].x;
+            ball->angle[race] = atan2(p->sine[race], p->cosine[race]);
+        }
+    }
+    after->cage[1] = h > 0.0 ? before->cage[0] : cage_of(after, orbit);
+    after->cage[0] = cage_of(after, orbit);
+}
+
+const char *balls_step(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega, const double q[],
+                       const double v[], double force[])
+{
+    BallsStep step;
+    const char *reason;
+    balls_begin(setup, before, after, h, omega, &step);
+    reason = balls_press(&step, after, q, v, force);
+    if (reason == NULL) {
+        balls_accept(&step, before, after);
+    }
+    return reason;
+}
+
+const char *balls_rest(const Setup *setup, Bearing *bearing, double omega, const double q[], double force[])
+{
+    static const double still[FREEDOMS] = {0.0};
+    const char *reason = NULL;
+    int i;
+    balls_unmoved(bearing);
     for (i = 0; i <= SETTLED && reason == NULL; i++) { /* films at rest follow the angles of their balls */
         const Bearing before = *bearing;
-        reason = press_all(setup, &before, bearing, 0.0, omega, q, still, force);
+        reason = balls_step(setup, &before, bearing, 0.0, omega, q, still, force);
     }
     return reason;
 }

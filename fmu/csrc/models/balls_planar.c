@@ -22,7 +22,7 @@ static void balanced(BallStep *step, double delta, double rate, double w, const 
 {
     const double held = outer->stiffness + step->gain * outer->damping + BALL_INERTIA * step->gain * step->gain;
     const double tangent = inner->stiffness + step->gain * inner->damping + held, share = tangent > 0.0 ? held / tangent : 0.0;
-    step->place = w;
+    step->place[0] = w;
     step->tried[0] = delta;
     step->tried[1] = rate;
     step->follow[0] = tangent > 0.0 ? inner->stiffness / tangent : 0.0;
@@ -40,7 +40,7 @@ static int balance_ball(BallStep *step, double delta, double rate, Ball *ball)
 {
     const double gain = step->gain, heavy = BALL_INERTIA * gain;
     double low = -HUGE_VAL, high = HUGE_VAL, reach = first_step;
-    double w = step->place + step->follow[0] * (delta - step->tried[0]) + step->follow[1] * (rate - step->tried[1]);
+    double w = step->place[0] + step->follow[0] * (delta - step->tried[0]) + step->follow[1] * (rate - step->tried[1]);
     RaceForce inner, outer;
     int i;
     for (i = 0; i < MOST_BALL_STEPS; i++) {
@@ -95,8 +95,13 @@ static void begin_ball(const Setup *setup, const Bearing *before, int k, double 
             race_prepare(c, h);
         }
     }
-    step->place = old->place[0][0];
+    step->place[0] = old->place[0][0];
     step->tried[0] = step->tried[1] = step->follow[0] = step->follow[1] = 0.0;
+}
+
+void balls_unmoved(Bearing *bearing)
+{
+    memset(bearing->ball, 0, sizeof bearing->ball);
 }
 
 void balls_begin(const Setup *setup, const Bearing *before, Bearing *after, double h, double omega, BallsStep *step)
@@ -128,33 +133,37 @@ void balls_begin(const Setup *setup, const Bearing *before, Bearing *after, doub
     }
 }
 
-const char *balls_press(BallsStep *step, Bearing *after, const double q[], const double v[], RingForce *ring)
+const char *balls_press(BallsStep *step, Bearing *after, const double q[], const double v[], double force[])
 {
     int k;
-    memset(ring, 0, sizeof *ring);
+    force[0] = force[1] = 0.0;
     for (k = 0; k < BALLS; k++) {
-        BallStep *ball = &step->ball[k];
-        const double x = ball->x, y = ball->y;
+        const double x = step->ball[k].x, y = step->ball[k].y;
         const double delta = x * q[0] + y * q[1] - 0.5 * step->setup->clearance;
         const double rate = x * v[0] + y * v[1] + step->cage * (x * q[1] - y * q[0]);
-        double by_x, by_y;
-        if (!balance_ball(ball, delta, rate, &after->ball[k])) {
+        if (!balance_ball(&step->ball[k], delta, rate, &after->ball[k])) {
             return "a ball finds no balance: a shorter step, or a smaller displacement, can help";
         }
-        by_x = ball->slope[0] * x - ball->slope[1] * step->cage * y;
-        by_y = ball->slope[0] * y + ball->slope[1] * step->cage * x;
-        ring->force[0] += after->ball[k].force[INNER_RACE] * x;
-        ring->force[1] += after->ball[k].force[INNER_RACE] * y;
-        ring->stiffness[0][0] += x * by_x;
-        ring->stiffness[0][1] += x * by_y;
-        ring->stiffness[1][0] += y * by_x;
-        ring->stiffness[1][1] += y * by_y;
-        ring->damping[0][0] += ball->slope[1] * x * x;
-        ring->damping[0][1] += ball->slope[1] * x * y;
-        ring->damping[1][0] += ball->slope[1] * x * y;
-        ring->damping[1][1] += ball->slope[1] * y * y;
+        force[0] += after->ball[k].force[INNER_RACE] * x;
+        force[1] += after->ball[k].force[INNER_RACE] * y;
     }
     return NULL;
+}
+
+void balls_slopes(const BallsStep *step, RingSlopes *slopes)
+{
+    int k, i, j;
+    memset(slopes, 0, sizeof *slopes);
+    for (k = 0; k < BALLS; k++) {
+        const BallStep *ball = &step->ball[k];
+        const double n[2] = {ball->x, ball->y}, swept[2] = {-step->cage * ball->y, step->cage * ball->x};
+        for (i = 0; i < 2; i++) {
+            for (j = 0; j < 2; j++) {
+                slopes->stiffness[i][j] += n[i] * (ball->slope[0] * n[j] + ball->slope[1] * swept[j]);
+                slopes->damping[i][j] += n[i] * ball->slope[1] * n[j];
+            }
+        }
+    }
 }
 
 void balls_accept(const BallsStep *step, const Bearing *before, Bearing *after)
@@ -164,7 +173,7 @@ void balls_accept(const BallsStep *step, const Bearing *before, Bearing *after)
     for (k = 0; k < BALLS; k++) {
         const BallStep *step_of = &step->ball[k];
         const Ball *old = &before->ball[k];
-        const double w = step_of->place, delta = step_of->tried[0], rate = step_of->tried[1];
+        const double w = step_of->place[0], delta = step_of->tried[0], rate = step_of->tried[1];
         const double own = moving ? step_of->gain * (w - step_of->history) : 0.0;
         Ball *ball = &after->ball[k];
         FilmState *film = after->film[k];
@@ -187,13 +196,11 @@ static const char *press_all(const Setup *setup, const Bearing *before, Bearing 
                              const double q[], const double v[], double force[])
 {
     BallsStep step;
-    RingForce ring;
     const char *reason;
     balls_begin(setup, before, after, h, omega, &step);
-    reason = balls_press(&step, after, q, v, &ring);
+    reason = balls_press(&step, after, q, v, force);
     if (reason == NULL) {
         balls_accept(&step, before, after);
-        memcpy(force, ring.force, sizeof ring.force);
     }
     return reason;
 }

@@ -1,5 +1,6 @@
 /* The end of a bearing inside a rotor: model_bearing.c before it in the same file, by the face of bearing_law.h. LAW is its
- * name, law_values are the start values of its variables, law_outputs its outputs, LAW_SIZE and LAW_WORK its numbers. */
+ * name, law_values are the start values of its variables, law_parameters and law_outputs the references of those that the rotor
+ * has, LAW_SIZE and LAW_WORK its numbers. */
 #include "bearing_law.h"
 
 /* A step from its start to its end. */
@@ -7,7 +8,8 @@ typedef struct {
     Setup setup;
     Bearing before, after;
     BallsStep step;
-    double force[FREEDOMS];
+    double force[FREEDOMS], lift; /* with the losses of rings and fits, and its slope by that of the balls */
+    double offset;                /* of the ring along the shaft */
 } LawStep;
 
 typedef char law_is_numbers[sizeof(Model) == LAW_SIZE * sizeof(double) ? 1 : -1];
@@ -28,16 +30,19 @@ static LawStep *law_step_of(double work[])
     return (LawStep *)(void *)work;
 }
 
-static const char *law_start(double numbers[], const BearingParameters *parameters)
+static const char *law_start(double numbers[], const double parameters[])
 {
     Model *m = law_model(numbers);
     Bearing bearing;
+    size_t i;
     memset(m, 0, sizeof *m);
-    memset(&bearing, 0, sizeof bearing);
     memcpy(m->value, law_values, sizeof m->value);
-    m->value[VR_clearance] = parameters->clearance;
-    m->value[VR_film] = parameters->film;
-    bearing.angle = parameters->cage_angle;
+    for (i = 0; i < sizeof law_parameters / sizeof law_parameters[0]; i++) {
+        m->value[law_parameters[i]] = parameters[i];
+    }
+    memset(&bearing, 0, sizeof bearing);
+    balls_unmoved(&bearing);
+    bearing.angle = m->value[VR_cage_angle_start];
     memcpy(m->cache, &bearing, sizeof bearing);
     return model_prepare(m).reason;
 }
@@ -46,46 +51,69 @@ static void law_begin(const double numbers[], double work[], double h, double om
 {
     const Model *m = law_shown(numbers);
     LawStep *s = law_step_of(work);
-    int k;
+    int k, j;
     s->setup = setup_of(m->value);
+#if FREEDOMS == 5
+    s->offset = m->value[VR_offset];
+#else
+    s->offset = 0.0;
+#endif
     memcpy(&s->before, m->cache, sizeof s->before);
     balls_begin(&s->setup, &s->before, &s->after, h, omega, &s->step);
-    for (k = 0; k < BALLS; k++) { /* where a ball is looked for first */
-        const Ball *old = &s->before.ball[k];
-        s->step.ball[k].place = 2.0 * old->place[0][0] - old->place[1][0];
-    }
-}
-
-static const char *law_press(double work[], const double q[], const double v[], double force[], double stiffness[],
-                             double damping[])
-{
-    LawStep *s = law_step_of(work);
-    RingForce ring;
-    const char *reason = balls_press(&s->step, &s->after, q, v, &ring);
-    double lift;
-    int i, j;
-    if (reason == NULL) {
-        reason = check_forces(ring.force);
-    }
-    if (reason != NULL) {
-        return reason;
-    }
-    memcpy(s->force, ring.force, sizeof s->force);
-    lift = pass_seat(&s->before, &s->after, s->after.h, s->force);
-    for (i = 0; i < FREEDOMS; i++) {
-        force[i] = s->force[i];
-        for (j = 0; j < FREEDOMS; j++) {
-            stiffness[i * FREEDOMS + j] = lift * ring.stiffness[i][j];
-            damping[i * FREEDOMS + j] = lift * ring.damping[i][j];
+    for (k = 0; k < BALLS && h > 0.0; k++) { /* where a ball is looked for first */
+        for (j = 0; j < PLACES; j++) {
+            s->step.ball[k].place[j] = 2.0 * s->before.ball[k].place[0][j] - s->before.ball[k].place[1][j];
         }
     }
-    return NULL;
 }
 
-static const char *law_accept(double numbers[], double work[], const double q[])
+/* Place of the ring against the balls. */
+static void law_place(const LawStep *s, const double ring[], double q[])
+{
+    memcpy(q, ring, FREEDOMS * sizeof q[0]);
+    if (FREEDOMS > 2) {
+        q[FREEDOMS / 2] += s->offset;
+    }
+}
+
+static const char *law_press(double work[], const double ring[], const double v[], double force[])
 {
     LawStep *s = law_step_of(work);
-    const char *reason = check(q, s->after.omega);
+    double q[FREEDOMS];
+    const char *reason;
+    law_place(s, ring, q);
+    reason = balls_press(&s->step, &s->after, q, v, s->force);
+    if (reason == NULL) {
+        reason = check_forces(s->force);
+    }
+    if (reason == NULL) {
+        s->lift = pass_seat(&s->before, &s->after, s->after.h, s->force);
+        memcpy(force, s->force, sizeof s->force);
+    }
+    return reason;
+}
+
+static void law_slopes(const double work[], double stiffness[], double damping[])
+{
+    const LawStep *s = (const LawStep *)(const void *)work;
+    RingSlopes slopes;
+    int i, j;
+    balls_slopes(&s->step, &slopes);
+    for (i = 0; i < FREEDOMS; i++) {
+        for (j = 0; j < FREEDOMS; j++) {
+            stiffness[i * FREEDOMS + j] = s->lift * slopes.stiffness[i][j];
+            damping[i * FREEDOMS + j] = s->lift * slopes.damping[i][j];
+        }
+    }
+}
+
+static const char *law_accept(double numbers[], double work[], const double ring[])
+{
+    LawStep *s = law_step_of(work);
+    double q[FREEDOMS];
+    const char *reason;
+    law_place(s, ring, q);
+    reason = check(q, s->after.omega);
     if (reason == NULL) {
         balls_accept(&s->step, &s->before, &s->after);
         show_step(law_model(numbers), &s->after, s->force);
@@ -113,6 +141,4 @@ static double law_torque(const double numbers[])
 }
 
 extern const BearingLaw LAW;
-const BearingLaw LAW = {LAW_SIZE,  LAW_WORK,   (int)(sizeof law_outputs / sizeof law_outputs[0]),
-                        law_start, law_begin,  law_press,
-                        law_accept, law_show, law_torque};
+const BearingLaw LAW = {LAW_SETTLED, law_start, law_begin, law_press, law_slopes, law_accept, law_show, law_torque};

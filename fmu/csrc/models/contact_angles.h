@@ -42,4 +42,30 @@ BallForces forces_on(const Rolling *at, Dual omega, Dual f_i, Dual f_o);
 /* Adds the force of a ball to those of the ring. */
 void add_to_ring(const GrooveCentre *at, const BallForces *ball, Dual force[]);
 
+/* Both contacts and all forces of a ball at some place. */
+typedef struct {
+    Rolling at;
+    RaceForce inner, outer;
+    BallForces forces;
+    double l[2], cosine[2], sine[2], sum[2]; /* of `at` and `forces` */
+    double e[2], v[2], rate[2]; /* velocities along which the springs move; of both approaches */
+} Pressed;
+
+/* A ball in a step, and where it was balanced last. */
+typedef struct {
+    const Setup *setup;
+    RaceStep contact[2];
+    Thickness film[2];
+    StepFilters filters[2];
+    double gain, history[2], omega;
+    GrooveCentre centre;
+    double place[PLACES];
+    Pressed found;
+} BallStep;
+
+struct BallsStep {
+    double h, omega, cage; /* s, rad/s, rad/s */
+    BallStep ball[BALLS];
+};
+
 #endif

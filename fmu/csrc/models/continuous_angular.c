@@ -9,7 +9,7 @@ enum { MOST_STEPS = 120, CAGE_ROUNDS = 3 };
 static const double balanced = 1e-12; /* imbalance of a ball across its contacts over its forces: rounding */
 
 /* States of a ball are w and a, from its place on the line between both grooves of a ring in the middle: along it, across it. */
-static const double rest[2] = {PLACE_RADIAL, PLACE_AXIAL}, e[2] = {PLACE_RADIAL / OUTER_REACH, PLACE_AXIAL / OUTER_REACH};
+static const double middle[2] = {PLACE_RADIAL, PLACE_AXIAL}, e[2] = {PLACE_RADIAL / OUTER_REACH, PLACE_AXIAL / OUTER_REACH};
 
 /* A ball at a place, its contacts there, and the angle between both normals. */
 typedef struct {
@@ -30,7 +30,7 @@ static Dual cross(const Dual a[2], const Dual b[2])
 
 static BallPlace ball_place(const Setup *setup, const RingMotion *ring, Dual angle, Dual cage, int k, const Dual own[2])
 {
-    const Dual w = own[0], a = own[1], zero[2] = {number(rest[0]), number(rest[1])};
+    const Dual w = own[0], a = own[1], zero[2] = {number(middle[0]), number(middle[1])};
     BallPlace p;
     Dual b[2], s[2], x[2], y[2], span[2], across;
     double rest_i;
@@ -38,12 +38,12 @@ static BallPlace ball_place(const Setup *setup, const RingMotion *ring, Dual ang
     p.centre = groove_centre(setup, ring->q, ring->v, angle, cage, k);
     x[0] = sub(times(e[0], w), times(e[1], a));
     x[1] = add(times(e[1], w), times(e[0], a));
-    for (j = 0; j < 2; j++) { /* at rest the ball is at `rest`, the inner spring s; both grow by x and y */
-        b[j] = plus(x[j], rest[j]);
+    for (j = 0; j < 2; j++) { /* at rest the ball is at `middle`, the inner spring s; both grow by x and y */
+        b[j] = plus(x[j], middle[j]);
         y[j] = sub(p.centre.moved[j], x[j]);
     }
-    s[0] = number(FREE_RADIAL - 0.5 * setup->clearance - rest[0]);
-    s[1] = number(FREE_AXIAL - rest[1]);
+    s[0] = number(FREE_RADIAL - 0.5 * setup->clearance - middle[0]);
+    s[1] = number(FREE_AXIAL - middle[1]);
     rest_i = sqrt(s[0].x * s[0].x + s[1].x * s[1].x);
     {
         const Dual l_i = inner_span(b, p.centre.c, span), l_o = root(dot(b, b));
@@ -68,7 +68,7 @@ static BallPlace ball_place(const Setup *setup, const RingMotion *ring, Dual ang
 
 void own_states(const Ball *ball, double states[])
 {
-    const double r = ball->place[0][0] - rest[0], z = ball->place[0][1] - rest[1];
+    const double r = ball->place[0][0] - middle[0], z = ball->place[0][1] - middle[1];
     states[0] = e[0] * r + e[1] * z;
     states[1] = e[0] * z - e[1] * r;
 }

@@ -106,9 +106,7 @@ static const char *start_bearings(Model *m)
     const char *reason = NULL;
     int b;
     for (b = 0; b < BEARINGS && reason == NULL; b++) {
-        const double *own = &m->value[FIRST_OF_BEARINGS + 3 * b];
-        const BearingParameters parameters = {own[0], own[1], own[2]};
-        reason = law_of[b]->start(&m->cache[LAWS + law_numbers[b]], &parameters);
+        reason = law_of[b]->start(&m->cache[LAWS + law_numbers[b]], &m->value[law_parameters_at[b]]);
     }
     return reason;
 }
@@ -126,27 +124,43 @@ static double ring_of(int motion, const double of_points[POINTS], const double s
     return product(ties[motion], of_points, POINTS) + (shift == NULL ? 0.0 : shift[motion]);
 }
 
-/* Forces with the points at r, moving at v; the slopes are d(force)/dr where v changes by `gain` as much. */
-static const char *press(Carrying *c, const double r[POINTS], const double v[POINTS], double gain)
+/* Forces with the points at r, moving at v. */
+static const char *press(Carrying *c, const double r[POINTS], const double v[POINTS])
 {
-    double q[MOTIONS], rate[MOTIONS], stiffness[DIRECTIONS * DIRECTIONS], damped[DIRECTIONS * DIRECTIONS];
-    int b, i, j, k, l;
+    double q[MOTIONS], rate[MOTIONS];
+    int b, i, j;
     memset(c->carried, 0, sizeof c->carried);
-    memset(c->slopes, 0, sizeof c->slopes);
     for (i = 0; i < MOTIONS; i++) {
         q[i] = ring_of(i, r, ring_shift);
         rate[i] = ring_of(i, v, NULL);
     }
     for (b = 0; b < BEARINGS; b++) {
         const int first = b * DIRECTIONS;
-        const char *reason = law_of[b]->press(&c->work[law_work[b]], &q[first], &rate[first], &c->ring[first], stiffness, damped);
+        const char *reason = law_of[b]->press(&c->work[law_work[b]], &q[first], &rate[first], &c->ring[first]);
         if (reason != NULL) {
             return reason;
         }
+    }
+    for (i = 0; i < MOTIONS; i++) {
+        for (j = 0; j < POINTS; j++) {
+            c->carried[j] += ties[i][j] * c->ring[i];
+        }
+    }
+    return NULL;
+}
+
+/* d(force)/dr there, where v changes by `gain` as much. */
+static void find_slopes(Carrying *c, double gain)
+{
+    double stiffness[DIRECTIONS * DIRECTIONS], damped[DIRECTIONS * DIRECTIONS];
+    int b, i, j, k, l;
+    memset(c->slopes, 0, sizeof c->slopes);
+    for (b = 0; b < BEARINGS; b++) {
+        const int first = b * DIRECTIONS;
+        law_of[b]->slopes(&c->work[law_work[b]], stiffness, damped);
         for (i = 0; i < DIRECTIONS; i++) {
             for (j = 0; j < POINTS; j++) {
                 const double tie = ties[first + i][j];
-                c->carried[j] += tie * c->ring[first + i];
                 for (k = 0; k < DIRECTIONS && tie != 0.0; k++) {
                     const double slope = tie * (stiffness[i * DIRECTIONS + k] + gain * damped[i * DIRECTIONS + k]);
                     for (l = 0; l < POINTS; l++) {
@@ -156,7 +170,6 @@ static const char *press(Carrying *c, const double r[POINTS], const double v[POI
             }
         }
     }
-    return NULL;
 }
 
 /* Moves the bearings to where they were pressed last, with the points at r; shows them. */
@@ -257,30 +270,42 @@ static const char *show(Model *m)
 
 /* ---- the start: equilibrium under the load ---- */
 
-/* What stiffness and bearings exert on the rotor at q beyond the load. */
-static const char *imbalance(const Model *m, Carrying *c, const double q[], double off[], double *size)
+/* Bearings at rest with the rotor at q, and what they and its stiffness exert on it beyond the load. */
+static const char *rest_at(Model *m, Carrying *c, const double q[], double off[], double *size)
 {
     static const double still[POINTS] = {0.0};
-    double r[POINTS], omega = m->cache[SPEED];
-    const char *reason;
-    int i;
+    double r[POINTS];
+    const char *reason = start_bearings(m);
+    int i, settled = 0;
+    for (i = 0; i < BEARINGS; i++) {
+        settled = law_of[i]->settled > settled ? law_of[i]->settled : settled;
+    }
     for (i = 0; i < POINTS; i++) {
         r[i] = product(points[i], q, FREEDOMS);
     }
-    begin_bearings(m, c, 0.0, omega);
-    reason = press(c, r, still, 0.0);
+    for (i = 0; i <= settled && reason == NULL; i++) {
+        begin_bearings(m, c, 0.0, m->cache[SPEED]);
+        reason = press(c, r, still);
+        if (reason == NULL) {
+            reason = accept(m, c, r);
+        }
+    }
+    if (reason != NULL) {
+        return reason;
+    }
     for (i = 0; i < FREEDOMS; i++) {
         off[i] = m->value[VR_stiffness_scale] * product(stiffness_matrix[i], q, FREEDOMS) - m->value[VR_load_scale] * load[i];
     }
     take(c->carried, -1.0, off);
     *size = sqrt(product(off, off, FREEDOMS));
-    return reason != NULL || isfinite(*size) ? reason : no_number;
+    return isfinite(*size) ? NULL : no_number;
 }
 
-static const char *newton_of_rest(const Model *m, const Carrying *c, const double off[], double step[])
+static const char *newton_of_rest(const Model *m, Carrying *c, const double off[], double step[])
 {
     double slopes[FREEDOMS * FREEDOMS], more;
     int pivot[FREEDOMS], i, j, k, l;
+    find_slopes(c, 0.0);
     for (i = 0; i < FREEDOMS; i++) {
         step[i] = -off[i];
         for (k = 0; k < FREEDOMS; k++) {
@@ -311,14 +336,11 @@ static const char *find_rest(Model *m)
     const double most = allowed * fmax(1.0, fabs(m->value[VR_load_scale]) * sqrt(product(load, load, FREEDOMS)));
     double off[FREEDOMS], step[FREEDOMS], tried[FREEDOMS], size, now, *q = &m->cache[PLACE];
     Carrying c;
-    const char *reason = start_bearings(m);
+    const char *reason;
     int i, k, n;
-    if (reason != NULL) {
-        return reason;
-    }
     memcpy(q, rest, sizeof rest);
     memset(&m->cache[VELOCITY], 0, 2 * FREEDOMS * sizeof q[0]);
-    reason = imbalance(m, &c, q, off, &size);
+    reason = rest_at(m, &c, q, off, &size);
     for (n = 0; n < MOST && reason == NULL && !(size <= most); n++) {
         reason = newton_of_rest(m, &c, off, step);
         now = HUGE_VAL;
@@ -327,7 +349,7 @@ static const char *find_rest(Model *m)
                 tried[i] = q[i] + step[i];
                 step[i] *= 0.5;
             }
-            if (imbalance(m, &c, tried, off, &now) != NULL) {
+            if (rest_at(m, &c, tried, off, &now) != NULL) {
                 now = HUGE_VAL;
             }
         }
@@ -343,13 +365,10 @@ static const char *find_rest(Model *m)
     if (reason != NULL) {
         return reason;
     }
-    reason = imbalance(m, &c, q, off, &size);
     for (i = 0; i < POINTS; i++) {
         m->cache[WAS + i] = m->cache[WAS + POINTS + i] = m->cache[WAS + 2 * POINTS + i] = product(points[i], q, FREEDOMS);
     }
-    if (reason == NULL) {
-        reason = accept(m, &c, &m->cache[WAS]);
-    }
+    reason = rest_at(m, &c, q, off, &size);
     m->cache[RESISTED + 1] = m->cache[RESISTED];
     return reason;
 }
@@ -522,7 +541,7 @@ static const char *balance(const Condensed *c, const double free[], const double
         for (i = 0; i < POINTS; i++) {
             v[i] = c->velocity[0] * r[i] + history[i];
         }
-        reason = press(forces, r, v, c->velocity[0]);
+        reason = press(forces, r, v);
         if (reason != NULL) {
             return reason;
         }
@@ -531,7 +550,6 @@ static const char *balance(const Condensed *c, const double free[], const double
             for (k = 0; k < POINTS; k++) {
                 off[i] += c->D[i][k] * (r[k] - free[k]);
                 noise = fmax(noise, fabs(c->D[i][k] * r[k]));
-                system[i * POINTS + k] = c->D[i][k] + c->weight * forces->slopes[i][k];
             }
             error += off[i] * off[i];
         }
@@ -550,6 +568,12 @@ static const char *balance(const Condensed *c, const double free[], const double
             continue;
         }
         previous = error;
+        find_slopes(forces, c->velocity[0]);
+        for (i = 0; i < POINTS; i++) {
+            for (k = 0; k < POINTS; k++) {
+                system[i * POINTS + k] = c->D[i][k] + c->weight * forces->slopes[i][k];
+            }
+        }
         if (!factorise(POINTS, system, pivot)) {
             break;
         }
