@@ -34,15 +34,16 @@ def export_whole_rotor(
     `speed` [rad/s], or with `inertia` the `torque` of the motor; outputs displacements and rates of named nodes,
     `disc.x`, `disc.velocity_x`, ..., those of the inner rings, `bearing[b].x`, the forces on them and what the FMU
     of `export_bearing` has of balls and films, `bearing[b].force_x`, `bearing[b].largest_load_inner`,
-    `bearing[b].smallest_film`, ..., the `angle` of the shaft, and `outside_validity`. Bearings count from 1.
-    `mass_scale`, `stiffness_scale`, `damping_scale`, `load_scale`, `inertia`, `speed_start`, and of every bearing
-    `clearance`, `cage_angle_start` and `film`, can be set before initialization; the rotor then starts in
-    equilibrium under its load. A step is cut into inner ones of at most `inner_step`.
+    `bearing[b].smallest_film`, ..., the `angle` of the shaft, and `outside_validity`. Bearings count from 1, each
+    in the frame of its mount. `mass_scale`, `stiffness_scale`, `damping_scale`, `load_scale`, `inertia`,
+    `speed_start`, and of every bearing `clearance`, `offset`, `cage_angle_start` and `film`, as far as it has
+    them, can be set before initialization; the rotor then starts in equilibrium under its load. A step is cut into
+    inner ones of at most `inner_step`.
 
     Parameters
     ----------
     rotor : Rotor
-        On planar ball bearings, as of `rotor_on_bearings`; linear ones may be beside them.
+        On ball bearings, as of `rotor_on_bearings`; linear ones may be beside them.
     path : path-like
         File to write, ending in ``.fmu``.
     speeds_rpm, speed_rpm, inertia

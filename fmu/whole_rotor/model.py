@@ -76,7 +76,8 @@ class WholeRotorModel:
     def bearings(self) -> tuple[BearingModel, ...]:
         """Each ball bearing as its own FMU has it."""
         return tuple(
-            BearingModel(mount.ball_bearing, self.speeds_rpm, freedoms=len(mount.directions)) for mount in self.stations
+            BearingModel(mount.ball_bearing, self.speeds_rpm, freedoms=len(mount.directions))
+            for mount in self.stations
         )
 
     @cached_property

@@ -20,7 +20,14 @@ from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 LEAST_INNER_STEP = 1e-3  # of the default
-SHOWN = ("force_", "moment_", "largest_", "smallest_", "rolling_", "outside_")  # outputs of a bearing that the rotor has
+SHOWN = (
+    "force_",
+    "moment_",
+    "largest_",
+    "smallest_",
+    "rolling_",
+    "outside_",
+)  # outputs of a bearing that the rotor has
 PARAMETERS = ("clearance", "offset", "cage_angle_start", "film")
 ALL = "outside_validity"
 

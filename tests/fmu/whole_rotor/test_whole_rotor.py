@@ -1,6 +1,9 @@
 """FMUs of rotors with their ball bearings inside, beside `simulate_rotor`; parameters, torque, faults, masters."""
 
+import shutil
+import subprocess
 from dataclasses import replace
+from pathlib import Path
 
 import fmpy
 import numpy as np
@@ -10,6 +13,8 @@ from fmpy.fmi1 import FMICallException
 from ehlcontact import InputError, Lubricant
 from fmu import WholeRotorModel, export_whole_rotor, verify, verify_references
 from fmu.driver import Slave
+from fmu.sources import CSRC
+from fmu.whole_rotor.variables import whole_rotor_spec
 from reduced_models import (
     BallBearing,
     Disc,
@@ -55,6 +60,35 @@ def rigid():
     )
 
 
+def five():
+    """Rigid, on two 7205 that press each other, with gyroscopic moments."""
+    bearing, gyroscopic = BallBearing.catalogue("7205", oil=OIL), np.zeros((5, 5))
+    gyroscopic[3, 4], gyroscopic[4, 3] = 0.012, -0.012
+    place = {"x": 0, "y": 1, "z": 2, "tilt_x": 3, "tilt_y": 4}
+    return Rotor(
+        mass=np.diag([3.0, 3.0, 3.0, 0.01, 0.01]),
+        stiffness=np.zeros((5, 5)),
+        gyroscopic=gyroscopic,
+        mounts=(
+            BearingMount(bearing=bearing, **place, offset=8e-6, arm=-0.05, facing="-z"),
+            BearingMount(bearing=bearing, **place, offset=8e-6, arm=0.05),
+        ),
+        load=np.array([0.0, -30.0, 0.0, 0.0, 0.0]),
+        unbalances=(Unbalance(x=0, y=1, amount=2e-4, phase=0.4),),
+        nodes={"rotor": place},
+    )
+
+
+def axial():
+    """A shaft that is rigid along itself, so that its bearings share a direction."""
+    bearing = BallBearing.catalogue("6205", oil=OIL, clearance=5e-6)
+    return rotor_on_bearings(
+        Shaft(length=0.4, diameter=0.03, elements=2, damping_time=1e-5),
+        discs=[Disc(position=0.25, mass=4.0, unbalance=1e-4, load=(0.0, 0.0, 80.0))],
+        supports=[Support(position=at, bearing=bearing) for at in (0.02, 0.38)],
+    )
+
+
 class Made:
     """An exported rotor, and instances of it."""
 
@@ -82,6 +116,8 @@ MODELS = {
     "flexible": lambda: WholeRotorModel(flexible(), SPEEDS, SPEEDS[0]),
     "motor": lambda: WholeRotorModel(flexible(), SPEEDS, SPEEDS[0], INERTIA),
     "rigid": lambda: WholeRotorModel(rigid(), 6000.0),
+    "five": lambda: WholeRotorModel(five(), 3000.0),
+    "axial": lambda: WholeRotorModel(axial(), 3000.0),
 }
 
 
@@ -98,7 +134,10 @@ def made(tmp_path_factory):
     return make
 
 
-@pytest.mark.parametrize(("name", "fmi"), [("flexible", 2), ("motor", 3), ("rigid", 3)])
+@pytest.mark.parametrize(
+    ("name", "fmi"),
+    [("flexible", 2), ("motor", 3), ("rigid", 3), ("five", 2), pytest.param("axial", 3, marks=pytest.mark.slow)],
+)
 def test_verifies(made, name, fmi):
     one = made(name, fmi)
     found = verify(one.path, one.model)
@@ -134,6 +173,37 @@ def test_is_simulate_rotor(made):
     assert (np.abs(found - wanted).max(axis=0) < 1e-9 * np.ptp(wanted, axis=0)).all()
     coarse = by_simulate_rotor(one.model.rotor, profile, steps, rho_inf=0.7)[:-1]
     assert np.abs(coarse - wanted).max(axis=0).max() > 1e-6 * np.ptp(wanted, axis=0).max()
+
+
+def test_a_preload_that_is_set_is_that_of_the_mount(made):
+    one = made("five")
+    rotor = one.model.rotor
+    tighter = replace(rotor, mounts=(rotor.mounts[0], replace(rotor.mounts[1], offset=11e-6)))
+    rest = tighter.equilibrium(3000.0)
+    slave = one.started(**{"bearing[2].offset": 3e-6})
+    found = slave.get(*(f"rotor.{name}" for name in rotor.nodes["rotor"]))
+    slave.free()
+    assert found == pytest.approx(rest, rel=1e-6, abs=1e-15)
+    assert abs(rest[2]) > 1e-6
+
+
+@pytest.mark.parametrize(
+    ("name", "ring", "parameters", "start"),
+    [("flexible", 2, "5e-6,-1.57,1.0", "1e-6,-6e-6"), ("five", 5, "0.0,-1.57,1.0", "1e-6,-2e-6,8e-6,0.0,0.0")],
+)
+def test_slopes_of_a_step(name, ring, parameters, start, tmp_path):
+    """Beside differences of the force, balls and films following: what Newton's method iterates with."""
+    compiler = next((one for one in ("gcc", "clang", "cc") if shutil.which(one)), None)
+    if compiler is None:
+        pytest.skip("no system C compiler")
+    law, program = tmp_path / "law.c", tmp_path / "slopes"
+    law.write_text(whole_rotor_spec(MODELS[name]()).tables["bearing_law_1.c"])
+    given = {"TESTED": "bearing_law_1", "RING": ring, "PARAMETERS": parameters, "START": start}
+    line = [compiler, "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", "-I", CSRC / "models"]
+    line += [*(f"-D{macro}={text}" for macro, text in given.items()), Path(__file__).with_name("slopes.c"), law]
+    subprocess.run([*line, "-lm", "-o", program], check=True)
+    found = subprocess.run([program], check=True, capture_output=True, text=True).stdout.split()
+    assert len(found) == 2 and max(map(float, found)) < 1e-7
 
 
 def test_starts_in_equilibrium_with_the_parameters_that_are_set(made, tmp_path):
@@ -255,14 +325,8 @@ def test_a_step_that_fails_leaves_a_usable_instance(made, wrong, words):
 
 def test_bad_models():
     rotor = flexible()
-    five = rotor_on_bearings(
-        Shaft(length=0.4, diameter=0.03, elements=2),
-        supports=[Support(position=at, bearing=BallBearing.catalogue("6205", oil=OIL)) for at in (0.02, 0.38)],
-        axial=True,
-    )
     for wrong, field in (
         ({"rotor": "shaft"}, "rotor"),
-        ({"rotor": five}, "rotor.mounts"),
         ({"speed_rpm": -1.0}, "speed_rpm"),
         ({"speeds_rpm": (7e3, 6e3)}, "speeds_rpm"),
         ({"inertia": 0.0}, "inertia"),
