@@ -76,7 +76,7 @@ def newtonian(contact: Contact) -> Assumption:
         thinned = f"a slide-roll ratio above {sliding:.2g}" if sliding < LARGEST_SLIDE_ROLL else "no sliding"
         verdict = (
             f"rolling shears the inlet by {stress * 1e-6:.2g} MPa; {thinned} would thin the film; "
-            "traction, not computed here, is another matter"
+            "traction is another matter (docs/traction.md)"
         )
     return Assumption(
         name="newtonian",

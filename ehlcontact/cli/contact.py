@@ -26,6 +26,7 @@ from ehlcontact.heat import Heat
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Eyring, LimitingShear, Lubricant, TractionLaw
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
+from ehlcontact.sliding import Sliding as ThinningSlide
 from ehlcontact.supply import OilLayer
 
 if TYPE_CHECKING:
@@ -425,6 +426,10 @@ class Sliding(Options):
         ),
     ] = None
 
+    thinning: Annotated[
+        bool, typer.Option("--thinning", help="Let sliding thin the oil, and the film with it; by Eyring's law.")
+    ] = False
+
     @property
     def law(self) -> TractionLaw:
         """Traction law; raises `InputError` for numbers out of range, or both laws."""
@@ -441,12 +446,25 @@ class Sliding(Options):
             for name, value in (("--eyring-mpa", self.eyring), ("--limiting-shear", self.limiting_shear)):
                 if value is not None:
                     raise InputError(name, value, "left out without --slide-roll: in pure rolling nothing slides")
+            if self.thinning:
+                raise InputError(
+                    "--thinning", True, "given with --slide-roll: in pure rolling nothing thins the oil"
+                )
             return
         require_between("--slide-roll", self.slide_roll, 0.0, LARGEST_SLIDE_ROLL)
         if not contact.in_si:
             allowed = "left out: a point of --M --L --kappa has no pascals, of which the stress of an oil is"
             raise InputError("--slide-roll", self.slide_roll, allowed)
         self.law  # noqa: B018  # which checks its numbers
+
+    def thinned(self) -> ThinningSlide | None:
+        """Sliding that thins the film, or None; raises `InputError` with a limiting shear stress."""
+        if not self.thinning:
+            return None
+        if self.limiting_shear is not None:
+            allowed = "left out with --thinning: it leaves no viscosity along the sliding (--eyring-mpa)"
+            raise InputError("--limiting-shear", self.limiting_shear, allowed)
+        return ThinningSlide(self.slide_roll or 0.0, self.law)
 
     def traction(self, film: SteadyResult) -> Traction | None:
         """Traction of a film that has converged; None in pure rolling."""

@@ -346,6 +346,12 @@ def test_traction(call, refused):
     both = ("--limiting-shear", "0.05", "--eyring-mpa", "5")
     bad(("--eyring-mpa = 5.0", "one traction law"), "--slide-roll", "0.1", *both)
     bad(("--limiting-shear = 0.05", "--thermal"), "--thermal", "--slide-roll", "0.1", *both[:2])
+    thin = answer("--slide-roll", "1", "--thinning")
+    assert 0.9 < thin["thinned_share"] < 1.0
+    assert thin["traction"]["coefficient"][0] > 0.01
+    bad(("--thinning = True", "with --slide-roll"), "--thinning")
+    bad(("--limiting-shear = 0.05", "with --thinning"), "--slide-roll", "0.1", "--thinning", *both[:2])
+    bad(("sliding", "left out with thermal"), "--slide-roll", "0.1", "--thinning", "--thermal")
     dimensionless = ("--M", "20", "--L", "10", "--kappa", "1", "--slide-roll", "0.1")
     refused(("--slide-roll = 0.1", "no pascals"), "steady", *dimensionless)
     refused(("--traction: not in the model", "has --slide-roll"), "impedance", *options(), "--traction")

@@ -77,7 +77,7 @@ def steady(
 
     chosen = grid.chosen() | solving.model_dump() | {"supply": supply.chosen(contact)}
     sliding.check(contact)
-    chosen |= {"thermal": heating.chosen(contact, sliding)}
+    chosen |= {"sliding": sliding.thinned(), "thermal": heating.chosen(contact, sliding)}
     point = contact.solvable()
     surfaces.check(contact)
     chosen |= {"asperities": mixed.chosen(surfaces)}
@@ -134,6 +134,7 @@ def _rows(result: SteadyResult) -> list[Row]:
         ("load balance", f"{result.load_residual:.1e}", "over the load"),
         ("cycles", f"{result.cycles}", ""),
         *_supply_rows(result),
+        *_thinning_rows(result),
         *heat_rows(result),
         *_asperity_rows(result),
         *run_rows(result),
@@ -155,6 +156,13 @@ def _asperity_rows(result: SteadyResult) -> list[Row]:
         return []
     film = f"their central film is {found.film_share:.4g} of that between smooth surfaces"
     return [("load on asperities", f"{100.0 * found.load_share:.3g} %", film)]
+
+
+def _thinning_rows(result: SteadyResult) -> list[Row]:
+    """Film that sliding leaves."""
+    if result.thinned_share is None:
+        return []
+    return [("film by sliding", f"{result.thinned_share:.4g}", "of the Newtonian film")]
 
 
 def _traction_rows(found: Traction | None) -> list[Row]:
