@@ -17,11 +17,10 @@ from __future__ import annotations
 
 import time
 from math import pi
-from typing import Any, Unpack
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import linalg
 
 from ehlcontact.checks import as_numbers, require_positive
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, is_given
@@ -30,7 +29,6 @@ from ehlcontact.errors import InputError
 from ehlcontact.impedance import (
     LARGEST_OMEGA,
     NEAR_ZERO,
-    SOLVE_SHARE,
     TOLERANCE,
     LinearisedContact,
     coarser_films,
@@ -133,16 +131,7 @@ def excitation(
 
 def force_of_waves(contact: LinearisedContact, omega: Array, k: Array) -> tuple[Complex, Array]:
     """Force per height of waves of wave numbers k, and the relative residual of its linear system, both (m,)."""
-    G, residual = np.empty(omega.size, dtype=complex), np.empty(omega.size)
-    for m in np.argsort(omega):
-        w = float(omega[m])
-        system = contact.system(w)
-        b: NDArray[Any] = np.zeros(contact.level.P.size + 1, dtype=complex)
-        b[contact.nodes] = -_flow_by_waves(contact.level, system, float(k[m]))[contact.nodes]
-        x: NDArray[Any] = contact.change(w, system, b, SOLVE_SHARE * TOLERANCE * min(1.0, w))
-        G[m] = contact.weights @ x[contact.nodes]
-        residual[m] = linalg.norm(b - system(x)) / linalg.norm(b)
-    return G, residual
+    return contact.force_of(omega, lambda system, m: -_flow_by_waves(contact.level, system, float(k[m])))
 
 
 def _flow_by_waves(level: Level, system: LinearFilm, k: float) -> Complex:

@@ -17,7 +17,7 @@ small least-squares problem, whose residual is the error measure: the frequency 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -324,6 +324,22 @@ class LinearisedContact:
                     basis.append(x / size)
                     space = np.array(basis)
                     products += self.products(basis[-1])
+
+    def force_of(self, omega: Array, source: Callable[[LinearFilm, int], NDArray[Any]]) -> tuple[Complex, Array]:
+        """Force by a source in Reynolds' equation at fixed approach, and relative residuals, both (k,).
+
+        ``source(system, m)`` is its value at all nodes, flat, for the m-th of the frequencies.
+        """
+        force, residual = np.empty(omega.size, dtype=complex), np.empty(omega.size)
+        for m in np.argsort(omega):
+            w = float(omega[m])
+            system = self.system(w)
+            b: NDArray[Any] = np.zeros(self._free.size + 1, dtype=complex)
+            b[self.nodes] = source(system, int(m))[self.nodes]
+            x: NDArray[Any] = self.change(w, system, b, SOLVE_SHARE * TOLERANCE * min(1.0, w))
+            force[m] = self.weights @ x[self.nodes]
+            residual[m] = linalg.norm(b - system(x)) / linalg.norm(b)
+        return force, residual
 
     def _respond_one_by_one(self, omega: Array, tolerance: float) -> tuple[Complex, Array]:
         """`respond` with a supply or heat: what comes later is not linear in Omega, and no space serves."""

@@ -12,18 +12,15 @@ the contact first. Bodies under a constant load without inertia move apart by th
 from __future__ import annotations
 
 import time
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import linalg
 
 from ehlcontact.checks.frequency import dimensionless
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.impedance import (
     LARGEST_OMEGA,
     NEAR_ZERO,
-    SOLVE_SHARE,
     TOLERANCE,
     LinearisedContact,
     coarser_films,
@@ -106,15 +103,6 @@ def speed_response(
 
 def force_of_speed(contact: LinearisedContact, omega: Array) -> tuple[Complex, Array]:
     """Force over relative change of speed, and the relative residual of its linear system, both (m,)."""
-    R, residual = np.empty(omega.size, dtype=complex), np.empty(omega.size)
     level = contact.level
     carried = level.transport(level.fields.flow.mass, np.zeros_like(level.P)).ravel()
-    b: NDArray[Any] = np.zeros(level.P.size + 1, dtype=complex)
-    b[contact.nodes] = carried[contact.nodes]
-    for m in np.argsort(omega):
-        w = float(omega[m])
-        system = contact.system(w)
-        x: NDArray[Any] = contact.change(w, system, b, SOLVE_SHARE * TOLERANCE * min(1.0, w))
-        R[m] = contact.weights @ x[contact.nodes]
-        residual[m] = linalg.norm(b - system(x)) / linalg.norm(b)
-    return R, residual
+    return contact.force_of(omega, lambda system, m: carried)
