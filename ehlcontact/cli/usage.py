@@ -23,7 +23,7 @@ _PRELOAD = (
     "--pair has that of two"
 )
 _SUPPLY = (
-    "a layer of oil ahead of the contact is, as --layer of `ehlcontact steady` and `impedance`; "
+    "a layer of oil ahead of the contact is, as --layer of `ehlcontact steady`, `impedance` and `simulate`; "
     "films of the other commands are flooded"
 )
 _FILMS = "films are fully flooded and isothermal, without sliding; what that leaves out stands in the answer"
@@ -33,7 +33,8 @@ NOT_IN_THE_MODEL = {
     **dict.fromkeys(("--moment", "--tilt", "--misalignment"), f"{_RADIAL} (--moment-x, --tilt-x)"),
     **dict.fromkeys(("--preload", "--axial-preload"), _PRELOAD),
     **dict.fromkeys(
-        ("--starvation", "--starved"), "`ehlcontact steady` and `impedance` have --layer; elsewhere " + _FILMS
+        ("--starvation", "--starved"),
+        "`ehlcontact steady`, `impedance` and `simulate` have --layer; elsewhere " + _FILMS,
     ),
     **dict.fromkeys(
         ("--thermal", "--heat", "--sliding", "--slide-roll"),

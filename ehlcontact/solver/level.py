@@ -111,7 +111,8 @@ class Level:
 
     def set_point(self, point: MoesPoint) -> None:
         """Numbers that the kernels need at `point`, whose kappa must be that of the level."""
-        self.M, self.law, self.expected_film = point.M, point.law, point.inlet_width**1.5
+        self.M, self.kappa = point.M, point.kappa
+        self.law, self.expected_film = point.law, point.inlet_width**1.5
         self.stencil = reynolds.Stencil(
             cx=self.hx**-2,
             cy=point.kappa**2 * self.hy**-2,
@@ -141,7 +142,8 @@ class Level:
     def empty_inlet(self, u: float) -> None:
         """Take the pressure away where the gap is much wider than the layer, as a start; P, H written."""
         self.update_film(u)
-        self.P[(supply.FRONT_GAP * self.inflow[:, None] < self.H) & (self.X < 0.0)] = 0.0
+        most = supply.FRONT_GAP * max(1.0, self.kappa**-supply.WIDER_GAP)
+        self.P[(most * self.inflow[:, None] < self.H) & (self.X < 0.0)] = 0.0
 
     @property
     def front_beyond_border(self) -> bool:

@@ -29,7 +29,7 @@ from ehlcontact.solver.grid_rules import (
     resolved_load,
 )
 from ehlcontact.solver.kernels import transfer
-from ehlcontact.solver.kernels.supply import FITTING
+from ehlcontact.solver.kernels.supply import FITTING, WIDER_GAP
 from ehlcontact.solver.level import Array, Level, build_hierarchy
 from ehlcontact.solver.mesh import Mesh
 
@@ -42,6 +42,8 @@ LEAST_LOADING = 1.05  # and at least so much
 SETTLED_CHANGE = 0.05  # of P by the last cycle after a step of load continuation; a larger one halves the step
 CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
 FRONT_CYCLES, FRONT_SETTLED = 6, 0.01  # most of them while more than this share of the nodes fill up or empty
+# Power of load over that of a level by which its layer is thicker: films go as -2/3, inlets as -4/9.
+LAYER_POWER = 2.0 / 9.0
 NESTED_CYCLES = 4  # on a grid of half the intervals, its lines as close: its film is solved, and a start
 
 
@@ -250,15 +252,19 @@ class Multigrid:
         self._enter_supply(k)
 
     def _enter_supply(self, k: int) -> None:
-        """Layer that enters on level k where it is the finest, the same in metres under any load.
+        """Layer that enters on level k where it is the finest; on the way, under a smaller load, another one.
 
-        Under a smaller load, on the way, the front may lie beyond the border: such films are flooded.
+        The film is thicker there over the dry approach, and would begin further ahead of the contact with the same
+        layer over the flooded film: the front begins about where it will be with a layer that is the thinner, as
+        the inlet is wider. Where it may lie beyond the border all the same, such films are flooded; that of the
+        coarsest level also where the front may lie far ahead, which is not found from a dry contact.
         """
         level = self.levels[k]
         if self.supply is None:
             return
-        layer = self.supply(level.Y) * (self.point.M / level.M) ** (2.0 / 3.0)
-        flooded = level.M < self.point.M and level.gap[0, 0] < FITTING * layer.max()
+        layer = self.supply(level.Y) * (self.point.M / level.M) ** LAYER_POWER
+        wider = max(1.0, self.point.kappa**-WIDER_GAP) if k == 0 else 1.0
+        flooded = level.M < self.point.M and level.gap[0, 0] < FITTING * wider * layer.max()
         starts = not flooded and k > 0 and not self.levels[k - 1].inflow.size
         level.set_supply(None if flooded else layer)
         if starts:

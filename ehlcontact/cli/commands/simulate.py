@@ -13,7 +13,7 @@ import typer
 from ehlcontact.assumptions import assumptions
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import NO_TIME, Contact, Surfaces
+from ehlcontact.cli.contact import NO_TIME, Contact, Supply, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
@@ -193,6 +193,7 @@ class RestartOptions(o.Options):
 def simulate(
     contact: Contact,
     surfaces: Surfaces,
+    supply: Supply,
     motion: MotionOptions,
     time: TimeOptions,
     grid: o.Grid,
@@ -205,7 +206,7 @@ def simulate(
     point = contact.solvable()
     arguments = (point, motion.chosen(point))
     surfaces.check(contact)
-    chosen, steps = grid.chosen(), time.chosen()
+    chosen, steps, layer = grid.chosen(), time.chosen(), supply.chosen(contact)
     out.check(restart.other, beside={"--checkpoint": (restart.checkpoint, o.HDF5)})
     failure, unkept = "", None
     with progress("transient film") as update, o.called(dt="--dt", local_error="--local-error"):
@@ -213,6 +214,7 @@ def simulate(
             result = integrate(
                 *arguments,
                 grid=chosen["grid"],
+                supply=layer,
                 time=steps,
                 keep=KeepSettings(checkpoint=restart.checkpoint, restart=restart.restart),
                 run=RunSettings(threads=chosen["threads"], callback=update),
@@ -268,11 +270,22 @@ def _rows(result: SimulationResult) -> list[Row]:
         ("motion", result.motion.kind, ", ".join(f"{k} {numeral(v)}" for k, v in settings) + "; dimensionless"),
         *([] if result.scales is None else _in_si(result)),
         *quantity_rows(result, {"static_approach": "", "approach": "", "force": "", "h_min": ""}),
+        *_supply_rows(result),
         ("steps", f"{result.steps}", steps),
         *_grid_error(result),
         ("tolerance", numeral(result.tol), "residual of a solved step, of the central film at rest"),
         *run_rows(result),
     ]
+
+
+def _supply_rows(result: SimulationResult) -> list[Row]:
+    """Layer of oil that arrives, and what leaves on the centre line over time."""
+    if result.layer is None or result.layer_behind is None:
+        return []
+    size, unit = (1.0, "dry approaches") if result.scales is None else (1e6 * result.scales.length, "µm")
+    behind = size * result.layer_behind[:, 0]
+    leaves = f"{numeral(behind.min())} to {numeral(behind.max())} {unit} leave in the middle"
+    return [("layer of oil", f"{numeral(size * result.layer[0])} {unit}", leaves)]
 
 
 def _in_si(result: SimulationResult) -> list[Row]:

@@ -32,7 +32,9 @@ from ehlcontact.jit import inner, jit_loop, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, linearise_at
 from ehlcontact.solver.kernels.reynolds import Stencil, flow_mean, update_along
 
-FRONT_GAP = 8.0  # gap over layer that no front lies ahead of at first: it settles faster downstream than upstream
+# Gap over layer, at kappa = 1, that no front lies ahead of at first: it settles faster downstream than upstream.
+FRONT_GAP = 8.0
+WIDER_GAP = 1.5  # power of 1/kappa by which it is more: a wide contact lets little oil aside
 FITTING = 4.0  # gap at the border over layer, from which the front may lie within the region
 
 
