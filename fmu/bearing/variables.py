@@ -377,16 +377,16 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
         numbers |= {
             "FREE_RADIAL": g.radial + (0.5 * bearing.clearance if bearing.contact_angle is None else 0.0),
             "FREE_AXIAL": g.axial,
-            "INNER_REACH": g.inner,
-            "OUTER_REACH": g.outer,
-            "GROOVE_LEVER": g.groove_circle,
+            "INNER_FREE_LENGTH": g.inner,
+            "OUTER_FREE_LENGTH": g.outer,
+            "GROOVE_CIRCLE": g.groove_circle,
             "GROOVE_RADIUS": g.radius,
             "BALL_DIAMETER": g.ball,
             "PITCH_DIAMETER": g.pitch,
             "BALL_MASS": g.mass,
             "GYROSCOPIC": g.gyroscopic,
-            "INNER_TORSION": g.inner_spin_moment,
-            "OUTER_TORSION": g.outer_spin_moment,
+            "INNER_SPIN_MOMENT": g.inner_spin_moment,
+            "OUTER_SPIN_MOMENT": g.outer_spin_moment,
             "TABLE_COSINE": g.cosine,
             "PLACE_RADIAL": at.place[0, 0],
             "PLACE_AXIAL": at.place[0, 1],
@@ -395,7 +395,7 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
     else:
         numbers |= {
             "CAGE_RATIO": balls.cage,
-            "BALL_SWING": balls.centrifugal_factor,
+            "CENTRIFUGAL_FACTOR": balls.centrifugal_factor,
             "BALL_INERTIA": balls.inertia,
         }
     return (

@@ -20,7 +20,7 @@ typedef struct {
     double place[2][PLACES];
     double rate[2];          /* of the place: planar at the ends of both steps, at contact angles both of the last one */
     double factor[2][2];     /* [race]: film over that of the tables */
-    double entrained[2][2];  /* [race]: sum of both surface speeds over the speed of the shaft [m] */
+    double speed_sum[2][2];  /* [race]: sum of both surface speeds over the speed of the shaft [m] */
     double lift[2];          /* [race]: see Thickness */
     double force[2];         /* [race] N */
     double film[2];          /* [race]: see RaceForce */
@@ -30,7 +30,7 @@ typedef struct {
 /* Forces of the ring on all balls and at the contacts, and the compressions `film` that these have, see RaceForce; at contact
  * angles what else a `Ball` has of them. */
 typedef struct {
-    Dual force[FREEDOMS], load[BALLS][2], factor[BALLS][2], entrained[BALLS][2], angle[BALLS][2];
+    Dual force[FREEDOMS], load[BALLS][2], factor[BALLS][2], speed_sum[BALLS][2], angle[BALLS][2];
     double film[BALLS][2];
 } BallLoads;
 

@@ -41,8 +41,8 @@ static Pressed press(const BallStep *step, const double b[2])
     }
     p.rate[INNER_RACE] = p.cosine[INNER_RACE] * p.e[0] + p.sine[INNER_RACE] * p.e[1];
     p.rate[OUTER_RACE] = p.cosine[OUTER_RACE] * p.v[0] + p.sine[OUTER_RACE] * p.v[1];
-    p.inner = race_force(&step->contact[INNER_RACE], p.l[INNER_RACE] - INNER_REACH, p.rate[INNER_RACE]);
-    p.outer = race_force(&step->contact[OUTER_RACE], p.l[OUTER_RACE] - OUTER_REACH, p.rate[OUTER_RACE]);
+    p.inner = race_force(&step->contact[INNER_RACE], p.l[INNER_RACE] - INNER_FREE_LENGTH, p.rate[INNER_RACE]);
+    p.outer = race_force(&step->contact[OUTER_RACE], p.l[OUTER_RACE] - OUTER_FREE_LENGTH, p.rate[OUTER_RACE]);
     p.forces = forces_on(&p.at, number(step->omega), number(p.inner.force), number(p.outer.force));
     for (j = 0; j < 2; j++) {
         p.sum[j] = p.forces.sum[j].x;
@@ -118,7 +118,8 @@ static int balance_ball(const BallStep *step, double b[2], Pressed *p)
             return 1;
         }
         {
-            const double cut = fmin(1.0, longest * (INNER_REACH + OUTER_REACH) / sqrt(move[0] * move[0] + move[1] * move[1]));
+            const double most = longest * (INNER_FREE_LENGTH + OUTER_FREE_LENGTH);
+            const double cut = fmin(1.0, most / sqrt(move[0] * move[0] + move[1] * move[1]));
             for (j = 0; j < 2; j++) {
                 last[j] = b[j];
                 b[j] += cut * move[j];
@@ -134,13 +135,13 @@ static void first_place(const BallStep *step, double b[2])
 {
     const Setup *setup = step->setup;
     const Dual *c = step->centre.c;
-    const double length = hypot(c[0].x, c[1].x), closer = length - INNER_REACH - OUTER_REACH;
+    const double length = hypot(c[0].x, c[1].x), closer = length - INNER_FREE_LENGTH - OUTER_FREE_LENGTH;
     const double ratio = pow(setup->race[OUTER_RACE].kn / setup->race[INNER_RACE].kn, 2.0 / 3.0);
-    double outward = OUTER_REACH + closer / (1.0 + ratio);
+    double outward = OUTER_FREE_LENGTH + closer / (1.0 + ratio);
     int j;
     if (closer < 0.0 && step->omega > 0.0) {
         const double swing = 0.125 * step->omega * step->omega * BALL_MASS * PITCH_DIAMETER;
-        outward = OUTER_REACH + pow(swing / setup->race[OUTER_RACE].kn, 2.0 / 3.0);
+        outward = OUTER_FREE_LENGTH + pow(swing / setup->race[OUTER_RACE].kn, 2.0 / 3.0);
     }
     for (j = 0; j < 2; j++) {
         b[j] = outward * c[j].x / length;
@@ -152,8 +153,8 @@ static void ready(const Bearing *before, int k, int race, double h, SpeedRow at,
 {
     const Ball *old = &before->ball[k];
     const double ratio = h > 0.0 && before->h > 0.0 ? h / before->h : h > 0.0 ? 1.0 : 0.0;
-    const double change = ratio * (old->entrained[race][0] - old->entrained[race][1]);
-    const double middle = old->entrained[race][0] + 0.5 * change, end = old->entrained[race][0] + change;
+    const double change = ratio * (old->speed_sum[race][0] - old->speed_sum[race][1]);
+    const double middle = old->speed_sum[race][0] + 0.5 * change, end = old->speed_sum[race][0] + change;
     RaceStep *c = &step->contact[race];
     step->film[race].factor = old->factor[race][0] + ratio * (old->factor[race][0] - old->factor[race][1]);
     step->film[race].lift = old->lift[race];
@@ -164,11 +165,11 @@ static void ready(const Bearing *before, int k, int race, double h, SpeedRow at,
     c->filters = &step->filters[race];
     c->filters->interval = 0;
     race_at_rest(c->filters);
-    c->transit = speed > 0.0 ? c->race->reach / (middle * speed) : 0.0;
+    c->transit = speed > 0.0 ? c->race->contact_length_factor / (middle * speed) : 0.0;
     if (h > 0.0) {
         race_prepare(c, h);
     }
-    c->transit = speed > 0.0 ? c->race->reach / (end * speed) : 0.0;
+    c->transit = speed > 0.0 ? c->race->contact_length_factor / (end * speed) : 0.0;
 }
 
 /* Speed of the cage over that of the shaft, in which balls stand by their loads. */
@@ -191,7 +192,7 @@ void balls_unmoved(Bearing *bearing)
     for (k = 0; k < BALLS; k++) {
         for (race = 0; race < 2; race++) {
             bearing->ball[k].factor[race][0] = bearing->ball[k].factor[race][1] = 1.0;
-            bearing->ball[k].entrained[race][0] = bearing->ball[k].entrained[race][1] = 1.0;
+            bearing->ball[k].speed_sum[race][0] = bearing->ball[k].speed_sum[race][1] = 1.0;
         }
     }
 }
@@ -315,7 +316,7 @@ void balls_slopes(const BallsStep *step, RingSlopes *slopes)
     int k, i, j, m;
     memset(slopes, 0, sizeof *slopes);
     for (k = 0; k < BALLS; k++) {
-        const double x = step->ball[k].centre.x.x, y = step->ball[k].centre.y.x, lever = GROOVE_LEVER, cage = step->cage;
+        const double x = step->ball[k].centre.x.x, y = step->ball[k].centre.y.x, lever = GROOVE_CIRCLE, cage = step->cage;
         const double rows[3][FREEDOMS] = {
             {x, y, 0.0, 0.0, 0.0}, {0.0, 0.0, 1.0, lever * y, -lever * x}, {0.0, 0.0, 0.0, -y, x}};
         const double swept[2][FREEDOMS] = {{-cage * y, cage * x, 0.0, 0.0, 0.0},
@@ -358,7 +359,7 @@ void balls_accept(const BallsStep *step, const Bearing *before, Bearing *after)
             ball->rate[j] = h > 0.0 ? p->v[j] : 0.0;
         }
         for (race = 0; race < 2; race++) {
-            const double u = p->l[race] - (race == INNER_RACE ? INNER_REACH : OUTER_REACH);
+            const double u = p->l[race] - (race == INNER_RACE ? INNER_FREE_LENGTH : OUTER_FREE_LENGTH);
             FilmState *film = &after->film[k][race];
             if (h > 0.0) {
                 ball->lift[race] = race_accept(&in_step->contact[race], u, p->rate[race], film);
@@ -369,8 +370,8 @@ void balls_accept(const BallsStep *step, const Bearing *before, Bearing *after)
             }
             ball->factor[race][1] = h > 0.0 ? old->factor[race][0] : factor[race].x;
             ball->factor[race][0] = factor[race].x;
-            ball->entrained[race][1] = h > 0.0 ? old->entrained[race][0] : p->at.entrained[race].x;
-            ball->entrained[race][0] = p->at.entrained[race].x;
+            ball->speed_sum[race][1] = h > 0.0 ? old->speed_sum[race][0] : p->at.speed_sum[race].x;
+            ball->speed_sum[race][0] = p->at.speed_sum[race].x;
             ball->angle[race] = atan2(p->sine[race], p->cosine[race]);
         }
     }

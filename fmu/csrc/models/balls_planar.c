@@ -85,7 +85,7 @@ static void begin_ball(const Setup *setup, const Bearing *before, int k, double 
         RaceStep *c = &step->contact[race];
         c->race = &setup->race[race];
         c->at = at;
-        c->transit = u_sum > 0.0 ? c->race->reach / u_sum : 0.0;
+        c->transit = u_sum > 0.0 ? c->race->contact_length_factor / u_sum : 0.0;
         c->film = NULL;
         c->before = &before->film[k][race];
         c->filters = &step->filters[race];
@@ -128,7 +128,7 @@ void balls_begin(const Setup *setup, const Bearing *before, Bearing *after, doub
         ball->gain = d.gain;
         ball->history = d.now * old->place[0][0] - d.before * old->place[1][0];
         ball->rate_history = d.now * old->rate[0] - d.before * old->rate[1];
-        ball->centrifugal = BALL_SWING * shaft_cage * shaft_cage;
+        ball->centrifugal = CENTRIFUGAL_FACTOR * shaft_cage * shaft_cage;
         begin_ball(setup, before, k, h, at, u_sum, ball);
     }
 }

@@ -11,17 +11,17 @@ static const double gamma_ratio = BALL_DIAMETER / PITCH_DIAMETER;
 
 GrooveCentre groove_centre(const Setup *setup, const Dual q[], const Dual v[], Dual angle, Dual cage, int k)
 {
-    const double psi = angle.x + two_pi * k / BALLS, lever = GROOVE_LEVER;
+    const double psi = angle.x + two_pi * k / BALLS, circle = GROOVE_CIRCLE;
     GrooveCentre g;
     Dual x, y;
     x = g.x = chained(cos(psi), -sin(psi), angle);
     y = g.y = chained(sin(psi), cos(psi), angle);
     g.moved[0] = add(mul(x, q[0]), mul(y, q[1]));
-    g.moved[1] = add(q[2], times(lever, sub(mul(y, q[3]), mul(x, q[4]))));
+    g.moved[1] = add(q[2], times(circle, sub(mul(y, q[3]), mul(x, q[4]))));
     g.c[0] = plus(g.moved[0], FREE_RADIAL - 0.5 * setup->clearance);
     g.c[1] = plus(g.moved[1], FREE_AXIAL);
     g.d[0] = add(add(mul(x, v[0]), mul(y, v[1])), mul(cage, sub(mul(x, q[1]), mul(y, q[0]))));
-    g.d[1] = add(v[2], times(lever, add(sub(mul(y, v[3]), mul(x, v[4])), mul(cage, add(mul(x, q[3]), mul(y, q[4]))))));
+    g.d[1] = add(v[2], times(circle, add(sub(mul(y, v[3]), mul(x, v[4])), mul(cage, add(mul(x, q[3]), mul(y, q[4]))))));
     return g;
 }
 
@@ -52,7 +52,7 @@ static Dual at_least(Dual value, double least)
 /* Share of the inner race in the gyroscopic moment, by dry compressions from the tables of the lowest speed. */
 static Dual share_of(const Setup *setup, const Dual approach[2])
 {
-    const double torsion[2] = {INNER_TORSION, OUTER_TORSION};
+    const double spin_moment[2] = {INNER_SPIN_MOMENT, OUTER_SPIN_MOMENT};
     Dual moment[2], ratio;
     int race;
     for (race = 0; race < 2; race++) {
@@ -61,7 +61,7 @@ static Dual share_of(const Setup *setup, const Dual approach[2])
         double slope, lift, g;
         filters.interval = 0;
         g = race_gap(&contact, approach[race].x, &slope, &lift);
-        moment[race] = times(torsion[race], mul(chained(g, slope, approach[race]), chained(g, slope, approach[race])));
+        moment[race] = times(spin_moment[race], mul(chained(g, slope, approach[race]), chained(g, slope, approach[race])));
     }
     if (moment[INNER_RACE].x <= 0.0) {
         return number(0.0);
@@ -87,7 +87,7 @@ Rolling roll(const Setup *setup, const Dual b[2], const Dual c[2], const Dual *a
     rolls_at(&c_i, &s_i);
     rolls_at(&c_o, &s_o);
     if (BY_FORCES) {
-        const Dual own[2] = {plus(at.l[INNER_RACE], -INNER_REACH), plus(at.l[OUTER_RACE], -OUTER_REACH)};
+        const Dual own[2] = {plus(at.l[INNER_RACE], -INNER_FREE_LENGTH), plus(at.l[OUTER_RACE], -OUTER_FREE_LENGTH)};
         at.share = share_of(setup, approach != NULL ? approach : own);
     } else {
         at.share = number(0.0);
@@ -101,10 +101,10 @@ Rolling roll(const Setup *setup, const Dual b[2], const Dual c[2], const Dual *a
     by_o = at_least(over(add(c_o, mul(slope, s_o)), r_o), least_drive);
     both = add(by_i, by_o);
     at.orbit = over(by_o, both);
-    at.turn = over(number(1.0), mul(times(g, cos_b), both));
+    at.ball_rotation = over(number(1.0), mul(times(g, cos_b), both));
     at.sin_b = mul(slope, cos_b);
-    at.entrained[INNER_RACE] = mul(times(PITCH_DIAMETER, sub(number(1.0), at.orbit)), r_i);
-    at.entrained[OUTER_RACE] = mul(times(PITCH_DIAMETER, at.orbit), r_o);
+    at.speed_sum[INNER_RACE] = mul(times(PITCH_DIAMETER, sub(number(1.0), at.orbit)), r_i);
+    at.speed_sum[OUTER_RACE] = mul(times(PITCH_DIAMETER, at.orbit), r_o);
     return at;
 }
 
@@ -115,8 +115,8 @@ void film_factors(const Rolling *at, Dual factor[2])
     int race;
     for (race = 0; race < 2; race++) {
         const double radius = race == INNER_RACE ? 1.0 - nominal : 1.0 + nominal;
-        const Dual r = over(at->entrained[race], times(PITCH_DIAMETER, share[race]));
-        factor[race] = mul(power(times(1.0 / u, at->entrained[race]), number(by_speed)),
+        const Dual r = over(at->speed_sum[race], times(PITCH_DIAMETER, share[race]));
+        factor[race] = mul(power(times(1.0 / u, at->speed_sum[race]), number(by_speed)),
                            power(times(1.0 / radius, r), number(by_radius)));
     }
 }
@@ -124,9 +124,9 @@ void film_factors(const Rolling *at, Dual factor[2])
 BallForces forces_on(const Rolling *at, Dual omega, Dual f_i, Dual f_o)
 {
     const Dual speed = mul(at->orbit, omega), centrifugal = times(BALL_MASS * 0.5 * PITCH_DIAMETER, mul(speed, speed));
-    const Dual spin = mul(mul(at->turn, omega), at->sin_b);
-    const Dual drag = times(0.2 * GYROSCOPIC * BALL_MASS * BALL_DIAMETER, mul(speed, spin));
-    const Dual t_i = mul(at->share, drag), t_o = sub(t_i, drag);
+    const Dual spin = mul(mul(at->ball_rotation, omega), at->sin_b);
+    const Dual gyroscopic_friction = times(0.2 * GYROSCOPIC * BALL_MASS * BALL_DIAMETER, mul(speed, spin));
+    const Dual t_i = mul(at->share, gyroscopic_friction), t_o = sub(t_i, gyroscopic_friction);
     const Dual *cosine = at->cosine, *sine = at->sine;
     BallForces f;
     f.ring[0] = sub(mul(f_i, cosine[INNER_RACE]), mul(t_i, sine[INNER_RACE]));
@@ -140,7 +140,7 @@ BallForces forces_on(const Rolling *at, Dual omega, Dual f_i, Dual f_o)
 
 void add_to_ring(const GrooveCentre *at, const BallForces *ball, Dual force[])
 {
-    const Dual turns = sub(times(GROOVE_LEVER, ball->ring[1]), ball->moment);
+    const Dual turns = sub(times(GROOVE_CIRCLE, ball->ring[1]), ball->moment);
     force[0] = add(force[0], mul(at->x, ball->ring[0]));
     force[1] = add(force[1], mul(at->y, ball->ring[0]));
     force[2] = add(force[2], ball->ring[1]);

@@ -20,7 +20,7 @@ GrooveCentre groove_centre(const Setup *setup, const Dual q[], const Dual v[], D
 /* Ball between two races. Angular speeds over that of the shaft, entrainment speeds over it [m]. */
 typedef struct {
     Dual l[2], cosine[2], sine[2]; /* inner and outer spring */
-    Dual orbit, turn, sin_b, share, entrained[2];
+    Dual orbit, ball_rotation, sin_b, share, speed_sum[2];
 } Rolling;
 
 /* The vector along the inner spring: its groove never pulls a ball inward. Returns its length. */

@@ -9,7 +9,8 @@ enum { MOST_STEPS = 120, CAGE_ROUNDS = 3 };
 static const double balanced = 1e-12; /* imbalance of a ball across its contacts over its forces: rounding */
 
 /* States of a ball are w and a, from its place on the line between both grooves of a ring in the middle: along it, across it. */
-static const double middle[2] = {PLACE_RADIAL, PLACE_AXIAL}, e[2] = {PLACE_RADIAL / OUTER_REACH, PLACE_AXIAL / OUTER_REACH};
+static const double middle[2] = {PLACE_RADIAL, PLACE_AXIAL};
+static const double e[2] = {PLACE_RADIAL / OUTER_FREE_LENGTH, PLACE_AXIAL / OUTER_FREE_LENGTH};
 
 /* A ball at a place, its contacts there, and the angle between both normals. */
 typedef struct {
@@ -47,13 +48,13 @@ static BallPlace ball_place(const Setup *setup, const RingMotion *ring, Dual ang
     rest_i = sqrt(s[0].x * s[0].x + s[1].x * s[1].x);
     {
         const Dual l_i = inner_span(b, p.centre.c, span), l_o = root(dot(b, b));
-        const Dual more_o = add(times(2.0 * OUTER_REACH, w), add(mul(w, w), mul(a, a)));
+        const Dual more_o = add(times(2.0 * OUTER_FREE_LENGTH, w), add(mul(w, w), mul(a, a)));
         const Dual more_i = add(times(2.0, dot(s, y)), dot(y, y));
-        p.u[OUTER_RACE] = over(more_o, plus(l_o, OUTER_REACH));
-        p.u[INNER_RACE] = plus(over(more_i, plus(l_i, rest_i)), rest_i - INNER_REACH);
+        p.u[OUTER_RACE] = over(more_o, plus(l_o, OUTER_FREE_LENGTH));
+        p.u[INNER_RACE] = plus(over(more_i, plus(l_i, rest_i)), rest_i - INNER_FREE_LENGTH);
         across = add(add(cross(zero, s), cross(x, p.centre.c)), cross(zero, p.centre.moved));
         if (p.centre.c[0].x < b[0].x) { /* beyond the groove, along its wall */
-            p.u[INNER_RACE] = plus(l_i, -INNER_REACH);
+            p.u[INNER_RACE] = plus(l_i, -INNER_FREE_LENGTH);
             across = cross(b, span);
         }
         p.sine = over(across, mul(l_i, l_o));
@@ -211,7 +212,7 @@ static const char *rates_at(const Setup *setup, const RingMotion *ring, const Be
         p = ball_place(setup, ring, states[CAGE_ANGLE], cage, k, own);
         forces = forces_on(&p.rolls, ring->omega, number(0.0), number(0.0));
         for (race = 0; race < 2 && wet && law.rolling.x > 0.0; race++) {
-            transit[race] = over(number(setup->race[race].reach), mul(p.rolls.entrained[race], law.rolling));
+            transit[race] = over(number(setup->race[race].contact_length_factor), mul(p.rolls.speed_sum[race], law.rolling));
         }
         b.inner = held(&setup->race[INNER_RACE], &law, transit[INNER_RACE], &p.factor[INNER_RACE], p.u[INNER_RACE],
                        first + OWN_STATES);
@@ -250,7 +251,7 @@ static const char *rates_at(const Setup *setup, const RingMotion *ring, const Be
             const Dual c = p.rolls.cosine[race], s = p.rolls.sine[race];
             out->film[k][race] = film[race].x;
             out->factor[k][race] = p.factor[race];
-            out->entrained[k][race] = p.rolls.entrained[race];
+            out->speed_sum[k][race] = p.rolls.speed_sum[race];
             out->angle[k][race] = dual(atan2(s.x, c.x), c.x * s.d - s.x * c.d);
             if (wet) {
                 film_state_rates(&setup->race[race], race == INNER_RACE ? &b.inner : &b.outer, approaching[race], first + at,

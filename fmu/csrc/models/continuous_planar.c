@@ -20,11 +20,11 @@ static SpeedState speed_state(const Setup *setup, Dual omega)
     at.law = law_speed(omega);
     u_sum = times(ROLLING_RADIUS, at.law.rolling);
     for (race = 0; race < 2; race++) {
-        const double reach = setup->race[race].nodes > 0 ? setup->race[race].reach : 0.0;
-        at.transit[race] = u_sum.x > 0.0 ? over(number(reach), u_sum) : number(0.0);
+        const double length_factor = setup->race[race].nodes > 0 ? setup->race[race].contact_length_factor : 0.0;
+        at.transit[race] = u_sum.x > 0.0 ? over(number(length_factor), u_sum) : number(0.0);
     }
     at.cage = times(CAGE_RATIO, omega);
-    at.centrifugal = times(BALL_SWING, mul(at.cage, at.cage));
+    at.centrifugal = times(CENTRIFUGAL_FACTOR, mul(at.cage, at.cage));
     return at;
 }
 

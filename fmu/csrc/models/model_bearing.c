@@ -134,7 +134,7 @@ static Dual show_film(const BallLoads *balls, int k, int race, double omega, Fil
 {
     const FilmPlace at = at_load(speed, race, balls->load[k][race]);
     const Dual factor = FREEDOMS == 5 ? balls->factor[k][race] : number(1.0);
-    const Dual rolls = FREEDOMS == 5 ? balls->entrained[k][race] : number(ROLLING_RADIUS);
+    const Dual rolls = FREEDOMS == 5 ? balls->speed_sum[k][race] : number(ROLLING_RADIUS);
     films[0] = mul(factor, of_table(race, CENTRAL, at));
     films[1] = mul(factor, of_table(race, SMALLEST, at));
     return omega > 0.0 ? mul(over(times(0.5, rolls), number(rolling_radius[race])), of_table(race, MOMENT, at)) : number(0.0);
@@ -460,7 +460,7 @@ static void show_step(Model *m, const Bearing *b, const double force[])
             balls.load[k][race] = number(ball->force[race]);
             balls.film[k][race] = ball->film[race];
             balls.factor[k][race] = number(ball->factor[race][0]);
-            balls.entrained[k][race] = number(ball->entrained[race][0]);
+            balls.speed_sum[k][race] = number(ball->speed_sum[race][0]);
             balls.angle[k][race] = number(ball->angle[race]);
         }
     }

@@ -9,7 +9,7 @@ enum { RACE_GAINS = 3 + LAGS }; /* viscous, inlet, fast, chain */
 
 /* Law of a race, in N and m; a row of its tables for each speed of the shaft. Without nodes it is a dry contact. */
 typedef struct {
-    double kn, log_kn, reach; /* N/m^1.5; its logarithm; 2a over sqrt(g) [m^0.5] */
+    double kn, log_kn, contact_length_factor; /* N/m^1.5; its logarithm; 2a over sqrt(g) [m^0.5] */
     double lag_rate, inlet_rate, fast_rate;
     int nodes;
     const int *first;    /* [rows * (nodes - 1) + 1] first coefficient of every interval of `curve` */
