@@ -260,13 +260,15 @@ def test_a_bearing_file_becomes_the_fmu_of_its_bearing(call, refused, tmp_path):
 def test_a_study_becomes_a_shaft_and_a_drive(call, refused, tmp_path):
     """Its rotor between its whole bearings, whose FMUs are outside or wired."""
     drive, shaft = tmp_path / "drive.ssp", tmp_path / "shaft.fmu"
-    more = "--drive", "--inertia", "0.001", "--torque", "0.5", "--top-rpm", "6000"
+    more = "--drive", "--inertia", "0.001", "--top-rpm", "6000", "--controller", "0.05", "0.2", "0.5"
     done = call("export", STUDY, *more, "-o", drive, "--json", "-")
     assert done.code == 0, done
     found = json.loads(done.out)
     assert found["passes"] is True and 0.0 < found["deviation"] < 0.02
     with zipfile.ZipFile(drive) as archive:
-        assert {"resources/shaft.fmu", "resources/bearing_1.fmu"} < set(archive.namelist())
+        assert {"resources/shaft.fmu", "resources/bearing_1.fmu", "resources/controller.fmu"} < set(
+            archive.namelist()
+        )
     done = call("export", STUDY, "--shaft", "-o", shaft)
     assert done.code == 0 and "co-simulation alone" in done.out and "forces are inputs" in done.out, done
     about = {v.name: v for v in fmpy.read_model_description(str(shaft)).modelVariables}
@@ -279,6 +281,7 @@ def test_shafts_and_drives_that_cannot_be_exported(refused, tmp_path):
     fmu, ssp = tmp_path / "x.fmu", tmp_path / "x.ssp"
     text = STUDY.read_text(encoding="utf-8")
     bare, axial = tmp_path / "bare.toml", tmp_path / "axial.toml"
+    turning = "--drive", "--inertia", "0.001"
     bare.write_text(text[: text.index("[whole_bearing]")], "utf-8")
     axial.write_text(text.replace("[whole_bearing]", "[whole_bearing]\naxial_load = 50.0"), "utf-8")
     for words, arguments in (
@@ -289,6 +292,9 @@ def test_shafts_and_drives_that_cannot_be_exported(refused, tmp_path):
         (("--shaft", "one of both"), (STUDY, "--shaft", "--drive", "-o", ssp)),
         (("--torque", "without inertia"), (STUDY, "--shaft", "--torque", "3", "-o", fmu)),
         (("--torque", "--drive"), (STUDY, "--torque", "3", "-o", fmu)),
+        (("--controller", "--drive"), (STUDY, "--shaft", "--controller", "1", "1", "1", "-o", fmu)),
+        (("--controller", "> 0"), (STUDY, *turning, "--controller", "1", "1", "0", "-o", ssp)),
+        (("--controller", "nan"), (STUDY, *turning, "--controller", "nan", "1", "1", "-o", ssp)),
         (("--top-rpm", "no part of a shaft"), (STUDY, "--shaft", "--top-rpm", "6000", "-o", fmu)),
         (("--lead", "left out"), (STUDY, "--shaft", "--lead", "1", "-o", fmu)),
         (("--contact", "left out"), (STUDY, "--shaft", "--contact", "e.json", "-o", fmu)),

@@ -17,7 +17,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.store import load
 
 if TYPE_CHECKING:
-    from fmu import BearingModel, RotorModel, ShaftModel, Verification
+    from fmu import BearingModel, RotorModel, ShaftModel, SpeedController, Verification
     from fmu.system.check import SystemVerification
 
 
@@ -93,6 +93,15 @@ def export(
             help="Highest speed that the bearings of --drive have tables for; the speed of the study by default.",
         ),
     ] = None,
+    controller: Annotated[
+        tuple[float, float, float] | None,
+        typer.Option(
+            "--controller",
+            metavar="P I N_M",
+            help="Of --drive: keeps the speed, at first that of the study, by a proportional gain [N m s/rad] and"
+            " an integral gain [N m/rad], with a largest torque.",
+        ),
+    ] = None,
     fmi: Annotated[int, typer.Option("--fmi", help="FMI version, 2 or 3.")] = 2,
     name: Annotated[str | None, typer.Option("--name", help="Model name.")] = None,
     platform: Annotated[
@@ -115,6 +124,8 @@ def export(
     study = toml and not bearing
     if contact is not None and (not study or turning):
         raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor on contacts")
+    if controller is not None and not drive:
+        raise InputError("--controller", list(controller), "left out, but with --drive")
     _check_turning(output, study, shaft=shaft, drive=drive, inertia=inertia, torque=torque, top_rpm=top_rpm)
     if not study and output.suffix.lower() == ".ssp":
         allowed = "a file name ending in .fmu: a system (.ssp) is made of a study (.toml) with a rotor"
@@ -139,6 +150,8 @@ def export(
                     "--top-rpm", top, f"at least the speed of the study, {exported.speed_rpm:g} rev/min"
                 )
             more = {"speeds_rpm": (exported.speed_rpm, top)}
+            if controller is not None:
+                more["controller"] = _controller_of(exported.speed_rpm, controller)
     elif study:
         exported = _rotor_of(file, contact)
     else:
@@ -285,6 +298,14 @@ def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftM
     rotor = whole_rotor(study, whole_bearing(study, oil=True))
     with o.called(torque="--torque", inertia="--inertia"):
         return ShaftModel(rotor, study.bearing.speed_rpm, inertia, torque or 0.0)
+
+
+def _controller_of(speed_rpm: float, values: tuple[float, float, float]) -> SpeedController:
+    """Controller that keeps this speed; gains and largest torque are given."""
+    from fmu import SpeedController
+
+    with o.called(**dict.fromkeys(("proportional_gain", "integral_gain", "torque_limit"), "--controller")):
+        return SpeedController(speed_rpm, *values)
 
 
 def _about(exported: Any, system: bool) -> list[Row]:
