@@ -100,7 +100,8 @@ def housing_acceleration(
 ) -> _Floats:
     """Acceleration [m/s2] that a bearing's force gives to a housing, at an output rate.
 
-    The rotor runs as if the housing stood still; the path is at rest under the force at the start.
+    The rotor runs as if the housing stood still; the path is at rest under the force at the start. The force is
+    that of the inner ring on the bearing, in the bearing's own frame.
 
     Parameters
     ----------

@@ -1,12 +1,14 @@
 """Labelled records: lines where the label says, resume, columns of bearing-datasets, bad input."""
 
 import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from ehlcontact import InputError, Lubricant, load
+from ehlcontact import ConvergenceError, InputError, Lubricant, load
 from reduced_models import (
     BallBearing,
     ModalPath,
@@ -138,3 +140,23 @@ def test_a_hundred_records_on_two_workers(tmp_path):
     seen = []
     assert len(make_records(cases, tmp_path, processes=2, progress=lambda *n: seen.append(n))) == 100
     assert seen[0] == (41, 100) and seen[-1] == (100, 100)
+
+
+def test_a_case_without_balance_leaves_the_others(tmp_path, monkeypatch):
+    """All others are made first, and the message names it."""
+
+    def make(one):
+        if one.label == "outer":
+            raise ConvergenceError("a ball finds none", None)
+        return VibrationRecord(signal=np.ones(6000, np.float32), rate=one.rate, columns=one.columns())
+
+    @contextmanager
+    def threads(*_, **__):
+        with ThreadPoolExecutor(1) as executor:
+            yield executor
+
+    monkeypatch.setattr("reduced_models.signals.records.make_record", make)
+    monkeypatch.setattr("reduced_models.signals.records.executor_for", threads)
+    with pytest.raises(ConvergenceError, match=r"1 of 3 records were not made, as outer-.*: a ball finds none"):
+        make_records([case("outer"), case(), case("inner")], tmp_path)
+    assert sorted(path.name.split("-")[0] for path in tmp_path.iterdir()) == ["healthy", "inner"]
