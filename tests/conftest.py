@@ -5,10 +5,12 @@ slow ones, which take all cores themselves, stay in one process; so does all wit
 """
 
 import os
+import shlex
+import shutil
 import signal
 import subprocess
 import time
-from functools import cache
+from functools import cache, partial
 
 import pytest
 
@@ -120,12 +122,23 @@ def made_once(common_folder):
 
 
 @pytest.fixture(scope="session", autouse=True)
-def own_cache(common_folder):
+def own_cache(common_folder, made_once):
     """Libraries of FMUs are compiled by the tests, not found in the user's cache; programs keep their bytecode."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("EHLCONTACT_CACHE", str(common_folder / "compiled"))
         patch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)  # or each of 200 programs compiles 200 modules
+        if os.name == "posix" and "EHLCONTACT_CC" not in os.environ and (compiler := shutil.which("cc")):
+            patch.setenv("EHLCONTACT_CC", str(made_once("compiler", partial(_quick, compiler)) / "cc"))
         yield
+
+
+def _quick(compiler, folder):
+    """The compiler of this machine, optimising less and whatever glibc its libraries need: a third of the time.
+
+    Those of `tests/fmu/binaries` are compiled as users have them.
+    """
+    (folder / "cc").write_text(f'#!/bin/sh\nexec {shlex.quote(compiler)} "$@" -O1\n')
+    (folder / "cc").chmod(0o755)
 
 
 @pytest.fixture

@@ -11,6 +11,12 @@ from fmu.sources import compiled, source_files
 from reduced_models import CubicContact
 
 
+@pytest.fixture(autouse=True)
+def compilers_of_users(monkeypatch):
+    """Not the quick one of the other tests."""
+    monkeypatch.delenv("EHLCONTACT_CC", raising=False)
+
+
 @pytest.fixture(scope="session")
 def spec():
     return contact_spec(CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0))
@@ -30,7 +36,8 @@ def libraries(spec, sources, elements):
     film = contact_spec(elements["wide"])
     cases = {2: (spec, sources), 3: (film, source_files(film, content_guid(film, 3), 3))}
     found = {}
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), pytest.MonkeyPatch.context() as patch:
+        patch.delenv("EHLCONTACT_CC", raising=False)
         warnings.filterwarnings("ignore", message="the first library for Windows")
         for fmi, (one, texts) in cases.items():
             made, _ = build_binaries(texts, compiled(one, fmi), one.identifier, list(PLATFORMS.values()), fmi=3)
