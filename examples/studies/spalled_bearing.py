@@ -38,10 +38,10 @@ def spalled(length: float) -> BallBearing:
 
 def without_filter(bearing: BallBearing) -> BallBearing:
     """The same with the bare height under the middle of every contact."""
-    heights = bearing._heights
     bare = profile_of(bearing, bearing.features, "outer", track_radius(bearing, "outer"))
-    tables = np.repeat(bare[None, :, None], heights.tables.shape[2], axis=2)
-    bearing._cache["heights"] = heights._replace(tables=np.ascontiguousarray(tables))
+    heights = bearing._heights.copy()
+    heights[1, : bare.size] = bare[:, None]
+    bearing._cache["heights"] = heights
     return bearing
 
 

@@ -23,7 +23,6 @@ from numpy.typing import NDArray
 
 from ehlcontact.jit import inner, jit_exact, jit_exact_loop
 from reduced_models.bearing.contact_angles import Grooves, ball_forces, film_factors, inner_span, rolling
-from reduced_models.bearing.contact_heights import ContactHeights
 from reduced_models.bearing.loss import Loss
 from reduced_models.bearing.race_contact import curve, film_curve, film_cutoff
 from reduced_models.bearing.race_table import RaceForceTable
@@ -58,7 +57,7 @@ class AngularBalls(NamedTuple):
     omega: float  # of the shaft [rad/s], at rest: the first of `speeds`
     speeds: _Floats  # (rows of the tables,) of the shaft, increasing [rad/s]
     loss: Loss  # of rings and fits
-    heights: ContactHeights  # of features
+    heights: _Floats  # tables of features, see `contact_heights`
 
 
 class BallPlaces(NamedTuple):

@@ -138,7 +138,7 @@ def begin_angular_step(balls, omega, dt, films):
     films.omega[0], cage = omega, films.cage
     cage[0] = cage[1] + 0.5 * dt * (omega + films.omega[1]) * (1.5 * cage[2] - 0.5 * cage[3])
     _turn_maps(balls, films)
-    if balls.heights.raised.size > 0:
+    if balls.heights.shape[0] > 0:
         swept = 0.5 * dt * (omega + films.omega[1])
         for k in range(balls.number + 1):
             turned = films.turned[k]
@@ -455,7 +455,7 @@ def accept_angular(balls, films, gain):
             _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, films.inertia[k])
     films.steps[0] += 1
     films.turned[0, ANGLE_LAST] = films.turned[0, ANGLE_NOW]
-    keep_heights(films)
+    keep_heights(balls, films)
     cage = films.cage
     cage[1], cage[3], cage[2] = cage[0], cage[2], turned / carried if carried > 0.0 else free
     films.omega[1] = omega

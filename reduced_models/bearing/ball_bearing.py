@@ -33,7 +33,7 @@ from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.clearance import clearance_of_class
 from reduced_models.bearing.contact_angles import CONTROLS, HARRIS, Grooves
-from reduced_models.bearing.contact_heights import HEIGHT, ContactHeights
+from reduced_models.bearing.contact_heights import HEIGHT
 from reduced_models.bearing.equilibrium import (
     RingEquilibrium,
     StaticBalls,
@@ -707,7 +707,7 @@ class BallBearing(Summary):
         return self._cache[key]
 
     @property
-    def _heights(self) -> ContactHeights:
+    def _heights(self) -> _Floats:
         """Heights of all features, as the kernels need them."""
         if "heights" not in self._cache:
             self._cache["heights"] = heights_of(self)

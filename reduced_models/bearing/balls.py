@@ -26,7 +26,7 @@ from reduced_models.bearing.contact_heights import (
     HEIGHT,
     HEIGHT_RATE,
     HEIGHTS,
-    ContactHeights,
+    ROTATION,
     find_heights,
     keep_heights,
     rest_heights,
@@ -83,7 +83,7 @@ class Balls(NamedTuple):
     speeds: _Floats  # (rows of the laws,) of the shaft, increasing
     loss: Loss  # of rings and fits
     inertia: float  # of a ball along n [kg]; 0: it has none
-    heights: ContactHeights  # of features
+    heights: _Floats  # tables of features, see `contact_heights`
 
 
 class SpeedState(NamedTuple):
@@ -172,12 +172,12 @@ def directions(balls, angle, normals):
 @jit_exact_loop
 def turn_planar(balls, angle, films, gain):
     """Turn shaft and balls with the first ball to `angle`, and find the heights that contacts meet there."""
-    if balls.heights.raised.size == 0:
+    if balls.heights.shape[0] == 0:
         return
     turned = films.turned
     turned[0, ANGLE_NOW] = (angle - turned[0, ANGLE_RATE]) / balls.cage
     for k in range(balls.number):
-        turned[1 + k, ANGLE_NOW] = balls.heights.rotation * turned[0, ANGLE_NOW]
+        turned[1 + k, ANGLE_NOW] = balls.heights[0, 0, ROTATION] * turned[0, ANGLE_NOW]
     find_heights(balls, films, angle, gain)
 
 
@@ -290,7 +290,7 @@ def accept_balls(balls, at_speed, films, normals, q, v, gain):
         ball[RATE_BEFORE], ball[RATE_NOW] = ball[RATE_NOW], own
         films.largest[0] = max(films.largest[0], films.force[k, 0])
         films.largest[1] = max(films.largest[1], films.force[k, 1])
-    keep_heights(films)
+    keep_heights(balls, films)
     accept_loss(films.loss)
 
 

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks.admissible_range import LIMITS
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.hertz import hertz_contact
-from reduced_models.bearing.contact_heights import ANGLE_NOW, NONE, ContactHeights, height_of
+from reduced_models.bearing.contact_heights import ANGLE_NOW, RAISED, ROTATION, TABLE, height_of
 from reduced_models.bearing.features import BallDiameter, Feature, Waves
 from reduced_models.bearing.race import RACES, Race
 
@@ -45,42 +45,31 @@ MOST_TIMES = 200  # that they are looked up for it: a handful
 RELAXED = 0.7  # share of a change that is made: contacts that lose load lose length
 
 
-def heights_of(bearing: BallBearing) -> ContactHeights:
-    """Tables of all features of a bearing."""
-    n, tables = bearing.balls if bearing.features else 0, []
-    scales, of_race, of_ball = [], np.full(2, NONE), np.full((n, 2), NONE)
-
-    def add(name: str, radius: float, found: Sequence[Feature]) -> int:
-        if not found:
-            return NONE
-        strip, axis = _strip(bearing.race(name))
-        tables.append(profile_of(bearing, found, name, radius))
-        scales.append((strip, radius, axis))
-        return len(tables) - 1
-
-    raised = np.zeros(n)
+def heights_of(bearing: BallBearing) -> _Floats:
+    """All features of a bearing as the array of `contact_heights`."""
+    if not bearing.features:
+        return np.zeros((0, 0, LOADS))
+    numbers = np.zeros((1 + bearing.balls, LOADS))
+    numbers[0, ROTATION] = bearing.orders.bsf
+    tracks: list[tuple[str, float, _Floats]] = []
     for column, name in enumerate(RACES):
-        own = [one for one in bearing.features if getattr(one, "race", None) == name]
-        of_race[column] = add(name, track_radius(bearing, name), own)
-        for ball in range(n):
-            own = [one for one in bearing.features if getattr(one, "ball", None) == ball]
-            of_ball[ball, column] = add(
-                name, 0.5 * bearing.ball_diameter, [one for one in own if not isinstance(one, BallDiameter)]
-            )
-            raised[ball] = 0.5 * sum(one.excess for one in own if isinstance(one, BallDiameter))
-    places = max((len(profile) for profile in tables), default=0)
-    found = [
-        filtered(_resampled(profile, places), 2.0 * pi * radius / places, strip, axis)
-        for profile, (strip, radius, axis) in zip(tables, scales, strict=True)
-    ]
-    return ContactHeights(
-        tables=np.array(found).reshape(len(found), places, LOADS),
-        per_root=np.array([(LOADS - 1) / axis * sqrt(2.0 * strip) for strip, _, axis in scales]),
-        of_race=of_race,
-        of_ball=of_ball,
-        raised=raised,
-        rotation=bearing.orders.bsf,
-    )
+        for row in range(1 + bearing.balls):
+            where = ("race", name) if row == 0 else ("ball", row - 1)
+            own = [one for one in bearing.features if getattr(one, where[0], None) == where[1]]
+            if row > 0:
+                numbers[row, RAISED] = 0.5 * sum(one.excess for one in own if isinstance(one, BallDiameter))
+            if waves := [one for one in own if not isinstance(one, BallDiameter)]:
+                radius = track_radius(bearing, name) if row == 0 else 0.5 * bearing.ball_diameter
+                tracks.append((name, radius, profile_of(bearing, waves, name, radius)))
+                numbers[row, TABLE + column] = len(tracks)
+    places = max((profile.size for _, _, profile in tracks), default=0)
+    found = np.zeros((1 + len(tracks), max(places + 1, len(numbers)), LOADS))
+    found[0, : len(numbers)] = numbers
+    for page, (name, radius, profile) in zip(found[1:], tracks, strict=True):
+        strip, axis = _strip(bearing.race(name))
+        page[:places] = filtered(_resampled(profile, places), 2.0 * pi * radius / places, strip, axis)
+        page[-1, 0] = (LOADS - 1) / axis * sqrt(2.0 * strip)
+    return found
 
 
 class BallsAtRest(Protocol):
@@ -123,7 +112,7 @@ def settle(
     kn = np.array([bearing.race(name).kn for name in RACES])
     for _ in range(MOST_TIMES):
         at = solve()
-        turned[1:, ANGLE_NOW] = angles[1] * getattr(at, "ball_rotation", heights.rotation)
+        turned[1:, ANGLE_NOW] = angles[1] * getattr(at, "ball_rotation", heights[0, 0, ROTATION])
         pressed = np.where(at.force > 0.0, (np.maximum(at.force, 0.0) / kn) ** (2.0 / 3.0), at.approach)
         new = np.empty_like(found)
         for k, race in np.ndindex(*found.shape):

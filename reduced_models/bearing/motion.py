@@ -125,7 +125,8 @@ class AngularMotion:
         for _ in range(MOST_TIMES):
             rest_angular(self.balls, self.films, q, (*self._out, np.zeros(len(FIVE))))
             before = self.films.heights[:, HEIGHT].copy()
-            find_heights(self.balls, self.films, angle, 0.0)
+            if self.balls.heights.shape[0] > 0:
+                find_heights(self.balls, self.films, angle, 0.0)
             if _settled(before, self.films.heights[:, HEIGHT]):
                 break
         self.gain = 0.0
