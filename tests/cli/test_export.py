@@ -257,6 +257,16 @@ def test_a_bearing_file_becomes_the_fmu_of_its_bearing(call, refused, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["6205.fmu", "tilted.toml"]
 
 
+def test_a_study_becomes_a_rotor_with_its_bearings(call, tmp_path):
+    fmu = tmp_path / "rotor.fmu"
+    done = call("export", STUDY, "--rotor", "--inertia", "0.001", "-o", fmu, "--json", "-")
+    assert done.code == 0, done
+    found = json.loads(done.out)
+    assert found["passes"] is True and 0.0 < found["motion"] < 1e-9
+    about = {v.name for v in fmpy.read_model_description(str(fmu)).modelVariables}
+    assert {"torque", "speed", "bearing[2].smallest_film", "disc.force_x"} < about
+
+
 def test_a_study_becomes_a_shaft_and_a_drive(call, refused, tmp_path):
     """Its rotor between its whole bearings, whose FMUs are outside or wired."""
     drive, shaft = tmp_path / "drive.ssp", tmp_path / "shaft.fmu"
@@ -295,6 +305,10 @@ def test_shafts_and_drives_that_cannot_be_exported(refused, tmp_path):
         (("--controller", "--drive"), (STUDY, "--shaft", "--controller", "1", "1", "1", "-o", fmu)),
         (("--controller", "> 0"), (STUDY, *turning, "--controller", "1", "1", "0", "-o", ssp)),
         (("--controller", "nan"), (STUDY, *turning, "--controller", "nan", "1", "1", "-o", ssp)),
+        (("--shaft", "one of both"), (STUDY, "--shaft", "--rotor", "-o", fmu)),
+        (("--torque", "before the first step"), (STUDY, "--rotor", "--torque", "3", "--inertia", "1", "-o", fmu)),
+        (("--top-rpm", "at least the speed"), (STUDY, "--rotor", "--top-rpm", "9", "-o", fmu)),
+        (("--output", ".fmu"), (STUDY, "--rotor", "-o", ssp)),
         (("--top-rpm", "no part of a shaft"), (STUDY, "--shaft", "--top-rpm", "6000", "-o", fmu)),
         (("--lead", "left out"), (STUDY, "--shaft", "--lead", "1", "-o", fmu)),
         (("--contact", "left out"), (STUDY, "--shaft", "--contact", "e.json", "-o", fmu)),

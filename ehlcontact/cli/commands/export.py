@@ -17,7 +17,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.store import load
 
 if TYPE_CHECKING:
-    from fmu import BearingModel, RotorModel, ShaftModel, SpeedController, Verification
+    from fmu import BearingModel, RotorModel, ShaftModel, SpeedController, Verification, WholeRotorModel
     from fmu.system.check import SystemVerification
 
 
@@ -73,13 +73,19 @@ def export(
             " archive (SSP).",
         ),
     ] = False,
+    rotor: Annotated[
+        bool,
+        typer.Option(
+            "--rotor", help="Of a study with [whole_bearing]: that shaft with its bearings inside, as one FMU."
+        ),
+    ] = False,
     inertia: Annotated[
         float | None,
         typer.Option(
             "--inertia",
             metavar="KG_M2",
-            help="Polar moment of inertia of all that turns with the shaft; without it the speed of --shaft is an"
-            " input.",
+            help="Polar moment of inertia of all that turns with the shaft; without it the speed of --shaft and"
+            " --rotor is an input.",
         ),
     ] = None,
     torque: Annotated[
@@ -90,7 +96,8 @@ def export(
         typer.Option(
             "--top-rpm",
             metavar="REV/MIN",
-            help="Highest speed that the bearings of --drive have tables for; the speed of the study by default.",
+            help="Highest speed that the bearings of --drive and --rotor have tables for; by default the speed of"
+            " the study.",
         ),
     ] = None,
     controller: Annotated[
@@ -116,7 +123,7 @@ def export(
     force: Annotated[bool, typer.Option("--force", help="Replace the file if there is one.")] = False,
 ) -> None:
     """Export a contact, a bearing, or the rotor of a study as an FMU or a system of FMUs, once it is verified."""
-    turning = shaft or drive
+    turning = shaft or drive or rotor
     if fmi not in (2, 3):
         raise InputError("--fmi", fmi, "2 or 3")
     toml = file.suffix.lower() == ".toml"
@@ -126,7 +133,8 @@ def export(
         raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor on contacts")
     if controller is not None and not drive:
         raise InputError("--controller", list(controller), "left out, but with --drive")
-    _check_turning(output, study, shaft=shaft, drive=drive, inertia=inertia, torque=torque, top_rpm=top_rpm)
+    chosen = [option for option, on in (("--shaft", shaft), ("--drive", drive), ("--rotor", rotor)) if on]
+    _check_turning(output, study, chosen, inertia=inertia, torque=torque, top_rpm=top_rpm)
     if not study and output.suffix.lower() == ".ssp":
         allowed = "a file name ending in .fmu: a system (.ssp) is made of a study (.toml) with a rotor"
         raise InputError("--output", str(output), allowed)
@@ -143,15 +151,17 @@ def export(
     more: dict[str, Any] = {}
     if turning:
         exported = _shaft_of(file, inertia, torque)
-        if drive:
-            top = exported.speed_rpm if top_rpm is None else top_rpm
-            if top < exported.speed_rpm:
-                raise InputError(
-                    "--top-rpm", top, f"at least the speed of the study, {exported.speed_rpm:g} rev/min"
-                )
-            more = {"speeds_rpm": (exported.speed_rpm, top)}
-            if controller is not None:
-                more["controller"] = _controller_of(exported.speed_rpm, controller)
+        if not shaft:
+            speed = exported.speed_rpm
+            top = speed if top_rpm is None else top_rpm
+            if top < speed:
+                raise InputError("--top-rpm", top, f"at least the speed of the study, {speed:g} rev/min")
+            if rotor:
+                exported = _with_bearings(exported, top)
+            else:
+                more = {"speeds_rpm": (speed, top)}
+                if controller is not None:
+                    more["controller"] = _controller_of(speed, controller)
     elif study:
         exported = _rotor_of(file, contact)
     else:
@@ -198,26 +208,28 @@ def export(
         ("binaries", str(len(built)), ", ".join(built)),
         *_advice(exported, found),
     ]
-    out.deliver(document, (str(output), [*rows, *_rows(found, rotor=study, shaft=shaft)]))
+    out.deliver(document, (str(output), [*rows, *_rows(found, rotor=study, shaft=shaft or rotor)]))
 
 
-def _check_turning(output: Path, study: bool, *, shaft: bool, drive: bool, **values: float | None) -> None:
-    """Options of shafts and drives: of a study alone, one of both, with a file of its kind."""
+def _check_turning(output: Path, study: bool, chosen: list[str], **values: float | None) -> None:
+    """Options of shafts, drives and rotors: of a study alone, one of them, with a file of its kind."""
     given = {f"--{name.replace('_', '-')}": value for name, value in values.items() if value is not None}
-    if shaft and drive:
-        raise InputError("--shaft", "--drive", "one of both")
-    if not (shaft or drive):
+    if len(chosen) > 1:
+        raise InputError(chosen[0], chosen[1], "one of both")
+    if not chosen:
         for option, value in given.items():
-            raise InputError(option, value, "left out, but with --shaft or --drive")
+            raise InputError(option, value, "left out, but with --shaft, --drive or --rotor")
         return
-    option, ending = ("--shaft", ".fmu") if shaft else ("--drive", ".ssp")
+    option, ending = chosen[0], ".ssp" if chosen == ["--drive"] else ".fmu"
     if not study:
         raise InputError(option, "another file", "with a study (.toml) that has [whole_bearing]")
     if output.suffix.lower() != ending:
         raise InputError("--output", str(output), f"a file name ending in {ending}, for {option}")
-    if shaft and "--top-rpm" in given:
+    if option == "--shaft" and "--top-rpm" in given:
         raise InputError("--top-rpm", given["--top-rpm"], "left out: the bearings are no part of a shaft")
-    if drive and "--inertia" not in given:
+    if option == "--rotor" and "--torque" in given:
+        raise InputError("--torque", given["--torque"], "left out: set it before the first step")
+    if option == "--drive" and "--inertia" not in given:
         raise InputError("--inertia", None, "given with --drive")
     for name in {"--inertia", "--top-rpm"} & given.keys():
         require_positive(name, given[name])
@@ -291,9 +303,13 @@ def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftM
 
     study = load_study(file)
     if "whole_bearing" not in study.model_fields_set:
-        raise InputError("file", str(file), "a study with a table [whole_bearing], for --shaft and --drive")
+        raise InputError(
+            "file", str(file), "a study with a table [whole_bearing], for --shaft, --drive and --rotor"
+        )
     if (axial := study.whole_bearing.axial_load) is not None:
-        allowed = "left out: --shaft and --drive have planar bearings; others by export_drive in Python"
+        allowed = (
+            "left out: these options have planar bearings; others in Python, by export_drive, export_whole_rotor"
+        )
         raise InputError("whole_bearing.axial_load", axial, allowed)
     rotor = whole_rotor(study, whole_bearing(study, oil=True))
     with o.called(torque="--torque", inertia="--inertia"):
@@ -308,10 +324,25 @@ def _controller_of(speed_rpm: float, values: tuple[float, float, float]) -> Spee
         return SpeedController(speed_rpm, *values)
 
 
+def _with_bearings(shaft: ShaftModel, top_rpm: float) -> WholeRotorModel:
+    """The rotor of a study with its bearings, from its speed to a higher one."""
+    from fmu import WholeRotorModel
+
+    speeds = sorted({shaft.speed_rpm, top_rpm})
+    return WholeRotorModel(shaft.rotor, speeds, shaft.speed_rpm, shaft.inertia)
+
+
 def _about(exported: Any, system: bool) -> list[Row]:
     """What it is."""
-    from fmu import BearingModel, RotorModel, ShaftModel
+    from fmu import BearingModel, RotorModel, ShaftModel, WholeRotorModel
 
+    if isinstance(exported, WholeRotorModel):
+        speeds = " to ".join(f"{speed:g}" for speed in sorted({*exported.bearings[0].speeds[[0, -1]].tolist()}))
+        turns = "its speed is an input" if exported.inertia is None else f"{exported.inertia:g} kg m2 turn"
+        return [
+            ("bearings", str(len(exported.stations)), "inside"),
+            ("speed", f"{speeds} rpm", f"of the tables of the films; {turns}"),
+        ]
     if isinstance(exported, ShaftModel):
         wired = "each an FMU, wired" if system else "outside; their forces are inputs"
         turns = "an input" if exported.inertia is None else f"at the start; {exported.inertia:g} kg m2 turn"
@@ -340,12 +371,12 @@ def _advice(exported: Any, found: Any) -> list[Row]:
         return [
             ("step", f"{step:g} s", "of the default experiment; longer ones damp more, and blow up in the end")
         ]
-    from fmu import BearingModel, RotorModel, ShaftModel
+    from fmu import BearingModel, RotorModel, ShaftModel, WholeRotorModel
     from fmu.steps import step_advice
 
     if isinstance(exported, BearingModel | ShaftModel):
         return [("step", "1e-05 s", "of the default experiment; how long one may be: docs/coupling.md")]
-    if isinstance(exported, RotorModel):
+    if isinstance(exported, RotorModel | WholeRotorModel):
         return [("inner step", f"{exported.inner_step:g} s", "steps of the master are cut into such ones")]
     return step_advice(exported)
 
