@@ -9,8 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu.bearing.model import BearingModel
+from fmu.bearing.tables import film_logarithms
 from fmu.whole_rotor.model import WholeRotorModel
-from reduced_models.bearing.kinematics import RPM_TO_RAD_S, rolling_torque
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.bearing.motion import AngularMotion
 from reduced_models.bearing.race import RACES
 from reduced_models.rotor.integrate_python import PythonSteps
 from reduced_models.rotor.prepared_run import PreparedRun
@@ -19,6 +22,7 @@ from reduced_models.rotor.speed_profile import SpeedProfile, turning_forces
 _Floats = NDArray[np.float64]
 
 STEPS = 100
+NOW = 1  # entry of speeds of contacts: at the end of the last step
 TOLERANCE = 1e-11  # of the balance of a step
 RHO = 0.8  # of simulate_rotor
 PUSH = 1.5  # of the weight: forces that lift the rotor off
@@ -95,15 +99,16 @@ def whole_rotor_trial(model: WholeRotorModel, steps: int = STEPS) -> WholeRotorT
 
 def _recorded(model: WholeRotorModel, run: _Run, given: _Floats) -> WholeRotorTrial:
     integrator = PythonSteps(run, TOLERANCE, 30)
-    forces, resisted = [[one.films.force.copy() for one in run.balls]], [0.0]
+    forces, rolls, resisted = [[one.films.force.copy() for one in run.balls]], [_rolls(run)], [0.0]
     for k in range(run.steps):
         middle = float(0.5 * (run.omega[k] + run.omega[k + 1]))
         integrator.advance(run._steps_at(middle), k, k + 1, lambda made: None)
         forces.append([one.films.force.copy() for one in run.balls])
+        rolls.append(_rolls(run))
         resisted.append(_slowed(model, run, given[k + 1], k + 1))
     d, v, motion, rate, force, _ = run.histories
     places = [place for _, _, place in model.shaft.points]
-    drive = run.omega if model.inertia is None else _torque(model, run, forces, np.array(resisted))
+    drive = run.omega if model.inertia is None else _torque(model, run, forces, rolls, np.array(resisted))
     return WholeRotorTrial(
         time=run.t,
         inputs=np.column_stack([given, drive]),
@@ -126,22 +131,50 @@ def _slowed(model: WholeRotorModel, run: _Run, given: _Floats, k: int) -> float:
     return found
 
 
-def _torque(model: WholeRotorModel, run: _Run, forces: list[list[_Floats]], resisted: _Floats) -> _Floats:
+def _rolls(run: _Run) -> list[_Floats]:
+    """Sums of both surface speeds at all contacts over the speed of the shaft [m], shape (balls, 2) each."""
+    return [
+        one.films.speed_sum[:, NOW].reshape(-1, 2).copy()
+        if isinstance(one, AngularMotion)
+        else np.full((one.balls.number, 2), one.balls.speed_sum)
+        for one in run.balls
+    ]
+
+
+def _torque(
+    model: WholeRotorModel,
+    run: _Run,
+    forces: list[list[_Floats]],
+    rolls: list[list[_Floats]],
+    resisted: _Floats,
+) -> _Floats:
     """Torque of a motor that makes the shaft turn as it does, against what resists."""
     assert model.inertia is not None
-    for k, row in enumerate(forces):
-        speed = float(run.omega[k]) / RPM_TO_RAD_S
-        for one, force in zip(model.bearings, row, strict=True):
-            bearing = one.bearing
-            if bearing.oil is not None:
-                inner, outer = (
-                    bearing.race(name).films(speed, load, load)[2]
-                    for name, load in zip(RACES, force.T, strict=True)
-                )
-                resisted[k] += rolling_torque(inner, outer, bearing.ball_diameter, bearing.pitch_diameter)
+    speed = run.omega / RPM_TO_RAD_S
+    for b, one in enumerate(model.bearings):
+        if one.bearing.oil is not None:
+            loads, sums = (np.array([row[b] for row in rows]) for rows in (forces, rolls))
+            resisted += _rolling_torques(one, speed, loads, sums)
     on = 1.5 * resisted - 0.5 * np.append(resisted[:1], resisted[:-1])  # as the FMU has it go on in a step
     means = model.inertia * np.diff(run.omega) / run.dt + on[:-1]
     torque = np.append(means[0], means)
     for k in range(1, torque.size):
         torque[k] = 2.0 * means[k - 1] - torque[k - 1]  # it runs straight through a step
+    return torque
+
+
+def _rolling_torques(model: BearingModel, speed: _Floats, force: _Floats, rolls: _Floats) -> _Floats:
+    """Torque that films take at speeds [rev/min], shape (k,), from the tables of the FMU.
+
+    Forces and sums of surface speeds at all contacts have shape (k, balls, 2).
+    """
+    torque = np.zeros(speed.size)
+    k, place = np.arange(speed.size), np.interp(np.log(speed), np.log(model.speeds), np.arange(model.speeds.size))
+    row = np.minimum(place.astype(int), max(model.speeds.size - 2, 0))
+    above, share = np.minimum(row + 1, model.speeds.size - 1), (place - row)[:, None]
+    for race, (name, x, rows) in enumerate(zip(RACES, *film_logarithms(model), strict=True)):
+        at = np.log(np.maximum(force[:, :, race], np.exp(x[0])))
+        of_speeds = np.array([np.interp(at, x, moment) for _, _, moment in rows])
+        moment = np.exp(of_speeds[row, k] + share * (of_speeds[above, k] - of_speeds[row, k]))
+        torque += (0.5 * rolls[:, :, race] * moment).sum(axis=1) / model.bearing.race(name).geometry.radius_x
     return torque

@@ -116,7 +116,7 @@ MODELS = {
     "flexible": lambda: WholeRotorModel(flexible(), SPEEDS, SPEEDS[0]),
     "motor": lambda: WholeRotorModel(flexible(), SPEEDS, SPEEDS[0], INERTIA),
     "rigid": lambda: WholeRotorModel(rigid(), 6000.0),
-    "five": lambda: WholeRotorModel(five(), 3000.0),
+    "five": lambda: WholeRotorModel(five(), 3000.0, None, 0.012),
     "axial": lambda: WholeRotorModel(axial(), 3000.0),
 }
 
