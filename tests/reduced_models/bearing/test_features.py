@@ -8,6 +8,7 @@ import pytest
 
 from ehlcontact import InputError, Lubricant
 from ehlcontact.hertz import hertz_contact
+from fmu.bearing.model import BearingModel
 from reduced_models import (
     BallBearing,
     BallDiameter,
@@ -313,6 +314,10 @@ SPALL = {"race": "outer", "angle": 0.0, "length": 1e-3, "depth": 1e-5}
         (
             lambda: replace(DRY, features=[WAVES["inner"]]).equilibrium(AXIAL, shaft_angle=90.0),
             "shaft_angle = 90.0: .*radians",
+        ),
+        (
+            lambda: BearingModel(replace(DRY, features=[WAVES["inner"]]), 1500.0),
+            "bearing.features = 1: must be none",
         ),
         (lambda: BallBearing.from_dict({**DRY.to_dict(), "features": [{"kind": "Hole"}]}), r"features\[0\].kind"),
         (
