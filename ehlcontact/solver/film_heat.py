@@ -8,6 +8,7 @@ node, in units of p_h u_mean delta_H/a; temperatures are in K above that of the 
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -28,10 +29,14 @@ INNER = 0.6  # of the heat of the flow by pressure; the rest is made beside the 
 NET, BACK = 8.0 / 7.0, 1.0 / 7.0  # shares of the net flow, and of the surfaces' own, that carry the rise (eq. 5)
 BY_RISE, BY_PRESSURE, BY_SLIDING = 0.6, 12.0 / 175.0, 0.4  # temperature that the flow by pressure sees (eq. 8)
 SETTLED = 1e-9  # change of the temperatures in one round, over the largest
+ROUGHLY = 1e-6  # the same of a sweep between cycles
 MOST_ROUNDS, MOST_SWEEPS = 100, 50
-ROUNDS = 2  # after a cycle, whose film changes by more
-WALL_SHARE = 0.5  # of the change of the surfaces that a round takes where sliding heats: it falls with temperature
+ROUNDS, SLIDING_ROUNDS = 1, 3  # after a cycle, whose film changes by more
+# Of the change of the surfaces that a round takes where sliding heats, which falls with temperature, or where they
+# differ, and heat goes from one to the other
+WALL_SHARE = 0.5
 LARGE_CHANGE, STEP = 0.3, 0.8  # of the heating in a cycle, over itself, of which it takes this share
+ROUGH = 0.5  # change of the pressure in a cycle, above which the temperatures stay: they would be those of no film
 START = 0.75  # of the heating of an isothermal film: one with heat is thinner and has thinner oil
 REMEMBERED = 2  # cycles before the last
 HOTTEST = -0.95  # heating: ln(eta) + 9.67 stays above 0
@@ -87,6 +92,11 @@ class FilmHeat:
         return 1.0 + 0.5 * self.numbers.slide_roll, 1.0 - 0.5 * self.numbers.slide_roll
 
     @property
+    def even(self) -> bool:
+        """Whether both surfaces have the same temperature: in pure rolling, of the same material."""
+        return self.numbers.slide_roll == 0.0 and self.numbers.walls[0] == self.numbers.walls[1]
+
+    @property
     def mean(self) -> Array:
         """Mean temperature over the film."""
         return self.rise + self.walls.mean(axis=0)
@@ -94,14 +104,15 @@ class FilmHeat:
     def solve(self, rounds: int = MOST_ROUNDS) -> Array:
         """Temperatures at the present P, film and flow; returns what ``Flow.heat`` becomes by them (eqs. 8, 9)."""
         t, n = self.terms(), self.numbers
-        share = WALL_SHARE if n.slide_roll > 0.0 else 1.0
+        share = 1.0 if self.even else WALL_SHARE
+        enough = SETTLED if rounds == MOST_ROUNDS else ROUGHLY
         for _ in range(rounds):
             before = np.concatenate([self.rise[None], self.walls])
             slid, slope, _ = self.sliding(t)
             made = self._made(t) + slid - slope * self.rise
             for _ in range(MOST_SWEEPS):
                 given = t.heat_along, t.heat_across, t.exchange - slope, made
-                if sweep(*given, self.rise) <= SETTLED * np.abs(self.rise).max():
+                if sweep(*given, self.rise) <= enough * np.abs(self.rise).max():
                     break
             for k, heat in enumerate(self.into_walls(t)):
                 self.walls[k] += share * (n.walls[k] * (heat @ self.memory) - self.walls[k])
@@ -114,7 +125,15 @@ class FilmHeat:
         """Temperature that the flow by pressure sees (eq. 8)."""
         by_pressure, slid = t.pressed * self.ahead, self.sliding(t).made
         beside = t.H / self.numbers.conduction * (BY_PRESSURE * by_pressure + BY_SLIDING * slid)
-        return self.walls.mean(axis=0) + BY_RISE * self.rise + beside
+        return self.walls.mean(axis=0) + BY_RISE * self.behind(self.rise) + beside
+
+    def behind(self, rise: Array) -> Array:
+        """The same with the rise that the oil has left the pressure with at the nodes behind it.
+
+        Else nodes at the outlet would change their viscosity once they are wet, and two films would be solutions.
+        """
+        last = np.maximum.accumulate(np.where(self.level.P > 0.0, np.arange(self.level.nx + 1), 0), axis=1)
+        return np.take_along_axis(rise, last, axis=1)
 
     def set_viscosity(self, multigrid: Multigrid) -> None:
         """Viscosity of these temperatures on all levels; what the flow heats beside the surfaces goes with it."""
@@ -216,17 +235,21 @@ class HeatedCycles:
 
     def __init__(self, multigrid: Multigrid, heat: FollowedFilm, advance: Callable[[Balance], float]) -> None:
         self.multigrid, self.heat, self._advance = multigrid, heat, advance
+        self._rounds = ROUNDS if isinstance(heat, FilmHeat) and heat.even else SLIDING_ROUNDS
+        self._rough = ROUGH if isinstance(heat, FilmHeat) else inf  # what sliding thins follows any film
         self._last: tuple[Array, Array] | None = None  # what the heating became, and its change
         self._differences: list[tuple[Array, Array]] = []  # of both, from cycle to cycle
 
     def start(self, balance: Balance) -> None:
         """Full multigrid with what the isothermal film, which is on the levels, would heat, less some of it.
 
-        From the isothermal pressure itself cycles on fine grids diverge where the pressure ends.
+        From the isothermal pressure itself cycles on fine grids diverge where the pressure ends. Temperatures
+        follow after a cycle: what full multigrid leaves on such grids is far from any film.
         """
-        self.multigrid.set_heat(START * self.heat.solve(ROUNDS))
+        self.multigrid.set_heat(START * self.heat.solve(self._rounds))
         self.multigrid.full_multigrid(balance)
-        self._follow()
+        if self._rough == inf:
+            self._follow()
 
     def settle(self, balance: Balance, cycles: int) -> None:
         """So many of them from a film that is near; viscosity and temperatures belong together at last."""
@@ -244,14 +267,15 @@ class HeatedCycles:
             self.multigrid.least_sweep_factor
         )  # what falls slowly is not the cycles' part
         change = self._advance(balance)
-        self._follow()
+        if change < self._rough:
+            self._follow()
         return change
 
     def _follow(self) -> None:
         """Viscosity of the present temperatures; residuals with it."""
         mg = self.multigrid
         before = mg.finest.fields.flow.heat
-        heat = self.heat.solve(ROUNDS)
+        heat = self.heat.solve(self._rounds)
         change = heat - before
         large = bool(np.abs(change).max() > LARGE_CHANGE * np.abs(heat).max())
         if self._last is not None and not large:

@@ -168,7 +168,7 @@ class LinearHeat:
         slid = c.slid + self._slid.by_mean * (rise + walls.mean(axis=0))
         beside = BY_PRESSURE * c.pressed * heat.ahead + BY_SLIDING * slid
         was = BY_PRESSURE * t.pressed * heat.ahead + BY_SLIDING * self._slid.made
-        seen = walls.mean(axis=0) + BY_RISE * rise + (t.H * beside + dH * was) / n.conduction
+        seen = walls.mean(axis=0) + BY_RISE * heat.behind(rise) + (t.H * beside + dH * was) / n.conduction
         return self._by_seen * seen
 
     def _temperatures(self, c: Changes, compressed: Array) -> tuple[Array, Array]:
@@ -180,7 +180,7 @@ class LinearHeat:
         source = (compressed + INNER * c.pressed) * heat.ahead + c.slid - lost - exchanged
         straight = (1.0 - INNER * heat.ahead) * c.pressed + ~heat.ahead * compressed + exchanged
         through = c.exchange / 12.0 * (heat.walls[1] - heat.walls[0])
-        share = 1.0 if n.walls[0] == n.walls[1] else WALL_SHARE
+        share = 1.0 if heat.even else WALL_SHARE
         walls, rise = np.zeros((2, *source.shape), complex), np.zeros(source.shape, complex)
         for _ in range(MOST_ROUNDS):
             wall, before = walls.mean(axis=0), walls.copy()

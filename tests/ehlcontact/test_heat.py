@@ -230,6 +230,28 @@ def test_films_against_published_factors():
             assert found.film_share == pytest.approx(wilson_heating(found.thermal_load), rel=0.05)
 
 
+def test_neighbouring_films_lie_on_one_line():
+    """With sliding on glass; with cold nodes behind the outlet two films are solutions, forces 5e-6 apart."""
+    given = {"grid": Grid(48), "thermal": Heat(0.3, effusivity=(13_000.0, 1_500.0)), "tol": 1e-9}
+    film = solve_steady(POINT, **given)
+    near = [solve_steady(POINT, approach=film.approach + du, **given).force for du in (-4e-4, -2e-4, 2e-4, 4e-4)]
+    slopes = np.diff(np.insert(near, 2, 1.0)) / 2e-4
+    np.testing.assert_allclose(slopes, slopes.mean(), rtol=1e-3)
+
+
+def test_bodies_of_different_material_settle_in_pure_rolling():
+    film = solve_steady(bearing(4000.0), grid=SMALL, thermal=Heat(effusivity=(13_000.0, 1_500.0)))
+    assert film.cycles < 10
+
+
+@pytest.mark.slow
+def test_fast_films_and_fine_grids_settle():
+    """Q above 5; cycles of n = 512 in the first attempt."""
+    hot = solve_steady(bearing(20_000.0), grid=Grid(256), thermal=Heat())
+    assert hot.temperature.thermal_load > 5.0
+    assert solve_steady(POINT, grid=Grid(512), thermal=Heat(), method="multigrid").cycles < 15
+
+
 @pytest.mark.slow
 def test_film_converges_with_the_grid():
     shares = [solve_steady(POINT, grid=Grid(n), thermal=Heat()).temperature.film_share for n in (128, 256, 512)]
