@@ -3,6 +3,7 @@
 import platform
 import sys
 from pathlib import Path
+from zipfile import ZipFile
 
 import fmpy
 import pytest
@@ -182,5 +183,6 @@ def test_bearing_with_tables_at_four_speeds_for_all_platforms_takes_less_than_a_
     export_bearing(
         bearing("7205"), path, speeds_rpm=(1000.0, 12000.0), load=(0.0, -300.0, 200.0), fmi=3, platforms="all"
     )
-    assert len(fmpy.supported_platforms(str(path))) == 5
+    with ZipFile(path) as archive:
+        assert sum(name.startswith("binaries/") for name in archive.namelist()) == 5
     assert path.stat().st_size < 1e6
