@@ -345,10 +345,12 @@ def test_powers_of_a_curve_that_are_zero():
     """A coefficient of an interval may come out as exactly 0; that of a 6205 in ISO VG 68 at 3000 rev/min did."""
     law = bearing()._kernel([RPM]).inner
     cells = law.cells.copy()
-    cells[:, 1] = 0.0
-    powers = _curve(law._replace(cells=cells))
-    assert (powers[:, 1] == 0.0).all()
-    np.testing.assert_array_equal(np.delete(powers, 1, axis=1), np.delete(_curve(law), 1, axis=1))
+    cells[:, 1, :, 0], cells[:, 1, :, 1:] = 0.5, 0.0  # the second interval is constant
+    powers, first = _curve(law._replace(cells=cells))
+    assert powers[first[1] : first[2]] == pytest.approx([0.5, 0.0], abs=1e-12)
+    as_it_is, ends = _curve(law)
+    np.testing.assert_array_equal(powers[: first[1]], as_it_is[: ends[1]])
+    np.testing.assert_array_equal(powers[first[2] :], as_it_is[ends[2] :])
 
 
 def test_export_leaves_nothing_behind_where_it_fails(tmp_path):
