@@ -12,9 +12,9 @@ room              responsibility
 ``supply``        `OilLayer`: the oil that the surfaces carry to a contact
 ``asperities``    `Asperities`: rough surfaces that carry part of the load
 ``heat``          `Heat`: what the heating of a film needs of oil and surfaces
-``traction``      `traction_curve`: traction of a contact over sliding
-``side_flow``     `oil_passes`: films on the oil that the last ones left; closed form of thin layers
-``sliding``       `Sliding`: sliding that thins the oil of a film
+``traction``      `traction_curve`: traction over the slide-to-roll ratio
+``side_flow``     `oil_passes`: films pass after pass of a track; closed form of thin layers
+``sliding``       `Sliding`: shear thinning of a film by sliding
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
 ``speed_response`` `speed_response`: force over a change of speed, likewise
 ``excitation``    `excitation`: force of waves on a surface, likewise

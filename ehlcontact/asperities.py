@@ -24,11 +24,11 @@ Array = NDArray[np.float64]
 
 RANGES = {"rq": (0.0, 2e-5), "summits": (0.005, 0.5), "rq_over_radius": (1e-6, 0.1)}
 NO_CONTACT = 6.0  # gap over rq: the heights that remain carry 1e-9 of what they do at 0
-PRESSED = -8.0  # gap over rq: only iterates are further in
+PRESSED = -8.0  # gap over rq: only iterates have smaller ones
 
 
 class AsperityNumbers(NamedTuple):
-    """Of the law of pressure over gap at an operating point."""
+    """Dimensionless numbers of the law of pressure over gap at an operating point."""
 
     rq: float  # over the dry approach
     unit: float  # pressure of F_5/2 = 1, over the Hertz pressure
@@ -99,7 +99,7 @@ class Asperities:
         return self.unit(e_reduced) * greenwood_tripp(np.asarray(gap) / self.rq)
 
     def stiffness(self, gap: ArrayLike, e_reduced: float) -> Any:
-        """Rise of the pressure with every metre that the gap closes [Pa/m]."""
+        """Increase of the pressure over decrease of the gap [Pa/m]."""
         return 2.5 * self.unit(e_reduced) / self.rq * greenwood_tripp(np.asarray(gap) / self.rq, 1.5)
 
     def gap(self, pressure: float, e_reduced: float) -> float:
@@ -124,8 +124,8 @@ class Asperities:
     def load_share(self, h_central: ArrayLike, mean_pressure: ArrayLike, e_reduced: float) -> Any:
         """Share of the load by the central film [m] and the load over the Hertz ellipse [Pa], without a solve.
 
-        ``1 - exp(-p/mean_pressure)`` with their pressure p at the central film. Solved films of wide contacts
-        under bearing loads have it within 30 % where it is above 0.01 %, docs/asperities.md.
+        ``1 - exp(-p/mean_pressure)`` with their pressure p at the central film. It agrees with solved films of
+        wide contacts under bearing loads within 30 % where it is above 0.01 %, docs/asperities.md.
         """
         return -np.expm1(-self.pressure(h_central, e_reduced) / np.asarray(mean_pressure))
 

@@ -1,4 +1,4 @@
-"""Layers of oil that contacts pass again and again: the closed form of thin ones, and `oil_passes` film by film.
+"""Layers of oil under repeated passes of contacts: closed form of thin ones, and `oil_passes`, which solves films.
 
 Under a ball a thin layer m = rho h, on both surfaces together, is a film between parallel surfaces under the
 pressure of Hertz, which presses it aside. On the line in the middle, over one pass,
@@ -10,8 +10,8 @@ so that m^-2 grows by the same amount in every pass (van Zoelen, Venner and Lugt
 
     m_n^-2 = m_0^-2 + n S,    S = 2 kappa^2/lambda int_0^pi dtheta/(rho^2 eta)(P = sin theta).
 
-In 1/m^2, S is in proportion to the time that the oil is under the ball. In the place of the integral that paper
-has ``pi ((pi alpha p_h/2)^1.5 + 1)^(-2/3)``, which for Barus' law is within 4 % of it from alpha p_h = 8 on.
+In 1/m^2, S is proportional to the time that the oil is under the ball. In place of the integral that paper has
+``pi ((pi alpha p_h/2)^1.5 + 1)^(-2/3)``, which for Barus' law is within 4 % of it from alpha p_h = 8 on.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def layer_after_passes(point: Point, layer: float, passes: ArrayLike) -> Array:
 
 
 def oil_passes(contacts: Point | Sequence[Point], supply: OilLayer, **options: Any) -> Iterator[SteadyResult]:
-    """Films of contacts that a ball makes in turn, without end, each on the oil that the last ones left.
+    """Films of successive contacts of a ball, each on the oil that the previous ones left; an endless iterator.
 
     With one contact a ball passes the same track again and again. With several, as of a ball with the inner and
     with the outer race, every race has its own track: what leaves a contact stays in equal halves on the track

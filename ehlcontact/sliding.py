@@ -1,4 +1,4 @@
-"""`Sliding`: sliding that thins the oil of a film, as an input.
+"""`Sliding`: shear thinning of a film by sliding, as an input.
 
 How the solver uses it: `ehlcontact.solver.film_thinning`; equations and sources: docs/traction.md.
 """
@@ -19,7 +19,7 @@ from ehlcontact.point import OperatingPoint, Point, Scales
 
 @dataclass(frozen=True, slots=True)
 class Sliding:
-    """Sliding whose shear thins the oil in the flow by pressure.
+    """Sliding, whose shear lowers the effective viscosity of the pressure-driven flow.
 
     Parameters
     ----------

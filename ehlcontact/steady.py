@@ -89,7 +89,7 @@ def solve_steady(
         Let them carry part of the load where the film is thin, as ``result.asperities`` says. The film between
         smooth surfaces is solved first. By default the surfaces are smooth.
     sliding : Sliding, optional
-        Let sliding thin the oil, and the film with it (docs/traction.md). The Newtonian film is solved first. By
+        Shear thinning of the film by sliding (docs/traction.md). The Newtonian film is solved first. By
         default the film is that of pure rolling.
     approach : float, optional
         Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
@@ -146,7 +146,7 @@ def solve_steady(
     if asperities is not None:
         require_asperities(asperities)
         if thermal is not None:
-            raise InputError("asperities", "given", "left out with heat: that of their friction is not known")
+            raise InputError("asperities", "given", "left out with heat: that of asperity friction is not known")
     if sliding is not None:
         require_sliding(sliding, point)
         others = {"supply": supply, "thermal": thermal, "asperities": asperities}

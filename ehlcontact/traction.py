@@ -1,4 +1,4 @@
-"""`traction_curve`: traction over sliding of a contact whose film is solved, isothermal or heated."""
+"""`traction_curve`: traction over the slide-to-roll ratio of a solved contact, isothermal or heated."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def traction_curve(
         `Eyring`, `Carreau` or `LimitingShear`.
     thermal : Heat, optional
         Solve a heated film for each ratio, up to 1, heated by Eyring's stress of the law. By default one
-        isothermal film carries them all: without heat, sliding does not change the film here.
+        isothermal film is used for all ratios: without heat, sliding does not change the film here.
     **options
         Of `solve_steady`.
 
@@ -44,7 +44,7 @@ def traction_curve(
     require_law(law)
     ratios = slide_rolls(slide_roll)
     if not isinstance(point, OperatingPoint):
-        allowed = "an OperatingPoint: stresses of an oil are in pascals, which a dimensionless point has not"
+        allowed = "an OperatingPoint: a traction law has stresses in Pa, and a dimensionless point has no units"
         raise InputError("point", type(point).__name__, allowed)
     if thermal is None:
         return solve_steady(point, **options).traction(ratios, law)

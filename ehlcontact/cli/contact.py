@@ -427,7 +427,7 @@ class Sliding(Options):
     ] = None
 
     thinning: Annotated[
-        bool, typer.Option("--thinning", help="Let sliding thin the oil, and the film with it; by Eyring's law.")
+        bool, typer.Option("--thinning", help="Shear thinning of the film by sliding, by Eyring's law.")
     ] = False
 
     @property
@@ -453,7 +453,7 @@ class Sliding(Options):
             return
         require_between("--slide-roll", self.slide_roll, 0.0, LARGEST_SLIDE_ROLL)
         if not contact.in_si:
-            allowed = "left out: a point of --M --L --kappa has no pascals, of which the stress of an oil is"
+            allowed = "left out: a point of --M --L --kappa has no pascals, which a traction law needs"
             raise InputError("--slide-roll", self.slide_roll, allowed)
         self.law  # noqa: B018  # which checks its numbers
 

@@ -4,7 +4,7 @@
 module  responsibility
 ======= =======================================================================================
 ``oil_laws`` `Lubricant`; the laws of viscosity and density, dimensionless and compiled
-``traction_laws`` `Eyring`, `Carreau`, `LimitingShear`: shear stress of an oil that is sheared hard
+``traction_laws`` `Eyring`, `Carreau`, `LimitingShear`: non-Newtonian shear stress of an oil
 ``oil`` mineral oils by grade and temperature: viscosity, density, their slopes and scatter
 ======= =======================================================================================
 """

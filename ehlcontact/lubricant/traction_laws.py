@@ -21,15 +21,15 @@ from ehlcontact.checks.quantity import fields_take
 Array = NDArray[np.float64]
 
 STRESS = Quantity("Pa", (1e5, 1e9), (5e5, 1e9), {"MPa": 1e6})  # Eyring's, of oils: 2 to 10 MPa
-LITTLE = -18.0  # ln of it, below which asinh is its argument
-STRAIGHT = 20.0  # ln of a stress over Eyring's, above which asinh is a logarithm
+LITTLE = -18.0  # ln of a stress over Eyring's, below which asinh equals its argument
+STRAIGHT = 20.0  # the same, above which asinh is a logarithm
 
 
 class TractionLaw:
     """Base of the traction laws."""
 
     __slots__ = ()
-    thins: ClassVar[bool] = False  # whether `thinning` is of use
+    thins: ClassVar[bool] = False  # whether `thinning` is implemented
 
     def of(self, log_newton: ArrayLike, p: ArrayLike) -> Array:
         """Shear stress [Pa].
@@ -48,9 +48,9 @@ class TractionLaw:
         return np.full(np.shape(p), inf)
 
     def thinning(self, log_newton: ArrayLike) -> tuple[Array, Array]:
-        """Logarithms of the viscosities that a small flow beside the sliding sees, over Newton's: along, across.
+        """Logarithms of the effective viscosities of a small flow beside the sliding, over the Newtonian one.
 
-        The slope of the stress over Newton's, and its ratio to that (eqs. 14, 15).
+        Along the sliding the slope d tau/d tau_N, across it the ratio tau/tau_N (eqs. 14, 15).
         """
         raise NotImplementedError
 
@@ -66,7 +66,7 @@ class TractionLaw:
 
 
 def log_sinh_law(log_ratio: ArrayLike) -> Array:
-    """asinh(r) from ln r: Eyring's stress over his tau_0 (eq. 3), without overflow."""
+    """asinh(r) from ln r: shear stress over tau_0 by Eyring's law (eq. 3), without overflow."""
     x = np.asarray(log_ratio, float)
     return np.where(x > STRAIGHT, x + np.log(2.0), np.arcsinh(np.exp(np.minimum(x, STRAIGHT))))
 
@@ -120,7 +120,7 @@ class Carreau(TractionLaw):
     Parameters
     ----------
     stress : float
-        Newtonian stress tau_c [Pa] from which on the oil thins.
+        Critical stress tau_c [Pa]: Newtonian stress above which the oil is shear thinning.
     exponent : float
         n, above 0 and at most 1; 1 is Newtonian.
 
@@ -198,7 +198,7 @@ def require_law(value: object) -> None:
 
 
 def _stress(value: object) -> float:
-    """A stress in its range; a message guesses at MPa."""
+    """A stress in its range; the message says where MPa seem to be meant."""
     stress = as_float("stress", value)
     STRESS.require("stress", stress)
     return stress

@@ -10,7 +10,7 @@ module                responsibility
 ``excitation_result`` `ExcitationResult`: force of waves on a surface over frequency
 ``speed_response_result`` `SpeedResponseResult`: force over a change of speed, over frequency
 ``frequency``         `FrequencyResponse`: impedance and python-control system of K and C
-``traction``          `Traction`: traction of a film over sliding
+``traction``          `Traction`: traction of a film over the slide-to-roll ratio
 ``table``             `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
 ``contact_map``       pressure and film of a contact as a figure
 ``picture``           plain figures; matplotlib is imported where one is drawn

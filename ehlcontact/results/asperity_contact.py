@@ -1,4 +1,4 @@
-"""What the asperities of a film carry that was solved with them."""
+"""Load share of the asperities of a film that was solved with them."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ class AsperityContact:
     pressure : ndarray, shape (nx + 1, ny + 1)
         Mean pressure of the asperities over the Hertz pressure, beside that of the oil.
     load_share : float
-        Of the force, that they carry.
+        Part of the force that they carry.
     lambda_ratio : float
-        Central film over `inputs.rq`.
+        Central film over `inputs.rq`; elsewhere lambda has the smallest film.
     film_share : float
         Central film over that between smooth surfaces, on the same grid.
     """
@@ -47,7 +47,7 @@ class AsperityContact:
 
     @property
     def reservation(self) -> str:
-        """What it leaves open, in words: asperities pressed further than their model holds; else empty."""
+        """Caveat in words where the gap is below the range of the model of asperities; else empty."""
         if self.lambda_ratio >= PRESSED:
             return ""
         return f"the central film is {self.lambda_ratio:.2g} Rq: asperities are a model from {PRESSED:g} Rq on"

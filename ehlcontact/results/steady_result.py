@@ -293,10 +293,10 @@ class SteadyResult(ScaledTable, Origin):
         return f"layer of oil {' to '.join(layers)} {unit}; the film is full from X = {self.front:.3g} on"
 
     def _sliding_line(self, sliding: Sliding) -> str:
-        """What sliding does to the film, in words."""
+        """Shear thinning by sliding, in words."""
         assert self.thinned_share is not None
         share = 100.0 * self.thinned_share
-        return f"sliding at a ratio of {sliding.slide_roll:g} to rolling leaves {share:.4g} % of the central film"
+        return f"slide-to-roll ratio {sliding.slide_roll:g}: central film {share:.4g} % of the Newtonian one"
 
     def to_dict(self) -> dict[str, Any]:
         """Numbers without the fields, status and origin, ready for JSON; of an SI point with ``si``."""

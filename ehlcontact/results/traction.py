@@ -1,4 +1,4 @@
-"""Traction of a film over sliding: shear stress by a traction law, its sum, and the power that it takes."""
+"""Traction of a film over the slide-to-roll ratio: shear stress by a traction law, its integral, and power."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Traction(QuantityTable, Origin):
     coefficient : ndarray, shape (k,)
         Traction over the load of the contact.
     force : ndarray, shape (k,)
-        Traction [N]: sum of the shear stress where the film has pressure.
+        Traction [N]: integral of the shear stress over the area under pressure.
     mean_stress : ndarray, shape (k,)
         Traction over the Hertz ellipse [Pa].
     power : ndarray, shape (k,)
@@ -164,7 +164,7 @@ def _scales(film: SteadyResult) -> Scales:
     if not film.status.ok:
         raise InputError("film", str(film.status), "a film that has converged")
     if film.scales is None:
-        allowed = "at an OperatingPoint: stresses of an oil are in pascals, which a dimensionless point has not"
+        allowed = "at an OperatingPoint: a traction law has stresses in Pa, and a dimensionless point has no units"
         raise InputError("traction", "asked for", allowed)
     return film.scales
 

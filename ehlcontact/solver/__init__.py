@@ -20,9 +20,9 @@ module           responsibility
 ``multigrid``    full-approximation-scheme cycle and full multigrid
 ``acceleration`` Anderson acceleration of V cycles
 ``linear``       linearised film: operator, preconditioner, Krylov solution
-``mixed_film``   cycles of a film that shares the load with asperities
+``mixed_film``   cycles of a film beside asperities that carry part of the load
 ``linear_heat``  linearised film with temperatures that follow a vibration
-``film_thinning`` viscosity of a film that sliding thins
+``film_thinning`` shear thinning of a film by sliding
 ``film_heat``    temperatures of a film: energy equation; cycles after which the viscosity follows them
 ``newton``       Newton steps on the finest grid
 ``iterate``      iteration of cycles or Newton steps until convergence or failure

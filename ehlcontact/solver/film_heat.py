@@ -1,6 +1,6 @@
 """Heat of a film: temperatures of oil and surfaces from pressure and film; equation numbers of docs/heat.md.
 
-The mean temperature follows from what the flow by pressure, sliding and compression make, what the oil carries on,
+The mean temperature follows from the heat of pressure-driven flow, sliding and compression, what the oil carries,
 and what goes into both surfaces, which are half-spaces that move through the heat. All terms are per area of a
 node, in units of p_h u_mean delta_H/a; temperatures are in K above that of the inlet.
 """
@@ -25,9 +25,9 @@ from ehlcontact.solver.multigrid import Multigrid
 
 Array = NDArray[np.float64]
 
-INNER = 0.6  # of the heat of the flow by pressure; the rest is made beside the surfaces and goes into them (eq. 4)
+INNER = 0.6  # of the heat of the pressure-driven flow; the rest arises at the surfaces and enters them (eq. 4)
 NET, BACK = 8.0 / 7.0, 1.0 / 7.0  # shares of the net flow, and of the surfaces' own, that carry the rise (eq. 5)
-BY_RISE, BY_PRESSURE, BY_SLIDING = 0.6, 12.0 / 175.0, 0.4  # temperature that the flow by pressure sees (eq. 8)
+BY_RISE, BY_PRESSURE, BY_SLIDING = 0.6, 12.0 / 175.0, 0.4  # temperature that the pressure-driven flow sees (eq. 8)
 SETTLED = 1e-9  # change of the temperatures in one round, over the largest
 ROUGHLY = 1e-6  # the same of a sweep between cycles
 MOST_ROUNDS, MOST_SWEEPS = 100, 50
@@ -51,7 +51,7 @@ class Terms(NamedTuple):
     across: Array
     heat_along: Array  # heat that a rise of 1 carries through them
     heat_across: Array
-    pressed: Array  # made by the flow by pressure
+    pressed: Array  # made by the pressure-driven flow
     work: Array  # expansion times the work of compression
     exchange: Array  # given to the surfaces by a rise of 1
     cold: Array  # ln(eta) at the temperature of the inlet
@@ -122,7 +122,7 @@ class FilmHeat:
         return self.numbers.heating(self.seen(t))
 
     def seen(self, t: Terms) -> Array:
-        """Temperature that the flow by pressure sees (eq. 8)."""
+        """Temperature that the pressure-driven flow sees (eq. 8)."""
         by_pressure, slid = t.pressed * self.ahead, self.sliding(t).made
         beside = t.H / self.numbers.conduction * (BY_PRESSURE * by_pressure + BY_SLIDING * slid)
         return self.walls.mean(axis=0) + BY_RISE * self.behind(self.rise) + beside

@@ -1,7 +1,8 @@
-"""Oil that sliding thins: its viscosities to the flow by pressure, along and across.
+"""Shear thinning by sliding: effective viscosities of the pressure-driven flow, along and across.
 
-Equation numbers are those of docs/traction.md. Sliding makes nearly all of the stress, so the flow by pressure is
-a small change of it: along the sliding it sees the slope of the law, across it the ratio of stress and shear rate.
+Equation numbers are those of docs/traction.md. Nearly all of the stress comes from sliding, and the
+pressure-driven flow is a small perturbation of it: its viscosity along the sliding is the slope of the law, across
+it the ratio of stress to shear rate.
 """
 
 from __future__ import annotations

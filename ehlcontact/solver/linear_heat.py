@@ -4,8 +4,8 @@ With the heating ``g`` of ln(eta) + 9.67 as a further unknown, the equations of 
 
     Jp dP + Jh (K dP - du) + Jg dg = r,      dg - G(Omega) [dP, K dP - du, dg] = 0,
 
-and G is what the energy equation, linearised, makes of a vibration: oil and surfaces store heat, the oil is
-compressed in time too, and what a surface was given upstream comes later by the way over its speed (eqs. 10, 11 of
+and G is the response of the linearised energy equation: oil and surfaces store heat, the oil is compressed in time
+too, and heat given to a surface upstream arrives later, by the distance over its speed (eqs. 10, 11 of
 docs/heat.md). Vectors hold dP, du and dg of all nodes.
 """
 
@@ -36,9 +36,9 @@ from ehlcontact.solver.linear import CROSS, SPARSE_LU, LinearFilm, Preconditione
 
 Array = NDArray[Any]
 
-SETTLED = 1e-9  # change of the surfaces in one round, over the largest
+SETTLED = 1e-9  # change of the temperatures of the surfaces in one round, over the largest
 MOST_ROUNDS = 100
-STILL = 1e-12  # Omega that is as good as none, and keeps the surfaces' memory from a division by zero
+STILL = 1e-12  # least Omega in `_memory`: as good as 0, without a division by it
 
 
 class Changes(NamedTuple):
@@ -102,7 +102,7 @@ class LinearHeat:
         return divergence(_padded(along, 1), _padded(across, 0))
 
     def weight(self) -> float:
-        """Mean change of the Reynolds operator by a heating, over it; 1 without heating."""
+        """Norm of the change of the Reynolds operator by a heating, over that of the heating; 1 without it."""
         heating = self.level.fields.flow.heat
         size = linalg.norm(heating)
         return float(linalg.norm(self.viscous(self.above * heating)) / size) if size > 0.0 else 1.0
@@ -158,7 +158,7 @@ class LinearHeat:
         return self._slid.by_stress * (thicker - dH / self.terms.H)
 
     def respond(self, dP: Array, dH: Array, dg: Array) -> Array:
-        """Heating dg that temperatures make which follow pressure, film and heating; all (ny + 1, nx + 1)."""
+        """Heating dg by the temperatures that follow from dP, dH and dg; all (ny + 1, nx + 1)."""
         heat, n, t = self.heat, self.heat.numbers, self.terms
         c = self.changes(dP, dH, dg)
         # Compression in time, by the change of pressure at the node
@@ -192,7 +192,7 @@ class LinearHeat:
                 walls[k] += share * (n.walls[k] * (given @ self._memories[k]) - walls[k])
             if np.abs(walls - before).max() <= SETTLED * np.abs(walls).max():
                 return rise, walls
-        raise ConvergenceError("temperatures of the surfaces do not settle: the film is too thin for them", None)
+        raise ConvergenceError("temperatures of the surfaces do not converge: the film is too thin", None)
 
 
 class HeatedSystem:
@@ -201,7 +201,7 @@ class HeatedSystem:
     def __init__(self, film: LinearFilm, heat: LinearHeat) -> None:
         self.film, self.heat = film, heat
         self._cut = film.free.size + 1
-        # Rows of the heating count as what they do to those of the film
+        # Scales the rows of the heating to their effect on the rows of the film
         self.weight = heat.weight()
 
     def split(self, x: Array) -> tuple[Array, Array]:

@@ -1,8 +1,8 @@
 """Films that share the load with asperities.
 
-What asperities press at a gap is a pressure beside that of the oil: it deflects the bodies, ``film_shift``, and
-carries part of the load. The gap is hardly another for that, since the inlet sets it, so the asperities' pressure
-follows the film after every cycle, as far as the oil can give way.
+The pressure of asperities at a gap adds to that of the oil: it deflects the bodies, ``film_shift``, and carries
+part of the load. It hardly changes the gap, which the inlet determines. So it is updated after every multigrid
+cycle, with under-relaxation where it carries much of the load.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from ehlcontact.solver.multigrid import Multigrid
 
 Array = NDArray[np.float64]
 
-FIRST_SHARE = 0.5  # of the load, that asperities take at most in one cycle
+FIRST_SHARE = 0.5  # of the load: largest change of what asperities carry in one cycle
 LEAST_STEP = 0.05
 
 
 class MixedCycles:
-    """Cycles after each of which the asperities follow the film; `step` stands for one.
+    """Multigrid cycles, each followed by an update of the asperities' pressure; `step` does one.
 
     Attributes
     ----------
@@ -36,11 +36,11 @@ class MixedCycles:
     ) -> None:
         self.multigrid, self.numbers, self._advance = multigrid, numbers, advance
         self.pressure = np.zeros_like(multigrid.finest.P)
-        self._last = 0.0  # what the asperities would have carried more
+        self._last = 0.0  # change of their load in the last update, without relaxation
         self._step = 1.0
 
     def start(self) -> None:
-        """Let asperities carry at the film that is on the finest level."""
+        """Set the asperities' pressure from the film on the finest level."""
         self._follow()
 
     def step(self, balance: Balance) -> float:
@@ -49,11 +49,11 @@ class MixedCycles:
         return max(change, self._follow())
 
     def _follow(self) -> float:
-        """Take over the asperities' pressure at the present gap, and update the film."""
+        """Update the asperities' pressure from the present gap, with relaxation, and then the film."""
         mg, level = self.multigrid, self.multigrid.finest
         change = self.numbers.unit * greenwood_tripp(level.H / self.numbers.rq) - self.pressure
         more = float(np.vdot(level.force_weights, change))
-        given_way = self._last - more  # by the film, over what they took: Aitken's step
+        given_way = self._last - more  # change of the residual load: Aitken's factor
         if self._last * given_way > 0.0:
             self._step = float(np.clip(self._step * self._last / given_way, LEAST_STEP, 1.0))
         if abs(more) > FIRST_SHARE:

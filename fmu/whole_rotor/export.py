@@ -27,13 +27,13 @@ def export_whole_rotor(
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> Path:
-    """Write a rotor with its ball bearings as one FMU for co-simulation, once it is verified against it.
+    """Write a rotor with its ball bearings as one FMU for co-simulation, after verification against the rotor.
 
-    Shaft, bearings, balls and films are inside, and make the steps of `simulate_rotor`: nothing of the film is
-    passed between tools. Inputs are forces at named nodes beside the load, as `disc.force_x`, `unbalance[u]`, and
-    `speed` [rad/s], or with `inertia` the `torque` of the motor; outputs displacements and rates of named nodes,
-    `disc.x`, `disc.velocity_x`, ..., those of the inner rings, `bearing[b].x`, the forces on them and what the FMU
-    of `export_bearing` has of balls and films, `bearing[b].force_x`, `bearing[b].largest_load_inner`,
+    Shaft, bearings, balls and films are inside and have the time steps of `simulate_rotor`: no force of a film is
+    exchanged between tools. Inputs are forces at named nodes beside the load, as `disc.force_x`, `unbalance[u]`,
+    and `speed` [rad/s], or with `inertia` the `torque` of the motor; outputs displacements and rates of named
+    nodes, `disc.x`, `disc.velocity_x`, ..., those of the inner rings, `bearing[b].x`, the forces on them and what
+    the FMU of `export_bearing` has of balls and films, `bearing[b].force_x`, `bearing[b].largest_load_inner`,
     `bearing[b].smallest_film`, ..., the `angle` of the shaft, and `outside_validity`. Bearings count from 1, each
     in the frame of its mount. `mass_scale`, `stiffness_scale`, `damping_scale`, `load_scale`, `inertia`,
     `speed_start`, and of every bearing `clearance`, `offset`, `cage_angle_start` and `film`, as far as it has

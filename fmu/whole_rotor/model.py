@@ -1,4 +1,4 @@
-"""What the FMU of a rotor with its ball bearings is made from."""
+"""`WholeRotorModel`: inputs of the FMU of a rotor with its ball bearings."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ class WholeRotorModel:
     speeds_rpm : float or (float, float)
         Speed of the shaft [rev/min], or lowest and highest one: as of `BearingModel`.
     speed_rpm : float, optional
-        At which it starts, at rest under its load; the highest by default.
+        Speed at the start, in equilibrium under the load; the highest by default.
     inertia : float, optional
-        Polar moment of inertia [kg m2] of all that turns: the torque of the motor, an input, then decides on the
-        speed. By default the speed is an input.
+        Polar moment of inertia [kg m2] of all that turns: the speed then follows from the torque of the motor,
+        an input. By default the speed is an input.
 
     Raises
     ------

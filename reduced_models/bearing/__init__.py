@@ -25,18 +25,18 @@
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load; the ring of a bearing on its balls: `ring_equilibrium` |
 | linear_balls | a bearing about rest: impedance at complex frequencies, stiffness and damping over frequency |
-| features | waviness and defects of races and balls, balls of another diameter: what excites a bearing |
-| height_tables | their heights filtered by the contact, as tables over the angle and the load |
-| contact_heights | the same looked up in time steps, compiled |
-| excitation | forces of features on a ring that is held, as lines over the turns of the shaft |
+| features | inputs: waviness and defects of races and balls, balls of another diameter |
+| height_tables | heights of features, filtered by the contact, as tables over the angle and the load |
+| contact_heights | heights from these tables in a time step, compiled |
+| excitation | forces of features on a fixed ring, as spectral lines over orders of the shaft |
 | ball_states | balls and films about rest as matrices of first order |
 | continuous_time | derivatives of the states of balls and films, compiled |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
 | equilibrium_result | `BearingState`: a bearing at rest, ball by ball |
 | set_result | `SetState`: a set at rest, bearing by bearing |
-| oil_balance | `OilBalance`: oil on the tracks over time: layer, side flow, feed and return |
+| oil_balance | `OilBalance`: oil on the tracks over time: layer, side flow, feed and replenishment |
 | ross_bearing | export to ROSS: bearings as elements of a ROSS rotor |
-| sliding | sliding moment of the contacts under a traction law |
+| sliding | sliding moment of the contacts by a traction law |
 | cage_slip | slip of the cage under a drag |
 | friction | moment of friction by SKF's published model |
 | picture | figures |

@@ -1,4 +1,4 @@
-"""Slip of the cage from the balance of tractions at the balls, rolling resistance of their films and a drag.
+"""Cage slip by the balance of tractions at the balls, rolling resistance of their films and a drag.
 
 Equation numbers are those of docs/traction.md.
 """
@@ -25,13 +25,13 @@ FINEST = 1e-9
 
 @dataclass(frozen=True)
 class _Ball:
-    """A loaded ball: both contacts, and what the films do to it.
+    """A loaded ball: both contacts, and the forces of its films.
 
     Parameters
     ----------
     inner, outer : SlidingContact
     turning : float
-        Traction that the resistance of both films to the ball's rotation takes [N].
+        Traction that overcomes the resistance of both films to the rotation of the ball [N].
     driving : float
         Force of the films along the orbit [N].
     """
@@ -44,8 +44,8 @@ class _Ball:
     def force(self, apart: float) -> float:
         """Force along the orbit [N] on a ball that turns freely.
 
-        `apart` is the slip at the inner race less that at the outer one. A ball that cannot turn the oil out of
-        its way slides.
+        `apart` is the slip at the inner race less that at the outer one. Where the tractions cannot overcome the
+        rolling resistance, the ball slides.
         """
 
         def missing(slip: float) -> float:
@@ -60,8 +60,8 @@ class _Ball:
 def cage_slip(bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionLaw, drag: float = 0.0) -> float:
     """How much slower the cage turns than it would if balls rolled at the middle of their contacts, relative.
 
-    Negative where it is faster: contacts of curved grooves roll at two lines beside their middle, where the inner
-    race is larger and the outer one smaller; that grows with load.
+    Negative where it is faster: contacts of curved grooves roll on two lines beside their middle, where the
+    rolling radius of the inner race is larger and that of the outer one smaller; this effect grows with load.
 
     Parameters
     ----------
@@ -74,8 +74,8 @@ def cage_slip(bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionL
     law : TractionLaw
         `ehlcontact.Eyring`, `Carreau` or `LimitingShear`.
     drag : float
-        Force against the orbit, of the cage and of balls that carry nothing, at the pitch circle [N]; what the
-        films of loaded balls resist is computed.
+        Force against the orbit by cage and unloaded balls, at the pitch circle [N]; the rolling resistance of
+        the films of loaded balls is computed.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Features of balls and races that excite a bearing: heights positive out of the surface."""
+"""Features of balls and races, as inputs: waviness, defects, unequal balls. Heights count outwards."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ class BallDiameter:
 @fields_take(angle="rad", length="m", depth="m", edge="m")
 @dataclass(frozen=True, kw_only=True)
 class Spall:
-    """A pit across the whole track of a race or a ball, of a depth that is the same but for its edges.
+    """A pit across the whole track of a race or a ball, of constant depth between its edges.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ class Spall:
     depth : float
         In m.
     edge : float
-        Length of each of both slopes at its ends [m]; 0 is a step.
+        Length of the slope at either end [m]; 0 is a step.
 
     Raises
     ------

@@ -37,12 +37,12 @@ if TYPE_CHECKING:
 _Floats = NDArray[np.float64]
 
 LOADS = 25  # semi-axes of a table, from 0 to that of the heaviest load of elastic steel
-PER_AXIS, USUAL = 8.0, 0.2  # places around a track to a semi-axis, at least, and that one over the largest
-PER_WAVE, PER_LENGTH, PER_EDGE = 16, 64, 2  # the same to a wave, a defect, the edge of one
-MOST_PLACES, ROUNDED = 2**16, 2**10  # around a track, and a divisor of their number
-SETTLED = 1e-7  # of the largest height, by which heights at rest may still change
-MOST_TIMES = 200  # that they are looked up for it: a handful
-RELAXED = 0.7  # share of a change that is made: contacts that lose load lose length
+PER_AXIS, USUAL = 8.0, 0.2  # least places of a table per semi-axis; that usual semi-axis over the largest
+PER_WAVE, PER_LENGTH, PER_EDGE = 16, 64, 2  # least places per wave, per defect, per edge of a defect
+MOST_PLACES, ROUNDED = 2**16, 2**10  # places around a track: most, and a divisor of their number
+SETTLED = 1e-7  # convergence of heights in `settle`, over the largest height
+MOST_TIMES = 200  # iterations of `settle`; a few are usual
+RELAXED = 0.7  # under-relaxation there: a contact that unloads becomes shorter, too
 
 
 def heights_of(bearing: BallBearing) -> _Floats:
@@ -90,7 +90,7 @@ _AtRest = TypeVar("_AtRest", bound=BallsAtRest)
 def settle(
     bearing: BallBearing, found: _Floats, angles: tuple[float, float], solve: Callable[[], _AtRest]
 ) -> _AtRest:
-    """Equilibrium with the heights at which it has the compressions that these heights are for.
+    """Equilibrium with heights that belong to its own compressions, by fixed-point iteration.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def settle(
         if np.abs(change).max() <= SETTLED * np.abs(new).max():
             return at
         found += RELAXED * change
-    raise ConvergenceError("static equilibrium not found: heights of features do not settle", None)
+    raise ConvergenceError("static equilibrium not found: heights of features do not converge", None)
 
 
 def track_radius(bearing: BallBearing, name: str) -> float:
@@ -132,7 +132,7 @@ def track_radius(bearing: BallBearing, name: str) -> float:
 
 
 def require_features_fit(bearing: BallBearing) -> None:
-    """Raise `InputError` for features that the bearing has no place for, or contacts no table fine enough."""
+    """Raise `InputError` for features that do not fit on the bearing, or are too fine for a table."""
     for one in bearing.features:
         ball, race = getattr(one, "ball", None), getattr(one, "race", None)
         if ball is not None and bearing.race_control == "shared" and not isinstance(one, BallDiameter):

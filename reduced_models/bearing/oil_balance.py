@@ -1,19 +1,19 @@
-"""`OilBalance`: the oil on the tracks of a bearing: a layer, what contacts press aside, and what comes back.
+"""`OilBalance`: oil on the tracks of a bearing, with loss to the sides, replenishment and feed.
 
-A first model, with one unknown for the tracks and one for what lies beside them:
+A first model, with one unknown for the oil on the tracks and one for the oil beside them:
 
     dm/dt = -L(m) + s/tau + q,    ds/dt = R L(m) - s/tau.
 
-m is the layer on both surfaces together ahead of every contact, s what has been pressed aside and comes back, as
-a layer. Both races and the balls have one narrow track each, of the length ``l = pi ((dm - D) + (dm + D) + Z D)``
+m is the layer on both surfaces together ahead of every contact, s the oil that was pressed aside and will return,
+as a layer. Both races and the balls have one narrow track each, of length ``l = pi ((dm - D) + (dm + D) + Z D)``
 together; balls mix what is on them, so that m is the same everywhere. Each surface has m/2, so all contacts
 together take
 
     L = 2 u/l sum_k m x_k(m),    x_k^3 = (1 - h/(h_ff r))^3 + (1 - (1 + S m^2)^(-1/2))^3
 
 off it: x is the share that leaves the track in a pass, ahead of a starved film (`film_formulas.film_of_layer`,
-thick layers) and by side flow (`ehlcontact.side_flow`, thin ones). Cubes: films of a circle lose that here, within
-7 %; in wide contacts one part is large where the other is small.
+thick layers) and by side flow (`ehlcontact.side_flow`, thin ones). The exponent 3 is fitted to films of a
+circle, within 7 %; in wide contacts one part is large where the other is small.
 """
 
 from __future__ import annotations
@@ -81,9 +81,9 @@ class OilBalance(Summary):
     feed : float
         Fresh oil that reaches the tracks of races and balls together [m3/s]; 0 when it is cut off.
     returned : float
-        R, the share of the oil pressed aside that comes back to the tracks, from 0 to 1.
+        R, the share of the oil pressed aside that returns to the tracks, from 0 to 1.
     return_time : float
-        tau, after which it does [s].
+        tau, time constant of the return [s].
     sharpness : float, optional
         g of the film over its layer (`ehlcontact.film_formulas`), by default that of each contact's ellipse.
 
@@ -110,10 +110,10 @@ class OilBalance(Summary):
     def __post_init__(self) -> None:
         require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
         if self.bearing.oil is None:
-            raise InputError("oil", None, "given, for a balance of it")
+            raise InputError("oil", None, "given to the bearing: a dry one has no oil balance")
         require_positive("speed_rpm", self.speed_rpm)
         if np.shape(self.load) != (2,):
-            raise InputError("load", self.load, "(Fx, Fy): the balance is of bearings under a radial load")
+            raise InputError("load", self.load, "(Fx, Fy): the balance is for radial loads")
         require_between("feed", self.feed, 0.0, 1.0)
         require_between("returned", self.returned, 0.0, 1.0)
         if self.returned > 0.0 and not 0.0 < self.return_time < inf:
@@ -176,7 +176,7 @@ class OilBalance(Summary):
         return np.stack(found, axis=-1)
 
     def loss_rate(self, layer: float) -> float:
-        """L: what all contacts together take off a layer [m/s]."""
+        """L: rate at which all contacts together thin a layer [m/s]."""
         passes = self.bearing.race("inner").speed_sum * self.speed_rpm * RPM_TO_RAD_S / self.track_length
         full, sharpness, growth = self._contacts
         return float(passes * layer * lost_share(layer / full, sharpness, growth).sum())
@@ -194,7 +194,7 @@ class OilBalance(Summary):
         Raises
         ------
         InputError
-            All that is pressed aside returns: the feed floods the tracks.
+            All oil pressed aside returns, and the feed floods the tracks; or a feed outside the range of layers.
         """
         if self.feed == 0.0:
             return 0.0
@@ -270,7 +270,7 @@ class OilHistory(QuantityTable):
     t : ndarray, shape (times,)
         In s.
     layer, aside : ndarray, shape (times,)
-        m, the layer ahead of every contact, and s, what has been pressed aside and is to come back [m].
+        m, the layer ahead of every contact, and s, the oil pressed aside that will return, as a layer [m].
     h_central : ndarray, shape (times, 2)
         At inner and outer race [m].
     share : ndarray, shape (times, 2)

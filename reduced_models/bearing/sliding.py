@@ -105,9 +105,9 @@ class BearingFriction(Summary):
     rolling : float
         Rolling torque of the films (`BearingState.rolling_torque`), times `inlet_heat`.
     inlet_heat : float
-        Share that the heat of the inlets leaves of it: of the film's, by Wilson and Sheu; 1 without heat.
+        Thermal reduction factor of the film by Wilson and Sheu; 1 without heat.
     sliding : float
-        Torque that differential slip and spin in all contacts take.
+        Torque by differential slip and spin in all contacts.
     by_contact : ndarray, shape (balls, 2)
         The same of each contact.
     skf_rolling, skf_sliding : float or None
@@ -125,7 +125,7 @@ class BearingFriction(Summary):
 
     def _summary_lines(self) -> list[str]:
         parts = f"rolling {1e3 * self.rolling:.4g} N mm, sliding {1e3 * self.sliding:.4g} N mm"
-        lines = [parts, f"by {self.law}; heat leaves {100.0 * self.inlet_heat:.3g} % of the rolling part"]
+        lines = [parts, f"by {self.law}; inlet heat reduces the rolling part to {100.0 * self.inlet_heat:.3g} %"]
         if self.skf_rolling is not None and self.skf_sliding is not None:
             lines.append(f"SKF: {1e3 * self.skf_rolling:.4g} and {1e3 * self.skf_sliding:.4g} N mm")
         return lines
@@ -146,7 +146,7 @@ class BearingFriction(Summary):
 def bearing_friction(
     bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionLaw, heat: bool = True
 ) -> BearingFriction:
-    """Moments of friction of a `BallBearing` in oil: rolling of its films, sliding under a traction law.
+    """Moments of friction of a `BallBearing` in oil: rolling of its films, sliding by a traction law.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def bearing_friction(
     law : TractionLaw
         `ehlcontact.Eyring`, `Carreau` or `LimitingShear`.
     heat : bool
-        Lower the rolling torque by what shear heats the inlet; it takes an oil with `temperature_slope`.
+        Multiply the rolling torque by the thermal reduction factor; needs an oil with `temperature_slope`.
 
     Raises
     ------
@@ -185,10 +185,10 @@ def bearing_friction(
 
 
 def oiled_state(bearing: Any, load: ArrayLike, speed_rpm: float, law: TractionLaw) -> BearingState:
-    """State of a bearing in oil, for what shears its films; raises `InputError` for a dry one, or no law."""
+    """State of a bearing in oil; raises `InputError` for a dry one, or without a traction law."""
     require_law(law)
     if bearing.oil is None:
-        raise InputError("oil", None, "given to the bearing: a dry one has no film that shears")
+        raise InputError("oil", None, "given to the bearing: a dry one has no films")
     state: BearingState = bearing.equilibrium(load, speed_rpm=speed_rpm)
     return state
 
@@ -196,7 +196,7 @@ def oiled_state(bearing: Any, load: ArrayLike, speed_rpm: float, law: TractionLa
 def sliding_contact(
     bearing: Any, state: BearingState, ball: int, column: int, law: TractionLaw
 ) -> SlidingContact | None:
-    """Contact of a ball with a race; None below the lightest load of the atlas, which presses on nothing."""
+    """Contact of a ball with a race; None below the lightest load of the atlas, taken as unloaded."""
     race, load = _race(bearing, state, ball, column), float(state.force[ball, column])
     assert state.h_central is not None
     if load < race.loads(state.speed_rpm)[0]:
@@ -217,7 +217,7 @@ def radius_across(conformity: float, ball_diameter: float) -> float:
 
 
 def _race(bearing: Any, state: BearingState, ball: int, column: int) -> Race:
-    """Contact with a race, of a ball at an angle its own."""
+    """Race of a contact; of a ball at a contact angle, for that angle and speed of orbit."""
     race: Race = bearing.race(RACES[column])
     if state.contact_angles is None or state.orbit is None:
         return race
@@ -228,7 +228,7 @@ def _race(bearing: Any, state: BearingState, ball: int, column: int) -> Race:
 
 
 def _inlet_heat(bearing: Any, state: BearingState) -> float:
-    """Share that heat leaves of the film, which hardly depends on load: of the heaviest ball's inner contact."""
+    """Thermal reduction factor at the inner contact of the heaviest ball; it hardly depends on the load."""
     ball = state.heaviest
     race = _race(bearing, state, ball, 0)
     point = race.point(max(float(state.force[ball, 0]), race.loads(state.speed_rpm)[0]), state.speed_rpm)

@@ -1,7 +1,7 @@
-"""Labelled synthetic records: a bearing with its features in a run, heard through a path, and what it was.
+"""Labelled synthetic records: simulated acceleration of a bearing with features, with a row of metadata.
 
-The columns are those of the metadata table of the package bearing-datasets (version 0.3, layout 2), which brings
-public measurements to one format: code for those takes synthetic records too. `make_records` keeps one file per
+The columns are those of the metadata table of the package bearing-datasets (version 0.3, layout 2), which converts
+public measurements to one format: code for these reads synthetic records too. `make_records` keeps one file per
 record, `write_dataset` makes of them the Parquet files that `bearing_datasets.open` reads.
 """
 
@@ -43,7 +43,7 @@ from reduced_models.signals.transfer_path import ModalPath
 
 _Floats = NDArray[np.float64]
 
-LEAD = 0.1  # s of a run before its record: what follows the start has faded
+LEAD = 0.1  # s of a simulation before its record, in which the transient of the start decays
 FINER = 4  # steps per sample
 TILT_INERTIA, TILT_STIFFNESS = 1e-3, 1e5  # kg m2, N m/rad: a stiff shaft holds the ring against tilts
 SUFFIX = ".h5"
@@ -55,7 +55,7 @@ BALL = "rolling_element"
 @fields_take(speed_rpm="rev/min", mass="kg", seconds="s", rate="Hz")
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RecordCase(Summary):
-    """What a synthetic record is made of: a mass on a bearing with features, a path to a sensor, noise.
+    """Inputs of a synthetic record: a mass on a bearing with features, a transfer path to a sensor, noise.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ class RecordCase(Summary):
     label : str
         Of the fault, as the data set names it; letters, digits, ``-`` and ``_``.
     mass : float
-        Turns with the inner ring [kg].
+        On the inner ring [kg].
     noise : float
         Root of the mean square of white Gaussian noise that is added [m/s2].
     seed : int
@@ -82,8 +82,8 @@ class RecordCase(Summary):
     Raises
     ------
     InputError
-        A value out of its range, a speed of 0, a label that is no part of a file name, a rate that does not
-        resolve passages of balls.
+        A value out of its range, a speed of 0, a label that cannot be part of a file name, a rate that does not
+        resolve ball passages.
     """
 
     bearing: BallBearing
@@ -144,7 +144,7 @@ class RecordCase(Summary):
         return Rotor(mass=np.diag(mass), stiffness=np.diag(held), load=load, mounts=(mount,))
 
     def columns(self) -> dict[str, Any]:
-        """Row of the metadata table, in the columns of bearing-datasets; own ones at its end."""
+        """Row of the metadata table, in the columns of bearing-datasets; additional ones at its end."""
         b, faults = self.bearing, list(self.bearing.features)
         kinds = sorted({PARTS.get(str(getattr(one, "race", None)), BALL) for one in faults})
         defects = [one for one in faults if isinstance(one, Spall | Indentation)]
@@ -213,12 +213,12 @@ class VibrationRecord(QuantityTable):
 
 
 def make_record(case: RecordCase) -> VibrationRecord:
-    """Run a case and record it.
+    """Simulate a case and record it.
 
     Raises
     ------
     ConvergenceError
-        The run found no balance.
+        The simulation found no equilibrium.
     InputError
         What the bearing refuses.
     """
@@ -247,7 +247,7 @@ def make_records(
     ----------
     cases : sequence of RecordCase
     folder : path
-        Made if it does not exist. After an interruption the same call goes on where it was.
+        Made if it does not exist. After an interruption the same call computes the missing ones.
     processes : int
         Of this machine.
     scheduler : str, optional
@@ -260,7 +260,7 @@ def make_records(
     InputError
         The folder cannot be written to; no case.
     ConvergenceError
-        Cases found no balance, which the message names; all others are made first.
+        Cases without equilibrium, the first of which is in the message; all others are made first.
     """
     folder, wanted = Path(folder), {case.recording_id: case for case in cases}
     if not wanted:

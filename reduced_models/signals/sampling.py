@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _Floats = NDArray[np.float64]
 
-FINEST = 10_000  # largest number of the fraction that a ratio of rates is
+FINEST = 10_000  # largest denominator of a ratio of rates
 STOP = ("kaiser", 8.0)  # window of the low-pass: 80 dB
 REACH, PASSED = 32, 0.92  # samples on either side; its edge over half the rate: it stops at 1.0
 LEAST_SAMPLES = 8  # per passage of a ball over a point of the inner race: its third harmonic, with room
@@ -85,7 +85,7 @@ def node_acceleration(run: RotorResult, node: str, rate: float) -> _Floats:
     Raises
     ------
     InputError
-        As `sampled`; a node that the rotor has not, a run of fewer than 5 steps.
+        As `sampled`; an unknown node, a run of fewer than 5 steps.
     """
     from scipy.signal import savgol_filter
 
@@ -100,7 +100,7 @@ def housing_acceleration(
 ) -> _Floats:
     """Acceleration [m/s2] that a bearing's force gives to a housing, at an output rate.
 
-    The rotor runs as if the housing stood still; the path is at rest under the force at the start. The force is
+    The rotor is simulated with a fixed housing; the path is at rest under the force at the start. The force is
     that of the inner ring on the bearing, in the bearing's own frame.
 
     Parameters
@@ -117,7 +117,7 @@ def housing_acceleration(
     Raises
     ------
     InputError
-        As `sampled`; a bearing or an axis that the run has not.
+        As `sampled`; a bearing or an axis that is not in the run.
     """
     force, dt = run.ring_force, _step(run)
     require_choice("axis", axis, AXES[: min(force.shape[2], len(AXES))])
@@ -136,7 +136,7 @@ def shaft_angle(t: ArrayLike, speed_rpm: ArrayLike) -> _Floats:
 
 
 def resampled(values: _Floats, up: int, down: int) -> _Floats:
-    """`up` over `down` times as many values, without those above half the lower rate."""
+    """Values resampled by the factor up/down, after a low-pass at half the lower rate."""
     from scipy.signal import firwin, resample_poly
 
     coarser = max(up, down)

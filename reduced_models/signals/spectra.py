@@ -1,4 +1,4 @@
-"""Spectrum of the envelope of a signal, and spectrum over orders of the shaft."""
+"""Envelope spectrum of a signal, and order spectrum over the shaft angle."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _Floats = NDArray[np.float64]
 
 FILTER_ORDER = 4  # of the band-pass, forwards and backwards
 FEWEST = 64  # samples of a signal
-FINER = 4  # times the rate of a signal, to which it is brought before it is read at angles
+FINER = 4  # factor of upsampling before interpolation at angles
 MOST_SAMPLES = 2**26  # of a signal over the angle: 0.5 GB
 
 
@@ -165,8 +165,8 @@ def order_spectrum(
 ) -> OrderSpectrum:
     """Amplitude spectrum over orders of a signal of changing speed, resampled over the angle of the shaft.
 
-    The signal is read at even angles, so finely that all of it is resolved at the lowest speed, filtered over the
-    angle below the highest order, and averaged over blocks with a Hann window that overlap by half.
+    The signal is resampled at equal angles, finely enough for its bandwidth at the lowest speed, low-pass filtered
+    over the angle at the highest order, and averaged over blocks with a Hann window that overlap by half.
 
     Parameters
     ----------

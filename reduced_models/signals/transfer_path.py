@@ -1,7 +1,7 @@
 """Transfer paths: acceleration of a housing by a force on it, over frequency (accelerance, ISO 7626-1).
 
-A path has a response A(f) in (m/s2)/N. Acceleration is computed in the frequency domain. After the record the
-force fades and the path decays, so that its end does not reach into its beginning.
+A path has a response A(f) in (m/s2)/N. Acceleration is computed in the frequency domain. The force is
+continued beyond the record, so that its response decays and does not wrap around to the beginning.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ IMAGINARY = 1e-9  # of a pole over its distance from 0: one nearer to the axis d
 
 
 class TransferPath(Summary, ABC):
-    """Acceleration of a place by a force on another."""
+    """Response of a structure: acceleration at a sensor over a force."""
 
     @abstractmethod
     def response(self, hz: ArrayLike) -> _Complex:
@@ -66,7 +66,7 @@ def _faded_out(values: _Floats, fade: int) -> _Floats:
 @fields_take(hz="Hz", mass="kg")
 @dataclass(frozen=True, eq=False)
 class ModalPath(TransferPath):
-    """Sum of resonators on the ground: ``A(f) = sum of -w^2/(m (w0^2 - w^2 + 2i zeta w0 w))``, ``w = 2 pi f``.
+    """Modes of a grounded structure: ``A(f) = sum of -w^2/(m (w0^2 - w^2 + 2i zeta w0 w))``, ``w = 2 pi f``.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ class ModalPath(TransferPath):
 @fields_take(hz="Hz")
 @dataclass(frozen=True, eq=False)
 class MeasuredPath(TransferPath):
-    """Measured response, straight between its frequencies in real and imaginary part; 0 below the first.
+    """Measured response, linear between its frequencies in real and imaginary part; 0 below the first.
 
     Parameters
     ----------
