@@ -42,10 +42,10 @@ def verify(path: str | os.PathLike[str], element: Source) -> Verification:
     ----------
     path : path-like
         The FMU.
-    element : ContactElement, RotorModel, BearingModel or ShaftModel
+    element : ContactElement, RotorModel, BearingModel, ShaftModel or WholeRotorModel
         What it should be; ``RotorModel(rotor, contacts)`` for what `export_rotor` makes of these,
         ``BearingModel(bearing, speeds_rpm, load)`` for `export_bearing`, ``ShaftModel(rotor, speed_rpm, inertia)``
-        for `export_shaft`.
+        for `export_shaft`, ``WholeRotorModel(rotor, speeds_rpm, speed_rpm, inertia)`` for `export_whole_rotor`.
 
     Raises
     ------

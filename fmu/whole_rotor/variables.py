@@ -273,9 +273,10 @@ def _macros(model: WholeRotorModel, made: _Variables, specs: list[ModelSpec]) ->
         "SHOWN": len(made.points),
         "UNBALANCES": len(model.rotor.unbalances),
         "HAS_TORQUE": int(model.inertia is not None),
+        "REACHED": made.first["DRIVE"] if model.inertia is None else "(-1)",
         "HAS_GYROSCOPIC": int(model.rotor.gyroscopic.any()),
         "LAW_WORK": sum(_work(spec) for spec in specs),
-        "N_CACHE": 4 * size + 4 * len(points) + 7 + sum(law_size(spec) for spec in specs),
+        "N_CACHE": 4 * size + 4 * len(points) + 8 + sum(law_size(spec) for spec in specs),
         **{f"FIRST_{name}": at for name, at in made.first.items()},
     }
     numbers = {"DEFAULT_TOLERANCE": ALLOWED_ERROR, "LEAST_INNER_STEP": LEAST_INNER_STEP * model.inner_step}

@@ -62,21 +62,21 @@ def export(
     shaft: Annotated[
         bool,
         typer.Option(
-            "--shaft", help="Of a study with [whole_bearing]: its rotor without these bearings, which are outside."
+            "--shaft", help="Of a study with whole_bearing: its rotor without these bearings, which are outside."
         ),
     ] = False,
     drive: Annotated[
         bool,
         typer.Option(
             "--drive",
-            help="Of a study with [whole_bearing]: that shaft, its bearings and the torque of a motor as a system"
+            help="Of a study with whole_bearing: that shaft, its bearings and the torque of a motor as a system"
             " archive (SSP).",
         ),
     ] = False,
     rotor: Annotated[
         bool,
         typer.Option(
-            "--rotor", help="Of a study with [whole_bearing]: that shaft with its bearings inside, as one FMU."
+            "--rotor", help="Of a study with whole_bearing: that shaft with its bearings inside, as one FMU."
         ),
     ] = False,
     inertia: Annotated[
@@ -89,7 +89,12 @@ def export(
         ),
     ] = None,
     torque: Annotated[
-        float | None, typer.Option("--torque", metavar="N_M", help="Of the motor, at the start; with --inertia.")
+        float | None,
+        typer.Option(
+            "--torque",
+            metavar="N_M",
+            help="Of the motor, at the start; with --inertia. The FMU of --rotor has it as an input.",
+        ),
     ] = None,
     top_rpm: Annotated[
         float | None,
@@ -222,13 +227,13 @@ def _check_turning(output: Path, study: bool, chosen: list[str], **values: float
         return
     option, ending = chosen[0], ".ssp" if chosen == ["--drive"] else ".fmu"
     if not study:
-        raise InputError(option, "another file", "with a study (.toml) that has [whole_bearing]")
+        raise InputError(option, "another file", "given with a study (.toml) that has [whole_bearing]")
     if output.suffix.lower() != ending:
         raise InputError("--output", str(output), f"a file name ending in {ending}, for {option}")
     if option == "--shaft" and "--top-rpm" in given:
         raise InputError("--top-rpm", given["--top-rpm"], "left out: the bearings are no part of a shaft")
     if option == "--rotor" and "--torque" in given:
-        raise InputError("--torque", given["--torque"], "left out: set it before the first step")
+        raise InputError("--torque", given["--torque"], "left out: it is the input torque of the FMU")
     if option == "--drive" and "--inertia" not in given:
         raise InputError("--inertia", None, "given with --drive")
     for name in {"--inertia", "--top-rpm"} & given.keys():

@@ -100,7 +100,7 @@ static Fault tuned(Model *model)
 Fault core_outputs(State *s)
 {
     double before[N_INPUTS];
-    Fault fault = {DISCARD, INPUT_NAMES " must be finite"};
+    Fault fault;
     int k;
     if ((s->stale & (STALE_LAW | STALE_OUTPUTS)) == 0) {
         return fine;
@@ -111,7 +111,9 @@ Fault core_outputs(State *s)
     }
     for (k = 0; k < N_INPUTS && isfinite(s->model.input[k]); k++) {
     }
-    if (k == N_INPUTS) {
+    if (k < N_INPUTS) {
+        fault = refuse(not_finite[k]);
+    } else {
         fault = (s->stale & STALE_LAW) != 0 ? tuned(&s->model) : model_evaluate(&s->model);
     }
     if (fault.severity == FINE) {

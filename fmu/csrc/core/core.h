@@ -38,6 +38,8 @@ static inline Fault refuse(const char *reason)
     return fault(REFUSE, reason);
 }
 
+static const char *const not_finite[N_INPUTS] = INPUTS_NOT_FINITE;
+
 enum { STALE_LAW = 1, STALE_OUTPUTS = 2, STALE_RATES = 4, STALE_INPUTS = 8 }; /* what must be computed anew */
 
 /* All of an instance that can change, without padding: its bytes are the serialized state. */

@@ -66,6 +66,10 @@ static void begin_at_inputs(const State *s, Motion *motion)
 
 #ifdef LEAD_OF_INPUTS
 
+#ifndef REACHED
+#define REACHED (-1) /* an input that is no force: a step goes straight to its value, whatever the lead */
+#endif
+
 /* Forces that are those of the time `lead` steps after the start go through a step straight, those of its middle are held:
  * a slope from forces before would take K h (w h)^2/6 off the damping of contacts outside. */
 static double motion_of(const State *s, double time, double h, Motion *motion, Motion *ahead)
@@ -77,7 +81,7 @@ static double motion_of(const State *s, double time, double h, Motion *motion, M
     for (k = 0; k < N_INPUTS; k++) {
         Path *p = &motion->input[k];
         const double x = p->end, before = s->n_given > 0 ? (1.0 - lead) * (time - s->given_time[0]) + lead * h : 0.0;
-        if (lead >= 1.0) {
+        if (lead >= 1.0 || k == REACHED) {
             p->start = s->now[k];
             p->slope = (x - p->start) / h;
         } else {
@@ -260,7 +264,7 @@ static Fault check_inputs(const State *s)
     int k;
     for (k = 0; k < N_INPUTS && isfinite(s->model.value[k]); k++) {
     }
-    return k == N_INPUTS ? fine : refuse(INPUT_NAMES " must be finite");
+    return k == N_INPUTS ? fine : refuse(not_finite[k]);
 }
 
 /* Outputs of a later time, the states as they are. */

@@ -28,11 +28,13 @@ enum {
     SPIN, /* angular acceleration */
     RESISTED,
     MOVING = RESISTED + 2,
+    OWED, /* time of steps so short that the next one takes it */
     LAWS
 };
 
 static const double rho = 0.8;          /* spectral radius at infinite frequency, as simulate_rotor has it */
 static const double most_steps = 1e6;   /* inner ones in one step of the master */
+static const double shortest = 1e-4;    /* step, over an inner one: rounding of the forces is that large in a shorter one's accelerations */
 static const double by_rounding = 1e-9; /* of an inner step, that a step of the master may be longer */
 static const double balanced = 1e-10;   /* imbalance over the forces at work */
 static const double epsilon = 1e-15;    /* rounding of a sum of forces */
@@ -668,7 +670,7 @@ static void begin(Model *m, const Motion *motion, double h)
 
 Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
 {
-    const double count = ceil(h / m->value[VR_inner_step] - by_rounding);
+    const double span = h + m->cache[OWED], count = ceil(span / m->value[VR_inner_step] - by_rounding);
     double inputs[N_INPUTS], p[FREEDOMS];
     const char *reason = NULL;
     Model next = *m;
@@ -678,11 +680,16 @@ Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
     if (!(count <= most_steps)) {
         return fault(DISCARD, "more than a million inner steps: take a shorter step, or a longer inner_step");
     }
+    if (span < shortest * m->value[VR_inner_step]) {
+        m->cache[OWED] = span;
+        return fine;
+    }
     steps = count > 1.0 ? (int)count : 1;
     c.h = 0.0;
-    begin(&next, motion, h / steps);
+    next.cache[OWED] = 0.0;
+    begin(&next, motion, span / steps);
     for (i = 1; i <= steps && reason == NULL; i++) {
-        const double part = h / steps, omega = next.cache[SPEED];
+        const double part = span / steps, omega = next.cache[SPEED];
         double torque = 0.0, end;
 #if HAS_TORQUE
         inputs_at(motion, (i - 0.5) * part, 0, inputs);
@@ -742,6 +749,6 @@ void model_name_outside(const Model *m, unsigned long long which, char *text, si
         fast |= which >> (2 * b) & 1ULL;
         heavy |= which >> (2 * b) & 2ULL;
     }
-    snprintf(text, size, "%s%s%s", fast ? "speed above the tables" : "", fast && heavy ? "; " : "",
-             heavy ? "a ball carries more than the tables have" : "");
+    snprintf(text, size, "%s%s%s", fast ? " speed above the tables" : "", fast && heavy ? ";" : "",
+             heavy ? " a ball carries more than the tables have" : "");
 }

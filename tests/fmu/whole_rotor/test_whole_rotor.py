@@ -288,6 +288,45 @@ def test_says_where_a_bearing_is_outside_its_tables(made):
     slave.free()
 
 
+@pytest.mark.parametrize("lead", [0.0, 0.5, 1.0])
+def test_the_speed_that_is_given_is_reached_whatever_the_lead(made, lead):
+    """A jump within one step, its mean in between, and down to standstill: never beyond."""
+    given = np.array([700.0, 700.0, 650.0, 650.0, 100.0, 0.0, 0.0])
+    slave, turned = made("flexible").started(speed=700.0, force_lead=lead), [0.0]
+    for speed in given:
+        slave.set(speed=speed)
+        slave.step(1e-4)
+        turned.append(slave.get("angle")[0])
+    slave.free()
+    means = 0.5 * (np.append(700.0, given[:-1]) + given)
+    assert np.diff(turned) / 1e-4 == pytest.approx(means, rel=1e-9, abs=1e-9)
+
+
+def test_a_remainder_of_a_step_is_taken_with_the_next(made):
+    """As masters leave that stop at events: forces are those without it."""
+    found = []
+    for h in (None, 1e-9, 1e-11, 1e-12, 1e-15):
+        slave = made("flexible").started()
+        for length in (1e-4, h, 1e-4, h, h, 1e-4):
+            if length is not None:
+                slave.step(length)
+        found.append(slave.get(*FORCES, "angle"))
+        slave.free()
+    largest = max(map(abs, found[0][:-1]))
+    for one in found[1:]:
+        assert one == pytest.approx(found[0], rel=1e-4, abs=1e-5 * largest)
+
+
+def test_an_input_that_is_no_number_is_named(made):
+    one = made("flexible")
+    slave = one.started()
+    slave.set(**{"unbalance[1]": float("nan")})
+    with pytest.raises(FMICallException):
+        slave.step(STEP)
+    assert "unbalance[1] must be finite" in one.messages[-1] and "disc" not in one.messages[-1]
+    slave.free()
+
+
 @pytest.mark.parametrize(
     ("wrong", "words"),
     [
