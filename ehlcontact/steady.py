@@ -283,7 +283,7 @@ class _Film:
             inputs=inputs,
             pressure=cycles.pressure.T.copy(),
             load_share=level.asperity_load / level.force(),
-            lambda_ratio=level.central_film() / numbers.rq,
+            film_over_rq=level.central_film() / numbers.rq,
             film_share=level.central_film() / smooth,
         )
         return status

@@ -42,7 +42,7 @@ def shares(point):
         if found.status.ok:
             law = float(rough.load_share(found.si.h_central, mean, point.geometry.e_reduced))
             seen = found.asperities
-            rows.append((seen.lambda_ratio, seen.load_share, law, seen.film_share, found.cycles))
+            rows.append((seen.film_over_rq, seen.load_share, law, seen.film_share, found.cycles))
     return np.array(rows)
 
 

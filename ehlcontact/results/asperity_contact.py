@@ -27,8 +27,8 @@ class AsperityContact:
         Mean pressure of the asperities over the Hertz pressure, beside that of the oil.
     load_share : float
         Part of the force that they carry.
-    lambda_ratio : float
-        Central film over `inputs.rq`; elsewhere lambda has the smallest film.
+    film_over_rq : float
+        Central film over `inputs.rq`; the lambda ratio of other results has the smallest film.
     film_share : float
         Central film over that between smooth surfaces, on the same grid.
     """
@@ -36,23 +36,23 @@ class AsperityContact:
     inputs: Asperities
     pressure: Array
     load_share: float
-    lambda_ratio: float
+    film_over_rq: float
     film_share: float
 
     @property
     def summary(self) -> str:
         """Load share of the asperities, in words."""
-        share, ratio = 100.0 * self.load_share, self.lambda_ratio
+        share, ratio = 100.0 * self.load_share, self.film_over_rq
         return f"asperities carry {share:.3g} % of the load, the central film being {ratio:.3g} times their Rq"
 
     @property
     def reservation(self) -> str:
         """Caveat in words where the gap is below the range of the model of asperities; else empty."""
-        if self.lambda_ratio >= PRESSED:
+        if self.film_over_rq >= PRESSED:
             return ""
-        return f"the central film is {self.lambda_ratio:.2g} Rq: asperities are a model from {PRESSED:g} Rq on"
+        return f"the central film is {self.film_over_rq:.2g} Rq: asperities are a model from {PRESSED:g} Rq on"
 
     def to_dict(self) -> dict[str, Any]:
         """Numbers without the field, ready for JSON."""
-        numbers = {name: getattr(self, name) for name in ("load_share", "lambda_ratio", "film_share")}
+        numbers = {name: getattr(self, name) for name in ("load_share", "film_over_rq", "film_share")}
         return numbers | {"inputs": self.inputs.to_dict()}

@@ -113,7 +113,7 @@ def test_asperities_take_load_and_lift_the_film(smooth, mixed):
     rough = mixed.asperities
     assert mixed.h_central > smooth.h_central and mixed.h_min > smooth.h_min
     assert rough.film_share == pytest.approx(mixed.h_central / smooth.h_central, rel=1e-4)
-    assert rough.lambda_ratio == pytest.approx(mixed.si.h_central / 0.2e-6)
+    assert rough.film_over_rq == pytest.approx(mixed.si.h_central / 0.2e-6)
     higher = solve_steady(ball(), grid=GRID, asperities=Asperities(0.3e-6)).asperities
     assert 0.003 < rough.load_share < higher.load_share < 0.05
 
