@@ -306,7 +306,10 @@ def test_shafts_and_drives_that_cannot_be_exported(refused, tmp_path):
         (("--controller", "> 0"), (STUDY, *turning, "--controller", "1", "1", "0", "-o", ssp)),
         (("--controller", "nan"), (STUDY, *turning, "--controller", "nan", "1", "1", "-o", ssp)),
         (("--shaft", "one of both"), (STUDY, "--shaft", "--rotor", "-o", fmu)),
-        (("--torque", "input torque of the FMU"), (STUDY, "--rotor", "--torque", "3", "--inertia", "1", "-o", fmu)),
+        (
+            ("--torque", "input torque of the FMU"),
+            (STUDY, "--rotor", "--torque", "3", "--inertia", "1", "-o", fmu),
+        ),
         (("--top-rpm", "at least the speed"), (STUDY, "--rotor", "--top-rpm", "9", "-o", fmu)),
         (("--output", ".fmu"), (STUDY, "--rotor", "-o", ssp)),
         (("--top-rpm", "no part of a shaft"), (STUDY, "--shaft", "--top-rpm", "6000", "-o", fmu)),
