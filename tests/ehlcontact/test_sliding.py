@@ -129,7 +129,7 @@ def test_result(tmp_path):
     again = load(save(THIN, tmp_path / "thin.h5"))
     assert again.sliding == THIN.sliding
     assert again.thinned_share == THIN.thinned_share
-    assert "of the central film" in repr(THIN)
+    assert "% of the Newtonian one" in repr(THIN)
     assert THIN.to_dict()["sliding"] == {"slide_roll": 1.5, "law": {"law": "Eyring", "stress": 5e6}}
     assert "sliding" not in NEWTONIAN.to_dict()
     found = THIN.traction(1.5, Eyring()).coefficient
