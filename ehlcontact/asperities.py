@@ -23,7 +23,7 @@ from ehlcontact.point import OperatingPoint, Point
 Array = NDArray[np.float64]
 
 RANGES = {"rq": (0.0, 2e-5), "summits": (0.005, 0.5), "rq_over_radius": (1e-6, 0.1)}
-NO_CONTACT = 6.0  # gap over rq: the heights that remain carry 1e-9 of what they do at 0
+NO_CONTACT = 6.0  # gap over rq: the heights that remain carry 1e-10 of what they do at 0
 PRESSED = -8.0  # gap over rq: only iterates have smaller ones
 
 
