@@ -31,7 +31,7 @@ def times():
 
 
 def responses(omega):
-    """K and C [N/m, N s/m] at these Omega: isothermal, temperatures at rest, and following."""
+    """K and C [N/m, N s/m] at these Omega: isothermal, with heat at a fixed viscosity, and one that follows."""
     cold, warm = (impedance(POINT, Omega=omega, grid=GRID, thermal=heat) for heat in (None, HEAT))
     film = solve_steady(POINT, grid=Grid(warm.n, warm.domain), thermal=HEAT)
     Z = LinearisedContact(held(film)).respond(np.maximum(omega, 1e-4), 1e-5)[0]
@@ -47,8 +47,8 @@ def draw(found):
     left, right = figure.subplots(1, 2)
     styles = (
         ("isothermal", "k--"),
-        ("heated, temperatures at rest", "C0:"),
-        ("heated, temperatures follow", "C3-"),
+        ("with heat, viscosity held fixed", "C0:"),
+        ("with heat, viscosity follows", "C3-"),
     )
     for (name, style), (K, C) in zip(styles, found, strict=True):
         left.plot(OMEGA, K * 1e-6, style, label=name)

@@ -20,7 +20,7 @@ from ehlcontact import Heat, OperatingPoint
 from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import wilson_heating
 from ehlcontact.jit import plain
-from ehlcontact.lubricant import TractionLaw, log_viscosity
+from ehlcontact.lubricant import LimitingShear, TractionLaw, log_viscosity
 from ehlcontact.lubricant.traction_laws import require_law
 from ehlcontact.summary import Summary
 from reduced_models.bearing.equilibrium_result import BearingState
@@ -30,6 +30,7 @@ from reduced_models.bearing.race import RACES, Race
 _Floats = NDArray[np.float64]
 
 LINES, PLACES = 480, 16  # of the quadrature: across rolling, where the slip changes its sign, and along
+USUAL_LAW = LimitingShear(0.07)  # mineral oil in bearings: docs/traction.md
 WIDEST = 1.0  # slide-to-roll ratio within which that of a free contact lies
 TABLE = np.linspace(0.0, 1.0, 801)  # pressures over Hertz's between which ln(eta) is linear
 SLOWEST = 1e-300  # slip over the rolling speed whose logarithm is a number
@@ -165,7 +166,11 @@ def bearing_friction(
     InputError
         A dry bearing; as of `BallBearing.equilibrium`; heat of an oil without its data.
     """
-    state = oiled_state(bearing, load, speed_rpm, law)
+    return friction_at(bearing, oiled_state(bearing, load, speed_rpm, law), law, heat=heat)
+
+
+def friction_at(bearing: Any, state: BearingState, law: TractionLaw, *, heat: bool) -> BearingFriction:
+    """The same in a state of the bearing that is known, with films."""
     omega = state.speed_rpm * RPM_TO_RAD_S
     power = np.zeros(state.force.shape)
     for k, column in np.ndindex(power.shape):

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ehlcontact import Lubricant
-from reduced_models import BallBearing, Spall
+from ehlcontact import LimitingShear, Lubricant
+from reduced_models import BallBearing, Spall, bearing_friction
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
 OIL = ("--oil", "68", "--temp", "50")
@@ -79,6 +79,29 @@ def test_numbers_of_the_table(call):
     line = next(line for line in result.out.splitlines() if "films resist rolling" in line)
     assert any(line.split()[:4] == ["both", "at", "50", "Hz"] for line in result.out.splitlines())
     assert f"{state.rolling_torque * 1e3:.4g} N mm" in line and f"{state.rolling_loss:.4g} W" in line
+
+
+@pytest.mark.parametrize("more", [(), ("--axial", "500")], ids=["radial", "combined"])
+def test_sliding_moment_beside_that_of_skf(call, more):
+    given = ("bearing", "6205", *OIL, "--load", "1000", *more, "--speed-rpm", "3000")
+    oil, load = Lubricant.iso_vg(68, temperature=50.0), (0.0, -1000.0, *map(float, more[1:]))
+    at = bearing_friction(BallBearing.catalogue("6205", oil=oil), load, speed_rpm=3000.0, law=LimitingShear(0.07))
+    found = json.loads(call(*given, "--json", "-").out)["friction"][0][0]
+    assert [found[name] for name in ("rolling", "sliding", "skf_sliding")] == [
+        at.rolling,
+        at.sliding,
+        at.skf_sliding,
+    ]
+    shown = " ".join(call(*given).out.split())
+    line = shown[shown.index("sliding in contacts") : shown.index("FTF")]
+    assert f"{1e3 * at.sliding:.4g} N mm" in line and f"by SKF {1e3 * at.skf_sliding:.4g} N mm" in line
+
+
+def test_sliding_moment_of_a_pair_is_that_of_both(call):
+    given = ("bearing", "7205", *OIL, "--pair", "back-to-back", "--preload", "300", "--speed-rpm", "3000")
+    both = json.loads(call(*given, "--json", "-").out)["friction"][0]
+    assert both[0]["sliding"] > 0.0 and both[1]["sliding"] == pytest.approx(both[0]["sliding"], rel=1e-6)
+    assert f"{2e3 * both[0]['sliding']:.4g} N mm" in call(*given).out
 
 
 def test_a_dry_bearing_has_no_film_and_no_highest_speed(call):

@@ -25,10 +25,19 @@ from ehlcontact.errors import InputError
 from reduced_models.bearing.equilibrium_result import NOTICED
 from reduced_models.bearing.freedoms import DECIMALS, FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_HZ
+from reduced_models.bearing.sliding import USUAL_LAW, friction_at
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.bearing import BearingJob
-    from reduced_models import BallBearing, BearingExcitation, BearingSet, BearingState, SetState, Spall
+    from reduced_models import (
+        BallBearing,
+        BearingExcitation,
+        BearingFriction,
+        BearingSet,
+        BearingState,
+        SetState,
+        Spall,
+    )
     from reduced_models.bearing.kinematics import DefectFrequencies
     from reduced_models.bearing.linear_balls import BearingCoefficients
 
@@ -70,6 +79,7 @@ UNITS = {
     "rolling_torque": "N m",
     "skf_rolling": "N m; by SKF's published model, as skf_sliding",
     "skf_sliding": "N m",
+    "friction": "N m, at each speed, of each bearing: rolling of the films with inlet heat, sliding, SKF's",
     "bearing": "SI, roughness and clearance too",
 }
 # Of those that a planar bearing does not have, or has otherwise.
@@ -114,6 +124,7 @@ class BearingReport:
     job: BearingJob
     states: tuple[BearingState | SetState, ...]
     coefficients: tuple[BearingCoefficients, ...]
+    friction: tuple[tuple[BearingFriction, ...], ...] = ()  # at each speed, of each bearing; empty where they are dry
     spall: Spall | None = None
     excitations: tuple[BearingExcitation, ...] = ()
 
@@ -166,8 +177,15 @@ class BearingReport:
                 for k, hz in enumerate(c.hz)
             ],
             "frequencies_hz": _single(hertz) if job.pair is None else hertz,
+            "friction": [[_friction_entries(one) for one in row] for row in self.friction],
             "states": [state.to_dict() for state in self.states],
         }
+
+
+def _friction_entries(found: BearingFriction) -> dict[str, Any]:
+    """Moments for JSON."""
+    names = "rolling", "inlet_heat", "sliding", "skf_rolling", "skf_sliding"
+    return {name: getattr(found, name) for name in names} | {"law": str(found.law)}
 
 
 class BearingOptions(o.Options):
@@ -272,8 +290,7 @@ def bearing(
     alone axial motion and tilts are held, and contact angles are zero.
     With --pair two such bearings carry the load, which acts in their middle.
 
-    Not in it: flexible rings; friction of spin and sliding; heat in the
-    inlet, starvation, grease.
+    Not in it: flexible rings; sliding and spin in the forces; grease.
 
     Each answer names the assumptions of films that do not hold in it.
     """
@@ -295,7 +312,19 @@ def bearing(
 
 
 def _computed(job: BearingJob) -> BearingReport:
-    return BearingReport(job, tuple(map(job.state, job.speeds)), tuple(map(job.coefficients, job.speeds)))
+    states = tuple(map(job.state, job.speeds))
+    friction = tuple(_friction(job, state) for state in states)
+    return BearingReport(job, states, tuple(map(job.coefficients, job.speeds)), friction)
+
+
+def _friction(job: BearingJob, state: BearingState | SetState) -> tuple[BearingFriction, ...]:
+    """Moments of friction of each bearing; none of dry ones."""
+    if job.bearing.oil is None:
+        return ()
+    heat = job.bearing.oil.temperature_slope is not None
+    bearings = (job.bearing,) if job.pair is None else job.pair.bearings
+    pairs = zip(bearings, bearings_of(state).values(), strict=True)
+    return tuple(friction_at(bearing, one, USUAL_LAW, heat=heat) for bearing, one in pairs)
 
 
 def curve(report: BearingReport) -> list[BearingCoefficients]:
@@ -322,7 +351,8 @@ def _show(report: BearingReport, json_to: str | None) -> None:
     name = bearing.name or "ball bearing" if job.pair is None else job.pair.name
     show_table(f"{name}, {_load_words(job)}", [*_rows(bearing), *_pair_rows(job)], json_to)
     for k, (state, found) in enumerate(zip(report.states, report.coefficients, strict=True)):
-        rows = _at_speed(bearing, state, found) if job.planar else _at_angles(job, state, found)
+        sliding = _sliding(report.friction[k])
+        rows = _at_speed(bearing, state, found, sliding) if job.planar else _at_angles(job, state, found, sliding)
         show_table(f"at {numeral(state.speed_rpm)} rpm", rows, json_to)
         for title, one in bearings_of(state).items():
             _show_balls(one, title)
@@ -420,7 +450,9 @@ def _of_pair(job: BearingJob, state: Any) -> list[Row]:
     ]
 
 
-def _at_speed(b: BallBearing, state: BearingState | SetState, at: BearingCoefficients) -> list[Row]:
+def _at_speed(
+    b: BallBearing, state: BearingState | SetState, at: BearingCoefficients, sliding: list[Row]
+) -> list[Row]:
     """Deflection, stiffness, damping, resistance and frequencies at a speed."""
     return [
         *_outside(state),
@@ -428,11 +460,14 @@ def _at_speed(b: BallBearing, state: BearingState | SetState, at: BearingCoeffic
         *_small_vibrations(at, (("along the load", 1), ("across it", 0))),
         *_asperities(state),
         *_resistance(state),
+        *sliding,
         *_defects(b, state),
     ]
 
 
-def _at_angles(job: BearingJob, state: BearingState | SetState, at: BearingCoefficients) -> list[Row]:
+def _at_angles(
+    job: BearingJob, state: BearingState | SetState, at: BearingCoefficients, sliding: list[Row]
+) -> list[Row]:
     """The same of a bearing or a pair with contact angles: in all five degrees of freedom."""
     down, along = _micrometres(-at.displacement[1]), _micrometres(at.displacement[2])
     moments = " and ".join(numeral(round(one, DECIMALS)) for one in state.load[3:].tolist())
@@ -447,13 +482,14 @@ def _at_angles(job: BearingJob, state: BearingState | SetState, at: BearingCoeff
         (
             "spin",
             f"up to {numeral(_largest_spin(state), 3)}",
-            "of rolling; its friction and heat are not in the answer",
+            "of rolling; its friction is in that of sliding, below",
         ),
         *_small_vibrations(
             at, (("axial", 2), ("along the load", 1), ("across it", 0), ("tilt about x", 3), ("tilt about y", 4))
         ),
         *_asperities(state),
         *_resistance(state),
+        *sliding,
         *_defects(job.bearing, state),
     ]
 
@@ -528,6 +564,16 @@ def _resistance(state: BearingState | SetState) -> list[Row]:
             title = "films resist rolling" if name == "rolling" else "friction of the bearing"
             rows.append((title, in_unit(sum(torques), "N m"), f"{numeral(sum(losses))} W; {remark}"))
     return rows
+
+
+def _sliding(friction: tuple[BearingFriction, ...]) -> list[Row]:
+    """Computed sliding moment of a bearing in oil, or of both of a pair."""
+    if not friction:
+        return []
+    beside = [one.skf_sliding for one in friction if one.skf_sliding is not None]
+    skf = f"; by SKF {in_unit(sum(beside), 'N m')}" if len(beside) == len(friction) else ""
+    remark = f"computed: differential slip and spin, limiting shear stress {USUAL_LAW.coefficient:g} p{skf}"
+    return [("sliding in contacts", in_unit(sum(one.sliding for one in friction), "N m"), remark)]
 
 
 def _orders(b: BallBearing, state: BearingState) -> DefectFrequencies | None:
