@@ -5,9 +5,11 @@
 | atlas | `Atlas`: answers with error bars, and elements, at a point |
 | answer | `AtlasAnswer`: one contact with error bars; `AtlasImpedance`; `AtlasAnswers`: many contacts |
 | frequency_curve | K or C between the frequencies of the table |
+| conditions | changes of these answers under other conditions than flooded and isothermal |
 | table | `AtlasTable`: box, points, answers, settings of the interpolation; the file |
 | interpolation | interpolation of the table, and its error bars |
 | atlas_elements | contact elements from answers under one or several loads |
+| gain_fit | gains of the film memory from K and C over frequency |
 | build | `build_atlas`: sample, solve what is missing, put together; the numbers of a build |
 | sample | the points of a build |
 | mesh | grids of a point, by the width of its inlet |

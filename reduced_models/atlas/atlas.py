@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import asdict, replace
 from functools import cached_property
@@ -18,9 +19,11 @@ from ehlcontact.checks import as_column, require_choice, require_positive
 from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat
 from ehlcontact.lubricant.oil_laws import secant_over_slope
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.store import load as read_file
+from ehlcontact.supply import OilLayer
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
 from reduced_models.atlas.atlas_elements import (
     Loads,
@@ -30,7 +33,9 @@ from reduced_models.atlas.atlas_elements import (
     passive_gains,
     wide_element,
 )
+from reduced_models.atlas.conditions import Condition, changed, conditions_at
 from reduced_models.atlas.frequency_curve import FrequencyCurve
+from reduced_models.atlas.gain_fit import smooth_gains
 from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
 from reduced_models.elements.film_memory import FilmMemoryContact
@@ -79,22 +84,22 @@ class Atlas:
         """Command, version, sample and meshes of the build."""
         return deepcopy(self._table.metadata)
 
-    def at(self, point: Point) -> AtlasAnswer:
+    def at(self, point: Point, *, supply: OilLayer | None = None, thermal: Heat | None = None) -> AtlasAnswer:
         """Approach, films, rolling resistance and impedance at a point.
+
+        Parameters
+        ----------
+        point : MoesPoint or OperatingPoint
+        supply, thermal : optional
+            As in `element`.
 
         Raises
         ------
         InputError
-            A point outside the box, or an oil of other laws: it names the axis and the box.
+            A point outside the box, or an oil of other laws: it names the axis and the box. What a table of
+            supply or heat does not have.
         """
-        moes = self._inside(point)
-        rows = self._rows(moes, np.ones(1))
-        values, bars = self._surface.with_bars(rows, self._oil_error(moes.alpha, moes.eta0))
-        named, error = ({n: v[0] for n, v in self._named(part).items()} for part in (values, bars))
-        error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
-        for numbers in (named, error):
-            numbers |= {name: float(numbers[name]) for name in NUMBERS}
-        return AtlasAnswer(moes, Omega=self._table.omega, **named, error_bars=error, scales=scales_of(point))
+        return self._answer(point, conditions_at(point, supply, thermal))
 
     def over(
         self,
@@ -141,6 +146,8 @@ class Atlas:
         omega: float | None = None,
         hz: float | None = None,
         rpm: float | None = None,
+        supply: OilLayer | None = None,
+        thermal: Heat | None = None,
     ) -> FilmMemoryContact | WideRangeContact | CubicContact:
         """Contact element at a point, in SI for an `OperatingPoint`.
 
@@ -153,21 +160,33 @@ class Atlas:
             That frequency, in exactly one of these, for the cubic and for no other: dimensionless (2a/u_sum is the
             unit of time) at every point; at an `OperatingPoint` also in rad/s, Hz or rev/min. A damper without
             memory is right at one frequency only, so there is no default.
+        supply : OilLayer, optional
+            Oil that the surfaces carry to the contact; by default it is flooded.
+        thermal : Heat, optional
+            Let the film heat up; by default it is isothermal. With both the factors of both are multiplied.
 
         Raises
         ------
         InputError
             A point outside the box, another model, a cubic without its frequency or at a load too light for it, a
-            frequency for a model that serves them all.
+            frequency for a model that serves them all. What a table of supply or heat does not have.
         """
         require_choice("model", model, MODELS)
         moes, scales = self._inside(point), scales_of(point)
         w = self._frequency(model, scales, Omega=Omega, omega=omega, hz=hz, rpm=rpm)
+        given = conditions_at(point, supply, thermal)
         if w is not None:
-            return self._cubic(point, w)
-        return self._remembering(point, self._loads(moes) if model == "wide" else None)
+            return self._cubic(point, w, given)
+        return self._remembering(point, self._loads(moes) if model == "wide" else None, given)
 
-    def wide(self, point: Point, loads: ArrayLike) -> WideRangeContact:
+    def wide(
+        self,
+        point: Point,
+        loads: ArrayLike,
+        *,
+        supply: OilLayer | None = None,
+        thermal: Heat | None = None,
+    ) -> WideRangeContact:
         """Wide element through loads of one's own choice, in units of the point's, which is the reference load.
 
         As `element` gives it, but as fine as wanted and as far as the box goes.
@@ -177,35 +196,59 @@ class Atlas:
         point : MoesPoint or OperatingPoint
         loads : array_like, shape (n,), n >= 2
             Increasing.
+        supply, thermal : optional
+            As in `element`.
 
         Raises
         ------
         InputError
-            A point or a load outside the box: it names the axis and the box.
+            A point or a load outside the box: it names the axis and the box. What a table of supply or heat does
+            not have.
         """
         at, moes = as_column("loads", loads, least=2, increasing=True), self._inside(point)
         require_positive("loads[0]", float(at[0]))
         self.box.require_all_inside(_rows(moes, at), moes.alpha)
-        element = self._remembering(point, at)
+        element = self._remembering(point, at, conditions_at(point, supply, thermal))
         assert isinstance(element, WideRangeContact)
         return element
 
-    def _cubic(self, point: Point, w: float) -> CubicContact:
+    def _answer(self, point: Point, given: Sequence[Condition]) -> AtlasAnswer:
+        """Answer under conditions."""
+        moes, load = self._inside(point), np.ones(1)
+        flooded, bars = self._surface.with_bars(self._rows(moes, load), self._oil_error(moes.alpha, moes.eta0))
+        values, bars = changed(given, load, flooded, bars)
+        named, error = ({n: v[0] for n, v in self._named(part).items()} for part in (values, bars))
+        error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
+        for numbers in (named, error):
+            numbers |= {name: float(numbers[name]) for name in NUMBERS}
+        for condition in given:
+            named |= condition.noted(float(flooded[0, 1]), named["h_central"])
+        return AtlasAnswer(moes, Omega=self._table.omega, **named, error_bars=error, scales=scales_of(point))
+
+    def _cubic(self, point: Point, w: float, given: Sequence[Condition]) -> CubicContact:
         moes, scales, k = self._inside(point), scales_of(point), self._table.omega.size
-        values, _ = self._surface.at(self._rows(moes, np.ones(1)))
+        load = np.ones(1)
+        flooded, _ = self._surface.at(self._rows(moes, load))
+        values, _ = changed(given, load, flooded, np.zeros_like(flooded))
         at, nodes = np.array([w]), self._table.omega
         K, C = FrequencyCurve(nodes, values[0, HEAD : HEAD + k]), FrequencyCurve(nodes, values[0, HEAD + k :])
         tangent, damper, band = float(K.at(at)[0]), float(C.at(at)[0]), damper_band(nodes, C, w)
-        cubic = cubic_element(float(values[0, 0]), tangent, damper, band, self._whence(point))
+        cubic = cubic_element(float(values[0, 0]), tangent, damper, band, self._whence(point, given))
         return cubic if scales is None else cubic.to_si(scales)
 
-    def _remembering(self, point: Point, given: _Floats | None) -> FilmMemoryContact | WideRangeContact:
+    def _remembering(
+        self, point: Point, over: _Floats | None, given: Sequence[Condition]
+    ) -> FilmMemoryContact | WideRangeContact:
         """Wide-range element over the given loads, or film memory about the point's own load."""
         moes, scales, k = self._inside(point), scales_of(point), self._table.omega.size
-        loads = np.ones(1) if given is None else given
-        values, shapes = self._surface.at(self._rows(moes, loads))
-        gains = np.maximum(shapes * values[:, [LOW]], 0.0)
-        gains[:, 0] = np.maximum(gains[:, 0], LEAST_VISCOUS / DRY * values[:, LOW])  # as fitted: rates need it
+        loads = np.ones(1) if over is None else over
+        flooded, shapes = self._surface.at(self._rows(moes, loads))
+        values, _ = changed(given, loads, flooded, np.zeros_like(flooded))
+        low = flooded[:, LOW]
+        if given:
+            shapes = shapes + self._shapes(values, low) - self._shapes(flooded, low)
+        gains = np.maximum(shapes * low[:, None], 0.0)
+        gains[:, 0] = np.maximum(gains[:, 0], LEAST_VISCOUS / DRY * low)  # as fitted: rates need it
         made_of = Loads(
             loads=loads,
             approach=values[:, 0],
@@ -213,19 +256,28 @@ class Atlas:
             gains=gains,
             rates=self._table.rates,
             highest_omega=float(self._table.metadata["highest_omega"]),
-            fit=self._fit(gains, values[:, HEAD + k :]),
-            source=self._whence(point),
+            fit=self._fit(gains, values[:, HEAD + k :], flooded[:, HEAD + k]),
+            source=self._whence(point, given),
         )
-        make = memory_element if given is None else wide_element
+        make = memory_element if over is None else wide_element
         try:
             return make(made_of, scales)
         except InputError:  # rarely: interpolated gains that would feed energy back
             return make(replace(made_of, gains=passive_gains(made_of.rates, gains)), scales)
 
-    def _whence(self, point: Point) -> dict[str, Any]:
-        """Origin of an element: point and atlas."""
-        scales, answer = scales_of(point), self.at(point)
-        source = self._source(answer)
+    def _shapes(self, rows: _Floats, low: _Floats) -> _Floats:
+        """Gains fitted to answers, over the low-frequency damping `low` of a flooded isothermal film."""
+        omega, rates, k = self._table.omega, self._table.rates, self._table.omega.size
+        fits = [
+            smooth_gains(omega, row[HEAD : HEAD + k], row[HEAD + k :], rates, one)
+            for row, one in zip(rows, low.tolist(), strict=True)
+        ]
+        return np.array(fits)
+
+    def _whence(self, point: Point, given: Sequence[Condition]) -> dict[str, Any]:
+        """Origin of an element: point, atlas and conditions."""
+        scales, answer = scales_of(point), self._answer(point, given)
+        source = self._source(answer) | {one.name: one.to_dict() for one in given}
         source["scales"] = None if scales is None else asdict(scales)
         return source | {"assumptions": assumptions(point, film=answer).short()}
 
@@ -235,10 +287,10 @@ class Atlas:
         omega = self._table.omega
         return self._table.rates.basis(omega[omega <= self._table.metadata["highest_omega"]]).real * DRY
 
-    def _fit(self, gains: _Floats, damping: _Floats) -> dict[str, Any]:
-        """Misfit between the damping of the filters and of the atlas, over that at low frequency."""
+    def _fit(self, gains: _Floats, damping: _Floats, low: _Floats) -> dict[str, Any]:
+        """Misfit between the damping of the filters and of the atlas, over `low`, the flooded one at rest."""
         C = damping[:, : len(self._basis)]
-        return {"rms": None, "damping_error_max": float(np.max(np.abs(gains @ self._basis.T - C) / C[:, :1]))}
+        return {"rms": None, "damping_error_max": float(np.max(np.abs(gains @ self._basis.T - C) / low[:, None]))}
 
     def _frequency(self, model: str, scales: Scales | None, **given: Unpack[Frequency]) -> float | None:
         """Omega of the cubic element; None for the other models, which are valid at all frequencies."""

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
 from ehlcontact import Domain, MoesPoint, __version__
 from ehlcontact.errors import InputError
@@ -22,11 +21,12 @@ from ehlcontact.executors import require_scheduler
 from ehlcontact.film_formulas import LIGHT_BLEND, LIGHT_LOAD
 from ehlcontact.store import save
 from reduced_models.atlas import interpolation
+from reduced_models.atlas.gain_fit import FLOOR, HIGHEST, RIDGE, smooth_gains
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import FILM, OMEGAS, solve_point
 from reduced_models.atlas.solved_points import Solve, solve_points
 from reduced_models.atlas.table import AtlasTable, Box, Interpolation, OtherOil
-from reduced_models.elements.film_response import DRY, WEIGHT_C, WEIGHT_K, FilterRates
+from reduced_models.elements.film_response import FilterRates
 
 _Floats = NDArray[np.float64]
 Entry = Mapping[str, Any]
@@ -58,9 +58,6 @@ OIL = OtherOil(
 )
 # That fit all points together, by that script: those of the atlas before, without light loads, fit a third worse.
 RATES = FilterRates(lags=14, lag_rate=6.42, inlet_rate=14.9, fast_rate=43.0)
-HIGHEST = 32.0  # frequency up to which the film memory is fitted
-FLOOR = 0.05  # share of the low-frequency damping below which errors of C count absolutely
-RIDGE = 0.02  # keeps gains small and smooth over the points where data leave them open
 FEWEST = 20  # converged points of an atlas, and pairs from which the oil further out is learnt
 
 
@@ -158,7 +155,9 @@ def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable
         **film,
         stiffness=K,
         damping=C,
-        gains=np.array([smooth_gains(omega, k, c) for k, c in zip(K, C, strict=True)]),
+        gains=np.array(
+            [smooth_gains(omega, k, c, RATES, c[INTERPOLATION.reference]) for k, c in zip(K, C, strict=True)]
+        ),
         left_out=np.empty(0),
         factor=np.empty(0),
         metadata={**_metadata(entries, good), **made_by},
@@ -193,28 +192,6 @@ def _metadata(entries: Sequence[Entry], good: Sequence[Entry]) -> dict[str, Any]
         "viscosity": law.viscosity,
         "density": law.density,
     }
-
-
-def smooth_gains(omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates = RATES) -> _Floats:
-    """Gains >= 0 of the film memory over the low-frequency damping, by least squares on C and K."""
-    rows, target = gain_equations(omega, K, C, rates)
-    return np.asarray(nnls(rows, target, maxiter=1000)[0])
-
-
-def gain_equations(omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates) -> tuple[_Floats, _Floats]:
-    """Matrix and right-hand side of `smooth_gains`: rows for C, for K, and for the size of the gains."""
-    used, low = omega <= HIGHEST, C[INTERPOLATION.reference]
-    basis = rates.basis(omega[used]) * DRY
-    size = np.maximum(np.abs(C[used]), FLOOR * low) * WEIGHT_C
-    rows = np.vstack(
-        [
-            basis.real / size[:, None],
-            -(omega[used][:, None] * basis.imag) / (WEIGHT_K * K[used])[:, None],
-            np.eye(basis.shape[1]) * (RIDGE / low),
-        ]
-    )
-    target = np.concatenate([C[used] / size, (K[used] - K[0]) / (WEIGHT_K * K[used]), np.zeros(basis.shape[1])])
-    return rows * low, target
 
 
 class _FarOil:

@@ -99,7 +99,7 @@ def error_factor(x: _Floats, errors: _Floats, by: Interpolation) -> _Floats:
     return np.quantile(np.abs(errors) / local, by.covered, axis=0)
 
 
-class _Radial:
+class Radial:
     """Cubic radial functions through `values`, shape (n, m), at the nodes `x`, with a plane beside them."""
 
     def __init__(self, x: _Floats, values: _Floats) -> None:
@@ -124,7 +124,7 @@ class AtlasSurface:
         x, lobe = coordinates(table.points, film, by)
         smooth = to_smooth(film, table.answers, by)
         self._smooth = smooth.shape[1]
-        self._all, self._lobe = _Radial(x, np.hstack([smooth, table.gains])), _Radial(lobe, smooth[:, [LOBE]])
+        self._all, self._lobe = Radial(x, np.hstack([smooth, table.gains])), Radial(lobe, smooth[:, [LOBE]])
         self._squares, self._factor = table.left_out**2, table.factor
         reach = np.partition(cdist(x, x), by.nearest, axis=1)[:, by.nearest]
         self._usual_reach = float(np.median(reach))

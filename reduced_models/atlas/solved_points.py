@@ -10,13 +10,12 @@ from typing import Any
 from ehlcontact.content_store import ContentStore, key_of
 from ehlcontact.executors import executor_for, results_of
 from ehlcontact.files import parse_json
-from ehlcontact.point import MoesPoint
 
-Solve = Callable[[MoesPoint], dict[str, Any]]
+Solve = Callable[[Any], dict[str, Any]]  # of a point with `to_dict` and `inlet_width`
 
 
 def solve_points(
-    points: Mapping[str, MoesPoint],
+    points: Mapping[str, Any],
     folder: Path,
     solve: Solve,
     *,
@@ -29,7 +28,7 @@ def solve_points(
     Parameters
     ----------
     points : mapping
-        By name.
+        By name: `MoesPoint`, or others with `to_dict` and `inlet_width`.
     folder : Path
         Of the store; made if it does not exist.
     solve : callable

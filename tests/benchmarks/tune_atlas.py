@@ -25,7 +25,8 @@ from ehlcontact import MoesPoint
 from ehlcontact.lubricant.oil_laws import secant_over_slope
 from ehlcontact.store import load
 from reduced_models.atlas.atlas import SHIPPED
-from reduced_models.atlas.build import OIL, gain_equations, smooth_gains
+from reduced_models.atlas.build import OIL
+from reduced_models.atlas.gain_fit import gain_equations, smooth_gains
 from reduced_models.atlas.interpolation import LOBE, THICKEST, coordinates, films, left_out_errors, to_smooth
 from reduced_models.atlas.mesh import impedance_grid
 from reduced_models.atlas.solve import respond
@@ -86,8 +87,9 @@ def rates_error(table: AtlasTable, rates: FilterRates) -> float:
     """Rms misfit of the gains at each point, 5 % of C or 1 % of K counting as 1; the mean over the points."""
     misfits = []
     for K, C in zip(table.stiffness, table.damping, strict=True):
-        rows, target = gain_equations(table.omega, K, C, rates)
-        gains = smooth_gains(table.omega, K, C, rates)
+        low = C[table.interpolation.reference]
+        rows, target = gain_equations(table.omega, K, C, rates, low)
+        gains = smooth_gains(table.omega, K, C, rates, low)
         misfits.append(np.sqrt(np.mean((rows @ gains - target)[: -gains.size] ** 2)))
     return float(np.mean(misfits))
 

@@ -40,7 +40,7 @@ def element(
 
     require_choice("--model", kind.model, MODELS)
     point = contact.point()
-    at: dict[str, float] = {}
+    at: dict[str, Any] = {}
     if kind.model == "cubic" or frequencies.given:
         ((name, values),) = frequencies.named(contact).items()
         if len(values) > 1:

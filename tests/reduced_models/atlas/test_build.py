@@ -16,7 +16,8 @@ from ehlcontact import Domain, InputError, MoesPoint
 from ehlcontact.content_store import ContentStore
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.store import load, save
-from reduced_models.atlas.build import BOX, RATES, assemble, build_atlas, smooth_gains
+from reduced_models.atlas.build import BOX, RATES, assemble, build_atlas
+from reduced_models.atlas.gain_fit import smooth_gains
 from reduced_models.atlas.mesh import GRIDS, LIGHT_INTERVALS, impedance_grid
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import OMEGAS, solve_point
@@ -153,7 +154,7 @@ def test_gains_reproduce_an_impedance_of_the_filters():
     omega = np.array(OMEGAS)
     G = RATES.basis(omega) @ wanted * DRY
     K, C = 1.4 - omega * G.imag, G.real
-    gains = smooth_gains(omega, K, C) * C[1]
+    gains = smooth_gains(omega, K, C, RATES, C[1]) * C[1]
     found = RATES.basis(omega) @ gains * DRY
     np.testing.assert_allclose(found.real, C, rtol=0.02, atol=0.02 * C[1])
 
