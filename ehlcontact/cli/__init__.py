@@ -16,6 +16,7 @@ room           responsibility
 ``explorer``   the page of ``explore``: its data, and JavaScript from ``templates/explore/``
 ``commands/``  one subcommand each
 ``plots/``     every picture
+``orders``     ``--measured-order`` of ``bearing``: contact angle and clearance of an order
 ``spall``      ``--spall`` of ``bearing``: lines of force of a defect
 ``starter``    the study file that ``init`` writes
 ``toml``       TOML read and written

@@ -31,7 +31,7 @@ from reduced_models.atlas import frequency_curve, interpolation
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.table import AtlasTable
-from reduced_models.bearing import ball_bearing, equilibrium, linear_balls, race
+from reduced_models.bearing import ball_bearing, equilibrium, kinematics, linear_balls, race
 from reduced_models.bearing.catalogue import DEEP_GROOVE
 from reduced_models.elements import film_curve, film_response
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
@@ -49,6 +49,7 @@ RULES: Mapping[Any, tuple[str, ...]] = {
     film_response: ("DRY", "LEAST_VISCOUS", "SMALL_OMEGA"),
     ball_bearing: ("LARGEST_PLAY", "POSITIONS"),
     equilibrium: ("SEATED",),
+    kinematics: ("LEAST_SLIP",),
     linear_balls: ("TINY_OMEGA",),
     judge: ("CONDUCTIVITY",),
     film: ("LEAST_HEATING_FACTOR", "EYRING_STRESS", "LARGEST_STRESS"),

@@ -286,9 +286,39 @@ class BallBearing(Summary):
     def orders(self) -> DefectFrequencies:
         """Defect frequencies per turn of the shaft; of deep-groove bearings under radial load.
 
-        Those under an axial load are `BearingState.orders`.
+        `orders_under` has those at the contact angles of a load.
         """
         return DefectFrequencies.of(self.balls, self.gamma, self._cosine)
+
+    @takes(load="N", axial="N", speed_rpm="rev/min")
+    def orders_under(
+        self, load: ArrayLike, *, axial: float = 0.0, speed_rpm: float = 0.0, slip: float = 0.0
+    ) -> DefectFrequencies:
+        """Defect frequencies per turn of the shaft at the contact angles under a load, with slip of the cage.
+
+        Parameters
+        ----------
+        load : float or tuple of 2, 3 or 5 float
+            Radial load, in -y; or a force on the inner ring as in `equilibrium` [N], [N m].
+        axial : float
+            Axial load in +z beside a radial one [N].
+        speed_rpm : float
+            As in `equilibrium` [rev/min].
+        slip : float
+            By which share the cage turns slower than with balls that roll, as `cage_slip` gives it.
+
+        Raises
+        ------
+        InputError
+            An axial load beside a force that has one; a slip that is no share; what `equilibrium` refuses.
+        """
+        force = (0.0, -require_finite("load", load)) if np.ndim(load) == 0 else load
+        if axial:
+            if np.size(force) != len(PLANAR):
+                raise InputError("axial", axial, "left out beside a load that has an axial part")
+            force = (*force, require_finite("axial", axial))  # type: ignore[misc]
+        found = self.equilibrium(force, speed_rpm=speed_rpm).orders or self.orders
+        return found.with_slip(slip)
 
     @takes(speed_rpm="rev/min")
     def frequencies(self, speed_rpm: float) -> DefectFrequencies:

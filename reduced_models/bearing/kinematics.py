@@ -8,9 +8,13 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.checks import require_finite
+from ehlcontact.errors import InputError
+
 _Floats = NDArray[np.float64]
 
 RPM_TO_HZ, RPM_TO_RAD_S = 1.0 / 60.0, pi / 30.0  # per second, of one turn per minute
+LEAST_SLIP = -0.5  # of a cage: one that turns half as fast again is an error of sign
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +51,31 @@ class DefectFrequencies:
             bpfo=balls * cage_ratio(gamma) * turns,
             bpfi=balls * 0.5 * (1.0 + gamma) * turns,
             bsf=0.5 * (1.0 - gamma * gamma) / ratio * turns,
+        )
+
+    def with_slip(self, slip: float) -> DefectFrequencies:
+        """The same where the cage turns slower by the share `slip`, as `cage_slip` gives it.
+
+        A spot of the inner race meets more balls then. A ball slides by as much on both races, so its surface has
+        the mean of their speeds, seen from the cage: its rotation loses slip gamma/(1 + gamma).
+
+        Raises
+        ------
+        InputError
+            A slip that is not above -0.5 and below 1.
+        """
+        if slip == 0.0:
+            return self
+        if not LEAST_SLIP < require_finite("slip", slip) < 1.0:
+            raise InputError("slip", slip, f"above {LEAST_SLIP:g} and below 1: a share of the speed of the cage")
+        shaft = self.ftf + self.bpfi * self.ftf / self.bpfo
+        gamma, slower = 1.0 - 2.0 * self.ftf / shaft, 1.0 - slip
+        balls = self.bpfo / self.ftf
+        return DefectFrequencies(
+            ftf=self.ftf * slower,
+            bpfo=self.bpfo * slower,
+            bpfi=balls * (shaft - self.ftf * slower),
+            bsf=self.bsf * (1.0 - slip * gamma / (1.0 + gamma)),
         )
 
 

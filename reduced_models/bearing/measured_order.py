@@ -3,7 +3,7 @@
 The cage turns (1 - D/dm cos a)/2 times per turn of the shaft, so an order of an outer or an inner race gives the
 mean contact angle a. An axial load and a clearance belong to it: smaller clearances to larger loads. Slip of the
 cage lowers BPFO and raises BPFI as a smaller angle would: one order does not tell them apart, and neither do both,
-whose sum is the number of balls.
+whose sum is the number of balls. A slip that is known is taken out: BPFO over 1 - slip is that of rolling balls.
 """
 
 from __future__ import annotations
@@ -37,7 +37,12 @@ class Interval(NamedTuple):
 
 
 def angle_from_order(
-    bearing: BallBearing, *, bpfo: float | None = None, bpfi: float | None = None, error: float = 0.0
+    bearing: BallBearing,
+    *,
+    bpfo: float | None = None,
+    bpfi: float | None = None,
+    error: float = 0.0,
+    slip: float = 0.0,
 ) -> Interval:
     """Mean contact angle [rad] of a measured order, whatever clearance the bearing has.
 
@@ -48,17 +53,21 @@ def angle_from_order(
         Order of a defect of the outer or of the inner race, per turn of the shaft; one of them.
     error : float
         Of the order.
+    slip : float
+        By which share the cage turns slower than with balls that roll.
 
     Raises
     ------
     InputError
-        No order or both; one that no contact angle up to 45 degrees has; a negative error.
+        No order or both; one that no contact angle up to 45 degrees has; a negative error; a slip
+        that is no share.
     """
     name, order, outer = _outer_order(bearing, bpfo, bpfi)
-    reach = require_nonnegative("error", error)
+    slower = bearing.orders.with_slip(slip).ftf / bearing.orders.ftf
+    outer, reach = outer / slower, require_nonnegative("error", error) / slower
     least, most = _bpfo(bearing, 0.0), _bpfo(bearing, LARGEST_ANGLE)
     if not least - reach <= outer <= most:
-        low, high = least - reach, most
+        low, high = slower * (least - reach), slower * most
         if name == "bpfi":
             low, high = bearing.balls - high, bearing.balls - low
         raise InputError(name, order, f"between {low:.5g} and {high:.5g}: contact angles from 0 to 45 degrees")
@@ -74,6 +83,7 @@ def clearance_from_order(
     bpfo: float | None = None,
     bpfi: float | None = None,
     error: float = 0.0,
+    slip: float = 0.0,
     radial: float = 0.0,
     speed_rpm: float = 0.0,
 ) -> Interval:
@@ -85,7 +95,7 @@ def clearance_from_order(
         A deep-groove bearing, of any clearance.
     axial : float or sequence of float
         Axial loads [N], above 0.
-    bpfo, bpfi, error
+    bpfo, bpfi, error, slip
         As in `angle_from_order`.
     radial : float
         Radial load beside it [N].
@@ -110,7 +120,7 @@ def clearance_from_order(
     if loads.ndim != 1 or not loads.size or not (loads > 0.0).all():
         raise InputError("axial", loads.tolist(), "one load or a flat list, each > 0")
     require_nonnegative("radial", radial)
-    angles = angle_from_order(bearing, bpfo=bpfo, bpfi=bpfi, error=error)
+    angles = angle_from_order(bearing, bpfo=bpfo, bpfi=bpfi, error=error, slip=slip)
     solved = {
         angle: [_clearance(bearing, (0.0, -radial, one), speed_rpm, angle) for one in loads.tolist()]
         for angle in {float(angle) for angle in angles}

@@ -1,13 +1,14 @@
 """``ehlcontact bearing``: numbers of the library; files and options; mistakes in one line."""
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from ehlcontact import LimitingShear, Lubricant
-from reduced_models import BallBearing, Spall, bearing_friction
+from reduced_models import BallBearing, Spall, angle_from_order, bearing_friction, clearance_from_order
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
 OIL = ("--oil", "68", "--temp", "50")
@@ -358,6 +359,43 @@ def test_lines_of_a_spall(call):
     assert row.split()[0] == f"{order - 1.0:.5g}" and "NOT LINEAR" not in table
     deep = call("bearing", "6205", *OIL, "--load", "500", "--speed-rpm", "1800", "--spall", "outer, 0.5, 3").out
     assert "NOT LINEAR" in deep and "BPFO" in deep
+
+
+def test_orders_with_slip_and_from_a_measured_order(call):
+    """Orders as in the library; angle and clearance of an order, with the interval of its error."""
+    given = ("--axial", "20", "--load", "5", "--speed-rpm", "1800", "--slip", "0.5", "--clearance", "8")
+    measured = ("--measured-order", "BPFI,5.4021,0.0005")
+    printed = call("bearing", "6205", *given, *measured).out
+    found = json.loads(call("bearing", "6205", *given, *measured, "--json", "-").out)
+    bearing = BallBearing.catalogue("6205", clearance=8e-6)
+    orders = bearing.orders_under(5.0, axial=20.0, speed_rpm=1800.0, slip=0.005)
+    assert found["orders_under_load"][0] == pytest.approx(asdict(orders)) and found["cage_slip"] == 0.005
+    assert f"{orders.bpfo:.5g} per turn" in printed and "0.5 %" in printed
+    order = {"bpfi": 5.4021, "error": 5e-4, "slip": 0.005}
+    angle, back = angle_from_order(bearing, **order), found["measured_order"]
+    assert list(back["contact_angle"].values()) == pytest.approx(list(angle))
+    clearance = clearance_from_order(bearing, [10.0, 20.0, 40.0], **order, radial=5.0, speed_rpm=1800.0)
+    for name in ("value", "low", "high"):
+        assert back["clearance"][name] == pytest.approx(getattr(clearance, name))
+    assert f"{np.degrees(angle.value):.4g}°" in printed and f"{1e6 * clearance.value[1]:.3g}" in printed
+    planar = json.loads(call("bearing", "6205", "--load", "5", "--speed-rpm", "9", *measured, "--json", "-").out)
+    assert "clearance" not in planar["measured_order"]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (("--slip", "100"), ("--slip = 100", "below 100 %")),
+        (("--slip", "nan"), ("--slip",)),
+        (("--measured-order", "bsf,2.3,0"), ("--measured-order", "bpfo or bpfi")),
+        (("--measured-order", "bpfo,nan"), ("--measured-order",)),
+        (("--measured-order", "bpfo,3.5,0.001,2"), ("--measured-order", "its error")),
+        (("--measured-order", "bpfo,3.4,0.001"), ("--measured-order = 3.4", "between 3.58")),
+        (("--measured-order", "bpfo,3.6", "--axial", "5", "--moment-x", "1"), ("without --moment-x",)),
+    ],
+)
+def test_mistakes_about_orders(refused, given, words):
+    refused(words, "bearing", "6205", "--load", "500", "--speed-rpm", "1800", *given)
 
 
 @pytest.mark.parametrize(

@@ -289,3 +289,25 @@ def test_typed_numbers_are_checked_as_by_the_study(ask):
         assert here == ({"kept": value} if there is None else {"refused": there})
         guesses += there is not None and "then" in there["allowed"]
     assert guesses >= 3
+
+
+def test_orders_under_an_axial_load(ask):
+    """Like those of five degrees of freedom; here a ball has the same angle at both races."""
+    body = """
+    const bearing = new Bearing(asked.bearing, asked.oil, atlas), atSpeed = bearing.speedState(asked.rpm);
+    return bearing.ordersUnder(atSpeed, asked.load, asked.axial, asked.slip);"""
+    loads = [(30.0, 32.0, 1797.0, 0.0), (0.0, 100.0, 1800.0, 0.01), (1000.0, 200.0, 3000.0, 0.0)]
+    cases = [case(load=load, rpm=rpm, clearance=8e-6) | {"axial": axial, "slip": slip}
+             for load, axial, rpm, slip in loads]  # fmt: skip
+    steep = [case(clearance=1.5e-4) | {"axial": 1.2e4, "slip": 0.0}, case() | {"axial": 100.0, "slip": 1.0}]
+    *found, beyond, slipping = ask(body, cases + steep)
+    near = {"ftf": 5e-5, "bpfo": 3e-4, "bpfi": 3e-4, "bsf": 2e-3}
+    for one, here, (load, axial, rpm, slip) in zip(cases, found, loads, strict=True):
+        bearing = BallBearing(**one["bearing"], oil=Lubricant(**one["oil"]))
+        state = bearing.equilibrium((0.0, -load, axial), speed_rpm=rpm)
+        there = bearing.orders_under(load, axial=axial, speed_rpm=rpm, slip=slip)
+        for name, order in asdict(there).items():
+            assert here["orders"][name.upper()] == pytest.approx(order, abs=near[name]), (name, one)
+        angle = np.average(state.contact_angles.mean(axis=1), weights=state.force[:, 0])
+        assert here["angle"] == pytest.approx(np.degrees(angle), abs=0.02)
+    assert "refused" in beyond and slipping["refused"]["field"] == "slip"

@@ -120,6 +120,18 @@ def test_defect_frequencies_at_a_contact_angle(seen):
     assert "contact_angle" in found["invalid"] and "0 to 45" in found["refused"]
 
 
+def test_defect_frequencies_under_an_axial_load(seen):
+    """The page shows BPFO as the library has it, to its fourth digit, and that the rest is of the radial load."""
+    found = seen(TEXTS, "#axial_load=60&load=500&clearance=8&slip=0.5&temperature=50")
+    bearing = BallBearing.catalogue("6205", clearance=8e-6, oil=Lubricant.iso_vg(68, temperature=50.0))
+    bpfo = bearing.orders_under(500.0, axial=60.0, speed_rpm=3000.0, slip=0.005).bpfo
+    assert "under 60 N of axial load, without which all else is computed" in found["defects"]
+    shown = re.search(r"outer race[^0-9]*?[\d.]+?(3\.\d{4})", found["defects"])
+    assert float(shown[1]) == pytest.approx(bpfo, abs=3e-4)
+    found = seen(TEXTS, "#axial_load=60&slip=100")
+    assert "slip" in found["invalid"] and "below 100 %" in found["refused"]
+
+
 def test_a_bearing_of_ones_own(seen):
     found = seen(TEXTS, f"#{OWN}&grade=own&eta0=37&alpha=20&load=486&hz=120")
     assert found["refused"] is False and "120 Hz" in found["hz"]

@@ -14,6 +14,7 @@ import typer
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
+from ehlcontact.cli import orders as measured
 from ehlcontact.cli import spall as defect
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import STDOUT, show_columns, show_table
@@ -24,7 +25,7 @@ from ehlcontact.cli.study.whole_bearing import bearings_of
 from ehlcontact.errors import InputError
 from reduced_models.bearing.equilibrium_result import NOTICED
 from reduced_models.bearing.freedoms import DECIMALS, FIVE, PLANAR
-from reduced_models.bearing.kinematics import RPM_TO_HZ
+from reduced_models.bearing.kinematics import LEAST_SLIP, RPM_TO_HZ
 from reduced_models.bearing.sliding import USUAL_LAW, friction_at
 
 if TYPE_CHECKING:
@@ -54,6 +55,9 @@ _oil, _bearing, _load, _pair = (
 )
 AXIAL = FIVE.index("z")  # up to it directions have forces, beyond it tilts have moments
 PASSAGE = "means over a ball passage"
+SLIP_UNIT = (
+    "of the speed of the cage with balls that roll; in frequencies and orders under load, not in spall lines"
+)
 # Of the entries of the JSON, whatever they are nested in; other entries have no unit, or have it in their name.
 UNITS = {
     "load": "N; radial; of a state (x, y), downwards is -y",
@@ -124,14 +128,21 @@ class BearingReport:
     job: BearingJob
     states: tuple[BearingState | SetState, ...]
     coefficients: tuple[BearingCoefficients, ...]
-    friction: tuple[tuple[BearingFriction, ...], ...] = ()  # at each speed, of each bearing; empty where they are dry
+    friction: tuple[
+        tuple[BearingFriction, ...], ...
+    ] = ()  # at each speed, of each bearing; empty where they are dry
     spall: Spall | None = None
     excitations: tuple[BearingExcitation, ...] = ()
+    slip: float = 0.0
+    order: measured.MeasuredOrder | None = None
+    allowed: measured.Found | None = None
 
     def summary(self) -> dict[str, Any]:
         """For JSON; arrays over balls have a row per ball, with inner and outer race."""
         job, bearing = self.job, self.job.bearing
-        orders = [[_orders(bearing, one) for one in bearings_of(state).values()] for state in self.states]
+        orders = [
+            [_orders(bearing, one, self.slip) for one in bearings_of(state).values()] for state in self.states
+        ]
         under_load = [[None if one is None else asdict(one) for one in row] for row in orders]
         hertz = [
             [
@@ -148,6 +159,11 @@ class BearingReport:
         if self.spall is not None:
             units |= defect.UNITS
             axial["spall"] = defect.summary(self.spall, list(self.excitations))
+        if self.slip:
+            axial["cage_slip"], units["cage_slip"] = self.slip, SLIP_UNIT
+        if self.order is not None and self.allowed is not None:
+            units |= measured.UNITS
+            axial["measured_order"] = measured.summary(self.order, self.allowed)
         if job.pair is not None:
             units |= UNITS_OF_PAIRS
             pair = job.pair.to_dict()
@@ -186,6 +202,9 @@ def _friction_entries(found: BearingFriction) -> dict[str, Any]:
     """Moments for JSON."""
     names = "rolling", "inlet_heat", "sliding", "skf_rolling", "skf_sliding"
     return {name: getattr(found, name) for name in names} | {"law": str(found.law)}
+
+
+OWN = ("spall", "slip", "measured_order")  # options that are no entries of a file
 
 
 class BearingOptions(o.Options):
@@ -260,11 +279,24 @@ class BearingOptions(o.Options):
             help="Lines of force of a spall: inner or outer, mm along the track, um, as outer,0.5,3.",
         ),
     ] = None
+    slip: Annotated[
+        float,
+        _load("--slip", metavar="PERCENT"),
+        e.meaning("slip of the cage, % of its speed with balls that roll, for the defect frequencies"),
+    ] = 0.0
+    measured_order: Annotated[
+        str | None,
+        _bearing(
+            "--measured-order",
+            metavar="NAME,ORDER,ERROR",
+            help="Contact angle, and with --axial the clearance, of a measured order, as bpfi,5.4021,0.0005.",
+        ),
+    ] = None
     rq: Annotated[e.Roughness | None, _bearing("--rq"), e.meaning("roughness of ball and race together")] = None
 
     def given(self) -> dict[str, Any]:
         """Values by option, of those that are given."""
-        found = self.by_option(*(name for name in type(self).model_fields if name != "spall"))
+        found = self.by_option(*(name for name in type(self).model_fields if name not in OWN))
         if self.oil is not None:
             found["--oil"] = oil_grade(self.oil, "--oil")
         if self.clearance is not None:
@@ -298,10 +330,13 @@ def bearing(
 
     out.check(Path(source))
     spall = None if options.spall is None else defect.spall_of(options.spall)
+    order = None if options.measured_order is None else measured.measured_order_of(options.measured_order)
+    slip = _slip_of(options.slip)
     job = load_job(source, options.given())
     with progress("bearing"), job.called():
         lines = () if spall is None else tuple(defect.excitations(job, spall))
-        report = replace(_computed(job), spall=spall, excitations=lines)
+        found = None if order is None else measured.allowed_by(order, job, slip)
+        report = replace(_computed(job), spall=spall, excitations=lines, slip=slip, order=order, allowed=found)
 
     def draw(path: Path) -> None:
         from reduced_models.bearing.picture import draw_over_speed
@@ -309,6 +344,14 @@ def bearing(
         draw_over_speed(report.states[len(report.states) // 2], report.coefficients, curve(report), path)
 
     out.deliver(report.summary(), partial(_show, report, out.json_to), figure=draw)
+
+
+def _slip_of(percent: float) -> float:
+    """Slip of the cage as a share."""
+    low, high = 100.0 * LEAST_SLIP, 100.0
+    if not low < percent < high:
+        raise InputError("--slip", percent, f"above {low:g} and below {high:g} %")
+    return 0.01 * percent
 
 
 def _computed(job: BearingJob) -> BearingReport:
@@ -353,11 +396,14 @@ def _show(report: BearingReport, json_to: str | None) -> None:
     for k, (state, found) in enumerate(zip(report.states, report.coefficients, strict=True)):
         sliding = _sliding(report.friction[k])
         rows = _at_speed(bearing, state, found, sliding) if job.planar else _at_angles(job, state, found, sliding)
+        rows += _defects(bearing, state, report.slip)
         show_table(f"at {numeral(state.speed_rpm)} rpm", rows, json_to)
         for title, one in bearings_of(state).items():
             _show_balls(one, title)
         if report.spall is not None:
             defect.show(report.spall, _orders(bearing, one), report.excitations[k])
+    if report.order is not None and report.allowed is not None:
+        measured.show(report.order, report.allowed)
 
 
 def _single(rows: list[list[Any]]) -> list[Any]:
@@ -461,7 +507,6 @@ def _at_speed(
         *_asperities(state),
         *_resistance(state),
         *sliding,
-        *_defects(b, state),
     ]
 
 
@@ -490,7 +535,6 @@ def _at_angles(
         *_asperities(state),
         *_resistance(state),
         *sliding,
-        *_defects(job.bearing, state),
     ]
 
 
@@ -576,23 +620,26 @@ def _sliding(friction: tuple[BearingFriction, ...]) -> list[Row]:
     return [("sliding in contacts", in_unit(sum(one.sliding for one in friction), "N m"), remark)]
 
 
-def _orders(b: BallBearing, state: BearingState) -> DefectFrequencies | None:
+def _orders(b: BallBearing, state: BearingState, slip: float = 0.0) -> DefectFrequencies | None:
     """Defect frequencies per turn of the shaft, at the contact angles of the state where it has any.
 
     None of a bearing of a pair that carries nothing.
     """
-    return b.orders if state.contact_angles is None else state.orders
+    found = b.orders if state.contact_angles is None else state.orders
+    return None if found is None else found.with_slip(slip)
 
 
-def _defects(b: BallBearing, state: BearingState | SetState) -> list[Row]:
+def _defects(b: BallBearing, state: BearingState | SetState, slip: float) -> list[Row]:
     """Defect frequencies at a speed in Hz, with their orders."""
     rows = []
     for title, one in bearings_of(state).items():
-        found, which = _orders(b, one), f"{title.partition(',')[0]}: " if title else ""
+        found, which = _orders(b, one, slip), f"{title.partition(',')[0]}: " if title else ""
         for name, meaning in DEFECTS.items() if found is not None else ():
             order = getattr(found, name.lower())
             hertz, words = numeral(order * (state.speed_rpm * RPM_TO_HZ), 4), numeral(order, 5)
             rows.append((name, f"{hertz} Hz", f"{which}{words} per turn: {meaning}"))
+    if slip:
+        rows.append(("cage slip", f"{numeral(100.0 * slip)} %", "in these four"))
     return rows
 
 

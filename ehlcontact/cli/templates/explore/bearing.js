@@ -2,7 +2,7 @@
 // Python balances every ball by its approach at the outer race; here ln of the force at the inner race is looked
 // for, from which the approaches of both contacts follow: the same balance, with one search instead of three.
 
-const { LARGEST_PLAY, POSITIONS, SEATED, TINY_OMEGA } = DATA.rules;
+const { LARGEST_PLAY, LEAST_SLIP, POSITIONS, SEATED, TINY_OMEGA } = DATA.rules;
 const BALANCED = 1e-12, ROUNDING = 1e-9, REGULARISATION = 1e-6, FIRST_STEP = 1e-9, LARGEST_ANGLE = 45;
 
 class Bearing {
@@ -30,11 +30,30 @@ class Bearing {
     return Math.min(this.races.inner.highestSpeed, this.races.outer.highestSpeed);
   }
 
-  // Defect frequencies per turn of the shaft at a contact angle [degrees] (reduced_models.bearing.kinematics).
-  orders(angle = 0) {
+  // Defect frequencies per turn of the shaft at a contact angle [degrees] (reduced_models.bearing.kinematics), with
+  // the cage slower by the share `slip`.
+  orders(angle = 0, slip = 0) {
     if (!(angle >= 0 && angle <= LARGEST_ANGLE)) throw new InputError("contact_angle", angle, `0 to ${LARGEST_ANGLE} degrees`);
-    const ratio = this.ball_diameter / this.pitch_diameter, gamma = ratio * Math.cos(angle * Math.PI / 180), cage = 0.5 * (1 - gamma);
-    return { FTF: cage, BPFO: this.balls * cage, BPFI: this.balls * 0.5 * (1 + gamma), BSF: 0.5 * (1 - gamma * gamma) / ratio };
+    const ratio = this.ball_diameter / this.pitch_diameter, gamma = ratio * Math.cos(angle * Math.PI / 180);
+    return this.named(0.5 * (1 - gamma), 0.5 * (1 - gamma * gamma) / ratio, slip);
+  }
+
+  named(rolling, spin, slip) {
+    if (!(slip > LEAST_SLIP && slip < 1)) throw new InputError("slip", 100 * slip, `above ${100 * LEAST_SLIP} and below 100 %`);
+    const cage = rolling * (1 - slip), gamma = 1 - 2 * rolling;
+    return { FTF: cage, BPFO: this.balls * cage, BPFI: this.balls * (1 - cage), BSF: spin * (1 - slip * gamma / (1 + gamma)) };
+  }
+
+  // Those under a radial and an axial load [N]: the cage turns as the mean of the balls, each with the weight of its
+  // load; and that mean of the contact angles [degrees]. Both races have the same angle here: the centrifugal force
+  // of a ball acts along the line of its contacts.
+  ordersUnder(atSpeed, load, axial, slip = 0) {
+    const { balls } = this.angularEquilibrium(atSpeed, load, axial), ratio = this.ball_diameter / this.pitch_diameter;
+    const total = balls.reduce((sum, ball) => sum + ball.force[0], 0);
+    const mean = read => balls.reduce((sum, ball) => sum + ball.force[0] * read(ball), 0) / total;
+    const gamma = ball => ratio * Math.cos(ball.contact), angle = mean(ball => ball.contact) * 180 / Math.PI;
+    if (!(angle <= LARGEST_ANGLE)) throw new InputError("axial_load", axial, `less: contact angles up to ${LARGEST_ANGLE} degrees`);
+    return { angle, orders: this.named(mean(ball => 0.5 * (1 - gamma(ball))), mean(ball => 0.5 * (1 - gamma(ball) ** 2) / ratio), slip) };
   }
 
   // Both contacts and the centrifugal force at a speed [rev/min].
@@ -85,19 +104,7 @@ class Bearing {
 
   // The ring at rest under a load [N] in -y, the first ball at `angle` (reduced_models.rotor.equilibrium).
   ringEquilibrium(atSpeed, load, angle = -Math.PI / 2) {
-    const balance = q => { const { force } = this.press(atSpeed, angle, q); return [force[0], force[1] + load]; };
-    const size = v => Math.hypot(...v), plus = (q, t, step) => [q[0] + t * step[0], q[1] + t * step[1]];
-    const search = (q, step) => plus(q, root(t => { const r = balance(plus(q, t, step)); return step[0] * r[0] + step[1] * r[1]; }), step);
-    let q = [0, 0];
-    if (load > 0) q = search(q, [0, FIRST_STEP * Math.sign(-load * balance(q)[1])]);
-    for (let step = 0; load > 0; step++) {
-      const { force, slope: [[a, b], [c, d]] } = this.press(atSpeed, angle, q), r = [force[0], force[1] + load];
-      const error = size(r), soft = REGULARISATION * Math.max(a + d, load), det = (a + soft) * (d + soft) - b * c;
-      if (error <= BALANCED * load || (step > 30 && error <= ROUNDING * load)) break;
-      if (step > 100) throw new Error("static equilibrium not found");
-      const go = [(b * r[1] - (d + soft) * r[0]) / det, (c * r[0] - (a + soft) * r[1]) / det];
-      q = size(balance(plus(q, 1, go))) < 0.5 * error || error <= ROUNDING * load ? plus(q, 1, go) : search(q, go);
-    }
+    const q = balanced(q => this.press(atSpeed, angle, q), [0, -load]);
     const { slope, balls } = this.press(atSpeed, angle, q), trace = slope[0][0] + slope[1][1];
     if (!(slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0] > SEATED * trace * trace)) {
       const allowed = "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)";
@@ -105,6 +112,30 @@ class Bearing {
     }
     this.requireCarried(atSpeed, load, balls);
     return { q, stiffness: slope, balls };
+  }
+
+  // Force on the ring at q = (y, z) [m] with contact angles, a ball under the load: along the lines of groove centres.
+  pressAtAngles(atSpeed, q) {
+    const grooves = (this.conformity_inner + this.conformity_outer - 1) * this.ball_diameter;
+    const force = [0, 0], slope = [[0, 0], [0, 0]], balls = [];
+    for (let k = 0; k < this.balls; k++) {
+      const down = Math.sin(-Math.PI / 2 + 2 * Math.PI * k / this.balls), radial = grooves - 0.5 * this.clearance + down * q[0];
+      const length = Math.hypot(radial, q[1]), [c, s] = [radial / length, q[1] / length];
+      const ball = this.ball(atSpeed, length - grooves), F = Math.exp(ball.x[0]), along = [c * down, s], beside = [-s * down, c];
+      for (let i = 0; i < 2; i++) {
+        force[i] += F * along[i];
+        for (let j = 0; j < 2; j++) slope[i][j] += ball.stiffness * along[i] * along[j] + F / length * beside[i] * beside[j];
+      }
+      balls.push({ ...ball, contact: Math.atan2(q[1], radial), force: ball.x.map(Math.exp) });
+    }
+    return { force, slope, balls };
+  }
+
+  // The ring at rest under a load in -y and one along the shaft [N], tilts held.
+  angularEquilibrium(atSpeed, load, axial) {
+    const q = balanced(q => this.pressAtAngles(atSpeed, q), [-load, axial]), { balls } = this.pressAtAngles(atSpeed, q);
+    this.requireCarried(atSpeed, Math.hypot(load, axial), balls);
+    return { q, balls };
   }
 
   requireCarried(atSpeed, load, balls) {
@@ -153,6 +184,27 @@ class Bearing {
       rows[i].across[0] += K * n[0] * n[0]; rows[i].across[1] += C * n[0] * n[0];
     });
   }
+}
+
+// Where `press` gives this force on the ring [N]: Newton's method, and searches along its steps.
+function balanced(press, wanted) {
+  const size = v => Math.hypot(...v), plus = (q, t, step) => [q[0] + t * step[0], q[1] + t * step[1]], load = size(wanted);
+  const balance = q => { const { force } = press(q); return [force[0] - wanted[0], force[1] - wanted[1]]; };
+  const search = (q, step) => plus(q, root(t => { const r = balance(plus(q, t, step)); return step[0] * r[0] + step[1] * r[1]; }), step);
+  let q = [0, 0];
+  if (load > 0) {
+    const way = wanted.map(one => one / load), missing = balance(q), sign = -Math.sign(way[0] * missing[0] + way[1] * missing[1]);
+    q = search(q, way.map(one => FIRST_STEP * sign * one));
+  }
+  for (let step = 0; load > 0; step++) {
+    const { force, slope: [[a, b], [c, d]] } = press(q), r = [force[0] - wanted[0], force[1] - wanted[1]];
+    const error = size(r), soft = REGULARISATION * Math.max(a + d, load), det = (a + soft) * (d + soft) - b * c;
+    if (error <= BALANCED * load || (step > 30 && error <= ROUNDING * load)) break;
+    if (step > 100) throw new Error("static equilibrium not found");
+    const go = [(b * r[1] - (d + soft) * r[0]) / det, (c * r[0] - (a + soft) * r[1]) / det];
+    q = size(balance(plus(q, 1, go))) < 0.5 * error || error <= ROUNDING * load ? plus(q, 1, go) : search(q, go);
+  }
+  return q;
 }
 
 // Where a rising function that is negative at 0 becomes 0: doubling, then the Illinois rule.

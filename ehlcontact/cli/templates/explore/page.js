@@ -56,8 +56,10 @@ function compute() {
   const oil = grade === OWN ? { eta0: given("eta0"), alpha: given("alpha") } : mineralOil(DATA.oil, grade, typed("temperature"));
   const rq = positive("rq"), ratio = positive("ratio", ">= 0");
   const whole = new Bearing(bearing, oil, atlas), rpm = typed("speed_rpm"), load = positive("load", ">= 0");
-  const angle = typed("contact_angle"), orders = whole.orders(angle);
+  const axial = positive("axial_load", ">= 0"), slip = 0.01 * typed("slip");
   const atSpeed = whole.speedState(rpm), state = whole.ringEquilibrium(atSpeed, load), films = state.balls.map(ball => whole.films(atSpeed, ball));
+  const typedAngle = typed("contact_angle"), byAngle = { angle: typedAngle, orders: whole.orders(typedAngle, slip) };
+  const { angle, orders } = axial > 0 ? whole.ordersUnder(atSpeed, load, axial, slip) : byAngle;
   const times = ["inner", "outer"].map((race, i) => whole.races[race].point(state.balls[0].force[i], rpm).time);
   const highest = Math.min(...times.map(time => atlas.highest_omega / (2 * Math.PI * time)));
   const hz = field("hz").value.trim() === "" ? rpm / 60 : positive("hz", ">= 0");
@@ -66,7 +68,7 @@ function compute() {
   const rows = whole.coefficients(atSpeed, load, [0, hz, ...hzs].map(one => 2 * Math.PI * one));
   const contacts = films[0].map(film => film.answer && contact(film));
   const outside = outsideAssumptions(whole, atSpeed, state.balls);
-  return { outside, whole, orders, angle, rpm, load, rq, ratio, state, films, hz, hzs, contacts, still: rows[0], there: rows[1], over: rows.slice(2) };
+  return { outside, whole, orders, angle, axial, rpm, load, rq, ratio, state, films, hz, hzs, contacts, still: rows[0], there: rows[1], over: rows.slice(2) };
 }
 
 // K and C of one film in SI, with their bars: hz => { K: [value, bar], C: [value, bar] }.
@@ -161,7 +163,8 @@ function tables(f) {
   field("films").innerHTML = table("Heaviest ball, right under the load", ["", "inner race", "outer race"], filmRows(f));
   field("at").innerHTML = table(`At ${show(f.hz, 4)} Hz`, ["", "stiffness [N/µm]", "damping [N s/m]"], frequencyRows(f));
   const defects = Object.entries(f.orders).map(([name, order]) => [`${name}, ${DEFECTS[name]}`, show(order * f.rpm / 60, 4), show(order, 5)]);
-  const at = f.angle > 0 ? ` at a contact angle of ${show(f.angle)}°` : "";
+  const under = f.axial > 0 ? `, under ${show(f.axial)} N of axial load, without which all else is computed` : "";
+  const at = f.angle > 0 ? ` at a contact angle of ${show(f.angle)}°${under}` : "";
   field("defects").innerHTML = table(`Defect frequencies${at}`, ["", "Hz", "per turn"], defects);
   const balls = f.state.balls.map((ball, k) => [`${degrees(f, k)}°`, ...ball.force.map(one => show(one)),
     ...f.films[k].map(film => show(film.h_min * 1e6)), show(Math.min(...f.films[k].map(film => film.h_min)) / f.rq)]);
