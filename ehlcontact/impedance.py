@@ -26,7 +26,7 @@ from scipy import linalg
 
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.checks.machine import require_threads
-from ehlcontact.errors import ConvergenceError
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
@@ -90,7 +90,7 @@ def impedance(
         approach: the oil that it takes up and leaves behind is part of the problem.
     thermal : Heat, optional
         Let the film heat up, as in `solve_steady`; its temperatures follow the vibration as fast as oil and
-        surfaces can (docs/heat.md).
+        surfaces can (docs/heat.md). Not together with `supply`.
     threads : int, optional
         As in `solve_steady`.
 
@@ -103,6 +103,8 @@ def impedance(
         The steady state did not converge.
     """
     started = time.perf_counter()
+    if supply is not None and thermal is not None:
+        raise InputError("thermal", type(thermal).__name__, "left out with a supply: a steady film takes both")
     moes, scales = require_solvable(point), scales_of(point)
     time_unit = None if scales is None else scales.time
     w = dimensionless(time_unit, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=LARGEST_OMEGA)

@@ -84,7 +84,7 @@ def solve_steady(
         the region.
     thermal : Heat, optional
         Let the film heat up, and its viscosity follow: ``Heat()`` takes the data of the oil. The isothermal film
-        is solved first. By default the film has the temperature of the inlet.
+        is solved first, under the same supply. By default the film has the temperature of the inlet.
     asperities : Asperities, optional
         Let them carry part of the load where the film is thin, as ``result.asperities`` says. The film between
         smooth surfaces is solved first. By default the surfaces are smooth.
@@ -140,8 +140,6 @@ def solve_steady(
     require_grid(grid)
     if thermal is not None:
         require_heat(thermal)
-        if supply is not None:
-            raise InputError("thermal", "given", "left out with a supply: heat is solved of flooded films")
         thermal = thermal.at(point)
     if asperities is not None:
         require_asperities(asperities)

@@ -39,7 +39,8 @@ class OilLayer:
         Thickness [m], at an `OperatingPoint`.
     over_flooded : float or array_like, shape (k,)
         Thickness over that of the flooded central film as a layer, which is the film times its density under the
-        Hertz pressure: the r of the literature. The flooded film is solved on the same grid.
+        Hertz pressure: the r of the literature. The flooded film is solved on the same grid, at the temperature of
+        the inlet: with heat too, r stands for the same oil.
     H : float or array_like, shape (k,)
         Thickness over the dry approach, as results have it.
     y : array_like, shape (k,), optional

@@ -79,7 +79,8 @@ def heat_rows(result: Any) -> list[Row]:
         return []
     row = judged(result)["isothermal"]
     gupta, wilson = row.details["gupta"], row.details["wilson"]
-    beside = f"of the isothermal film; {gupta:.3g} by Gupta et al., {wilson:.3g} by Wilson and Sheu"
+    flooded = "" if result.supply is None else "; flooded"
+    beside = f"of the isothermal film; {gupta:.3g} by Gupta et al., {wilson:.3g} by Wilson and Sheu{flooded}"
     return [
         ("film by heat", f"{found.film_share:.4g}", beside),
         (

@@ -37,6 +37,10 @@ ROUNDS, SLIDING_ROUNDS = 1, 3  # after a cycle, whose film changes by more
 WALL_SHARE = 0.5
 LARGE_CHANGE, STEP = 0.3, 0.8  # of the heating in a cycle, over itself, of which it takes this share
 ROUGH = 0.5  # change of the pressure in a cycle, above which the temperatures stay: they would be those of no film
+FRONT_ROUGH, FRONT_CYCLES = (
+    0.1,
+    3,
+)  # the same where a front of full film moves, and cycles that are to bring it there
 START = 0.75  # of the heating of an isothermal film: one with heat is thinner and has thinner oil
 REMEMBERED = 2  # cycles before the last
 HOTTEST = -0.95  # heating: ln(eta) + 9.67 stays above 0
@@ -45,7 +49,8 @@ HOTTEST = -0.95  # heating: ln(eta) + 9.67 stays above 0
 class Terms(NamedTuple):
     """Terms of the energy equation that belong to one state of pressure and film, (ny + 1, nx + 1) each."""
 
-    wet: NDArray[np.bool_]
+    wet: NDArray[np.bool_]  # part of the energy equation
+    share: Array  # of the cell that is full
     H: Array
     along: Array  # mass through the faces behind the nodes, and to the next line
     across: Array
@@ -111,7 +116,7 @@ class FilmHeat:
             slid, slope, _ = self.sliding(t)
             made = self._made(t) + slid - slope * self.rise
             for _ in range(MOST_SWEEPS):
-                given = t.heat_along, t.heat_across, t.exchange - slope, made
+                given = t.heat_along, t.heat_across, t.exchange - slope, made, t.share
                 if sweep(*given, self.rise) <= enough * np.abs(self.rise).max():
                     break
             for k, heat in enumerate(self.into_walls(t)):
@@ -125,15 +130,24 @@ class FilmHeat:
         """Temperature that the pressure-driven flow sees (eq. 8)."""
         by_pressure, slid = t.pressed * self.ahead, self.sliding(t).made
         beside = t.H / self.numbers.conduction * (BY_PRESSURE * by_pressure + BY_SLIDING * slid)
-        return self.walls.mean(axis=0) + BY_RISE * self.behind(self.rise) + beside
+        return self.walls.mean(axis=0) + BY_RISE * self.behind(self.rise, t.share) + beside
 
-    def behind(self, rise: Array) -> Array:
+    def behind(self, rise: Array, share: Array) -> Array:
         """The same with the rise that the oil has left the pressure with at the nodes behind it.
 
         Else nodes at the outlet would change their viscosity once they are wet, and two films would be solutions.
+        Nodes ahead of a front of full film take the rise at the front, between the nodes on either side of it.
         """
-        last = np.maximum.accumulate(np.where(self.level.P > 0.0, np.arange(self.level.nx + 1), 0), axis=1)
-        return np.take_along_axis(rise, last, axis=1)
+        wet = self.level.P > 0.0
+        last = np.maximum.accumulate(np.where(wet, np.arange(self.level.nx + 1), 0), axis=1)
+        found = np.take_along_axis(rise, last, axis=1)
+        if self.level.inflow.size:
+            first = np.maximum(wet.argmax(axis=1), 1)[:, None]
+            before, at, part = (
+                np.take_along_axis(f, i, axis=1) for f, i in ((rise, first - 1), (rise, first), (share, first - 1))
+            )
+            found = np.where((last == 0) & (first > 1), at + part * (before - at), found)
+        return found
 
     def set_viscosity(self, multigrid: Multigrid) -> None:
         """Viscosity of these temperatures on all levels; what the flow heats beside the surfaces goes with it."""
@@ -153,8 +167,10 @@ class FilmHeat:
         rise = np.pad(self.rise, ((0, 1), (0, 1)))
         along = np.maximum(t.heat_along, 0.0) * self.rise + np.minimum(t.heat_along, 0.0) * rise[:-1, 1:]
         across = np.maximum(t.heat_across, 0.0) * self.rise + np.minimum(t.heat_across, 0.0) * rise[1:, :-1]
-        carried = divergence(along, across) + self.with_walls(t, wall)
-        left = t.pressed + slid + work - sum(self.into_walls(t)) - np.where(t.wet, carried, 0.0)
+        turned = self._turned(t)
+        carried = np.where(t.wet | (turned > 0.0), divergence(along, across), 0.0)
+        carried += np.where(t.wet, self.with_walls(t, wall), 0.0)
+        left = t.pressed + slid + work - sum(self.into_walls(t)) - carried
         weights = self.level.force_weights
         return float(abs(np.vdot(weights, left)) / np.vdot(weights, t.pressed + slid + np.abs(work)))
 
@@ -162,17 +178,22 @@ class FilmHeat:
         """Terms at the present state of the level (eqs. 2 to 5)."""
         level, n, s = self.level, self.numbers, self.level.stencil
         P, flow, H = level.P, level.fields.flow, np.maximum(level.H, FILM_FLOOR)
-        wet = P > 0.0
-        along, across, back = np.zeros_like(P), np.zeros_like(P), np.zeros_like(P)
+        along, across, back, by_x = (np.zeros_like(P) for _ in range(4))
         step_x, step_y = np.diff(P, axis=1), np.diff(P, axis=0)
-        along[:, :-1] = s.inv_hx * level.full_flow()[:, :-1] - s.cx * flow.along[:, :-1] * step_x
+        by_x[:, :-1] = s.cx * flow.along[:, :-1] * step_x**2
+        through, share = level.full_flow(), (P > 0.0).astype(float)
+        if level.inflow.size:
+            self._enter_supply(through, share, by_x)
+        along[:, :-1] = s.inv_hx * through[:, :-1] - s.cx * flow.along[:, :-1] * step_x
         across[:-1] = -s.cy * flow.across[:-1] * step_y
         back[:, :-1] = 0.5 * s.inv_hx * (flow.mass[:, :-1] + flow.mass[:, 1:])
-        pressed = at_nodes(s.cx * flow.along[:, :-1] * step_x**2, s.cy * flow.across[:-1] * step_y**2)
+        pressed = at_nodes(by_x[:, :-1], s.cy * flow.across[:-1] * step_y**2)
         work = at_nodes(along[:, :-1] * step_x, across[:-1] * step_y)
         log_eta = np.log(flow.rho * H**3 / (s.lam * flow.eps))
+        wet = share > 0.0
         return Terms(
             wet=wet,
+            share=share,
             H=H,
             along=along,
             across=across,
@@ -180,9 +201,23 @@ class FilmHeat:
             heat_across=n.convection * NET * across,
             pressed=np.where(wet, pressed / flow.rho, 0.0),
             work=np.where(wet, n.expansion * work / flow.rho, 0.0),
-            exchange=np.where(wet, n.conduction / H, 0.0),
+            exchange=np.where(wet, share * n.conduction / H, 0.0),
             cold=(log_eta - flow.heat * level.law.q) / (1.0 + flow.heat),
         )
+
+    def _enter_supply(self, through: Array, share: Array, by_x: Array) -> None:
+        """What the surfaces carry where oil runs short; full shares, and heat, at the fronts of full film.
+
+        The node before a front is full as far as the front has passed its cell, and takes part in the energy
+        equation so far: so temperatures are continuous while nodes fill up. `through`, `share`, `by_x` written.
+        """
+        level, fronts = self.level, self.level.fronts()
+        before = fronts.nodes - 1
+        through[...] = level.carried
+        through.ravel()[before] -= (1.0 + level.fields.flow.open.ravel()[before]) * level.hx * fronts.back
+        by_x.ravel()[before] = fronts.back * level.P.ravel()[fronts.nodes]
+        share.ravel()[before] = np.clip(fronts.passed, 0.0, 1.0)
+        self.rise[share == 0.0] = 0.0
 
     def _made(self, t: Terms) -> Array:
         """Heat that enters the rise, but for that of sliding."""
@@ -200,9 +235,24 @@ class FilmHeat:
     def into_walls(self, t: Terms) -> tuple[Array, Array]:
         """Heat that goes into each surface (eq. 6)."""
         straight = (1.0 - INNER * self.ahead) * t.pressed + ~self.ahead * t.work * (self.numbers.inlet + self.mean)
-        half = 0.5 * (t.exchange * self.rise + straight)
+        half = 0.5 * (t.exchange * self.rise + straight + self._turned(t))
         through = t.exchange / 12.0 * (self.walls[1] - self.walls[0])
         return half + through, half - through
+
+    def _turned(self, t: Terms) -> Array:
+        """Heat that oil carries out of the full film to where it is partly filled ahead, and lies on the surfaces.
+
+        In the middle of a wide gap oil flows back to the front of the film, and turns round there.
+        """
+        turned = np.zeros_like(self.rise)
+        if not self.level.inflow.size:
+            return turned
+        east, north = np.minimum(t.heat_along, 0.0), t.heat_across
+        turned[:, :-1] = -east[:, :-1] * self.rise[:, 1:]
+        turned[:-1] -= np.minimum(north[:-1], 0.0) * self.rise[1:]
+        turned[1:] += np.maximum(north[:-1], 0.0) * self.rise[:-1]
+        turned[:, 0] = turned[-1] = 0.0  # over the border it leaves
+        return turned * (1.0 - t.share) * self.ahead
 
     def sliding(self, t: Terms) -> Sliding:
         """Heat of sliding under Eyring's stress at the mean temperature."""
@@ -236,7 +286,9 @@ class HeatedCycles:
     def __init__(self, multigrid: Multigrid, heat: FollowedFilm, advance: Callable[[Balance], float]) -> None:
         self.multigrid, self.heat, self._advance = multigrid, heat, advance
         self._rounds = ROUNDS if isinstance(heat, FilmHeat) and heat.even else SLIDING_ROUNDS
-        self._rough = ROUGH if isinstance(heat, FilmHeat) else inf  # what sliding thins follows any film
+        self._rough = inf  # what sliding thins follows any film
+        if isinstance(heat, FilmHeat):
+            self._rough = FRONT_ROUGH if multigrid.finest.inflow.size else ROUGH
         self._last: tuple[Array, Array] | None = None  # what the heating became, and its change
         self._differences: list[tuple[Array, Array]] = []  # of both, from cycle to cycle
 
@@ -248,7 +300,11 @@ class HeatedCycles:
         """
         self.multigrid.set_heat(START * self.heat.solve(self._rounds))
         self.multigrid.full_multigrid(balance)
-        if self._rough == inf:
+        starved = bool(self.multigrid.finest.inflow.size)
+        for _ in range(FRONT_CYCLES if starved else 0):
+            if self._advance(balance) < self._rough:
+                break
+        if starved or self._rough == inf:
             self._follow()
 
     def settle(self, balance: Balance, cycles: int) -> None:

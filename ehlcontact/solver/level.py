@@ -49,6 +49,7 @@ class Fronts(NamedTuple):
     """First full nodes behind partly filled ones, arrays (k,) each (`kernels.supply`)."""
 
     nodes: NDArray[np.int64]  # flat numbers
+    back: Array  # flow pressed back through the face before them, over a cell's area
     by_pressure: Array  # derivatives of the flow pressed back over a cell's area: to their pressure,
     by_film: Array  # to their film,
     by_film_before: Array  # and to that of the node before
@@ -235,7 +236,7 @@ class Level:
         given = self.carried.ravel()[before] - back
         room, own = full[before] - given, f.flow.mass.ravel()[before + 1]
         stored = (own - 0.5 * (given + full[before + 1])) / room
-        return Fronts(before + 1, slopes[0], slopes[1], slopes[2], back / room, stored)
+        return Fronts(before + 1, slopes[3], slopes[0], slopes[1], slopes[2], back / room, stored)
 
     @property
     def P(self) -> Array:

@@ -168,7 +168,7 @@ class LinearHeat:
         slid = c.slid + self._slid.by_mean * (rise + walls.mean(axis=0))
         beside = BY_PRESSURE * c.pressed * heat.ahead + BY_SLIDING * slid
         was = BY_PRESSURE * t.pressed * heat.ahead + BY_SLIDING * self._slid.made
-        seen = walls.mean(axis=0) + BY_RISE * heat.behind(rise) + (t.H * beside + dH * was) / n.conduction
+        seen = walls.mean(axis=0) + BY_RISE * heat.behind(rise, t.share) + (t.H * beside + dH * was) / n.conduction
         return self._by_seen * seen
 
     def _temperatures(self, c: Changes, compressed: Array) -> tuple[Array, Array]:

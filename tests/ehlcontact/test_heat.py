@@ -15,7 +15,6 @@ from ehlcontact import (
     InputError,
     Lubricant,
     MoesPoint,
-    OilLayer,
     OperatingPoint,
     assumptions,
     load,
@@ -306,5 +305,3 @@ def test_what_is_missing():
         solve_steady(MoesPoint(200, 10, 0.5), thermal=Heat())
     with pytest.raises(InputError, match="thermal = 'bool': must be a Heat"):
         solve_steady(POINT, thermal=True)
-    with pytest.raises(InputError, match="left out with a supply"):
-        solve_steady(POINT, supply=OilLayer(1e-6), thermal=Heat())

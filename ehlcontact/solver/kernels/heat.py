@@ -6,7 +6,7 @@ ORDERS = 4  # lines up and down, nodes along and against: heat goes back in the 
 
 
 @jit_loop
-def sweep(along, across, exchange, source, rise):
+def sweep(along, across, exchange, source, share, rise):
     """One Gauss-Seidel sweep in every order; `rise` written, returns its largest change.
 
     Parameters
@@ -17,6 +17,8 @@ def sweep(along, across, exchange, source, rise):
     exchange : array (ny + 1, nx + 1)
         Heat that a rise of 1 gives to the surfaces; 0 where there is no pressure, and no rise.
     source : array (ny + 1, nx + 1)
+    share : array (ny + 1, nx + 1)
+        Of the heat that comes from the neighbours, what stays in the oil.
     rise : array (ny + 1, nx + 1)
         Mean temperature of the film over that of the surfaces.
     """
@@ -35,7 +37,7 @@ def sweep(along, across, exchange, source, rise):
                 own = max(east, 0.0) - min(west, 0.0) + max(north, 0.0) - min(south, 0.0)
                 comes = max(west, 0.0) * rise[j, i - 1] - min(east, 0.0) * rise[j, i + 1]
                 comes += max(south, 0.0) * rise[below, i] - min(north, 0.0) * rise[j + 1, i]
-                new = (source[j, i] + comes) / (own + exchange[j, i])
+                new = (source[j, i] + share[j, i] * comes) / (own + exchange[j, i])
                 largest = max(largest, abs(new - rise[j, i]))
                 rise[j, i] = new
     return largest
