@@ -29,6 +29,8 @@ from reduced_models.bearing.features import Spall as Spall
 from reduced_models.bearing.measured_order import angle_from_order as angle_from_order
 from reduced_models.bearing.measured_order import clearance_from_order as clearance_from_order
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
+from reduced_models.bearing.oil_and_heat import OilAndHeat as OilAndHeat
+from reduced_models.bearing.oil_and_heat import oil_and_heat as oil_and_heat
 from reduced_models.bearing.oil_balance import OilBalance as OilBalance
 from reduced_models.bearing.oil_balance import OilHistory as OilHistory
 from reduced_models.bearing.set_result import SetState as SetState

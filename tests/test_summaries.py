@@ -101,7 +101,7 @@ WITHOUT_PLOT = {
     **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
     **dict.fromkeys(("BearingModel", "ShaftModel", "WholeRotorModel", "OilBalance"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
-    **dict.fromkeys(("RotorState", "BearingFriction"), NUMBERS),
+    **dict.fromkeys(("RotorState", "BearingFriction", "OilAndHeat"), NUMBERS),
     **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),
     **dict.fromkeys(("InputError", "ConvergenceError", "OutsideValidityWarning", "BuildError"), KIND),
     **dict.fromkeys(("VerificationError", "Status"), KIND),

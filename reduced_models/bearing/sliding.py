@@ -189,12 +189,14 @@ def friction_at(bearing: Any, state: BearingState, law: TractionLaw, *, heat: bo
     )
 
 
-def oiled_state(bearing: Any, load: ArrayLike, speed_rpm: float, law: TractionLaw) -> BearingState:
+def oiled_state(
+    bearing: Any, load: ArrayLike, speed_rpm: float, law: TractionLaw, tilt: ArrayLike | None = None
+) -> BearingState:
     """State of a bearing in oil; raises `InputError` for a dry one, or without a traction law."""
     require_law(law)
     if bearing.oil is None:
         raise InputError("oil", None, "given to the bearing: a dry one has no films")
-    state: BearingState = bearing.equilibrium(load, speed_rpm=speed_rpm)
+    state: BearingState = bearing.equilibrium(load, speed_rpm=speed_rpm, tilt=tilt)
     return state
 
 
@@ -202,7 +204,7 @@ def sliding_contact(
     bearing: Any, state: BearingState, ball: int, column: int, law: TractionLaw
 ) -> SlidingContact | None:
     """Contact of a ball with a race; None below the lightest load of the atlas, taken as unloaded."""
-    race, load = _race(bearing, state, ball, column), float(state.force[ball, column])
+    race, load = race_at(bearing, state, ball, column), float(state.force[ball, column])
     assert state.h_central is not None
     if load < race.loads(state.speed_rpm)[0]:
         return None
@@ -221,7 +223,7 @@ def radius_across(conformity: float, ball_diameter: float) -> float:
     return 2.0 * conformity * ball_diameter / (2.0 * conformity + 1.0)
 
 
-def _race(bearing: Any, state: BearingState, ball: int, column: int) -> Race:
+def race_at(bearing: Any, state: BearingState, ball: int, column: int) -> Race:
     """Race of a contact; of a ball at a contact angle, for that angle and speed of orbit."""
     race: Race = bearing.race(RACES[column])
     if state.contact_angles is None or state.orbit is None:
@@ -235,6 +237,6 @@ def _race(bearing: Any, state: BearingState, ball: int, column: int) -> Race:
 def _inlet_heat(bearing: Any, state: BearingState) -> float:
     """Thermal reduction factor at the inner contact of the heaviest ball; it hardly depends on the load."""
     ball = state.heaviest
-    race = _race(bearing, state, ball, 0)
+    race = race_at(bearing, state, ball, 0)
     point = race.point(max(float(state.force[ball, 0]), race.loads(state.speed_rpm)[0]), state.speed_rpm)
     return wilson_heating(Heat().at(point).load(point.moes, point.scales))

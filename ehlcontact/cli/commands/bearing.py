@@ -17,18 +17,22 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli import orders as measured
 from ehlcontact.cli import spall as defect
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import STDOUT, show_columns, show_table
+from ehlcontact.cli.output import STDOUT, say, show_columns, show_table, write_to
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, in_unit
+from ehlcontact.cli.study.oil_and_heat import columns, csv_text, skf_words
 from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.cli.study.whole_bearing import bearings_of
 from ehlcontact.errors import InputError
+from ehlcontact.files import write_text
 from reduced_models.bearing.equilibrium_result import NOTICED
 from reduced_models.bearing.freedoms import DECIMALS, FIVE, PLANAR
 from reduced_models.bearing.kinematics import LEAST_SLIP, RPM_TO_HZ
 from reduced_models.bearing.sliding import USUAL_LAW, friction_at
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
     from ehlcontact.cli.study.bearing import BearingJob
     from reduced_models import (
         BallBearing,
@@ -41,6 +45,7 @@ if TYPE_CHECKING:
     )
     from reduced_models.bearing.kinematics import DefectFrequencies
     from reduced_models.bearing.linear_balls import BearingCoefficients
+    from reduced_models.bearing.oil_and_heat import OilAndHeat
 
 CURVE = 15  # speeds of the curves of a figure
 BESIDE = (0.5, 2.0)  # over a single speed: where its curves begin and end
@@ -50,8 +55,9 @@ DEFECTS = {  # names of the defect frequencies, and what they are of
     "BPFI": "balls on the inner race",
     "BSF": "spin of a ball",
 }
-_oil, _bearing, _load, _pair = (
-    partial(typer.Option, rich_help_panel=panel) for panel in ("Oil", "Bearing", "Load", "Pair")
+_oil, _bearing, _load, _pair, _films = (
+    partial(typer.Option, rich_help_panel=panel)
+    for panel in ("Oil", "Bearing", "Load", "Pair", "Oil supply and heat, beside flooded isothermal films")
 )
 AXIAL = FIVE.index("z")  # up to it directions have forces, beyond it tilts have moments
 PASSAGE = "means over a ball passage"
@@ -119,6 +125,10 @@ UNITS_OF_PAIRS = {
     "mean_displacement": "m, rad; of the shaft, mean over a ball passage",
     "bearings": "the state of each, in its own frame: z along its facing",
 }
+# Of those with a layer of oil or with heat.
+UNITS_OF_OIL_AND_HEAT = {
+    "oil_and_heat": "SI, at each speed: films ball by ball at both races, K and C in x, y (, z) at hz, torques",
+}
 
 
 @dataclass(frozen=True)
@@ -128,9 +138,8 @@ class BearingReport:
     job: BearingJob
     states: tuple[BearingState | SetState, ...]
     coefficients: tuple[BearingCoefficients, ...]
-    friction: tuple[
-        tuple[BearingFriction, ...], ...
-    ] = ()  # at each speed, of each bearing; empty where they are dry
+    friction: tuple[tuple[BearingFriction, ...], ...] = ()  # at each speed, of each bearing in oil
+    oil_and_heat: tuple[OilAndHeat, ...] = ()  # at each speed, where they are asked for
     spall: Spall | None = None
     excitations: tuple[BearingExcitation, ...] = ()
     slip: float = 0.0
@@ -152,7 +161,7 @@ class BearingReport:
             for at, row in zip(self.states, under_load, strict=True)
         ]
         axial: dict[str, Any] = {}
-        units = UNITS if job.planar else UNITS | UNITS_AT_ANGLES
+        units = UNITS | ({} if job.planar else UNITS_AT_ANGLES)
         if not job.planar:
             axial = {"axial_load": job.load[2], "moments": job.load[3:] or None, "tilt": job.tilt}
             axial["orders_under_load"] = _single(under_load) if job.pair is None else under_load
@@ -164,6 +173,9 @@ class BearingReport:
         if self.order is not None and self.allowed is not None:
             units |= measured.UNITS
             axial["measured_order"] = measured.summary(self.order, self.allowed)
+        if self.oil_and_heat:
+            units |= UNITS_OF_OIL_AND_HEAT
+            axial["oil_and_heat"] = [one.to_dict() for one in self.oil_and_heat]
         if job.pair is not None:
             units |= UNITS_OF_PAIRS
             pair = job.pair.to_dict()
@@ -293,6 +305,12 @@ class BearingOptions(o.Options):
         ),
     ] = None
     rq: Annotated[e.Roughness | None, _bearing("--rq"), e.meaning("roughness of ball and race together")] = None
+    layer: Annotated[e.OilThickness | None, _films("--layer", help=None)] = None
+    layer_ratio: Annotated[e.LayerRatio | None, _films("--layer-ratio", help=None)] = None
+    thermal: Annotated[
+        bool | None,
+        _films("--thermal", help="Films that heat up, beside isothermal ones; with --oil and --temp."),
+    ] = None
 
     def given(self) -> dict[str, Any]:
         """Values by option, of those that are given."""
@@ -305,13 +323,23 @@ class BearingOptions(o.Options):
         return found
 
 
+class BearingOutput(o.FigureOutput):
+    """JSON, a picture, and the table of oil supply and heat."""
+
+    csv_to: Annotated[
+        Path | None,
+        typer.Option("--csv", metavar="FILE", help="Films, K, C and torques under each condition as CSV."),
+        o.Endings((".csv",)),
+    ] = None
+
+
 @o.grouped
 def bearing(
     source: Annotated[
         str, typer.Argument(metavar="NAME|FILE.toml", help="As 6205 or 7205; or a file with dimensions.")
     ],
     options: BearingOptions,
-    out: o.FigureOutput,
+    out: BearingOutput,
 ) -> None:
     """Look at a ball bearing: loads, films, lambda and rolling resistance, stiffness and damping over speed.
 
@@ -321,6 +349,9 @@ def bearing(
     Films are flooded, isothermal and between smooth surfaces. With --load
     alone axial motion and tilts are held, and contact angles are zero.
     With --pair two such bearings carry the load, which acts in their middle.
+    With --thermal, --layer or --layer-ratio the contacts of the heaviest ball
+    are solved with heat and with a layer of oil, and a table has both beside
+    flooded isothermal films.
 
     Not in it: flexible rings; sliding and spin in the forces; grease.
 
@@ -333,17 +364,41 @@ def bearing(
     order = None if options.measured_order is None else measured.measured_order_of(options.measured_order)
     slip = _slip_of(options.slip)
     job = load_job(source, options.given())
-    with progress("bearing"), job.called():
+    if out.csv_to is not None and job.supply is None and job.thermal is None:
+        allowed = "given with --thermal, --layer or --layer-ratio, whose table it is"
+        raise InputError("--csv", str(out.csv_to), allowed)
+    with progress("bearing") as update, job.called():
         lines = () if spall is None else tuple(defect.excitations(job, spall))
         found = None if order is None else measured.allowed_by(order, job, slip)
         report = replace(_computed(job), spall=spall, excitations=lines, slip=slip, order=order, allowed=found)
+        report = replace(report, oil_and_heat=tuple(_oil_and_heat(job, update)))
 
     def draw(path: Path) -> None:
         from reduced_models.bearing.picture import draw_over_speed
 
         draw_over_speed(report.states[len(report.states) // 2], report.coefficients, curve(report), path)
 
-    out.deliver(report.summary(), partial(_show, report, out.json_to), figure=draw)
+    def write(path: Path) -> None:
+        write_text(path, csv_text(report.oil_and_heat), "--csv")
+
+    out.deliver(
+        report.summary(),
+        partial(write_to, "--csv", out.csv_to, write),
+        partial(_show, report, out.json_to),
+        figure=draw,
+    )
+
+
+def _oil_and_heat(job: BearingJob, update: Callable[[float, float, str], object]) -> Iterator[OilAndHeat]:
+    """The bearing with a layer and with heat beside flooded isothermal films, speed by speed."""
+    if job.supply is None and job.thermal is None:
+        return
+    for k, speed in enumerate(job.speeds):
+
+        def told(done: int, total: int, words: str, k: int = k) -> None:
+            update(k * total + done, len(job.speeds) * total, words)
+
+        yield job.oil_and_heat(speed, told)
 
 
 def _slip_of(percent: float) -> float:
@@ -398,12 +453,23 @@ def _show(report: BearingReport, json_to: str | None) -> None:
         rows = _at_speed(bearing, state, found, sliding) if job.planar else _at_angles(job, state, found, sliding)
         rows += _defects(bearing, state, report.slip)
         show_table(f"at {numeral(state.speed_rpm)} rpm", rows, json_to)
+        if report.oil_and_heat:
+            _show_conditions(report.oil_and_heat[k])
         for title, one in bearings_of(state).items():
             _show_balls(one, title)
         if report.spall is not None:
             defect.show(report.spall, _orders(bearing, one), report.excitations[k])
     if report.order is not None and report.allowed is not None:
         measured.show(report.order, report.allowed)
+
+
+def _show_conditions(found: OilAndHeat) -> None:
+    """Table of a bearing under the conditions, of its heaviest ball and as a whole, and what it does not say."""
+    heads, rows = columns(found)
+    where = " and ".join(found.ways)
+    show_columns(heads, rows, f"oil supply and heat: films of the heaviest ball, K and C {where}", named=True)
+    for line in filter(None, (skf_words(found), *found.notes)):
+        say(f"  {line.removesuffix('.')}.")
 
 
 def _single(rows: list[list[Any]]) -> list[Any]:

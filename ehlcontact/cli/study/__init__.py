@@ -14,6 +14,7 @@ module                 responsibility
 ``differences``        full films beside elements, and beside what there is without them
 ``bearing_rotor``      the rotor on two whole bearings, with film memory under every ball
 ``whole_bearing``      the bearing that it takes, from the file
+``oil_and_heat``       layer of oil and heat of a bearing: entries, table and CSV
 ``bearing_at_angles``  the bearing under an axial load, and vibrations of the rotor between two of them
 ``ring_load``          moments and tilts of an inner ring, of studies and of bearing files
 ``pair``               pairs of bearings, of studies and of bearing files

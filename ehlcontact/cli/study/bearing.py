@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from math import radians
@@ -13,6 +13,7 @@ from pydantic import Field, StrictBool, ValidationError
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
+from ehlcontact.cli.study.oil_and_heat import supply_and_heat
 from ehlcontact.cli.study.pair import pair_of
 from ehlcontact.cli.study.points.lists import require_apart
 from ehlcontact.cli.study.ring_load import moments_of, tilt_of
@@ -23,8 +24,10 @@ from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet
 
 if TYPE_CHECKING:
+    from ehlcontact import Heat, OilLayer
     from reduced_models import BearingState, SetState
     from reduced_models.bearing.linear_balls import BearingCoefficients
+    from reduced_models.bearing.oil_and_heat import OilAndHeat
 
 OPTIONS = {
     "--load": "operation.radial_load",
@@ -35,6 +38,9 @@ OPTIONS = {
     "--tilt-y": "operation.tilt_y_mrad",
     "--speed-rpm": "operation.speed_rpm",
     "--hz": "operation.hz",
+    "--layer-ratio": "operation.layer_ratio",
+    "--layer": "operation.layer_um",
+    "--thermal": "operation.thermal",
     "--pair": "pair.arrangement",
     "--preload": "pair.preload",
     "--spring": "pair.spring",
@@ -109,6 +115,9 @@ class Operation(Section):
     tilt_y_mrad: e.Tilt | None = None
     speed_rpm: Annotated[list[e.NotNegative], Field(min_length=1)]
     hz: Annotated[list[e.NotNegative] | None, Field(min_length=1)] = None
+    layer_um: e.OilThickness | None = None
+    layer_ratio: e.LayerRatio | None = None
+    thermal: StrictBool = False
 
     def load(self, *, paired: bool) -> tuple[float, ...]:
         """Force on the inner ring, or on the shaft of a pair: (Fx, Fy) [N], with Fz, or with moments [N m]."""
@@ -158,6 +167,8 @@ class BearingJob:
     tilt: tuple[float, float] | None
     speeds: tuple[float, ...]
     hz: tuple[float, ...]
+    supply: OilLayer | None
+    thermal: Heat | None
     source: str
     given: frozenset[str]
 
@@ -186,6 +197,20 @@ class BearingJob:
         """Means over a ball passage."""
         at = {"hz": self.hz} if self.hz else {"rpm": speed_rpm}
         return self.bearing_or_pair.coefficients(self.load, speed_rpm=speed_rpm, tilt=self.tilt, **at)
+
+    def oil_and_heat(self, speed_rpm: float, callback: Callable[[int, int, str], object]) -> OilAndHeat:
+        """Films, K, C and torque with heat and with the layer, where given, beside flooded isothermal ones."""
+        from reduced_models.bearing.oil_and_heat import oil_and_heat
+
+        return oil_and_heat(
+            self.bearing,
+            self.load,
+            speed_rpm=speed_rpm,
+            supply=self.supply,
+            thermal=self.thermal,
+            tilt=self.tilt,
+            callback=callback,
+        )
 
     @contextmanager
     def called(self) -> Iterator[None]:
@@ -240,11 +265,12 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
         if asked.axial_load is None and (tandem or (len(load) == 2 and bearing.contact_angle is not None)):
             which = "bearings in tandem need" if tandem else "an angular contact bearing needs"
             raise InputError("operation.axial_load", None, f"given: {which} an axial load, in +z")
+        supply, thermal = supply_and_heat(asked, "operation", bearing.oil, paired=pair is not None)
         require_apart("operation.speed_rpm", asked.speed_rpm)
         require_apart("operation.hz", asked.hz or ())
     speeds, hz = (tuple(sorted(values or ())) for values in (asked.speed_rpm, asked.hz))
     preload = None if found.pair is None else found.pair.preload
-    return BearingJob(bearing, pair, preload, load, asked.tilt, speeds, hz, origin, given)
+    return BearingJob(bearing, pair, preload, load, asked.tilt, speeds, hz, supply, thermal, origin, given)
 
 
 def _pair(given: Pair | None, bearing: BallBearing) -> BearingSet | None:

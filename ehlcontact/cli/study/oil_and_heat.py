@@ -1,0 +1,96 @@
+"""Oil supply and heat of a bearing, in the files of studies and of bearings; their results as a table and CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from ehlcontact.cli.numerals import numeral
+from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat
+from ehlcontact.supply import OilLayer
+
+if TYPE_CHECKING:
+    from ehlcontact import Lubricant
+    from reduced_models.bearing.oil_and_heat import OilAndHeat
+
+ENTRIES = "layer_um", "layer_ratio", "thermal"
+
+
+def supply_and_heat(
+    given: Any, section: str, oil: Lubricant | None, *, paired: bool
+) -> tuple[OilLayer | None, Heat | None]:
+    """The layer of oil and the data of heat that are given, each None where it is not.
+
+    Parameters
+    ----------
+    given : Section
+        With the entries `ENTRIES`.
+    section : str
+        Its name, for messages.
+    oil : Lubricant or None
+        None of a dry bearing.
+    paired : bool
+        Whether two bearings carry the load.
+
+    Raises
+    ------
+    InputError
+        Both thicknesses; any of the entries of a dry bearing or a pair; heat of an oil without its data.
+    """
+    asked = [name for name in ENTRIES if getattr(given, name)]
+    if not asked:
+        return None, None
+    field, value = f"{section}.{asked[0]}", getattr(given, asked[0])
+    if oil is None:
+        raise InputError(field, value, "left out: a dry bearing has no films")
+    if paired:
+        raise InputError(field, value, "left out with a pair: of single bearings only")
+    if len({"layer_um", "layer_ratio"}.intersection(asked)) > 1:
+        raise InputError(field, value, "left out where the layer is given over the flooded film (layer_ratio)")
+    if given.thermal and oil.temperature_slope is None:
+        allowed = "given with an oil by its grade, which has the change of viscosity with temperature"
+        raise InputError(f"{section}.thermal", True, allowed)
+    layer, ratio = given.layer_um, given.layer_ratio
+    supply = None if layer is None else OilLayer(1e-6 * layer)
+    if ratio is not None:
+        supply = OilLayer(over_flooded=ratio)
+    return supply, Heat() if given.thermal else None
+
+
+def columns(found: OilAndHeat) -> tuple[list[str], list[list[str]]]:
+    """Heads and rows of a table of text, a column for each condition."""
+    heads = ["", *found.conditions]
+    rows = [
+        [f"{words}{f' [{unit}]' if unit else ''}", *(numeral(value, 4) for value in values.values())]
+        for words, unit, values in found.rows
+    ]
+    return heads, rows
+
+
+def skf_words(found: OilAndHeat) -> str:
+    """Torque by SKF's model in words; empty where there is none."""
+    rolling, sliding = found.state.skf_rolling, found.state.skf_sliding
+    if rolling is None or sliding is None:
+        return ""
+    parts = {"rolling": rolling, "sliding": sliding, "together": rolling + sliding}
+    words = ", ".join(f"{name} {numeral(1e3 * one, 4)}" for name, one in parts.items())
+    return f"SKF's model: {words} N mm, with its own factors of heat and supply"
+
+
+def csv_text(results: Iterable[OilAndHeat]) -> str:
+    """All rows as CSV, at every speed, with all digits; SKF's moments beside the computed ones."""
+    results = list(results)
+    names = list(dict.fromkeys(key for one in results for key in one.conditions))
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["speed_rpm", "quantity", "unit", *names, "SKF"])
+    for one in results:
+        skf = {"rolling torque": one.state.skf_rolling, "sliding torque": one.state.skf_sliding}
+        for words, unit, values in one.rows:
+            beside = skf.get(words)
+            row = [values.get(name, "") for name in names]
+            writer.writerow([one.state.speed_rpm, words, unit, *row, "" if beside is None else 1e3 * beside])
+    return stream.getvalue()

@@ -1,0 +1,316 @@
+"""A bearing with flooded isothermal films, with heat, and with a layer of oil on its surfaces, beside each other.
+
+The contacts of the heaviest ball are solved under each condition. Films, moments, K and C of the bearing are those
+of its flooded films times the ratio of the solved ones: films and moments race by race, K and C as those of the
+ball, both contacts in series. With both, heat thins the film and the layer is over what is left of it:
+
+    value = heated value * value(layer/s)/flooded value,    s = heated central film over the flooded one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact import Heat, OilLayer, OperatingPoint, impedance
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.lubricant import TractionLaw
+from ehlcontact.summary import Summary
+from reduced_models.bearing.equilibrium_result import BearingState
+from reduced_models.bearing.kinematics import RPM_TO_HZ, rolling_torque
+from reduced_models.bearing.race import RACES
+from reduced_models.bearing.sliding import USUAL_LAW, friction_at, oiled_state, race_at
+
+_Floats = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
+
+FLOODED, HEAT, LAYER, BOTH = "flooded, isothermal", "with heat", "with the layer", "with both"
+HIGH = 500.0  # Hz, beside the frequency of the shaft
+AXIAL, RADIAL = 2, 1  # of the degrees of freedom of a ring
+
+
+class SolvedBall(NamedTuple):
+    """Films of both contacts of a ball, over units of their points, and its impedance, both contacts in series.
+
+    Shapes (2,), inner and outer race, and (k,), the frequencies.
+    """
+
+    h_central: _Floats
+    h_min: _Floats
+    moment: _Floats
+    impedance: _Complex
+
+    def over(self, other: SolvedBall) -> Ratios:
+        """Values of this ball over those of another one."""
+        Z, Y = self.impedance, other.impedance
+        central, smallest, moment = (one / two for one, two in zip(self[:3], other[:3], strict=True))
+        return Ratios(central, smallest, moment, Z.real / Y.real, Z.imag / Y.imag)
+
+
+class Ratios(NamedTuple):
+    """Films, moments, K and C under a condition over those of flooded isothermal films."""
+
+    h_central: _Floats
+    h_min: _Floats
+    moment: _Floats
+    stiffness: _Floats
+    damping: _Floats
+
+    def times(self, other: Ratios) -> Ratios:
+        """Both together."""
+        return Ratios(*(getattr(self, name) * getattr(other, name) for name in self._fields))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Condition:
+    """A bearing under one condition.
+
+    Attributes
+    ----------
+    h_central, h_min : ndarray, shape (balls, 2)
+        Films at inner and outer race [m].
+    lambda_ratio : ndarray, shape (balls, 2), or None
+        Smallest film over composite roughness; None where no roughness is given.
+    stiffness, damping : ndarray, shape (k, n)
+        K [N/m] and C [N s/m] at the frequencies, in x, y and, of a bearing with contact angles, z.
+    rolling, sliding : float
+        Torque of the films and of sliding in the contacts [N m].
+    """
+
+    h_central: _Floats
+    h_min: _Floats
+    lambda_ratio: _Floats | None
+    stiffness: _Floats
+    damping: _Floats
+    rolling: float
+    sliding: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class OilAndHeat(Summary):
+    """A bearing under several conditions of oil and heat.
+
+    Attributes
+    ----------
+    state : BearingState
+        With flooded isothermal films.
+    hz : ndarray, shape (k,)
+        Frequencies of small vibrations: that of the shaft, 500 Hz, and those of a band where it was given.
+    conditions : dict of str to Condition
+        By name, those that were asked for.
+    refused : dict of str to str
+        Those that were asked for and have no film, and why.
+    """
+
+    state: BearingState
+    hz: _Floats
+    conditions: Mapping[str, Condition]
+    refused: Mapping[str, str]
+
+    @property
+    def rows(self) -> list[tuple[str, str, dict[str, float]]]:
+        """Quantity, unit and values by condition, of the heaviest ball and of the bearing."""
+        found, ball = [], self.state.heaviest
+        for name, words, unit, size in FILMS:
+            for column, race in enumerate(RACES):
+                values = {key: getattr(one, name) for key, one in self.conditions.items()}
+                if all(value is not None for value in values.values()):
+                    shown = {key: float(value[ball, column]) / size for key, value in values.items()}
+                    found.append((f"{words}, {race}", unit, shown))
+        for k, hz in enumerate(self.hz[:2].tolist()):
+            for name, unit, size in SMALL:
+                for words, way in self.ways.items():
+                    which = f" {words}" if len(self.ways) > 1 else ""
+                    shown = {key: float(getattr(one, name)[k, way]) / size for key, one in self.conditions.items()}
+                    found.append((f"{name}{which}, {hz:.4g} Hz", unit, shown))
+        for name in ("rolling", "sliding"):
+            shown = {key: 1e3 * float(getattr(one, name)) for key, one in self.conditions.items()}
+            found.append((f"{name} torque", "N mm", shown))
+        both = {key: 1e3 * (one.rolling + one.sliding) for key, one in self.conditions.items()}
+        return [*found, ("torque", "N mm", both)]
+
+    @property
+    def ways(self) -> dict[str, int]:
+        """Directions of K and C that rows have, by their words."""
+        along = {"along the load": RADIAL} if np.any(self.state.load[:2]) else {}
+        return along | ({"axially": AXIAL} if self.state.load.size > AXIAL else {})
+
+    @property
+    def notes(self) -> list[str]:
+        """What these numbers do not say, one line each."""
+        lines = [
+            "K and C are those of flooded films times the ratio of the heaviest ball's contacts, which are solved."
+        ]
+        if BOTH in self.conditions:
+            lines.append("With both is a product: the layer is taken over the film that heat leaves.")
+        without = [
+            f"{key} at {hz:.4g} Hz"
+            for key, one in self.conditions.items()
+            for k, hz in enumerate(self.hz[:2].tolist())
+            if (one.damping[k, list(self.ways.values())] < 0.0).any()
+        ]
+        if without:
+            lines.append(
+                f"Damping below 0 ({', '.join(without)}): at low frequencies scarce oil feeds the vibration."
+            )
+        return lines + [f"{key.capitalize()}: {reason}" for key, reason in self.refused.items()]
+
+    def _summary_lines(self) -> list[str]:
+        ball, words = self.state.heaviest, []
+        for key, one in self.conditions.items():
+            film, C = 1e6 * one.h_central[ball].min(), one.damping[0, next(iter(self.ways.values()))]
+            torque = 1e3 * (one.rolling + one.sliding)
+            words.append(f"{key}: film {film:.3g} µm, damping {C:.4g} N s/m, torque {torque:.4g} N mm")
+        return [f"{self.state.name or 'ball bearing'} at {self.state.speed_rpm:.5g} rev/min", *words[:4]]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the state, ready for JSON, in SI."""
+        names = "h_central", "h_min", "lambda_ratio", "stiffness", "damping", "rolling", "sliding"
+        return {
+            "hz": self.hz.tolist(),
+            "conditions": {
+                key: {name: _plain(getattr(one, name)) for name in names} for key, one in self.conditions.items()
+            },
+            "refused": dict(self.refused),
+            "skf_rolling": self.state.skf_rolling,
+            "skf_sliding": self.state.skf_sliding,
+            "notes": self.notes,
+        }
+
+
+# Name, words, unit and its size.
+FILMS = (
+    ("h_central", "central film", "µm", 1e-6),
+    ("h_min", "smallest film", "µm", 1e-6),
+    ("lambda_ratio", "lambda", "", 1.0),
+)
+SMALL = (("stiffness", "N/µm", 1e6), ("damping", "N s/m", 1.0))
+
+
+def oil_and_heat(
+    bearing: Any,
+    load: ArrayLike,
+    *,
+    speed_rpm: float,
+    supply: OilLayer | None = None,
+    thermal: Heat | None = None,
+    tilt: ArrayLike | None = None,
+    law: TractionLaw = USUAL_LAW,
+    band: ArrayLike = (),
+    callback: Callable[[int, int, str], object] = lambda done, total, words: None,
+) -> OilAndHeat:
+    """Films, K, C and torque of a `BallBearing`, flooded and isothermal, with heat, with a layer, with both.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+    load, tilt
+        As of `BallBearing.equilibrium`.
+    speed_rpm : float
+        Of the shaft [rev/min].
+    supply : OilLayer, optional
+        Layer that reaches every contact, uniform; the conditions with it are left out without it.
+    thermal : Heat, optional
+        Likewise of heat.
+    law : TractionLaw
+        Of sliding.
+    band : array_like, shape (k,)
+        Further frequencies of K and C [Hz].
+    callback : callable
+        Called before every solve with those done, their number, and what is solved.
+
+    Raises
+    ------
+    InputError
+        A dry bearing; a heaviest ball lighter than the atlas knows; an oil without the data of heat.
+    ConvergenceError
+        Of the flooded films. Other films that do not converge are in `OilAndHeat.refused`.
+    """
+    state = oiled_state(bearing, load, speed_rpm, law, tilt)
+    hz = np.array([state.speed_rpm * RPM_TO_HZ, HIGH, *np.ravel(band).tolist()])
+    points = [_point(bearing, state, column) for column in range(len(RACES))]
+    small = bearing.coefficients(load, speed_rpm=speed_rpm, tilt=tilt, hz=hz)
+    ratios, refused = _ratios(points, hz, supply, thermal, callback)
+    made = {key: _condition(bearing, state, small, one, law) for key, one in ratios.items()}
+    return OilAndHeat(state=state, hz=hz, conditions=made, refused=refused)
+
+
+def _point(bearing: Any, state: BearingState, column: int) -> OperatingPoint:
+    """Contact of the heaviest ball with a race."""
+    ball, race = state.heaviest, race_at(bearing, state, state.heaviest, column)
+    load, least = float(state.force[ball, column]), race.loads(state.speed_rpm)[0]
+    if load < least:
+        raise InputError("load", load, f"a heaviest ball of at least {least:.3g} N, which the atlas has")
+    found: OperatingPoint = race.point(load, state.speed_rpm)
+    return found
+
+
+def _ratios(
+    points: list[OperatingPoint],
+    hz: _Floats,
+    supply: OilLayer | None,
+    thermal: Heat | None,
+    callback: Callable[[int, int, str], object],
+) -> tuple[dict[str, Ratios], dict[str, str]]:
+    """Ratios of the conditions that are asked for, and why others have none."""
+    asked = {HEAT: thermal is not None, LAYER: supply is not None}
+    asked[BOTH] = all(asked.values())
+    steps = iter(range(total := 2 * (1 + sum(asked.values()))))
+
+    def solve(words: str, heat: Heat | None, layers: list[OilLayer | None]) -> SolvedBall:
+        found = []
+        for race, point, layer in zip(RACES, points, layers, strict=True):
+            callback(next(steps), total, f"{race} race, {words}")
+            found.append(impedance(point, hz=hz, supply=layer, thermal=heat))
+        Z = [one.si.stiffness + 2j * np.pi * hz * one.si.damping for one in found]
+        central, smallest, moment = np.array([(one.h_central, one.h_min, one.moment) for one in found]).T
+        return SolvedBall(central, smallest, moment, Z[0] * Z[1] / (Z[0] + Z[1]))
+
+    flooded = solve(FLOODED, None, [None, None])
+    made, refused = {FLOODED: flooded.over(flooded)}, {}
+    for key in (name for name, wanted in asked.items() if wanted):
+        if key == BOTH and HEAT in refused:
+            refused[key] = f"no film {HEAT}"
+            continue
+        share = made[HEAT].h_central if key == BOTH else np.ones(len(RACES))
+        layers = [None if key == HEAT or supply is None else _over(supply, one) for one in share.tolist()]
+        try:
+            found = solve(key, thermal if key == HEAT else None, layers).over(flooded)
+        except ConvergenceError as error:
+            refused[key] = str(error)
+            continue
+        made[key] = found.times(made[HEAT]) if key == BOTH else found
+    return made, refused
+
+
+def _over(supply: OilLayer, share: float) -> OilLayer:
+    """The layer in units of a film that is thinner by a share."""
+    name = next(one for one in ("h", "over_flooded", "H") if getattr(supply, one) is not None)
+    return replace(supply, **{name: np.asarray(getattr(supply, name)) / share})
+
+
+def _condition(bearing: Any, state: BearingState, small: Any, ratios: Ratios, law: TractionLaw) -> Condition:
+    """The bearing with its flooded values times these ratios."""
+    assert state.h_central is not None and state.h_min is not None and state.moment is not None
+    inner, outer = (state.moment * ratios.moment).T
+    thin = replace(state, h_central=state.h_central * ratios.h_central)
+    diagonal = {
+        name: np.einsum("kii->ki", getattr(small, name))[:, : AXIAL + 1] for name in ("stiffness", "damping")
+    }
+    return Condition(
+        h_central=state.h_central * ratios.h_central,
+        h_min=state.h_min * ratios.h_min,
+        lambda_ratio=None if state.lambda_ratio is None else state.lambda_ratio * ratios.h_min,
+        stiffness=diagonal["stiffness"] * ratios.stiffness[:, None],
+        damping=diagonal["damping"] * ratios.damping[:, None],
+        rolling=rolling_torque(inner, outer, bearing.ball_diameter, bearing.pitch_diameter),
+        sliding=friction_at(bearing, thin, law, heat=False).sliding,
+    )
+
+
+def _plain(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else value

@@ -1,0 +1,137 @@
+"""A bearing with heat and with a layer of oil beside flooded isothermal films: against solved contacts."""
+
+from dataclasses import replace
+from functools import partial
+from math import cos, tau
+
+import numpy as np
+import pytest
+
+import reduced_models.bearing.oil_and_heat as module
+from ehlcontact import Grid, Heat, InputError, Lubricant, OilLayer, impedance
+from reduced_models import BallBearing, bearing_friction
+from reduced_models.bearing.oil_and_heat import BOTH, FLOODED, HEAT, HIGH, LAYER, oil_and_heat
+from reduced_models.bearing.sliding import USUAL_LAW, race_at
+
+LOAD, SPEED = (0.0, -100.0), 6000.0
+BEARING = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=60.0), rq_race=0.1e-6)
+LINEAR = 2e-5  # relative tolerance of the linear solves of an impedance
+
+
+@pytest.fixture
+def coarse(monkeypatch):
+    """Contacts on coarse grids: what is tested is what is made of them."""
+    solve = partial(impedance, grid=Grid(48))
+    monkeypatch.setattr(module, "impedance", solve)
+    return partial(oil_and_heat, BEARING, LOAD, speed_rpm=SPEED), solve
+
+
+def test_conditions_are_solved_ratios_times_flooded_values(coarse):
+    find, solve = coarse
+    supply, calls = OilLayer(0.3e-6), []
+    found = find(supply=supply, thermal=Heat(), callback=lambda *given: calls.append(given))
+    assert list(found.conditions) == [FLOODED, HEAT, LAYER, BOTH] and not found.refused
+    assert [done for done, total, _ in calls] == list(range(8)) and {total for _, total, _ in calls} == {8}
+    state = BEARING.equilibrium(LOAD, speed_rpm=SPEED)
+    small = BEARING.coefficients(LOAD, speed_rpm=SPEED, hz=[SPEED / 60.0, HIGH])
+    flooded = found.conditions[FLOODED]
+    np.testing.assert_array_equal(flooded.h_min, state.h_min)
+    np.testing.assert_array_equal(flooded.damping, np.einsum("kii->ki", small.damping))
+    assert flooded.rolling == pytest.approx(state.rolling_torque, rel=1e-12)
+    own = bearing_friction(BEARING, LOAD, speed_rpm=SPEED, law=USUAL_LAW, heat=False)
+    assert flooded.sliding == own.sliding
+
+    points = [race_at(BEARING, state, 0, k).point(float(state.force[0, k]), SPEED) for k in (0, 1)]
+
+    def contacts(layers, heat=None):
+        answers = [
+            solve(point, hz=[HIGH], supply=one, thermal=heat) for point, one in zip(points, layers, strict=True)
+        ]
+        ball = 1.0 / sum(1.0 / (a.si.stiffness[0] + 1j * a.si.damping[0] * tau * HIGH) for a in answers)
+        return np.array([a.h_central for a in answers]), ball.real, ball.imag
+
+    cold, warm, starved = contacts([None] * 2), contacts([None] * 2, Heat()), contacts([supply] * 2)
+    share = warm[0] / cold[0]
+    both = contacts([OilLayer(0.3e-6 / one) for one in share])
+    for key, one, heated in ((HEAT, warm, cold), (LAYER, starved, cold), (BOTH, both, warm)):
+        h, K, C = (a / b * c / b for a, b, c in zip(one, cold, heated, strict=True))
+        at = found.conditions[key]
+        np.testing.assert_allclose(at.h_central, state.h_central * h, rtol=1e-9)
+        assert at.stiffness[1, 1] == pytest.approx(small.stiffness[1, 1, 1] * K, rel=LINEAR)
+        assert at.damping[1, 1] == pytest.approx(small.damping[1, 1, 1] * C, rel=LINEAR)
+        assert at.rolling < flooded.rolling
+        np.testing.assert_allclose(at.lambda_ratio * 0.1e-6, at.h_min, rtol=1e-12)
+    rows = {words: values for words, _, values in found.rows}
+    assert rows["central film, outer"][BOTH] == pytest.approx(1e6 * found.conditions[BOTH].h_central[0, 1])
+    assert rows["damping, 500 Hz"][LAYER] == found.conditions[LAYER].damping[1, 1]
+    assert any("product" in line for line in found.notes) and "with both" in str(found)
+
+
+def test_limits_of_much_oil_and_of_an_oil_that_heat_does_not_change(coarse):
+    find, _ = coarse
+    found = find(supply=OilLayer(over_flooded=1e3), thermal=Heat())
+    for one, other in ((LAYER, FLOODED), (BOTH, HEAT)):
+        for name in ("h_central", "h_min", "stiffness", "damping", "rolling"):
+            a, b = (getattr(found.conditions[key], name) for key in (one, other))
+            np.testing.assert_allclose(a, b, rtol=1e-4)
+    cold = find(thermal=Heat(temperature_slope=0.0))
+    np.testing.assert_allclose(cold.conditions[HEAT].damping, cold.conditions[FLOODED].damping, rtol=LINEAR)
+    assert list(cold.conditions) == [FLOODED, HEAT]
+
+
+def test_a_layer_without_a_film_is_refused_and_the_rest_is_there(coarse):
+    find, _ = coarse
+    found = find(supply=OilLayer(1e-10))
+    assert list(found.conditions) == [FLOODED] and list(found.refused) == [LAYER]
+    assert any(line.startswith("With the layer: ") for line in found.notes)
+
+
+def test_damping_below_zero_has_its_line(coarse):
+    find, _ = coarse
+    found = find()
+    assert not any("below 0" in line for line in found.notes)
+    fed = replace(found.conditions[FLOODED], damping=-found.conditions[FLOODED].damping)
+    line = next(line for line in replace(found, conditions={LAYER: fed}).notes if "below 0" in line)
+    assert "with the layer at 100 Hz, with the layer at 500 Hz" in line
+
+
+def test_axial_load_has_rows_of_its_own(coarse):
+    found = oil_and_heat(BEARING, (0.0, 0.0, 200.0), speed_rpm=SPEED)
+    assert found.ways == {"axially": 2}
+    at = BEARING.coefficients((0.0, 0.0, 200.0), speed_rpm=SPEED, hz=[HIGH])
+    rows = {words: values for words, _, values in found.rows}
+    assert rows["damping, 500 Hz"][FLOODED] == pytest.approx(at.damping[0, 2, 2])
+
+
+def test_what_has_no_films_is_refused(coarse):
+    with pytest.raises(InputError, match="oil"):
+        oil_and_heat(BallBearing.catalogue("6205"), LOAD, speed_rpm=SPEED, thermal=Heat())
+    with pytest.raises(InputError, match="temperature_slope"):
+        plain = BallBearing.catalogue("6205", oil=Lubricant(eta0=0.02, alpha=2e-8))
+        oil_and_heat(plain, LOAD, speed_rpm=SPEED, thermal=Heat())
+
+
+@pytest.mark.slow
+def test_ratios_of_the_heaviest_ball_beside_those_of_all():
+    """6205, 1000 N, 3000 rpm: all contacts that carry, solved and summed, a ball under the load."""
+    bearing, load = BallBearing.catalogue("6205", oil=BEARING.oil), (0.0, -1000.0)
+    supply = OilLayer(over_flooded=1.0)
+    found = oil_and_heat(bearing, load, speed_rpm=3000.0, supply=supply, thermal=Heat())
+    state, hz = bearing.equilibrium(load, speed_rpm=3000.0), np.array([50.0, HIGH])
+
+    def ring(**given):
+        total = 0.0
+        for ball in range(3):
+            points = [race_at(bearing, state, ball, k).point(float(state.force[ball, k]), 3000.0) for k in (0, 1)]
+            answers = [impedance(point, hz=hz, **given) for point in points]
+            springs = 1.0 / sum(1.0 / (a.si.stiffness + 1j * a.si.damping * tau * hz) for a in answers)
+            total = total + (1 if ball == 0 else 2) * cos(ball * tau / 9) ** 2 * springs
+        return total
+
+    flooded = ring()
+    for key, given, off in ((HEAT, {"thermal": Heat()}, 0.003), (LAYER, {"supply": supply}, 0.08)):
+        all_balls, at = ring(**given), found.conditions[key]
+        K = at.stiffness[:, 1] / found.conditions[FLOODED].stiffness[:, 1]
+        C = at.damping[:, 1] / found.conditions[FLOODED].damping[:, 1]
+        np.testing.assert_allclose(K, all_balls.real / flooded.real, atol=0.002)
+        np.testing.assert_allclose(C, all_balls.imag / flooded.imag, atol=off)  # over the flooded damping
