@@ -42,6 +42,7 @@ from reduced_models.elements.polynomial import CubicContact as CubicContact
 from reduced_models.elements.polynomial import LinearContact as LinearContact
 from reduced_models.elements.polynomial import PolynomialContact as PolynomialContact
 from reduced_models.elements.power import PowerLawContact as PowerLawContact
+from reduced_models.elements.speed_range import SpeedRangeContact as SpeedRangeContact
 from reduced_models.elements.validity import OutsideValidityWarning as OutsideValidityWarning
 from reduced_models.elements.wide_range import WideRangeContact as WideRangeContact
 from reduced_models.fitting.fit import fit as fit

@@ -152,6 +152,7 @@ def results(point):
         speed_response(point, hz=[0.0, 1e4], grid=Grid(n=32)), speed_response(moes, Omega=3.0, grid=Grid(n=16)),
         atlas.at(point), atlas.at(point).si, atlas.at(moes), atlas.at(point).impedance(hz=50.0),
         atlas.over([20.0, 30.0], 5.0, 0.5), element, atlas.element(point), atlas.element(point, "cubic", rpm=3000),
+        atlas.element_over_speed(point),
         bearing.equilibrium(down, speed_rpm=3000.0), BallBearing.catalogue("6205").equilibrium(down),
         bearing.coefficients(down, speed_rpm=3000.0, hz=50.0), campbell(rotor, speeds, count=1),
         unbalance_response(rotor, speeds), simulate_rotor(rotor, speed_rpm=3000.0, dt=1e-4, until=1e-3),

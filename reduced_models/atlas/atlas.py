@@ -31,6 +31,7 @@ from reduced_models.atlas.atlas_elements import (
     damper_band,
     memory_element,
     passive_gains,
+    speed_element,
     wide_element,
 )
 from reduced_models.atlas.conditions import Condition, changed, conditions_at
@@ -41,6 +42,7 @@ from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
 from reduced_models.elements.film_memory import FilmMemoryContact
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
 from reduced_models.elements.polynomial import CubicContact
+from reduced_models.elements.speed_range import SpeedRangeContact
 from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -50,6 +52,9 @@ MODELS = ("memory", "wide", "cubic")
 NUMBERS = ("approach", "h_central", "h_min", "film_share", "moment")  # beside what is over frequency
 # Loads of a wide-range element, as far as the box goes.
 LOADS = np.array([0.01, 0.03, 0.07, 0.15, 0.3, 0.6, 1.0, 1.7, 3.0])
+INSIDE = 1e-9  # relative, that speeds keep from the ends of the box
+USUAL_SPEEDS = 10.0  # and its inverse: speeds of such an element over that of its point, unless given
+SPEED_STEP = 1.6  # ratio of the speeds of an element over speed, at most
 NEIGHBOURS = 1.2  # ratio below which a load is left out beside the end of the box
 
 
@@ -211,6 +216,42 @@ class Atlas:
         element = self._remembering(point, at, conditions_at(point, supply, thermal))
         assert isinstance(element, WideRangeContact)
         return element
+
+    def element_over_speed(self, point: Point, speeds: tuple[float, float] | None = None) -> SpeedRangeContact:
+        """Flooded, isothermal element at any load and a speed that may change, in SI for an `OperatingPoint`.
+
+        Parameters
+        ----------
+        point : MoesPoint or OperatingPoint
+            Its load and speed are the references; the element begins at its speed.
+        speeds : (float, float), optional
+            Lowest and highest u_sum [m/s] of the tables, or over the speed of a `MoesPoint`; that of the point is
+            between. By default a tenth and ten times that, as far as the box has the load of the point. Below the
+            lowest, films fall as U^0.67.
+
+        Raises
+        ------
+        InputError
+            A point outside the box, or speeds at which its load is outside: it names the range that there is.
+        """
+        moes, scales = self._inside(point), scales_of(point)
+        unit = 1.0 if scales is None else 2.0 * scales.a / scales.time
+        lowest, most = sorted((M / moes.M) ** (-4.0 / 3.0) for M in self.box.M)
+        if moes.L > 0.0:
+            most = min(most, (self.box.L[1] / moes.L) ** 4)
+        inside = max(1.0 / USUAL_SPEEDS, lowest * (1.0 + INSIDE)), min(USUAL_SPEEDS, most * (1.0 - INSIDE))
+        low, high = inside if speeds is None else (float(speed / unit) for speed in speeds)
+        if not lowest <= low <= 1.0 <= high <= most or not low < high:
+            between = f"{lowest * unit:.4g} to {most * unit:.4g}"
+            raise InputError("speeds", speeds, f"from {between}, with the speed of the point, {unit:.4g}, between")
+        places = np.concatenate([_steps(low, 1.0)[:-1], _steps(1.0, high)])
+        rows = []
+        for U in places.tolist():
+            at = replace(moes, M=moes.M * U**-0.75, L=moes.L * U**0.25)
+            row = self._remembering(at, self._loads(at), ())
+            assert isinstance(row, WideRangeContact)
+            rows.append(row)
+        return speed_element(places, rows, (0.0, float(self._table.metadata["highest_omega"])), scales)
 
     def _answer(self, point: Point, given: Sequence[Condition]) -> AtlasAnswer:
         """Answer under conditions."""
@@ -387,6 +428,11 @@ def _opened(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
 def _read(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
     table = read_file(path, AtlasTable, "atlas")
     return table, AtlasSurface(table)
+
+
+def _steps(low: float, high: float) -> _Floats:
+    """From `low` to `high` in equal ratios of at most `SPEED_STEP`."""
+    return np.geomspace(low, high, 1 + math.ceil(math.log(high / low) / math.log(SPEED_STEP) - INSIDE))
 
 
 def _points(M: ArrayLike, L: ArrayLike, kappa: ArrayLike) -> _Floats:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -14,9 +14,11 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.elements.film_element import units_of
+from reduced_models.elements.film_law import films
 from reduced_models.elements.film_memory import FilmMemoryContact, approach_under, film_and_exponent
 from reduced_models.elements.film_response import FilterRates
 from reduced_models.elements.polynomial import CubicContact
+from reduced_models.elements.speed_range import SpeedRangeContact
 from reduced_models.elements.validity import MARGIN, Band
 from reduced_models.elements.wide_range import WideRangeContact, inlet_saturation_of
 
@@ -25,6 +27,7 @@ _Floats = NDArray[np.float64]
 LOAD_BAND = (0.9, 1.1)  # of the elements that stand for one load
 LEAST_APPROACH = 0.2  # a cubic without a constant term needs some deformation
 PASSIVE_MARGIN = 1.001
+APART = 1.2  # ratio below which a load is left out beside the lightest or the heaviest
 
 
 @dataclass(frozen=True)
@@ -90,6 +93,42 @@ def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
         scales=scales,
         fit=at.fit,
         source=at.source,
+    )
+
+
+def speed_element(
+    speeds: _Floats, rows: Sequence[WideRangeContact], omega: Band | None, scales: Scales | None
+) -> SpeedRangeContact:
+    """Element over speed from dimensionless ones of one reference load at `speeds` over that of the point.
+
+    All rows get the loads of the lightest and the heaviest: beyond its own, the curve of a row goes on as that of
+    its element, and its gains stay.
+    """
+    lightest, heaviest = min(row.loads[0] for row in rows), max(row.loads[-1] for row in rows)
+    nodes = np.unique([load for row in rows for load in row.loads[1:-1]])
+    nodes = nodes[(nodes > APART * lightest) & (nodes < heaviest / APART)]
+    loads = np.concatenate([[lightest], nodes, [heaviest]])
+    x, h, slope = np.log(loads), np.empty(loads.size), np.empty(loads.size)
+    approach = []
+    for row in rows:
+        films(row.law, x, h, slope)
+        approach.append(loads ** (2.0 / 3.0) - h)
+    reference = rows[int(np.argmin(np.abs(np.log(speeds))))]
+    _, length, time = units_of(scales)
+    return SpeedRangeContact(
+        speeds=speeds,  # type: ignore[arg-type]
+        loads=loads,  # type: ignore[arg-type]
+        approach=approach,  # type: ignore[arg-type]
+        gain_loads=loads,  # type: ignore[arg-type]
+        gains=[row.gains_at(x).T for row in rows],  # type: ignore[arg-type]
+        inlet_saturation=[row.inlet_saturation for row in rows],  # type: ignore[arg-type]
+        **reference.rates.coefficients,
+        rate=None if reference.rate is None else reference.rate * length / time,
+        omega_range=None if omega is None else (omega[0] / time, omega[1] / time),
+        units="dimensionless" if scales is None else "SI",
+        scales=scales,
+        fit=reference.fit,
+        source=reference.source,
     )
 
 

@@ -52,6 +52,7 @@ from reduced_models.bearing.race_contact import (
 from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.elements.film_filters import CHAIN, DIRECT
 from reduced_models.elements.film_law import interval
+from reduced_models.elements.film_speed import FILM_GROWTH
 
 _Floats = NDArray[np.float64]
 
@@ -60,7 +61,6 @@ _Floats = NDArray[np.float64]
 NEARLY = 1e-7
 MOST_STEPS = 60  # of that search: a handful, but where a ball lands
 FIRST_STEP = 1e-7  # [m], to a ball that nothing touches; doubled until a race is met
-FILM_GROWTH = 0.67  # of the film with speed (Hamrock and Dowson 1977): between two speeds of a law, films add so
 
 # Entries of a ball: its position w as tried last, what its rate follows from, w at the last two ends of steps;
 # delta and its rate where that was tried, and the slopes of w by both; what its acceleration follows from, and its

@@ -77,30 +77,42 @@ class FilmContact(ContactElement):
         super().__post_init__()
         if (self.scales is None) != (self.units == "dimensionless"):
             raise InputError("scales", self.scales, "given for an element in SI, and only there")
-        law = FilmLaw(
-            **self._tables(),
-            lag_rate=self.lag_rate,
-            inlet_rate=self.inlet_rate,
-            fast_rate=self.fast_rate,
-            inlet_saturation=self.inlet_saturation,
-        )
-        require_size("gains", float(np.abs(law.gains).max()), LARGEST_GAIN)
-        require_rising(law)
-        object.__setattr__(self, "law", law)
-        if not self.rates.passive(law.gains):
-            least = min(self.rates.least_dissipation(row) for row in law.gains)
-            raise InputError("least dissipation of gains", least, ">= 0 at every frequency (passive)")
+        object.__setattr__(self, "law", self._first_law())
         size = CHAIN + self.lags
         object.__setattr__(self, "_state", np.zeros(size))
         object.__setattr__(self, "_next", np.zeros(size))
         self.rest(self.approach_at(self._units[0]))
 
+    def _first_law(self) -> FilmLaw:
+        """Checked law that the element begins with."""
+        return self._law_of(self._tables(), self.inlet_saturation)
+
+    def _law_of(self, tables: Mapping[str, _Floats], inlet_saturation: float) -> FilmLaw:
+        """Law of these tables, or `InputError`."""
+        law = FilmLaw(
+            **tables,
+            lag_rate=self.lag_rate,
+            inlet_rate=self.inlet_rate,
+            fast_rate=self.fast_rate,
+            inlet_saturation=inlet_saturation,
+        )
+        require_size("gains", float(np.abs(law.gains).max()), LARGEST_GAIN)
+        require_rising(law)
+        rates = FilterRates(law.gains.shape[1] - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
+        if not rates.passive(law.gains):
+            least = min(rates.least_dissipation(row) for row in law.gains)
+            raise InputError("least dissipation of gains", least, ">= 0 at every frequency (passive)")
+        return law
+
     def _check_coefficients(self) -> None:
-        for name in ("lag_rate", "inlet_rate", "fast_rate"):
-            object.__setattr__(self, name, require_between(name, getattr(self, name), *RATES))
+        self._check_rates()
         saturation = require_nonnegative("inlet_saturation", self.inlet_saturation)
         require_size("inlet_saturation", saturation, LARGEST_GAIN)
         object.__setattr__(self, "inlet_saturation", saturation)
+
+    def _check_rates(self) -> None:
+        for name in ("lag_rate", "inlet_rate", "fast_rate"):
+            object.__setattr__(self, name, require_between(name, getattr(self, name), *RATES))
 
     @property
     def parameters(self) -> dict[str, Any]:
@@ -138,7 +150,8 @@ class FilmContact(ContactElement):
         """
         u, v = as_float("approach", approach), as_float("rate", rate)
         f, length, time = self._units
-        force = film_step(self.law, self._state, self._next, _step(dt) / time, u / length, v / length * time)[0]
+        own = require_step(dt) / time
+        force = film_step(self.law, self._state, self._next, own, u / length, v / length * time)[0]
         if not math.isfinite(force):
             raise InputError("approach and rate", (u, v), "finite")
         old = self._state
@@ -154,7 +167,7 @@ class FilmContact(ContactElement):
         """
         f, length, time = self._units
         u, v = as_float("approach", approach) / length, as_float("rate", rate) / length * time
-        force, stiffness, damping = film_step(self.law, self._state, self._next, _step(dt) / time, u, v)
+        force, stiffness, damping = film_step(self.law, self._state, self._next, require_step(dt) / time, u, v)
         return float(force) * f, float(stiffness) * f / length, float(damping) * f / length * time
 
     def save_state(self) -> object:
@@ -289,7 +302,8 @@ class FilmContact(ContactElement):
         return values
 
 
-def _step(dt: float) -> float:
+def require_step(dt: float) -> float:
+    """Return a length of a step, or raise `InputError`."""
     if not 0.0 < as_float("dt", dt) < math.inf:
         raise InputError("dt", dt, "finite and > 0")
     return float(dt)

@@ -21,6 +21,7 @@ from reduced_models import (
     OutsideValidityWarning,
     PolynomialContact,
     PowerLawContact,
+    SpeedRangeContact,
     WideRangeContact,
 )
 from reduced_models.elements.spring import MemorylessContact
@@ -32,7 +33,9 @@ FILTERS = {"inlet_saturation": 0.25, "lag_rate": 5.4, "inlet_rate": 33.0, "fast_
 GAINS = (0.001, 0.002, 0.005, 0.013, 0.0, 0.009, 0.011, 0.0, 0.0, 0.0, 0.021)
 LOADS = np.array([0.005, 0.02, 0.1, 0.3, 1.0, 3.0])
 CURVE = LOADS ** (2.0 / 3.0) - [0.0649, 0.0659, 0.0626, 0.0574, 0.0499, 0.0400]
+SLOWER = LOADS ** (2.0 / 3.0) - 0.5 * (LOADS ** (2.0 / 3.0) - CURVE)
 ROWS = tuple(tuple(scale * g for g in GAINS) for scale in (2.0, 1.0, 0.6))
+HALVES = tuple(tuple(0.5 * g for g in row) for row in ROWS)
 
 MADE = {
     "linear": LinearContact(1.15, 0.0124, **BOX),
@@ -41,6 +44,15 @@ MADE = {
     "power": PowerLawContact(0.95, 1.7, 0.15, -0.05, 0.013, **BOX),
     "memory": FilmMemoryContact(film=0.129, exponent=0.13, gains=GAINS, **FILTERS, **BOX),
     "wide": WideRangeContact(LOADS, CURVE, (0.03, 0.3, 2.0), ROWS, **FILTERS, **BOX),
+    "speed": SpeedRangeContact(
+        (0.4, 1.0, 1.5),
+        LOADS,
+        (SLOWER, CURVE, CURVE),
+        (0.03, 0.3, 2.0),
+        (HALVES, ROWS, ROWS),
+        **{**FILTERS, "inlet_saturation": (0.25, 0.25, 0.25)},
+        **BOX,
+    ),
 }
 SCALES = Scales(force=1000.0, length=4e-6, time=2e-5, a=2e-4, b=1e-3, pressure=1.5e9)
 
