@@ -58,6 +58,9 @@ from reduced_models.fitting.wide_range_fit import wide_range_from_solves as wide
 from reduced_models.rotor.assembly import rotor_on_bearings as rotor_on_bearings
 from reduced_models.rotor.baselines import dry_contact as dry_contact
 from reduced_models.rotor.baselines import local_contact as local_contact
+from reduced_models.rotor.bearing_films import ContactHistory as ContactHistory
+from reduced_models.rotor.bearing_films import FullFilm as FullFilm
+from reduced_models.rotor.bearing_films import simulate_full_films as simulate_full_films
 from reduced_models.rotor.campbell import Campbell as Campbell
 from reduced_models.rotor.campbell import campbell as campbell
 from reduced_models.rotor.compare import compare as compare

@@ -48,6 +48,7 @@ from reduced_models import (
     BallDiameter,
     BearingMount,
     BearingSet,
+    ContactHistory,
     ContactMount,
     ContactRecord,
     Disc,
@@ -88,7 +89,7 @@ INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no r
 # Public classes without `plot`, and why.
 WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
-    **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter", "Spall", "Indentation"), INPUT),
+    **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter", "Spall", "Indentation", "FullFilm"), INPUT),
     **dict.fromkeys(("SpeedHistory", "SpeedController", "Heat", "Asperities"), INPUT),
     **dict.fromkeys(("Eyring", "Carreau", "LimitingShear", "Sliding"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
@@ -164,6 +165,8 @@ def results(point):
         SpeedProfile.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
         FullContact(point, grid=Grid(n=32)), *spectra(),
         *verifications(), film.traction([0.01, 0.1], Eyring()),
+        *(ContactHistory(*np.linspace(1e-6, 2e-6, 100).reshape(5, 20), np.ones(20, int), at, 0.0)
+          for at in (None, point)),
         oiled, oiled.history(OilLayer(over_flooded=1.0), [0.0, 1.0, 10.0]),
     ]  # fmt: skip
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, fields
 from typing import Annotated
 
 from ehlcontact.checks import require_finite, require_positive
@@ -18,8 +19,16 @@ from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
 from ehlcontact.supply import OilLayer, require_supply
+from ehlcontact.transient.features import Surface, require_surface, surface_height, surface_step
 from ehlcontact.transient.time_step import DEFAULT_TOL
 from ehlcontact.transient.transient_film import FilmState, Step, TransientFilm
+
+
+@dataclass(frozen=True, slots=True)
+class ContactState(FilmState):
+    """State of a film, and the time since it was at rest."""
+
+    T: float = 0.0
 
 
 class FullContact(Summary):
@@ -36,6 +45,8 @@ class FullContact(Summary):
         enough for `largest_load` and widened until it holds the film at rest; engine of the elastic deflection.
     supply : OilLayer, optional
         Oil that the surfaces carry to the contact, as in `simulate`; by default the inlet is flooded.
+    surface : callable, optional
+        Height added to the gap, as in `simulate`, over the time since this contact was made; it rests on it.
     largest_load : float
         Largest force to expect, in static loads.
     tol : float
@@ -61,7 +72,7 @@ class FullContact(Summary):
     Raises
     ------
     InputError
-        An argument outside its range; a grid that would not fit into memory.
+        An argument outside its range; a grid that would not fit into memory, or does not resolve the surface.
     ConvergenceError
         The steady state at the start did not converge.
     """
@@ -76,6 +87,7 @@ class FullContact(Summary):
         *,
         grid: Grid = AUTOMATIC,
         supply: OilLayer | None = None,
+        surface: Surface | None = None,
         largest_load: float = 1.0,
         tol: float = DEFAULT_TOL,
         threads: int | None = None,
@@ -84,13 +96,18 @@ class FullContact(Summary):
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         require_grid(grid)
         require_supply(supply, self.point, self.scales)
+        require_surface(surface)
+        self._surface, self._T = surface, 0.0
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)
         left: Step | None = None
         for mesh in wider_meshes(self.point, Purpose.CONTACT, grid, largest_load=load):
             self._film = TransientFilm.under(supply, self.point, self.scales, mesh, tol, grid.deflection, threads)
             self.n, self.domain = mesh.n, mesh.domain
-            start = self._film.start_steady(Balance.of_load())
+            level = self._film.level
+            start = self._film.start_steady(
+                Balance.of_load(), surface=surface_height(surface, level.X, level.Y, 0.0)
+            )
             if start.status not in (Status.OUT_OF_DOMAIN, Status.BEYOND_REGION):
                 break
             left = left or start
@@ -137,12 +154,15 @@ class FullContact(Summary):
         """
         dt = require_positive("dt", dt)
         u = require_finite("approach", approach)
-        state = self._film.save_state()
+        film, T = self._film, self._T + dt
+        feature = surface_step(self._surface, film.level.X, film.level.Y, T, dt, film.last_step)
+        state = film.save_state()
         try:
-            self._check(self._film.advance(dt, Balance.of_approach(u), u))
+            self._check(film.advance(dt, Balance.of_approach(u), u, feature))
         except ConvergenceError:
-            self._film.restore_state(state)
+            film.restore_state(state)
             raise
+        self._T = T
         self.force = self._film.level.force()
         return self.force
 
@@ -161,14 +181,16 @@ class FullContact(Summary):
         """Force, film and approach at rest in SI, of now; raises `InputError` for a dimensionless point."""
         return SIView(self)
 
-    def save_state(self) -> FilmState:
+    def save_state(self) -> ContactState:
         """Everything needed to come back to the present."""
-        return self._film.save_state()
+        film = self._film.save_state()
+        return ContactState(**{one.name: getattr(film, one.name) for one in fields(film)}, T=self._T)
 
     @one_blas_thread()
-    def restore_state(self, state: FilmState) -> None:
+    def restore_state(self, state: ContactState) -> None:
         """Return to a saved state."""
         self._film.restore_state(state)
+        self._T = state.T
         self.force = self._film.level.force()
 
     def _check(self, step: Step) -> None:

@@ -28,6 +28,7 @@
 | features | inputs: waviness and defects of races and balls, balls of another diameter |
 | height_tables | heights of features, filtered by the contact, as tables over the angle and the load |
 | contact_heights | heights from these tables in a time step, compiled |
+| track_surface | `TrackSurface`: features that pass a contact, as the surface of a full film |
 | excitation | forces of features on a fixed ring, as spectral lines over orders of the shaft |
 | ball_states | balls and films about rest as matrices of first order |
 | continuous_time | derivatives of the states of balls and films, compiled |

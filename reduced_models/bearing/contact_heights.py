@@ -9,8 +9,9 @@ import numpy as np
 from ehlcontact.jit import jit_exact_called_node, jit_exact_loop
 from reduced_models.bearing.race_contact import APPROACH
 
-# Entries of the heights of a contact: height and rate of the step, heights at its last two ends
-HEIGHT, HEIGHT_RATE, HEIGHT_NOW, HEIGHT_BEFORE, HEIGHTS = range(5)
+# Entries of the heights of a contact: height and rate of the step, heights at its last two ends; where a full film
+# is in place of its element, the force of that film, its slope and the approach where it is, heights left out
+HEIGHT, HEIGHT_RATE, HEIGHT_NOW, HEIGHT_BEFORE, FILM_FORCE, FILM_SLOPE, FILM_APPROACH, HEIGHTS = range(8)
 # Entries of an angle: at the end of the step, at the end of the last one, its speed over that of the shaft. The
 # first row is that of the shaft, with the first angle of the cage for planar balls in place of the speed.
 ANGLE_NOW, ANGLE_LAST, ANGLE_RATE = range(3)

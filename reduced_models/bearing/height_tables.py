@@ -54,8 +54,7 @@ def heights_of(bearing: BallBearing) -> _Floats:
     tracks: list[tuple[str, float, _Floats]] = []
     for column, name in enumerate(RACES):
         for row in range(1 + bearing.balls):
-            where = ("race", name) if row == 0 else ("ball", row - 1)
-            own = [one for one in bearing.features if getattr(one, where[0], None) == where[1]]
+            own = features_on(bearing, **({"race": name} if row == 0 else {"ball": row - 1}))
             if row > 0:
                 numbers[row, RAISED] = 0.5 * sum(one.excess for one in own if isinstance(one, BallDiameter))
             if waves := [one for one in own if not isinstance(one, BallDiameter)]:
@@ -70,6 +69,12 @@ def heights_of(bearing: BallBearing) -> _Floats:
         page[:places] = filtered(_resampled(profile, places), 2.0 * pi * radius / places, strip, axis)
         page[-1, 0] = (LOADS - 1) / axis * sqrt(2.0 * strip)
     return found
+
+
+def features_on(bearing: BallBearing, *, race: str | None = None, ball: int | None = None) -> list[Feature]:
+    """Features of one race, or of one ball."""
+    name, wanted = ("ball", ball) if race is None else ("race", race)
+    return [one for one in bearing.features if getattr(one, name, None) == wanted]
 
 
 class BallsAtRest(Protocol):
@@ -175,7 +180,12 @@ def profile_of(bearing: BallBearing, features: Sequence[Feature], name: str, rad
             spacing = min(one.length / PER_LENGTH, (getattr(one, "edge", 0.0) or one.length) / PER_EDGE)
             needed = max(needed, 2.0 * pi * radius / spacing)
     places = min(ROUNDED * ceil(needed / ROUNDED), MOST_PLACES)
-    theta, heights = 2.0 * pi * np.arange(places) / places, np.zeros(places)
+    return heights_along(features, radius, 2.0 * pi * np.arange(places) / places)
+
+
+def heights_along(features: Sequence[Feature], radius: float, theta: _Floats) -> _Floats:
+    """Height [m] of features of one track, but for diameters, at angles `theta` on it [rad]."""
+    heights = np.zeros(theta.shape)
     for one in features:
         if isinstance(one, Waves):
             heights += one.amplitude * np.cos(one.waves * theta - one.phase)

@@ -94,6 +94,10 @@ class BallMotion:
         press_balls(self.balls, self.at_speed, self.films, self._normals, q, v, self.gain, out)
         return out
 
+    def ring_approach(self, k: int) -> float:
+        """Of both rings at ball `k`, where `forces` was called last [m]."""
+        return float(self._normals[k] @ self._tried[0]) - self.balls.half_clearance
+
     def accept(self) -> None:
         """Move balls and films to the end of the step, as `forces` was called last."""
         accept_balls(self.balls, self.at_speed, self.films, self._normals, *self._tried, self.gain)

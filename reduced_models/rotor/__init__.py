@@ -37,6 +37,8 @@
 | free_decay | a rotor after an initial velocity in the shape of a mode |
 | resonance | responses of several linear rotors to unbalance, and their highest points |
 | full_films | a rotor with the whole film in every contact, from near its settled motion on |
+| bearing_films | `simulate_full_films`: chosen contacts of ball bearings as full films, the others elements |
+| film_process | such films in this process or in others |
 | compare_bearing_models | one rotor on several models of its ball bearings |
 | settling | whether a run has reached steady state; runs that go on until it has |
 | events | `contact_events`: lift-off, impacts, load range, time outside validity |

@@ -7,7 +7,7 @@ Newton's method or, for contacts without tangents, secants.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -87,11 +87,15 @@ class PythonSteps:
         Largest imbalance over the largest of the forces at the start.
     most : int
         Evaluations in a step.
+    bearings : sequence of RunningSupport, optional
+        The ball bearings; by default `BallSteps` of each.
     """
 
     made = reached = 0  # steps, and the last one that was begun
 
-    def __init__(self, run: PreparedRun, tolerance: float, most: int) -> None:
+    def __init__(
+        self, run: PreparedRun, tolerance: float, most: int, bearings: Sequence[RunningSupport] | None = None
+    ) -> None:
         self._run, self._most, self._in_step = run, most, False
         self._points, self._normals, counts = run.rotor.geometry
         self._to_points = counts[:, None] * self._normals  # (m, n): forces of the points are force @ to_points
@@ -108,8 +112,12 @@ class PythonSteps:
         if first:
             run.contacts.noise = NOISE * self._allowed / counts[:first].max()
             self._supports.append((slice(0, first), run.contacts))
-        for at, balls in zip(run.ball_directions, run.balls, strict=True):
-            self._supports.append((at, BallSteps(balls, run.dt, run.contacts.gain, run.shift[at])))
+        if bearings is None:
+            bearings = [
+                BallSteps(balls, run.dt, run.contacts.gain, run.shift[at])
+                for at, balls in zip(run.ball_directions, run.balls, strict=True)
+            ]
+        self._supports += zip(run.ball_directions, bearings, strict=True)
 
     def advance(self, steps: Steps, first: int, end: int, progress: Callable[[int], None]) -> None:
         """Make the steps of one block; `progress` takes the number of steps made, after each.

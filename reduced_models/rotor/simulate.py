@@ -100,10 +100,7 @@ def simulate_rotor(
         A step found no balance, a contact in it did not converge, or a ring left its bearing; ``result`` holds the
         steps before.
     """
-    require_positive("dt", dt)
-    if require_positive("until", until) / dt > MOST_STEPS:
-        raise InputError("until", until, f"at most {MOST_STEPS * dt:g} s: {MOST_STEPS:.0e} steps of dt, all kept")
-    steps = max(1, ceil(until / dt - 1e-9))  # but for rounding of the quotient
+    steps = steps_until(dt, until)
     if not 0.0 <= rho_inf <= 1.0:
         raise InputError("rho_inf", rho_inf, "between 0 and 1")
     max_iterations = require_integer("max_iterations", max_iterations, "a whole number >= 1", 1)
@@ -120,7 +117,7 @@ def simulate_rotor(
     else:
         allowed = default_tolerance(whole) if tolerance is None else tolerance
         integrator = PythonSteps(run, allowed, max_iterations)
-    return _integrate(run, integrator, callback)
+    return integrate(run, integrator, callback)
 
 
 def default_tolerance(rotor: Rotor) -> float:
@@ -130,7 +127,15 @@ def default_tolerance(rotor: Rotor) -> float:
     return TOLERANCE * max(coarsest, 1.0)
 
 
-def _integrate(
+def steps_until(dt: float, until: float) -> int:
+    """Number of steps `dt` [s] of a run; raises `InputError` for a step, an end or a number outside its range."""
+    require_positive("dt", dt)
+    if require_positive("until", until) / dt > MOST_STEPS:
+        raise InputError("until", until, f"at most {MOST_STEPS * dt:g} s: {MOST_STEPS:.0e} steps of dt, all kept")
+    return max(1, ceil(until / dt - 1e-9))  # but for rounding of the quotient
+
+
+def integrate(
     run: PreparedRun, integrator: Integrator, callback: Callable[[int, int], object] | None
 ) -> RotorResult:
     """All steps, or as many as there are before Ctrl-C."""

@@ -1,0 +1,405 @@
+"""`simulate_full_films`: a rotor in which some contacts of its ball bearings are full films, the others elements.
+
+A full film takes the place of an element for a while, as the passage of a defect, whose height is its surface. In
+every time step the ball is balanced on the film's force, straight over the approach from where the film was solved
+last, with a slope from the last two solves; the film is solved again, from the start of the step, until the place
+of the ball and the film belong together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact import Grid, Status
+from ehlcontact.checks import require_choice, require_instance, require_integer, require_positive
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.point import OperatingPoint, Scales
+from ehlcontact.quantities import FORCE, LENGTH, NUMBER, TIME
+from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.summary import span
+from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.balls import POSITION
+from reduced_models.bearing.contact_heights import FILM_APPROACH, FILM_FORCE, FILM_SLOPE
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.bearing.motion import BallMotion
+from reduced_models.bearing.race import RACES
+from reduced_models.bearing.track_surface import TrackSurface, tracks_at
+from reduced_models.rotor.film_process import FilmAnswer, Submit, close_film, film_places, open_film, step_film
+from reduced_models.rotor.integrate_python import BallSteps, PythonSteps
+from reduced_models.rotor.prepared_run import PreparedRun
+from reduced_models.rotor.result import RotorResult
+from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.simulate import TOLERANCE, integrate, steps_until
+
+_Floats = NDArray[np.float64]
+
+USUAL_GRID = Grid()
+CLOSE = 1e-3  # of the load at its start: force that a film may miss where it stands beside its ball
+MOST_SOLVES = 12  # of a film in a step: one or two
+NOISE = 3e-4  # of that load: smaller changes of force give no slope, for films are solved to a third of it
+SLOPES = 0.05, 20.0  # over the dry slope at that load
+MOST_EVALUATIONS = 30  # of the balance of a step
+
+
+@dataclass(frozen=True, kw_only=True)
+class FullFilm:
+    """A contact of a ball bearing that is a full film for a while.
+
+    Parameters
+    ----------
+    ball : int
+        From 0, which is the ball at the cage angle.
+    race : {"inner", "outer"}
+    between : (float, float)
+        Times [s] from which on, and until when, the film is solved. It starts at rest under the force that the
+        contact has then.
+    bearing : int
+        Among the ball bearings of the rotor.
+    grid : Grid
+    largest_load : float
+        Force to expect, over that at the start: the computed region is wide enough for it.
+    solved : bool
+        False: the element stays, and its history alone is kept, beside which to hold that of the film.
+
+    Raises
+    ------
+    InputError
+        A value outside its range.
+    """
+
+    ball: int
+    race: str
+    between: tuple[float, float]
+    bearing: int = 0
+    grid: Grid = USUAL_GRID
+    largest_load: float = 2.0
+    solved: bool = True
+
+    def __post_init__(self) -> None:
+        require_integer("ball", self.ball, "a whole number >= 0", 0)
+        require_integer("bearing", self.bearing, "a whole number >= 0", 0)
+        require_choice("race", self.race, RACES)
+        require_instance("grid", self.grid, Grid, "a Grid")
+        require_positive("largest_load", self.largest_load)
+        if len(self.between) != 2 or not 0.0 <= self.between[0] < self.between[1] < np.inf:
+            raise InputError("between", self.between, "two times, 0 <= start < end [s]")
+
+    @property
+    def contact(self) -> int:
+        """Number of its contact in the bearing."""
+        return 2 * self.ball + RACES.index(self.race)
+
+
+@dataclass(frozen=True, eq=False)
+class ContactHistory(QuantityTable):
+    """A contact of a bearing while its film is solved; entry 0 is the start.
+
+    Attributes
+    ----------
+    t : ndarray, shape (k,)
+        Times [s].
+    approach : ndarray, shape (k,)
+        Of ball and race without features [m].
+    force : ndarray, shape (k,)
+        In N.
+    h_central, h_min : ndarray, shape (k,)
+        Film in the centre, and the smallest [m]; NaN of an element.
+    solves : ndarray, shape (k,)
+        How often the film was solved in the step.
+    operating_point : OperatingPoint or None
+        Of the contact at the start; None of an element.
+    offset : float
+        Approach of the full film over that of the element under the load of the start [m]: their difference at
+        rest, which the run leaves out.
+    """
+
+    t: Annotated[_Floats, TIME.over("t")]
+    approach: Annotated[_Floats, LENGTH.over("t")]
+    force: Annotated[_Floats, FORCE.over("t")]
+    h_central: Annotated[_Floats, LENGTH.over("t")]
+    h_min: Annotated[_Floats, LENGTH.over("t")]
+    solves: Annotated[NDArray[np.int64], NUMBER.over("t")]
+    operating_point: OperatingPoint | None
+    offset: float
+
+    DISPLAY: ClassVar[Display] = Display(rows="t", panels=("force", "approach", "h_central h_min"), first=0)
+
+    def _summary_lines(self) -> list[str]:
+        what = "element" if self.operating_point is None else f"full film, solved {self.solves.sum()} times"
+        lines = [
+            f"{what}, from {self.t[0]:.6g} to {self.t[-1]:.6g} s in {self.t.size - 1} steps",
+            f"force {span(self.force, 1.0, 'N')}, approach {span(self.approach, 1e6, 'µm')}",
+        ]
+        film = [] if self.operating_point is None else [f"smallest film {1e6 * self.h_min.min():.3g} µm"]
+        return lines + film
+
+
+@dataclass(frozen=True, eq=False)
+class FullFilmRun:
+    """A run of a rotor, and the histories of its full films in the order in which they were given."""
+
+    rotor: RotorResult
+    films: tuple[ContactHistory, ...]
+
+    @property
+    def status(self) -> Status:
+        """Of the run."""
+        return self.rotor.status
+
+
+def simulate_full_films(
+    rotor: Rotor,
+    films: Sequence[FullFilm],
+    *,
+    speed_rpm: float,
+    dt: float,
+    until: float,
+    start: Any = "static",
+    tolerance: float | None = None,
+    rho_inf: float = 0.8,
+    processes: int = 1,
+    callback: Callable[[int, int], object] | None = None,
+) -> FullFilmRun:
+    """Integrate a rotor on planar ball bearings of which chosen contacts are full films.
+
+    All else is as in `simulate_rotor`. A film is carried by a node per step or less where ``dt`` is at most the
+    mesh over the speed of the surfaces; it is solved once or twice per step.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    films : sequence of FullFilm
+    speed_rpm : float
+        Of the shaft [rev/min], constant.
+    dt, until, start, tolerance, rho_inf, callback
+        As of `simulate_rotor`.
+    processes : int
+        At most so many in which films are solved side by side; with 1, in this one.
+
+    Raises
+    ------
+    InputError
+        As `simulate_rotor`; a ball, a race or a bearing that is not there, a contact given twice, bearings with
+        axial motion or without oil, a surface that the grid does not resolve.
+    ConvergenceError
+        A step found no balance, or a film in it was not solved; ``result`` is the `FullFilmRun` before.
+    """
+    require_instance("rotor", rotor, Rotor, "a Rotor")
+    require_integer("processes", processes, "a whole number >= 1", 1)
+    _require_there(rotor, films)
+    run = PreparedRun(rotor, require_positive("speed_rpm", speed_rpm), dt, steps_until(dt, until), start, rho_inf)
+    with film_places(len(films), processes) as places:
+        running = [_RunningFilm(run, one, place) for one, place in zip(films, places, strict=True)]
+        supports = [
+            FilmSteps(run, b, [film for film in running if film.spec.bearing == b]) for b in range(len(run.balls))
+        ]
+        integrator = PythonSteps(run, TOLERANCE if tolerance is None else tolerance, MOST_EVALUATIONS, supports)
+        try:
+            result = integrate(run, integrator, callback)
+        except ConvergenceError as error:
+            raise ConvergenceError(str(error), FullFilmRun(error.result, _histories(running))) from error
+        finally:
+            for film in running:
+                film.close()
+    return FullFilmRun(result, _histories(running))
+
+
+def _require_there(rotor: Rotor, films: Sequence[FullFilm]) -> None:
+    """Raise `InputError` for films that the rotor cannot have."""
+    mounts, taken = rotor.ball_bearings, set()
+    for i, film in enumerate(films):
+        field = f"films[{i}]"
+        require_instance(field, film, FullFilm, "a FullFilm")
+        if film.bearing >= len(mounts):
+            raise InputError(
+                f"{field}.bearing", film.bearing, f"below {len(mounts)}, the ball bearings of the rotor"
+            )
+        mount = mounts[film.bearing]
+        if film.ball >= mount.ball_bearing.balls:
+            raise InputError(
+                f"{field}.ball", film.ball, f"below {mount.ball_bearing.balls}, the balls of the bearing"
+            )
+        if mount.z is not None:
+            raise InputError(f"{field}.bearing", film.bearing, "one without axial motion and tilts")
+        if mount.ball_bearing.oil is None:
+            raise InputError(f"{field}.bearing", film.bearing, "one with oil")
+        if (film.bearing, film.contact) in taken:
+            raise InputError(field, f"{film.race} race, ball {film.ball}", "a contact that no other film has")
+        taken.add((film.bearing, film.contact))
+
+
+class FilmSteps(BallSteps):
+    """Steps of one ball bearing with full films."""
+
+    def __init__(self, run: PreparedRun, b: int, films: Sequence[_RunningFilm]) -> None:
+        super().__init__(run.balls[b], run.dt, run.contacts.gain, run.shift[run.ball_directions[b]])
+        self._films, self._step = films, 0
+
+    def begin(self, omega: float, angle: float) -> None:
+        """Begin a step at whose end the shaft turns at `omega` [rad/s] and the first ball is at `angle`."""
+        for film in self._films:
+            film.begin(self._step)
+        self._step += 1
+        super().begin(omega, angle)
+
+    def at(self, r: _Floats, rate: _Floats) -> tuple[_Floats, _Floats]:
+        """Forces at the end of the step, and their slopes, with films that belong to the places of their balls."""
+        for _ in range(MOST_SOLVES):
+            found = super().at(r, rate)
+            away = [film for film in self._films if film.is_away]
+            if not away:
+                return found
+            for film in away:
+                film.solve()
+            for film in away:
+                film.take()
+        raise ConvergenceError(f"full film and ball found no common place in {MOST_SOLVES} solves", None)
+
+    def expected(self, r: _Floats, rate: _Floats) -> _Floats:
+        """Slopes to be expected there."""
+        return super().at(r, rate)[1]
+
+    def accept(self, r: _Floats, rate: _Floats) -> None:
+        """Move to the end of the step."""
+        super().accept(r, rate)
+        for film in self._films:
+            film.keep(self._step)
+
+
+class _RunningFilm:
+    """One film in a run: before, in and after the time in which it is solved."""
+
+    def __init__(self, run: PreparedRun, spec: FullFilm, submit: Submit) -> None:
+        motion, mount = run.balls[spec.bearing], run.rotor.ball_bearings[spec.bearing]
+        assert isinstance(motion, BallMotion)
+        self.spec, self._run, self._motion, self._submit = spec, run, motion, submit
+        self._bearing: BallBearing = mount.ball_bearing
+        self._first, self._last = (round(t / run.dt) for t in spec.between)
+        self._given = motion.films.heights[spec.contact]
+        self._rows: list[tuple[float, ...]] = []
+        self._point: OperatingPoint | None = None
+        self._scales: Scales
+        self._offset, self._load = 0.0, 0.0
+        self._step = self._solves = 0
+        self._trend, self._before = 0.0, (0.0, 0.0)
+        self._answer: FilmAnswer
+        self._pending: Any = None
+
+    def begin(self, step: int) -> None:
+        """Begin the step after number `step`; the film starts or ends with it."""
+        self._step, self._solves = step + 1, 0
+        if step == self._first:
+            if self.spec.solved:
+                self._open(step)
+            self._record(step, 0)
+        elif step == self._last:
+            self.close()
+        if self._active:
+            force, slope, approach = self._model
+            last_force, last_approach = self._before
+            trend = force - last_force - slope * (approach - last_approach)
+            self._before = force, approach
+            self._given[FILM_FORCE] = force + trend
+
+    @property
+    def is_away(self) -> bool:
+        """Whether the film has to be solved where the ball is."""
+        if not self._active:
+            return False
+        off = abs(self._approach() - self._given[FILM_APPROACH]) * self._given[FILM_SLOPE]
+        return bool(self._solves == 0 or off > CLOSE * self._load)
+
+    def solve(self) -> None:
+        """Begin to solve the film where the ball is."""
+        s = self._scales
+        at = (self._approach() + self._offset) / s.length
+        self._pending = self._submit(step_film, id(self), self._step, self._run.dt / s.time, at)
+
+    def take(self) -> None:
+        """Give the ball the film that was solved."""
+        answer, s = self._pending.result(), self._scales
+        _, slope, _ = self._model
+        if self._solves:
+            moved = (answer.approach - self._answer.approach) * s.length
+            change = (answer.force - self._answer.force) * s.force
+            if abs(slope * moved) > NOISE * self._load:
+                least, most = (share * 1.5 * s.stiffness for share in SLOPES)
+                slope = min(max(change / moved, least), most)
+        self._answer, self._solves = answer, self._solves + 1
+        self._give(answer.force * s.force, slope, answer.approach * s.length - self._offset)
+
+    def keep(self, step: int) -> None:
+        """Record the end of a step."""
+        if self._first < step <= self._last:
+            self._record(step, self._solves)
+
+    def close(self) -> None:
+        """Put the element back."""
+        if self._active:
+            self._given[FILM_SLOPE] = 0.0
+            self._submit(close_film, id(self))
+
+    def history(self) -> ContactHistory:
+        """What was recorded."""
+        t, approach, force, h_central, h_min, solves = np.array(self._rows).reshape(-1, 6).T
+        counts = solves.astype(np.int64)
+        return ContactHistory(t, approach, force, h_central, h_min, counts, self._point, self._offset)
+
+    @property
+    def _active(self) -> bool:
+        return bool(self._given[FILM_SLOPE] > 0.0)
+
+    @property
+    def _model(self) -> tuple[float, float, float]:
+        """Force of the film, its slope, and the approach where it was solved."""
+        return (*self._given[[FILM_FORCE, FILM_SLOPE, FILM_APPROACH]].tolist(),)
+
+    def _give(self, force: float, slope: float, approach: float) -> None:
+        self._given[[FILM_FORCE, FILM_SLOPE, FILM_APPROACH]] = force, slope, approach
+
+    def _approach(self) -> float:
+        """Of ball and race, features left out, where `forces` was called last [m]."""
+        k, outer = self.spec.ball, self.spec.race == RACES[1]
+        w = float(self._motion.films.balls[k, POSITION])
+        return w if outer else float(self._motion.ring_approach(k)) - w
+
+    def _open(self, step: int) -> None:
+        """Start the film under the force that the contact has, at the end of a step."""
+        spec, bearing, run = self.spec, self._bearing, self._run
+        k, omega = spec.ball, float(run.omega[step])
+        rpm = omega / RPM_TO_RAD_S
+        force, race = float(self._motion.films.force[k, RACES.index(spec.race)]), bearing.race(spec.race)
+        lightest = race.loads(rpm)[0]
+        if not force > lightest:
+            allowed = f"times at which ball {k} carries more than {lightest:.3g} N on the {spec.race} race"
+            raise InputError("between", spec.between, allowed)
+        self._point, self._load = race.point(force, rpm), force
+        self._scales = s = self._point.scales
+        cage = self._motion.balls.cage
+        start, angle = (float(run.cage_angles[i, spec.bearing]) for i in (0, step))
+        angles = angle + 2.0 * np.pi * k / bearing.balls, (angle - start) / cage
+        rates = cage * omega * s.time, omega * s.time
+        surface = TrackSurface(tracks_at(bearing, k, spec.race, angles, rates), s.a, s.length)
+        task = self._submit(open_film, id(self), self._point, spec.grid, surface, spec.largest_load)
+        self._answer = task.result()
+        here = self._approach()
+        self._offset = self._answer.approach * s.length - here
+        self._give(force, 1.5 * s.stiffness, here)
+        self._before = force, here
+
+    def _record(self, step: int, solves: int) -> None:
+        films, k = self._motion.films, self.spec.ball
+        column = RACES.index(self.spec.race)
+        film = (np.nan, np.nan)
+        if self._active:
+            film = self._answer.h_central * self._scales.length, self._answer.h_min * self._scales.length
+        self._rows.append((self._run.t[step], self._approach(), float(films.force[k, column]), *film, solves))
+
+
+def _histories(running: Sequence[_RunningFilm]) -> tuple[ContactHistory, ...]:
+    return tuple(film.history() for film in running)
