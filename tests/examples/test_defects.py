@@ -47,3 +47,23 @@ def test_spall_in_a_full_film(tmp_path, monkeypatch, capsys):
         }
         assert off["filtered"] < 0.06 and off["bare"] > 0.09
         assert off["linear"] < (0.04 if depth < 0.3 else 0.1)
+
+
+@pytest.mark.slow
+def test_spall_on_a_full_film_in_a_rotor(tmp_path, monkeypatch, capsys):
+    """The table of the documentation, with its grid."""
+    study = script("examples/studies/full_film_spall.py")
+    path = tmp_path / "passage.png"
+    monkeypatch.setattr("sys.argv", ["full_film_spall.py", str(path)])
+    study.main()
+    assert path.read_bytes().startswith(PNG)
+    printed = dict(line.split(": ") for line in capsys.readouterr().out.splitlines() if line.endswith("%"))
+    wanted = {
+        "contact force over its static value": 4.2,
+        "contact force over its swing": 10.6,
+        "force of the bearing over its static value": 2.0,
+        "force of the bearing over its swing": 7.7,
+        "displacement over its static value": 0.8,
+        "displacement over its swing": 6.8,
+    }
+    assert {name: float(value.split()[0]) for name, value in printed.items()} == pytest.approx(wanted, abs=0.1)
