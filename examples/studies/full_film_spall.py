@@ -1,7 +1,7 @@
 """A ball of a 6205 rolls over a worn spall of 0.5 mm on a full film, beside the reduced answer.
 
-The full film takes the place of the element of one contact (`simulate_full_films`); all others are elements. Half a
-minute on one core:
+The full film takes the place of the element of one contact (`simulate_full_films`); all others are elements. Half
+a minute on one core:
 
     python examples/studies/full_film_spall.py [full_film_spall.png] [--depth 2e-6] [--n 128]
 """
