@@ -33,7 +33,8 @@ from reduced_models.atlas.table import AtlasTable
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
 
 CASE = MoesPoint(200.0, 10.0, 0.5)
-LIMITS = {"approach": 0.003, "tangent": 0.01, "film": 0.02, "damping": 0.05}  # relative errors
+LIMITS = {"approach": 0.003, "tangent": 0.01, "film": 0.02, "damping": 0.05}  # relative errors, from M = 10 on
+LIGHT_LIMITS = LIMITS | {"tangent": 0.05, "damping": 0.12}  # below it, told by the error bars: docs/solver.md
 AT = {"wide": {}, "memory": {}, "cubic": {"Omega": 2.0 * math.pi}}
 BEARING = MoesPoint(2900.0, 19.0, 0.11)
 AXES = BOX.M, BOX.L, BOX.kappa
@@ -479,7 +480,7 @@ def test_thin_film_of_a_narrow_contact(shipped):
 @pytest.mark.slow
 def test_sixty_random_points_of_the_box(shipped):
     """Must-show of issue 4. Damping is compared where the default domain was solved, of which the atlas speaks."""
-    found, covered = {name: [] for name in LIMITS}, []
+    covered = []
     for point in random_points(60, 2026):
         try:
             grid = impedance_grid(point)
@@ -489,15 +490,13 @@ def test_sixty_random_points_of_the_box(shipped):
         truth |= truth.get("film", {})
         answer = shipped.at(point)
         whole = grid.domain != Domain.near()
+        limits = LIGHT_LIMITS if point.M < 10.0 else LIMITS
         for name, error in errors(answer, truth).items():
-            if whole or name != "damping":
-                found[name].append(error)
+            assert error < limits[name] or (name == "damping" and not whole), (name, point)
         inside = shares(answer, truth) <= 1.0
         covered.append(np.mean(inside if whole else inside[: 3 + len(OMEGAS)]))
     assert len(covered) >= 55
     assert np.mean(covered) >= 0.9
-    for name, limit in LIMITS.items():
-        assert max(found[name]) < limit, name
 
 
 @pytest.mark.parametrize(("alpha", "eta0"), [(1.2e-8, 0.01), (3.5e-8, 0.4)])
