@@ -60,6 +60,8 @@ class BearingModel:
             raise InputError(
                 "bearing.features", len(self.bearing.features), "none: an FMU has smooth races and balls"
             )
+        if self.bearing.supply is not None:
+            raise InputError("bearing.supply", "an OilLayer", "left out: the contacts of an FMU are flooded")
         if self.freedoms not in (None, len(PLANAR), len(FIVE)):
             raise InputError("freedoms", self.freedoms, "2 or 5")
         if self.bearing.ball_inertia and 2 * self.bearing.balls > MOST_CONTACTS:

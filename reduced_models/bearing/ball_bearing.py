@@ -28,6 +28,8 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
+from ehlcontact.supply import OilLayer
+from reduced_models.atlas.supply_condition import require_uniform
 from reduced_models.bearing.angular_balls import ANGLE, LOAD, AngularBalls
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
@@ -86,6 +88,7 @@ from reduced_models.bearing.race import (
     require_roughness,
 )
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
+from reduced_models.bearing.solved_balls import signed_damping
 from reduced_models.bearing.shoulders import require_below_shoulders, shoulder_angle
 from reduced_models.elements.wide_range import WideRangeContact
 
@@ -94,6 +97,7 @@ _Floats = NDArray[np.float64]
 LARGEST_PLAY = 0.05  # clearance or preload over ball diameter: five times what C5 or a heavy fit has
 LARGEST_ANGLE = pi / 4.0  # rad: beyond it, a thrust bearing
 SAME_CLEARANCE = 0.01  # by which a clearance beside a contact angle may be rounded
+SUPPLIES = ("h", "over_flooded")  # units of an oil supply that is the same at all balls
 POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are within 1e-3 of those of 48
 
 
@@ -157,12 +161,16 @@ class BallBearing(Summary):
     features : sequence of RaceWaviness, BallWaviness, BallDiameter, Spall and Indentation
         Of races and balls: they turn with the ring, the cage and the balls, and change equilibria and runs. What
         is linear about rest, as coefficients and modes, is that of the smooth bearing.
+    supply : OilLayer, optional
+        Oil that the surfaces carry to every contact (docs/oil_supply.md): one layer ``OilLayer(h)`` [m] on all
+        tracks, as that of an `OilBalance`, or ``OilLayer(over_flooded=r)`` times what each flooded film lets
+        through. By default contacts are flooded.
 
     Raises
     ------
     InputError
         What is no ball bearing: balls that overlap, a conformity of a half or less; a conformity or an oil that
-        the atlas does not have.
+        the atlas does not have; oil supply of a dry bearing, or one that the table of it does not have.
     """
 
     balls: int
@@ -187,6 +195,7 @@ class BallBearing(Summary):
     shoulder_inner: float | None = None
     shoulder_outer: float | None = None
     features: Sequence[Feature] = ()
+    supply: OilLayer | None = None
     _cache: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def _summary_lines(self) -> list[str]:
@@ -199,15 +208,32 @@ class BallBearing(Summary):
             f"conformity {self.conformity_inner:.4g} and {self.conformity_outer:.4g}, {grooves}",
             "dry"
             if self.oil is None
-            else f"oil of {self.oil.eta0:.4g} Pa s, alpha {1e9 * self.oil.alpha:.4g} 1/GPa, flooded",
+            else f"oil of {self.oil.eta0:.4g} Pa s, alpha {1e9 * self.oil.alpha:.4g} 1/GPa, {self._supply_words}",
         ]
         lines += [f"loss factor {self.loss_factor:.3g}"] if self.loss_factor else []
         return [*lines, f"features: {', '.join(map(str, self.features))}"] if self.features else lines
+
+    @property
+    def _supply_words(self) -> str:
+        if self.supply is None:
+            return "flooded"
+        r, h = self.supply.over_flooded, self.supply.h
+        return f"a layer of {1e6 * h:.4g} µm" if r is None else f"a layer of {r:.4g} flooded films"
+
+    def _require_supply(self) -> None:
+        if self.supply is None:
+            return
+        require_uniform(self.supply)
+        if self.oil is None:
+            raise InputError("supply", self._supply_words, "left out of a dry bearing, which has no oil")
+        if self.supply.H is not None:
+            raise InputError("supply", "H", "h [m] or over_flooded: dry approaches differ from ball to ball")
 
     def __post_init__(self) -> None:
         require_integer("balls", self.balls, "a whole number >= 3", 3)
         if self.oil is not None:
             require_instance("oil", self.oil, Lubricant, "a Lubricant, as Lubricant.iso_vg(68, temperature=50.0)")
+        self._require_supply()
         for name, rq in (("rq_ball", self.rq_ball), ("rq_race", self.rq_race)):
             require_roughness(name, rq)
         if self.cutoff_gap is not None:
@@ -451,7 +477,8 @@ class BallBearing(Summary):
         balls = SmallBalls.of(self._kernel(speed), self._speed_state(speed), equilibria)
         matrices, forces = balls.coefficients(w), np.array([at.force for at in equilibria])
         outside = "" if self.oil is None else assumptions_under(self, speed, forces).headline
-        return BearingCoefficients.of(force, speed, cage_angle, w, matrices, equilibria, outside)
+        signed = None if self.supply is None else signed_damping(self, speed, balls, equilibria, w)
+        return BearingCoefficients.of(force, speed, cage_angle, w, matrices, equilibria, outside, signed)
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
     def excitation(
@@ -766,6 +793,10 @@ class BallBearing(Summary):
         """All arguments, ready for JSON."""
         found = {f.name: getattr(self, f.name) for f in fields(self) if f.init and f.name != "features"}
         found["oil"] = None if self.oil is None else asdict(self.oil)
+        if self.supply is None:
+            del found["supply"]  # so that files of flooded bearings stay as they were
+        else:
+            found["supply"] = self.supply.to_dict()
         return found | ({"features": feature_entries(tuple(self.features))} if self.features else {})
 
     @classmethod
@@ -774,10 +805,16 @@ class BallBearing(Summary):
         oil = entries.get("oil")
         require_instance("oil", oil, dict | None, "an object, or null")
         features = features_from(entries.get("features", []))
-        require_names({"features": [], **entries}, [f.name for f in fields(cls) if f.init])
+        supply = entries.get("supply")
+        require_instance("supply", supply, dict | None, "an object, or null")
+        require_names({"features": [], "supply": None, **entries}, [f.name for f in fields(cls) if f.init])
         if oil is not None:
             require_names(oil, [f.name for f in fields(Lubricant)], "oil.")
-        return cls(**{**entries, "oil": None if oil is None else Lubricant(**oil), "features": features})
+        given = {"oil": None if oil is None else Lubricant(**oil), "features": features}
+        if supply is not None:
+            require_names({**dict.fromkeys(SUPPLIES), **supply}, SUPPLIES, "supply.")
+            given["supply"] = OilLayer.from_dict(supply)
+        return cls(**{**entries, **given})
 
 
 def require_contact_angle(angle: float) -> None:

@@ -138,6 +138,9 @@ class BearingCoefficients(FrequencyResponse):
         Peak-to-peak displacement of the ring while a ball passes slowly [m]; 0 at a given angle of the cage.
     outside_assumptions : str
         Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
+    signed_damping : ndarray, shape (k, 2, 2), or None
+        C [N s/m] of the solved contacts under an oil supply, which at low frequency may be below zero; `damping`
+        is that of the elements, which leave that out. None in flooded bearings and with five degrees of freedom.
     """
 
     load: Annotated[_Floats, FORCE.over("axis")]
@@ -149,6 +152,7 @@ class BearingCoefficients(FrequencyResponse):
     displacement: Annotated[_Floats, LENGTH.over("axis")]
     peak_to_peak: Annotated[_Floats, LENGTH.over("axis")]
     outside_assumptions: str = ""
+    signed_damping: Annotated[_Floats | None, DAMPING.over("hz axis by")] = None
 
     DISPLAY: ClassVar[Display] = Display(
         rows="hz", panels=("stiffness", "damping"), labels={"axis": ("x", "y"), "by": ("x", "y")}, logs="x"
@@ -173,9 +177,16 @@ class BearingCoefficients(FrequencyResponse):
             f"K_xx {span(K[:, 0, 0], 1e-6, 'N/µm')}, K_yy {span(K[:, 1, 1], 1e-6, 'N/µm')}",
             f"C_xx {span(C[:, 0, 0], 1.0, 'N s/m')}, C_yy {span(C[:, 1, 1], 1.0, 'N s/m')}",
             *axial,
+            *self._signed_line(),
             "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
             *note_line(self.outside_assumptions),
         ]
+
+    def _signed_line(self) -> list[str]:
+        if self.signed_damping is None:
+            return []
+        xx, yy = (span(self.signed_damping[:, k, k], 1.0, "N s/m") for k in range(2))
+        return [f"of the solved contacts, below zero too: C_xx {xx}, C_yy {yy}"]
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
@@ -196,8 +207,10 @@ class BearingCoefficients(FrequencyResponse):
         matrices: tuple[_Floats, _Floats],
         equilibria: Sequence[RingAtRest],
         outside_assumptions: str = "",
+        signed_damping: _Floats | None = None,
     ) -> BearingCoefficients:
         """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""
         places = np.array([at.displacement for at in equilibria])
         mean, peak_to_peak = places.mean(axis=0), np.ptp(places, axis=0)
-        return cls(load, speed_rpm, cage_angle, omega, *matrices, mean, peak_to_peak, outside_assumptions)
+        where = mean, peak_to_peak, outside_assumptions
+        return cls(load, speed_rpm, cage_angle, omega, *matrices, *where, signed_damping)

@@ -111,6 +111,8 @@ class OilBalance(Summary):
         require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
         if self.bearing.oil is None:
             raise InputError("oil", None, "given to the bearing: a dry one has no oil balance")
+        if self.bearing.supply is not None:
+            raise InputError("supply", "given to the bearing", "left out: the balance finds it (`lasting_supply`)")
         require_positive("speed_rpm", self.speed_rpm)
         if np.shape(self.load) != (2,):
             raise InputError("load", self.load, "(Fx, Fy): the balance is for radial loads")
@@ -203,6 +205,19 @@ class OilBalance(Summary):
         if not low <= self.feed <= high:
             raise InputError("feed", self.feed, f"from {low:.3g} to {high:.3g} m3/s, which keep a layer")
         return float(brentq(lambda layer: self.feed_for(layer) - self.feed, *ends, rtol=ACCURACY))
+
+    @property
+    def lasting_supply(self) -> OilLayer:
+        """The same as the ``supply`` of a `BallBearing`.
+
+        Raises
+        ------
+        InputError
+            No feed; else as `lasting_layer`.
+        """
+        if self.feed == 0.0:
+            raise InputError("feed", 0.0, "> 0: without any no layer lasts")
+        return OilLayer(self.lasting_layer)
 
     def history(self, layer: OilLayer, t: ArrayLike) -> OilHistory:
         """Layer and films over time.

@@ -22,7 +22,10 @@ from ehlcontact.checks import require_nonnegative
 from ehlcontact.checks.admissible_range import LIMITS
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact, radius_ratio
+from ehlcontact.supply import OilLayer
+from reduced_models.atlas.answer import AtlasAnswer
 from reduced_models.atlas.atlas import Atlas
+from reduced_models.atlas.supply_condition import heaviest_load, supply_box
 from reduced_models.bearing.five_degrees import AngularEquilibrium
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, rolling_torque, speed_sum_per_omega
 from reduced_models.bearing.race_contact import film_cutoff
@@ -68,6 +71,8 @@ class Race:
         Sum of the surface speeds over the angular speed of the shaft [m].
     atlas : str or None
         File of another atlas than the shipped one.
+    supply : OilLayer or None
+        Layer ahead of the contact; None is flooded.
     """
 
     name: str
@@ -77,6 +82,7 @@ class Race:
     oil: Lubricant | None
     speed_sum: float
     atlas: str | None = None
+    supply: OilLayer | None = None
 
     @cached_property
     def kn(self) -> float:
@@ -92,8 +98,9 @@ class Race:
     @property
     def highest_speed(self) -> float:
         """Speed of the shaft [rev/min] up to which the atlas reaches."""
-        L = self.point(1.0, 1.0).moes.L
-        return float((shared_atlas(self.atlas).box.L[1] / L) ** POWER_OF_SPEED * (1.0 - INSIDE))
+        L, most = self.point(1.0, 1.0).moes.L, shared_atlas(self.atlas).box.L[1]
+        most = most if self.supply is None else min(most, supply_box().L[1])
+        return float((most / L) ** POWER_OF_SPEED * (1.0 - INSIDE))
 
     def loads(self, speed_rpm: float) -> tuple[float, float]:
         """Range of loads [N] of the atlas at this speed."""
@@ -104,7 +111,10 @@ class Race:
     def heaviest(self, speed_rpm: float) -> tuple[float, str]:
         """Largest load [N] of a ball, and what ends there: the atlas at this speed, or elastic steel where dry."""
         if self.oil is not None:
-            return self.loads(speed_rpm)[1], "the end of the atlas at this speed"
+            most = self.loads(speed_rpm)[1]
+            if self.supply is not None and (end := heaviest_load(self.point(1.0, speed_rpm).moes)) < most:
+                return end, "the end of the table of oil supply at this speed"
+            return most, "the end of the atlas at this speed"
         body = self.geometry
         unit = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure
         most = f"{1e-9 * LIMITS.p_hertz:g} GPa, beyond which no steel stays elastic"
@@ -128,8 +138,12 @@ class Race:
         inside = 10.0 ** (np.arange(ceil(first), ceil(last)) / PER_DECADE)
         loads = np.concatenate([[low], inside, [high]])
         reference = float(np.sqrt(low * high))
-        found = shared_atlas(self.atlas).wide(self.point(reference, speed_rpm), loads / reference)
+        found = shared_atlas(self.atlas).wide(self.point(reference, speed_rpm), loads / reference, supply=self.supply)
         return replace(found, inlet_saturation=0.0)
+
+    def answer(self, load: float, speed_rpm: float) -> AtlasAnswer:
+        """Of the atlas for the contact under a load [N] at this speed."""
+        return shared_atlas(self.atlas).at(self.point(load, speed_rpm), supply=self.supply)
 
     def films(self, speed_rpm: float, load: _Floats, gap: _Floats) -> tuple[_Floats, _Floats, _Floats]:
         """Central and smallest film [m], and moment of the pressure [N m], under loads [N] at this speed.
@@ -138,10 +152,10 @@ class Race:
         the moment is that of the lightest load: of rigid surfaces in a flooded inlet it hardly depends on load,
         for pressures grow as fast as what they press on shrinks.
         """
-        atlas, lightest = shared_atlas(self.atlas), self.loads(speed_rpm)[0]
+        lightest = self.loads(speed_rpm)[0]
         central, smallest, moment = gap.copy(), gap.copy(), np.zeros(load.size)
         for k, one in enumerate(load.tolist()):
-            answer = atlas.at(self.point(max(one, lightest), speed_rpm)).si
+            answer = self.answer(max(one, lightest), speed_rpm).si
             moment[k] = answer.moment
             if one >= lightest:
                 central[k], smallest[k] = answer.h_central, answer.h_min
@@ -179,7 +193,7 @@ def race_of(bearing: Any, name: str) -> Race:
         own = {"conformity": f"conformity_{name}", "e1": "youngs_modulus", "nu1": "poisson_ratio"}
         raise InputError(own.get(error.field, error.field), error.value, error.allowed) from None
     speed_sum = speed_sum_per_omega(bearing.pitch_diameter, bearing.gamma * cosine)
-    return Race(name, body, bearing.ball_diameter, conformity, bearing.oil, speed_sum, bearing.atlas)
+    return Race(name, body, bearing.ball_diameter, conformity, bearing.oil, speed_sum, bearing.atlas, bearing.supply)
 
 
 def films_under(bearing: Any, speed_rpm: float, force: _Floats, approach: _Floats) -> dict[str, Any]:
@@ -223,7 +237,7 @@ def assumptions_under(bearing: Any, speed_rpm: float, force: _Floats) -> Assumpt
     for name, load in zip(RACES, force.reshape(-1, 2).max(axis=0).tolist(), strict=True):
         race = bearing.race(name)
         point = race.point(max(load, race.loads(speed_rpm)[0]), speed_rpm)
-        found.append(assumptions(point, film=shared_atlas(bearing.atlas).at(point), roughness=rough))
+        found.append(assumptions(point, film=shared_atlas(bearing.atlas).at(point, supply=bearing.supply), roughness=rough))
     return Assumptions.worst_of(found)
 
 
@@ -237,7 +251,7 @@ def assumptions_at_angles(bearing: Any, speed_rpm: float, places: Sequence[Angul
         angle, speed_sum = float(at.angles[k, column]), float(at.speed_sum[k, column])
         race = bearing.race(name).at_angle(bearing.pitch_diameter, angle, speed_sum)
         point = race.point(max(float(at.force[k, column]), race.loads(speed_rpm)[0]), speed_rpm)
-        found.append(assumptions(point, film=shared_atlas(bearing.atlas).at(point), roughness=rough))
+        found.append(assumptions(point, film=shared_atlas(bearing.atlas).at(point, supply=bearing.supply), roughness=rough))
     return Assumptions.worst_of(found)
 
 
