@@ -187,7 +187,51 @@ def passes() -> None:
     figure.savefig(IMAGES / "oil_passes.png", dpi=130)
 
 
+def bearing_over_supply() -> None:
+    """Film and damping of a 6205 over its oil supply, by the atlas, its elements and its solved contacts."""
+    figure = Figure(figsize=(9.0, 3.8), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    oil, load, hz = Lubricant.iso_vg(68, temperature=50.0), (0.0, -1000.0), np.array([50.0, 500.0, 1000.0, 3000.0])
+    ratios, speeds = np.geomspace(0.25, 6.0, 33), (1000.0, 3000.0, 6000.0)
+    flooded = {}
+    for speed in speeds:
+        whole = BallBearing.catalogue("6205", oil=oil)
+        state = whole.equilibrium(load, speed_rpm=speed)
+        flooded[speed] = (
+            state.h_central[state.heaviest, 0],
+            whole.coefficients(load, speed_rpm=speed, hz=hz).damping,
+        )
+        shares, found = [], []
+        for ratio in ratios:
+            bearing = BallBearing.catalogue("6205", oil=oil, supply=OilLayer(over_flooded=ratio))
+            state = bearing.equilibrium(load, speed_rpm=speed)
+            shares.append(state.h_central[state.heaviest, 0] / flooded[speed][0])
+            if speed == 3000.0 or ratio in ratios[::8]:
+                small = bearing.coefficients(load, speed_rpm=speed, hz=hz)
+                found.append((ratio, small.signed_damping[:, 1, 1], small.damping[:, 1, 1]))
+        left.semilogx(ratios, shares, label=f"{speed:.0f} rev/min, {1e6 * flooded[speed][0]:.3g} µm flooded")
+        print(f"{speed:g} rev/min, flooded {flooded[speed][1][:, 1, 1].round(0)} N s/m at {hz} Hz")
+        for ratio, signed, element in found:
+            print(f"   r {ratio:.3g}: solved contacts {signed.round(0)}, elements {element.round(0)}")
+        if speed == 3000.0:
+            at = [one[0] for one in found]
+            for k, one in enumerate(hz):
+                signed, element = (np.array([row[j][k] for row in found]) for j in (1, 2))
+                (line,) = right.semilogx(at, signed, label=f"{one:.0f} Hz")
+                right.semilogx(at, element, ":", color=line.get_color())
+                right.plot(7.0, flooded[speed][1][k, 1, 1], "_", color=line.get_color(), markersize=12)
+    for axes in (left, right):
+        axes.axhline(0.0, color="grey", linewidth=0.6)
+        axes.set_xlabel("layer of oil over what the flooded films let through")
+    left.set(ylabel="central film over the flooded one")
+    right.set(ylabel="C_yy at 3000 rev/min [N s/m]", ylim=(-250.0, 200.0))
+    left.legend()
+    right.legend()
+    figure.savefig(IMAGES / "oil_supply_bearing.png", dpi=130)
+
+
 if __name__ == "__main__":
+    bearing_over_supply()
     passes()
     through_time()
     map_of_a_film()

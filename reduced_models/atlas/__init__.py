@@ -6,6 +6,9 @@
 | answer | `AtlasAnswer`: one contact with error bars; `AtlasImpedance`; `AtlasAnswers`: many contacts |
 | frequency_curve | K or C between the frequencies of the table |
 | conditions | changes of these answers under other conditions than flooded and isothermal |
+| change | `Change`: what a condition does to answers |
+| supply_condition | `SupplyCondition`: an oil supply, from its own table |
+| supply_table | `SupplyTable`: what a supply changes, and its interpolation over M, L, kappa and r |
 | table | `AtlasTable`: box, points, answers, settings of the interpolation; the file |
 | interpolation | interpolation of the table, and its error bars |
 | atlas_elements | contact elements from answers under one or several loads |
@@ -13,6 +16,8 @@
 | build | `build_atlas`: sample, solve what is missing, put together; the numbers of a build |
 | sample | the points of a build |
 | mesh | grids of a point, by the width of its inlet |
+| supply_build | the same of the table of oil supply |
+| supply_solve | one point under several layers |
 | solve | steady film and impedance of one point |
 | solved_points | points solved by an executor, and kept in a store by content |
 """

@@ -69,6 +69,8 @@ class AtlasAnswer(ScaledTable):
         Half widths of the error bars of all these, under these names and in the same units and shapes.
     scales : Scales or None
         Its units in SI; None for a dimensionless point.
+    over_flooded : float or None
+        r of an oil supply: its layer over what the flooded film lets through; None where the inlet is flooded.
     """
 
     point: MoesPoint
@@ -82,6 +84,7 @@ class AtlasAnswer(ScaledTable):
     damping: Annotated[_Floats, DAMPING.over("Omega")]
     error_bars: dict[str, Any]
     scales: Scales | None = None
+    over_flooded: Annotated[float | None, NUMBER] = None
 
     DISPLAY: ClassVar[Display] = FrequencyResponse.DISPLAY
 
@@ -112,6 +115,7 @@ class AtlasAnswer(ScaledTable):
             f"{size * self.h_min:.4g} ± {size * bar['h_min']:.1g} at least, {unit}",
             f"static tangent {rigid * self.stiffness[0]:.4g}{names[0]}, "
             f"damping {span(self.damping, damps)}{names[1]}",
+            *([] if self.over_flooded is None else [f"under a layer of {self.over_flooded:.4g} flooded films"]),
             *note_line(self.outside_assumptions),
         ]
 

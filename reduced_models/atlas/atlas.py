@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import asdict, replace
-from functools import cached_property
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -34,10 +32,11 @@ from reduced_models.atlas.atlas_elements import (
     speed_element,
     wide_element,
 )
-from reduced_models.atlas.conditions import Condition, changed, conditions_at
+from reduced_models.atlas.conditions import Given, changed, conditions_at
 from reduced_models.atlas.frequency_curve import FrequencyCurve
-from reduced_models.atlas.gain_fit import smooth_gains
+from reduced_models.atlas.gain_fit import FLOOR, smooth_gains
 from reduced_models.atlas.interpolation import AtlasSurface
+from reduced_models.atlas.supply_condition import FAINT_GAIN, SLOWEST, SupplyCondition
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
 from reduced_models.elements.film_memory import FilmMemoryContact
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
@@ -55,6 +54,8 @@ LOADS = np.array([0.01, 0.03, 0.07, 0.15, 0.3, 0.6, 1.0, 1.7, 3.0])
 INSIDE = 1e-9  # relative, that speeds keep from the ends of the box
 USUAL_SPEEDS = 10.0  # and its inverse: speeds of such an element over that of its point, unless given
 SPEED_STEP = 1.6  # ratio of the speeds of an element over speed, at most
+NEGATIVE = 0.02  # share of the flooded C below which a negative one is as good as zero
+FADED = 4  # power of what is left of damping, see `_left`
 NEIGHBOURS = 1.2  # ratio below which a load is left out beside the end of the box
 
 
@@ -136,7 +137,7 @@ class Atlas:
         self._inside(MoesPoint(first[0], first[1], first[2], *oil))  # the oil, which is that of all
         self.box.require_all_inside(points, oil[0])
         values, bars = self._surface.with_bars(points * self._oil_factors(*oil), self._oil_error(*oil))
-        named, error = self._named(values), self._named(bars)
+        named, error = _named(values), _named(bars)
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         axes = dict(zip(("M", "L", "kappa"), points.T, strict=True))
         return AtlasAnswers(**axes, Omega=self._table.omega, **named, error_bars=error)
@@ -253,41 +254,61 @@ class Atlas:
             rows.append(row)
         return speed_element(places, rows, (0.0, float(self._table.metadata["highest_omega"])), scales)
 
-    def _answer(self, point: Point, given: Sequence[Condition]) -> AtlasAnswer:
+    def _answer(self, point: Point, given: Given) -> AtlasAnswer:
         """Answer under conditions."""
         moes, load = self._inside(point), np.ones(1)
         flooded, bars = self._surface.with_bars(self._rows(moes, load), self._oil_error(moes.alpha, moes.eta0))
-        values, bars = changed(given, load, flooded, bars)
-        named, error = ({n: v[0] for n, v in self._named(part).items()} for part in (values, bars))
+        Omega, values, bars = self._under(given, load, flooded, bars)
+        named, error = ({n: v[0] for n, v in _named(part).items()} for part in (values, bars))
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         for numbers in (named, error):
             numbers |= {name: float(numbers[name]) for name in NUMBERS}
         for condition in given:
             named |= condition.noted(float(flooded[0, 1]), named["h_central"])
-        return AtlasAnswer(moes, Omega=self._table.omega, **named, error_bars=error, scales=scales_of(point))
+        return AtlasAnswer(moes, Omega=Omega, **named, error_bars=error, scales=scales_of(point))
 
-    def _cubic(self, point: Point, w: float, given: Sequence[Condition]) -> CubicContact:
-        moes, scales, k = self._inside(point), scales_of(point), self._table.omega.size
+    def _under(
+        self, given: Given, loads: _Floats, values: _Floats, bars: _Floats
+    ) -> tuple[_Floats, _Floats, _Floats]:
+        """Answers under conditions and their error bars, and the frequencies of their K and C.
+
+        A supply comes last: it is over the film that heat leaves, and has frequencies below those of the atlas.
+        """
+        Omega, supply = self._table.omega, [one for one in given if isinstance(one, SupplyCondition)]
+        values, bars = changed([one for one in given if not isinstance(one, SupplyCondition)], loads, values, bars)
+        for layer in supply:
+            nodes = np.unique(np.concatenate([Omega, layer.omega[layer.omega < Omega[1]]]))
+            values, bars = (_refined(part, Omega, nodes) for part in (values, bars))
+            values, bars = layer.change(loads, values, nodes).of(values, bars)
+            Omega = nodes
+        return Omega, values, bars
+
+    def _cubic(self, point: Point, w: float, given: Given) -> CubicContact:
+        moes, scales = self._inside(point), scales_of(point)
         load = np.ones(1)
         flooded, _ = self._surface.at(self._rows(moes, load))
-        values, _ = changed(given, load, flooded, np.zeros_like(flooded))
-        at, nodes = np.array([w]), self._table.omega
+        nodes, values, _ = self._under(given, load, flooded, np.zeros_like(flooded))
+        at, k = np.array([w]), nodes.size
         K, C = FrequencyCurve(nodes, values[0, HEAD : HEAD + k]), FrequencyCurve(nodes, values[0, HEAD + k :])
         tangent, damper, band = float(K.at(at)[0]), float(C.at(at)[0]), damper_band(nodes, C, w)
         cubic = cubic_element(float(values[0, 0]), tangent, damper, band, self._whence(point, given))
         return cubic if scales is None else cubic.to_si(scales)
 
     def _remembering(
-        self, point: Point, over: _Floats | None, given: Sequence[Condition]
+        self, point: Point, over: _Floats | None, given: Given
     ) -> FilmMemoryContact | WideRangeContact:
         """Wide-range element over the given loads, or film memory about the point's own load."""
-        moes, scales, k = self._inside(point), scales_of(point), self._table.omega.size
+        moes, scales = self._inside(point), scales_of(point)
         loads = np.ones(1) if over is None else over
         flooded, shapes = self._surface.at(self._rows(moes, loads))
-        values, _ = changed(given, loads, flooded, np.zeros_like(flooded))
-        low = flooded[:, LOW]
+        Omega, values, _ = self._under(given, loads, flooded, np.zeros_like(flooded))
+        low, at_rest = flooded[:, LOW], flooded[:, HEAD + self._table.omega.size]
+        supplied = any(isinstance(one, SupplyCondition) for one in given)
+        followed, faint = Omega >= (SLOWEST if supplied else 0.0), FAINT_GAIN if supplied else 0.0
         if given:
-            shapes = shapes + self._shapes(values, low) - self._shapes(flooded, low)
+            fit = self._shapes(self._table.omega, flooded, low, faint)
+            beside = shapes - fit if not supplied else (shapes - fit) * _left(Omega, values, flooded)
+            shapes = self._shapes(Omega[followed], values[:, _both(followed)], low, faint) + beside
         gains = np.maximum(shapes * low[:, None], 0.0)
         gains[:, 0] = np.maximum(gains[:, 0], LEAST_VISCOUS / DRY * low)  # as fitted: rates need it
         made_of = Loads(
@@ -296,8 +317,9 @@ class Atlas:
             tangent=values[:, HEAD],
             gains=gains,
             rates=self._table.rates,
+            lowest_omega=_negative_below(Omega, values, low) if supplied else 0.0,
             highest_omega=float(self._table.metadata["highest_omega"]),
-            fit=self._fit(gains, values[:, HEAD + k :], flooded[:, HEAD + k]),
+            fit=self._fit(Omega[followed], gains, values[:, HEAD + Omega.size :][:, followed], at_rest),
             source=self._whence(point, given),
         )
         make = memory_element if over is None else wide_element
@@ -306,32 +328,30 @@ class Atlas:
         except InputError:  # rarely: interpolated gains that would feed energy back
             return make(replace(made_of, gains=passive_gains(made_of.rates, gains)), scales)
 
-    def _shapes(self, rows: _Floats, low: _Floats) -> _Floats:
-        """Gains fitted to answers, over the low-frequency damping `low` of a flooded isothermal film."""
-        omega, rates, k = self._table.omega, self._table.rates, self._table.omega.size
+    def _shapes(self, omega: _Floats, rows: _Floats, low: _Floats, faint: float) -> _Floats:
+        """Gains fitted to answers, over the low-frequency damping `low` of a flooded isothermal film.
+
+        Errors of C below `faint` times its largest, or a small share of `low`, count absolutely.
+        """
+        rates, k = self._table.rates, omega.size
         fits = [
-            smooth_gains(omega, row[HEAD : HEAD + k], row[HEAD + k :], rates, one)
-            for row, one in zip(rows, low.tolist(), strict=True)
+            smooth_gains(omega, row[HEAD : HEAD + k], C, rates, one, max(FLOOR, faint * float(C.max()) / one))
+            for row, C, one in zip(rows, rows[:, HEAD + k :], low.tolist(), strict=True)
         ]
         return np.array(fits)
 
-    def _whence(self, point: Point, given: Sequence[Condition]) -> dict[str, Any]:
+    def _whence(self, point: Point, given: Given) -> dict[str, Any]:
         """Origin of an element: point, atlas and conditions."""
         scales, answer = scales_of(point), self._answer(point, given)
         source = self._source(answer) | {one.name: one.to_dict() for one in given}
         source["scales"] = None if scales is None else asdict(scales)
         return source | {"assumptions": assumptions(point, film=answer).short()}
 
-    @cached_property
-    def _basis(self) -> _Floats:
-        """Damping at every frequency up to the highest of an element, of every filter."""
-        omega = self._table.omega
-        return self._table.rates.basis(omega[omega <= self._table.metadata["highest_omega"]]).real * DRY
-
-    def _fit(self, gains: _Floats, damping: _Floats, low: _Floats) -> dict[str, Any]:
+    def _fit(self, omega: _Floats, gains: _Floats, damping: _Floats, low: _Floats) -> dict[str, Any]:
         """Misfit between the damping of the filters and of the atlas, over `low`, the flooded one at rest."""
-        C = damping[:, : len(self._basis)]
-        return {"rms": None, "damping_error_max": float(np.max(np.abs(gains @ self._basis.T - C) / low[:, None]))}
+        used = omega <= self._table.metadata["highest_omega"]
+        found = gains @ (self._table.rates.basis(omega[used]).real * DRY).T
+        return {"rms": None, "damping_error_max": float(np.max(np.abs(found - damping[:, used]) / low[:, None]))}
 
     def _frequency(self, model: str, scales: Scales | None, **given: Unpack[Frequency]) -> float | None:
         """Omega of the cubic element; None for the other models, which are valid at all frequencies."""
@@ -386,12 +406,6 @@ class Atlas:
         film, K, C, m = (float(np.dot(s, away)) for s in (oil.film, oil.stiffness, oil.damping, oil.moment))
         return np.concatenate([[film, film, film, C, m], np.full(k, K), np.full(k, C)])
 
-    def _named(self, rows: _Floats) -> dict[str, Any]:
-        k = self._table.omega.size
-        u, central, least, _, moment = rows[:, :HEAD].T
-        named = {"approach": u, "h_central": central, "h_min": least, "moment": moment}
-        return named | {"stiffness": rows[:, HEAD : HEAD + k], "damping": rows[:, HEAD + k :]}
-
     def _source(self, answer: AtlasAnswer) -> dict[str, Any]:
         bars, low = answer.error_bars, self._table.interpolation.reference
         return {
@@ -404,6 +418,43 @@ class Atlas:
                 "damping": float(bars["damping"][low]),
             },
         }
+
+
+def _named(rows: _Floats) -> dict[str, Any]:
+    k = (rows.shape[1] - HEAD) // 2
+    u, central, least, _, moment = rows[:, :HEAD].T
+    named = {"approach": u, "h_central": central, "h_min": least, "moment": moment}
+    return named | {"stiffness": rows[:, HEAD : HEAD + k], "damping": rows[:, HEAD + k :]}
+
+
+def _both(which: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Columns of answers whose K and C are at these frequencies, the first five among them."""
+    return np.concatenate([np.ones(HEAD, bool), which, which])
+
+
+def _negative_below(Omega: _Floats, values: _Floats, low: _Floats) -> float:
+    """Frequency from 0 up to which C is below zero under some load, by more than a small share of `low`."""
+    negative = values[:, HEAD + Omega.size :] < -NEGATIVE * low[:, None]
+    reach = np.cumprod(negative, axis=1).any(axis=0)
+    return float(Omega[reach].max(initial=0.0))
+
+
+def _left(Omega: _Floats, values: _Floats, flooded: _Floats) -> _Floats:
+    """How little a supply has changed damping where elements follow it: 1 flooded, soon 0, shape (n, 1).
+
+    So much of what the gains of a flooded film are beside a fit is left: all of it would be more than a starved
+    film has.
+    """
+    C, whole = values[:, HEAD + Omega.size :], flooded[:, (HEAD + flooded.shape[1]) // 2 :]
+    share = C[:, Omega >= SLOWEST].sum(axis=1) / whole[:, -np.count_nonzero(Omega >= SLOWEST) :].sum(axis=1)
+    return np.asarray(np.clip(share, 0.0, 1.0)[:, None] ** FADED)
+
+
+def _refined(rows: _Floats, Omega: _Floats, nodes: _Floats) -> _Floats:
+    """Rows of answers, or of their error bars, at nodes between and beside the frequencies that they have."""
+    k = Omega.size
+    parts = (rows[:, HEAD : HEAD + k], rows[:, HEAD + k :])
+    return np.hstack([rows[:, :HEAD], *([FrequencyCurve(Omega, row).at(nodes) for row in part] for part in parts)])
 
 
 MOST_OPEN = 4  # atlases that a process keeps

@@ -39,6 +39,7 @@ class Loads:
     tangent: _Floats  # (n,) static
     gains: _Floats  # (n, 3 + lags)
     rates: FilterRates
+    lowest_omega: float
     highest_omega: float
     fit: Mapping[str, Any]
     source: Mapping[str, Any]
@@ -67,7 +68,7 @@ def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
         low=low * length,
         high=high * length,
         load_range=(LOAD_BAND[0] * force, LOAD_BAND[1] * force),
-        omega_range=(0.0, at.highest_omega / time),
+        omega_range=(at.lowest_omega / time, at.highest_omega / time),
         units="dimensionless" if scales is None else "SI",
         scales=scales,
         fit=at.fit,
@@ -87,8 +88,9 @@ def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
         gains=at.gains,  # type: ignore[arg-type]
         inlet_saturation=saturation,
         **at.rates.coefficients,
-        rate=length / time / saturation,  # beyond, closing makes more film than the static one
-        omega_range=(0.0, at.highest_omega / time),
+        # beyond, closing makes more film than the static one; a starved contact may make none
+        rate=length / time / saturation if saturation > 0.0 else None,
+        omega_range=(at.lowest_omega / time, at.highest_omega / time),
         units="dimensionless" if scales is None else "SI",
         scales=scales,
         fit=at.fit,

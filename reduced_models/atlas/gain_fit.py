@@ -15,19 +15,21 @@ FLOOR = 0.05  # share of the low-frequency damping below which errors of C count
 RIDGE = 0.02  # keeps gains small and smooth over the points where data leave them open
 
 
-def smooth_gains(omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates, low: float) -> _Floats:
+def smooth_gains(
+    omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates, low: float, floor: float = FLOOR
+) -> _Floats:
     """Gains over `low`, the damping of a flooded isothermal film at low frequency."""
-    rows, target = gain_equations(omega, K, C, rates, low)
+    rows, target = gain_equations(omega, K, C, rates, low, floor)
     return np.asarray(nnls(rows, target, maxiter=1000)[0])
 
 
 def gain_equations(
-    omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates, low: float
+    omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates, low: float, floor: float = FLOOR
 ) -> tuple[_Floats, _Floats]:
     """Matrix and right-hand side of `smooth_gains`: rows for C, for K, and for the size of the gains."""
     used = omega <= HIGHEST
     basis = rates.basis(omega[used]) * DRY
-    size = np.maximum(np.abs(C[used]), FLOOR * low) * WEIGHT_C
+    size = np.maximum(np.abs(C[used]), floor * low) * WEIGHT_C
     rows = np.vstack(
         [
             basis.real / size[:, None],

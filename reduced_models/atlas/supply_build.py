@@ -25,6 +25,8 @@ from reduced_models.atlas.table import Box
 _Floats = NDArray[np.float64]
 Entry = Mapping[str, Any]
 
+# Weights for the smallest errors of points left out: kappa counts for more than in the atlas, the film for less.
+SUPPLY_INTERPOLATION = replace(INTERPOLATION, weights=(0.4, 0.2, 0.6, 1.0, 0.25))
 SUPPLY_DRAWS, SUPPLY_SEED = 256, 31
 SUPPLY_BOX = Box(M=(10.0, 20000.0), L=(4.0, 26.0), kappa=(0.08, 1.0), p_hertz=4.1e9)
 OVERSHOOT = 0.08  # share of the cube by which draws reach beyond it, to be moved onto its faces
@@ -94,7 +96,7 @@ def assemble_supply(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> Sup
             "box": SUPPLY_BOX.to_dict(),
             "narrowest": INTERVALS[-1][0],
             "lightest": LIGHTEST,
-            "interpolation": asdict(INTERPOLATION),
+            "interpolation": asdict(SUPPLY_INTERPOLATION),
             "points": len(good),
             "left_out": len(entries) - len(good),
             "front_ahead": ahead,
@@ -109,7 +111,10 @@ def changes_of(entry: Entry) -> _Floats | None:
 
     Layers so thick that the film begins ahead of the region are taken to fade from the last two that do not.
     """
-    rows = [None if one is None else _change(entry, one, r) for r, one in zip(entry["ratios"], entry["starved"], strict=True)]
+    rows = [
+        None if one is None else _change(entry, one, r)
+        for r, one in zip(entry["ratios"], entry["starved"], strict=True)
+    ]
     known = [row for row in rows if row is not None]
     solved = len(known)
     if solved < len(rows) // 2 or any(row is None for row in rows[:solved]):
@@ -135,7 +140,13 @@ def _change(entry: Entry, starved: Mapping[str, Any], ratio: float) -> _Floats:
     K = np.log(np.divide(starved["stiffness"], flooded["stiffness"]))
     C = np.array(flooded["damping"])
     unit = np.maximum(C, FAINT * C[SUPPLY_OMEGAS.index(REFERENCE)])
-    return np.concatenate([[math.log(share / curve), math.log(lobe), approach, moment], K, np.arcsinh((starved["damping"] - C) / unit)])
+    return np.concatenate(
+        [
+            [math.log(share / curve), math.log(lobe), approach, moment],
+            K,
+            np.arcsinh((starved["damping"] - C) / unit),
+        ]
+    )
 
 
 def _between(ends: tuple[float, float], share: float) -> float:

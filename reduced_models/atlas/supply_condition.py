@@ -20,7 +20,7 @@ from ehlcontact.lubricant import density
 from ehlcontact.point import MoesPoint, Point, moes_point, scales_of
 from ehlcontact.store import load as read_file
 from ehlcontact.supply import OilLayer, require_supply
-from reduced_models.atlas.conditions import Change
+from reduced_models.atlas.change import Change
 from reduced_models.atlas.supply_table import (
     FAINT,
     LOW_OMEGA,
@@ -35,8 +35,9 @@ from reduced_models.atlas.table import HEAD, LOW, Box
 _Floats = NDArray[np.float64]
 
 SHIPPED = Path(__file__).with_name("supply.h5")
-SLOWEST = 0.1  # below, the oil ahead of a wide contact comes and goes with the motion, and C falls below zero
-FAINT_GAIN = 1.0  # share of its largest value above it, below which C counts absolutely
+# Elements follow C from here on: below, the oil ahead of a wide contact comes and goes with the motion, and C
+# falls below zero. Errors count over its largest value.
+SLOWEST, FAINT_GAIN = 0.1, 1.0
 THINNEST = 0.02  # r, below which films are thinner than any that were solved by a factor of ten
 
 
@@ -98,7 +99,6 @@ class SupplyCondition:
     """
 
     name = "supply"
-    slowest, faint = SLOWEST, FAINT_GAIN  # frequency from which on elements follow C, and how closely
 
     def __init__(self, point: Point, supply: OilLayer) -> None:
         require_uniform(supply)
@@ -137,7 +137,12 @@ class SupplyCondition:
         K, C = np.exp(found.rows[:, NUMBERS:half] @ along), found.rows[:, half:] @ along
         flooded = values[:, HEAD + k :] / values[:, [LOW]]
         unit = np.maximum(flooded, FAINT)
-        bars = np.hstack([found.bars[:, :NUMBERS], *(found.bars[:, part] @ np.abs(along) for part in (slice(NUMBERS, half), slice(half, None)))])
+        bars = np.hstack(
+            [
+                found.bars[:, :NUMBERS],
+                *(found.bars[:, part] @ np.abs(along) for part in (slice(NUMBERS, half), slice(half, None))),
+            ]
+        )
         damping, b_damping = unit * np.sinh(C), unit * np.cosh(C) * bars[:, NUMBERS + k :]
         low = int(np.searchsorted(Omega, REFERENCE))
         head = [1.0 - approach, share, share * np.exp(lobe), damping[:, low], 1.0 + moment]
@@ -156,15 +161,18 @@ class SupplyCondition:
 
     def _require_inside(self, loads: _Floats, ratio: _Floats) -> None:
         if loads.min() > self._heaviest:
-            allowed = f"at most {self._heaviest * self.moes.M:.4g}, where the table of oil supply ends at this L and kappa"
+            most = self._heaviest * self.moes.M
+            allowed = f"at most {most:.4g}, where the table of oil supply ends at these L and kappa"
             raise InputError("M", self.moes.M * float(loads.min()), allowed)
         if ratio.min() < THINNEST:
-            allowed = f"at least {THINNEST:g} flooded films everywhere (under a layer like that the contact is dry)"
+            allowed = (
+                f"at least {THINNEST:g} flooded films everywhere (under a layer like that the contact is dry)"
+            )
             raise InputError("supply", f"{float(ratio.min()):.2g} flooded films", allowed)
 
     def noted(self, flooded: float, film: float) -> dict[str, Any]:
-        """Nothing beside its changes."""
-        return {}
+        """r, for which the flooded central film is needed."""
+        return {"over_flooded": float(self.ratio(np.ones(1), np.array([flooded]))[0])}
 
     def to_dict(self) -> dict[str, Any]:
         """Its inputs, ready for JSON."""
@@ -177,7 +185,7 @@ def _loaded(moes: MoesPoint, load: float) -> MoesPoint:
 
 
 def _over(nodes: _Floats, Omega: _Floats) -> _Floats:
-    """Weights of the table's frequencies at others, shape (k, l): a cubic over asinh, level at 0 and at the end."""
+    """Weights of the table's frequencies at others, shape (k, l): a cubic over asinh, level at 0 and beyond."""
     x = np.arcsinh(nodes / LOW_OMEGA)
     cubic = CubicSpline(x, np.eye(nodes.size), bc_type=((1, np.zeros(nodes.size)), "not-a-knot"))
     return np.asarray(cubic(np.minimum(np.arcsinh(Omega / LOW_OMEGA), x[-1]))).T

@@ -1,14 +1,14 @@
 """Table of what an oil supply changes: over M, L, kappa and r, the layer over what the flooded film lets through.
 
-What is interpolated, per point and r, against the flooded contact on the same grid: ln of the central film's share
-over the curve ``r/(1 + r^g)^(1/g)`` with the g of the ellipse; ln of the share of h_min/h_c; the changes of
-approach, over 1 - u, and of the moment, over itself; ln of the factor on K at each frequency; asinh of the change of
-C over the flooded C there (or a small share of that at low frequency, where it is smaller): far below -1 where the
-oil ahead of the contact comes and goes in time with it.
+What is interpolated, per point and r, against the flooded contact on the same grid: ln of the central film's
+share over the curve ``r/(1 + r^g)^(1/g)`` with the g of the ellipse; ln of the share of h_min/h_c; the changes of
+approach, over 1 - u, and of the moment, over itself; ln of the factor on K at each frequency; asinh of the change
+of C over the flooded C there (or a small share of that at low frequency, where it is smaller): far below -1 where
+the oil ahead of the contact comes and goes in time with it.
 
-Radial functions over M, L and kappa (`reduced_models.atlas.interpolation`) have all of these at every r of the table
-at once; between these a cubic over ln r. Beyond the last r all changes fade like 1/r; below the first the film
-follows the curve.
+Radial functions over M, L and kappa (`reduced_models.atlas.interpolation`) have all of these at every r of the
+table at once; between these cubics over asinh(r). Beyond the last r all changes fade like 1/r; below the first the
+film follows the curve.
 """
 
 from __future__ import annotations
@@ -18,10 +18,9 @@ from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import Akima1DInterpolator
 from scipy.spatial.distance import cdist
 
-from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import film_of_layer, layer_sharpness
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.store import stored
@@ -35,7 +34,7 @@ FAINT = 0.05  # share of the low-frequency C below which changes of C are over t
 LIGHT = 3  # coordinate of the atlas that says how light a load is
 REFERENCE = 0.05  # frequency of that C, as in the atlas
 LOW_OMEGA = 0.01  # where frequencies begin to count by their ratio
-BENT = 0.5  # share of the distance between cubic and straight line over ln r that error bars grow by
+BENT = 0.5  # share of the distance between cubic and straight line over r that error bars grow by
 
 
 class SupplyChange(NamedTuple):
@@ -114,8 +113,9 @@ class SupplySurface:
         flat = np.asarray(table.changes, float).reshape(n, m * q)
         self._radial, errors = Radial(x, flat), left_out_errors(x, flat)
         self._squares, self._factor = errors**2, error_factor(x, errors, self._by)
-        self._usual_reach = float(np.median(np.partition(cdist(x, x), self._by.nearest, axis=1)[:, self._by.nearest]))
-        self._along = CubicSpline(np.log(table.ratios), np.eye(m))
+        self._usual_reach = float(
+            np.median(np.partition(cdist(x, x), self._by.nearest, axis=1)[:, self._by.nearest])
+        )
 
     @one_blas_thread()
     def at(self, points: _Floats, ratio: _Floats) -> SupplyChange:
@@ -128,9 +128,9 @@ class SupplySurface:
         reach = np.take_along_axis(distance, nearest, axis=1).max(axis=1, keepdims=True)
         local = np.sqrt(np.mean(self._squares[nearest], axis=1)) * self._factor
         bars = (np.maximum(reach / self._usual_reach, 1.0) ** 2 * local).reshape(found.shape)
-        place = np.log(np.clip(ratio, nodes[0], nodes[-1]))
-        straight = _linear(np.log(nodes), place)
-        rows, between = (np.einsum("nm,nmq->nq", w, found) for w in (self._along(place), straight))
+        x, place = np.arcsinh(nodes), np.arcsinh(np.clip(ratio, nodes[0], nodes[-1]))
+        straight = _linear(x, place)
+        rows, between = _between(x, found, place), np.einsum("nm,nmq->nq", straight, found)
         spread = np.einsum("nm,nmq->nq", straight, bars) + BENT * np.abs(rows - between)
         fade = np.minimum(nodes[-1] / ratio, 1.0)[:, None]
         return SupplyChange(rows * fade, spread * fade)
@@ -140,6 +140,14 @@ def _places(points: _Floats, by: Interpolation) -> _Floats:
     """Coordinates of the atlas but for that of light loads, which is 0 at all of these."""
     x, _ = coordinates(points, films(points), by)
     return np.delete(x, LIGHT, axis=1)
+
+
+def _between(nodes: _Floats, values: _Floats, place: _Floats) -> _Floats:
+    """Modified Akima's cubics, which do not overshoot, through values (n, m, q) at nodes (m,), at places (n,)."""
+    cubics = Akima1DInterpolator(nodes, values, axis=1, method="makima").c
+    cell = np.clip(np.searchsorted(nodes, place, side="right") - 1, 0, nodes.size - 2)
+    c, s = cubics[:, cell, np.arange(place.size)], (place - nodes[cell])[:, None]
+    return np.asarray(((c[0] * s + c[1]) * s + c[2]) * s + c[3])
 
 
 def _linear(nodes: _Floats, place: _Floats) -> _Floats:

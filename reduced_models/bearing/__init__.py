@@ -25,6 +25,7 @@
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load; the ring of a bearing on its balls: `ring_equilibrium` |
 | linear_balls | a bearing about rest: impedance at complex frequencies, stiffness and damping over frequency |
+| solved_balls | small motion with the impedance of solved contacts, under an oil supply |
 | features | inputs: waviness and defects of races and balls, balls of another diameter |
 | height_tables | heights of features, filtered by the contact, as tables over the angle and the load |
 | contact_heights | heights from these tables in a time step, compiled |

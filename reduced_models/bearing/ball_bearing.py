@@ -88,8 +88,8 @@ from reduced_models.bearing.race import (
     require_roughness,
 )
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
-from reduced_models.bearing.solved_balls import signed_damping
 from reduced_models.bearing.shoulders import require_below_shoulders, shoulder_angle
+from reduced_models.bearing.solved_balls import signed_damping
 from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -810,7 +810,7 @@ class BallBearing(Summary):
         require_names({"features": [], "supply": None, **entries}, [f.name for f in fields(cls) if f.init])
         if oil is not None:
             require_names(oil, [f.name for f in fields(Lubricant)], "oil.")
-        given = {"oil": None if oil is None else Lubricant(**oil), "features": features}
+        given: dict[str, Any] = {"oil": None if oil is None else Lubricant(**oil), "features": features}
         if supply is not None:
             require_names({**dict.fromkeys(SUPPLIES), **supply}, SUPPLIES, "supply.")
             given["supply"] = OilLayer.from_dict(supply)

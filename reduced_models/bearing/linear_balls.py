@@ -212,5 +212,6 @@ class BearingCoefficients(FrequencyResponse):
         """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""
         places = np.array([at.displacement for at in equilibria])
         mean, peak_to_peak = places.mean(axis=0), np.ptp(places, axis=0)
-        where = mean, peak_to_peak, outside_assumptions
-        return cls(load, speed_rpm, cage_angle, omega, *matrices, *where, signed_damping)
+        K, C = matrices
+        outside = outside_assumptions
+        return cls(load, speed_rpm, cage_angle, omega, K, C, mean, peak_to_peak, outside, signed_damping)

@@ -112,8 +112,9 @@ class Race:
         """Largest load [N] of a ball, and what ends there: the atlas at this speed, or elastic steel where dry."""
         if self.oil is not None:
             most = self.loads(speed_rpm)[1]
-            if self.supply is not None and (end := heaviest_load(self.point(1.0, speed_rpm).moes)) < most:
-                return end, "the end of the table of oil supply at this speed"
+            supplied = most if self.supply is None else heaviest_load(self.point(1.0, speed_rpm).moes)
+            if supplied < most:
+                return supplied, "the end of the table of oil supply at this speed"
             return most, "the end of the atlas at this speed"
         body = self.geometry
         unit = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure
@@ -138,7 +139,9 @@ class Race:
         inside = 10.0 ** (np.arange(ceil(first), ceil(last)) / PER_DECADE)
         loads = np.concatenate([[low], inside, [high]])
         reference = float(np.sqrt(low * high))
-        found = shared_atlas(self.atlas).wide(self.point(reference, speed_rpm), loads / reference, supply=self.supply)
+        found = shared_atlas(self.atlas).wide(
+            self.point(reference, speed_rpm), loads / reference, supply=self.supply
+        )
         return replace(found, inlet_saturation=0.0)
 
     def answer(self, load: float, speed_rpm: float) -> AtlasAnswer:
@@ -193,7 +196,9 @@ def race_of(bearing: Any, name: str) -> Race:
         own = {"conformity": f"conformity_{name}", "e1": "youngs_modulus", "nu1": "poisson_ratio"}
         raise InputError(own.get(error.field, error.field), error.value, error.allowed) from None
     speed_sum = speed_sum_per_omega(bearing.pitch_diameter, bearing.gamma * cosine)
-    return Race(name, body, bearing.ball_diameter, conformity, bearing.oil, speed_sum, bearing.atlas, bearing.supply)
+    return Race(
+        name, body, bearing.ball_diameter, conformity, bearing.oil, speed_sum, bearing.atlas, bearing.supply
+    )
 
 
 def films_under(bearing: Any, speed_rpm: float, force: _Floats, approach: _Floats) -> dict[str, Any]:
@@ -237,7 +242,9 @@ def assumptions_under(bearing: Any, speed_rpm: float, force: _Floats) -> Assumpt
     for name, load in zip(RACES, force.reshape(-1, 2).max(axis=0).tolist(), strict=True):
         race = bearing.race(name)
         point = race.point(max(load, race.loads(speed_rpm)[0]), speed_rpm)
-        found.append(assumptions(point, film=shared_atlas(bearing.atlas).at(point, supply=bearing.supply), roughness=rough))
+        found.append(
+            assumptions(point, film=shared_atlas(bearing.atlas).at(point, supply=bearing.supply), roughness=rough)
+        )
     return Assumptions.worst_of(found)
 
 
@@ -251,7 +258,9 @@ def assumptions_at_angles(bearing: Any, speed_rpm: float, places: Sequence[Angul
         angle, speed_sum = float(at.angles[k, column]), float(at.speed_sum[k, column])
         race = bearing.race(name).at_angle(bearing.pitch_diameter, angle, speed_sum)
         point = race.point(max(float(at.force[k, column]), race.loads(speed_rpm)[0]), speed_rpm)
-        found.append(assumptions(point, film=shared_atlas(bearing.atlas).at(point, supply=bearing.supply), roughness=rough))
+        found.append(
+            assumptions(point, film=shared_atlas(bearing.atlas).at(point, supply=bearing.supply), roughness=rough)
+        )
     return Assumptions.worst_of(found)
 
 

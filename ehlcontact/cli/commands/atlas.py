@@ -15,13 +15,13 @@ from ehlcontact.cli.progress import progress
 from ehlcontact.cli.usage import epilog
 from ehlcontact.process.early_interrupt import INTERRUPTED
 
-HELP = "Build the table of solved contacts that elements are taken from."
+HELP = "Build the tables of solved contacts that elements are taken from."
 group = typer.Typer(no_args_is_help=True, help=HELP)
 
 
 @group.callback(help=HELP)
 def _group() -> None:
-    """Keep `build` a subcommand of its own."""
+    """Subcommands are one for each table."""
 
 
 @group.command("build", epilog=epilog("atlas build"))
@@ -71,3 +71,50 @@ def build(
     ]
     document = {"output": str(output), "work": str(kept), **table.metadata}
     out.deliver(document, ("atlas", rows))
+
+
+@group.command("supply", epilog=epilog("atlas supply"))
+@o.grouped
+def supply(
+    out: o.Output,
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="The table, HDF5.")] = Path(
+        "supply.h5"
+    ),
+    work: Annotated[
+        Path | None,
+        typer.Option("--work", metavar="FOLDER", help="Solved points; by default as the output, ending in .work."),
+    ] = None,
+    draws: Annotated[int, typer.Option("--draws", help="Sample points over the box.")] = 256,
+    seed: Annotated[int, typer.Option("--seed", help="Of the sample.")] = 31,
+    processes: Annotated[
+        int | None, typer.Option("--processes", help="Of this machine; one per core by default.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Solve on this Dask cluster instead.")
+    ] = None,
+) -> None:
+    """Solve contacts under layers of oil and write what these change; started again, it goes on."""
+    from reduced_models.atlas.supply_build import build_supply
+
+    kept = output.with_suffix(".work") if work is None else work
+    out.check(beside={"--output": (output, (".h5",))})
+    check_apart({"--output": output, "--work": kept})
+    for name, value in (("--draws", draws), ("--seed", seed)):
+        require_integer(name, value, "a whole number >= 0", 0)
+    count = (os.cpu_count() or 1) if processes is None else processes
+    require_integer("--processes", count, "a whole number > 0", 1)
+    try:
+        with progress("points") as update:
+            table = build_supply(
+                output, kept, draws, seed=seed, processes=count, scheduler=scheduler, progress=update
+            )
+    except KeyboardInterrupt:
+        complain(f"interrupted; points that were solved are in {kept}, the same command goes on")
+        raise typer.Exit(INTERRUPTED) from None
+    rows = [
+        ("points", str(table.metadata["points"]), f"{table.metadata['left_out']} left out: not converged"),
+        ("file", f"{output.stat().st_size / 1e6:.2f} MB", str(output)),
+        ("box", "", str(table.box)),
+    ]
+    document = {"output": str(output), "work": str(kept), **table.metadata}
+    out.deliver(document, ("table of oil supply", rows))

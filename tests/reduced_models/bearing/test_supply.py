@@ -1,0 +1,132 @@
+"""Ball bearings under an oil supply: films, damping of either sign, and what cannot be asked."""
+
+import numpy as np
+import pytest
+
+from ehlcontact import InputError, Lubricant, OilLayer
+from fmu import BearingModel
+from reduced_models import Atlas, BallBearing, OilBalance
+from reduced_models.bearing.race import RACES
+
+OIL = Lubricant.iso_vg(68, temperature=50.0)
+LOAD = (0.0, -1000.0)
+
+
+def bearing(supply=None, **changes):
+    return BallBearing.catalogue("6205", oil=OIL, supply=supply, **changes)
+
+
+@pytest.fixture(scope="module")
+def at_r():
+    return {r: bearing(OilLayer(over_flooded=r)) for r in (0.6, 1.0, 1.5)}
+
+
+def test_films_are_those_of_the_atlas_at_every_ball(at_r):
+    state = at_r[1.0].equilibrium(LOAD, speed_rpm=3000.0)
+    for ball in np.flatnonzero(state.force[:, 0] > 1.0):
+        for column, name in enumerate(RACES):
+            race = at_r[1.0].race(name)
+            point = race.point(float(state.force[ball, column]), 3000.0)
+            answer = Atlas().at(point, supply=OilLayer(over_flooded=1.0)).si
+            assert state.h_central[ball, column] == pytest.approx(answer.h_central, rel=1e-12)
+            assert state.h_min[ball, column] == pytest.approx(answer.h_min, rel=1e-12)
+
+
+def test_the_less_oil_the_thinner_the_film_and_the_less_the_damping(at_r):
+    supplies = {**at_r, 1e4: bearing(OilLayer(over_flooded=1e4)), np.inf: bearing()}
+    films, damping = [], []
+    for r in sorted(supplies):
+        state = supplies[r].equilibrium(LOAD, speed_rpm=3000.0)
+        films.append(state.h_central[state.heaviest, 0])
+        damping.append(
+            supplies[r].coefficients(LOAD, speed_rpm=3000.0, cage_angle=-np.pi / 2, hz=1000).damping[0, 1, 1]
+        )
+    assert np.all(np.diff(films[:-1]) > 0.0) and np.all(np.diff(damping[:-1]) > 0.0)
+    assert films[-2] == pytest.approx(films[-1], rel=1e-3)
+    assert damping[-2] == pytest.approx(damping[-1], rel=0.02)
+
+
+def test_signed_damping_is_that_of_both_contacts_of_every_ball_in_series(at_r):
+    """Beside a sum over balls written out here, at one angle of the cage."""
+    one, hz = at_r[1.0], np.array([50.0, 1000.0])
+    found = one.coefficients(LOAD, speed_rpm=3000.0, cage_angle=-np.pi / 2, hz=hz)
+    state = one.equilibrium(LOAD, speed_rpm=3000.0, cage_angle=-np.pi / 2)
+    omega, Z = 2.0 * np.pi * hz, np.zeros((2, 2, 2), complex)
+    for ball in np.flatnonzero(state.force[:, 0] > 1.0):
+        compliance = np.zeros(2, complex)
+        for column, name in enumerate(RACES):
+            point = one.race(name).point(float(state.force[ball, column]), 3000.0)
+            at = Atlas().at(point, supply=OilLayer(over_flooded=1.0)).impedance(hz=hz).si
+            compliance += 1.0 / (at.stiffness + 1j * omega * at.damping)
+        n = np.array([np.cos(state.angles[ball]), np.sin(state.angles[ball])])
+        Z += np.outer(n, n) / compliance[:, None, None]
+    expected = Z.imag / omega[:, None, None]
+    np.testing.assert_allclose(found.signed_damping[:, 1, 1], expected[:, 1, 1], rtol=0.02, atol=1.0)
+    assert found.signed_damping[0, 1, 1] < 0.0 < found.signed_damping[1, 1, 1]
+    assert found.damping[:, 1, 1].min() >= 0.0
+    assert "below zero too" in str(found)
+    assert bearing().coefficients(LOAD, speed_rpm=3000.0, hz=50).signed_damping is None
+
+
+def test_layer_in_metres_is_the_same_under_all_balls():
+    one = bearing(OilLayer(0.3e-6))
+    race = one.race("inner")
+    shares = [race.answer(load, 3000.0).over_flooded for load in (30.0, 100.0, 400.0)]
+    assert shares[0] < shares[1] < shares[2]
+    faster = race.answer(100.0, 6000.0).over_flooded
+    assert faster < shares[1]
+
+
+def test_axial_loads_and_angular_contact_bearings():
+    found = {}
+    for supply in (None, OilLayer(over_flooded=1.0)):
+        one = BallBearing.catalogue("7205", oil=OIL, supply=supply)
+        state = one.equilibrium((100.0, 0.0, 500.0), speed_rpm=3000.0)
+        found[supply] = state.h_central.max()
+    assert 0.8 < found[supply] / found[None] < 0.99
+
+
+def test_layer_of_an_oil_balance():
+    whole = {"bearing": bearing(), "load": LOAD, "speed_rpm": 3000.0}
+    starting = OilBalance(**whole)
+    balance = OilBalance(**whole, feed=starting.feed_for(0.6 * starting.full_layer))
+    supplied = bearing(balance.lasting_supply)
+    film = supplied.equilibrium(LOAD, speed_rpm=3000.0)
+    assert film.h_central[film.heaviest, 0] == pytest.approx(balance.films(balance.lasting_layer)[0], rel=0.05)
+    with pytest.raises(InputError, match="without any no layer lasts"):
+        _ = starting.lasting_supply
+    with pytest.raises(InputError, match="lasting_supply"):
+        OilBalance(bearing=supplied, load=LOAD, speed_rpm=3000.0)
+
+
+def test_stored_and_read_again():
+    for one in (bearing(), bearing(OilLayer(0.3e-6)), bearing(OilLayer(over_flooded=1.5))):
+        again = BallBearing.from_dict(one.to_dict())
+        assert again == one and again.supply == one.supply
+    assert "supply" not in bearing().to_dict()
+    assert "0.3 µm" in str(bearing(OilLayer(0.3e-6))) and "flooded" in str(bearing())
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"oil": None, "supply": OilLayer(0.3e-6)}, "dry bearing"),
+        ({"supply": OilLayer(H=0.1)}, "dry approaches differ from ball to ball"),
+        ({"supply": OilLayer([0.1e-6, 0.2e-6], y=[0.0, 1.0])}, "profile"),
+        ({"supply": 0.3e-6}, "an OilLayer"),
+        ({"supply": OilLayer(0.3e-6), "conformity_inner": 0.509}, "kappa"),
+    ],
+)
+def test_bad_supply_is_one_line(changes, words):
+    with pytest.raises(InputError) as caught:
+        BallBearing.catalogue("6205", **{"oil": OIL, **changes})
+    assert words in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_what_takes_no_supply_says_so():
+    with pytest.raises(InputError, match=r"bearing\.supply.*flooded"):
+        BearingModel(bearing(OilLayer(over_flooded=1.0)), 3000.0)
+    with pytest.raises(InputError, match="table of oil supply"):
+        bearing(OilLayer(over_flooded=1.0)).equilibrium((0.0, -9000.0), speed_rpm=3000.0)
+    with pytest.raises(InputError, match="flooded films everywhere"):
+        bearing(OilLayer(1e-9)).equilibrium(LOAD, speed_rpm=3000.0)
