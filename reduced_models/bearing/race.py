@@ -111,11 +111,11 @@ class Race:
     def heaviest(self, speed_rpm: float) -> tuple[float, str]:
         """Largest load [N] of a ball, and what ends there: the atlas at this speed, or elastic steel where dry."""
         if self.oil is not None:
-            most = self.loads(speed_rpm)[1]
-            supplied = most if self.supply is None else heaviest_load(self.point(1.0, speed_rpm).moes)
-            if supplied < most:
+            heaviest = self.loads(speed_rpm)[1]
+            supplied = heaviest if self.supply is None else heaviest_load(self.point(1.0, speed_rpm).moes)
+            if supplied < heaviest:
                 return supplied, "the end of the table of oil supply at this speed"
-            return most, "the end of the atlas at this speed"
+            return heaviest, "the end of the atlas at this speed"
         body = self.geometry
         unit = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure
         most = f"{1e-9 * LIMITS.p_hertz:g} GPa, beyond which no steel stays elastic"
