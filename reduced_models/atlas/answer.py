@@ -15,6 +15,7 @@ from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, MOMENT, NUM
 from ehlcontact.results.frequency import FrequencyResponse, ScaledResponse
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable, plain
 from ehlcontact.summary import contact_text, note_line, span
+from ehlcontact.supply import OilLayer
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 
 _Floats = NDArray[np.float64]
@@ -92,6 +93,11 @@ class AtlasAnswer(ScaledTable):
     def force(self) -> Annotated[float, FORCE.in_si_only()]:
         """Static load: 1."""
         return 1.0
+
+    @property
+    def supply(self) -> OilLayer | None:
+        """Its oil supply; None where the inlet is flooded."""
+        return None if self.over_flooded is None else OilLayer(over_flooded=self.over_flooded)
 
     @property
     def film_origin(self) -> str:

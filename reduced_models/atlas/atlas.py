@@ -345,6 +345,8 @@ class Atlas:
         scales, answer = scales_of(point), self._answer(point, given)
         source = self._source(answer) | {one.name: one.to_dict() for one in given}
         source["scales"] = None if scales is None else asdict(scales)
+        if answer.over_flooded is not None:
+            source["least_damping"] = float(answer.damping.min())  # elements leave out what is below 0
         return source | {"assumptions": assumptions(point, film=answer).short()}
 
     def _fit(self, omega: _Floats, gains: _Floats, damping: _Floats, low: _Floats) -> dict[str, Any]:

@@ -176,6 +176,8 @@ def test_a_condition_says_what_it_is():
     condition = SupplyCondition(POINT, layer(1.5))
     assert condition.to_dict() == {"over_flooded": 1.5}
     assert Atlas().element(POINT, supply=layer(1.5)).source["supply"] == {"over_flooded": 1.5}
+    assert Atlas().element(WIDE, supply=layer(1.0)).source["least_damping"] < -0.1
+    assert Atlas().at(POINT, supply=layer(1.5)).supply == layer(1.5) and Atlas().at(POINT).supply is None
 
 
 @pytest.mark.slow
