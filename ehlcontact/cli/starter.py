@@ -35,6 +35,9 @@ OPTIONS = {
     "oil.iso_vg": "--oil",
     "oil.temperature": "--temp",
     "whole_bearing.axial_load": "--axial",
+    "whole_bearing.layer_um": "--layer",
+    "whole_bearing.layer_ratio": "--layer-ratio",
+    "whole_bearing.thermal": "--thermal",
 }
 HEAD = """\
 # A study of one bearing. What it will do, and about how long that takes; then the study itself:
@@ -59,15 +62,16 @@ def study_text(asked: Mapping[str, Any], name: str) -> str:
         The entries are no study; it names the option that sets the entry.
     """
     entries = dict(asked)
+    whole = any(entry.startswith("whole_bearing.") for entry in asked)
     try:
-        first = _written(entries, name, None if "whole_bearing.axial_load" in asked else "")
+        first = _written(entries, name, None if whole else "")
         studies = [point.study for point in points_of(tomllib.loads(first), Path())]
         entries |= _fitting(studies)
         try:
             for study in studies:
                 require_whole_bearing(study)
         except InputError as error:  # the rest of the study runs without
-            if "whole_bearing.axial_load" in asked:
+            if whole:
                 raise
             return _written(entries, name, str(error))
         text = _written(entries, name)

@@ -5,10 +5,19 @@ import json
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
+from tiny_study import STUDY
 
-from ehlcontact import Grid, impedance
-from reduced_models.bearing import oil_and_heat
+import reduced_models.bearing.oil_and_heat as module
+from ehlcontact import ConvergenceError, Grid, impedance
+from ehlcontact.cli.plots.oil_and_heat import coefficients, films
+from ehlcontact.cli.study.forecast import CONDITION, closing_cost
+from ehlcontact.cli.study.headline import oil_and_heat as sentence
+from ehlcontact.cli.study.oil_and_heat import FREQUENCIES, run_oil_and_heat
+from ehlcontact.cli.study.report import conditions
+from ehlcontact.cli.study.schema import load_study
+from reduced_models.bearing.oil_and_heat import FLOODED
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
 OIL = ("--oil", "68", "--temp", "60")
@@ -19,7 +28,7 @@ AT = ("bearing", "6205", "--load", "100", "--speed-rpm", "6000")
 @pytest.fixture
 def coarse(monkeypatch):
     """Contacts on coarse grids: here it is about what is shown."""
-    monkeypatch.setattr(oil_and_heat, "impedance", partial(impedance, grid=Grid(48)))
+    monkeypatch.setattr(module, "impedance", partial(impedance, grid=Grid(48)))
 
 
 def test_table_json_and_csv_have_the_same_numbers(call, coarse, tmp_path):
@@ -98,3 +107,73 @@ def test_mistakes_of_a_file(refused, tmp_path, changes, words):
         text = text.replace(old, new)
     (tmp_path / "b.toml").write_text(text)
     refused(words, "bearing", tmp_path / "b.toml")
+
+
+PLAIN, GRADE = "eta0 = 0.02\nalpha = 1e-8", "iso_vg = 68\ntemperature = 60.0"
+BY_GRADE = STUDY.replace(PLAIN, GRADE)
+ASKED = BY_GRADE.replace("[whole_bearing]", "[whole_bearing]\nthermal = true\nlayer_ratio = 1.0")
+
+
+def study(folder, text):
+    path = folder / "study.toml"
+    path.write_text(text)
+    return path
+
+
+def test_section_of_a_study(coarse, tmp_path):
+    """Table, figures and sentence of the report; its cost in the forecast; nothing where it is not asked for."""
+    plain, asked = (load_study(study(tmp_path, text)) for text in (BY_GRADE, ASKED))
+    assert run_oil_and_heat(plain) is None
+    less, more = (closing_cost(one) for one in (plain, asked))
+    assert more - less == pytest.approx(4 * CONDITION * 3200, rel=0.5)
+    found = run_oil_and_heat(asked)
+    assert list(found.conditions) == ["flooded, isothermal", "with heat", "with the layer", "with both"]
+    assert found.hz.size == 2 + FREQUENCIES
+
+    class Findings:
+        study = asked
+        oil_and_heat = found
+
+    told = conditions(Findings)
+    assert told["conditions"][0][1:] == list(found.conditions) and "r = 1 over" in told["supply_words"]
+    words = sentence(Findings)
+    assert words.count("% of the film") == 3 and f"{found.conditions[FLOODED].damping[0, 1]:.3g} N s/m" in words
+    around, band = films(found), coefficients(found)
+    assert [line.name for line in around.data] == 2 * list(found.conditions)
+    np.testing.assert_allclose(around.data[0].x, -around.data[0].x[::-1], atol=1e-9)
+    assert np.all(np.diff(band.data[0].x) >= 0.0) and len(band.data) == 8
+
+
+def test_a_study_tells_why_there_is_no_answer(tmp_path, monkeypatch):
+    def fails(*points, **given):
+        raise ConvergenceError("no film", None)
+
+    monkeypatch.setattr(module, "impedance", fails)
+
+    class Findings:
+        oil_and_heat = run_oil_and_heat(load_study(study(tmp_path, ASKED)))
+
+    assert "no film" in sentence(Findings) and conditions(Findings) == {}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("layer_ratio = 1.0", "layer_ratio = -1.0", ("whole_bearing.layer_ratio = -1.0", "above 0")),
+        ("layer_ratio = 1.0", "layer_um = 2e-7", ("whole_bearing.layer_um = 2e-07", "in m?")),
+        ("layer_ratio = 1.0", "layer_ratio = 1.0\nlayer_um = 0.2", ("whole_bearing.layer_um", "left out")),
+        (GRADE, PLAIN, ("whole_bearing.thermal", "by its grade")),
+        ("thermal = true", "thermal = 2", ("whole_bearing.thermal",)),
+    ],
+)
+def test_mistakes_of_a_study(refused, tmp_path, old, new, words):
+    assert old in ASKED
+    refused(words, "validate", study(tmp_path, ASKED.replace(old, new)))
+
+
+def test_init_writes_them(call, refused, tmp_path):
+    given = ("--layer-ratio", "0.8", "--thermal", "--load", "500")
+    assert call("init", tmp_path / "s.toml", *given).code == 0
+    whole = load_study(tmp_path / "s.toml").whole_bearing
+    assert (whole.layer_ratio, whole.layer_um, whole.thermal) == (0.8, None, True)
+    refused(("--layer = -1",), "init", tmp_path / "t.toml", "--layer", "-1")

@@ -37,6 +37,11 @@ class Wish(o.Options):
     axial: Annotated[
         e.Load | None, typer.Option("--axial"), e.meaning("axial load; an angular contact bearing needs one")
     ] = None
+    layer: Annotated[e.OilThickness | None, typer.Option("--layer")] = None
+    layer_ratio: Annotated[e.LayerRatio | None, typer.Option("--layer-ratio")] = None
+    thermal: Annotated[
+        bool, typer.Option("--thermal", help="Films of the whole bearing with heat, beside isothermal ones.")
+    ] = False
 
 
 @o.grouped
@@ -61,6 +66,12 @@ def init(
     }
     if wish.axial is not None:
         entries["whole_bearing.axial_load"] = float(wish.axial)
+    if wish.layer is not None:
+        entries["whole_bearing.layer_um"] = float(wish.layer)
+    if wish.layer_ratio is not None:
+        entries["whole_bearing.layer_ratio"] = float(wish.layer_ratio)
+    if wish.thermal:
+        entries["whole_bearing.thermal"] = True
     text = study_text({"title": f"study of a {bearing}", **entries}, file.name)
     write_text(file, text, "FILE.toml")
     oil = f"ISO VG {grade}"

@@ -14,6 +14,7 @@ from ehlcontact.cli.study.differences import Events
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
+from reduced_models.bearing.oil_and_heat import FLOODED
 
 # Change by half the step, over the standard deviation of a signal or the decrement, that has a sentence.
 LARGE_CHANGE = 0.01
@@ -58,7 +59,7 @@ def headline(found: Findings) -> str:
 
 def findings(found: Findings) -> list[str]:
     """Findings, a text per subject."""
-    return _sentences(found, contact, damper, decay, unbalance, whole, at_angles)
+    return _sentences(found, contact, damper, decay, unbalance, whole, at_angles, oil_and_heat)
 
 
 def reservations(found: Findings) -> list[str]:
@@ -188,6 +189,26 @@ def at_angles(found: Findings) -> str:
         f"{text} The slowest vibration of the rotor {on} has {numeral(first.hz)} Hz and a "
         f"decrement of {numeral(first.decrement, 3)}."
     )
+
+
+def oil_and_heat(found: Findings) -> str:
+    """The bearing with heat and with its layer of oil, where they are asked for: films and damping."""
+    w = found.oil_and_heat
+    if w is None:
+        return ""
+    if isinstance(w, str):
+        return f"Oil supply and heat of the whole bearing were not computed: {w}"
+    ball, way, flooded = w.state.heaviest, next(iter(w.ways.values())), w.conditions[FLOODED]
+    said = (
+        f"{key} {percent(float((one.h_central / flooded.h_central)[ball, 0]), 3)} of the film and "
+        f"{numeral(float(one.damping[0, way]), 3)} N s/m"
+        for key, one in w.conditions.items()
+        if key != FLOODED
+    )
+    own = numeral(float(flooded.damping[0, way]), 3)
+    text = f"Flooded and isothermal, the bearing has {own} N s/m of damping at the frequency of the speed; "
+    missing = "".join(f" {key.capitalize()} there is no answer: {reason}." for key, reason in w.refused.items())
+    return f"{text}{'; '.join(said) or 'nothing beside it'}.{missing}"
 
 
 def unsettled(found: Findings) -> str:

@@ -7,16 +7,23 @@ import io
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.errors import InputError
+from ehlcontact.cli.study.ring_load import tilt_of
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.heat import Heat
 from ehlcontact.supply import OilLayer
+from reduced_models import oil_and_heat
+from reduced_models.bearing.kinematics import RPM_TO_HZ
 
 if TYPE_CHECKING:
     from ehlcontact import Lubricant
-    from reduced_models.bearing.oil_and_heat import OilAndHeat
+    from ehlcontact.cli.study.schema import Study
+    from reduced_models import OilAndHeat
 
 ENTRIES = "layer_um", "layer_ratio", "thermal"
+BAND, FREQUENCIES = (0.2, 50.0), 13  # over the frequency of the shaft: K and C of the figure
 
 
 def supply_and_heat(
@@ -58,6 +65,38 @@ def supply_and_heat(
     if ratio is not None:
         supply = OilLayer(over_flooded=ratio)
     return supply, Heat() if given.thermal else None
+
+
+def supply_words(supply: OilLayer | None) -> str:
+    """The layer in words."""
+    if supply is None:
+        return ""
+    if supply.h is not None:
+        return f"{numeral(1e6 * supply.h)} µm on both surfaces together"
+    return f"r = {numeral(supply.over_flooded)} over what the flooded film of each contact lets through"
+
+
+def run_oil_and_heat(study: Study) -> OilAndHeat | str | None:
+    """The study's bearing with heat and with its layer, or why there is none; None where neither is asked for."""
+    from ehlcontact.cli.study.whole_bearing import ring_load, whole_bearing
+
+    whole = study.whole_bearing
+    supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant, paired=whole.pair is not None)
+    if supply is None and thermal is None:
+        return None
+    speed = study.bearing.speed_rpm
+    try:
+        return oil_and_heat(
+            whole_bearing(study, oil=True),
+            ring_load(study),
+            speed_rpm=speed,
+            supply=supply,
+            thermal=thermal,
+            tilt=tilt_of(whole),
+            band=speed * RPM_TO_HZ * np.geomspace(*BAND, FREQUENCIES),
+        )
+    except (ConvergenceError, InputError) as error:
+        return str(error)
 
 
 def columns(found: OilAndHeat) -> tuple[list[str], list[list[str]]]:

@@ -7,14 +7,16 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact.cli.page import write_page
-from ehlcontact.cli.plots import bearing, film, motion, rotor
+from ehlcontact.cli.plots import bearing, film, motion, oil_and_heat, rotor
 from ehlcontact.cli.plots.impedance import impedance
 from ehlcontact.cli.plots.instants import instants
 from ehlcontact.cli.study.bearing_rotor import NAMES
 from ehlcontact.cli.study.headline import findings, reservations, verdict
+from ehlcontact.cli.study.oil_and_heat import columns, skf_words, supply_and_heat, supply_words
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, RECORDS, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.stages import STAGES
+from reduced_models import OilAndHeat
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
 from reduced_models.rotor.events import LOST
 from reduced_models.rotor.settling import MOST_REVOLUTIONS
@@ -62,7 +64,17 @@ def write_report(found: Findings, path: Path) -> Path:
         most_revolutions=MOST_REVOLUTIONS,
         bearings=NAMES,
         usual_damping=USUAL_DAMPING,
+        **conditions(found),
     )
+
+
+def conditions(found: Findings) -> dict[str, Any]:
+    """Table and words of the bearing with heat and with a layer of oil; empty where it is not computed."""
+    if not isinstance(found.oil_and_heat, OilAndHeat):
+        return {}
+    whole, one = found.study.whole_bearing, found.oil_and_heat
+    supply, _ = supply_and_heat(whole, "whole_bearing", found.study.lubricant, paired=False)
+    return {"conditions": columns(one), "skf": skf_words(one), "supply_words": supply_words(supply)}
 
 
 def files_beside(folder: Path) -> dict[str, str]:
@@ -98,6 +110,12 @@ def drawings(found: Findings) -> dict[str, Callable[[], Any]]:
     found_whole = {} if found.whole is None else bearing.drawings(found.whole, NAMES)
     if found.at_angles is not None:
         found_whole = bearing.drawings_at_angles(found.at_angles)
+    if isinstance(found.oil_and_heat, OilAndHeat):
+        one = found.oil_and_heat
+        found_whole |= {
+            "conditions_films": lambda: oil_and_heat.films(one),
+            "conditions_coefficients": lambda: oil_and_heat.coefficients(one),
+        }
     return found_whole | {
         "film_maps": lambda: film.film_maps(found.steady),
         "midplane": lambda: film.midplanes(found.steady),

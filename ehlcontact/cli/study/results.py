@@ -15,6 +15,7 @@ from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.cli.study.bearing_at_angles import BearingAtAngles, run_at_angles
 from ehlcontact.cli.study.bearing_rotor import run_whole
 from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
+from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
 from ehlcontact.cli.study.points.log import versions
 from ehlcontact.cli.study.reduction import (
     CONTACTS,
@@ -33,6 +34,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.results import SteadyResult
 from ehlcontact.store import load
 from ehlcontact.transient.result import SimulationResult
+from reduced_models import OilAndHeat
 from reduced_models.rotor.compare_bearing_models import BearingModels
 
 
@@ -47,6 +49,7 @@ class Findings:
     rotors: RotorFindings
     whole: BearingModels | None  # where the study has whole bearings
     at_angles: BearingAtAngles | None  # where they carry an axial load
+    oil_and_heat: OilAndHeat | str | None  # where they have a layer of oil or heat; or why there is none
     fmu: Mapping[str, Any]  # of the cubic of the rotor's band
     film_fmu: Mapping[str, Any] | None  # of the element with a film memory, where there is one
     seconds: Mapping[str, float]  # wall time by stage
@@ -219,6 +222,9 @@ class Findings:
             "rotor": self.rotors.to_dict(),
             "whole_bearing": None if self.whole is None else self.whole.to_dict(),
             "bearing_at_angles": None if self.at_angles is None else self.at_angles.to_dict(),
+            "oil_and_heat": (
+                self.oil_and_heat.to_dict() if isinstance(self.oil_and_heat, OilAndHeat) else self.oil_and_heat
+            ),
             "seconds": self.seconds,
             "versions": self.versions,
         }
@@ -250,4 +256,9 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
     whole, at_angles = run_whole(study, folder), run_at_angles(study)
     if whole is not None or at_angles is not None:
         times["rotor on whole bearings"] = time.perf_counter() - started
-    return Findings(study, steady, histories, reduction, rotors, whole, at_angles, exported, exported_film, times)
+    started = time.perf_counter()
+    conditions = run_oil_and_heat(study)
+    if conditions is not None:
+        times["oil supply and heat"] = time.perf_counter() - started
+    bearings = whole, at_angles, conditions
+    return Findings(study, steady, histories, reduction, rotors, *bearings, exported, exported_film, times)

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact.cli.study.oil_and_heat import supply_and_heat
 from ehlcontact.cli.study.pair import pair_of
 from ehlcontact.cli.study.ring_load import moments_of, tilt_of
 from ehlcontact.errors import ConvergenceError, InputError
@@ -137,6 +138,7 @@ def require_whole_bearing(study: Any) -> None:
             "whole_bearing.conformity_other"
         )
     load, steps = ring_load(study), whole.steps_per_revolution
+    supply_and_heat(whole, "whole_bearing", study.lubricant, paired=whole.pair is not None)
     if len(load) > len(PLANAR):
         names["load"] = "bearing.radial_load, whole_bearing.axial_load"
     try:
