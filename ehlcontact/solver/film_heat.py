@@ -60,6 +60,7 @@ class Terms(NamedTuple):
     work: Array  # expansion times the work of compression
     exchange: Array  # given to the surfaces by a rise of 1
     cold: Array  # ln(eta) at the temperature of the inlet
+    storage: Array | float = 0.0  # taken up in a step of time by a degree of mean temperature
 
 
 class Sliding(NamedTuple):
@@ -116,11 +117,11 @@ class FilmHeat:
             slid, slope, _ = self.sliding(t)
             made = self._made(t) + slid - slope * self.rise
             for _ in range(MOST_SWEEPS):
-                given = t.heat_along, t.heat_across, t.exchange - slope, made, t.share
+                given = t.heat_along, t.heat_across, t.exchange + t.storage - slope, made, t.share
                 if sweep(*given, self.rise) <= enough * np.abs(self.rise).max():
                     break
             for k, heat in enumerate(self.into_walls(t)):
-                self.walls[k] += share * (n.walls[k] * (heat @ self.memory) - self.walls[k])
+                self.walls[k] += share * (n.walls[k] * self.passed_on(k, heat) - self.walls[k])
             after = np.concatenate([self.rise[None], self.walls])
             if np.abs(after - before).max() <= SETTLED * np.abs(after).max():
                 break
@@ -169,7 +170,7 @@ class FilmHeat:
         across = np.maximum(t.heat_across, 0.0) * self.rise + np.minimum(t.heat_across, 0.0) * rise[1:, :-1]
         turned = self._turned(t)
         carried = np.where(t.wet | (turned > 0.0), divergence(along, across), 0.0)
-        carried += np.where(t.wet, self.with_walls(t, wall), 0.0)
+        carried += np.where(t.wet, self.with_walls(t, wall) + self.stored(t, self.mean), 0.0)
         left = t.pressed + slid + work - sum(self.into_walls(t)) - carried
         weights = self.level.force_weights
         return float(abs(np.vdot(weights, left)) / np.vdot(weights, t.pressed + slid + np.abs(work)))
@@ -223,7 +224,15 @@ class FilmHeat:
         """Heat that enters the rise, but for that of sliding."""
         wall = self.walls.mean(axis=0)
         made = t.work * (self.numbers.inlet + self.rise + wall) + INNER * t.pressed
-        return made * self.ahead - np.where(t.wet, self.with_walls(t, wall), 0.0)
+        return made * self.ahead - np.where(t.wet, self.with_walls(t, wall) + self.stored(t, wall), 0.0)
+
+    def stored(self, t: Terms, mean: Array) -> Array | float:
+        """Heat that a mean temperature takes up in time: none in a steady film."""
+        return 0.0
+
+    def passed_on(self, k: int, heat: Array) -> Array:
+        """Heat given to a surface, upstream of each node, over the root of the distance (eq. 7)."""
+        return np.asarray(heat @ self.memory)
 
     def with_walls(self, t: Terms, wall: Array) -> Array:
         """What the oil carries on because it has the temperature of the surfaces."""
@@ -305,13 +314,13 @@ class HeatedCycles:
             if self._advance(balance) < self._rough:
                 break
         if starved or self._rough == inf:
-            self._follow()
+            self.follow()
 
     def settle(self, balance: Balance, cycles: int) -> None:
         """So many of them from a film that is near; viscosity and temperatures belong together at last."""
         assert isinstance(self.heat, FilmHeat)
         self.heat.solve()
-        self._follow()
+        self.follow()
         for _ in range(cycles):
             self.step(balance)
         self.heat.solve()
@@ -324,10 +333,10 @@ class HeatedCycles:
         )  # what falls slowly is not the cycles' part
         change = self._advance(balance)
         if change < self._rough:
-            self._follow()
+            self.follow()
         return change
 
-    def _follow(self) -> None:
+    def follow(self) -> None:
         """Viscosity of the present temperatures; residuals with it."""
         mg = self.multigrid
         before = mg.finest.fields.flow.heat

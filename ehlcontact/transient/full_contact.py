@@ -8,6 +8,7 @@ from typing import Annotated
 from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
+from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.quantities import FORCE, LENGTH
@@ -20,6 +21,7 @@ from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
 from ehlcontact.supply import OilLayer, require_supply
 from ehlcontact.transient.features import Surface, require_surface, surface_height, surface_step
+from ehlcontact.transient.heat_over_time import require_heat_over_time
 from ehlcontact.transient.time_step import DEFAULT_TOL
 from ehlcontact.transient.transient_film import FilmState, Step, TransientFilm
 
@@ -47,6 +49,8 @@ class FullContact(Summary):
         Oil that the surfaces carry to the contact, as in `simulate`; by default the inlet is flooded.
     surface : callable, optional
         Height added to the gap, as in `simulate`, over the time since this contact was made; it rests on it.
+    thermal : Heat, optional
+        Let the film heat up, as in `simulate`; not together with `supply` or `surface`.
     largest_load : float
         Largest force to expect, in static loads.
     tol : float
@@ -88,6 +92,7 @@ class FullContact(Summary):
         grid: Grid = AUTOMATIC,
         supply: OilLayer | None = None,
         surface: Surface | None = None,
+        thermal: Heat | None = None,
         largest_load: float = 1.0,
         tol: float = DEFAULT_TOL,
         threads: int | None = None,
@@ -98,11 +103,14 @@ class FullContact(Summary):
         require_supply(supply, self.point, self.scales)
         require_surface(surface)
         self._surface, self._T = surface, 0.0
+        if thermal is not None:
+            thermal = require_heat_over_time(thermal, point, supply=supply, surface=surface)
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)
         left: Step | None = None
         for mesh in wider_meshes(self.point, Purpose.CONTACT, grid, largest_load=load):
-            self._film = TransientFilm.under(supply, self.point, self.scales, mesh, tol, grid.deflection, threads)
+            given = (supply, self.point, self.scales, mesh, tol, grid.deflection, threads, thermal)
+            self._film = TransientFilm.under(*given)
             self.n, self.domain = mesh.n, mesh.domain
             level = self._film.level
             start = self._film.start_steady(

@@ -31,6 +31,7 @@ class Entry:
     pressure: Array  # (nx + 1,) along Y = 0
     leaving: Array  # (ny + 1,): oil on the surfaces behind the contact; empty of a flooded inlet
     step: Step  # that led here
+    heat: tuple[float, float, float] | None = None  # warmest oil and surface, and the balance of energy
 
     @classmethod
     def of(cls, film: TransientFilm, motion: MotionState, load: float, step: Step) -> Entry:
@@ -45,6 +46,7 @@ class Entry:
             *film.midplane,
             level.leaving(),
             step,
+            None if film.heat is None else film.heat.numbers_of_record(),
         )
 
     @classmethod

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat
 from ehlcontact.origin import Origin, freeze
 from ehlcontact.quantities import (
     ACCELERATION,
@@ -120,6 +121,13 @@ class SimulationResult(ScaledTable, Origin):
         Oil on both surfaces ahead of the contact, over the dry approach; in SI [m].
     layer_behind : ndarray or None, shape (steps + 1, ny + 1)
         Oil on both surfaces where they leave the computed region; in SI [m].
+    thermal : Heat or None
+        As given to `simulate`, with the data of the oil; None of an isothermal film, and with it the following
+        three.
+    warmest_oil, warmest_surface : ndarray or None, shape (steps + 1,)
+        Largest mean temperature over the film, and that of a surface [K above the inlet].
+    heat_balance : ndarray or None, shape (steps + 1,)
+        Heat made less what oil stores, what it carries away and what surfaces take, over the first, in each step.
     film_error : ErrorEstimate or None
         How far approach and films at T = 0 may be from those of an endless fine mesh on the same region; None of a
         start that is not solved. In SI its approach is in m.
@@ -154,6 +162,10 @@ class SimulationResult(ScaledTable, Origin):
     supply: OilLayer | None = None
     layer: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
     layer_behind: Annotated[Array | None, LENGTH.over("T Y", listed=False)] = None
+    thermal: Heat | None = None
+    warmest_oil: Annotated[Array | None, NUMBER.over("T", listed=False)] = None
+    warmest_surface: Annotated[Array | None, NUMBER.over("T", listed=False)] = None
+    heat_balance: Annotated[Array | None, NUMBER.over("T", listed=False)] = None
 
     DISPLAY: ClassVar[Display] = Display(
         rows="T", panels=("force load", "approach", "h_central h_min", "h_midplane")
@@ -295,5 +307,6 @@ class SimulationResult(ScaledTable, Origin):
                 "motion": self.motion.to_dict(),
             }
             | ({} if self.supply is None else {"supply": self.supply.to_dict()})
+            | ({} if self.thermal is None else {"thermal": self.thermal.to_dict()})
             | self.origin_dict()
         )

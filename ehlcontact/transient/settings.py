@@ -14,6 +14,7 @@ from typing import Self
 from ehlcontact.checks import require_instance, require_nonnegative, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.supply import OilLayer
@@ -222,6 +223,7 @@ class RunInputs:
     deflection: str  # engine
     speed: SpeedHistory | None = None
     supply: OilLayer | None = None  # None of a flooded inlet
+    thermal: Heat | None = None  # None at the temperature of the inlet
 
 
 def even_step(until: float, dT: float) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 from ehlcontact.checks import require_instance
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.heat import Heat
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
@@ -25,6 +26,7 @@ from ehlcontact.supply import OilLayer, require_supply
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
 from ehlcontact.transient.features import Dent, Surface, require_surface, surface_height
+from ehlcontact.transient.heat_over_time import require_heat_over_time
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
@@ -53,6 +55,7 @@ def simulate(
     *,
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
+    thermal: Heat | None = None,
     time: TimeSteps = BY_MOTION,
     speed: SpeedHistory | None = None,
     surface: Surface | None = None,
@@ -75,6 +78,10 @@ def simulate(
         Oil that the surfaces carry to the contact, the same at all times, as in `solve_steady`. What leaves is
         ``result.layer_behind``. By default the inlet is flooded up to the border of the region. Not together with
         `speed` or `surface`.
+    thermal : Heat, optional
+        Let the film heat up: oil and surfaces store heat, and its viscosity follows in every step (docs/heat.md).
+        By default the film has the temperature of the inlet. Not together with `supply`, `speed`, `surface`, and
+        without checkpoints.
     time : TimeSteps
         End, step, tolerances; in seconds for an `OperatingPoint`, in 2a/u_sum for a `MoesPoint`.
     speed : SpeedHistory, optional
@@ -119,20 +126,24 @@ def simulate(
     for name, value in (("surface", surface), ("speed", speed)):
         if supply is not None and value is not None:
             raise InputError(name, type(value).__name__, "left out with a supply")
+    if thermal is not None:
+        thermal = require_heat_over_time(thermal, point, supply=supply, surface=surface, speed=speed)
+        if keep.checkpoint is not None or keep.restart is not None:
+            raise InputError("checkpoint", str(keep.checkpoint or keep.restart), "left out with heat")
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
     scales = scales_of(point)
     unit = 1.0 if scales is None else scales.time
     steps = StepPlan.of(motion, time, unit, default_fixed_step(motion, surface, spacing, speed))
     inputs = RunInputs(
-        moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed, supply
+        moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed, supply, thermal
     )
     if keep.checkpoint is not None:
         require_replaceable(keep.checkpoint, keep.restart)
     threads = require_threads("threads", run.threads)
 
     def film_on(mesh: Mesh) -> TransientFilm:
-        film = TransientFilm.under(supply, moes, scales, mesh, steps.tol, grid.deflection, threads)
+        film = TransientFilm.under(supply, moes, scales, mesh, steps.tol, grid.deflection, threads, thermal)
         if isinstance(surface, Roughness):
             surface.require_fit(film.level.X, film.level.Y, steps.until)
         return film
@@ -244,7 +255,17 @@ def _result(
         supply=inputs.supply,
         layer=None if inputs.supply is None else level.inflow.copy(),
         layer_behind=None if inputs.supply is None else record.leaving,
+        thermal=inputs.thermal,
+        **_heat(run.history, inputs),
     )
+
+
+def _heat(history: History, inputs: RunInputs) -> dict[str, Any]:
+    """Temperatures of a run with heat, a number per step."""
+    if inputs.thermal is None:
+        return {}
+    found = np.array([entry.heat for entry in history.entries])
+    return {"warmest_oil": found[:, 0], "warmest_surface": found[:, 1], "heat_balance": found[:, 2]}
 
 
 def _message(result: SimulationResult, end: RunEnd, highest: float) -> str:

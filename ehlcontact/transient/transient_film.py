@@ -6,8 +6,9 @@ rule with beta = 1/4, gamma = 1/2, evaluated inside the multigrid cycle through 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import accumulate
 from math import nan, prod
 from typing import TypeVar
@@ -15,11 +16,13 @@ from typing import TypeVar
 import numpy as np
 
 from ehlcontact.errors import ConvergenceError
+from ehlcontact.heat import Heat, HeatNumbers
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse_newton import Factors
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
+from ehlcontact.solver.film_heat import HeatedCycles
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Array, Level
 from ehlcontact.solver.mesh import Mesh
@@ -27,6 +30,7 @@ from ehlcontact.solver.multigrid import Multigrid, Supply
 from ehlcontact.status import Status
 from ehlcontact.supply import OilLayer
 from ehlcontact.transient.features import SurfaceStep
+from ehlcontact.transient.heat_over_time import HeatOverTime, HeatState
 
 Quantity = TypeVar("Quantity", float, Array)
 
@@ -53,6 +57,7 @@ class FilmState:
     factors: Factors | None  # of the coarsest grid; immutable, so the reference is enough
     past_u: tuple[float, ...]  # approach at the same times as the pressures of `past`
     turned: bool = False  # the surfaces roll back: fields are those seen from the other side
+    heat: HeatState | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +86,8 @@ class TransientFilm:
         As there.
     supply : callable, optional
         Layer of oil that enters at the lines Y, in dry approaches; by default the inlet is flooded.
+    heat : HeatNumbers, optional
+        Let the film heat up; by default it has the temperature of the inlet.
     """
 
     def __init__(
@@ -91,8 +98,10 @@ class TransientFilm:
         deflection: str = "fft",
         threads: int = 1,
         supply: Supply | None = None,
+        heat: HeatNumbers | None = None,
     ) -> None:
         self.multigrid = Multigrid(point, mesh, deflection=deflection, threads=threads, supply=supply)
+        self.heat = None if heat is None else HeatOverTime(self.multigrid, heat)
         self.tol = tol
         self.scale = 1.0
         self._past: tuple[tuple[float, Array], ...] = ()
@@ -112,8 +121,9 @@ class TransientFilm:
         tol: float,
         deflection: str,
         threads: int,
+        thermal: Heat | None = None,
     ) -> TransientFilm:
-        """Film under an oil supply, or flooded for None.
+        """Film under an oil supply, or flooded for None, that heats up with the data of `thermal`.
 
         Raises
         ------
@@ -121,7 +131,8 @@ class TransientFilm:
             The flooded film, which the supply is given over, was not solved.
         """
         if supply is None:
-            return cls(point, mesh, tol, deflection, threads)
+            heat = None if thermal is None or scales is None else thermal.numbers(point, scales)
+            return cls(point, mesh, tol, deflection, threads, heat=heat)
         flooded = nan
         if supply.needs_flooded:
             film = cls(point, mesh, tol, deflection, threads)
@@ -175,12 +186,19 @@ class TransientFilm:
         mg.set_time_coefficient(0.0)
         if u is not None:
             mg.u = u
+        if self.heat is not None:
+            self.heat.rest()
         mg.full_multigrid(balance)
         self.level.film_shift = surface
         self.level.update_film(mg.u)
         # full multigrid may still overlap in the centre
         self.scale = max(self.level.central_film(), SMALLEST_SCALE)
         step = self._solve(balance, 2 * STEP_CYCLES)
+        if self.heat is not None and step.status.ok:
+            cycles = HeatedCycles(mg, self.heat, mg.cycle)
+            cycles.start(balance)
+            step = self._solve(balance, 2 * STEP_CYCLES, cycles.step)
+            self.heat.end(0.0)
         self._mass = self.level.oil.copy()
         self._mass_before = self._mass
         self.forget_past()
@@ -235,14 +253,22 @@ class TransientFilm:
             # its fourth derivative as a source, which eats up the film at its rim.
             known = _known(dT, ratio, surface.at_start, surface.at_previous_start)
             level.rhs -= level.density() * (level.transport(surface.height, known) - surface.rate)
-        step = self._solve(balance, STEP_CYCLES)
+        if self.heat is None:
+            step = self._solve(balance, STEP_CYCLES)
+        else:
+            self.heat.begin(dT, partial(_known, dT, ratio))
+            cycles = HeatedCycles(mg, self.heat, mg.cycle)
+            level.update(mg.u)
+            cycles.follow()
+            step = self._solve(balance, STEP_CYCLES, cycles.step)
+            self.heat.end(dT)
         self._past = ((dT, P_now), *self._past)[:PAST]
         self._past_u = (u_now, *self._past_u)[:PAST]
         self._mass_before, self._mass = self._mass, level.oil.copy()
         self._dT = dT
         return step
 
-    def _solve(self, balance: Balance, most: int) -> Step:
+    def _solve(self, balance: Balance, most: int, advance: Callable[[Balance], float] | None = None) -> Step:
         """Cycle until the residual, the balance and the last changes of u and force are below tolerance."""
         mg, level = self.multigrid, self.level
         small = CHANGE_SHARE * self.tol
@@ -251,7 +277,7 @@ class TransientFilm:
         )
         track = IterationHistory()
         level.update(mg.u)
-        status = iterate(mg, balance, mg.cycle, goal, track)
+        status = iterate(mg, balance, advance or mg.cycle, goal, track)
         if status is Status.OUT_OF_DOMAIN and balance.stiffness > 0.0 and level.force() < NEGLIGIBLE_FORCE:
             status = Status.CONVERGED  # bodies that come back after a separation squeeze a film beyond any domain
         return Step(track.residuals[-1] / self.scale, track.balance_residuals[-1], track.iterations, status)
@@ -270,6 +296,7 @@ class TransientFilm:
             factors=self.multigrid.newton.factors,
             past_u=self._past_u,
             turned=self.turned,
+            heat=None if self.heat is None else self.heat.state,
         )
 
     def restore_state(self, state: FilmState) -> None:
@@ -280,6 +307,8 @@ class TransientFilm:
         self.multigrid.u, self._dT, self.turned = state.u, state.dT, state.turned
         self.level.film_shift = state.surface
         self.multigrid.newton.factors = state.factors
+        if self.heat is not None and state.heat is not None:
+            self.heat.restore(state.heat)
         self.level.update_film(state.u)
 
 
