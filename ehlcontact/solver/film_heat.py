@@ -169,7 +169,7 @@ class FilmHeat:
         along = np.maximum(t.heat_along, 0.0) * self.rise + np.minimum(t.heat_along, 0.0) * rise[:-1, 1:]
         across = np.maximum(t.heat_across, 0.0) * self.rise + np.minimum(t.heat_across, 0.0) * rise[1:, :-1]
         turned = self._turned(t)
-        carried = np.where(t.wet | (turned > 0.0), divergence(along, across), 0.0)
+        carried = np.where(t.wet | (turned != 0.0), divergence(along, across), 0.0)
         carried += np.where(t.wet, self.with_walls(t, wall) + self.stored(t, self.mean), 0.0)
         left = t.pressed + slid + work - sum(self.into_walls(t)) - carried
         weights = self.level.force_weights
@@ -261,7 +261,7 @@ class FilmHeat:
         turned[:-1] -= np.minimum(north[:-1], 0.0) * self.rise[1:]
         turned[1:] += np.maximum(north[:-1], 0.0) * self.rise[:-1]
         turned[:, 0] = turned[-1] = 0.0  # over the border it leaves
-        return turned * (1.0 - t.share) * self.ahead
+        return turned * (1.0 - t.share) * (self.ahead | t.wet)
 
     def sliding(self, t: Terms) -> Sliding:
         """Heat of sliding under Eyring's stress at the mean temperature."""
