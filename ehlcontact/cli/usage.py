@@ -38,7 +38,8 @@ NOT_IN_THE_MODEL = {
     ),
     **dict.fromkeys(
         ("--thermal", "--heat", "--sliding", "--slide-roll"),
-        "`ehlcontact steady` has --thermal and --slide-roll, `impedance` --thermal; elsewhere " + _FILMS,
+        "`ehlcontact steady` has --thermal and --slide-roll, `impedance` and `simulate` --thermal; elsewhere "
+        + _FILMS,
     ),
     "--asperities": "`ehlcontact steady` has --asperities with --rq; elsewhere films are between smooth surfaces",
     **dict.fromkeys(

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from scipy.linalg import toeplitz
 
 from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat, HeatNumbers, require_heat
-from ehlcontact.point import Point
+from ehlcontact.heat import Heat, require_heat
+from ehlcontact.point import Point, Scales
+from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.solver.film_heat import FilmHeat, Terms
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.multigrid import Multigrid
@@ -45,12 +46,15 @@ class HeatOverTime(FilmHeat):
     Parameters
     ----------
     multigrid : Multigrid
-    numbers : HeatNumbers
+    inputs : Heat
+        With the data of the oil.
+    scales : Scales
     """
 
-    def __init__(self, multigrid: Multigrid, numbers: HeatNumbers) -> None:
-        super().__init__(multigrid.finest, numbers)
-        self._multigrid = multigrid
+    def __init__(self, multigrid: Multigrid, inputs: Heat, scales: Scales) -> None:
+        super().__init__(multigrid.finest, inputs.numbers(multigrid.point, scales))
+        self._multigrid, self._inputs = multigrid, inputs
+        self._load = inputs.load(multigrid.point, scales)
         level: Level = multigrid.finest
         self._weights = self.memory[0]  # of heat in a cell, by its distance
         edges = np.append(0.0, (np.arange(level.nx + 1) + 0.5) * level.hx)
@@ -119,6 +123,17 @@ class HeatOverTime(FilmHeat):
             pressure=(P, P if resting else self.state.pressure[0]),
             T=T,
             given=given,
+        )
+
+    def at_rest(self, cold: float) -> FilmTemperature:
+        """Temperatures of a steady film whose central film would be `cold` without heat."""
+        return FilmTemperature(
+            inputs=self._inputs,
+            mean=self.mean.T.copy(),
+            surfaces=self.walls.transpose(0, 2, 1).copy(),
+            film_share=self.level.central_film() / cold,
+            thermal_load=self._load,
+            balance=self.balance(),
         )
 
     def numbers_of_record(self) -> tuple[float, float, float]:

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat
 from ehlcontact.origin import Origin, freeze
 from ehlcontact.quantities import (
     ACCELERATION,
@@ -27,6 +26,7 @@ from ehlcontact.quantities import (
     RATE,
     TIME,
 )
+from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.steady_result import film_bars, grid_doubt
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.solver.error_estimate import ErrorEstimate
@@ -121,9 +121,8 @@ class SimulationResult(ScaledTable, Origin):
         Oil on both surfaces ahead of the contact, over the dry approach; in SI [m].
     layer_behind : ndarray or None, shape (steps + 1, ny + 1)
         Oil on both surfaces where they leave the computed region; in SI [m].
-    thermal : Heat or None
-        As given to `simulate`, with the data of the oil; None of an isothermal film, and with it the following
-        three.
+    temperature : FilmTemperature or None
+        Of the film at T = 0; None of an isothermal film, and with it the following three.
     warmest_oil, warmest_surface : ndarray or None, shape (steps + 1,)
         Largest mean temperature over the film, and that of a surface [K above the inlet].
     heat_balance : ndarray or None, shape (steps + 1,)
@@ -162,7 +161,7 @@ class SimulationResult(ScaledTable, Origin):
     supply: OilLayer | None = None
     layer: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
     layer_behind: Annotated[Array | None, LENGTH.over("T Y", listed=False)] = None
-    thermal: Heat | None = None
+    temperature: FilmTemperature | None = None
     warmest_oil: Annotated[Array | None, NUMBER.over("T", listed=False)] = None
     warmest_surface: Annotated[Array | None, NUMBER.over("T", listed=False)] = None
     heat_balance: Annotated[Array | None, NUMBER.over("T", listed=False)] = None
@@ -307,6 +306,6 @@ class SimulationResult(ScaledTable, Origin):
                 "motion": self.motion.to_dict(),
             }
             | ({} if self.supply is None else {"supply": self.supply.to_dict()})
-            | ({} if self.thermal is None else {"thermal": self.thermal.to_dict()})
+            | ({} if self.temperature is None else {"temperature": self.temperature.to_dict()})
             | self.origin_dict()
         )

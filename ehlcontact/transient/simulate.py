@@ -255,7 +255,7 @@ def _result(
         supply=inputs.supply,
         layer=None if inputs.supply is None else level.inflow.copy(),
         layer_behind=None if inputs.supply is None else record.leaving,
-        thermal=inputs.thermal,
+        temperature=run.film.temperature,
         **_heat(run.history, inputs),
     )
 

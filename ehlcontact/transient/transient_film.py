@@ -16,8 +16,9 @@ from typing import TypeVar
 import numpy as np
 
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.heat import Heat, HeatNumbers
+from ehlcontact.heat import Heat
 from ehlcontact.point import MoesPoint, Scales
+from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse_newton import Factors
 from ehlcontact.solver.error_estimate import ErrorEstimate
@@ -86,7 +87,7 @@ class TransientFilm:
         As there.
     supply : callable, optional
         Layer of oil that enters at the lines Y, in dry approaches; by default the inlet is flooded.
-    heat : HeatNumbers, optional
+    heat : (Heat, Scales), optional
         Let the film heat up; by default it has the temperature of the inlet.
     """
 
@@ -98,10 +99,11 @@ class TransientFilm:
         deflection: str = "fft",
         threads: int = 1,
         supply: Supply | None = None,
-        heat: HeatNumbers | None = None,
+        heat: tuple[Heat, Scales] | None = None,
     ) -> None:
         self.multigrid = Multigrid(point, mesh, deflection=deflection, threads=threads, supply=supply)
-        self.heat = None if heat is None else HeatOverTime(self.multigrid, heat)
+        self.heat = None if heat is None else HeatOverTime(self.multigrid, *heat)
+        self.temperature: FilmTemperature | None = None  # of the film at rest
         self.tol = tol
         self.scale = 1.0
         self._past: tuple[tuple[float, Array], ...] = ()
@@ -131,7 +133,7 @@ class TransientFilm:
             The flooded film, which the supply is given over, was not solved.
         """
         if supply is None:
-            heat = None if thermal is None or scales is None else thermal.numbers(point, scales)
+            heat = None if thermal is None or scales is None else (thermal, scales)
             return cls(point, mesh, tol, deflection, threads, heat=heat)
         flooded = nan
         if supply.needs_flooded:
@@ -195,10 +197,11 @@ class TransientFilm:
         self.scale = max(self.level.central_film(), SMALLEST_SCALE)
         step = self._solve(balance, 2 * STEP_CYCLES)
         if self.heat is not None and step.status.ok:
-            cycles = HeatedCycles(mg, self.heat, mg.cycle)
+            cold, cycles = self.level.central_film(), HeatedCycles(mg, self.heat, mg.cycle)
             cycles.start(balance)
             step = self._solve(balance, 2 * STEP_CYCLES, cycles.step)
             self.heat.end(0.0)
+            self.temperature = self.heat.at_rest(cold)
         self._mass = self.level.oil.copy()
         self._mass_before = self._mass
         self.forget_past()

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import partial
 from os.path import realpath
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import typer
@@ -13,7 +14,7 @@ import typer
 from ehlcontact.assumptions import assumptions
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import NO_TIME, Contact, Supply, Surfaces
+from ehlcontact.cli.contact import NO_TIME, Contact, Heating, Supply, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
@@ -194,6 +195,7 @@ def simulate(
     contact: Contact,
     surfaces: Surfaces,
     supply: Supply,
+    heating: Heating,
     motion: MotionOptions,
     time: TimeOptions,
     grid: o.Grid,
@@ -207,6 +209,7 @@ def simulate(
     arguments = (point, motion.chosen(point))
     surfaces.check(contact)
     chosen, steps, layer = grid.chosen(), time.chosen(), supply.chosen(contact)
+    heat = heating.chosen(contact)
     out.check(restart.other, beside={"--checkpoint": (restart.checkpoint, o.HDF5)})
     failure, unkept = "", None
     with progress("transient film") as update, o.called(dt="--dt", local_error="--local-error"):
@@ -215,6 +218,7 @@ def simulate(
                 *arguments,
                 grid=chosen["grid"],
                 supply=layer,
+                thermal=heat,
                 time=steps,
                 keep=KeepSettings(checkpoint=restart.checkpoint, restart=restart.restart),
                 run=RunSettings(threads=chosen["threads"], callback=update),
@@ -225,7 +229,7 @@ def simulate(
             result, unkept = error.result, error
     # stopped before the first step, there is nothing to draw
     drawn = partial(_draw, result) if result.steps else None
-    found = assumptions(point, domain=result.domain)
+    found = assumptions(point, film=_at_rest(result), domain=result.domain)
     rows = [*contact.rows(point), *outside_rows(found), *_rows(result)]
     about = contact.about(point) | {"outside_assumptions": found.headline}
     if result.scales is not None:
@@ -242,6 +246,14 @@ def simulate(
         kept += [f"go on with --restart {restart.checkpoint}"] if restart.checkpoint else []
         complain("; ".join([message, *kept]))
         raise typer.Exit(INTERRUPTED if result.status is Status.INTERRUPTED else FAILED)
+
+
+def _at_rest(result: SimulationResult) -> Any:
+    """Film at the start where it was solved with heat, for the assumptions; None of another."""
+    if result.temperature is None:
+        return None
+    films = {name: float(getattr(result, name)[0]) for name in ("h_central", "h_min")}
+    return SimpleNamespace(**films, temperature=result.temperature)
 
 
 def _draw(result: SimulationResult, path: Path) -> None:
@@ -271,6 +283,7 @@ def _rows(result: SimulationResult) -> list[Row]:
         *([] if result.scales is None else _in_si(result)),
         *quantity_rows(result, {"static_approach": "", "approach": "", "force": "", "h_min": ""}),
         *_supply_rows(result),
+        *_heat_rows(result),
         ("steps", f"{result.steps}", steps),
         *_grid_error(result),
         ("tolerance", numeral(result.tol), "residual of a solved step, of the central film at rest"),
@@ -286,6 +299,15 @@ def _supply_rows(result: SimulationResult) -> list[Row]:
     behind = size * result.layer_behind[:, 0]
     leaves = f"{numeral(behind.min())} to {numeral(behind.max())} {unit} leave in the middle"
     return [("layer of oil", f"{numeral(size * result.layer[0])} {unit}", leaves)]
+
+
+def _heat_rows(result: SimulationResult) -> list[Row]:
+    """Temperatures over time."""
+    if result.warmest_oil is None or result.warmest_surface is None:
+        return []
+    warm = f"{result.warmest_oil.min():.3g} to {result.warmest_oil.max():.3g} K"
+    surface = f"mean over the film, above the inlet; surfaces up to {result.warmest_surface.max():.3g} K"
+    return [("warmest oil", warm, surface)]
 
 
 def _in_si(result: SimulationResult) -> list[Row]:
