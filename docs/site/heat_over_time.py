@@ -57,9 +57,8 @@ def main():
     cold, warm = runs()
     for run in (cold, warm):
         print(f"central film {run.si.h_central[0] * 1e6:.4f} to {run.si.h_central[-1] * 1e6:.4f} um")
-    print(
-        f"oil {warm.warmest_oil[[0, -1]]}, at most {warm.warmest_oil.max():.1f} K; surface {warm.warmest_surface[[0, -1]]}"
-    )
+    ends = warm.warmest_oil[[0, -1]], warm.warmest_surface[[0, -1]]
+    print(f"oil {ends[0]}, at most {warm.warmest_oil.max():.1f} K; surface {ends[1]}")
     print(f"balance {warm.heat_balance.max():.0e}")
     draw(cold, warm)
 

@@ -319,6 +319,10 @@ def test_heat(call, refused):
     assert re.search(r"film by heat +0\.9\d+ +of the isothermal film;.*Sheu;\s+flooded", starved, re.S)
     both = ("--thermal", "--layer-ratio", "0.5", "--hz", "10")
     refused(("thermal", "left out with a supply"), "impedance", *options(), *both)
+    refused(("supply", "left out with heat"), "simulate", *options(), *both[:3], "--free", "5")
+    moved = call("simulate", *options(), *COARSE, "--thermal", "--free", "5", "--until", "1e-5").out
+    assert re.search(r"warmest oil +\d.*K +mean over the film", moved)
+    assert "NOT isothermal" not in moved
     refused(("--slide-roll = 2.0", "between -1 and 1"), "steady", *options(), "--thermal", "--slide-roll", "2")
     refused(("--thermal = True", "no metres"), "steady", "--M", "20", "--L", "10", "--kappa", "1", "--thermal")
     shaken = json.loads(call("impedance", *options(), *COARSE, "--thermal", "--hz", "10", "--json", "-").out)
