@@ -16,6 +16,8 @@ from inspect import ismodule as _ismodule
 
 from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
 from reduced_models.atlas.atlas import Atlas as Atlas
+from reduced_models.atlas.filter_table import FilterAnswer as FilterAnswer
+from reduced_models.atlas.filter_table import contact_filter as contact_filter
 from reduced_models.bearing.arrangement import BearingSet as BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
 from reduced_models.bearing.cage_slip import cage_slip as cage_slip

@@ -202,6 +202,7 @@ EXAMPLES = {
     "explore": ("ehlcontact explore -o page.html",),
     "atlas build": ("ehlcontact atlas build -o atlas.h5 --draws 200 --processes 4",),
     "atlas supply": ("ehlcontact atlas supply -o supply.h5 --draws 128 --processes 4",),
+    "atlas waves": ("ehlcontact atlas waves -o filters.h5 --processes 4",),
 }
 
 

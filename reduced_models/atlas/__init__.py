@@ -13,6 +13,9 @@
 | interpolation | interpolation of the table, and its error bars |
 | atlas_elements | contact elements from answers under one or several loads |
 | gain_fit | gains of the film memory from K and C over frequency |
+| filter_table | `contact_filter`: share of short waves that acts like an approach, with error bars; its table |
+| filter_points | the points of that table, and the solution of one |
+| filter_build | building it |
 | build | `build_atlas`: sample, solve what is missing, put together; the numbers of a build |
 | sample | the points of a build |
 | mesh | grids of a point, by the width of its inlet |

@@ -46,6 +46,7 @@ from reduced_models.bearing.equilibrium import (
 )
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.excitation import (
+    FILTERS,
     BearingExcitation,
     FeaturedBalls,
     excitation_of,
@@ -488,6 +489,7 @@ class BallBearing(Summary):
         *,
         speed_rpm: float = 0.0,
         cage_angle: float = 0.0,
+        contact_filter: str = "film",
     ) -> BearingExcitation:
         """Forces by which features of balls and races excite the bearing, linear in their heights, as lines.
 
@@ -502,6 +504,9 @@ class BallBearing(Summary):
             Speed of the shaft [rev/min].
         cage_angle : float
             Of the first ball with the shaft at 0 [rad]; for phases.
+        contact_filter : {"film", "dry", "none"}
+            How short waves are filtered by the length of a contact: with its film, by `atlas.contact_filter`
+            (dry bearings have none); as dry contacts do, sin(k)/k; or not, as the bare height under their middle.
 
         Raises
         ------
@@ -509,6 +514,7 @@ class BallBearing(Summary):
             No feature, or one of a ball that there is not; what `equilibrium` refuses.
         """
         own = require_features(features, self.balls)
+        require_choice("contact_filter", contact_filter, FILTERS)
         force, speed, cage_angle = self._bearing_load(load), self.speed(speed_rpm), angle_of(cage_angle)
         cages = self._cage_angles(force, None)
         if force.size > len(PLANAR):
@@ -521,7 +527,7 @@ class BallBearing(Summary):
             small = SmallBalls.of(self._kernel(speed), self._speed_state(speed), rings)
             forces, approach = (np.array([getattr(at, name) for at in rings]) for name in ("force", "approach"))
             full, turns = force, (self.orders.ftf, self.orders.bsf)
-        balls = FeaturedBalls(self, small, forces, cages[0], speed, *turns)
+        balls = FeaturedBalls(self, small, forces, cages[0], speed, *turns, contact_filter)
         return excitation_of(balls, full, float(approach.sum(axis=-1).max()), own, cage_angle)
 
     def ring_equilibria(

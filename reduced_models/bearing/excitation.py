@@ -1,9 +1,9 @@
 """Forces by which features of balls and races excite a bearing whose ring is held: lines over the shaft's turns.
 
 A height h, positive out of the surface, presses its contact by Z W h, with the impedance Z of the film and the
-contact filter W (`ehlcontact.excitation`), here that of dry contacts: sin(k)/k with the wave number k per
-semi-axis. The ball follows as in `linear_balls` and `linear_angular`: with the balance R of a ball over its
-place b and the force P of the ring on it,
+contact filter W over the wave number k per semi-axis: of a film G/Z by `reduced_models.atlas.filter_table`, of
+a dry contact sin(k)/k. The ball follows as in `linear_balls` and `linear_angular`: with the balance R of a ball
+over its place b and the force P of the ring on it,
 
     R_b db + R_h = 0,    R_h = Z_i W_i h_i n_i - Z_o W_o h_o n_o,    dP = P_h + P_b db,    P_h = Z_i W_i h_i n_i,
 
@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
@@ -33,6 +34,7 @@ from ehlcontact.hertz import hertz_contact
 from ehlcontact.quantities import FORCE, HERTZ, LENGTH, NUMBER, RADIAN, SPEED, Quantity
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.summary import span
+from reduced_models.atlas.filter_table import ContactFilters, dry_filter, shipped_filters
 from reduced_models.bearing.features import (
     FEATURES,
     BallDiameter,
@@ -49,6 +51,7 @@ from reduced_models.bearing.kinematics import RPM_TO_HZ, RPM_TO_RAD_S
 from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.bearing.loss import response
+from reduced_models.bearing.race import RACES
 
 if TYPE_CHECKING:
     from reduced_models.bearing.ball_bearing import BallBearing
@@ -61,6 +64,7 @@ SAME_ORDER = 9  # decimal places of orders that are one line
 SHORTEST = (
     4.0 * np.pi
 )  # wave number per semi-axis of the heaviest ball, to which defects are waves: 8 % get through
+FILTERS = ("film", "dry", "none")
 LARGE = 0.1  # height over the approach of both contacts of the heaviest ball, from which a result says so
 
 
@@ -153,6 +157,8 @@ class FeaturedBalls:
         Angle of the first ball at the first position [rad].
     speed_rpm, cage, rotation : float
         Of the shaft [rev/min]; turns of the cage, and of a ball about its axis, per turn of the shaft.
+    contact_filter : {"film", "dry", "none"}
+        As in `BallBearing.excitation`.
     """
 
     bearing: BallBearing
@@ -162,11 +168,12 @@ class FeaturedBalls:
     speed_rpm: float
     cage: float
     rotation: float
+    contact_filter: str = FILTERS[0]
 
-    def harmonics(self, order: float, inner: _Floats, outer: _Floats) -> tuple[NDArray[np.int64], _Complex]:
+    def harmonics(self, order: float, inner: _Complex, outer: _Complex) -> tuple[NDArray[np.int64], _Complex]:
         """Numbers m and force D_m on the ring, (k, n), by heights met `order` times per turn of the shaft.
 
-        `inner` and `outer`, (positions, balls), are the heights at both contacts of every ball.
+        `inner` and `outer`, (positions, balls), are the heights at both contacts of every ball, filtered.
         """
         s = 1j * abs(order) * self.speed_rpm * RPM_TO_RAD_S
         forces = _force_on_ring(self.small, s, inner.ravel(), outer.ravel())
@@ -178,15 +185,38 @@ class FeaturedBalls:
         kept = np.abs(m) < len(around) / 2.0
         return m[kept], found[kept]
 
-    def filters(self, waves: int, ball: bool) -> tuple[_Floats, _Floats]:
+    def filters(self, waves: int, ball: bool) -> tuple[_Complex, _Complex]:
         """Contact filters of waves around a race, or the ball, at both contacts, (positions, balls)."""
         b, found = self.bearing, []
-        for j, name in enumerate(("inner", "outer")):
-            body = b.race(name).geometry
-            a = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).a * np.cbrt(self.force[..., j])
+        for j, name in enumerate(RACES):
             radius = 0.5 * b.ball_diameter if ball else track_radius(b, name)
-            found.append(np.sinc(waves * a / radius / np.pi))
+            k = waves * self._semi_axes[j] / radius
+            if self.contact_filter == "none":
+                found.append(np.ones_like(k, complex))
+            elif self._films is None:
+                found.append(dry_filter(k).astype(complex))
+            else:
+                found.append(self._films[j].at(k.ravel())[0].reshape(k.shape))
         return found[0], found[1]
+
+    @cached_property
+    def _semi_axes(self) -> list[_Floats]:
+        """Of the contacts with both races along rolling, (positions, balls) [m]."""
+        bodies = [self.bearing.race(name).geometry for name in RACES]
+        units = [hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).a for body in bodies]
+        return [unit * np.cbrt(self.force[..., j]) for j, unit in enumerate(units)]
+
+    @cached_property
+    def _films(self) -> list[ContactFilters] | None:
+        """Contact filters of the films of both races; None where they are those of dry contacts."""
+        if self.bearing.oil is None or self.contact_filter == "dry":
+            return None
+        found = []
+        for j, name in enumerate(RACES):
+            unit, M = self.bearing.race(name).point(1.0, self.speed_rpm).moes, self.force[..., j].ravel()
+            rows = np.column_stack([unit.M * M, np.full(M.size, unit.L), np.full(M.size, unit.kappa)])
+            found.append(shipped_filters().contacts(rows))
+        return found
 
     def lines(self, feature: Feature, cage_angle: float) -> list[tuple[float, _Complex]]:
         """Orders of the lines of one feature, negative ones too, and complex forces."""
@@ -218,7 +248,7 @@ class FeaturedBalls:
     def _race_lines(
         self, race: str, n: int, amplitude: complex, cage_angle: float
     ) -> list[tuple[float, _Complex]]:
-        balls, none = self.force.shape[1], np.zeros(self.force.shape[:2])
+        balls, none = self.force.shape[1], np.zeros(self.force.shape[:2], complex)
         turning = 1.0 if race == "inner" else 0.0
         inner, outer = self.filters(n, ball=False)
         heights = (inner, none) if race == "inner" else (none, outer)
@@ -287,7 +317,9 @@ def turns_of(places: Sequence[AngularEquilibrium]) -> tuple[float, float]:
     return cage, rotation
 
 
-def _force_on_ring(small: SmallBalls | SmallAngularBalls, s: complex, inner: _Floats, outer: _Floats) -> _Complex:
+def _force_on_ring(
+    small: SmallBalls | SmallAngularBalls, s: complex, inner: _Complex, outer: _Complex
+) -> _Complex:
     """Force of every ball on the ring (contacts, n), by heights at both of its contacts at exp(s t)."""
     inner_z, outer_z = (np.asarray(race.impedance(np.asarray(s))) for race in (small.inner, small.outer))
     scale, heavy = -response(small.loss, np.asarray(s)), small.inertia * s * s

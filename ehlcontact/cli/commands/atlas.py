@@ -118,3 +118,50 @@ def supply(
     ]
     document = {"output": str(output), "work": str(kept), **table.metadata}
     out.deliver(document, ("table of oil supply", rows))
+
+
+@group.command("waves", epilog=epilog("atlas waves"))
+@o.grouped
+def waves(
+    out: o.Output,
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="The table, HDF5.")] = Path(
+        "filters.h5"
+    ),
+    work: Annotated[
+        Path | None,
+        typer.Option("--work", metavar="FOLDER", help="Solved points; by default as the output, ending in .work."),
+    ] = None,
+    draws: Annotated[int, typer.Option("--draws", help="Sample points over the box.")] = 72,
+    seed: Annotated[int, typer.Option("--seed", help="Of the sample.")] = 7,
+    processes: Annotated[
+        int | None, typer.Option("--processes", help="Of this machine; one per core by default.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Solve on this Dask cluster instead.")
+    ] = None,
+) -> None:
+    """Solve waves on the surfaces of contacts and write the table of contact filters; goes on where it stopped."""
+    from reduced_models.atlas.filter_build import build_filters
+
+    kept = output.with_suffix(".work") if work is None else work
+    out.check(beside={"--output": (output, (".h5",))})
+    check_apart({"--output": output, "--work": kept})
+    for name, value in (("--draws", draws), ("--seed", seed)):
+        require_integer(name, value, "a whole number >= 0", 0)
+    count = (os.cpu_count() or 1) if processes is None else processes
+    require_integer("--processes", count, "a whole number > 0", 1)
+    try:
+        with progress("points") as update:
+            table = build_filters(
+                output, kept, draws, seed=seed, processes=count, scheduler=scheduler, progress=update
+            )
+    except KeyboardInterrupt:
+        complain(f"interrupted; points that were solved are in {kept}, the same command goes on")
+        raise typer.Exit(INTERRUPTED) from None
+    rows = [
+        ("points", str(table.metadata["points"]), f"{table.metadata['left_out']} left out: not converged"),
+        ("file", f"{output.stat().st_size / 1e6:.2f} MB", str(output)),
+        ("box", "", str(table.box)),
+    ]
+    document = {"output": str(output), "work": str(kept), **table.metadata}
+    out.deliver(document, ("table of contact filters", rows))

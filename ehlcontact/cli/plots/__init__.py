@@ -14,6 +14,7 @@ module            shows, or does
 ``impedance``     stiffness and damping over frequency, and what the elements have of them
 ``rotor``         the rotor on its contacts: orbit, time response, spectrum, free decay, unbalance
 ``bearing``       the rotor on whole bearings: load zone, orbits, spectra, K and C, Campbell diagram
+``defect``        force of a bearing with a spall, and the spectrum of its envelope
 ``oil_and_heat``  that bearing with heat and with a layer of oil: films around the ring, K and C
 ``points``        films, stiffness, damping and decay over the points of a study, in a file
 ``thinned``       fewer points and digits than the results have, and how many fewer

@@ -16,6 +16,7 @@ module                 responsibility
 ``whole_bearing``      the bearing that it takes, from the file
 ``oil_and_heat``       layer of oil and heat of a bearing: entries, table and CSV
 ``bearing_at_angles``  the bearing under an axial load, and vibrations of the rotor between two of them
+``defect``             a spall in the bearing: orders, and its force over time and as an envelope
 ``ring_load``          moments and tilts of an inner ring, of studies and of bearing files
 ``pair``               pairs of bearings, of studies and of bearing files
 ``headline``           what was found, in one paragraph

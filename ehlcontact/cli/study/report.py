@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact.cli.page import write_page
-from ehlcontact.cli.plots import bearing, film, motion, oil_and_heat, rotor
+from ehlcontact.cli.plots import bearing, defect, film, motion, oil_and_heat, rotor
 from ehlcontact.cli.plots.impedance import impedance
 from ehlcontact.cli.plots.instants import instants
 from ehlcontact.cli.study.bearing_rotor import NAMES
@@ -116,6 +116,8 @@ def drawings(found: Findings) -> dict[str, Callable[[], Any]]:
             "conditions_films": lambda: oil_and_heat.films(one),
             "conditions_coefficients": lambda: oil_and_heat.coefficients(one),
         }
+    if found.defect is not None:
+        found_whole["defect_signal"] = lambda: defect.signal(found.defect)
     return found_whole | {
         "film_maps": lambda: film.film_maps(found.steady),
         "midplane": lambda: film.midplanes(found.steady),

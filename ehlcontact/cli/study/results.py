@@ -14,6 +14,7 @@ import numpy as np
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.cli.study.bearing_at_angles import BearingAtAngles, run_at_angles
 from ehlcontact.cli.study.bearing_rotor import run_whole
+from ehlcontact.cli.study.defect import StudyDefect, defect_of
 from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
 from ehlcontact.cli.study.points.log import versions
@@ -53,6 +54,7 @@ class Findings:
     fmu: Mapping[str, Any]  # of the cubic of the rotor's band
     film_fmu: Mapping[str, Any] | None  # of the element with a film memory, where there is one
     seconds: Mapping[str, float]  # wall time by stage
+    defect: StudyDefect | None = None  # where whole_bearing has a spall
 
     @property
     def operating_point(self) -> dict[str, Any]:
@@ -225,6 +227,7 @@ class Findings:
             "oil_and_heat": (
                 self.oil_and_heat.to_dict() if isinstance(self.oil_and_heat, OilAndHeat) else self.oil_and_heat
             ),
+            "defect": None if self.defect is None else self.defect.to_dict(),
             "seconds": self.seconds,
             "versions": self.versions,
         }
@@ -261,4 +264,5 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
     if conditions is not None:
         times["oil supply and heat"] = time.perf_counter() - started
     bearings = whole, at_angles, conditions
-    return Findings(study, steady, histories, reduction, rotors, *bearings, exported, exported_film, times)
+    rest = reduction, rotors, *bearings, exported, exported_film, times
+    return Findings(study, steady, histories, *rest, defect=defect_of(study))

@@ -271,6 +271,10 @@ class WholeBearing(Section):
     distance_mm: Annotated[
         e.Distance | None, e.meaning("distance of the planes of the pair; side by side where left out")
     ] = None
+    spall: Annotated[
+        e.Text | None,
+        e.meaning("spall whose force the report shows: race, mm along the track, um deep, as outer,0.5,0.3"),
+    ] = None
     span_mm: Annotated[
         e.Distance | None, e.meaning("distance of both bearings; 200 where left out with axial_load")
     ] = None

@@ -5,16 +5,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import ceil, radians
 from typing import Any
 
 import numpy as np
 
+from ehlcontact.cli.spall import spall_of
 from ehlcontact.cli.study.oil_and_heat import supply_and_heat
 from ehlcontact.cli.study.pair import pair_of
 from ehlcontact.cli.study.ring_load import moments_of, tilt_of
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import BallBearing, BearingSet, BearingState, SetState
+from reduced_models import BallBearing, BearingSet, BearingState, SetState, Spall
 from reduced_models.bearing.ball_bearing import LARGEST_PLAY
 from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.rotor.prepared_run import LEAST_STEPS
@@ -162,3 +164,27 @@ def require_whole_bearing(study: Any) -> None:
     if steps < least and len(load) == len(PLANAR):
         allowed = f"at least {least}, {LEAST_STEPS} while a ball passes"
         raise InputError("whole_bearing.steps_per_revolution", steps, allowed)
+    spall_in(study)
+
+
+def spall_in(study: Any) -> Spall | None:
+    """The spall of a study; None where it has none.
+
+    Raises
+    ------
+    InputError
+        What is no spall, one that the bearing has no place for, or one beside a pair or a tilt.
+    """
+    whole = study.whole_bearing
+    if whole.spall is None:
+        return None
+    for name in ("pair", "tilt_x_mrad", "tilt_y_mrad"):
+        if getattr(whole, name) is not None:
+            raise InputError("whole_bearing.spall", whole.spall, f"left out beside whole_bearing.{name}")
+    try:
+        found = spall_of(whole.spall)
+        replace(whole_bearing(study, oil=False), features=[found])
+    except InputError as error:
+        allowed = error.allowed if error.field.startswith("--") else f"with {error.field} {error.allowed}"
+        raise InputError("whole_bearing.spall", whole.spall, allowed) from None
+    return found

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from ehlcontact import InputError, Lubricant
+from ehlcontact import Grid, InputError, Lubricant, MoesPoint, excitation
 from ehlcontact.hertz import hertz_contact
-from reduced_models import BallBearing, BallDiameter, BallWaviness, RaceWaviness
+from reduced_models import BallBearing, BallDiameter, BallWaviness, RaceWaviness, contact_filter
+from reduced_models.bearing.height_tables import track_radius
 
 DRY = BallBearing.catalogue("6205", clearance=15e-6)
 SLOW = 1.0  # rev/min: balls without inertia
@@ -173,6 +174,42 @@ def test_short_waves_are_filtered_by_the_contact():
     assert axial(pi * radius / a)[1] < 0.02 * long
 
 
+def filtered_lines(waves):
+    """Axial line of waves on the inner race of a 6205 in oil, by filter; contact and wavelength over a."""
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0), clearance=15e-6)
+    load, race = (0.0, 0.0, 300.0), bearing.race("inner")
+    point = race.point(bearing.equilibrium(load, speed_rpm=3000.0).force[0, 0], 3000.0)
+    body = point.geometry
+    a = hertz_contact(point.load, body.radius_x, body.radius_y, body.e_reduced).a
+    wavy = [RaceWaviness(race="inner", waves=waves, amplitude=1e-8)]
+    forces = {
+        kind: (found.amplitude[0, 2] * np.exp(1j * found.phase[0, 2]))
+        for kind in ("film", "dry", "none")
+        for found in [bearing.excitation(wavy, load, speed_rpm=3000.0, contact_filter=kind)]
+    }
+    return forces, point.moes, 2.0 * pi * track_radius(bearing, "inner") / waves / a
+
+
+@pytest.mark.parametrize("waves", [90, 351])
+def test_films_filter_more_than_dry_contacts(waves):
+    """Of waves of 4 a, which are 351, a film lets through .41, a dry contact .64."""
+    forces, point, wavelength = filtered_lines(waves)
+    film, dry = (forces[kind] / forces["none"] for kind in ("film", "dry"))
+    expected = contact_filter(MoesPoint(point.M, point.L, point.kappa), wavelength=wavelength).ratio[0]
+    assert abs(film - expected) < 2e-3
+    assert abs(dry) == pytest.approx(np.sinc(2.0 / wavelength), rel=1e-3)
+    assert abs(film) < abs(dry) - (0.2 if waves == 351 else 0.0)
+
+
+@pytest.mark.slow
+def test_lines_of_waves_of_four_semi_axes_are_those_of_a_full_film():
+    """Within 3 %, by G of the linearised full film at the contact of the balls."""
+    forces, point, wavelength = filtered_lines(351)
+    assert wavelength == pytest.approx(4.0, abs=0.01)
+    there = excitation(MoesPoint(point.M, point.L, point.kappa), wavelength=wavelength, grid=Grid(n=128))
+    assert abs(forces["film"] / forces["none"]) == pytest.approx(there.contact_filter[0], rel=0.03)
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [
@@ -186,6 +223,10 @@ def test_short_waves_are_filtered_by_the_contact():
             "ball = 9: must be from 0 to 8",
         ),
         (lambda: DRY.excitation([], (0, 0, 300.0)), "features = .*at least one"),
+        (
+            lambda: DRY.excitation([BallDiameter(ball=1, excess=1e-7)], (0, 0, 300.0), contact_filter="wet"),
+            "contact_filter = 'wet'",
+        ),
         (lambda: DRY.excitation(["spall"], (0, 0, 300.0)), "features = 'str'"),
     ],
 )

@@ -1,0 +1,114 @@
+"""A spall in the bearing of a study: orders, and lines of its force with films, over time and as envelope."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from math import ceil, pi
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.cli.study.whole_bearing import ring_load, spall_in, whole_bearing
+from reduced_models import BearingExcitation, Spall, envelope_spectrum
+from reduced_models.bearing.height_tables import track_radius
+from reduced_models.bearing.kinematics import RPM_TO_HZ, DefectFrequencies
+from reduced_models.signals.spectra import EnvelopeSpectrum
+
+if TYPE_CHECKING:
+    from ehlcontact.cli.study.schema import Study
+
+_Floats = NDArray[np.float64]
+
+FILTERS = ("film", "none")  # of the contacts, side by side
+TURNS = 16  # of the shaft, of a signal
+PER_TURN, FINER = 2**10, 2.5  # least samples in one turn; over the highest order of a line
+BLOCK = 512  # samples computed together
+LOW, HIGH = 0.04, 0.25  # band of the envelope, over the highest line: waves of 12 to 2 semi-axes
+FIRST = 1.5  # turns, of which the strongest passage is shown
+BESIDE = 3.0  # of spall and semi-axis together, to either side of a passage that is shown
+NEAR = 0.05  # of the order of the spall, within which a line of the envelope is one of its multiples
+
+
+@dataclass(frozen=True)
+class StudyDefect:
+    """Orders of a bearing under load, and what a spall does, by `FILTERS` of the contacts."""
+
+    spall: Spall
+    orders: DefectFrequencies
+    speed_rpm: float
+    lines: dict[str, BearingExcitation]
+    turns: _Floats
+    force: dict[str, _Floats]  # change of that which carries the load, over the turns [N]
+    envelope: dict[str, EnvelopeSpectrum]
+    band: tuple[float, float]  # of the envelope [Hz]
+    passage: tuple[float, float]  # turns between which a ball meets the spall, contact length beside it included
+
+    @property
+    def name(self) -> str:
+        """Of its own order."""
+        return "BPFI" if self.spall.race == "inner" else "BPFO"
+
+    @property
+    def order(self) -> float:
+        """At which balls meet the spall, per turn of the shaft."""
+        return float(getattr(self.orders, self.name.lower()))
+
+    @property
+    def reservation(self) -> str:
+        """Where forces are not linear in the depth; else empty."""
+        return self.lines[FILTERS[0]].reservation
+
+    @property
+    def highest(self) -> dict[str, float]:
+        """Largest change of the force that carries the load [N], by filter."""
+        return {name: float(np.abs(force).max()) for name, force in self.force.items()}
+
+    @property
+    def harmonics(self) -> dict[str, list[float]]:
+        """Lines of the envelope at the first three multiples of the order of the spall [N], by filter."""
+        hz = self.order * self.speed_rpm * RPM_TO_HZ
+        return {
+            name: [one.line(j * hz, NEAR * hz).amplitude for j in (1, 2, 3)] for name, one in self.envelope.items()
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """Numbers of ``results.json``; forces in N."""
+        return {
+            "spall": asdict(self.spall),
+            "orders": asdict(self.orders),
+            "reservation": self.reservation,
+            "largest_force": self.highest,
+            "envelope_band_hz": list(self.band),
+            "envelope_harmonics": self.harmonics,
+        }
+
+
+def defect_of(study: Study) -> StudyDefect | None:
+    """What the spall of a study does to its bearing, whose ring is held; None where it has none."""
+    spall = spall_in(study)
+    if spall is None:
+        return None
+    bearing, load, speed = whole_bearing(study, oil=True), ring_load(study), study.bearing.speed_rpm
+    lines = {name: bearing.excitation([spall], load, speed_rpm=speed, contact_filter=name) for name in FILTERS}
+    highest = max(float(one.order.max(initial=0.0)) for one in lines.values())
+    per_turn = max(PER_TURN, 2 ** ceil(np.log2(FINER * highest + 1.0)))
+    turns = np.arange(TURNS * per_turn) / per_turn
+    rate = per_turn * speed * RPM_TO_HZ
+    force = {name: _vibration(one, turns) for name, one in lines.items()}
+    band = LOW * highest * speed * RPM_TO_HZ, HIGH * highest * speed * RPM_TO_HZ
+    envelopes = {name: envelope_spectrum(one, rate, band) for name, one in force.items()}
+    orders = bearing.orders_under(load, speed_rpm=speed)
+    met = orders.bpfi if spall.race == "inner" else orders.bpfo
+    rolled = spall.length * bearing.balls / (2.0 * pi * track_radius(bearing, str(spall.race)) * met)
+    reach = BESIDE * (rolled + 2.0 / highest)  # the shortest waves are half a semi-axis
+    strongest = float(turns[np.abs(force[FILTERS[0]][turns <= FIRST]).argmax()])
+    passage = strongest - reach, strongest + reach
+    return StudyDefect(spall, orders, speed, lines, turns, force, envelopes, band, passage)
+
+
+def _vibration(lines: BearingExcitation, turns: _Floats) -> _Floats:
+    """Force that carries the load over turns of the shaft, without its mean [N]."""
+    blocks = np.array_split(turns, ceil(turns.size / BLOCK))
+    force = np.concatenate([lines.force(one)[:, 1] for one in blocks])
+    return np.asarray(force - force.mean())

@@ -1,0 +1,104 @@
+"""Section "What a defect looks like" of a report: its numbers by the library, its picture and its page."""
+
+import re
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from tiny_study import STUDY
+
+from ehlcontact.cli.page import write_page
+from ehlcontact.cli.plots import defect
+from ehlcontact.cli.study.defect import defect_of
+from ehlcontact.cli.study.schema import load_study
+from ehlcontact.cli.study.whole_bearing import ring_load, whole_bearing
+from reduced_models import Spall
+
+CLEARANCE = "clearance_um = -1.0"
+CASES = {
+    "outer": 'clearance_um = 8.0\nspall = "outer,0.2,0.01"',
+    "inner": 'spall = "inner, 0.2, 0.01"\naxial_load = 30.0',
+}
+
+
+def study(folder, entries, **changes):
+    """The tiny study with these entries in place of its clearance."""
+    text = STUDY.replace(CLEARANCE, entries)
+    path = folder / "study.toml"
+    path.write_text(text)
+    return load_study(path)
+
+
+@pytest.fixture(scope="module", params=["outer", pytest.param("inner", marks=pytest.mark.slow)])
+def found(request, tmp_path_factory):
+    """Study and defect, of a planar bearing and of one under axial load."""
+    asked = study(tmp_path_factory.mktemp("defect"), CASES[request.param])
+    return asked, defect_of(asked)
+
+
+def test_lines_and_orders_are_those_of_the_library(found):
+    asked, one = found
+    bearing, load = whole_bearing(asked, oil=True), ring_load(asked)
+    pit = Spall(race=one.spall.race, angle=-np.pi / 2.0, length=0.2e-3, depth=0.01e-6)
+    assert one.spall == pit and one.orders == bearing.orders_under(load, speed_rpm=3000.0)
+    lines = bearing.excitation([pit], load, speed_rpm=3000.0)
+    np.testing.assert_array_equal(one.lines["film"].amplitude, lines.amplitude)
+    turns = one.turns[:700]
+    force = lines.force(turns)[:, 1]
+    np.testing.assert_allclose(
+        one.force["film"][:700] + force.mean() - one.force["film"][:700].mean(), force, atol=1e-9
+    )
+
+
+def test_film_takes_the_edges_off(found):
+    """Beyond waves of two semi-axes, a quarter of the highest line, films leave a tenth of the bare step."""
+    _, one = found
+    high = {}
+    for name, lines in one.lines.items():
+        beyond = lines.order > 0.3 * one.lines["none"].order.max()
+        high[name] = np.sqrt(np.sum(lines.amplitude[beyond, 1] ** 2))
+    assert 0.0 < high["film"] < 0.2 * high["none"]
+    assert one.highest["film"] < one.highest["none"]
+    for name in one.harmonics:
+        assert min(one.harmonics[name]) > 0.0
+    assert one.harmonics["film"][0] < one.harmonics["none"][0]
+
+
+def test_page_and_picture(found, tmp_path):
+    asked, one = found
+    figure = defect.signal(one)
+    assert len(figure.data) == 8 and {trace.legendgroup for trace in figure.data} == {"film", "none"}
+    low, high = one.passage
+    assert 0.0 < high - low < 0.2 and low < one.turns[np.abs(one.force["film"]).argmax()] % 20.0
+    inside = SimpleNamespace(defect=one, study=asked)
+    page = write_page(tmp_path / "d.html", "defect.html.j2", {}, found=inside, picture=lambda name, text: text)
+    text = re.sub(r"<[^>]*>|\s+", " ", page.read_text())
+    assert "What a defect looks like" in text and f"multiples of {one.name}" in text
+    assert f"{one.orders.bpfo:.5g}" in text and f"{one.highest['film']:.3g}" in text
+    assert ("at the contact angles" in text) == (one.spall.race == "inner")
+    assert one.to_dict()["envelope_harmonics"] == one.harmonics
+
+
+@pytest.mark.slow
+def test_a_deep_spall_is_named(tmp_path):
+    deep = defect_of(study(tmp_path, 'spall = "outer,0.5,20"'))
+    assert "not linear" in deep.reservation
+    assert defect_of(study(tmp_path, CLEARANCE)) is None
+
+
+@pytest.mark.parametrize(
+    ("entries", "words"),
+    [
+        ('spall = "outer,0.5"', ("whole_bearing.spall = 'outer,0.5'", "race,length,depth")),
+        ('spall = "outer,500,1"', ("whole_bearing.spall", "length")),
+        ('spall = "cage,1,1"', ("whole_bearing.spall", "inner, outer")),
+        (
+            'spall = "outer,1,1"\naxial_load = 30.0\ntilt_x_mrad = 0.1',
+            ("left out beside whole_bearing.tilt_x_mrad",),
+        ),
+    ],
+)
+def test_mistakes_are_one_line(refused, tmp_path, entries, words):
+    path = tmp_path / "s.toml"
+    path.write_text(STUDY.replace(CLEARANCE, entries))
+    refused(words, "run", path, "-o", tmp_path / "out")

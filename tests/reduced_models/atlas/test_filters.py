@@ -1,0 +1,151 @@
+"""Table of contact filters: its interpolation, points that it was not made of, and its build.
+
+``held_out_filters.json`` has points of the same Sobol sequence beyond those of the table, solved in the same way;
+``python tests/reduced_models/atlas/test_filters.py FOLDER`` writes it, from a work folder of 96 draws.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from ehlcontact import Grid, InputError, MoesPoint, excitation, load
+from ehlcontact.cli.app import execute
+from ehlcontact.content_store import ContentStore, key_of
+from reduced_models import contact_filter
+from reduced_models.atlas.filter_build import DRAWS, SEED
+from reduced_models.atlas.filter_points import FILTERED, WAVE_NUMBERS, filter_points, solve_filter
+from reduced_models.atlas.filter_table import FilterTable, dry_filter, shipped_filters
+
+HELD_OUT = Path(__file__).with_name("held_out_filters.json")
+SOLVED = 96  # draws, of which the table has the first
+K = np.array(WAVE_NUMBERS)
+
+
+def key(point):
+    """Name of a point in a work folder."""
+    return key_of([solve_filter.__module__, solve_filter.__qualname__, point.to_dict()])
+
+
+def stub(point):
+    """Entry of a contact whose filter is that of a dry one that is longer by its inlet."""
+    longer = dry_filter(K * (1.0 + 0.2 * point.inlet_width)) * np.exp(0.05j * K * point.inlet_width)
+    entry = {"M": point.M, "L": point.L, "kappa": point.kappa, "version": "stub", "status": "converged"}
+    entry |= {"n": 64, "domain": [-4.5, 1.5, 3.0], "error": [0.01] * K.size}
+    return entry | {"real": longer.real.tolist(), "imag": longer.imag.tolist()}
+
+
+@pytest.fixture(scope="module")
+def held_out():
+    """Rows (M, L, kappa) and G/Z of points that the table was not made of."""
+    entries = json.loads(HELD_OUT.read_text())
+    return np.array(entries["points"]), np.array(entries["real"]) + 1j * np.array(entries["imag"])
+
+
+def test_points_that_were_held_out_lie_inside_their_bars(held_out):
+    """95 of 100, and the errors are a tenth of those of the dry filter, or of one for all contacts."""
+    points, G = held_out
+    table = shipped_filters().table
+    contacts = shipped_filters().contacts(points)
+    found, bars = (np.array(part).T for part in zip(*(contacts.at(k) for k in K), strict=True))
+    error = np.abs(found - G)
+    assert len(points) >= 20 and (error <= bars.real).mean() >= 0.95
+    assert np.median(bars.real) < 0.02
+    for lazy in (dry_filter(K), (table.real + 1j * table.imag).mean(axis=0)):
+        assert np.sqrt(np.mean(error**2)) < 0.1 * np.sqrt(np.mean(np.abs(lazy - G) ** 2))
+
+
+def test_the_table_at_its_own_points():
+    table = shipped_filters().table
+    for i in (0, 7, 31):
+        M, L, kappa = table.points[i].tolist()
+        found = contact_filter(MoesPoint(M, L, kappa), wavelength=2.0 * np.pi / K)
+        np.testing.assert_allclose(found.ratio, table.real[i] + 1j * table.imag[i], atol=2e-6)
+        np.testing.assert_array_equal(found.contact_filter, np.abs(found.ratio))
+
+
+def test_between_wave_numbers_and_beyond():
+    """A spline through the nodes and 1; long waves are an approach, shorter ones than those of the table 0."""
+    contacts = shipped_filters().contacts(np.array([[300.0, 12.0, 0.11], [2000.0, 18.0, 0.4]]))
+    nodes = np.array([contacts.at(k)[0] for k in (0.0, *K)])
+    spline = CubicSpline([0.0, *K], nodes)
+    for k in ([0.03, 5.5], [1.1, 2.9]):
+        np.testing.assert_allclose(contacts.at(k)[0], [spline(k[0])[0], spline(k[1])[1]], atol=1e-12)
+    np.testing.assert_array_equal(nodes[0], 1.0)
+    value, bar = contacts.at(7.0)
+    assert not value.any() and (bar == 0.03).all()
+    assert abs(contact_filter(MoesPoint(300.0, 12.0, 0.11), wavelength=500.0).ratio[0] - 1.0) < 1e-3
+
+
+def test_contacts_outside_have_the_filter_of_the_nearest_inside():
+    light, least = (shipped_filters().contacts(np.array([[M, 12.0, 0.11]])).at(1.5) for M in (0.01, FILTERED.M[0]))
+    np.testing.assert_array_equal(light, least)
+
+
+def test_build_from_solved_points(capsys, tmp_path):
+    """Nothing is left to solve; the table has its command, and answers as the points were made."""
+    work, output = tmp_path / "work", tmp_path / "f.h5"
+    store = ContentStore(work, "work folder")
+    for point in filter_points(40, SEED).values():
+        store.put(key(point), json.dumps(stub(point)).encode())
+    given = ["-o", str(output), "--work", str(work), "--draws", "40", "--json", "-"]
+    assert execute(["atlas", "waves", *given]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["command"] == "ehlcontact atlas waves --draws 40 --seed 7"
+    table = load(output, FilterTable)
+    assert len(table.points) == document["points"] > 30 and table.k.tolist() == list(WAVE_NUMBERS)
+    np.testing.assert_allclose(table.real[3], stub(MoesPoint(*table.points[3].tolist()))["real"], atol=1e-6)
+
+
+def test_fewer_draws_are_among_more():
+    few, many = filter_points(20, SEED), filter_points(33, SEED)
+    assert all(many[name] == point for name, point in few.items())
+    assert set(few) <= set(many)
+    for name in ("M", "L", "kappa"):
+        low, high = getattr(FILTERED, name)
+        assert all(low * (1 - 1e-9) <= getattr(point, name) <= high * (1 + 1e-9) for point in many.values())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (((1.0, 12.0, 0.11), 4.0), "M = 1.0: must be between 20 and 20000"),
+        (((300.0, 12.0, 0.9), 4.0), "kappa = 0.9: must be between 0.06 and 0.5"),
+        (((300.0, 12.0, 0.11), [4.0, 0.0]), "wavelength = .*finite and > 0"),
+        (((300.0, 12.0, 0.11), float("nan")), "wavelength"),
+        (((300.0, 12.0, 0.11), []), "wavelength"),
+    ],
+)
+def test_bad_input_is_one_line(arguments, message):
+    with pytest.raises(InputError, match=message):
+        contact_filter(MoesPoint(*arguments[0]), wavelength=arguments[1])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("row", [(750.0, 18.3, 0.107), (200.0, 10.0, 0.5), (60.0, 6.0, 0.12), (6000.0, 15.0, 0.1)])
+def test_against_finer_meshes(row):
+    """Points of no sequence, n = 128: within 3 % of |Z| h at all wavelengths, within 3 % of G/Z from 4 a on."""
+    waves = np.array([16.0, 8.0, 4.0, 3.0, 2.0])
+    there = excitation(MoesPoint(*row), wavelength=waves, grid=Grid(n=128)).contact_filter
+    here = contact_filter(MoesPoint(*row), wavelength=waves).contact_filter
+    np.testing.assert_allclose(here, there, atol=0.015)
+    np.testing.assert_allclose(here[:3], there[:3], rtol=0.03)
+
+
+def hold_out(work):
+    """Write the points beyond those of the table."""
+    store, entries = ContentStore(work, "work folder"), []
+    for name, point in filter_points(SOLVED, SEED).items():
+        if int(name.partition("-")[2]) >= DRAWS:
+            entries.append(json.loads(store.get(key(point))))
+    good = [one for one in entries if one["status"] == "converged"]
+    found = {"points": [[one["M"], one["L"], one["kappa"]] for one in good]}
+    found |= {name: [[round(v, 5) for v in one[name]] for one in good] for name in ("real", "imag")}
+    HELD_OUT.write_text(json.dumps(found) + "\n")
+
+
+if __name__ == "__main__":
+    hold_out(Path(sys.argv[1]))
