@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Self
+from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,7 +23,10 @@ from ehlcontact.checks import as_numbers
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Point, moes_point
 from ehlcontact.process.blas import one_blas_thread
+from ehlcontact.quantities import NUMBER
+from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import load, stored
+from ehlcontact.summary import contact_text, span
 from reduced_models.atlas.interpolation import Radial, films, left_out_errors
 from reduced_models.atlas.table import Box
 
@@ -163,7 +166,7 @@ def shipped_filters() -> FilterSurface:
 
 
 @dataclass(frozen=True, eq=False)
-class FilterAnswer:
+class FilterAnswer(QuantityTable):
     """Contact filter of one point over wavelength, with error bars.
 
     Attributes
@@ -171,22 +174,40 @@ class FilterAnswer:
     point : MoesPoint
     wavelength : ndarray, shape (m,)
         Along rolling, in semi-axes a.
-    ratio : ndarray, shape (m,), complex
-        G/Z: the force of a wave on one surface in pure rolling, with ``exp(i Omega T)`` and its summit in the
-        middle of the contact, over that of an approach of the same amplitude.
+    in_phase, quadrature : ndarray, shape (m,)
+        Real and imaginary part of `ratio`.
     error : ndarray, shape (m,)
         Half width of the error bar of `ratio`, whatever its phase.
     """
 
     point: MoesPoint
-    wavelength: _Floats
-    ratio: _Complex
-    error: _Floats
+    wavelength: Annotated[_Floats, NUMBER.over("wavelength")]
+    in_phase: Annotated[_Floats, NUMBER.over("wavelength")]
+    quadrature: Annotated[_Floats, NUMBER.over("wavelength")]
+    error: Annotated[_Floats, NUMBER.over("wavelength")]
+
+    DISPLAY: ClassVar[Display] = Display(rows="wavelength", panels=("contact_filter",), logs="x")
+    UNITS = "dimensionless"
 
     @property
-    def contact_filter(self) -> _Floats:
+    def ratio(self) -> _Complex:
+        """G/Z, shape (m,): force of a wave on one surface in pure rolling over that of an approach as high.
+
+        With ``exp(i Omega T)`` and the summit of the wave in the middle of the contact.
+        """
+        return np.asarray(self.in_phase + 1j * self.quadrature)
+
+    @property
+    def contact_filter(self) -> Annotated[_Floats, NUMBER.over("wavelength")]:
         """Size of `ratio`: share of the height that acts like an approach, shape (m,)."""
         return np.abs(self.ratio)
+
+    def _summary_lines(self) -> list[str]:
+        return [
+            contact_text(self.point, None),
+            f"contact filter {span(self.contact_filter)} at wavelengths of {span(self.wavelength)} semi-axes",
+            f"error bars up to {self.error.max():.2g}",
+        ]
 
 
 def contact_filter(point: Point, *, wavelength: ArrayLike) -> FilterAnswer:
@@ -213,4 +234,4 @@ def contact_filter(point: Point, *, wavelength: ArrayLike) -> FilterAnswer:
         raise InputError("wavelength", np.asarray(wavelength).tolist(), "finite and > 0, one or a flat list")
     row = np.array([[moes.M, moes.L, moes.kappa]])
     ratio, error = surface.contacts(np.repeat(row, found.size, axis=0)).at(2.0 * np.pi / found)
-    return FilterAnswer(moes, found, ratio, error)
+    return FilterAnswer(moes, found, ratio.real.copy(), ratio.imag.copy(), error)
