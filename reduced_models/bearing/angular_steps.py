@@ -65,6 +65,10 @@ _Floats = NDArray[np.float64]
 NEARLY, NEARLY_SHARED = 1e-6, 1e-10  # the second where races share the moment by their forces
 MOST_STEPS = 60  # of that search: two, but where a ball lands
 OVERSHOOT = 2.0  # growth of the imbalance that halves the way to the last place
+DOUBLED, HALVED = 40, 48  # steps of a search by bisection: to a bracket, and in it
+BESIDE = (
+    0.5  # rad, on either side of the line between the groove centres and of that across the shaft: of its angle
+)
 SINGULAR = 1e-14  # of the squared stiffness: determinant of the tangent of a ball that nothing touches
 STALE = 5  # steps of that search after which they are renewed
 RENEWED = 16  # time steps after which the derivatives of centrifugal force and gyroscopic moment are renewed
@@ -359,6 +363,81 @@ def _place_ball(balls, k, c, films):
         films.tried[k, j] = c[j]
 
 
+@inner
+@jit_exact_loop
+def _imbalance(balls, omega, row, films, k, c, gain, b_r, b_z):
+    """Sum of the forces on ball `k` at a place, radial and axial [N]."""
+    g, history, heights = balls.grooves, films.kept[k, 2], films.heights
+    speed, transit_i, transit_o = max(omega, balls.speeds[0]), 0.0, 0.0
+    if speed > 0.0:
+        transit_i = balls.inner.contact_length_factor / (films.speed_sum[2 * k, 0] * speed)
+        transit_o = balls.outer.contact_length_factor / (films.speed_sum[2 * k + 1, 0] * speed)
+    film_i, film_o = _film(films, 2 * k), _film(films, 2 * k + 1)
+    l_i, x_r, x_z = inner_span(b_r, b_z, c[0], c[1])
+    l_o = sqrt(b_r * b_r + b_z * b_z)
+    v_r, v_z = gain * (b_r - history[0]), gain * (b_z - history[1])
+    rate_i = (x_r * (c[2] - v_r) + x_z * (c[3] - v_z)) / l_i + heights[2 * k, HEIGHT_RATE]
+    rate_o = (b_r * v_r + b_z * v_z) / l_o + heights[2 * k + 1, HEIGHT_RATE]
+    u_i, u_o = l_i - g.inner + heights[2 * k, HEIGHT], l_o - g.outer + heights[2 * k + 1, HEIGHT]
+    f_i = contact_force(balls.inner, transit_i, row, film_i, films, 2 * k, u_i, rate_i)[0]
+    f_o = contact_force(balls.outer, transit_o, row, film_o, films, 2 * k + 1, u_o, rate_o)[0]
+    forces = ball_forces(g, omega, _rolls(balls, b_r, b_z, c[0], c[1]), f_i, f_o)
+    return forces[0], forces[1]
+
+
+@inner
+@jit_exact_loop
+def _search_ball(balls, omega, row, films, k, c, gain):
+    """Place of ball `k` by bisection, for one that Newton's method loses between the races.
+
+    In a pit or beside it nothing but the centrifugal force may act on a ball, which is constant: the imbalance has
+    no slope that leads to the far race. Towards the outer race it falls, and so do, at one distance from the outer
+    groove centre, the forces across with the angle: the angle is bisected for every distance.
+    """
+    far = np.arctan2(c[1], c[0])
+    low, high = balls.grooves.outer, balls.grooves.outer
+    reach = FIRST_STEP
+    for side in range(2):  # first towards the groove centre, then away from it
+        for _ in range(DOUBLED):
+            length = low if side == 0 else high
+            along = _along(balls, omega, row, films, k, c, gain, length, far)[0]
+            if (side == 0 and along >= 0.0) or (side == 1 and along <= 0.0):
+                break
+            reach *= 2.0
+            if side == 0:
+                low = max(low - reach, 0.5 * low)
+            else:
+                high += reach
+        reach = FIRST_STEP
+    angle = far
+    for _ in range(HALVED):
+        middle = 0.5 * (low + high)
+        along, angle = _along(balls, omega, row, films, k, c, gain, middle, far)
+        if along > 0.0:
+            low = middle
+        else:
+            high = middle
+    films.place[k, 0], films.place[k, 1] = 0.5 * (low + high) * cos(angle), 0.5 * (low + high) * sin(angle)
+    films.follow[k] = 0.0
+    for j in range(4):
+        films.tried[k, j] = c[j]
+
+
+@inner
+@jit_exact_loop
+def _along(balls, omega, row, films, k, c, gain, length, far):
+    """Force on ball `k` away from the outer groove centre, `length` from it, where none is across; its angle."""
+    low, high = min(far, 0.0) - BESIDE, max(far, 0.0) + BESIDE
+    for _ in range(HALVED):
+        angle = 0.5 * (low + high)
+        r, z = _imbalance(balls, omega, row, films, k, c, gain, length * cos(angle), length * sin(angle))
+        if z * cos(angle) - r * sin(angle) > 0.0:
+            low = angle
+        else:
+            high = angle
+    return r * cos(angle) + z * sin(angle), angle
+
+
 @jit_exact_node
 def _add_ball(rows, turned, cage, tangents, force, stiffness, damping):
     """Add the forces of one ball to those of the ring; r moves x and y, z and the moment the others."""
@@ -399,9 +478,11 @@ def press_angular(balls, films, q, v, gain, out):
         rows, turned = films.maps[k, 0], films.maps[k, 1]
         c = _groove_centre(balls, films, k, q, v, cage)
         done = False
-        for attempt in range(2):
+        for attempt in range(3):
             if attempt == 1 or not np.isfinite(films.place[k, 0]):
                 _place_ball(balls, k, c, films)
+            if attempt == 2:
+                _search_ball(balls, omega, row, films, k, c, gain)
             done = _balance_ball(balls, omega, row, films, k, c, gain)
             if done:
                 break

@@ -20,6 +20,8 @@ from reduced_models import (
     Spall,
     simulate_rotor,
 )
+from reduced_models.bearing.angular_steps import _search_ball
+from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_heights import looked_up
 from reduced_models.bearing.height_tables import track_radius
 from reduced_models.bearing.motion import BearingMotion
@@ -258,6 +260,42 @@ def test_a_mass_on_a_spall_feels_both_edges():
     a = hertz_contact(250.0, body.radius_x, body.radius_y, body.e_reduced).a
     np.testing.assert_allclose(found, edges, atol=2.0 * a / (cage * radius))
     assert mount.cage_angle == pytest.approx(-pi / 2) and force.max() > 900.0
+
+
+LOST = BallBearing.catalogue("6205", clearance="C3", oil=Lubricant.iso_vg(68, temperature=40.0))
+
+
+@pytest.mark.parametrize(
+    ("load", "length", "depth", "until"),
+    [
+        ((0.0, -100.0, 100.0), 1e-3, 2e-4, 0.094),  # a ball crosses a deep pit, 20 um from both races
+        ((0.0, -500.0, 50.0), 2e-3, 2e-4, 1e-3),  # and stands in one at the start
+    ],
+)
+def test_a_ball_that_a_pit_has_taken_from_both_races_is_found(load, length, depth, until):
+    """Newton's method loses it, for the centrifugal force alone has no slope: runs ended there."""
+    features = [Spall(race="outer", angle=-pi / 2, length=length, depth=depth)]
+    mount = BearingMount(bearing=replace(LOST, features=features), x=0, y=1, z=2, tilt_x=3, tilt_y=4)
+    rotor = Rotor(
+        mass=np.diag([5.0, 5.0, 5.0, 1e-3, 1e-3]),
+        stiffness=np.diag([0.0, 0.0, 0.0, 1e5, 1e5]),
+        load=np.array([*load, 0.0, 0.0]),
+        mounts=(mount,),
+    )
+    run = simulate_rotor(rotor, speed_rpm=1797.0, dt=1 / 48000, until=until)
+    assert run.status == "converged" and run.t[-1] >= until
+
+
+@pytest.mark.parametrize("k", [0, 4])
+def test_the_search_for_a_ball_ends_where_newtons_method_does(k):
+    """A ball with load, and one without."""
+    motion = BearingMotion(LOST, 1797.0, 1e-5, freedoms=5)
+    q, v = np.array([1e-6, -1.2e-5, 4e-5, 1e-4, -1e-4]), np.array([1e-3, -2e-3, 1e-3, 0.0, 0.0])
+    motion.forces(q, v)
+    balls, films = motion._motion.balls, motion._motion.films
+    found, c, omega = films.place[k].copy(), films.tried[k].copy(), films.omega[0]
+    _search_ball(balls, omega, row_of_speed(balls.speeds, omega), films, k, tuple(c), 1.5e5)
+    np.testing.assert_allclose(films.place[k], found, atol=1e-10)
 
 
 @pytest.mark.parametrize("freedoms", [2, 5])
