@@ -26,12 +26,8 @@ SUPPLY_OMEGAS = (0.0, 0.003, 0.01, 0.025, 0.05, 0.1, 0.2, 0.4, 0.8, 1.4, 2.2, 4.
 # Inlet of the region over the default one, so that the front of the full film lies inside, and for thick layers of
 # light contacts; on as many times the intervals.
 LONGER, LONGEST, MORE_INTERVALS = 1.5, 2.5, 1.5
-INTERVALS = (
-    (0.26, 64),
-    (0.17, 96),
-    (0.129, 128),
-    (0.085, 192),
-)  # for inlets of at least this width: twice the mesh
+# For inlets of at least this width, in semi-axes: the mesh is 0.4 of it at most, half of it in the last.
+INTERVALS = ((0.32, 64), (0.215, 96), (0.16, 128), (0.085, 192))
 TOLERANCE = 1e-4  # of the linear residuals: C is then within 1e-4 of the flooded C at low frequency, or so
 FILM = ("approach", "h_central", "h_min", "moment")
 

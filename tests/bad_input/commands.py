@@ -364,6 +364,11 @@ COMMANDS = [
     ((*ATLAS, "--work", STUDY), ("work folder = 'study.toml'", "a folder that can be written to", "File exists")),
     ((*ATLAS, "--scheduler", "nowhere"), ("--scheduler = 'nowhere'", "address of a Dask scheduler")),
     ((*ATLAS, "--scheduler", "tcp://127.0.0.1:1"), ("--scheduler", "refused")),
+    # atlas supply
+    (("atlas", "supply", "-o", "a.txt"), ("--output = 'a.txt'", ".h5")),
+    (("atlas", "supply", "--draws", "-1"), ("--draws = -1", "whole number >= 0")),
+    (("atlas", "supply", "--draws", "5"), ("points", "at least 20", "draws = 5")),
+    (("atlas", "supply", "--processes", "0"), ("--processes = 0", "> 0")),
     # bearing
     (("bearing",), ("NAME|FILE.toml = None", "given")),
     (bearing("6025"), ("bearing = '6025'", "6205", "nearest", "examples/bearing_6205.toml")),

@@ -1,9 +1,10 @@
-"""``ehlcontact element`` and ``ehlcontact atlas build``."""
+"""``ehlcontact element``, ``ehlcontact atlas build`` and ``ehlcontact atlas supply``."""
 
 import json
 
 import atlas_stub
 import pytest
+import supply_stub
 
 from ehlcontact import load
 from reduced_models import Atlas
@@ -38,3 +39,13 @@ def test_build_from_points_that_are_solved(call, tmp_path):
     assert Atlas(output).metadata["points"] == document["points"] > 20
     made = call("element", *POINT, "--atlas", output, "--json", "-")
     assert made.code == 0 and json.loads(made.out)["kind"] == "wide"
+
+
+def test_table_of_oil_supply_from_points_that_are_solved(call, tmp_path):
+    work, output = tmp_path / "work", tmp_path / "s.h5"
+    supply_stub.prefill(work, 48, 31)
+    result = call("atlas", "supply", "-o", output, "--work", work, "--draws", "48", "--json", "-")
+    assert result.code == 0 and result.err == ""
+    document = json.loads(result.out)
+    assert document["command"] == "ehlcontact atlas supply --draws 48 --seed 31"
+    assert len(load(output).points) == document["points"] > 20

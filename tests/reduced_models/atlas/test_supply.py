@@ -2,15 +2,16 @@
 
 import numpy as np
 import pytest
+from supply_stub import made_up, prefill
 
 from ehlcontact import InputError, MoesPoint, OilLayer, load, save
 from ehlcontact.film_formulas import film_of_layer, layer_sharpness
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density
 from reduced_models import Atlas
-from reduced_models.atlas.supply_build import assemble_supply, changes_of, sample_supply
+from reduced_models.atlas.supply_build import assemble_supply, build_supply, changes_of, sample_supply
 from reduced_models.atlas.supply_condition import SupplyCondition, heaviest_load, lightest_load, supply_surface
-from reduced_models.atlas.supply_solve import RATIOS, SUPPLY_OMEGAS, solve_layers
+from reduced_models.atlas.supply_solve import solve_layers
 from reduced_models.atlas.supply_table import SupplyTable
 
 POINT = MoesPoint(1000.0, 15.0, 0.2)
@@ -19,29 +20,6 @@ WIDE = MoesPoint(2933.0, 18.3, 0.107)  # inner contact of a 6205 under 1 kN at 3
 
 def layer(r):
     return OilLayer(over_flooded=r)
-
-
-def made_up(point, T=20.0, G=0.3):
-    """Entry of a contact whose C is that of a film less that of a store ahead of it, without any solve."""
-    w, m = np.array(SUPPLY_OMEGAS), len(RATIOS)
-    r = np.array(RATIOS)
-    share = film_of_layer(r, 1.1 * layer_sharpness(point.kappa))
-    C = 0.05 / (1.0 + w**2)
-    flooded = {"approach": 0.9, "h_central": 0.1, "h_min": 0.08, "moment": 0.01}
-    flooded |= {"stiffness": [1.5] * w.size, "damping": C.tolist()}
-    starved = [
-        {
-            "approach": 1.0 - 0.1 * s,
-            "h_central": 0.1 * s,
-            "h_min": 0.08 * s,
-            "moment": 0.01 * s,
-            "stiffness": [1.5 + 0.02 * (1.0 - s)] * w.size,
-            "damping": (s**4 * C - (1.0 - s) * G / (1.0 + (T * w) ** 2)).tolist(),
-        }
-        for s in share.tolist()
-    ]
-    named = {"M": point.M, "L": point.L, "kappa": point.kappa, "n": 64, "status": "converged"}
-    return named | {"Omega": list(w), "ratios": list(RATIOS), "flooded": flooded, "starved": starved[:m]}
 
 
 def test_the_table_gives_back_its_points():
@@ -170,6 +148,21 @@ def test_too_few_points_and_damaged_tables_are_refused(tmp_path):
     again = load(tmp_path / "t.h5")
     assert isinstance(again, SupplyTable)
     np.testing.assert_array_equal(again.changes, table.changes)
+
+
+def test_built_from_solved_points(tmp_path):
+    """Nothing is left to solve; the file has single points back within half precision."""
+    prefill(tmp_path / "work", 40, 3)
+    table = build_supply(tmp_path / "t.h5", tmp_path / "work", 40, seed=3)
+    assert (
+        table.metadata["points"] == len(sample_supply(40, 3))
+        and "--draws 40 --seed 3" in table.metadata["command"]
+    )
+    again = load(tmp_path / "t.h5")
+    rows = changes_of(made_up(MoesPoint(*again.points[5])))
+    np.testing.assert_allclose(again.changes[5], rows, rtol=1e-3, atol=1e-6)
+    with pytest.raises(InputError, match="draws = 10 have too few"):
+        build_supply(tmp_path / "t.h5", tmp_path / "work", 10)
 
 
 def test_a_condition_says_what_it_is():

@@ -5,7 +5,17 @@ import pytest
 
 from ehlcontact import InputError, Lubricant, OilLayer
 from fmu import BearingModel
-from reduced_models import Atlas, BallBearing, OilBalance
+from reduced_models import (
+    Atlas,
+    BallBearing,
+    Disc,
+    OilBalance,
+    Shaft,
+    Support,
+    linearise,
+    rotor_on_bearings,
+    simulate_rotor,
+)
 from reduced_models.bearing.race import RACES
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
@@ -130,3 +140,21 @@ def test_what_takes_no_supply_says_so():
         bearing(OilLayer(over_flooded=1.0)).equilibrium((0.0, -9000.0), speed_rpm=3000.0)
     with pytest.raises(InputError, match="flooded films everywhere"):
         bearing(OilLayer(1e-9)).equilibrium(LOAD, speed_rpm=3000.0)
+
+
+def test_modes_and_runs_in_time_have_less_damping():
+    """A rotor on two bearings: the same unbalance moves it further the less oil there is."""
+    decrement, reach = [], []
+    for supply in (None, OilLayer(over_flooded=0.6)):
+        one = bearing(supply)
+        rotor = rotor_on_bearings(
+            Shaft(length=0.2, diameter=0.025),
+            discs=[Disc.cylinder(position=0.1, diameter=0.15, width=0.05, bore=0.025, unbalance=1e-5)],
+            supports=[Support(position=0.02, bearing=one), Support(position=0.18, bearing=one)],
+        )
+        decrement.append(linearise(rotor, 3000.0).modes()[0].decrement)
+        run = simulate_rotor(rotor, speed_rpm=3000.0, dt=1e-4, until=0.02)
+        assert np.isfinite(run.ring).all()
+        reach.append(np.ptp(run.ring[-100:, 0, 0]))
+    assert 0.0 < decrement[1] < 0.5 * decrement[0]
+    assert reach[1] > reach[0]
