@@ -206,13 +206,18 @@ def bearing_over_supply() -> None:
             bearing = BallBearing.catalogue("6205", oil=oil, supply=OilLayer(over_flooded=ratio))
             state = bearing.equilibrium(load, speed_rpm=speed)
             shares.append(state.h_central[state.heaviest, 0] / flooded[speed][0])
-            if speed == 3000.0 or ratio in ratios[::8]:
+            if speed == 3000.0:
                 small = bearing.coefficients(load, speed_rpm=speed, hz=hz)
                 found.append((ratio, small.signed_damping[:, 1, 1], small.damping[:, 1, 1]))
         left.semilogx(ratios, shares, label=f"{speed:.0f} rev/min, {1e6 * flooded[speed][0]:.3g} µm flooded")
+        for ratio in (0.6, 1.0, 1.5, 2.0, 4.0):
+            bearing = BallBearing.catalogue("6205", oil=oil, supply=OilLayer(over_flooded=ratio))
+            small = bearing.coefficients(load, speed_rpm=speed, hz=[speed / 60.0, 500.0, 1000.0, 3000.0])
+            signed, element = small.signed_damping[:, 1, 1], small.damping[:, 1, 1]
+            print(
+                f"   r {ratio:g}, from the frequency of the shaft: {signed.round(0)}, elements {element.round(0)}"
+            )
         print(f"{speed:g} rev/min, flooded {flooded[speed][1][:, 1, 1].round(0)} N s/m at {hz} Hz")
-        for ratio, signed, element in found:
-            print(f"   r {ratio:.3g}: solved contacts {signed.round(0)}, elements {element.round(0)}")
         if speed == 3000.0:
             at = [one[0] for one in found]
             for k, one in enumerate(hz):
@@ -223,11 +228,13 @@ def bearing_over_supply() -> None:
     for axes in (left, right):
         axes.axhline(0.0, color="grey", linewidth=0.6)
         axes.set_xlabel("layer of oil over what the flooded films let through")
+        axes.set_xticks([0.25, 0.5, 1.0, 2.0, 4.0], ["0.25", "0.5", "1", "2", "4"])
+        axes.minorticks_off()
     left.set(ylabel="central film over the flooded one")
     right.set(ylabel="C_yy at 3000 rev/min [N s/m]", ylim=(-250.0, 200.0))
     left.legend()
-    right.legend()
-    figure.savefig(IMAGES / "oil_supply_bearing.png", dpi=130)
+    right.legend(loc="lower right")
+    figure.savefig(IMAGES / "oil_supply_bearing.png", dpi=110)
 
 
 if __name__ == "__main__":

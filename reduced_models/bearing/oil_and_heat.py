@@ -230,6 +230,8 @@ def oil_and_heat(
     ConvergenceError
         Of the flooded films. Other films that do not converge are in `OilAndHeat.refused`.
     """
+    if bearing.supply is not None:
+        raise InputError("bearing.supply", "an OilLayer", "left out of the bearing: `supply` here is that layer")
     state = oiled_state(bearing, load, speed_rpm, law, tilt)
     hz = np.array([state.speed_rpm * RPM_TO_HZ, HIGH, *np.ravel(band).tolist()])
     points = [_point(bearing, state, column) for column in range(len(RACES))]

@@ -13,6 +13,7 @@ from reduced_models import (
     Shaft,
     Support,
     linearise,
+    oil_and_heat,
     rotor_on_bearings,
     simulate_rotor,
 )
@@ -136,6 +137,10 @@ def test_bad_supply_is_one_line(changes, words):
 def test_what_takes_no_supply_says_so():
     with pytest.raises(InputError, match=r"bearing\.supply.*flooded"):
         BearingModel(bearing(OilLayer(over_flooded=1.0)), 3000.0)
+    with pytest.raises(InputError, match=r"bearing\.supply.*left out of the bearing"):
+        oil_and_heat(
+            bearing(OilLayer(over_flooded=1.0)), LOAD, speed_rpm=3000.0, supply=OilLayer(over_flooded=0.5)
+        )
     with pytest.raises(InputError, match="table of oil supply"):
         bearing(OilLayer(over_flooded=1.0)).equilibrium((0.0, -9000.0), speed_rpm=3000.0)
     with pytest.raises(InputError, match="flooded films everywhere"):
