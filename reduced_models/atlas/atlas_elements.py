@@ -27,6 +27,7 @@ _Floats = NDArray[np.float64]
 LOAD_BAND = (0.9, 1.1)  # of the elements that stand for one load
 LEAST_APPROACH = 0.2  # a cubic without a constant term needs some deformation
 PASSIVE_MARGIN = 1.001
+LEAST_SATURATION = 1e-6  # below, no motion that there is makes a film
 APART = 1.2  # ratio below which a load is left out beside the lightest or the heaviest
 
 
@@ -88,8 +89,8 @@ def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
         gains=at.gains,  # type: ignore[arg-type]
         inlet_saturation=saturation,
         **at.rates.coefficients,
-        # beyond, closing makes more film than the static one; a starved contact may make none
-        rate=length / time / saturation if saturation > 0.0 else None,
+        # beyond, closing makes more film than the static one; a starved contact hardly makes any
+        rate=length / time / saturation if saturation > LEAST_SATURATION else None,
         omega_range=(at.lowest_omega / time, at.highest_omega / time),
         units="dimensionless" if scales is None else "SI",
         scales=scales,

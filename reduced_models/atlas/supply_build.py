@@ -26,7 +26,7 @@ _Floats = NDArray[np.float64]
 Entry = Mapping[str, Any]
 
 # Weights for the smallest errors of points left out: kappa counts for more than in the atlas, the film for less.
-SUPPLY_INTERPOLATION = replace(INTERPOLATION, weights=(0.4, 0.2, 0.6, 1.0, 0.25))
+SUPPLY_INTERPOLATION = replace(INTERPOLATION, weights=(0.4, 0.2, 0.6, 1.0, 0.25), covered=0.95)
 SUPPLY_DRAWS, SUPPLY_SEED = 256, 31
 SUPPLY_BOX = Box(M=(10.0, 20000.0), L=(4.0, 26.0), kappa=(0.08, 1.0), p_hertz=4.1e9)
 OVERSHOOT = 0.08  # share of the cube by which draws reach beyond it, to be moved onto its faces
