@@ -41,6 +41,8 @@ FRONT_ROUGH, FRONT_CYCLES = (
     0.1,
     3,
 )  # the same where a front of full film moves, and cycles that are to bring it there
+# Change of the heating from which it is taken as it is where such a front moves: nodes that fill up are no series
+FRONT_FINE = 5e-4
 START = 0.75  # of the heating of an isothermal film: one with heat is thinner and has thinner oil
 REMEMBERED = 2  # cycles before the last
 HOTTEST = -0.95  # heating: ln(eta) + 9.67 stays above 0
@@ -354,7 +356,8 @@ class HeatedCycles:
         """The combination of what was remembered whose change would be smallest, in the mean."""
         changes = [c for _, c in self._differences]
         products = [[float(np.vdot(a, b)) for b in changes] for a in changes]
-        if not changes or not np.isfinite(products).all():
+        fine = self.multigrid.finest.inflow.size and np.abs(change).max() < FRONT_FINE
+        if fine or not changes or not np.isfinite(products).all():
             return heat
         shares = np.linalg.lstsq(products, [float(np.vdot(c, change)) for c in changes], rcond=None)[0]
         return heat - sum(share * h for share, (h, _) in zip(shares, self._differences, strict=True))
