@@ -38,8 +38,8 @@ NOT_IN_THE_MODEL = {
     ),
     **dict.fromkeys(
         ("--thermal", "--heat", "--sliding", "--slide-roll"),
-        "`ehlcontact steady` has --thermal and --slide-roll, `impedance` and `simulate` --thermal; elsewhere "
-        + _FILMS,
+        "`ehlcontact steady` has --thermal and --slide-roll, `impedance`, `simulate` and `bearing` --thermal; "
+        "elsewhere " + _FILMS,
     ),
     "--asperities": "`ehlcontact steady` has --asperities with --rq; elsewhere films are between smooth surfaces",
     **dict.fromkeys(
@@ -200,6 +200,7 @@ EXAMPLES = {
     ),
     "verify": ("ehlcontact verify ball.fmu",),
     "explore": ("ehlcontact explore -o page.html",),
+    "atlas heat": ("ehlcontact atlas heat -o heat.h5 --draws 256 --processes 4",),
     "atlas build": ("ehlcontact atlas build -o atlas.h5 --draws 200 --processes 4",),
     "atlas supply": ("ehlcontact atlas supply -o supply.h5 --draws 128 --processes 4",),
     "atlas waves": ("ehlcontact atlas waves -o filters.h5 --processes 4",),

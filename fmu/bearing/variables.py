@@ -419,7 +419,8 @@ def _notes(model: BearingModel, span: str) -> tuple[tuple[str, str], ...]:
         ("Axes", "x and y across the shaft, z along it; tilts are small rotations about x and y"),
     ]  # fmt: skip
     if bearing.oil is not None:
+        heat = "isothermal" if bearing.thermal is None else "that heat up"
         lines.append(
-            ("Films", "of a flooded inlet, isothermal; those of balls at contact angles by their rolling speeds")
+            ("Films", f"of a flooded inlet, {heat}; those of balls at contact angles by their rolling speeds")
         )
     return tuple(lines)

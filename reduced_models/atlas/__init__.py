@@ -9,6 +9,11 @@
 | change | `Change`: what a condition does to answers |
 | supply_condition | `SupplyCondition`: an oil supply, from its own table |
 | supply_table | `SupplyTable`: what a supply changes, and its interpolation over M, L, kappa and r |
+| heat_condition | heat as a condition; `HeatedFilm` |
+| heat_table | `HeatTable`: what heat changes, over M, L, kappa, Q and slope of the oil; its interpolation |
+| heat_build | building that table |
+| heat_sample | its contacts: balls in bearings |
+| heat_solve | film and impedance of one of them, with heat and without |
 | table | `AtlasTable`: box, points, answers, settings of the interpolation; the file |
 | interpolation | interpolation of the table, and its error bars |
 | atlas_elements | contact elements from answers under one or several loads |

@@ -17,6 +17,7 @@ from ehlcontact.results.table import Display, QuantityTable, ScaledTable, plain
 from ehlcontact.summary import contact_text, note_line, span
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.frequency_curve import FrequencyCurve
+from reduced_models.atlas.heat_condition import HeatedFilm
 
 _Floats = NDArray[np.float64]
 
@@ -72,6 +73,8 @@ class AtlasAnswer(ScaledTable):
         Its units in SI; None for a dimensionless point.
     over_flooded : float or None
         r of an oil supply: its layer over what the flooded film lets through; None where the inlet is flooded.
+    temperature : HeatedFilm or None
+        What heat takes of the film; None where it is isothermal.
     """
 
     point: MoesPoint
@@ -86,6 +89,7 @@ class AtlasAnswer(ScaledTable):
     error_bars: dict[str, Any]
     scales: Scales | None = None
     over_flooded: Annotated[float | None, NUMBER] = None
+    temperature: HeatedFilm | None = None
 
     DISPLAY: ClassVar[Display] = FrequencyResponse.DISPLAY
 
@@ -122,6 +126,7 @@ class AtlasAnswer(ScaledTable):
             f"static tangent {rigid * self.stiffness[0]:.4g}{names[0]}, "
             f"damping {span(self.damping, damps)}{names[1]}",
             *([] if self.over_flooded is None else [f"under a layer of {self.over_flooded:.4g} flooded films"]),
+            *([] if self.temperature is None else [self.temperature.summary]),
             *note_line(self.outside_assumptions),
         ]
 
@@ -157,6 +162,7 @@ class AtlasAnswer(ScaledTable):
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON; of an SI point with ``si``."""
         found = super().to_dict() | {"point": self.point.to_dict(), "scales": plain(self.scales)}
+        found |= {} if self.temperature is None else {"temperature": self.temperature.to_dict()}
         return found | {"outside_assumptions": self.outside_assumptions}
 
 

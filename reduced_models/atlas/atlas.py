@@ -275,7 +275,8 @@ class Atlas:
         A supply comes last: it is over the film that heat leaves, and has frequencies below those of the atlas.
         """
         Omega, supply = self._table.omega, [one for one in given if isinstance(one, SupplyCondition)]
-        values, bars = changed([one for one in given if not isinstance(one, SupplyCondition)], loads, values, bars)
+        others = [one for one in given if not isinstance(one, SupplyCondition)]
+        values, bars = changed(others, loads, values, bars, Omega)
         for layer in supply:
             nodes = np.unique(np.concatenate([Omega, layer.omega[layer.omega < Omega[1]]]))
             values, bars = (_refined(part, Omega, nodes) for part in (values, bars))

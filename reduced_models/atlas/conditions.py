@@ -12,11 +12,11 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
 from ehlcontact.point import Point
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.change import Change
+from reduced_models.atlas.heat_condition import HeatCondition
 from reduced_models.atlas.supply_condition import SupplyCondition
 
 _Floats = NDArray[np.float64]
@@ -27,8 +27,8 @@ class Condition(Protocol):
 
     name: str  # of the argument that it is given by
 
-    def change(self, loads: _Floats, values: _Floats) -> Change:
-        """Change of the flooded isothermal `values`, shape (n, 5 + 2 k), under `loads`, shape (n,)."""
+    def change(self, loads: _Floats, values: _Floats, Omega: _Floats) -> Change:
+        """Change of flooded isothermal `values`, shape (n, 5 + 2 k) with K and C at `Omega`, under `loads`."""
 
     def noted(self, flooded: float, film: float) -> dict[str, Any]:
         """Fields of an `AtlasAnswer` that tell of it; central film without and with all conditions."""
@@ -52,17 +52,17 @@ def conditions_at(
     """
     found: list[Condition | SupplyCondition] = []
     if thermal is not None:
-        raise InputError("thermal", type(thermal).__name__, "left out: no table of it is there")
+        found.append(HeatCondition(point, thermal))
     if supply is not None:
         found.append(SupplyCondition(point, supply))
     return found
 
 
 def changed(
-    conditions: Sequence[Condition], loads: _Floats, values: _Floats, bars: _Floats
+    conditions: Sequence[Condition], loads: _Floats, values: _Floats, bars: _Floats, Omega: _Floats
 ) -> tuple[_Floats, _Floats]:
     """Answers under all conditions, and half widths of their error bars; without any, the same arrays."""
     flooded = values
     for one in conditions:
-        values, bars = one.change(loads, flooded).of(values, bars)
+        values, bars = one.change(loads, flooded, Omega).of(values, bars)
     return values, bars

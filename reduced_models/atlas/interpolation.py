@@ -14,6 +14,8 @@ Every number of it is one of the atlas's `Interpolation`.
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
@@ -90,7 +92,19 @@ def judge(points: _Floats, answers: _Floats, by: Interpolation) -> tuple[_Floats
     return errors, error_factor(x, errors, by)
 
 
-def error_factor(x: _Floats, errors: _Floats, by: Interpolation) -> _Floats:
+class ErrorBars(Protocol):
+    """What error bars of an interpolation are made by."""
+
+    @property
+    def nearest(self) -> int:
+        """Points whose errors make the error bar."""
+
+    @property
+    def covered(self) -> float:
+        """Share of points that it covers when each is left out."""
+
+
+def error_factor(x: _Floats, errors: _Floats, by: ErrorBars) -> _Floats:
     """Factor on the local error that covers a given share of the nodes, each judged by its neighbours."""
     distance = cdist(x, x)
     np.fill_diagonal(distance, np.inf)

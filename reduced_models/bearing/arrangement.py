@@ -242,7 +242,7 @@ class BearingSet(Summary):
         by_facing: dict[str, float] = {}
         for facing in FACINGS:
             dry = [
-                replace(one, oil=None)
+                replace(one, oil=None, supply=None, thermal=None)
                 for one, own in zip(self.bearings, self.facings, strict=True)
                 if own == facing
             ]

@@ -26,9 +26,11 @@ from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import by_name, radians_per_second
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.heat import Heat
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
 from ehlcontact.supply import OilLayer
+from reduced_models.atlas.heat_condition import heat_given
 from reduced_models.atlas.supply_condition import require_uniform
 from reduced_models.bearing.angular_balls import ANGLE, LOAD, AngularBalls
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
@@ -159,6 +161,9 @@ class BallBearing(Summary):
     name : str
     atlas : str, optional
         File of an atlas; by default the one that comes with the library.
+    thermal : Heat or True, optional
+        Films heat up (docs/heat.md), with the data of the oil where it is of a grade; True is ``Heat()``. The
+        temperature of the inlets is an input, that of the oil. By default films are isothermal.
     features : sequence of RaceWaviness, BallWaviness, BallDiameter, Spall and Indentation
         Of races and balls: they turn with the ring, the cage and the balls, and change equilibria and runs. What
         is linear about rest, as coefficients and modes, is that of the smooth bearing.
@@ -171,7 +176,8 @@ class BallBearing(Summary):
     ------
     InputError
         What is no ball bearing: balls that overlap, a conformity of a half or less; a conformity or an oil that
-        the atlas does not have; oil supply of a dry bearing, or one that the table of it does not have.
+        the atlas does not have; oil supply of a dry bearing, or one that the table of it does not have; heat of
+        a dry bearing, of sliding, or of an oil without its data.
     """
 
     balls: int
@@ -195,6 +201,7 @@ class BallBearing(Summary):
     race_control: str = "outer"
     shoulder_inner: float | None = None
     shoulder_outer: float | None = None
+    thermal: Any = None
     features: Sequence[Feature] = ()
     supply: OilLayer | None = None
     _cache: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
@@ -211,6 +218,11 @@ class BallBearing(Summary):
             if self.oil is None
             else f"oil of {self.oil.eta0:.4g} Pa s, alpha {1e9 * self.oil.alpha:.4g} 1/GPa, {self._supply_words}",
         ]
+        lines += (
+            []
+            if self.thermal is None
+            else [f"films heat up, inlets at {self._inlet_temperature:.4g} degrees Celsius"]
+        )
         lines += [f"loss factor {self.loss_factor:.3g}"] if self.loss_factor else []
         return [*lines, f"features: {', '.join(map(str, self.features))}"] if self.features else lines
 
@@ -235,6 +247,9 @@ class BallBearing(Summary):
         if self.oil is not None:
             require_instance("oil", self.oil, Lubricant, "a Lubricant, as Lubricant.iso_vg(68, temperature=50.0)")
         self._require_supply()
+        object.__setattr__(self, "thermal", heat_given(self.thermal))
+        if self.thermal is not None and self.oil is None:
+            raise InputError("thermal", "Heat", "left out of a dry bearing, which has no films")
         for name, rq in (("rq_ball", self.rq_ball), ("rq_race", self.rq_race)):
             require_roughness(name, rq)
         if self.cutoff_gap is not None:
@@ -358,6 +373,12 @@ class BallBearing(Summary):
         """Composite roughness of ball and race [m]; None where none is given."""
         given = [rq for rq in (self.rq_ball, self.rq_race) if rq is not None]
         return hypot(*given) if given else None
+
+    @property
+    def _inlet_temperature(self) -> float:
+        """Where films heat up, in degrees Celsius: an input."""
+        given = self.thermal.temperature
+        return float(self.oil.temperature if given is None else given)  # type: ignore[union-attr, arg-type]
 
     @property
     def highest_speed(self) -> float:
@@ -791,7 +812,8 @@ class BallBearing(Summary):
             raise InputError("speed_rpm", speed, "> 0 for a bearing with oil: without rolling there is no film")
         INPUTS["speed_rpm"].require("speed_rpm", speed)
         if speed > self.highest_speed:
-            allowed = f"at most {self.highest_speed:.5g}, where the atlas ends for this bearing and oil"
+            table = "the atlas" if self.thermal is None else "the atlas or its table of heat"
+            allowed = f"at most {self.highest_speed:.5g}, where {table} ends for this bearing and oil"
             raise InputError("speed_rpm", speed, allowed)
         return speed
 
@@ -803,6 +825,10 @@ class BallBearing(Summary):
             del found["supply"]  # so that files of flooded bearings stay as they were
         else:
             found["supply"] = self.supply.to_dict()
+        if self.thermal is None:
+            del found["thermal"]  # so that files of isothermal bearings stay as they were
+        else:
+            found["thermal"] = self.thermal.to_dict()
         return found | ({"features": feature_entries(tuple(self.features))} if self.features else {})
 
     @classmethod
@@ -811,15 +837,20 @@ class BallBearing(Summary):
         oil = entries.get("oil")
         require_instance("oil", oil, dict | None, "an object, or null")
         features = features_from(entries.get("features", []))
-        supply = entries.get("supply")
-        require_instance("supply", supply, dict | None, "an object, or null")
-        require_names({"features": [], "supply": None, **entries}, [f.name for f in fields(cls) if f.init])
+        supply, thermal = (entries.get(name) for name in ("supply", "thermal"))
+        for name, value in (("supply", supply), ("thermal", thermal)):
+            require_instance(name, value, dict | None, "an object, or null")
+        left_out: dict[str, Any] = {"features": [], "supply": None, "thermal": None}
+        require_names({**left_out, **entries}, [f.name for f in fields(cls) if f.init])
         if oil is not None:
             require_names(oil, [f.name for f in fields(Lubricant)], "oil.")
         given: dict[str, Any] = {"oil": None if oil is None else Lubricant(**oil), "features": features}
         if supply is not None:
             require_names({**dict.fromkeys(SUPPLIES), **supply}, SUPPLIES, "supply.")
             given["supply"] = OilLayer.from_dict(supply)
+        if thermal is not None:
+            require_names(thermal, [f.name for f in fields(Heat)], "thermal.")
+            given["thermal"] = Heat.from_dict(thermal)
         return cls(**{**entries, **given})
 
 

@@ -232,6 +232,8 @@ def oil_and_heat(
     """
     if bearing.supply is not None:
         raise InputError("bearing.supply", "an OilLayer", "left out of the bearing: `supply` here is that layer")
+    if bearing.thermal is not None:
+        raise InputError("bearing.thermal", "a Heat", "left out of the bearing: `thermal` here is that heat")
     state = oiled_state(bearing, load, speed_rpm, law, tilt)
     hz = np.array([state.speed_rpm * RPM_TO_HZ, HIGH, *np.ravel(band).tolist()])
     points = [_point(bearing, state, column) for column in range(len(RACES))]

@@ -21,10 +21,12 @@ from ehlcontact.assumptions.judge import ROUGHEST
 from ehlcontact.checks import require_nonnegative
 from ehlcontact.checks.admissible_range import LIMITS
 from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat
 from ehlcontact.hertz import hertz_contact, radius_ratio
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.answer import AtlasAnswer
 from reduced_models.atlas.atlas import Atlas
+from reduced_models.atlas.heat_condition import ellipses, fastest
 from reduced_models.atlas.supply_condition import heaviest_load, supply_box
 from reduced_models.bearing.five_degrees import AngularEquilibrium
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, rolling_torque, speed_sum_per_omega
@@ -73,6 +75,8 @@ class Race:
         File of another atlas than the shipped one.
     supply : OilLayer or None
         Layer ahead of the contact; None is flooded.
+    thermal : Heat or None
+        Films heat up; None is isothermal.
     """
 
     name: str
@@ -83,6 +87,7 @@ class Race:
     speed_sum: float
     atlas: str | None = None
     supply: OilLayer | None = None
+    thermal: Heat | None = None
 
     @cached_property
     def kn(self) -> float:
@@ -97,10 +102,13 @@ class Race:
 
     @property
     def highest_speed(self) -> float:
-        """Speed of the shaft [rev/min] up to which the atlas reaches."""
-        L, most = self.point(1.0, 1.0).moes.L, shared_atlas(self.atlas).box.L[1]
-        most = most if self.supply is None else min(most, supply_box().L[1])
-        return float((most / L) ** POWER_OF_SPEED * (1.0 - INSIDE))
+        """Speed of the shaft [rev/min] up to which the atlas reaches, with its tables of supply and heat."""
+        unit, L = self.point(1.0, 1.0), shared_atlas(self.atlas).box.L[1]
+        L = L if self.supply is None else min(L, supply_box().L[1])
+        most = (L / unit.moes.L) ** POWER_OF_SPEED
+        if self.thermal is not None:
+            most = min(most, fastest(unit, self.thermal))
+        return float(most * (1.0 - INSIDE))
 
     def loads(self, speed_rpm: float) -> tuple[float, float]:
         """Range of loads [N] of the atlas at this speed."""
@@ -140,13 +148,14 @@ class Race:
         loads = np.concatenate([[low], inside, [high]])
         reference = float(np.sqrt(low * high))
         found = shared_atlas(self.atlas).wide(
-            self.point(reference, speed_rpm), loads / reference, supply=self.supply
+            self.point(reference, speed_rpm), loads / reference, supply=self.supply, thermal=self.thermal
         )
         return replace(found, inlet_saturation=0.0)
 
     def answer(self, load: float, speed_rpm: float) -> AtlasAnswer:
         """Of the atlas for the contact under a load [N] at this speed."""
-        return shared_atlas(self.atlas).at(self.point(load, speed_rpm), supply=self.supply)
+        at = self.point(load, speed_rpm)
+        return shared_atlas(self.atlas).at(at, supply=self.supply, thermal=self.thermal)
 
     def films(self, speed_rpm: float, load: _Floats, gap: _Floats) -> tuple[_Floats, _Floats, _Floats]:
         """Central and smallest film [m], and moment of the pressure [N m], under loads [N] at this speed.
@@ -175,10 +184,13 @@ class Race:
     def require_in_atlas(self) -> None:
         """Raise `InputError` for a conformity whose ellipse, or an oil, that the atlas does not have."""
         low, high = shared_atlas(self.atlas).box.kappa
+        if self.thermal is not None:
+            low, high = max(low, ellipses()[0]), min(high, ellipses()[1])
         if not low <= self.geometry.kappa <= high:
             ends = [_conformity(self, kappa) for kappa in (low, high)]
             between = f"at least {ends[0]:.4f}" if ends[1] is None else f"between {ends[0]:.4f} and {ends[1]:.4f}"
-            allowed = f"{between}: its ellipse, a/b = {self.geometry.kappa:.4g}, lies outside the atlas"
+            table = "the atlas" if self.thermal is None else "the table of heat"
+            allowed = f"{between}: its ellipse, a/b = {self.geometry.kappa:.4g}, lies outside {table}"
             raise InputError(f"conformity_{self.name}", self.conformity, f"{allowed} ({low:g} to {high:g})")
         self.element(min(self.highest_speed, SOME_SPEED))  # raises where the oil is none of the atlas
 
@@ -197,7 +209,15 @@ def race_of(bearing: Any, name: str) -> Race:
         raise InputError(own.get(error.field, error.field), error.value, error.allowed) from None
     speed_sum = speed_sum_per_omega(bearing.pitch_diameter, bearing.gamma * cosine)
     return Race(
-        name, body, bearing.ball_diameter, conformity, bearing.oil, speed_sum, bearing.atlas, bearing.supply
+        name=name,
+        geometry=body,
+        ball_diameter=bearing.ball_diameter,
+        conformity=conformity,
+        oil=bearing.oil,
+        speed_sum=speed_sum,
+        atlas=bearing.atlas,
+        supply=bearing.supply,
+        thermal=bearing.thermal,
     )
 
 
@@ -241,10 +261,9 @@ def assumptions_under(bearing: Any, speed_rpm: float, force: _Floats) -> Assumpt
     found = []
     for name, load in zip(RACES, force.reshape(-1, 2).max(axis=0).tolist(), strict=True):
         race = bearing.race(name)
-        point = race.point(max(load, race.loads(speed_rpm)[0]), speed_rpm)
-        found.append(
-            assumptions(point, film=shared_atlas(bearing.atlas).at(point, supply=bearing.supply), roughness=rough)
-        )
+        most = max(load, race.loads(speed_rpm)[0])
+        point, film = race.point(most, speed_rpm), race.answer(most, speed_rpm)
+        found.append(assumptions(point, film=film, roughness=rough))
     return Assumptions.worst_of(found)
 
 
@@ -257,10 +276,9 @@ def assumptions_at_angles(bearing: Any, speed_rpm: float, places: Sequence[Angul
         k = int(np.argmax(at.force[:, column]))
         angle, speed_sum = float(at.angles[k, column]), float(at.speed_sum[k, column])
         race = bearing.race(name).at_angle(bearing.pitch_diameter, angle, speed_sum)
-        point = race.point(max(float(at.force[k, column]), race.loads(speed_rpm)[0]), speed_rpm)
-        found.append(
-            assumptions(point, film=shared_atlas(bearing.atlas).at(point, supply=bearing.supply), roughness=rough)
-        )
+        load = max(float(at.force[k, column]), race.loads(speed_rpm)[0])
+        point, film = race.point(load, speed_rpm), race.answer(load, speed_rpm)
+        found.append(assumptions(point, film=film, roughness=rough))
     return Assumptions.worst_of(found)
 
 

@@ -159,7 +159,8 @@ def bearing_friction(
     law : TractionLaw
         `ehlcontact.Eyring`, `Carreau` or `LimitingShear`.
     heat : bool
-        Multiply the rolling torque by the thermal reduction factor; needs an oil with `temperature_slope`.
+        Multiply the rolling torque by the thermal reduction factor; needs an oil with `temperature_slope`. Films
+        of a bearing with `thermal` are hot already: theirs is not multiplied.
 
     Raises
     ------
@@ -176,7 +177,7 @@ def friction_at(bearing: Any, state: BearingState, law: TractionLaw, *, heat: bo
     for k, column in np.ndindex(power.shape):
         contact = sliding_contact(bearing, state, k, column, law)
         power[k, column] = 0.0 if contact is None else contact.power(contact.slip())
-    share = _inlet_heat(bearing, state) if heat else 1.0
+    share = _inlet_heat(bearing, state) if heat and bearing.thermal is None else 1.0
     assert state.rolling_torque is not None
     return BearingFriction(
         rolling=share * state.rolling_torque,

@@ -352,6 +352,10 @@ COMMANDS = [
     (("reproduce", "--n", "48.5"), ("--n = '48.5'", "whole number")),
     (("reproduce", "--n", "0"), ("--n = 0", "between 16 and 2048")),
     (("reproduce", "-o", RECORD), ("--output = 'record.h5'", "folder")),
+    # atlas heat
+    (("atlas", "heat", "-o", "a.txt"), ("--output = 'a.txt'", ".h5")),
+    (("atlas", "heat", "-o", "new.h5", "--draws", "3"), ("contacts", "at least 20", "draws = 3")),
+    (("atlas", "heat", "-o", "new.h5", "--processes", "0"), ("--processes = 0", "> 0")),
     # atlas build
     (("atlas", "build", "-o", "a.txt"), ("--output = 'a.txt'", ".h5")),
     (("atlas", "build", "-o", "none/a.h5"), ("--output", "folder that exists")),

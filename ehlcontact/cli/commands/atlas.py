@@ -165,3 +165,51 @@ def waves(
     ]
     document = {"output": str(output), "work": str(kept), **table.metadata}
     out.deliver(document, ("table of contact filters", rows))
+
+
+@group.command("heat", epilog=epilog("atlas heat"))
+@o.grouped
+def heat(
+    out: o.Output,
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="The table, HDF5.")] = Path(
+        "heat.h5"
+    ),
+    work: Annotated[
+        Path | None,
+        typer.Option(
+            "--work", metavar="FOLDER", help="Solved contacts; by default as the output, ending in .work."
+        ),
+    ] = None,
+    draws: Annotated[int, typer.Option("--draws", help="Contacts drawn; some are none of a bearing.")] = 256,
+    seed: Annotated[int, typer.Option("--seed", help="Of the sample.")] = 11,
+    processes: Annotated[
+        int | None, typer.Option("--processes", help="Of this machine; one per core by default.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Solve on this Dask cluster instead.")
+    ] = None,
+) -> None:
+    """Solve contacts with heat and without, write the table of what heat changes; goes on where it stopped."""
+    from reduced_models.atlas.heat_build import build_heat
+
+    kept = output.with_suffix(".work") if work is None else work
+    out.check(beside={"--output": (output, (".h5",))})
+    check_apart({"--output": output, "--work": kept})
+    for name, value in (("--draws", draws), ("--seed", seed)):
+        require_integer(name, value, "a whole number >= 0", 0)
+    count = (os.cpu_count() or 1) if processes is None else processes
+    require_integer("--processes", count, "a whole number > 0", 1)
+    try:
+        with progress("contacts") as update:
+            table = build_heat(
+                output, kept, draws, seed=seed, processes=count, scheduler=scheduler, progress=update
+            )
+    except KeyboardInterrupt:
+        complain(f"interrupted; contacts that were solved are in {kept}, the same command goes on")
+        raise typer.Exit(INTERRUPTED) from None
+    left_out = sum(table.metadata["left_out"].values())
+    rows = [
+        ("contacts", str(table.metadata["points"]), f"{left_out} left out: not converged"),
+        ("file", f"{output.stat().st_size / 1e6:.3f} MB", str(output)),
+    ]
+    out.deliver({"output": str(output), "work": str(kept), **table.metadata}, ("table of heat", rows))

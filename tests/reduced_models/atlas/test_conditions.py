@@ -22,9 +22,9 @@ class Thinner:
     def __init__(self, film, less, error=0.0):
         self.film, self.less, self.error = film, less, error
 
-    def change(self, loads, values):
+    def change(self, loads, values, Omega):
         """Change of these answers."""
-        rows, k = np.ones_like(values), (values.shape[1] - HEAD) // 2
+        rows, k = np.ones_like(values), Omega.size
         rows[:, :LOW] = self.film
         rows[:, LOW] = -self.less * FADING[1]
         rows[:, HEAD + k :] = -self.less * FADING[:k]
@@ -72,7 +72,7 @@ def test_one_after_the_other_is_the_product(under):
 def test_bars_of_both_add_as_squares():
     k = 3
     values, bars = np.full((1, HEAD + 2 * k), 0.5), np.full((1, HEAD + 2 * k), 0.03)
-    new, error = changed([Thinner(0.8, 0.3, 0.08)], np.ones(1), values, bars)
+    new, error = changed([Thinner(0.8, 0.3, 0.08)], np.ones(1), values, bars, np.array(OMEGAS[:k]))
     assert new[0, 1] == pytest.approx(0.4)
     assert error[0, 1] == pytest.approx(np.hypot(0.8 * 0.03, 0.5 * 0.08))
     assert error[0, HEAD + k] == pytest.approx(np.hypot(0.03, 0.5 * 0.08))

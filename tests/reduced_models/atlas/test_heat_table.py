@@ -1,0 +1,217 @@
+"""Heat in the atlas: contacts left out of the table, the 6305 of docs/heat.md, limits, and what it refuses."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ehlcontact import Heat, InputError, Lubricant, MoesPoint, OperatingPoint
+from ehlcontact.errors import ConvergenceError
+from ehlcontact.hertz import most_loaded_ball
+from ehlcontact.store import load, save
+from reduced_models.atlas import heat_build
+from reduced_models.atlas.build import BOX
+from reduced_models.atlas.heat_build import SETTINGS, assemble_heat, build_heat
+from reduced_models.atlas.heat_condition import SHIPPED, heat_surface
+from reduced_models.atlas.heat_sample import FASTEST, intervals_of, sample_heated
+from reduced_models.atlas.heat_solve import HEAT_OMEGAS, solve_heated
+from reduced_models.atlas.heat_table import KNOWN, NUMBERS, HeatSurface, HeatTable, changes_of, unit_of
+from reduced_models.bearing.catalogue import deep_groove_row
+
+OIL = Lubricant.iso_vg(68, temperature=50.0)
+DISC = OperatingPoint.ball_on_flat(OIL, ball_diameter=0.02, entrainment_speed=1.0, load=50.0)
+
+
+def ball(name, rpm, load, oil=OIL):
+    """The most loaded ball on the inner race."""
+    _, row = deep_groove_row(name)
+    return OperatingPoint.ball_bearing(
+        oil,
+        ball_diameter=row.ball_diameter,
+        pitch_diameter=row.pitch_diameter,
+        conformity=row.conformity,
+        speed_rpm=rpm,
+        load=most_loaded_ball(load, row.balls),
+    )
+
+
+@pytest.fixture(scope="module")
+def held_out():
+    """Errors of contacts that a table does not have, their bars, and what heat changes there, (n, 4 + 2 k).
+
+    All contacts are left out, a tenth of them at a time.
+    """
+    table = heat_surface().table
+    error, bars = np.zeros((2, *table.changes.shape))
+    part = np.random.default_rng(1).permutation(len(table.points)) % 10
+    for k in range(10):
+        out = part == k
+        rest = HeatSurface(replace(table, points=table.points[~out], changes=table.changes[~out]))
+        found, bars[out] = rest.at(table.points[out])
+        error[out] = found - table.changes[out]
+    g = np.array([unit_of(load) for load in table.points[:, KNOWN.index("thermal_load")].tolist()])[:, None]
+    return g * error, g * bars, g * table.changes
+
+
+def test_contacts_left_out_lie_in_their_bars(held_out):
+    """Bars of the interpolation alone; answers have those of meshes beside them."""
+    error, bars, _ = held_out
+    inside = np.abs(error) <= bars
+    assert len(inside) > 100 and inside.mean() >= 0.95
+    for k in (*range(len(NUMBERS)), len(NUMBERS), len(NUMBERS) + len(HEAT_OMEGAS)):
+        assert inside[:, k].mean() >= 0.93  # of a hundred, 2 is the standard deviation
+
+
+def test_what_heat_changes_is_found_to_a_small_part(held_out):
+    """The laziest table has no change at all, the next the factor of Wilson and Sheu for every film."""
+    error, bars, change = held_out
+    film, C = NUMBERS.index("h_central"), len(NUMBERS) + len(HEAT_OMEGAS)
+    for k, most in ((film, 0.01), (C, 0.02)):
+        assert np.sqrt(np.mean(error[:, k] ** 2)) < most
+        assert np.sqrt(np.mean(error[:, k] ** 2)) < 0.1 * np.sqrt(np.mean(change[:, k] ** 2))
+    assert np.median(bars[:, film]) < 0.02
+    assert np.median(bars[:, C]) < 0.05
+
+
+def test_6305_at_10000_rpm(shipped):
+    """Solved with n = 128 in docs/heat.md: film .827 -> .624 um, C 92.8 -> 57.2 N s/m, K 143.1."""
+    point = ball("6305", 10_000.0, 2000.0)
+    cold, warm = shipped.at(point).si, shipped.at(point, thermal=Heat()).si
+    assert warm.h_central / cold.h_central == pytest.approx(0.624 / 0.827, abs=0.015)
+    assert warm.damping[0] / cold.damping[0] == pytest.approx(57.2 / 92.8, abs=0.03)
+    for name, solved in (("h_central", 0.624e-6), ("damping", 57.2), ("stiffness", 143.1e6)):
+        value, bar = (np.ravel(part)[0] for part in (getattr(warm, name), warm.error_bars[name]))
+        assert abs(value - solved) <= bar
+    hot = shipped.at(point, thermal=Heat()).temperature
+    assert hot.film_share == pytest.approx(warm.h_central / cold.h_central, rel=1e-12)
+    assert hot.thermal_load == pytest.approx(1.387, abs=0.001)
+    assert hot.inputs.temperature == 50.0
+
+
+def test_element_follows_the_answer(shipped):
+    point, Omega = ball("6305", 10_000.0, 2000.0), np.array([0.05, 0.3, 1.0, 2.0, 6.0])
+    answer = shipped.at(point, thermal=Heat())
+    for model in ("wide", "memory"):
+        element = shipped.element(point, model, thermal=Heat())
+        Z = element.impedance(Omega=Omega) / point.scales.stiffness
+        wanted = answer.impedance(Omega=Omega)
+        np.testing.assert_allclose(Z.imag / Omega, wanted.damping, rtol=0, atol=0.05 * wanted.damping[0])
+        np.testing.assert_allclose(Z.real, wanted.stiffness, rtol=0.01)
+    assert element.source["thermal"]["temperature"] == 50.0
+    assert element.source["assumptions"]["isothermal"]["holds"] is None
+    assert shipped.element(point).source["assumptions"]["isothermal"]["holds"] is False
+
+
+def test_a_slow_contact_does_not_heat_up(shipped):
+    point = ball("6305", 300.0, 300.0)
+    cold, warm = shipped.at(point), shipped.at(point, thermal=Heat())
+    assert warm.h_central == pytest.approx(cold.h_central, rel=0.01)
+    assert warm.h_central < cold.h_central
+    assert warm.damping[0] == pytest.approx(cold.damping[0], rel=0.02)
+
+
+def test_bars_grow_where_the_sample_ends(shipped):
+    inside, light = ball("6305", 10_000.0, 2000.0), ball("6305", 10_000.0, 2.0)
+    for point in (inside, light):
+        share = [shipped.at(point, thermal=heat) for heat in (None, Heat())]
+        assert (
+            share[1].error_bars["h_central"]
+            >= share[1].h_central / share[0].h_central * share[0].error_bars["h_central"]
+        )
+
+
+@pytest.mark.parametrize(
+    ("field", "given"),
+    [
+        ("slide_roll", (ball("6305", 1000.0, 500.0), Heat(slide_roll=0.05))),
+        ("thermal load Q", (ball("6305", 22_000.0, 500.0), Heat())),
+        ("thermal", (MoesPoint(300.0, 12.0, 0.2), Heat())),
+        ("thermal", (ball("6305", 1000.0, 500.0), True)),
+        ("temperature_slope", (ball("6305", 1000.0, 500.0, Lubricant(0.04, 2e-8)), Heat())),
+        ("temperature", (ball("6305", 1000.0, 500.0, Lubricant(0.04, 2e-8)), Heat(temperature_slope=0.04))),
+        ("heat_capacity", (ball("6305", 1000.0, 500.0), Heat(heat_capacity=4e6))),
+        ("effusivity", (ball("6305", 1000.0, 500.0), Heat(effusivity=(13_000.0, 1500.0)))),
+        (
+            "kappa",
+            (OperatingPoint.ball_on_flat(OIL, ball_diameter=0.02, entrainment_speed=1.0, load=50.0), Heat()),
+        ),
+    ],
+)
+def test_refused(shipped, field, given):
+    point, thermal = given
+    for call in (shipped.at, shipped.element):
+        with pytest.raises(InputError) as error:
+            call(point, thermal=thermal)
+        assert error.value.field == field
+        assert "\n" not in str(error.value)
+
+
+def test_sample_is_of_bearings_and_grows():
+    few, more = sample_heated(32, 3, BOX), sample_heated(64, 3, BOX)
+    assert few.items() <= more.items()
+    for one in more.values():
+        assert one.point.u_sum <= 2.0 * FASTEST * (1.0 + 1e-12)
+        assert intervals_of(one.point) is not None
+        assert 0.009 < one.heat.at(one.point).load(one.point.moes, one.point.scales) < 5.1
+
+
+def test_build_writes_what_it_can_read(tmp_path, monkeypatch):
+    monkeypatch.setattr(
+        heat_build, "solve_points", lambda contacts, *_, **__: [made_up(c) for c in contacts.values()]
+    )
+    table = build_heat(tmp_path / "heat.h5", tmp_path / "work", 64, seed=3)
+    again = load(tmp_path / "heat.h5", HeatTable, "table of heat")
+    np.testing.assert_array_equal(table.changes, again.changes)
+    assert again.metadata["command"] == "ehlcontact atlas heat --draws 64 --seed 3"
+    with pytest.raises(InputError, match="draws = 4 have too few"):
+        build_heat(tmp_path / "heat.h5", tmp_path / "work", 4)
+    with pytest.raises(InputError, match="converged contacts"):
+        assemble_heat([made_up(c) | {"status": "stagnated"} for c in sample_heated(64, 3, BOX).values()], {})
+
+
+def made_up(contact):
+    """Entry of a contact as if it had been solved: all factors are 0.9."""
+    point = contact.point
+    moes, heat = point.moes, contact.heat.at(point)
+    cold = dict.fromkeys(("approach", "h_central", "h_min", "moment"), 0.5)
+    cold |= {name: [2.0] * len(HEAT_OMEGAS) for name in ("stiffness", "damping")}
+    warm = {name: np.multiply(0.9, value).tolist() for name, value in cold.items()}
+    entry = {"M": moes.M, "L": moes.L, "kappa": moes.kappa, "slope": heat.temperature_slope, "status": "converged"}
+    return entry | {"thermal_load": heat.load(moes, point.scales), "cold": cold, "warm": warm, "n": 64}
+
+
+def test_a_damaged_table_is_refused(tmp_path):
+    table = heat_surface().table
+    save(replace(table, changes=table.changes[:, 1:]), tmp_path / "heat.h5", "table of heat")
+    with pytest.raises(InputError):
+        load(tmp_path / "heat.h5", HeatTable, "table of heat")
+
+
+def test_shipped_file_is_small_and_says_how_it_was_made():
+    assert SHIPPED.stat().st_size < 200_000
+    about = heat_surface().table.metadata
+    assert about["command"].startswith("ehlcontact atlas heat --draws")
+    assert about["points"] == len(heat_surface().table.points) > 140
+    assert tuple(about["interpolation"]["weights"]) == SETTINGS.weights
+
+
+@pytest.mark.slow
+def test_new_contacts_are_in_the_bars_of_the_shipped_table():
+    """Eight contacts of another sample, solved here."""
+    surface, inside = heat_surface(), []
+    contacts = [c for c in sample_heated(64, 99, BOX).values() if intervals_of(c.point) == 64][:8]
+    for one in contacts:
+        entry = solve_heated(one)
+        row = np.array([[entry[name] for name in ("M", "L", "kappa", "thermal_load", "slope")]])
+        found, bars = surface.at(row)
+        inside.append(np.abs(found[0] - changes_of(entry)) <= bars[0])
+    assert np.mean(inside) >= 0.9
+
+
+def test_a_film_that_does_not_converge_is_left_out(monkeypatch):
+    def fail(*_):
+        raise ConvergenceError("no", None)
+
+    monkeypatch.setattr("reduced_models.atlas.heat_solve.respond", fail)
+    (one, *_) = sample_heated(16, 3, BOX).values()
+    assert solve_heated(one)["status"] == "unknown"
