@@ -230,6 +230,8 @@ def _require_there(rotor: Rotor, films: Sequence[FullFilm]) -> None:
             raise InputError(f"{field}.bearing", film.bearing, "one with oil")
         if mount.ball_bearing.supply is not None:
             raise InputError(f"{field}.bearing", film.bearing, "one without an oil supply: full films are flooded")
+        if mount.ball_bearing.thermal is not None:
+            raise InputError(f"{field}.bearing", film.bearing, "one without heat: full films are isothermal")
         if (film.bearing, film.contact) in taken:
             raise InputError(field, f"{film.race} race, ball {film.ball}", "a contact that no other film has")
         taken.add((film.bearing, film.contact))

@@ -191,6 +191,8 @@ def test_films_that_no_run_can_have(smooth, known):
         simulate_full_films(block(smooth), [film, film], **options)
     with pytest.raises(InputError, match="one with oil"):
         simulate_full_films(block(replace(smooth, oil=None)), [film], **options)
+    with pytest.raises(InputError, match="one without heat: full films are isothermal"):
+        simulate_full_films(block(replace(smooth, thermal=True)), [film], **options)
     with pytest.raises(InputError, match="processes"):
         simulate_full_films(block(smooth), [film], processes=0, **options)
 
