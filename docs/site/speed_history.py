@@ -1,6 +1,6 @@
-"""Numbers and picture of docs/speed.md.
+"""Numbers and pictures of docs/speed.md.
 
-python docs/site/speed_history.py   # a minute
+python docs/site/speed_history.py   # three minutes
 """
 
 from pathlib import Path
@@ -8,7 +8,17 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from ehlcontact import Grid, MoesPoint, PrescribedLoad, SpeedHistory, TimeSteps, simulate, solve_steady
+from ehlcontact import (
+    Domain,
+    Grid,
+    MoesPoint,
+    OilLayer,
+    PrescribedLoad,
+    SpeedHistory,
+    TimeSteps,
+    simulate,
+    solve_steady,
+)
 
 IMAGES = Path(__file__).resolve().parents[1] / "images"
 POINT = MoesPoint(200.0, 10.0, 1.0)
@@ -58,5 +68,36 @@ def draw(run, speed):
     figure.savefig(IMAGES / "speed_history.png", dpi=130)
 
 
+def starved(ratio, speed, until):
+    """A circle to and fro under a layer; flooded for None."""
+    supply = None if ratio is None else OilLayer(over_flooded=ratio)
+    load = PrescribedLoad(np.linspace(0.0, until, 5), np.ones(5))
+    grid, steps = Grid(n=96, domain=Domain(-4.5, 4.5, 3.0)), TimeSteps(until=until, dt=0.05, tol=1e-5)
+    return simulate(MoesPoint(20.0, 10.0, 1.0), load, speed=speed, grid=grid, supply=supply, time=steps)
+
+
+def to_and_fro():
+    """A layer of oil, and surfaces that turn back twice: central film, and where the film is full."""
+    speed = SpeedHistory([0.0, 1.0, 3.0, 8.0, 10.0, 20.0], [1.0, 1.0, -1.0, -1.0, 1.0, 1.0])
+    figure = Figure(figsize=(10.5, 4.2), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    for ratio, label in ((None, "flooded"), (1.5, "r = 1.5"), (1.0, "r = 1")):
+        run = starved(ratio, speed, 20.0)
+        left.plot(run.T, run.h_central, label=label)
+        at = [int(np.argmin(np.abs(run.T - T))) for T in (0.0, 8.0, 12.5, 20.0)]
+        print(
+            label,
+            "central film at T = 0, 8, 12.5, 20:",
+            *(f"{run.h_central[k] / run.h_central[0]:.3f}" for k in at),
+        )
+    left.plot(run.T, [0.1 * speed(T) for T in run.T], ":", color="0.4", label="speed / 10")
+    left.set(xlabel="T, in 2a/u_sum", ylabel="central film, in dry approaches")
+    left.legend(loc="center right", fontsize="small")
+    right.pcolormesh(run.X, run.T, run.p_midplane > 0.0, cmap="Blues", vmax=2.0, rasterized=True)
+    right.set(xlabel="x/a", ylabel="T, in 2a/u_sum", title="film under pressure at y = 0, r = 1", xlim=(-3.0, 3.0))
+    figure.savefig(IMAGES / "speed_supply.png", dpi=130)
+
+
 if __name__ == "__main__":
     main()
+    to_and_fro()

@@ -69,7 +69,7 @@ def bordered_lu(
     number = np.empty(level.P.size, dtype=np.int64)
     dense_jacobian(rows, *derivatives, level.deflection.kernel, number, J)
     if feeding.size:
-        later = 1.0 / (1.0 + 0.5 * level.c_t * level.hx) ** (fed - feeding)  # of a step in time
+        later = 1.0 / (1.0 + 0.5 * level.c_t * (level.hx / level.speed)) ** (fed - feeding)  # of a step in time
         np.add.at(J, number[fed], later[:, None] * J[number[feeding]])
         kept = np.append(number[free], rows.size)
         J = J[np.ix_(kept, kept)]

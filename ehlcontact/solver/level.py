@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 
 FLANK_SQUEEZE = 0.5  # squeeze term over wedge term, above which a step needs few passes along the flanks
 STANDSTILL = 1e-9  # speed that is as good as none, and keeps sweeps from a division by zero
+STANDSTILL_FRONT = 1e-6  # the same where oil runs short: flows over it, at fronts, keep ten digits
 FORCE_FACTOR = 1.5 / np.pi  # eq. 4: force = 3/(2 pi) iint P
 LEAST_ACROSS = 4  # intervals along Y of the coarsest level
 SHARED_FROM = 20000  # nodes: on smaller levels threads wait longer for each other than they work
@@ -126,7 +127,7 @@ class Level:
 
     def set_speed(self, speed: float) -> None:
         """Let the surfaces move at `speed`, over that of the operating point; 0 is taken as `STANDSTILL`."""
-        self.speed = max(speed, STANDSTILL)
+        self.speed = max(speed, STANDSTILL_FRONT if self.inflow.size else STANDSTILL)
         self.stencil = self.stencil._replace(speed=self.speed, inv_hx=self.speed / self.hx)
 
     def set_supply(self, layer: Array | None) -> None:
@@ -204,7 +205,7 @@ class Level:
         missing = fine.full_flow()[:, 0]
         short = np.zeros_like(self.rhs)
         short[:-1, :-1] = (fine.full_flow() - fine.carried)[:-1:across, :-1:along]
-        self.rhs[:-1, 1:-1] += (short[:-1, 1:-1] - short[:-1, :-2]) / self.hx
+        self.rhs[:-1, 1:-1] += (short[:-1, 1:-1] - short[:-1, :-2]) / (self.hx / self.speed)
         full = self.full_flow()
         self.set_supply(full[:, 0] - (missing - fine.inflow)[::across])
         if self.c_t > 0.0:
@@ -232,7 +233,7 @@ class Level:
         slopes = np.empty((4, before.size))
         supply.linearise_pressed_back(before, f.P, f.flow, self.stencil, slopes)
         full = self.full_flow().ravel()
-        back = self.hx * slopes[3]
+        back = self.hx / self.speed * slopes[3]
         given = self.carried.ravel()[before] - back
         room, own = full[before] - given, f.flow.mass.ravel()[before + 1]
         stored = (own - 0.5 * (given + full[before + 1])) / room

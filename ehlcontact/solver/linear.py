@@ -117,7 +117,7 @@ class LinearFilm:
 
         `feeding` and `fed` as of `Level.feeds`. The stored oil is that of `kernels.supply`.
         """
-        fronts, size, half = level.fronts(), self.free.size, 0.5 * self.c_t * level.hx
+        fronts, size, half = level.fronts(), self.free.size, 0.5 * self.c_t * (level.hx / level.speed)
         arrives = np.ones(size, dtype=np.result_type(half, float))  # share of a given flow that is not stored
         arrives[fronts.nodes] -= half * (1.0 - fronts.passed + 2.0 * fronts.stored * fronts.passed)
         if feeding.size:

@@ -76,8 +76,8 @@ def simulate(
         engine of the elastic deflection.
     supply : OilLayer, optional
         Oil that the surfaces carry to the contact, the same at all times, as in `solve_steady`. What leaves is
-        ``result.layer_behind``. By default the inlet is flooded up to the border of the region. Not together with
-        `speed` or `surface`.
+        ``result.layer_behind``. By default the inlet is flooded up to the border of the region. Where the surfaces
+        turn back, they bring back what has left. Not together with `surface`.
     thermal : Heat, optional
         Let the film heat up: oil and surfaces store heat, and its viscosity follows in every step (docs/heat.md).
         By default the film has the temperature of the inlet. Not together with `supply`, `speed`, `surface`, and
@@ -87,7 +87,7 @@ def simulate(
     speed : SpeedHistory, optional
         Speed of the surfaces over time, constant by default. The film begins steady at its first speed; all scales
         stay those of `point`. Where surfaces roll back, the region is as long behind the contact as ahead of it,
-        and what is ahead then counts as flooded.
+        and what is ahead then counts as flooded, but with a `supply`.
     surface : callable, optional
         Feature G(X, Y, T) added to the gap, even in Y: `Dent`, `TransverseRidge`, `Waviness`, `Roughness`, or a
         function of one's own. At rest for T <= 0. One made for another `kappa` gives a warning.
@@ -123,9 +123,8 @@ def simulate(
     mesh = next(wider)
     meshes = chain([mesh], wider)
     require_supply(supply, moes, scales_of(point))
-    for name, value in (("surface", surface), ("speed", speed)):
-        if supply is not None and value is not None:
-            raise InputError(name, type(value).__name__, "left out with a supply")
+    if supply is not None and surface is not None:
+        raise InputError("surface", type(surface).__name__, "left out with a supply")
     if thermal is not None:
         thermal = require_heat_over_time(thermal, point, supply=supply, surface=surface, speed=speed)
         if keep.checkpoint is not None or keep.restart is not None:

@@ -30,6 +30,7 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid, Supply
 from ehlcontact.status import Status
 from ehlcontact.supply import OilLayer
+from ehlcontact.transient.carried_oil import CarriedOil
 from ehlcontact.transient.features import SurfaceStep
 from ehlcontact.transient.heat_over_time import HeatOverTime, HeatState
 
@@ -59,6 +60,8 @@ class FilmState:
     past_u: tuple[float, ...]  # approach at the same times as the pressures of `past`
     turned: bool = False  # the surfaces roll back: fields are those seen from the other side
     heat: HeatState | None = None
+    speed: float = 1.0  # at the end of the step that led here
+    beyond: CarriedOil | None = None  # where oil runs short and the speed changes
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +115,8 @@ class TransientFilm:
         self._mass_before = self._mass.copy()
         self._dT = 0.0
         self.turned = False
+        self._speed = self._next_speed = 1.0
+        self._beyond: CarriedOil | None = None
 
     @classmethod
     def under(
@@ -179,6 +184,7 @@ class TransientFilm:
             self.level.P[...] = self.level.P[:, ::-1].copy()
             self.level.update_film(self.u)
             self.multigrid.newton.factors = None
+        self._next_speed = speed
         for level in self.multigrid.levels:
             level.set_speed(abs(speed))
 
@@ -205,6 +211,9 @@ class TransientFilm:
         self._mass = self.level.oil.copy()
         self._mass_before = self._mass
         self.forget_past()
+        self._speed = self._next_speed
+        if self.level.inflow.size:
+            self._beyond = CarriedOil.at_rest(self.level.inflow, self.level.leaving(), self.turned)
         return step
 
     def error_at_rest(self, balance: Balance) -> ErrorEstimate | None:
@@ -240,6 +249,10 @@ class TransientFilm:
         mg.set_time_coefficient((1.0 + 2.0 * ratio) / (1.0 + ratio) / dT)
         level.rhs[...] = _known(dT, ratio, self._mass, self._mass_before)
         level.film_shift = 0.0 if surface is None else surface.height
+        way = 0.0
+        if self._beyond is not None:
+            way = self._beyond.way + 0.5 * dT * (self._speed + self._next_speed)
+            level.set_supply(self._beyond.entering(way, self.turned))
         P_now, u_now = level.P.copy(), mg.u
         mg.u = u_guess
         if self._past and ratio <= LARGEST_EXTRAPOLATION:
@@ -268,7 +281,9 @@ class TransientFilm:
         self._past = ((dT, P_now), *self._past)[:PAST]
         self._past_u = (u_now, *self._past_u)[:PAST]
         self._mass_before, self._mass = self._mass, level.oil.copy()
-        self._dT = dT
+        self._dT, self._speed = dT, self._next_speed
+        if self._beyond is not None:
+            self._beyond = self._beyond.moved(way, self.turned, level.leaving())
         return step
 
     def _solve(self, balance: Balance, most: int, advance: Callable[[Balance], float] | None = None) -> Step:
@@ -300,6 +315,8 @@ class TransientFilm:
             past_u=self._past_u,
             turned=self.turned,
             heat=None if self.heat is None else self.heat.state,
+            speed=self._speed,
+            beyond=self._beyond,
         )
 
     def restore_state(self, state: FilmState) -> None:
@@ -308,6 +325,7 @@ class TransientFilm:
         self._past, self._past_u = state.past, state.past_u
         self._mass, self._mass_before = state.mass, state.mass_before
         self.multigrid.u, self._dT, self.turned = state.u, state.dT, state.turned
+        self._speed, self._beyond = state.speed, state.beyond
         self.level.film_shift = state.surface
         self.multigrid.newton.factors = state.factors
         if self.heat is not None and state.heat is not None:

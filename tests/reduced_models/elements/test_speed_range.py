@@ -5,6 +5,7 @@ from math import inf, nan, pi
 
 import numpy as np
 import pytest
+from programs import script
 from scipy.integrate import solve_ivp
 
 from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint, save
@@ -224,7 +225,7 @@ def test_bad_speeds_are_named(atlas, over):
 
 
 @pytest.mark.slow
-def test_against_the_full_film(script):
+def test_against_the_full_film():
     """The table of docs/elements.md at two of its points; momentary static films are off by 10 to 160 %."""
     page = script("docs/site/speed_elements.py")
     most = {
