@@ -1,8 +1,8 @@
 """A spall rolls through one full film whose bodies are held: its force beside those of reduced answers.
 
 The full film is `simulate` with the spall as a surface and the approach held. Beside it: the linear answer G of
-`excitation`, a film element at an approach that the filtered height is added to, as runs of bearings have it, and
-the same with the bare height. Some minutes on one core:
+`excitation`, a film element at an approach that the filtered height is added to, as runs of bearings have it, the
+same with what the film leaves of that height, and with the bare height. Some minutes on one core:
 
     python examples/studies/spall_passage.py [spall_passage.png] [--n 128]
 """
@@ -15,6 +15,7 @@ import numpy as np
 
 from ehlcontact import Grid, MoesPoint, PrescribedApproach, TimeSteps, excitation, simulate, solve_steady
 from reduced_models import Atlas
+from reduced_models.atlas.filter_table import film_over_dry
 from reduced_models.bearing.height_tables import filtered
 
 CASES = ((MoesPoint(200, 10, 0.5), 0.2), (MoesPoint(200, 10, 0.5), 0.5), (MoesPoint(30, 8, 0.5), 1.5))
@@ -40,6 +41,7 @@ class Passage:
     full: np.ndarray
     linear: np.ndarray
     filtered: np.ndarray
+    with_film: np.ndarray
     bare: np.ndarray
 
 
@@ -57,7 +59,7 @@ def passage(point: MoesPoint, depth: float, n: int) -> Passage:
     G = excitation(point, wavelength=np.append(1e3, wavelength), grid=grid).G
     element = Atlas().wide(point, np.geomspace(LIGHTEST / point.M, HEAVIEST, 24))
     X = START + run.T
-    return Passage(point, depth, X, run.force, linear(G, X, depth), *reduced(element, run.T, X, depth))
+    return Passage(point, depth, X, run.force, linear(G, X, depth), *reduced(point, element, run.T, X, depth))
 
 
 def linear(G: np.ndarray, X: np.ndarray, depth: float) -> np.ndarray:
@@ -69,14 +71,17 @@ def linear(G: np.ndarray, X: np.ndarray, depth: float) -> np.ndarray:
     return 1.0 + ((G * waves) * np.exp(1j * np.outer(X, k))).sum(axis=1).real
 
 
-def reduced(element, T: np.ndarray, X: np.ndarray, depth: float) -> tuple[np.ndarray, np.ndarray]:
-    """Force of the film element with the filtered height, and with the bare one."""
+def reduced(point: MoesPoint, element, T: np.ndarray, X: np.ndarray, depth: float) -> tuple[np.ndarray, ...]:
+    """Force of the film element with the filtered height, without and with its film, and with the bare one."""
     spacing = 0.005
     x = np.arange(-PERIOD / 2, PERIOD / 2, spacing)
     strip = filtered(height(x, depth), spacing, 0.5, 1.0)[:, -1]  # Hertz: a = 1 at the compression 1
+    k = 2.0 * pi * np.fft.rfftfreq(x.size, spacing)
+    # the spall is symmetric: over its place X the height is what it is over the place of the contact
+    carried = np.fft.irfft(np.fft.rfft(strip) * film_over_dry(point, k), x.size)
     still, forces = element.approach_at(1.0), []
-    for heights in (strip, height(x, depth)):
-        moved = np.interp(-X, x, heights)
+    for heights in (strip, carried, height(x, depth)):
+        moved = np.interp(X, x, heights)
         forces.append(element.drive(T, still + moved, np.gradient(moved, T)))
     return tuple(forces)
 
@@ -90,6 +95,7 @@ def draw(found: list[Passage], path: str) -> None:
         axes.plot(one.X, one.full, "k", lw=2.5, label="full film")
         axes.plot(one.X, one.linear, "C0", label="linear, G")
         axes.plot(one.X, one.filtered, "C1", label="element, filtered height (runs)")
+        axes.plot(one.X, one.with_film, "C2", label="element, height filtered with the film")
         axes.plot(one.X, one.bare, "C3:", label="element, bare height")
         for side in (-1.0, 1.0):
             axes.axvline(side * LENGTH / 2, color="#bbbbbb", lw=0.8, zorder=0)
@@ -113,7 +119,7 @@ def main() -> None:
     for one in found:
         change = np.abs(one.full - 1.0).max()
         print(f"{one.point.M:5g}  {one.depth:5g}  {one.full.min():16.3f}  |", end="")
-        for name in ("linear", "filtered", "bare"):
+        for name in ("linear", "filtered", "with_film", "bare"):
             off = (getattr(one, name) - one.full) / change
             print(f"  {name} {100 * np.sqrt(np.mean(off**2)):.1f} {100 * np.abs(off).max():.1f}", end="")
         print(

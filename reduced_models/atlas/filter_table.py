@@ -37,6 +37,7 @@ SHIPPED = Path(__file__).with_name("filters.h5")
 WEIGHTS = (0.4, 0.16, 0.33, 1.2)  # of ln M, L^(2/3) and ln kappa, as of the atlas, and of the width of the inlet
 THICK = 0.1  # film, in dry approaches, beyond which deviations from the dry filter grow no more
 NEAREST, COVERED = 10, 0.98  # points whose errors make the error bar; share of points left out that it covers
+LAST_SURE = 2.0  # wave number per semi-axis up to which the ratio of film and dry filter is taken
 SHORTER = 0.03  # |G/Z| that waves shorter than the table's stay below: error bar of the 0 given for them
 
 
@@ -235,3 +236,34 @@ def contact_filter(point: Point, *, wavelength: ArrayLike) -> FilterAnswer:
     row = np.array([[moes.M, moes.L, moes.kappa]])
     ratio, error = surface.contacts(np.repeat(row, found.size, axis=0)).at(2.0 * np.pi / found)
     return FilterAnswer(moes, found, ratio.real.copy(), ratio.imag.copy(), error)
+
+
+def film_over_dry(point: Point, k: ArrayLike) -> _Complex:
+    """What the film of a contact leaves of heights that a dry contact has filtered, at wave numbers k >= 0.
+
+    The filter of the film over that of the dry contact up to k = 2 per semi-axis. There and beyond, where the dry
+    one has its zeros, it goes on as the transform of a Gaussian, with the delay that it has there. Applied to the
+    heights of `reduced_models.bearing.height_tables` it makes them those of a contact with its film.
+
+    Parameters
+    ----------
+    point : MoesPoint or OperatingPoint
+    k : float or sequence of float
+        Per semi-axis a.
+
+    Raises
+    ------
+    InputError
+        A point outside the box of the table; wave numbers below 0.
+    """
+    given = np.atleast_1d(as_numbers("k", k))
+    if not (np.isfinite(given) & (given >= 0.0)).all():
+        raise InputError("k", np.asarray(k).tolist(), "finite and >= 0")
+    moes, surface = moes_point(point), shipped_filters()
+    surface.table.box.require_inside(moes)
+    known = np.append(np.minimum(given, LAST_SURE), LAST_SURE)
+    film = surface.contacts(np.tile([moes.M, moes.L, moes.kappa], (known.size, 1))).at(known)[0]
+    *found, last = film / dry_filter(known)
+    reach = given / LAST_SURE
+    beyond = np.abs(last) ** (reach * reach) * np.exp(1j * np.angle(last) * reach)
+    return np.where(given <= LAST_SURE, np.array(found), beyond)

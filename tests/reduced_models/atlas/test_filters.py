@@ -18,7 +18,7 @@ from ehlcontact.content_store import ContentStore, key_of
 from reduced_models import contact_filter
 from reduced_models.atlas.filter_build import DRAWS, SEED
 from reduced_models.atlas.filter_points import FILTERED, WAVE_NUMBERS, filter_points, solve_filter
-from reduced_models.atlas.filter_table import FilterTable, dry_filter, shipped_filters
+from reduced_models.atlas.filter_table import FilterTable, dry_filter, film_over_dry, shipped_filters
 
 HELD_OUT = Path(__file__).with_name("held_out_filters.json")
 SOLVED = 96  # draws, of which the table has the first
@@ -122,6 +122,18 @@ def test_fewer_draws_are_among_more():
 def test_bad_input_is_one_line(arguments, message):
     with pytest.raises(InputError, match=message):
         contact_filter(MoesPoint(*arguments[0]), wavelength=arguments[1])
+
+
+def test_film_over_dry_filter():
+    """Their ratio up to k = 2; smooth there, and a Gaussian beyond, where the dry filter has zeros."""
+    point, k = MoesPoint(200.0, 10.0, 0.5), np.array([0.5, 1.0, 2.0])
+    film = contact_filter(point, wavelength=2.0 * np.pi / k).ratio
+    np.testing.assert_allclose(film_over_dry(point, k), film / dry_filter(k), rtol=1e-12)
+    still, before, after, far = film_over_dry(point, [0.0, 2.0, 2.0 + 1e-9, 2.0 * np.sqrt(2.0)])
+    assert still == pytest.approx(1.0) and after == pytest.approx(before, abs=1e-8)
+    assert abs(far) == pytest.approx(abs(before) ** 2)
+    with pytest.raises(InputError, match=r"k = .*finite and >= 0"):
+        film_over_dry(point, [-1.0])
 
 
 @pytest.mark.slow
