@@ -28,7 +28,7 @@ REFERENCE = 0.05  # Omega of the low-frequency damping
 # meshes, of K and of all else but C, and of C; of data other than those of the table, per unit of their logarithm.
 CURVE = 0.01
 MESH, MESH_DAMPING = 0.03, 0.15
-OTHER_DATA = {"heat_capacity": 0.25, "expansion": 0.3, "effusivity": 0.25}
+OTHER_DATA = {"heat_capacity": 0.55, "expansion": 0.3, "effusivity": 0.25}
 BEYOND = 1.05  # factor by which Q and kappa may pass the ends of the sample
 # Data that the contacts of the table have in common may be as far from those.
 COMMON = {"heat_capacity": (1.4e6, 2.1e6), "expansion": (5e-4, 8e-4), "effusivity": (1.0e4, 1.6e4)}
