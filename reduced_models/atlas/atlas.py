@@ -263,8 +263,10 @@ class Atlas:
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         for numbers in (named, error):
             numbers |= {name: float(numbers[name]) for name in NUMBERS}
+        others = [one for one in given if not isinstance(one, SupplyCondition)]
+        found, _ = changed(others, load, flooded, np.zeros_like(flooded), self._table.omega)  # by a supply
         for condition in given:
-            named |= condition.noted(float(flooded[0, 1]), named["h_central"])
+            named |= condition.noted(float(found[0, 1]), named["h_central"])
         return AtlasAnswer(moes, Omega=Omega, **named, error_bars=error, scales=scales_of(point))
 
     def _under(

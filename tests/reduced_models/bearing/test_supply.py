@@ -163,3 +163,20 @@ def test_modes_and_runs_in_time_have_less_damping():
         reach.append(np.ptp(run.ring[-100:, 0, 0]))
     assert 0.0 < decrement[1] < 0.5 * decrement[0]
     assert reach[1] > reach[0]
+
+
+def test_heat_and_supply_together_are_a_product():
+    """The layer is over the film that heat leaves: the same in m is more of it."""
+    heated = bearing(thermal=True).race("inner").answer(400.0, 10000.0)
+    flooded = bearing().race("inner").answer(400.0, 10000.0)
+    for supply in (OilLayer(over_flooded=0.8), OilLayer(0.4e-6)):
+        both = bearing(supply, thermal=True).race("inner").answer(400.0, 10000.0)
+        cold = bearing(supply).race("inner").answer(400.0, 10000.0)
+        less = heated.h_central / flooded.h_central
+        assert less < 0.97
+        if supply.h is None:
+            assert both.h_central == pytest.approx(cold.h_central * less, rel=1e-9)
+            assert both.over_flooded == cold.over_flooded == 0.8
+        else:
+            assert both.over_flooded == pytest.approx(cold.over_flooded / less, rel=1e-9)
+            assert cold.h_central > both.h_central > cold.h_central * less
