@@ -31,7 +31,7 @@ class Condition(Protocol):
         """Change of flooded isothermal `values`, shape (n, 5 + 2 k) with K and C at `Omega`, under `loads`."""
 
     def noted(self, flooded: float, film: float) -> dict[str, Any]:
-        """Fields of an `AtlasAnswer` that tell of it; central film that a supply finds, and with all conditions."""
+        """Fields of an `AtlasAnswer` that tell of it; central film that a supply finds, and that of all."""
 
     def to_dict(self) -> dict[str, Any]:
         """Its inputs, ready for JSON."""
