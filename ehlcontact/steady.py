@@ -246,14 +246,16 @@ class _Film:
         if self.follows:
             self.track = IterationHistory()
             status = self._solve(balance, tol, most, watch, heat)
-        heat.solve()
+        with np.errstate(over="ignore", invalid="ignore"):  # of a film that ran away: its status says so
+            heat.solve()
+            balanced = heat.balance()
         self.temperature = FilmTemperature(
             inputs=self.thermal,
             mean=heat.mean.T.copy(),
             surfaces=heat.walls.transpose(0, 2, 1).copy(),
             film_share=mg.finest.central_film() / cold,
             thermal_load=self.thermal.load(point, self.scales),
-            balance=heat.balance(),
+            balance=balanced,
         )
         return status
 
