@@ -74,6 +74,7 @@ class Run:
         film, motion = self.film, self.motion
         if self.speed is not None:
             film.set_speed(self.speed(0.0))
+            film.keeps_oil = self.speed.reverses
         G = surface_height(self.surface, film.level.X, film.level.Y, 0.0)
         balance = Balance.of_load()
         step = film.start_steady(balance, surface=G)

@@ -61,7 +61,7 @@ class FilmState:
     turned: bool = False  # the surfaces roll back: fields are those seen from the other side
     heat: HeatState | None = None
     speed: float = 1.0  # at the end of the step that led here
-    beyond: CarriedOil | None = None  # where oil runs short and the speed changes
+    beyond: CarriedOil | None = None  # where oil runs short and surfaces turn back
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +115,7 @@ class TransientFilm:
         self._mass_before = self._mass.copy()
         self._dT = 0.0
         self.turned = False
+        self.keeps_oil = False  # beyond both ends, for surfaces that turn back; set before `start_steady`
         self._speed = self._next_speed = 1.0
         self._beyond: CarriedOil | None = None
 
@@ -212,7 +213,7 @@ class TransientFilm:
         self._mass_before = self._mass
         self.forget_past()
         self._speed = self._next_speed
-        if self.level.inflow.size:
+        if self.level.inflow.size and self.keeps_oil:
             self._beyond = CarriedOil.at_rest(self.level.inflow, self.level.leaving(), self.turned)
         return step
 

@@ -44,6 +44,7 @@ def march(U, domain, n=64, dT=0.05, layer=LAYER):
     """
     film = TransientFilm(CIRCLE, Mesh(n, domain, 1.0), 1e-8, supply=lambda Y: np.full(Y.shape, layer))
     film.set_speed(U[0])
+    film.keeps_oil = bool(min(U) < 0.0)
     assert film.start_steady(Balance.of_load()).status.ok
     level = film.level
     lines = np.r_[0.5, np.ones(level.ny - 1), 0.0]
