@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from functools import cache
 from types import SimpleNamespace
 
 import numpy as np
@@ -39,8 +40,16 @@ def bearing(rpm=10_000.0, oil=OIL):
 
 
 POINT = bearing()
-COLD = solve_steady(POINT, grid=SMALL)
-WARM = solve_steady(POINT, grid=SMALL, thermal=Heat())
+
+
+@cache
+def cold():
+    return solve_steady(POINT, grid=SMALL)
+
+
+@cache
+def warm():
+    return solve_steady(POINT, grid=SMALL, thermal=Heat())
 
 
 class Inlet:
@@ -158,20 +167,20 @@ def test_temperatures_are_those_of_a_resolved_inlet(slide, convection):
 def test_without_a_slope_the_film_is_the_isothermal_one():
     """Bit for bit; it is warm all the same."""
     still = solve_steady(POINT, grid=SMALL, thermal=Heat(temperature_slope=0.0))
-    np.testing.assert_array_equal(still.P, COLD.P)
-    np.testing.assert_array_equal(still.H, COLD.H)
-    assert (still.approach, still.temperature.film_share) == (COLD.approach, 1.0)
-    assert still.temperature.largest > WARM.temperature.largest > 10.0
+    np.testing.assert_array_equal(still.P, cold().P)
+    np.testing.assert_array_equal(still.H, cold().H)
+    assert (still.approach, still.temperature.film_share) == (cold().approach, 1.0)
+    assert still.temperature.largest > warm().temperature.largest > 10.0
 
 
 def test_film_with_heat():
     """Both residuals, and the film left: published formulas have .70 to .78 here."""
-    assert WARM.status.ok
-    assert abs(WARM.load_residual) < 1e-7
-    assert WARM.residual < COLD.residual + 1e-4
-    found = WARM.temperature
+    assert warm().status.ok
+    assert abs(warm().load_residual) < 1e-7
+    assert warm().residual < cold().residual + 1e-4
+    found = warm().temperature
     assert found.thermal_load == pytest.approx(OIL.temperature_slope * OIL.eta0 * (0.5 * POINT.u_sum) ** 2 / 0.134)
-    assert found.film_share == pytest.approx(WARM.h_central / COLD.h_central, abs=2e-4)
+    assert found.film_share == pytest.approx(warm().h_central / cold().h_central, abs=2e-4)
     assert 0.70 < solve_steady(POINT, grid=Grid(128), thermal=Heat()).temperature.film_share < 0.78
 
 
@@ -264,17 +273,17 @@ def test_results_do_not_depend_on_threads():
 
 
 def test_kept_and_said(tmp_path):
-    again = load(save(WARM, tmp_path / "film.h5"))
-    assert again.temperature.inputs == WARM.temperature.inputs
-    np.testing.assert_array_equal(again.temperature.surfaces, WARM.temperature.surfaces)
-    assert again.to_dict() == WARM.to_dict()
-    assert "heat makes the film" in repr(WARM)
-    assert "isothermal" not in WARM.outside_assumptions
-    assert "isothermal" in COLD.outside_assumptions
-    row = assumptions(POINT, film=WARM)["isothermal"]
+    again = load(save(warm(), tmp_path / "film.h5"))
+    assert again.temperature.inputs == warm().temperature.inputs
+    np.testing.assert_array_equal(again.temperature.surfaces, warm().temperature.surfaces)
+    assert again.to_dict() == warm().to_dict()
+    assert "heat makes the film" in repr(warm())
+    assert "isothermal" not in warm().outside_assumptions
+    assert "isothermal" in cold().outside_assumptions
+    row = assumptions(POINT, film=warm())["isothermal"]
     assert row.verdict.startswith("not assumed: solved with heat, film 25 %")
     assert row.details["gupta"] == pytest.approx(assumptions(POINT)["isothermal"].value, rel=1e-9)
-    WARM.plot(tmp_path / "film.png")
+    warm().plot(tmp_path / "film.png")
 
 
 @pytest.mark.parametrize(

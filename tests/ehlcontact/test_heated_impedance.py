@@ -1,5 +1,6 @@
 """Stiffness and damping of a film with heat: against steady films, a slow ramp, and temperatures at rest."""
 
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -30,13 +31,18 @@ POINT = OperatingPoint.ball_bearing(
 )
 GRID = Grid(48)
 PAIR = Heat(0.3, effusivity=(13_000.0, 1_500.0))  # sliding on glass
-FILMS = {given: solve_steady(POINT, grid=GRID, thermal=given, tol=1e-8) for given in (Heat(), PAIR)}
+HEATS = Heat(), PAIR
 STEP = 1e-3  # of the approach, for differences of steady films
+
+
+@cache
+def film_of(given):
+    return solve_steady(POINT, grid=GRID, thermal=given, tol=1e-8)
 
 
 def response(given, omega, follows=True):
     """K and C of the film with heat, its temperatures following or standing still."""
-    film = FILMS[given]
+    film = HEATS[given]
     solved = held(film)
     Z = LinearisedContact(solved, heat_of(film, solved) if follows else None).respond(np.array([omega]), 1e-6)[0][
         0
@@ -48,7 +54,7 @@ class Neighbours:
     """Differences between steady films on both sides of an approach, over that of the approach."""
 
     def __init__(self, given):
-        film = FILMS[given]
+        film = HEATS[given]
         heats = []
         for side in (1.0, -1.0):
             near = solve_steady(POINT, grid=GRID, thermal=given, approach=film.approach + side * STEP, tol=1e-9)
@@ -95,7 +101,7 @@ class Ramp(FilmHeat):
 
 def force_on_a_ramp(given, near, rate):
     """Force at the approach of the film while the approach grows at a rate."""
-    film = FILMS[given]
+    film = HEATS[given]
     solved = held(film)
     steady, balance = heat_of(film, solved), Balance.of_approach(film.approach)
     heat = Ramp(solved.finest, steady.numbers)
@@ -108,7 +114,7 @@ def force_on_a_ramp(given, near, rate):
     return solved.finest.force()
 
 
-@pytest.mark.parametrize("given", FILMS)
+@pytest.mark.parametrize("given", HEATS)
 def test_slow_vibrations_against_steady_films_and_a_ramp(given):
     """Stiffness of neighbouring steady films; damping from films that pass through them slowly."""
     near, rate = Neighbours(given), 2e-3
@@ -127,10 +133,10 @@ def test_temperatures_stand_still_in_fast_vibrations():
         np.testing.assert_allclose(one, other, rtol=apart)
 
 
-@pytest.mark.parametrize("given", FILMS)
+@pytest.mark.parametrize("given", HEATS)
 def test_temperatures_linearised_are_differences_of_temperatures(given):
     """At rest, for any change of pressure, film and viscosity."""
-    film, step = FILMS[given], 1e-5
+    film, step = HEATS[given], 1e-5
     solved = held(film)
     heat = heat_of(film, solved)
     level = heat.level

@@ -1,6 +1,7 @@
 """Films that sliding thins: viscosities against the flow resolved across the film, limits, and what is refused."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -29,8 +30,16 @@ from ehlcontact.solver.level import Level
 OIL = Lubricant.iso_vg(68, temperature=50.0)
 SMALL = Grid(64)
 DISC = OperatingPoint.ball_on_flat(OIL, ball_diameter=19.05e-3, entrainment_speed=1.0, load=30.0)
-NEWTONIAN = solve_steady(DISC, grid=SMALL)
-THIN = solve_steady(DISC, grid=SMALL, sliding=Sliding(1.5))
+
+
+@cache
+def newtonian_film():
+    return solve_steady(DISC, grid=SMALL)
+
+
+@cache
+def thin():
+    return solve_steady(DISC, grid=SMALL, sliding=Sliding(1.5))
 
 
 def rate(law, eta, stress):
@@ -97,14 +106,14 @@ def test_thinning_is_the_slope_and_the_ratio_of_the_law(law):
 
 def test_film_solves_reynolds_equation_with_these_viscosities():
     """Residual of the thinned film with and without them, on a level of its own."""
-    level = Level(THIN.point, THIN.domain, THIN.n, THIN.Y.size - 1)
-    level.P[...] = THIN.P.T
+    level = Level(thin().point, thin().domain, thin().n, thin().Y.size - 1)
+    level.P[...] = thin().P.T
     inside = level.P > 0.0
-    newtonian = np.abs(level.update(THIN.approach))[inside].mean()
+    newtonian = np.abs(level.update(thin().approach))[inside].mean()
     alone = type("Alone", (), {"finest": level, "set_aside": lambda self, ratio: set_aside(level, ratio)})()
-    thinning = FilmThinning(alone, THIN.sliding.law, THIN.sliding.log_newton(THIN.point.eta0, THIN.scales))
+    thinning = FilmThinning(alone, thin().sliding.law, thin().sliding.log_newton(thin().point.eta0, thin().scales))
     level.fields.flow.heat[...] = thinning.solve()
-    assert np.abs(level.update(THIN.approach))[inside].mean() < 1e-3 * newtonian
+    assert np.abs(level.update(thin().approach))[inside].mean() < 1e-3 * newtonian
 
 
 def set_aside(level, ratio):
@@ -118,26 +127,26 @@ def test_film_falls_with_sliding():
     assert shares[0] == pytest.approx(1.0, abs=2e-5)
     assert shares[1] == pytest.approx(1.0, abs=1e-3)
     assert 0.985 < shares[2] < 0.998
-    assert 0.94 < THIN.thinned_share < 0.985
-    assert THIN.thinned_share == pytest.approx(THIN.h_central / NEWTONIAN.h_central, rel=1e-4)
+    assert 0.94 < thin().thinned_share < 0.985
+    assert thin().thinned_share == pytest.approx(thin().h_central / newtonian_film().h_central, rel=1e-4)
     newton = solve_steady(DISC, grid=SMALL, sliding=Sliding(0.5, Carreau(exponent=1.0)))
     assert newton.thinned_share == pytest.approx(1.0, abs=2e-5)
 
 
 def test_result(tmp_path):
     """Stored and shown; its traction is that of its own sliding."""
-    again = load(save(THIN, tmp_path / "thin.h5"))
-    assert again.sliding == THIN.sliding
-    assert again.thinned_share == THIN.thinned_share
-    assert "% of the Newtonian one" in repr(THIN)
-    assert THIN.to_dict()["sliding"] == {"slide_roll": 1.5, "law": {"law": "Eyring", "stress": 5e6}}
-    assert "sliding" not in NEWTONIAN.to_dict()
-    found = THIN.traction(1.5, Eyring()).coefficient
-    assert found == pytest.approx(NEWTONIAN.traction(1.5, Eyring()).coefficient, rel=0.01)
+    again = load(save(thin(), tmp_path / "thin.h5"))
+    assert again.sliding == thin().sliding
+    assert again.thinned_share == thin().thinned_share
+    assert "% of the Newtonian one" in repr(thin())
+    assert thin().to_dict()["sliding"] == {"slide_roll": 1.5, "law": {"law": "Eyring", "stress": 5e6}}
+    assert "sliding" not in newtonian_film().to_dict()
+    found = thin().traction(1.5, Eyring()).coefficient
+    assert found == pytest.approx(newtonian_film().traction(1.5, Eyring()).coefficient, rel=0.01)
     with pytest.raises(InputError, match=r"slide_roll and law = 0\.1: must be 1\.5 and Eyring"):
-        THIN.traction(0.1, Eyring())
+        thin().traction(0.1, Eyring())
     with pytest.raises(InputError, match="slide_roll and law"):
-        THIN.traction(1.5, Eyring(4e6))
+        thin().traction(1.5, Eyring(4e6))
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Traction of films: laws and sums against slow twins, their limits, one curve of Eyring's points, bad input."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -29,8 +30,12 @@ SMALL = Grid(64)
 POINT = OperatingPoint.ball_bearing(
     OIL, ball_diameter=7.938e-3, pitch_diameter=39.1e-3, conformity=0.52, speed_rpm=3000.0, load=50.0
 )
-FILM = solve_steady(POINT, grid=SMALL)
 LAWS = (Eyring(), Carreau(2e6, 0.4), LimitingShear(0.05, 1e6))
+
+
+@cache
+def isothermal_film():
+    return solve_steady(POINT, grid=SMALL)
 
 
 def twin_stress(law, newton, p):
@@ -80,20 +85,20 @@ def test_laws_against_their_twins(law):
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
 def test_force_against_its_twin(law):
     """Sum over the film, its power and its mean stress."""
-    found = FILM.traction([1e-4, 0.05, 2.0], law)
-    expected = [twin_force(FILM, ratio, law) for ratio in found.slide_roll]
+    found = isothermal_film().traction([1e-4, 0.05, 2.0], law)
+    expected = [twin_force(isothermal_film(), ratio, law) for ratio in found.slide_roll]
     assert found.force == pytest.approx(expected, rel=1e-9)
     assert found.coefficient == pytest.approx(found.force / 50.0, rel=1e-6)
     assert found.power == pytest.approx(found.force * found.slide_roll * 0.5 * POINT.u_sum)
-    s = FILM.scales
+    s = isothermal_film().scales
     assert found.mean_stress == pytest.approx(found.force / (math.pi * s.a * s.b))
-    assert found.stress[FILM.P == 0.0].max() == 0.0
+    assert found.stress[isothermal_film().P == 0.0].max() == 0.0
 
 
 def test_limits():
     """No sliding, no traction; a limiting stress is approached from below, and reached under all of the load."""
     law = LimitingShear(0.05)
-    curve = FILM.traction([0.0, *np.geomspace(1e-6, 2.0, 20)], law)
+    curve = isothermal_film().traction([0.0, *np.geomspace(1e-6, 2.0, 20)], law)
     assert curve.force[0] == curve.power[0] == 0.0
     assert (np.diff(curve.coefficient) > 0.0).all()
     assert curve.limit == pytest.approx(0.05, rel=1e-3)  # of the pressure's sum, which is the load
@@ -105,13 +110,13 @@ def test_limits():
         grid=SMALL,
     ).traction(2.0, law)
     assert heavy.coefficient[0] > 0.97 * heavy.limit
-    assert FILM.traction(0.1, Eyring()).limit == math.inf
+    assert isothermal_film().traction(0.1, Eyring()).limit == math.inf
 
 
-def test_heated_film():
+def test_heated_isothermal_film():
     """Viscosity follows the temperatures; at much sliding heat takes traction. One film for each ratio."""
     curve = traction_curve(POINT, [0.001, 0.3], Eyring(), thermal=Heat(), grid=SMALL)
-    cold = FILM.traction(curve.slide_roll, Eyring())
+    cold = isothermal_film().traction(curve.slide_roll, Eyring())
     share = curve.coefficient / cold.coefficient
     assert 0.9 < share[0] < 1.0
     assert share[1] < 0.9
@@ -151,13 +156,13 @@ def test_one_curve():
 
 def test_result(tmp_path):
     """It is stored, drawn, and listed."""
-    found = FILM.traction([0.01, 0.1], LimitingShear(0.04))
+    found = isothermal_film().traction([0.01, 0.1], LimitingShear(0.04))
     again = load(save(found, tmp_path / "traction.h5"))
     assert again.law == found.law
     assert (again.force == found.force).all()
     assert (again.stress == found.stress).all()
     assert found.to_dict()["law"] == {"law": "LimitingShear", "coefficient": 0.04, "base": 0.0}
-    assert FILM.traction(0.1, Eyring()).to_dict()["limit"] is None
+    assert isothermal_film().traction(0.1, Eyring()).to_dict()["limit"] is None
     found.plot(tmp_path / "traction.png")
     assert "at most 0.04" in repr(found)
 
@@ -165,11 +170,17 @@ def test_result(tmp_path):
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: FILM.traction(-0.1, Eyring()), "slide_roll = -0.1: must be between 0 and 2"),
-        (lambda: FILM.traction([0.1, 5.0], Eyring()), "slide_roll = 5.0: must be between 0 and 2.*per cent"),
-        (lambda: FILM.traction(math.nan, Eyring()), r"slide_roll\[0\] = nan: must be a finite number"),
-        (lambda: FILM.traction([], Eyring()), "length of slide_roll = 0"),
-        (lambda: FILM.traction(0.1, 5e6), "law = 'float': must be a traction law"),
+        (lambda: isothermal_film().traction(-0.1, Eyring()), "slide_roll = -0.1: must be between 0 and 2"),
+        (
+            lambda: isothermal_film().traction([0.1, 5.0], Eyring()),
+            "slide_roll = 5.0: must be between 0 and 2.*per cent",
+        ),
+        (
+            lambda: isothermal_film().traction(math.nan, Eyring()),
+            r"slide_roll\[0\] = nan: must be a finite number",
+        ),
+        (lambda: isothermal_film().traction([], Eyring()), "length of slide_roll = 0"),
+        (lambda: isothermal_film().traction(0.1, 5e6), "law = 'float': must be a traction law"),
         (lambda: Eyring(5.0), r"stress = 5.0: .*in MPa\? then 5e\+06 Pa"),
         (lambda: Eyring(0.0), "stress = 0.0: must be between"),
         (lambda: Eyring(math.inf), "stress = inf: must be between"),

@@ -1,5 +1,6 @@
 """Balance of the oil of a bearing: the closed form of thin layers, three layers in its place, feed and return."""
 
+from functools import cache
 from math import pi
 
 import numpy as np
@@ -22,17 +23,19 @@ def balance(**given):
     return OilBalance(bearing=BEARING, load=(0.0, -1000.0), speed_rpm=RPM, **given)
 
 
-CUT_OFF = balance()
+@cache
+def cut_off():
+    return balance()
 
 
 def test_thin_layers_follow_the_closed_form():
     """``m^-2`` grows by the side flows of all contacts, over the time that the tracks take to pass them."""
-    start = 0.01 * CUT_OFF.full_layer
-    found = CUT_OFF.history(OilLayer(start), OVER_TIME).layer
+    start = 0.01 * cut_off().full_layer
+    found = cut_off().history(OilLayer(start), OVER_TIME).layer
     speed_sum = BEARING.race("inner").speed_sum * RPM * pi / 30.0
     length = pi * (2.0 * 33.5e-3 + 8 * 7.938e-3)
     together = 0.0
-    for (_, column), force in np.ndenumerate(CUT_OFF.state.force):
+    for (_, column), force in np.ndenumerate(cut_off().state.force):
         race = BEARING.race(("inner", "outer")[column])
         if force >= race.loads(RPM)[0]:
             together += side_flow(race.point(float(force), RPM))
@@ -46,11 +49,11 @@ def three_layers(start):
     D, dm, Z = BEARING.ball_diameter, BEARING.pitch_diameter, BEARING.balls
     u = 0.5 * BEARING.race("inner").speed_sum * RPM * pi / 30.0
     contacts = ([], [])
-    for (k, column), force in np.ndenumerate(CUT_OFF.state.force):
+    for (k, column), force in np.ndenumerate(cut_off().state.force):
         race = BEARING.race(("inner", "outer")[column])
         if force >= race.loads(RPM)[0]:
             moes = race.point(float(force), RPM).moes
-            full = float(density(1.0, moes.law)[0]) * CUT_OFF.state.h_central[k, column]
+            full = float(density(1.0, moes.law)[0]) * cut_off().state.h_central[k, column]
             contacts[column].append(
                 (full, 2.9 * moes.kappa**-0.63, side_flow(race.point(float(force), RPM)) * full**2)
             )
@@ -72,8 +75,8 @@ def three_layers(start):
 
 def test_one_layer_stands_for_those_of_races_and_balls():
     """What balls carry from race to race keeps the layers alike: within 3.5 % while the oil runs out."""
-    start = 2.0 * CUT_OFF.full_layer
-    found = CUT_OFF.history(OilLayer(over_flooded=2.0), OVER_TIME).layer
+    start = 2.0 * cut_off().full_layer
+    found = cut_off().history(OilLayer(over_flooded=2.0), OVER_TIME).layer
     for layer in three_layers(start):
         np.testing.assert_allclose(found, layer, rtol=0.035)
         np.testing.assert_allclose(found[-5:], layer[-5:], rtol=0.002)
@@ -93,20 +96,20 @@ def test_share_lost_in_a_pass_is_that_of_films():
 
 
 def test_feed_keeps_the_layer_that_it_is_for():
-    wanted = 0.5 * CUT_OFF.full_layer
-    fed = balance(feed=CUT_OFF.feed_for(wanted))
+    wanted = 0.5 * cut_off().full_layer
+    fed = balance(feed=cut_off().feed_for(wanted))
     assert fed.lasting_layer == pytest.approx(wanted, rel=1e-6)
     for start in (0.1, 2.0):
         assert fed.history(OilLayer(over_flooded=start), OVER_TIME).layer[-1] == pytest.approx(wanted, rel=1e-5)
-    assert CUT_OFF.lasting_layer == 0.0
+    assert cut_off().lasting_layer == 0.0
 
 
 def test_oil_that_returns_is_not_lost():
     history = balance(returned=1.0, return_time=10.0).history(OilLayer(over_flooded=1.0), OVER_TIME)
     np.testing.assert_allclose(history.layer + history.aside, history.layer[0], rtol=1e-6)
     halved = balance(returned=0.5, return_time=10.0)
-    assert halved.feed_for(2e-7) == pytest.approx(0.5 * CUT_OFF.feed_for(2e-7))
-    alone = CUT_OFF.history(OilLayer(over_flooded=1.0), OVER_TIME)
+    assert halved.feed_for(2e-7) == pytest.approx(0.5 * cut_off().feed_for(2e-7))
+    alone = cut_off().history(OilLayer(over_flooded=1.0), OVER_TIME)
     assert (history.h_central >= alone.h_central).all()
     assert history.share[-1, 0] > 5.0 * alone.share[-1, 0]
 
@@ -131,9 +134,9 @@ def test_worked_case_of_a_6204():
 
 
 def test_shown():
-    assert "no feed" in str(CUT_OFF)
+    assert "no feed" in str(cut_off())
     assert "50 % of the oil aside returns in 10 s" in str(balance(feed=1e-12, returned=0.5, return_time=10.0))
-    history = CUT_OFF.history(OilLayer(over_flooded=1.0), OVER_TIME)
+    history = cut_off().history(OilLayer(over_flooded=1.0), OVER_TIME)
     assert history.to_pandas().shape[0] == OVER_TIME.size
     assert "6204" in str(history)
 
@@ -160,8 +163,8 @@ def test_refused(given, field):
 def test_layers_refused():
     for layer in (OilLayer(H=0.1), OilLayer([1e-7, 2e-7], y=[0.0, 1.0]), 1e-7):
         with pytest.raises(InputError, match="layer"):
-            CUT_OFF.history(layer, OVER_TIME)
+            cut_off().history(layer, OVER_TIME)
     with pytest.raises(InputError, match="t"):
-        CUT_OFF.history(OilLayer(1e-7), [1.0, 0.5])
+        cut_off().history(OilLayer(1e-7), [1.0, 0.5])
     with pytest.raises(InputError, match="feed"):
         _ = balance(feed=1e-3).lasting_layer
