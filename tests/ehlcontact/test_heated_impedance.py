@@ -42,7 +42,7 @@ def film_of(given):
 
 def response(given, omega, follows=True):
     """K and C of the film with heat, its temperatures following or standing still."""
-    film = HEATS[given]
+    film = film_of(given)
     solved = held(film)
     Z = LinearisedContact(solved, heat_of(film, solved) if follows else None).respond(np.array([omega]), 1e-6)[0][
         0
@@ -54,7 +54,7 @@ class Neighbours:
     """Differences between steady films on both sides of an approach, over that of the approach."""
 
     def __init__(self, given):
-        film = HEATS[given]
+        film = film_of(given)
         heats = []
         for side in (1.0, -1.0):
             near = solve_steady(POINT, grid=GRID, thermal=given, approach=film.approach + side * STEP, tol=1e-9)
@@ -101,7 +101,7 @@ class Ramp(FilmHeat):
 
 def force_on_a_ramp(given, near, rate):
     """Force at the approach of the film while the approach grows at a rate."""
-    film = HEATS[given]
+    film = film_of(given)
     solved = held(film)
     steady, balance = heat_of(film, solved), Balance.of_approach(film.approach)
     heat = Ramp(solved.finest, steady.numbers)
@@ -136,7 +136,7 @@ def test_temperatures_stand_still_in_fast_vibrations():
 @pytest.mark.parametrize("given", HEATS)
 def test_temperatures_linearised_are_differences_of_temperatures(given):
     """At rest, for any change of pressure, film and viscosity."""
-    film, step = HEATS[given], 1e-5
+    film, step = film_of(given), 1e-5
     solved = held(film)
     heat = heat_of(film, solved)
     level = heat.level
