@@ -191,6 +191,8 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
 )
 def test_random_calls_under_sanitizers(compiled, fmi, name):
     calls = 2 * FEW if name in ROTORS else FEW // 4 if name in BEARINGS + SHAFTS else FEW
+    if name == "whole rotor":
+        calls //= 4  # a step of it is that of all its balls
     done = run([compiled(name, fmi, SANITIZED, FUZZ[fmi], random_calls_of(name)), calls, 1])
     assert done.returncode == 0, done.stderr
 
