@@ -49,7 +49,7 @@ def lowest_film(H: Array) -> tuple[float, float, float]:
     rows, columns = np.nonzero(_cells_near(H, NEAR * node))
     if not rows.size:
         return at_node
-    film = np.array(H, order="C")  # of any layout: compiled once
+    film, rows, columns = (np.array(one, order="C") for one in (H, rows, columns))  # of any layout: compiled once
     lowest, row, column = lowest_of_cells(film, rows, columns, np.empty((rows.size, 3)))
     return (lowest, row, column) if 0.0 < lowest < node else at_node
 

@@ -115,7 +115,7 @@ class StaticRing:
         ConvergenceError
             A ball finds no balance.
         """
-        press_ring(self.balls, self.angle, displacement, self.places, self.load, self.stiffness)
+        press_ring(self.balls, self.angle, np.array(displacement), self.places, self.load, self.stiffness)
         if not np.isfinite(self.load).all():
             ball = int(np.flatnonzero(~np.isfinite(self.places.force[:, 0]))[0])
             where = f"the ring at {displacement.tolist()} (m, rad)"

@@ -59,6 +59,8 @@ class BallMotion:
         self._normals = np.zeros((balls.number, 2))
         self._tried = np.zeros(2), np.zeros(2)
 
+    # Places and velocities are copied: for arrays that may only be read, kernels would be compiled a second time.
+
     def rest(self, omega: float, angle: float, q: _Floats) -> _Floats:
         """Put balls and films at rest with the ring at `q` [m]; force of the ring on the balls, shape (2,) [N].
 
@@ -70,7 +72,7 @@ class BallMotion:
         self.films.turned[0, ANGLE_RATE] = angle
         for _ in range(MOST_TIMES):
             force, _, _ = self.forces(q, np.zeros(2))
-            rest_balls(self.balls, self.films, self._normals, q)
+            rest_balls(self.balls, self.films, self._normals, np.array(q))
             before = self.films.heights[:, HEIGHT].copy()
             turn_planar(self.balls, angle, self.films, 0.0)
             if _settled(before, self.films.heights[:, HEIGHT]):
@@ -89,9 +91,9 @@ class BallMotion:
 
         Not a number where a ball finds no balance.
         """
-        self._tried = q, v
+        self._tried = np.array(q), np.array(v)
         out = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-        press_balls(self.balls, self.at_speed, self.films, self._normals, q, v, self.gain, out)
+        press_balls(self.balls, self.at_speed, self.films, self._normals, *self._tried, self.gain, out)
         return out
 
     def ring_approach(self, k: int) -> float:
@@ -127,7 +129,7 @@ class AngularMotion:
         """Put balls and films at rest with the ring at `q`, shape (5,); force of the ring, shape (5,)."""
         begin_angular_rest(self.balls, omega, angle, self.films)
         for _ in range(MOST_TIMES):
-            rest_angular(self.balls, self.films, q, (*self._out, np.zeros(len(FIVE))))
+            rest_angular(self.balls, self.films, np.array(q), (*self._out, np.zeros(len(FIVE))))
             before = self.films.heights[:, HEIGHT].copy()
             if self.balls.heights.shape[0] > 0:
                 find_heights(self.balls, self.films, angle, 0.0)
@@ -146,7 +148,7 @@ class AngularMotion:
 
         Not a number where a ball finds no balance.
         """
-        press_angular(self.balls, self.films, q, v, self.gain, self._out)
+        press_angular(self.balls, self.films, np.array(q), np.array(v), self.gain, self._out)
         force, stiffness, damping = self._out
         return force.copy(), stiffness.copy(), damping.copy()
 

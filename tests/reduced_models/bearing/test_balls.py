@@ -8,7 +8,7 @@ from beam_rotor import with_balls
 from bearing_twins import SlowBearing, SlowContact, SlowElement
 
 from reduced_models import BallBearing
-from reduced_models.bearing.balls import speed_state
+from reduced_models.bearing.balls import press_balls, rest_balls, speed_state
 from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.motion import BearingMotion
 
@@ -49,6 +49,16 @@ def test_in_motion_it_is_its_twin(film, shake, dt):
     fast.rest(POSITION)
     slow.rest(POSITION)
     assert_same_forces(fast, slow, q, v, dt)
+
+
+def test_a_place_that_may_only_be_read_compiles_nothing(film):
+    fast, held = motion(film, 1e-5), POSITION.copy()
+    held.flags.writeable = False
+    kinds = []
+    for place in (POSITION, held):
+        fast.rest(place)
+        kinds.append([len(kernel.signatures) for kernel in (press_balls, rest_balls)])
+    assert kinds[0] == kinds[1]
 
 
 def test_films_that_stop_carrying(oil, shake):
