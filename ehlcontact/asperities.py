@@ -11,9 +11,8 @@ from math import gamma, pi, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
-from scipy.special import pbdv
 
 from ehlcontact.checks import require_between, require_instance, require_positive
 from ehlcontact.checks.quantity import fields_take
@@ -119,7 +118,7 @@ class Asperities:
         last = np.nextafter(NO_CONTACT, 0.0)
         if wanted <= float(greenwood_tripp(last)):
             return NO_CONTACT * self.rq
-        return self.rq * float(brentq(lambda x: np.log(greenwood_tripp(x) / wanted), PRESSED, last))
+        return self.rq * float(scipy.optimize.brentq(lambda x: np.log(greenwood_tripp(x) / wanted), PRESSED, last))
 
     def load_share(self, h_central: ArrayLike, mean_pressure: ArrayLike, e_reduced: float) -> Any:
         """Share of the load by the central film [m] and the load over the Hertz ellipse [Pa], without a solve.
@@ -160,7 +159,7 @@ def greenwood_tripp(ratio: ArrayLike, power: float = 2.5) -> Array:
     Taken as 0 from x = 6 on, and at x = -8 below it.
     """
     x = np.clip(np.asarray(ratio, dtype=float), PRESSED, NO_CONTACT)
-    found = gamma(power + 1.0) / sqrt(2.0 * pi) * np.exp(-0.25 * x * x) * pbdv(-power - 1.0, x)[0]
+    found = gamma(power + 1.0) / sqrt(2.0 * pi) * np.exp(-0.25 * x * x) * scipy.special.pbdv(-power - 1.0, x)[0]
     return np.where(x < NO_CONTACT, found, 0.0)
 
 

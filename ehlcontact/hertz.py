@@ -10,8 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, log, pi
 
-from scipy.optimize import brentq
-from scipy.special import ellipe, ellipk
+import scipy
 
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.checks.quantity import takes
@@ -21,7 +20,7 @@ from ehlcontact.errors import InputError
 def elliptic_integrals(kappa: float) -> tuple[float, float]:
     """Complete elliptic integrals K and E of the parameter 1 - kappa**2."""
     m = 1.0 - kappa * kappa
-    return float(ellipk(m)), float(ellipe(m))
+    return float(scipy.special.ellipk(m)), float(scipy.special.ellipe(m))
 
 
 def shape_factor(kappa: float) -> float:
@@ -63,7 +62,7 @@ def ellipse_ratio(radius_x: float, radius_y: float) -> float:
     bound = 10.0
     if mismatch(-bound) * mismatch(bound) > 0.0:
         raise InputError("radius_x/radius_y", radius_x / radius_y, "such that 1e-3 < kappa < 1e3")
-    return float(2.0 ** brentq(mismatch, -bound, bound, xtol=1e-15, rtol=1e-14))
+    return float(2.0 ** scipy.optimize.brentq(mismatch, -bound, bound, xtol=1e-15, rtol=1e-14))
 
 
 @dataclass(frozen=True, slots=True)

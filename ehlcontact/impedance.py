@@ -21,8 +21,8 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import linalg
 
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.checks.machine import require_threads
@@ -263,7 +263,7 @@ class LinearisedContact:
         system = self._equations(omega)
         b: NDArray[Any] = -system(start)
         b[self._free.size] = 0.0
-        drop = tolerance * linalg.norm(self.j + 1j * omega * self.b) / linalg.norm(b)
+        drop = tolerance * scipy.linalg.norm(self.j + 1j * omega * self.b) / scipy.linalg.norm(b)
         return np.asarray(start + self.change(omega, system, b, drop))
 
     def system(self, omega: float) -> LinearFilm:
@@ -306,7 +306,7 @@ class LinearisedContact:
             space = np.array(basis).reshape(len(basis), self.nodes.size)
             # Every residual is a combination of these columns: their triangular factor stands for them.
             columns = np.array(products).T * self._row_scale[:, None]
-            R = linalg.qr(columns, mode="r", overwrite_a=True, check_finite=False)[0][: columns.shape[1]]
+            R = scipy.linalg.qr(columns, mode="r", overwrite_a=True, check_finite=False)[0][: columns.shape[1]]
             solutions = [_least_squares(R, w) for w in omega]
             error = np.array([e for _, _, e in solutions])
             error[list(done)] = 0.0
@@ -318,10 +318,10 @@ class LinearisedContact:
             w = float(omega[worst])
             dP = self.solve(w, solutions[worst][0] @ space, SOLVE_SHARE * tolerance * min(1.0, w))
             for part in (dP.real, dP.imag):
-                x = part / linalg.norm(part)
+                x = part / scipy.linalg.norm(part)
                 for _ in range(2):  # the second time for rounding
                     x = x - (space @ x) @ space
-                size = linalg.norm(x)
+                size = scipy.linalg.norm(x)
                 if size > SMALLEST_NEW_PART:
                     basis.append(x / size)
                     space = np.array(basis)
@@ -340,7 +340,7 @@ class LinearisedContact:
             b[self.nodes] = source(system, int(m))[self.nodes]
             x: NDArray[Any] = self.change(w, system, b, SOLVE_SHARE * TOLERANCE * min(1.0, w))
             force[m] = self.weights @ x[self.nodes]
-            residual[m] = linalg.norm(b - system(x)) / linalg.norm(b)
+            residual[m] = scipy.linalg.norm(b - system(x)) / scipy.linalg.norm(b)
         return force, residual
 
     def _respond_one_by_one(self, omega: Array, tolerance: float) -> tuple[Complex, Array]:
@@ -357,7 +357,7 @@ class LinearisedContact:
         """Relative residual of the equations of the nodes with the unknowns `x`, where du is 1."""
         system = self._equations(omega)
         alone = system(self._vector())[self.nodes]
-        return float(linalg.norm(system(x)[self.nodes]) / linalg.norm(alone))
+        return float(scipy.linalg.norm(system(x)[self.nodes]) / scipy.linalg.norm(alone))
 
 
 def _least_squares(R: Array, w: float) -> tuple[Complex, float, float]:
@@ -369,8 +369,8 @@ def _least_squares(R: Array, w: float) -> tuple[Complex, float, float]:
     matrix, rhs = R[:, 2::2] + 1j * w * R[:, 3::2], -(R[:, 0] + 1j * w * R[:, 1])
     y = np.zeros(0, dtype=complex)
     if matrix.shape[1]:
-        y = linalg.lstsq(matrix, rhs, check_finite=False, lapack_driver="gelsy")[0]
+        y = scipy.linalg.lstsq(matrix, rhs, check_finite=False, lapack_driver="gelsy")[0]
     r = rhs - matrix @ y
-    size = linalg.norm(rhs)
-    weighted = np.hypot(linalg.norm(r.real), linalg.norm(r.imag) / min(1.0, w))
-    return y, float(linalg.norm(r) / size), float(weighted / size)
+    size = scipy.linalg.norm(rhs)
+    weighted = np.hypot(scipy.linalg.norm(r.real), scipy.linalg.norm(r.imag) / min(1.0, w))
+    return y, float(scipy.linalg.norm(r) / size), float(weighted / size)

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline
 
 from ehlcontact import __version__
 from ehlcontact.assumptions import film, judge
@@ -119,7 +119,9 @@ def _atlas(table: AtlasTable) -> dict[str, Any]:
 
 def _spline_slopes(x: np.ndarray) -> np.ndarray:
     """Matrix from values to slopes at the nodes, shape (k, k): as `FrequencyCurve` of the atlas."""
-    return np.asarray(CubicSpline(x, np.eye(x.size), bc_type=((1, np.zeros(x.size)), "not-a-knot"))(x, 1))
+    return np.asarray(
+        scipy.interpolate.CubicSpline(x, np.eye(x.size), bc_type=((1, np.zeros(x.size)), "not-a-knot"))(x, 1)
+    )
 
 
 def _oils() -> dict[str, Any]:

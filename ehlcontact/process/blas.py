@@ -18,10 +18,8 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from scipy import linalg
+import scipy
 from threadpoolctl import ThreadpoolController
-
-WITH_BLAS = (np, linalg)  # each brings its own, which has to be loaded before it can be found
 
 
 @dataclass
@@ -70,6 +68,7 @@ def blas_threads() -> int | None:
 @cache
 def _controller() -> ThreadpoolController:
     """The BLAS libraries: to look for them takes milliseconds, to limit them ten microseconds."""
+    _ = np, scipy.linalg  # each brings its own, which has to be loaded before it can be found
     return ThreadpoolController().select(user_api="blas")
 
 

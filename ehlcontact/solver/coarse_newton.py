@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import linalg
 
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
@@ -77,8 +77,8 @@ def bordered_lu(
     J[m, :m] = balance.weight * level.force_weights.ravel()[free]
     J[m, m] = balance.stiffness
     with warnings.catch_warnings():  # a singular matrix gives infinities, which the driver reports
-        warnings.simplefilter("ignore", linalg.LinAlgWarning)
-        return linalg.lu_factor(J, overwrite_a=True, check_finite=False)
+        warnings.simplefilter("ignore", scipy.linalg.LinAlgWarning)
+        return scipy.linalg.lu_factor(J, overwrite_a=True, check_finite=False)
 
 
 class CoarseNewton:
@@ -162,7 +162,7 @@ class CoarseNewton:
         rhs = np.append(
             np.where(wanted[factors.free], level.r.ravel()[factors.free], 0.0), balance.residual(u, level.force())
         )
-        solution = linalg.lu_solve(factors.lu, rhs, overwrite_b=True, check_finite=False)
+        solution = scipy.linalg.lu_solve(factors.lu, rhs, overwrite_b=True, check_finite=False)
         dP = np.zeros_like(level.P)
         dP.ravel()[factors.free] = solution[:-1]
         if level.inflow.size:

@@ -7,7 +7,7 @@ so two cycles are enough.
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import RectBivariateSpline
+import scipy
 
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import ErrorEstimate
@@ -46,7 +46,7 @@ def settled_on_half(solved: Multigrid, balance: Balance) -> Multigrid:
     """The film on half the intervals, from that of `solved`; its `finest` may be negative somewhere."""
     half = solved.halved()
     fine, coarse = solved.finest, half.finest
-    between = RectBivariateSpline(fine.Y, fine.X, fine.P, kx=1, ky=1, s=0)
+    between = scipy.interpolate.RectBivariateSpline(fine.Y, fine.X, fine.P, kx=1, ky=1, s=0)
     coarse.P[...] = np.maximum(between(coarse.Y, coarse.X), 0.0)
     coarse.P[:, [0, -1]] = 0.0
     coarse.P[-1] = 0.0

@@ -12,8 +12,8 @@ from math import inf
 from typing import NamedTuple, Protocol
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import toeplitz
 
 from ehlcontact.heat import HeatNumbers
 from ehlcontact.lubricant.traction_laws import STRAIGHT, log_sinh_law
@@ -92,7 +92,7 @@ class FilmHeat:
         self.ahead = level.X <= 0.0
         behind = np.sqrt(np.append(0.0, (np.arange(level.nx + 1) + 0.5) * level.hx))
         # Rise of a surface at one node by heat in the cell of another: of a half-space that moves
-        self.memory = toeplitz(2.0 * np.diff(behind), np.zeros(level.nx + 1)).T
+        self.memory = scipy.linalg.toeplitz(2.0 * np.diff(behind), np.zeros(level.nx + 1)).T
 
     @property
     def speeds(self) -> tuple[float, float]:

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import exp, floor, log, log2
 
-from scipy.optimize import brentq
+import scipy
 
 from ehlcontact.point import MoesPoint
 
@@ -119,4 +119,4 @@ def resolved_load(point: MoesPoint, mesh: float) -> float:
         return point.M
     if excess(lowest) <= 0.0:
         return exp(lowest)
-    return exp(float(brentq(excess, lowest, highest, xtol=1e-3)))
+    return exp(float(scipy.optimize.brentq(excess, lowest, highest, xtol=1e-3)))

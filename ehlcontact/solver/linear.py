@@ -24,9 +24,8 @@ from math import sqrt
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import linalg, sparse
-from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
 
 from ehlcontact.jit import plain
 from ehlcontact.solver.balance import Balance
@@ -75,13 +74,13 @@ def stencil_matrix(offsets: Offsets, coefficients: Array, shape: tuple[int, int]
         columns.append((jq * shape[1] + iq)[inside])
         values.append(np.broadcast_to(field, shape)[inside])
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return sparse.csr_matrix(entries, shape=(node.size, node.size))
+    return scipy.sparse.csr_matrix(entries, shape=(node.size, node.size))
 
 
 def _entries(size: int, *entries: tuple[Any, Any, Any]) -> Any:
     """Square sparse matrix of rows, columns and values."""
     rows, columns, values = (np.concatenate(part) for part in zip(*entries, strict=True))
-    return sparse.csr_matrix((values, (rows, columns)), shape=(size, size))
+    return scipy.sparse.csr_matrix((values, (rows, columns)), shape=(size, size))
 
 
 class LinearFilm:
@@ -122,7 +121,7 @@ class LinearFilm:
         arrives[fronts.nodes] -= half * (1.0 - fronts.passed + 2.0 * fronts.stored * fronts.passed)
         if feeding.size:
             lag = ((1.0 - half) / (1.0 + half)) ** (fed - feeding - 1) / (1.0 + half)
-            passed_on = sparse.csr_matrix((lag * arrives[fed], (fed, feeding)), shape=(size, size))
+            passed_on = scipy.sparse.csr_matrix((lag * arrives[fed], (fed, feeding)), shape=(size, size))
             self.by_pressure = self.by_pressure + passed_on @ self.by_pressure
             self.by_film = self.by_film + passed_on @ self.by_film
             self.by_approach = self.by_approach + passed_on @ self.by_approach
@@ -139,8 +138,8 @@ class LinearFilm:
         entries = ((own, own + k - 2, self.c_t / 6.0 * share) for k, share in enumerate(shares))
         mass = _entries(size, *entries)
         flow = level.fields.flow
-        film = film + mass @ sparse.diags(flow.rho.ravel())
-        self.by_pressure = self.by_pressure + mass @ sparse.diags(flow.mass_slope.ravel())
+        film = film + mass @ scipy.sparse.diags(flow.rho.ravel())
+        self.by_pressure = self.by_pressure + mass @ scipy.sparse.diags(flow.mass_slope.ravel())
         self.by_film = self.by_film + film
         self.by_approach = self.by_approach - np.asarray(film.sum(axis=1)).ravel()
 
@@ -209,7 +208,7 @@ class NearCorrection:
         near = np.array([response(dj, di, (SHARE,) * (len(CROSS) - 1), fine.near) for dj, di in SQUARE])
         film = stencil_matrix(SQUARE, near[:, None, None], shape)[:, inside]
         matrix = system.by_pressure[inside][:, inside] @ self._distribution + system.by_film[inside] @ film
-        self._lu = splu(matrix.tocsc(), **SPARSE_LU)
+        self._lu = scipy.sparse.linalg.splu(matrix.tocsc(), **SPARSE_LU)
         own = system.diagonal()
         self._own = np.where(own.real < 0.0, own, -np.inf)
 
@@ -230,9 +229,11 @@ class CoarseCorrection:
         every = fine.ny // coarse.ny, fine.nx // coarse.nx
         self._nodes = np.flatnonzero(system.free[:: every[0], :: every[1]])
         across, along = (_interpolation(n, k) for n, k in zip((coarse.ny, coarse.nx), every, strict=True))
-        self._up = sparse.kron(across, along, format="csr")[:, self._nodes]
+        self._up = scipy.sparse.kron(across, along, format="csr")[:, self._nodes]
         weights = coarse.force_weights.ravel()[self._nodes]
-        self._down = sparse.diags(1.0 / weights) @ self._up.T @ sparse.diags(fine.force_weights.ravel())
+        self._down = (
+            scipy.sparse.diags(1.0 / weights) @ self._up.T @ scipy.sparse.diags(fine.force_weights.ravel())
+        )
         self._lu = self._factorise(coarse, fine, every, system)
 
     def _factorise(self, coarse: Level, fine: Level, every: tuple[int, int], system: LinearFilm) -> Any:
@@ -245,14 +246,14 @@ class CoarseCorrection:
     def __call__(self, system: LinearFilm, b: Array) -> Array:
         """Change (dP, du) of the fine nodes from the restricted ``system(x) = b``."""
         rhs = np.append(self._down @ b[:-1], b[-1] / system.scale)
-        y = linalg.lu_solve(self._lu, rhs, overwrite_b=True, check_finite=False)
+        y = scipy.linalg.lu_solve(self._lu, rhs, overwrite_b=True, check_finite=False)
         return np.append((self._up @ y[:-1]) * system.free.ravel(), y[-1])
 
 
 def _interpolation(intervals: int, every: int) -> Any:
     """Linear interpolation from a line of `intervals` to one `every` times as fine, sparse."""
     distance = np.arange(intervals * every + 1)[:, None] / every - np.arange(intervals + 1)
-    return sparse.csr_matrix(np.maximum(1.0 - np.abs(distance), 0.0))
+    return scipy.sparse.csr_matrix(np.maximum(1.0 - np.abs(distance), 0.0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -279,12 +280,12 @@ def solve_linear(
         return preconditioner(system, v)
 
     shape = (b.size, b.size)
-    x, info = gcrotmk(
-        LinearOperator(shape, matvec=system, dtype=b.dtype),
+    x, info = scipy.sparse.linalg.gcrotmk(
+        scipy.sparse.linalg.LinearOperator(shape, matvec=system, dtype=b.dtype),
         b,
         rtol=rtol,
         maxiter=KRYLOV_RESTARTS,
-        M=LinearOperator(shape, matvec=precondition, dtype=b.dtype),
+        M=scipy.sparse.linalg.LinearOperator(shape, matvec=precondition, dtype=b.dtype),
         m=KRYLOV_VECTORS,
     )
     return LinearSolution(x, iterations, info == 0)

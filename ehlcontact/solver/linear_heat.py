@@ -14,10 +14,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import linalg
-from scipy.sparse.linalg import splu
-from scipy.special import fresnel
 
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.solver.film_heat import (
@@ -92,7 +90,7 @@ class LinearHeat:
         own = given + t.exchange - self._warmer + self._storage
         matrix = stencil_matrix(CROSS, np.array([own, *taken]), shape)
         self._nodes = np.flatnonzero(t.wet)
-        self._lu = splu(matrix[self._nodes][:, self._nodes].tocsc(), **SPARSE_LU)
+        self._lu = scipy.sparse.linalg.splu(matrix[self._nodes][:, self._nodes].tocsc(), **SPARSE_LU)
 
     def viscous(self, d: Array) -> Array:
         """Change of the Reynolds operator by a change d of ln(eps), (ny + 1, nx + 1)."""
@@ -104,8 +102,8 @@ class LinearHeat:
     def weight(self) -> float:
         """Norm of the change of the Reynolds operator by a heating, over that of the heating; 1 without it."""
         heating = self.level.fields.flow.heat
-        size = linalg.norm(heating)
-        return float(linalg.norm(self.viscous(self.above * heating)) / size) if size > 0.0 else 1.0
+        size = scipy.linalg.norm(heating)
+        return float(scipy.linalg.norm(self.viscous(self.above * heating)) / size) if size > 0.0 else 1.0
 
     def _means(self, d: Array) -> tuple[Array, Array]:
         """Change of the coefficients on the faces by that of ln(eps) at nodes, (ny + 1, nx) and (ny, nx + 1)."""
@@ -261,6 +259,6 @@ def _memory(nx: int, hx: float, omega: float) -> Array:
     """Rise of a surface at one node by a vibration of the heat in the cell of another upstream (eq. 11)."""
     w = max(omega, STILL)
     edges = np.append(0.0, (np.arange(nx + 1) + 0.5) * hx)
-    sine, cosine = fresnel(np.sqrt(2.0 * w * edges / np.pi))
+    sine, cosine = scipy.special.fresnel(np.sqrt(2.0 * w * edges / np.pi))
     weights = np.diff(np.sqrt(2.0 * np.pi / w) * (cosine - 1j * sine))
-    return linalg.toeplitz(weights, np.zeros(nx + 1)).T
+    return scipy.linalg.toeplitz(weights, np.zeros(nx + 1)).T

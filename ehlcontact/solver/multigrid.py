@@ -15,7 +15,7 @@ from math import ceil, log, sqrt
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import RectBivariateSpline
+import scipy
 
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
@@ -361,7 +361,7 @@ def _interpolate_solution(coarse: Level, fine: Level) -> None:
     """Bicubic interpolation of the pressure, zero where the coarse grid cavitates on all sides."""
     P = np.concatenate([coarse.P[:0:-1], coarse.P])
     Y = np.concatenate([-coarse.Y[:0:-1], coarse.Y])
-    fine.P[...] = np.maximum(RectBivariateSpline(Y, coarse.X, P, s=0)(fine.Y, fine.X), 0.0)
+    fine.P[...] = np.maximum(scipy.interpolate.RectBivariateSpline(Y, coarse.X, P, s=0)(fine.Y, fine.X), 0.0)
     wet = np.zeros(fine.P.shape, dtype=bool)
     source = coarse.P > 0.0
     along, across = fine.nx // coarse.nx, fine.ny // coarse.ny

@@ -155,7 +155,8 @@ class RunSettings:
     callback: Callable[[float, float], None] | None = None
 
     def __post_init__(self) -> None:
-        require_threads("threads", self.threads)
+        if self.threads is not None:  # what a solve takes by itself is not asked for before it is one
+            require_threads("threads", self.threads)
 
 
 @dataclass(frozen=True, slots=True)

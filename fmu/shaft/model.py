@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 
 from ehlcontact.checks import as_column, require_finite, require_instance, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
@@ -101,7 +101,7 @@ class ShaftModel:
     def modes(self) -> Modes:
         """All modes of the rotor."""
         M, C, K = self.rotor.matrices(0.0)
-        stiffness, shapes = eigh(0.5 * (K + K.T), 0.5 * (M + M.T))
+        stiffness, shapes = scipy.linalg.eigh(0.5 * (K + K.T), 0.5 * (M + M.T))
         stiffness[np.abs(stiffness) < ROUNDING * np.abs(stiffness).max()] = 0.0
         return Modes(
             shapes,

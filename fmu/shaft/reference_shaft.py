@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import expm
 
 from fmu.shaft.model import ShaftModel
 from fmu.shaft.variables import RESOLVED
@@ -131,7 +131,7 @@ def _responses(stiffness: _Floats, damping: _Floats, h: float) -> _Responses:
     for k, c in zip(stiffness.tolist(), damping.tolist(), strict=True):
         w = np.sqrt(k)
         damped = max(c, 2.0 * w) if w * h > RESOLVED else c
-        whole = expm(h * np.array([[0.0, 1.0, 0.0], [-k, -damped, 1.0], [0.0, 0.0, 0.0]]))
+        whole = scipy.linalg.expm(h * np.array([[0.0, 1.0, 0.0], [-k, -damped, 1.0], [0.0, 0.0, 0.0]]))
         place.append(whole[0, :2])
         rate.append(whole[1, :2])
         to_place.append(whole[0, 2])

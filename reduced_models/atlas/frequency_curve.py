@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 _Floats = NDArray[np.float64]
 
@@ -33,8 +33,10 @@ class FrequencyCurve:
         self._bars = np.zeros_like(values) if bars is None else bars
 
     @cached_property
-    def _cubic(self) -> CubicSpline:
-        return CubicSpline(np.arcsinh(self._Omega), self._values, bc_type=((1, 0.0), "not-a-knot"))
+    def _cubic(self) -> scipy.interpolate.CubicSpline:
+        return scipy.interpolate.CubicSpline(
+            np.arcsinh(self._Omega), self._values, bc_type=((1, 0.0), "not-a-knot")
+        )
 
     def at(self, Omega: _Floats) -> _Floats:
         """Values, in the shape of `Omega`."""

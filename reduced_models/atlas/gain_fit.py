@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
 from reduced_models.elements.film_response import DRY, WEIGHT_C, WEIGHT_K, FilterRates
 
@@ -20,7 +20,7 @@ def smooth_gains(
 ) -> _Floats:
     """Gains over `low`, the damping of a flooded isothermal film at low frequency."""
     rows, target = gain_equations(omega, K, C, rates, low, floor)
-    return np.asarray(nnls(rows, target, maxiter=1000)[0])
+    return np.asarray(scipy.optimize.nnls(rows, target, maxiter=1000)[0])
 
 
 def gain_equations(

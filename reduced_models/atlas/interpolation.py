@@ -17,8 +17,8 @@ from __future__ import annotations
 from typing import Protocol
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial.distance import cdist
 
 from ehlcontact.film_formulas import expected_film, lightness
 from ehlcontact.hertz import radius_ratio
@@ -73,7 +73,7 @@ def _system(x: _Floats) -> _Floats:
     """Of cubic radial functions with a plane beside them."""
     n, plane = len(x), np.column_stack([np.ones(len(x)), x])
     corner = np.zeros((plane.shape[1], plane.shape[1]))
-    return np.block([[cdist(x, x) ** 3, plane], [plane.T, corner]]) if n else corner
+    return np.block([[scipy.spatial.distance.cdist(x, x) ** 3, plane], [plane.T, corner]]) if n else corner
 
 
 def left_out_errors(x: _Floats, t: _Floats) -> _Floats:
@@ -106,7 +106,7 @@ class ErrorBars(Protocol):
 
 def error_factor(x: _Floats, errors: _Floats, by: ErrorBars) -> _Floats:
     """Factor on the local error that covers a given share of the nodes, each judged by its neighbours."""
-    distance = cdist(x, x)
+    distance = scipy.spatial.distance.cdist(x, x)
     np.fill_diagonal(distance, np.inf)
     nearest = np.argpartition(distance, by.nearest, axis=1)[:, : by.nearest]
     local = np.sqrt(np.mean(errors[nearest] ** 2, axis=1))
@@ -140,7 +140,7 @@ class AtlasSurface:
         self._smooth = smooth.shape[1]
         self._all, self._lobe = Radial(x, np.hstack([smooth, table.gains])), Radial(lobe, smooth[:, [LOBE]])
         self._squares, self._factor = table.left_out**2, table.factor
-        reach = np.partition(cdist(x, x), by.nearest, axis=1)[:, by.nearest]
+        reach = np.partition(scipy.spatial.distance.cdist(x, x), by.nearest, axis=1)[:, by.nearest]
         self._usual_reach = float(np.median(reach))
 
     @property
@@ -197,7 +197,7 @@ class AtlasSurface:
     def _interpolated(self, points: _Floats, film: _Floats, columns: slice) -> tuple[_Floats, _Floats]:
         """Smooth variables and gains, and the distances from all nodes."""
         x, lobe = coordinates(points, film, self._by)
-        distance = cdist(x, self._all.x)
+        distance = scipy.spatial.distance.cdist(x, self._all.x)
         found = self._all.at(x, distance, columns)
-        found[:, [LOBE]] = self._lobe.at(lobe, cdist(lobe, self._lobe.x))
+        found[:, [LOBE]] = self._lobe.at(lobe, scipy.spatial.distance.cdist(lobe, self._lobe.x))
         return found, distance

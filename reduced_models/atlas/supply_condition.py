@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq
 
 from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
@@ -76,7 +75,7 @@ def heaviest_load(moes: MoesPoint) -> float:
     low, high = np.log(lightest_load(moes)), np.log(most)
     if low >= high or spare(high) >= 0.0:
         return float(most)
-    return float(np.exp(brentq(spare, low, high))) if spare(low) > 0.0 else 0.0
+    return float(np.exp(scipy.optimize.brentq(spare, low, high))) if spare(low) > 0.0 else 0.0
 
 
 class SupplyCondition:
@@ -187,5 +186,5 @@ def _loaded(moes: MoesPoint, load: float) -> MoesPoint:
 def _over(nodes: _Floats, Omega: _Floats) -> _Floats:
     """Weights of the table's frequencies at others, shape (k, l): a cubic over asinh, level at 0 and beyond."""
     x = np.arcsinh(nodes / LOW_OMEGA)
-    cubic = CubicSpline(x, np.eye(nodes.size), bc_type=((1, np.zeros(nodes.size)), "not-a-knot"))
+    cubic = scipy.interpolate.CubicSpline(x, np.eye(nodes.size), bc_type=((1, np.zeros(nodes.size)), "not-a-knot"))
     return np.asarray(cubic(np.minimum(np.arcsinh(Omega / LOW_OMEGA), x[-1]))).T

@@ -17,9 +17,8 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Self
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import Akima1DInterpolator
-from scipy.spatial.distance import cdist
 
 from ehlcontact.film_formulas import film_of_layer, layer_sharpness
 from ehlcontact.process.blas import one_blas_thread
@@ -114,7 +113,9 @@ class SupplySurface:
         self._radial, errors = Radial(x, flat), left_out_errors(x, flat)
         self._squares, self._factor = errors**2, error_factor(x, errors, self._by)
         self._usual_reach = float(
-            np.median(np.partition(cdist(x, x), self._by.nearest, axis=1)[:, self._by.nearest])
+            np.median(
+                np.partition(scipy.spatial.distance.cdist(x, x), self._by.nearest, axis=1)[:, self._by.nearest]
+            )
         )
 
     @one_blas_thread()
@@ -122,7 +123,7 @@ class SupplySurface:
         """Changes of contacts, rows (M, L, kappa), each under its own r, shape (n,)."""
         nodes, q = self.table.ratios, self.table.changes.shape[2]
         x = _places(points, self._by)
-        distance = cdist(x, self._radial.x)
+        distance = scipy.spatial.distance.cdist(x, self._radial.x)
         found = self._radial.at(x, distance).reshape(len(points), nodes.size, q)
         nearest = np.argpartition(distance, self._by.nearest, axis=1)[:, : self._by.nearest]
         reach = np.take_along_axis(distance, nearest, axis=1).max(axis=1, keepdims=True)
@@ -144,7 +145,7 @@ def _places(points: _Floats, by: Interpolation) -> _Floats:
 
 def _between(nodes: _Floats, values: _Floats, place: _Floats) -> _Floats:
     """Modified Akima's cubics, which do not overshoot, through values (n, m, q) at nodes (m,), at places (n,)."""
-    cubics = Akima1DInterpolator(nodes, values, axis=1, method="makima").c
+    cubics = scipy.interpolate.Akima1DInterpolator(nodes, values, axis=1, method="makima").c
     cell = np.clip(np.searchsorted(nodes, place, side="right") - 1, 0, nodes.size - 2)
     c, s = cubics[:, cell, np.arange(place.size)], (place - nodes[cell])[:, None]
     return np.asarray(((c[0] * s + c[1]) * s + c[2]) * s + c[3])

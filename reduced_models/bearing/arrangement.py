@@ -18,8 +18,8 @@ from math import inf, sin
 from typing import Any, Self
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from ehlcontact.assumptions import Assumptions
 from ehlcontact.checks import (
@@ -413,7 +413,7 @@ class BearingSet(Summary):
                 if self.bearings[k].contact_angle is None or far > rings[k].balls.grooves.radial:
                     return inf  # radially preloaded, or pressed on the other side
                 far += rings[k].longest
-            return float(brentq(margin, first, far, args=(k,), xtol=1e-15))
+            return float(scipy.optimize.brentq(margin, first, far, args=(k,), xtol=1e-15))
 
         along = min((leaves(k) for k in held if signs[k] < 0.0), default=inf)
         if along == inf or (along <= 0.0 and self.sprung is None):

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from ehlcontact.checks import require_nonnegative
 from ehlcontact.checks.quantity import takes
@@ -52,7 +52,7 @@ class _Ball:
             return self.inner.traction(slip + apart) + self.outer.traction(slip) - self.turning
 
         turns = missing(WIDEST) > 0.0
-        slip = float(brentq(missing, -WIDEST, WIDEST, xtol=FINEST)) if turns else WIDEST
+        slip = float(scipy.optimize.brentq(missing, -WIDEST, WIDEST, xtol=FINEST)) if turns else WIDEST
         return self.inner.traction(slip + apart) - self.outer.traction(slip) + self.driving
 
 
@@ -95,7 +95,7 @@ def cage_slip(bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionL
         most = left(MOST) + drag if balls else 0.0
         raise InputError("drag", drag, f"below {most:.3g} N, what the traction of the loaded balls carries")
     gamma = bearing.ball_diameter / bearing.pitch_diameter
-    return 0.5 * (1.0 + gamma) * float(brentq(left, -MOST, MOST, xtol=FINEST))
+    return 0.5 * (1.0 + gamma) * float(scipy.optimize.brentq(left, -MOST, MOST, xtol=FINEST))
 
 
 def _loaded(bearing: Any, state: BearingState, law: TractionLaw) -> list[_Ball]:

@@ -9,8 +9,8 @@ from math import atan2, pi
 from typing import Protocol
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from ehlcontact.checks import as_column, require_finite
 from ehlcontact.errors import ConvergenceError, InputError
@@ -112,7 +112,7 @@ def _line_search(balance: Callable[[_Floats], _Floats], q: _Floats, step: _Float
         if far * float(np.linalg.norm(step)) > LONGEST_STEP:
             raise ConvergenceError("static equilibrium not found: the contacts do not hold the load", q)
     try:
-        return q + float(brentq(along, 0.0, far, xtol=1e-300, rtol=1e-12)) * step
+        return q + float(scipy.optimize.brentq(along, 0.0, far, xtol=1e-300, rtol=1e-12)) * step
     except (ValueError, RuntimeError):  # balls with several places of balance at speed
         raise ConvergenceError("static equilibrium not found: forces that jump with the displacement", q) from None
 

@@ -21,8 +21,8 @@ from math import exp, expm1, pi
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
 from ehlcontact.checks import require_nonnegative
 from ehlcontact.errors import InputError
@@ -66,7 +66,7 @@ def loss_of(factor: float) -> Loss:
     rates = 2.0 * pi * np.geomspace(BAND[0] / BEYOND, BAND[1] * BEYOND, FILTERS)
     s = 2j * pi * np.geomspace(*BAND, SAMPLES)[:, None]
     filters = s / (s + rates)
-    gains, _ = nnls(filters.imag / factor - filters.real, np.ones(SAMPLES))
+    gains, _ = scipy.optimize.nnls(filters.imag / factor - filters.real, np.ones(SAMPLES))
     return Loss(gains, rates)
 
 

@@ -13,8 +13,8 @@ from math import acos, cos
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from ehlcontact.checks import as_numbers, require_finite, require_nonnegative
 from ehlcontact.checks.quantity import takes
@@ -161,4 +161,4 @@ def _clearance(bearing: BallBearing, load: tuple[float, ...], speed_rpm: float, 
     most = 2.0 * distance * (1.0 - cos(angle))
     if most <= SHARPEST or above(0.0) > 0.0 or above(BEYOND * most) < 0.0:
         return np.nan
-    return float(brentq(above, 0.0, BEYOND * most, xtol=SHARPEST))
+    return float(scipy.optimize.brentq(above, 0.0, BEYOND * most, xtol=SHARPEST))

@@ -24,9 +24,8 @@ from math import inf, pi
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from ehlcontact.checks import as_column, require_between, require_instance, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
@@ -204,7 +203,7 @@ class OilBalance(Summary):
         low, high = (self.feed_for(end) for end in ends)
         if not low <= self.feed <= high:
             raise InputError("feed", self.feed, f"from {low:.3g} to {high:.3g} m3/s, which keep a layer")
-        return float(brentq(lambda layer: self.feed_for(layer) - self.feed, *ends, rtol=ACCURACY))
+        return float(scipy.optimize.brentq(lambda layer: self.feed_for(layer) - self.feed, *ends, rtol=ACCURACY))
 
     @property
     def lasting_supply(self) -> OilLayer:
@@ -241,7 +240,7 @@ class OilBalance(Summary):
             back = y[1] / self.return_time
             return [back - lost + fresh, self.returned * lost - back]
 
-        run = solve_ivp(
+        run = scipy.integrate.solve_ivp(
             rates,
             (times[0], times[-1]),
             [start, 0.0],

@@ -13,8 +13,8 @@ from math import log, pi
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from ehlcontact import Heat, OperatingPoint
 from ehlcontact.errors import InputError
@@ -94,7 +94,7 @@ class SlidingContact:
 
     def slip(self, force: float = 0.0) -> float:
         """Slip of the middle under a traction [N] that the contact can carry; without one two lines roll."""
-        return float(brentq(lambda one: self.traction(one) - force, -WIDEST, WIDEST, xtol=1e-9))
+        return float(scipy.optimize.brentq(lambda one: self.traction(one) - force, -WIDEST, WIDEST, xtol=1e-9))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

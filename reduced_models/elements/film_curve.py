@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import PchipInterpolator
 
 from ehlcontact.checks import as_column, require_positive
 from ehlcontact.errors import InputError
@@ -47,7 +47,10 @@ def curve_nodes(loads: ArrayLike, approach: ArrayLike) -> dict[str, _Floats]:
             f"approach[{at}]", float(u[at]), f"below the dry one, {float(force[at] ** (2.0 / 3.0))!r}"
         )
     x, y = np.log(force), np.log(film)
-    slope = np.full(2, (y[1] - y[0]) / (x[1] - x[0])) if x.size == 2 else PchipInterpolator(x, y).derivative()(x)
+    if x.size == 2:
+        slope = np.full(2, (y[1] - y[0]) / (x[1] - x[0]))
+    else:
+        slope = scipy.interpolate.PchipInterpolator(x, y).derivative()(x)
     slope[-1] = min(slope[-1], 0.0)
     below = x[0] - DECADE, y[0] - 0.5 * DECADE * (slope[0] + RIGID_SLOPE)
     return {

@@ -10,8 +10,8 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from ehlcontact.checks import (
     as_float,
@@ -229,7 +229,8 @@ class FilmContact(ContactElement):
             low, reach = low - reach, 2.0 * reach
         while self._static_x(high) < x:
             high, reach = high + reach, 2.0 * reach
-        return float(brentq(lambda u: self._static_x(u) - x, low, high, xtol=1e-15, rtol=1e-14)) * length
+        found = scipy.optimize.brentq(lambda u: self._static_x(u) - x, low, high, xtol=1e-15, rtol=1e-14)
+        return float(found) * length
 
     def _static_x(self, u: float) -> float:
         return float(static(u, self.law)[0])
@@ -261,12 +262,13 @@ class FilmContact(ContactElement):
         """Force and d(states)/dt in continuous time: what `advance` does with a motion cubic within the step."""
         f, length, time = self._units
         rates = np.empty(states.size)
-        force = film_rates(self.law, states, approach / length, rate / length * time, rates)
+        force = film_rates(self.law, np.ascontiguousarray(states), approach / length, rate / length * time, rates)
         return float(force) * f, rates / time
 
     def rate_under(self, states: _Floats, approach: float, force: float) -> float:
         """Rate at which the contact carries `force` > 0: the motion without inertia."""
         f, length, time = self._units
+        states = np.ascontiguousarray(states)  # of any layout: compiled once
         return float(film_rate(self.law, states, approach / length, force / f)) * length / time
 
     @property

@@ -17,9 +17,9 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.polynomial import Chebyshev
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import nnls
 
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.errors import InputError
@@ -192,7 +192,7 @@ def fit_gains(
     rows = np.vstack([basis.real / (WEIGHT_C * C)[:, None], -(w[:, None] * basis.imag) / (WEIGHT_K * K)[:, None]])
     target = np.concatenate([np.full(w.size, 1.0 / WEIGHT_C), (K - static) / (WEIGHT_K * K)])
     floor = LEAST_VISCOUS * float(C[np.argmin(w)]) / DRY
-    gains, _ = nnls(rows, target - rows[:, 0] * floor)
+    gains, _ = scipy.optimize.nnls(rows, target - rows[:, 0] * floor)
     gains[0] += floor
     for _ in range(10):
         if rates.passive(gains):

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from scipy.optimize import brentq
+import scipy
 
 from ehlcontact.checks import require_nonnegative, require_positive
 from ehlcontact.errors import InputError
@@ -54,7 +54,9 @@ class _PolynomialContact(MemorylessContact):
 
     def _approach_between(self, force: float) -> float:
         law = self.law
-        return float(brentq(lambda u: cubic(u, law)[0] - force, law.low, law.high, xtol=1e-300, rtol=1e-14))
+        return float(
+            scipy.optimize.brentq(lambda u: cubic(u, law)[0] - force, law.low, law.high, xtol=1e-300, rtol=1e-14)
+        )
 
 
 class ViscousContact(_PolynomialContact):
@@ -183,7 +185,7 @@ class PolynomialContact(_PolynomialContact):
             width *= 2.0
             if not math.isfinite(width):
                 raise InputError(f"force at approach {approach:g}", force, "one that some rate gives")
-        return float(brentq(excess, v - width, v + width, xtol=1e-300, rtol=1e-14))
+        return float(scipy.optimize.brentq(excess, v - width, v + width, xtol=1e-300, rtol=1e-14))
 
     def _law(self) -> PolynomialLaw:
         fastest = math.inf if self.rate is None else require_positive("rate", self.rate)

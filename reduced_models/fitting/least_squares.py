@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import qr, solve_triangular
 
 from ehlcontact.errors import InputError
 
@@ -45,11 +45,11 @@ def linear_fit(columns: Mapping[str, NDArray[np.float64]], target: NDArray[np.fl
     if A.shape[0] <= A.shape[1]:
         raise InputError("samples", A.shape[0], f"more than the {A.shape[1]} parameters")
     norms = np.linalg.norm(A, axis=0)
-    basis, R, pivots = qr(A / np.where(norms > 0.0, norms, 1.0), mode="economic", pivoting=True)
+    basis, R, pivots = scipy.linalg.qr(A / np.where(norms > 0.0, norms, 1.0), mode="economic", pivoting=True)
     rank = int(np.count_nonzero(np.abs(np.diag(R)) >= OWN_SHARE))  # pivoting sorts the diagonal
     if rank < len(names):
         # What the last columns are made of belongs to the dependence as much as they do.
-        shares = np.abs(solve_triangular(R[:rank, :rank], R[:rank, rank:])).max(axis=1, initial=0.0)
+        shares = np.abs(scipy.linalg.solve_triangular(R[:rank, :rank], R[:rank, rank:])).max(axis=1, initial=0.0)
         singular = {*pivots[rank:].tolist(), *pivots[:rank][shares > NAMED_SHARE].tolist()}
         raise InputError(
             "columns " + ", ".join(name for i, name in enumerate(names) if i in singular),
@@ -57,9 +57,9 @@ def linear_fit(columns: Mapping[str, NDArray[np.float64]], target: NDArray[np.fl
             "different from zero and independent of each other (the record varies too little)",
         )
     values = np.empty(len(names))
-    values[pivots] = solve_triangular(R, basis.T @ target)
+    values[pivots] = scipy.linalg.solve_triangular(R, basis.T @ target)
     inverse = np.empty((len(names), len(names)))
-    inverse[pivots] = solve_triangular(R, np.eye(len(names)))
+    inverse[pivots] = scipy.linalg.solve_triangular(R, np.eye(len(names)))
     values, inverse = values / norms, inverse / norms[:, None]
     fitted = A @ values
     variance = np.sum((target - fitted) ** 2) / (A.shape[0] - A.shape[1])

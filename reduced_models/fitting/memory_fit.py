@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 
 from ehlcontact import Domain, Grid, ImpedanceResult, impedance
 from ehlcontact.errors import InputError
@@ -265,7 +265,9 @@ def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
     solutions = []
     for inlet, fast in RATE_STARTS:
         start = np.array([np.log(lags / TRANSIT_TIME), np.log(inlet), np.log(fast), SATURATION_START])
-        solutions.append(least_squares(residuals, start, bounds=(lower, upper), **tolerances, **SEARCH))
+        solutions.append(
+            scipy.optimize.least_squares(residuals, start, bounds=(lower, upper), **tolerances, **SEARCH)
+        )
     rates, gains, inlet_saturation = parts(min(solutions, key=lambda solution: solution.cost).x)
     return _element(target, rates, gains, inlet_saturation), gains
 
@@ -285,7 +287,8 @@ def _element(target: Target, rates: FilterRates, gains: GainFit, inlet_saturatio
 def _force(law: FilmLaw, record: ContactRecord) -> _Floats:
     """Force of the law along the record."""
     force = np.empty(len(record))
-    film_drive(law, record.T, record.approach, record.rate, force)
+    motion = (np.array(values) for values in (record.T, record.approach, record.rate))  # not read-only
+    film_drive(law, *motion, force)
     return force
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq, least_squares, minimize_scalar
 
 from reduced_models.fitting.least_squares import linear_fit
 
@@ -103,7 +103,7 @@ class _Projected:
         lowest, highest = self.curvatures
         start = min(0.5 * highest, self.spread / abs(self.centre)) if self.centre != 0.0 else 0.5 * highest
         tries = [
-            least_squares(
+            scipy.optimize.least_squares(
                 self.residuals,
                 (n, start),
                 bounds=tuple(zip(EXPONENTS, (lowest, highest), strict=True)),
@@ -124,7 +124,7 @@ class _Projected:
             return float(np.sqrt(np.mean(self.residuals(np.array([n, q])) ** 2)))
 
         options = {"xatol": 1e-10 * highest}
-        found = minimize_scalar(rms, bounds=(lowest, highest), method="bounded", options=options)
+        found = scipy.optimize.minimize_scalar(rms, bounds=(lowest, highest), method="bounded", options=options)
         return float(found.x), float(found.fun)
 
     def nearest_to_hertz(self, best: _Floats, allowed: float) -> tuple[float, float]:
@@ -137,7 +137,7 @@ class _Projected:
         if excess(HERTZ_EXPONENT) <= 0.0:
             return HERTZ_EXPONENT, self.best_curvature(HERTZ_EXPONENT)[0]
         if excess(n) < 0.0:
-            n = float(brentq(excess, HERTZ_EXPONENT, n, xtol=1e-6))
+            n = float(scipy.optimize.brentq(excess, HERTZ_EXPONENT, n, xtol=1e-6))
             return n, self.best_curvature(n)[0]
         return n, q
 

@@ -14,8 +14,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import stdtrit
 
 CONFIDENCE = 0.95  # of the intervals, as usual
 
@@ -76,4 +76,4 @@ def half_widths(std_errors: NDArray[np.float64], samples: float) -> NDArray[np.f
     Where there are hardly more independent samples than coefficients, one degree of freedom is assumed.
     """
     freedom = max(1.0, samples - std_errors.size)
-    return np.asarray(stdtrit(freedom, 0.5 + 0.5 * CONFIDENCE) * std_errors)
+    return np.asarray(scipy.special.stdtrit(freedom, 0.5 + 0.5 * CONFIDENCE) * std_errors)

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import least_squares
 
 from ehlcontact import Grid, impedance, solve_steady
 from ehlcontact.checks import as_column
@@ -157,7 +157,9 @@ def _common_rates(responses: Sequence[Response], lags: int) -> FilterRates:
 
     lower, upper = np.log(np.array(SEARCH_LIMITS[:3])).T
     solutions = [
-        least_squares(residuals, np.log([lags / TRANSIT_TIME, *start]), bounds=(lower, upper), **SEARCH)
+        scipy.optimize.least_squares(
+            residuals, np.log([lags / TRANSIT_TIME, *start]), bounds=(lower, upper), **SEARCH
+        )
         for start in RATE_STARTS
     ]
     return rates(min(solutions, key=lambda solution: solution.cost).x)

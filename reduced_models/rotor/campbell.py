@@ -9,8 +9,8 @@ from math import pi
 from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import linear_sum_assignment
 
 from ehlcontact.checks import as_column, require_integer, require_positive
 from ehlcontact.checks.quantity import takes
@@ -223,4 +223,4 @@ def _tracked(before: list[RotorMode], found: list[RotorMode]) -> list[RotorMode]
     """Mode tracking: of the modes `found`, those nearest to the ones before (`mode_distance`), in their order."""
     values, shapes = np.array([m.eigenvalue for m in found]), np.array([m.shape for m in found]).T
     cost = [mode_distance(old.eigenvalue, old.shape, values, shapes) for old in before]
-    return [found[column] for column in linear_sum_assignment(cost)[1].tolist()]
+    return [found[column] for column in scipy.optimize.linear_sum_assignment(cost)[1].tolist()]

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from math import pi
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import optimize
-from scipy.special import stdtrit
 
 from ehlcontact.checks import as_column, require_positive
 from ehlcontact.errors import InputError
@@ -107,7 +106,7 @@ def log_decrement(t: ArrayLike, signal: ArrayLike, *, omega: float) -> Decrement
         return np.asarray(scaled - columns @ np.linalg.lstsq(columns, scaled, rcond=None)[0])
 
     limits = ([-SEARCH[0], -SEARCH[1]], SEARCH)
-    starts = [optimize.least_squares(left, [d, 0.0], bounds=limits, x_scale=[0.1, 0.01]) for d in (0.0, 0.3)]
+    starts = [scipy.optimize.least_squares(left, [d, 0.0], bounds=limits, x_scale=[0.1, 0.01]) for d in (0.0, 0.3)]
     found = min(starts, key=lambda solution: float(solution.cost))
     cosine, sine, _ = np.linalg.lstsq(basis(found.x), scaled, rcond=None)[0]
     if np.isclose(np.abs(found.x), SEARCH, rtol=1e-3).any():
@@ -126,7 +125,7 @@ def log_decrement(t: ArrayLike, signal: ArrayLike, *, omega: float) -> Decrement
     )
 
 
-def _half_width(found: optimize.OptimizeResult, samples: int) -> float:
+def _half_width(found: scipy.optimize.OptimizeResult, samples: int) -> float:
     """Of the decrement's interval: from the slope of the residuals, enlarged for those that hang together."""
     residual = found.fun
     freedom = samples - 5  # three linear unknowns and two others
@@ -136,4 +135,4 @@ def _half_width(found: optimize.OptimizeResult, samples: int) -> float:
     r = float(residual[1:] @ residual[:-1]) / energy if energy > 0.0 else 0.0
     fewer = (1.0 + max(r, 0.0)) / max(1.0 - r, 1e-3)
     variance = energy / freedom * float(covariance[0, 0]) * fewer
-    return float(stdtrit(max(freedom / fewer, 1.0), 0.975)) * float(np.sqrt(variance))
+    return float(scipy.special.stdtrit(max(freedom / fewer, 1.0), 0.975)) * float(np.sqrt(variance))

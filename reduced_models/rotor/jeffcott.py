@@ -16,8 +16,8 @@ from math import cos, pi, sin
 from typing import Any, Self
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg import lstsq
 
 from ehlcontact.checks import (
     as_column,
@@ -231,7 +231,7 @@ class JeffcottRotor(Summary):
             Not one approach per contact, or approaches that no position of the journal gives.
         """
         wanted = as_column("approaches", approaches, size=len(self.mounts))
-        position: _Floats = lstsq(self.normals, wanted - self.offsets)[0]
+        position: _Floats = scipy.linalg.lstsq(self.normals, wanted - self.offsets)[0]
         miss = float(np.abs(self.normals @ position + self.offsets - wanted).max())
         if miss > REACHED * float(np.abs(wanted).max()):
             raise InputError("approaches", approaches, f"reachable by one journal position (off by {miss:.3g} m)")
@@ -253,7 +253,7 @@ class JeffcottRotor(Summary):
         normals = self.normals
         if np.linalg.matrix_rank(normals) < len(self.mounts):
             raise InputError("mounts", len(self.mounts), "no more independent contacts than moving directions")
-        forces: _Floats = lstsq(self.bearings * normals.T, self.static_load)[0]
+        forces: _Floats = scipy.linalg.lstsq(self.bearings * normals.T, self.static_load)[0]
         carried = self.bearings * normals.T @ forces
         if np.any(forces <= 0.0) or not np.allclose(carried, self.static_load, rtol=1e-9, atol=1e-9):
             raise InputError("static load", self.static_load.tolist(), "carried by pushing contacts")

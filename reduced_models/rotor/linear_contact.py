@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from ehlcontact import ImpedanceResult
 from ehlcontact.errors import InputError
@@ -46,7 +46,10 @@ def film_impedance(response: ImpedanceResult) -> Impedance:
     if order.size < 2:
         raise InputError("response.Omega", response.Omega.tolist(), "at least 2 frequencies")
     known = response.Omega[order]
-    parts = [PchipInterpolator(known, values[order]) for values in (response.stiffness, response.damping)]
+    parts = [
+        scipy.interpolate.PchipInterpolator(known, values[order])
+        for values in (response.stiffness, response.damping)
+    ]
 
     def impedance(omega: _Floats) -> _Complex:
         w = np.asarray(omega, dtype=np.float64)

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import linalg
 
 from reduced_models.elements.small_motion import StateSpace
 from reduced_models.rotor.rotor import Matrices
@@ -55,6 +55,6 @@ def rotor_system(matrices: Matrices, rows: _Floats, supports: Sequence[StateSpac
 
 def eigenmodes(matrices: Matrices, rows: _Floats, supports: Sequence[StateSpace]) -> tuple[_Complex, _Complex]:
     """Eigenvalues with an imaginary part > 0 of `rotor_system`, and displacements of their vectors as columns."""
-    values, vectors = linalg.eig(rotor_system(matrices, rows, supports)[0])
+    values, vectors = scipy.linalg.eig(rotor_system(matrices, rows, supports)[0])
     vibrates = values.imag > 0.0
     return values[vibrates], vectors[: len(matrices[0]), vibrates]

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 from math import hypot, inf, pi
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import linalg
 
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.summary import Summary
@@ -151,7 +151,7 @@ def eigenvectors(matrices: Matrices, impedance: _Complex, omega: float) -> tuple
     A[:size, size:] = np.eye(size)
     A[size:, :size] = -np.linalg.solve(M, K + impedance.real)
     A[size:, size:] = -np.linalg.solve(M, C + impedance.imag / omega)
-    values, vectors = linalg.eig(A)
+    values, vectors = scipy.linalg.eig(A)
     order = np.argsort(values.imag)
     order = order[values.imag[order] > NO_OSCILLATION * np.abs(values).max()]
     order = order[values.imag[order] > OVERDAMPED * np.abs(values.real[order])]

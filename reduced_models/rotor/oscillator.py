@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import solve_ivp
 
 from ehlcontact import Status
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
@@ -130,7 +130,7 @@ def simulate_oscillator(
         atol.append(rtol * speed)
     rates, jacobian = _quasi_static(element, applied) if square is None else _inertial(element, applied, square)
     exact = element.state_count == 0 and method in _IMPLICIT
-    solution = solve_ivp(
+    solution = scipy.integrate.solve_ivp(
         rates,
         (times[0], times[-1]),
         start + [0.0] * element.state_count,

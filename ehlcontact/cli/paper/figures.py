@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.signal import find_peaks
+import scipy
 
 from ehlcontact.cli.paper import pictures as p
 from ehlcontact.cli.paper.data import FIRST_VALLEY, paper_films, paper_fits
@@ -99,7 +99,8 @@ def first_turns(fits: Fits) -> dict[str, Any]:
     run = fits.runs.cases["2"]
     depth = TURN * float(np.ptp(run.h_central))
     turns = {
-        name: find_peaks(sign * run.h_central, prominence=depth)[0] for name, sign in (("peak", 1), ("valley", -1))
+        name: scipy.signal.find_peaks(sign * run.h_central, prominence=depth)[0]
+        for name, sign in (("peak", 1), ("valley", -1))
     }
     ours = {f"first {name}, T": float(run.T[at[0]]) if at.size else None for name, at in turns.items()}
     return {"the paper's text": {"first peak, T": None, "first valley, T": FIRST_VALLEY}, "ours": ours}

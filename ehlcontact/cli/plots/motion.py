@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import plotly.graph_objects as go
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, PALE_BLUE, RED, grid, label_axes, shaded
 from ehlcontact.cli.plots.units import units_of
@@ -57,7 +57,11 @@ def wave(run: SimulationResult) -> go.Figure:
     unit, found = units_of(run.scales).film, film_wave(run)
     T, X = np.linspace(found.T[0], found.T[-1], POINTS[0]), np.linspace(-WITHIN, WITHIN, POINTS[1])
     # shape-preserving: a spline would ring beside the constriction
-    change = unit(PchipInterpolator(found.X, PchipInterpolator(found.T, found.change)(T), axis=1)(X))
+    change = unit(
+        scipy.interpolate.PchipInterpolator(
+            found.X, scipy.interpolate.PchipInterpolator(found.T, found.change)(T), axis=1
+        )(X)
+    )
     largest = float(np.percentile(np.abs(change[:, np.abs(X) < CARRIED]), 99.0)) or 1.0
     figure = grid(heights=[340], titles=["dashed: carried through at dX/dT = 1"])
     figure.add_heatmap(x=T, y=X, z=change.T, coloraxis="coloraxis")

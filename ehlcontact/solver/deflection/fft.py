@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi
 
 import numpy as np
-from scipy import fft
+import scipy
 
 from ehlcontact.process.threads import CALLING_THREAD, Team
 from ehlcontact.solver.deflection.coefficients import Array, influence_coefficients
@@ -44,7 +44,7 @@ class FastTransforms:
 
     def __init__(self, kernel: Array) -> None:
         self._ny, self._nx = kernel.shape[0] // 2, kernel.shape[1] - 1
-        spectrum = fft.dctn(kernel, type=1) / (4 * self._ny)
+        spectrum = scipy.fft.dctn(kernel, type=1) / (4 * self._ny)
         self._spectrum = np.concatenate([spectrum[::2], spectrum[1::2]])  # even frequencies first
         self._lines, self._columns = (_blocks(*of) for of in (kernel.shape, kernel.shape[::-1]))
 
@@ -60,21 +60,21 @@ class FastTransforms:
     def _across(self, first: int, last: int, P: Array, rows: Array) -> None:
         ny = self._ny
         for block in self._columns[first:last]:
-            rows[: ny + 1, block] = fft.dct(P[:, block], 1, axis=0)
-            rows[ny + 1 :, block] = fft.dct(P[:ny, block], 3, axis=0)
+            rows[: ny + 1, block] = scipy.fft.dct(P[:, block], 1, axis=0)
+            rows[ny + 1 :, block] = scipy.fft.dct(P[:ny, block], 3, axis=0)
 
     def _along(self, first: int, last: int, rows: Array) -> None:
         nx = self._nx
         for block in self._lines[first:last]:
-            spectrum = fft.rfft(rows[block], 2 * nx, axis=1)
+            spectrum = scipy.fft.rfft(rows[block], 2 * nx, axis=1)
             spectrum *= self._spectrum[block]
-            rows[block] = fft.irfft(spectrum, 2 * nx, axis=1, overwrite_x=True)[:, : nx + 1]
+            rows[block] = scipy.fft.irfft(spectrum, 2 * nx, axis=1, overwrite_x=True)[:, : nx + 1]
 
     def _back_across(self, first: int, last: int, rows: Array, W: Array) -> None:
         ny = self._ny
         for block in self._columns[first:last]:
-            W[:, block] = fft.dct(rows[: ny + 1, block], 1, axis=0)
-            W[:ny, block] += fft.dct(rows[ny + 1 :, block], 2, axis=0)  # zero at j = ny
+            W[:, block] = scipy.fft.dct(rows[: ny + 1, block], 1, axis=0)
+            W[:ny, block] += scipy.fft.dct(rows[ny + 1 :, block], 2, axis=0)  # zero at j = ny
 
 
 def _blocks(count: int, length: int) -> list[slice]:
@@ -88,7 +88,7 @@ class MatrixTransforms:
 
     def __init__(self, kernel: Array) -> None:
         ny, nx = kernel.shape[0] // 2, kernel.shape[1] - 1
-        spectrum = fft.dctn(kernel, type=1)
+        spectrum = scipy.fft.dctn(kernel, type=1)
         phase = pi / (2 * ny) * np.outer(np.arange(2 * ny + 1), np.arange(ny + 1))
         share = np.where(np.arange(2 * ny + 1) % (2 * ny) == 0, 1.0, 2.0)  # of frequencies that stand for two
         self._across = np.cos(phase) * np.where(np.arange(ny + 1) == 0, 1.0, 2.0)
