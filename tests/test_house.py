@@ -114,3 +114,22 @@ def test_version_is_stated_once_and_alike():
     from ehlcontact import __version__
 
     assert project["project"]["version"] == __version__
+
+
+def called(node):
+    """Calls of an expression that are made as it is read: not those of functions in it."""
+    if isinstance(node, ast.Call):
+        yield ast.unparse(node.func)
+    if not isinstance(node, ast.Lambda):
+        for part in ast.iter_child_nodes(node):
+            yield from called(part)
+
+
+def test_tests_solve_nothing_while_they_are_collected():
+    """Every worker collects all tests, and would compile the solver."""
+    solves, found = {"solve_steady", "simulate", "impedance", "OilBalance"}, []
+    for path in (ROOT / "tests").rglob("test_*.py"):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.Assign) and solves & set(called(node.value)):
+                found.append(f"{path.name}:{node.lineno}")
+    assert found == []

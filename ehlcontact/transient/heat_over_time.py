@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from itertools import takewhile
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import toeplitz
 
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat, require_heat
@@ -79,7 +79,7 @@ class HeatOverTime(FilmHeat):
         self._step = stored, known(*state.pressure)
         parts = [np.clip(1.0 - delay / dT, 0.0, 1.0) for delay in self._delays]
         nothing = np.zeros(self.level.nx + 1)
-        self._now = [toeplitz(self._weights * part, nothing).T for part in parts]
+        self._now = [scipy.linalg.toeplitz(self._weights * part, nothing).T for part in parts]
         self._before = [self._brought(k, dT) for k in range(1 if self.even else 2)]
 
     def _brought(self, k: int, dT: float) -> Array:

@@ -87,6 +87,7 @@ def test_as_a_process():
 
 
 def test_help_does_not_load_the_solver():
-    code = "import sys, ehlcontact.cli.app\nprint({'matplotlib', 'fmpy', 'scipy.linalg', 'scipy.optimize'} & set(sys.modules))"
+    heavy = {"matplotlib", "fmpy", "scipy.linalg", "scipy.optimize"}
+    code = f"import sys, ehlcontact.cli.app\nprint({heavy} & set(sys.modules))"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == "set()"

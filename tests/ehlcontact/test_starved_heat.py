@@ -1,6 +1,7 @@
 """Films that are starved and heat up: limits, balances of oil and energy, and products of both factors."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -19,16 +20,24 @@ POINT = OperatingPoint.ball_bearing(
 )
 GRID = Grid(64, Domain(-6.0, 1.5, 3.0))
 GIVEN = {"grid": GRID, "tol": 1e-8}
-FLOODED = solve_steady(POINT, thermal=Heat(), **GIVEN)
-STARVED = solve_steady(POINT, supply=OilLayer(over_flooded=1.0), thermal=Heat(), **GIVEN)
+
+
+@cache
+def flooded():
+    return solve_steady(POINT, thermal=Heat(), **GIVEN)
+
+
+@cache
+def starved():
+    return solve_steady(POINT, supply=OilLayer(over_flooded=1.0), thermal=Heat(), **GIVEN)
 
 
 def test_much_oil_floods_the_film_with_heat():
     much = solve_steady(POINT, supply=OilLayer(H=1e5), thermal=Heat(), **GIVEN)
-    assert much.approach == pytest.approx(FLOODED.approach, rel=1e-6)
-    np.testing.assert_allclose(much.H, FLOODED.H, rtol=1e-6)
-    full = FLOODED.P > 0.0
-    np.testing.assert_allclose(much.temperature.mean[full], FLOODED.temperature.mean[full], atol=1e-5)
+    assert much.approach == pytest.approx(flooded().approach, rel=1e-6)
+    np.testing.assert_allclose(much.H, flooded().H, rtol=1e-6)
+    full = flooded().P > 0.0
+    np.testing.assert_allclose(much.temperature.mean[full], flooded().temperature.mean[full], atol=1e-5)
 
 
 def test_without_a_slope_the_starved_film_is_the_isothermal_one():
@@ -57,18 +66,18 @@ def test_oil_and_energy_are_balanced(r, given):
 
 def test_heat_that_flows_back_turns_round_at_the_front():
     """The oil in the middle carries it there, and beside the surfaces in again: it does not pile up."""
-    front = np.argmax(STARVED.P[:, 0] > 0.0)
-    T = STARVED.temperature.mean[:, 0]
-    assert STARVED.X[front] < -2.0  # where the middle flows back
+    front = np.argmax(starved().P[:, 0] > 0.0)
+    T = starved().temperature.mean[:, 0]
+    assert starved().X[front] < -2.0  # where the middle flows back
     assert 0.0 < T[front] < 1.2 * T[front + 3] < 10.0
-    wall = STARVED.temperature.surfaces[0, :, 0]
+    wall = starved().temperature.surfaces[0, :, 0]
     assert wall[front] > 0.0 == wall[front - 3]
 
 
 @pytest.mark.parametrize("r", [0.3, 1.0])
 def test_joint_film_is_the_product_of_its_factors(r):
     """With the layer over the flooded film with heat; a thin layer itself loses nothing by heat."""
-    share = FLOODED.temperature.film_share
+    share = flooded().temperature.film_share
     joint = solve_steady(POINT, supply=OilLayer(over_flooded=r), thermal=Heat(), **GIVEN)
     shifted = solve_steady(POINT, supply=OilLayer(over_flooded=r / share), **GIVEN)
     assert share * shifted.h_central == pytest.approx(joint.h_central, rel=0.01)
