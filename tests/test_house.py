@@ -116,6 +116,16 @@ def test_version_is_stated_once_and_alike():
     assert project["project"]["version"] == __version__
 
 
+def test_parts_of_scipy_are_loaded_by_what_needs_them():
+    """``scipy.optimize.brentq``, not from an import at the top: a third of the start of a program."""
+    loads = [
+        name
+        for name, path in zip(NAMES, SOURCES, strict=True)
+        if re.search(r"^from scipy", path.read_text(), re.M)
+    ]
+    assert loads == ["reduced_models/rotor/ross_rotor.py"]  # a constant
+
+
 def called(node):
     """Calls of an expression that are made as it is read: not those of functions in it."""
     if isinstance(node, ast.Call):

@@ -15,9 +15,8 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicSpline
-from scipy.spatial.distance import cdist
 
 from ehlcontact.checks import as_numbers
 from ehlcontact.errors import InputError
@@ -70,7 +69,7 @@ class FilterTable:
         x, wanted = coordinates(self.points), self.deviation
         parts = left_out_errors(x, np.hstack([wanted.real, wanted.imag]))
         errors = np.hypot(parts[:, : self.k.size], parts[:, self.k.size :])
-        distance = cdist(x, x)
+        distance = scipy.spatial.distance.cdist(x, x)
         np.fill_diagonal(distance, np.inf)
         local = _local(errors, np.argpartition(distance, NEAREST, axis=1)[:, :NEAREST])
         return replace(self, left_out=errors, factor=np.quantile(errors / local, COVERED, axis=0))
@@ -112,7 +111,7 @@ class ContactFilters:
     """
 
     def __init__(self, k: _Floats, nodes: _Complex, bars: _Floats) -> None:
-        spline = CubicSpline(k, np.concatenate([nodes.real, nodes.imag], axis=1)).c
+        spline = scipy.interpolate.CubicSpline(k, np.concatenate([nodes.real, nodes.imag], axis=1)).c
         self._k, self._bars, self._count = k, bars, nodes.shape[1]
         self._spline = spline[..., : self._count] + 1j * spline[..., self._count :]
 
@@ -135,7 +134,9 @@ class FilterSurface:
     def __init__(self, table: FilterTable) -> None:
         self.table, x = table, coordinates(table.points)
         self._radial = Radial(x, np.hstack([table.deviation.real, table.deviation.imag]))
-        self._usual_reach = float(np.median(np.partition(cdist(x, x), NEAREST, axis=1)[:, NEAREST]))
+        self._usual_reach = float(
+            np.median(np.partition(scipy.spatial.distance.cdist(x, x), NEAREST, axis=1)[:, NEAREST])
+        )
 
     @one_blas_thread()
     def contacts(self, points: _Floats) -> ContactFilters:
@@ -147,7 +148,7 @@ class FilterSurface:
         low, high = np.transpose([box.M, box.L, box.kappa])
         inside = np.clip(points, low, high)
         x, m = coordinates(inside), table.k.size
-        distance = cdist(x, self._radial.x)
+        distance = scipy.spatial.distance.cdist(x, self._radial.x)
         nearest = np.argpartition(distance, NEAREST, axis=1)[:, :NEAREST]
         reach = np.take_along_axis(distance, nearest, axis=1).max(axis=1, keepdims=True)
         grown, share = np.maximum(reach / self._usual_reach, 1.0) ** 2, film_share(inside)[:, None]

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat, require_heat
@@ -184,5 +184,7 @@ class HeatCondition:
 
 def _over(nodes: _Floats, Omega: _Floats) -> _Floats:
     """Weights of the frequencies of the table at others, shape (nodes, others)."""
-    curve = CubicSpline(np.arcsinh(nodes), np.eye(nodes.size), bc_type=((1, np.zeros(nodes.size)), "not-a-knot"))
+    curve = scipy.interpolate.CubicSpline(
+        np.arcsinh(nodes), np.eye(nodes.size), bc_type=((1, np.zeros(nodes.size)), "not-a-knot")
+    )
     return np.asarray(curve(np.arcsinh(Omega))).T

@@ -18,8 +18,8 @@ from math import log
 from typing import Any, NamedTuple, Self
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial.distance import cdist
 
 from ehlcontact.film_formulas import load_number, wilson_heating
 from ehlcontact.process.blas import one_blas_thread
@@ -115,14 +115,16 @@ class HeatSurface:
         x = plain * self._weights
         self._radial, errors = Radial(x, table.changes), left_out_errors(x, table.changes)
         self.errors, self._factor = errors, error_factor(x, errors, by)
-        self._usual_reach = float(np.median(np.partition(cdist(x, x), by.nearest, axis=1)[:, by.nearest]))
+        self._usual_reach = float(
+            np.median(np.partition(scipy.spatial.distance.cdist(x, x), by.nearest, axis=1)[:, by.nearest])
+        )
 
     @one_blas_thread()
     def at(self, points: _Floats) -> tuple[_Floats, _Floats]:
         """Changes of contacts and half widths of their error bars, both over g, shape (n, 4 + 2 k)."""
         nearest = self._by.nearest
         x = np.clip(coordinates(points), self._low, self._high) * self._weights
-        distance = cdist(x, self._radial.x)
+        distance = scipy.spatial.distance.cdist(x, self._radial.x)
         found = self._radial.at(x, distance)
         which = np.argpartition(distance, nearest, axis=1)[:, :nearest]
         reach = np.take_along_axis(distance, which, axis=1).max(axis=1, keepdims=True)
