@@ -49,8 +49,8 @@ def lowest_film(H: Array) -> tuple[float, float, float]:
     rows, columns = np.nonzero(_cells_near(H, NEAR * node))
     if not rows.size:
         return at_node
-    film, rows, columns = (np.array(one, order="C") for one in (H, rows, columns))  # of any layout: compiled once
-    lowest, row, column = lowest_of_cells(film, rows, columns, np.empty((rows.size, 3)))
+    film, lines, places = np.array(H, order="C"), np.array(rows), np.array(columns)  # of any layout: compiled once
+    lowest, row, column = lowest_of_cells(film, lines, places, np.empty((rows.size, 3)))
     return (lowest, row, column) if 0.0 < lowest < node else at_node
 
 
