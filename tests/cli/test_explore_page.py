@@ -126,6 +126,7 @@ def test_defect_frequencies_under_an_axial_load(seen):
     bearing = BallBearing.catalogue("6205", clearance=8e-6, oil=Lubricant.iso_vg(68, temperature=50.0))
     bpfo = bearing.orders_under(500.0, axial=60.0, speed_rpm=3000.0, slip=0.005).bpfo
     assert "under 60 N of axial load, without which all else is computed" in found["defects"]
+    assert "with 0.5 % slip of the cage" in found["defects"]
     shown = re.search(r"outer race[^0-9]*?[\d.]+?(3\.\d{4})", found["defects"])
     assert float(shown[1]) == pytest.approx(bpfo, abs=3e-4)
     found = seen(TEXTS, "#axial_load=60&slip=100")
@@ -204,7 +205,7 @@ def test_every_input_has_a_label_and_takes_the_keyboard(seen):
     body = """const inputs = [...document.querySelectorAll("input, select, button")];
     return inputs.map(input => [input.id, input.tabIndex, (input.labels?.[0] ?? input).textContent.trim()]);"""
     found = seen(body)
-    assert len(found) == 18
+    assert len(found) == 20
     assert all(index == 0 and len(text) > 3 for _, index, text in found)
 
 

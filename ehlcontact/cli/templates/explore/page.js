@@ -68,7 +68,7 @@ function compute() {
   const rows = whole.coefficients(atSpeed, load, [0, hz, ...hzs].map(one => 2 * Math.PI * one));
   const contacts = films[0].map(film => film.answer && contact(film));
   const outside = outsideAssumptions(whole, atSpeed, state.balls);
-  return { outside, whole, orders, angle, axial, rpm, load, rq, ratio, state, films, hz, hzs, contacts, still: rows[0], there: rows[1], over: rows.slice(2) };
+  return { outside, whole, orders, angle, axial, slip, rpm, load, rq, ratio, state, films, hz, hzs, contacts, still: rows[0], there: rows[1], over: rows.slice(2) };
 }
 
 // K and C of one film in SI, with their bars: hz => { K: [value, bar], C: [value, bar] }.
@@ -165,7 +165,7 @@ function tables(f) {
   const defects = Object.entries(f.orders).map(([name, order]) => [`${name}, ${DEFECTS[name]}`, show(order * f.rpm / 60, 4), show(order, 5)]);
   const under = f.axial > 0 ? `, under ${show(f.axial)} N of axial load, without which all else is computed` : "";
   const at = f.angle > 0 ? ` at a contact angle of ${show(f.angle)}°${under}` : "";
-  field("defects").innerHTML = table(`Defect frequencies${at}`, ["", "Hz", "per turn"], defects);
+  field("defects").innerHTML = table(`Defect frequencies${f.slip === 0 ? "" : ` with ${show(100 * f.slip)} % slip of the cage`}${at}`, ["", "Hz", "per turn"], defects);
   const balls = f.state.balls.map((ball, k) => [`${degrees(f, k)}°`, ...ball.force.map(one => show(one)),
     ...f.films[k].map(film => show(film.h_min * 1e6)), show(Math.min(...f.films[k].map(film => film.h_min)) / f.rq)]);
   field("balls_table").innerHTML = table("All balls, from the load on", ["ball", "inner [N]", "outer [N]", "film inner [µm]", "outer [µm]", "lambda"], balls);
