@@ -19,11 +19,13 @@ import numpy as np
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
+from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.level import Level
 from ehlcontact.store import save, stored
 from ehlcontact.transient.features import Surface, surface_height
+from ehlcontact.transient.heat_over_time import HeatState
 from ehlcontact.transient.record import COLUMNS, Array, Record
 from ehlcontact.transient.run import Run
 from ehlcontact.transient.settings import RunInputs, even_step
@@ -34,7 +36,7 @@ from ehlcontact.version import __version__
 SAME = 1e-12  # of a time or a step: they differ by rounding only
 
 
-@stored("checkpoint of `simulate`", 2)
+@stored("checkpoint of `simulate`", 3)
 @dataclass(frozen=True, slots=True, eq=False)
 class Checkpoint:
     """Content of the file: the run up to its last accepted state, and that state."""
@@ -48,6 +50,7 @@ class Checkpoint:
     seconds: float  # that it took
     version: str
     film_error: ErrorEstimate | None  # of the film at T = 0
+    temperature: FilmTemperature | None  # likewise
 
     @classmethod
     def of(cls, run: Run, inputs: RunInputs, seconds: float) -> Checkpoint:
@@ -63,6 +66,7 @@ class Checkpoint:
             seconds=seconds,
             version=__version__,
             film_error=run.film_error,
+            temperature=run.film.temperature,
         )
 
     def check(
@@ -87,7 +91,7 @@ class Checkpoint:
 
         same("version", self.version, __version__)
         ours = self.inputs
-        for name in ("point", "deflection", "supply"):
+        for name in ("point", "deflection", "supply", "thermal"):
             same(name, getattr(ours, name), getattr(asked, name))
         for name in ("n", "domain"):
             same(name, getattr(ours.mesh, name), getattr(asked.mesh, name))
@@ -121,6 +125,8 @@ class Checkpoint:
             (record.numbers, (steps, len(COLUMNS))),
             *((profile, (steps, nx)) for profile in (record.film, record.pressure)),
             (record.leaving, (steps, level.ny + 1 if self.inputs.supply is not None else 0)),
+            (record.heat, (steps, 3 if self.inputs.thermal is not None else 0)),
+            *((array, shape) for array, shape in _of_heat(film.heat, field)),
             *((snapshots, (kept, nx, level.ny + 1)) for snapshots in (record.snapshot_H, record.snapshot_P)),
             *((array, field) for array in (film.P, film.mass, film.mass_before, *(P for _, P in film.past))),
         ]
@@ -129,6 +135,7 @@ class Checkpoint:
             unknowns = film.factors.free.size + 1
             sound &= film.factors.lu[0].shape == (unknowns, unknowns)
             sound &= film.factors.lu[1].shape == (unknowns,)
+        sound &= (film.heat is None) == (self.inputs.thermal is None)
         controlled = (self.control is not None) == (self.inputs.steps.local_error is not None)
         return sound and controlled and all(isfinite(x) for x in (self.scale, self.static_approach, film.u))
 
@@ -195,6 +202,15 @@ def require_replaceable(path: str | os.PathLike[str], restart: str | os.PathLike
         raise InputError(
             "checkpoint", str(path), "a new file, or the one given as restart (this one exists, and would be lost)"
         )
+
+
+def _of_heat(heat: HeatState | None, field: tuple[int, ...]) -> list[tuple[np.ndarray, tuple[int, ...]]]:
+    """Arrays of a state of temperatures, with the shapes that they should have."""
+    if heat is None:
+        return []
+    fields = (heat.rise, heat.heating, *heat.stored, *heat.pressure)
+    pairs = (heat.walls, *(given for _, given in heat.given))
+    return [*((array, field) for array in fields), *((array, (2, *field)) for array in pairs)]
 
 
 def _brief(value: Any) -> str:

@@ -50,12 +50,15 @@ class Entry:
         )
 
     @classmethod
-    def of_numbers(cls, numbers: Sequence[float], film: Array, pressure: Array, leaving: Array) -> Entry:
+    def of_numbers(
+        cls, numbers: Sequence[float], film: Array, pressure: Array, leaving: Array, heat: Array
+    ) -> Entry:
         """Entry of a step that was solved, from its `numbers` and profiles."""
         T, u, rate, acceleration, force, load, h_central, h_min, residual, load_residual, cycles = numbers
         step = Step(residual, load_residual, int(cycles), Status.CONVERGED)
         motion = MotionState(T, u, rate, acceleration)
-        return cls(motion, force, load, h_central, h_min, film, pressure, leaving, step)
+        warm = (float(heat[0]), float(heat[1]), float(heat[2])) if heat.size else None
+        return cls(motion, force, load, h_central, h_min, film, pressure, leaving, step, warm)
 
     def numbers(self) -> tuple[float, ...]:
         """All but the profiles, in the order of `COLUMNS`."""
@@ -87,6 +90,7 @@ class Record:
     film: Array  # (steps + 1, nx + 1) along Y = 0
     pressure: Array  # (steps + 1, nx + 1) along Y = 0
     leaving: Array  # (steps + 1, ny + 1), or (steps + 1, 0) of a flooded inlet
+    heat: Array  # (steps + 1, 3) as in `Entry`, or (steps + 1, 0) of an isothermal film
     snapshot_T: Array  # (k,)
     snapshot_H: Array  # (k, nx + 1, ny + 1)
     snapshot_P: Array  # (k, nx + 1, ny + 1)
@@ -102,7 +106,7 @@ class Record:
 
     def entries(self) -> list[Entry]:
         """The entries it was made of, each of which was solved."""
-        rows = zip(self.numbers.tolist(), self.film, self.pressure, self.leaving, strict=True)
+        rows = zip(self.numbers.tolist(), self.film, self.pressure, self.leaving, self.heat, strict=True)
         return [Entry.of_numbers(*row) for row in rows]
 
 
@@ -139,6 +143,7 @@ class History:
             film=np.array([entry.film for entry in rows]),
             pressure=np.array([entry.pressure for entry in rows]),
             leaving=np.array([entry.leaving for entry in rows]),
+            heat=np.array([entry.heat or () for entry in rows]),
             snapshot_T=np.array([T for T, _, _ in taken]),
             snapshot_H=np.array([H for _, H, _ in taken]).reshape(shape),
             snapshot_P=np.array([P for _, _, P in taken]).reshape(shape),

@@ -80,8 +80,7 @@ def simulate(
         turn back, they bring back what has left. Not together with `surface`.
     thermal : Heat, optional
         Let the film heat up: oil and surfaces store heat, and its viscosity follows in every step (docs/heat.md).
-        By default the film has the temperature of the inlet. Not together with `supply`, `speed`, `surface`, and
-        without checkpoints.
+        By default the film has the temperature of the inlet. Not together with `supply`, `speed` or `surface`.
     time : TimeSteps
         End, step, tolerances; in seconds for an `OperatingPoint`, in 2a/u_sum for a `MoesPoint`.
     speed : SpeedHistory, optional
@@ -127,8 +126,6 @@ def simulate(
         raise InputError("surface", type(surface).__name__, "left out with a supply")
     if thermal is not None:
         thermal = require_heat_over_time(thermal, point, supply=supply, surface=surface, speed=speed)
-        if keep.checkpoint is not None or keep.restart is not None:
-            raise InputError("checkpoint", str(keep.checkpoint or keep.restart), "left out with heat")
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
     scales = scales_of(point)
@@ -179,6 +176,7 @@ def simulate(
     else:
         history = History.of(earlier.record, inputs.snapshots)
         film_run = Run(film, motion, surface, history, earlier.control, watch, speed)
+        film.temperature = earlier.temperature
         film_run.resume(earlier.film, earlier.scale, earlier.static_approach, earlier.film_error)
         end = march(film_run, steps)
     unkept = None

@@ -127,6 +127,22 @@ def test_contact_goes_back_to_a_saved_state():
     assert cold.h_central > 1.2 * contact.h_central
 
 
+def test_run_goes_on_from_a_checkpoint(tmp_path):
+    """Bit for bit, with the temperatures and what was given to the surfaces."""
+    motion, file = FreeVibration(Omega_n=5.13, rate=0.1), tmp_path / "run.h5"
+    given = {"grid": GRID, "thermal": Heat()}
+    whole = simulate(POINT, motion, **given, time=TimeSteps(until=0.5 * UNIT, dt=0.05 * UNIT))
+    half = TimeSteps(until=0.25 * UNIT, dt=0.05 * UNIT)
+    simulate(POINT, motion, **given, time=half, keep=KeepSettings(checkpoint=file))
+    on = KeepSettings(restart=file)
+    again = simulate(POINT, motion, **given, time=TimeSteps(until=0.5 * UNIT, dt=0.05 * UNIT), keep=on)
+    for name in ("force", "warmest_oil", "warmest_surface", "heat_balance"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(whole, name))
+    assert again.temperature.film_share == whole.temperature.film_share
+    with pytest.raises(InputError, match="its thermal is"):
+        simulate(POINT, motion, grid=GRID, time=half, keep=on)
+
+
 def test_kept(tmp_path):
     motion = PrescribedApproach([0, 1, 2, 3], [0.91, 0.92, 0.93, 0.94])
     run = moved(motion, 1.0, 4)
@@ -136,7 +152,7 @@ def test_kept(tmp_path):
     assert run.to_dict()["temperature"]["film_share"] < 0.9
 
 
-def test_what_heat_does_not_go_with(tmp_path):
+def test_what_heat_does_not_go_with():
     motion = FreeVibration(Omega_n=5.0, rate=0.1)
     given = {"grid": GRID, "thermal": Heat()}
     for name, value in (("supply", OilLayer(1e-6)), ("surface", lambda X, Y, T: 0.0 * X)):
@@ -144,8 +160,6 @@ def test_what_heat_does_not_go_with(tmp_path):
             simulate(POINT, motion, **given, **{name: value})
     with pytest.raises(InputError, match=r"speed = .*left out with heat"):
         simulate(POINT, motion, **given, speed=SpeedHistory([0, 1, 2, 3], [1, 1, 2, 2]))
-    with pytest.raises(InputError, match=r"checkpoint = .*left out with heat"):
-        simulate(POINT, motion, **given, keep=KeepSettings(checkpoint=tmp_path / "run.h5"))
     with pytest.raises(InputError, match=r"supply = .*left out with heat"):
         FullContact(POINT, supply=OilLayer(1e-6), thermal=Heat())
     with pytest.raises(InputError, match="left out at a dimensionless point"):
