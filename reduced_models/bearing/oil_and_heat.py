@@ -1,7 +1,8 @@
 """A bearing with flooded isothermal films, with heat, and with a layer of oil on its surfaces, beside each other.
 
-The contacts of the heaviest ball are solved under each condition. Films, moments, K and C of the bearing are those
-of its flooded films times the ratio of the solved ones: films and moments race by race, K and C as those of the
+Each is the bearing with `BallBearing.thermal` and `BallBearing.supply`, from the tables of the atlas. Where they
+do not have it, or on request, the contacts of the heaviest ball are solved; then films, moments, K and C are those
+of the flooded films times the ratio of the solved ones: films and moments race by race, K and C as those of the
 ball, both contacts in series. With both, heat thins the film and the layer is over what is left of it:
 
     value = heated value * value(layer/s)/flooded value,    s = heated central film over the flooded one.
@@ -10,6 +11,7 @@ ball, both contacts in series. With both, heat thins the film and the layer is o
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -89,6 +91,14 @@ class Condition:
     rolling: float
     sliding: float
 
+    def times(self, other: Condition, over: Condition) -> Condition:
+        """Values times those of another condition over those of a third."""
+        values: dict[str, Any] = {
+            name: None if one is None else one * getattr(other, name) / getattr(over, name)
+            for name, one in vars(self).items()
+        }
+        return Condition(**values)
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class OilAndHeat(Summary):
@@ -104,12 +114,15 @@ class OilAndHeat(Summary):
         By name, those that were asked for.
     refused : dict of str to str
         Those that were asked for and have no film, and why.
+    solved : bool
+        Whether contacts of the heaviest ball were solved, and all is not from tables.
     """
 
     state: BearingState
     hz: _Floats
     conditions: Mapping[str, Condition]
     refused: Mapping[str, str]
+    solved: bool
 
     @property
     def rows(self) -> list[tuple[str, str, dict[str, float]]]:
@@ -142,9 +155,9 @@ class OilAndHeat(Summary):
     @property
     def notes(self) -> list[str]:
         """What these numbers do not say, one line each."""
-        lines = [
-            "K and C are those of flooded films times the ratio of the heaviest ball's contacts, which are solved."
-        ]
+        lines = ["Films, K and C are those of all balls, from tables of solved contacts."]
+        if self.solved:
+            lines = ["K and C are those of flooded films times the ratio of the heaviest ball's solved contacts."]
         if BOTH in self.conditions:
             lines.append("With both is a product: the layer is taken over the film that heat leaves.")
         without = [
@@ -176,6 +189,7 @@ class OilAndHeat(Summary):
                 key: {name: _plain(getattr(one, name)) for name in names} for key, one in self.conditions.items()
             },
             "refused": dict(self.refused),
+            "solved": self.solved,
             "skf_rolling": self.state.skf_rolling,
             "skf_sliding": self.state.skf_sliding,
             "notes": self.notes,
@@ -201,6 +215,7 @@ def oil_and_heat(
     tilt: ArrayLike | None = None,
     law: TractionLaw = USUAL_LAW,
     band: ArrayLike = (),
+    solve: bool = False,
     callback: Callable[[int, int, str], object] = lambda done, total, words: None,
 ) -> OilAndHeat:
     """Films, K, C and torque of a `BallBearing`, flooded and isothermal, with heat, with a layer, with both.
@@ -220,6 +235,8 @@ def oil_and_heat(
         Of sliding.
     band : array_like, shape (k,)
         Further frequencies of K and C [Hz].
+    solve : bool
+        Solve the contacts of the heaviest ball, also where tables have them.
     callback : callable
         Called before every solve with those done, their number, and what is solved.
 
@@ -228,7 +245,7 @@ def oil_and_heat(
     InputError
         A dry bearing; a heaviest ball lighter than the atlas knows; an oil without the data of heat.
     ConvergenceError
-        Of the flooded films. Other films that do not converge are in `OilAndHeat.refused`.
+        Of flooded films that are solved. Other films that do not converge are in `OilAndHeat.refused`.
     """
     if bearing.supply is not None:
         raise InputError("bearing.supply", "an OilLayer", "left out of the bearing: `supply` here is that layer")
@@ -237,10 +254,60 @@ def oil_and_heat(
     state = oiled_state(bearing, load, speed_rpm, law, tilt)
     hz = np.array([state.speed_rpm * RPM_TO_HZ, HIGH, *np.ravel(band).tolist()])
     points = [_point(bearing, state, column) for column in range(len(RACES))]
+    if thermal is not None:
+        thermal.at(points[0])  # which names data that are missing
+
+    def tabulated(**given: Any) -> Condition:
+        variant = replace(bearing, **given)
+        found = oiled_state(variant, load, speed_rpm, law, tilt)
+        return _tabulated(variant, found, variant.coefficients(load, speed_rpm=speed_rpm, tilt=tilt, hz=hz), law)
+
+    if not solve:
+        with suppress(InputError):  # beyond the tables
+            made = _from_tables(tabulated, state.heaviest, supply, thermal)
+            return OilAndHeat(state=state, hz=hz, conditions=made, refused={}, solved=False)
     small = bearing.coefficients(load, speed_rpm=speed_rpm, tilt=tilt, hz=hz)
     ratios, refused = _ratios(points, hz, supply, thermal, callback)
     made = {key: _condition(bearing, state, small, one, law) for key, one in ratios.items()}
-    return OilAndHeat(state=state, hz=hz, conditions=made, refused=refused)
+    return OilAndHeat(state=state, hz=hz, conditions=made, refused=refused, solved=True)
+
+
+def _from_tables(
+    tabulated: Callable[..., Condition], heaviest: int, supply: OilLayer | None, thermal: Heat | None
+) -> dict[str, Condition]:
+    """The conditions that are asked for, each of the bearing as a whole."""
+    made = {FLOODED: tabulated()}
+    if thermal is not None:
+        made[HEAT] = tabulated(thermal=thermal)
+    if supply is not None:
+        made[LAYER] = tabulated(supply=supply)
+    if supply is not None and thermal is not None:
+        heated, flooded = made[HEAT], made[FLOODED]
+        share = float((heated.h_central / flooded.h_central)[heaviest].mean())
+        made[BOTH] = heated.times(tabulated(supply=_over(supply, share)), flooded)
+    return made
+
+
+def _tabulated(bearing: Any, state: BearingState, small: Any, law: TractionLaw) -> Condition:
+    """A bearing as it is; raises `InputError` where its elements do not have damping below zero."""
+    damping = small.damping if bearing.supply is None else small.signed_damping
+    if damping is None:
+        raise InputError("supply", "contact angles", "solved: their elements have no damping below zero")
+    assert state.h_central is not None and state.h_min is not None and state.rolling_torque is not None
+    return Condition(
+        h_central=state.h_central,
+        h_min=state.h_min,
+        lambda_ratio=state.lambda_ratio,
+        stiffness=_diagonal(small.stiffness),
+        damping=_diagonal(damping),
+        rolling=state.rolling_torque,
+        sliding=friction_at(bearing, state, law, heat=False).sliding,
+    )
+
+
+def _diagonal(matrices: _Floats) -> _Floats:
+    """Of matrices over the frequencies: in x, y and z."""
+    return np.einsum("kii->ki", matrices)[:, : AXIAL + 1]
 
 
 def _point(bearing: Any, state: BearingState, column: int) -> OperatingPoint:
@@ -302,15 +369,12 @@ def _condition(bearing: Any, state: BearingState, small: Any, ratios: Ratios, la
     assert state.h_central is not None and state.h_min is not None and state.moment is not None
     inner, outer = (state.moment * ratios.moment).T
     thin = replace(state, h_central=state.h_central * ratios.h_central)
-    diagonal = {
-        name: np.einsum("kii->ki", getattr(small, name))[:, : AXIAL + 1] for name in ("stiffness", "damping")
-    }
     return Condition(
         h_central=state.h_central * ratios.h_central,
         h_min=state.h_min * ratios.h_min,
         lambda_ratio=None if state.lambda_ratio is None else state.lambda_ratio * ratios.h_min,
-        stiffness=diagonal["stiffness"] * ratios.stiffness[:, None],
-        damping=diagonal["damping"] * ratios.damping[:, None],
+        stiffness=_diagonal(small.stiffness) * ratios.stiffness[:, None],
+        damping=_diagonal(small.damping) * ratios.damping[:, None],
         rolling=rolling_torque(inner, outer, bearing.ball_diameter, bearing.pitch_diameter),
         sliding=friction_at(bearing, thin, law, heat=False).sliding,
     )

@@ -57,7 +57,7 @@ SLOW = {  # subcommands of `ehlcontact` that take long here: why they are run wi
 
 
 def slow(line):
-    return shlex.split(line)[1] in SLOW or "--thermal" in line  # which solves contacts on the right grids too
+    return shlex.split(line)[1] in SLOW
 
 
 @pytest.mark.parametrize("page", WRITTEN)

@@ -216,7 +216,7 @@ def _friction_entries(found: BearingFriction) -> dict[str, Any]:
     return {name: getattr(found, name) for name in names} | {"law": str(found.law)}
 
 
-OWN = ("spall", "slip", "measured_order")  # options that are no entries of a file
+OWN = ("spall", "slip", "measured_order", "solve")  # options that are no entries of a file
 
 
 class BearingOptions(o.Options):
@@ -311,6 +311,9 @@ class BearingOptions(o.Options):
         bool | None,
         _films("--thermal", help="Films that heat up, beside isothermal ones; with --oil and --temp."),
     ] = None
+    solve: Annotated[
+        bool, _films("--solve", help="Solve the contacts of the heaviest ball in place of tables; a minute.")
+    ] = False
 
     def given(self) -> dict[str, Any]:
         """Values by option, of those that are given."""
@@ -349,9 +352,9 @@ def bearing(
     Films are flooded, isothermal and between smooth surfaces. With --load
     alone axial motion and tilts are held, and contact angles are zero.
     With --pair two such bearings carry the load, which acts in their middle.
-    With --thermal, --layer or --layer-ratio the contacts of the heaviest ball
-    are solved with heat and with a layer of oil, and a table has both beside
-    flooded isothermal films.
+    With --thermal, --layer or --layer-ratio a table has films, stiffness,
+    damping and torque with heat and with a layer of oil beside flooded
+    isothermal ones.
 
     Not in it: flexible rings; sliding and spin in the forces; grease.
 
@@ -371,7 +374,7 @@ def bearing(
         lines = () if spall is None else tuple(defect.excitations(job, spall))
         found = None if order is None else measured.allowed_by(order, job, slip)
         report = replace(_computed(job), spall=spall, excitations=lines, slip=slip, order=order, allowed=found)
-        report = replace(report, oil_and_heat=tuple(_oil_and_heat(job, update)))
+        report = replace(report, oil_and_heat=tuple(_oil_and_heat(job, update, options.solve)))
 
     def draw(path: Path) -> None:
         from reduced_models.bearing.picture import draw_over_speed
@@ -389,7 +392,9 @@ def bearing(
     )
 
 
-def _oil_and_heat(job: BearingJob, update: Callable[[float, float, str], object]) -> Iterator[OilAndHeat]:
+def _oil_and_heat(
+    job: BearingJob, update: Callable[[float, float, str], object], solve: bool
+) -> Iterator[OilAndHeat]:
     """The bearing with a layer and with heat beside flooded isothermal films, speed by speed."""
     if job.supply is None and job.thermal is None:
         return
@@ -398,7 +403,7 @@ def _oil_and_heat(job: BearingJob, update: Callable[[float, float, str], object]
         def told(done: int, total: int, words: str, k: int = k) -> None:
             update(k * total + done, len(job.speeds) * total, words)
 
-        yield job.oil_and_heat(speed, told)
+        yield job.oil_and_heat(speed, told, solve=solve)
 
 
 def _slip_of(percent: float) -> float:

@@ -198,7 +198,9 @@ class BearingJob:
         at = {"hz": self.hz} if self.hz else {"rpm": speed_rpm}
         return self.bearing_or_pair.coefficients(self.load, speed_rpm=speed_rpm, tilt=self.tilt, **at)
 
-    def oil_and_heat(self, speed_rpm: float, callback: Callable[[int, int, str], object]) -> OilAndHeat:
+    def oil_and_heat(
+        self, speed_rpm: float, callback: Callable[[int, int, str], object], *, solve: bool
+    ) -> OilAndHeat:
         """Films, K, C and torque with heat and with the layer, where given, beside flooded isothermal ones."""
         from reduced_models.bearing.oil_and_heat import oil_and_heat
 
@@ -209,6 +211,7 @@ class BearingJob:
             supply=self.supply,
             thermal=self.thermal,
             tilt=self.tilt,
+            solve=solve,
             callback=callback,
         )
 

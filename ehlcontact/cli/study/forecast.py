@@ -25,7 +25,7 @@ REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either
 # Convolutions of the rotor on whole bearings, with films and dry: its diagram, and each of its steps.
 WHOLE, WHOLE_STEP = 470.0, 0.016
 WHOLE_AT_ANGLES = 610.0  # of bearings with an axial load and of the rotor between them
-CONDITION = 0.41  # of oil supply and heat, per node of the mesh and condition
+CONDITION = 260.0  # of oil supply and heat, from tables; where contacts are solved some thousands
 REFERENCE_RUNS = 15  # convolutions timed, of which the fastest counts
 # What too coarse a mesh does, measured against finer grids: the 6205 at n = 64, and solver/mesh_choice.py.
 FILM_TOO_THIN = "it comes out a fifth too thin, or negative"
@@ -168,10 +168,7 @@ def oil_and_heat_cost(study: Study) -> float:
     """Likewise of the bearing with heat and with a layer of oil, where they are asked for."""
     whole = study.whole_bearing
     heat, layer = whole.thermal, whole.layer_um is not None or whole.layer_ratio is not None
-    if not (heat or layer):
-        return 0.0
-    nodes = mesh_for(study.point.moes, Purpose.DAMPING, grid=Grid()).nodes
-    return CONDITION * float(nodes) * (1 + heat) * (1 + layer)
+    return CONDITION * (1 + heat) * (1 + layer) if heat or layer else 0.0
 
 
 def convolution_seconds() -> float:

@@ -23,7 +23,41 @@ def coarse(monkeypatch):
     """Contacts on coarse grids: what is tested is what is made of them."""
     solve = partial(impedance, grid=Grid(48))
     monkeypatch.setattr(module, "impedance", solve)
-    return partial(oil_and_heat, BEARING, LOAD, speed_rpm=SPEED), solve
+    return partial(oil_and_heat, BEARING, LOAD, speed_rpm=SPEED, solve=True), solve
+
+
+def test_conditions_are_those_of_the_bearing_with_heat_and_with_the_layer():
+    supply, load, speed = OilLayer(over_flooded=0.8), (0.0, -1000.0), 3000.0
+    found = oil_and_heat(BEARING, load, speed_rpm=speed, supply=supply, thermal=Heat(), band=[1000.0])
+    assert not found.solved and found.hz.tolist() == [50.0, HIGH, 1000.0]
+    share = found.conditions[HEAT].h_central[0] / found.conditions[FLOODED].h_central[0]
+    thicker = OilLayer(over_flooded=0.8 / float(share.mean()))
+    at = {}
+    for key, given in (
+        (FLOODED, {}),
+        (HEAT, {"thermal": Heat()}),
+        (LAYER, {"supply": supply}),
+        ("thicker", {"supply": thicker}),
+    ):
+        one = replace(BEARING, **given)
+        state = one.equilibrium(load, speed_rpm=speed)
+        small = one.coefficients(load, speed_rpm=speed, hz=[50.0, HIGH, 1000.0])
+        damping = small.damping if "supply" not in given else small.signed_damping
+        at[key] = state.h_min, small.stiffness[:, 1, 1], damping[:, 1, 1], state.rolling_torque
+    at[BOTH] = [a * b / c for a, b, c in zip(at[HEAT], at["thicker"], at[FLOODED], strict=True)]
+    for key, one in found.conditions.items():
+        own = one.h_min, one.stiffness[:, 1], one.damping[:, 1], one.rolling
+        for value, expected in zip(own, at[key], strict=True):
+            np.testing.assert_allclose(value, expected, rtol=1e-9)
+    assert found.conditions[LAYER].damping[0, 1] < 0.0 < found.conditions[FLOODED].damping[0, 1]
+    assert sum("below 0" in line for line in found.notes) == 1
+
+
+def test_what_tables_do_not_have_is_solved(coarse, monkeypatch):
+    """Damping below zero at contact angles; layers and points that they do not reach."""
+    found = oil_and_heat(BEARING, (0.0, 0.0, 200.0), speed_rpm=SPEED, supply=OilLayer(over_flooded=1.0))
+    assert found.solved and list(found.conditions) == [FLOODED, LAYER]
+    assert "solved contacts" in found.notes[0]
 
 
 def test_conditions_are_solved_ratios_times_flooded_values(coarse):
@@ -95,15 +129,15 @@ def test_damping_below_zero_has_its_line(coarse):
     assert "with the layer at 100 Hz, with the layer at 500 Hz" in line
 
 
-def test_axial_load_has_rows_of_its_own(coarse):
+def test_axial_load_has_rows_of_its_own():
     found = oil_and_heat(BEARING, (0.0, 0.0, 200.0), speed_rpm=SPEED)
-    assert found.ways == {"axially": 2}
+    assert not found.solved and found.ways == {"axially": 2}
     at = BEARING.coefficients((0.0, 0.0, 200.0), speed_rpm=SPEED, hz=[HIGH])
     rows = {words: values for words, _, values in found.rows}
     assert rows["damping, 500 Hz"][FLOODED] == pytest.approx(at.damping[0, 2, 2])
 
 
-def test_what_has_no_films_is_refused(coarse):
+def test_what_has_no_films_is_refused():
     with pytest.raises(InputError, match="oil"):
         oil_and_heat(BallBearing.catalogue("6205"), LOAD, speed_rpm=SPEED, thermal=Heat())
     with pytest.raises(InputError, match="temperature_slope"):
@@ -116,7 +150,8 @@ def test_ratios_of_the_heaviest_ball_beside_those_of_all():
     """6205, 1000 N, 3000 rpm: all contacts that carry, solved and summed, a ball under the load."""
     bearing, load = BallBearing.catalogue("6205", oil=BEARING.oil), (0.0, -1000.0)
     supply = OilLayer(over_flooded=1.0)
-    found = oil_and_heat(bearing, load, speed_rpm=3000.0, supply=supply, thermal=Heat())
+    given = {"speed_rpm": 3000.0, "supply": supply, "thermal": Heat()}
+    found, tables = oil_and_heat(bearing, load, **given, solve=True), oil_and_heat(bearing, load, **given)
     state, hz = bearing.equilibrium(load, speed_rpm=3000.0), np.array([50.0, HIGH])
 
     def ring(**given):
@@ -129,9 +164,14 @@ def test_ratios_of_the_heaviest_ball_beside_those_of_all():
         return total
 
     flooded = ring()
-    for key, given, off in ((HEAT, {"thermal": Heat()}, 0.003), (LAYER, {"supply": supply}, 0.08)):
-        all_balls, at = ring(**given), found.conditions[key]
-        K = at.stiffness[:, 1] / found.conditions[FLOODED].stiffness[:, 1]
-        C = at.damping[:, 1] / found.conditions[FLOODED].damping[:, 1]
-        np.testing.assert_allclose(K, all_balls.real / flooded.real, atol=0.002)
-        np.testing.assert_allclose(C, all_balls.imag / flooded.imag, atol=off)  # over the flooded damping
+    heated, starved = ring(thermal=Heat()), ring(supply=supply)
+    for answer, off in ((found, 0.08), (tables, 0.03)):
+        for key, all_balls, share in ((HEAT, heated, 0.1), (LAYER, starved, 1.0)):
+            at, cold = answer.conditions[key], answer.conditions[FLOODED]
+            K, C = at.stiffness[:, 1] / cold.stiffness[:, 1], at.damping[:, 1] / cold.damping[:, 1]
+            np.testing.assert_allclose(K, all_balls.real / flooded.real, atol=0.002)
+            np.testing.assert_allclose(C, all_balls.imag / flooded.imag, atol=share * off)  # over the flooded one
+    np.testing.assert_allclose(
+        tables.conditions[LAYER].h_central[0], found.conditions[LAYER].h_central[0], rtol=0.01
+    )
+    np.testing.assert_allclose(tables.conditions[LAYER].h_min[0], found.conditions[LAYER].h_min[0], rtol=0.05)
