@@ -65,5 +65,11 @@ def test_spall_on_a_full_film_in_a_rotor(tmp_path, monkeypatch, capsys):
         "force of the bearing over its swing": 7.7,
         "displacement over its static value": 0.8,
         "displacement over its swing": 6.8,
+        "with the filter of the film, contact force over its static value": 3.3,
+        "with the filter of the film, contact force over its swing": 8.4,
+        "with the filter of the film, force of the bearing over its static value": 1.7,
+        "with the filter of the film, force of the bearing over its swing": 6.5,
+        "with the filter of the film, displacement over its static value": 0.7,
+        "with the filter of the film, displacement over its swing": 6.5,
     }
     assert {name: float(value.split()[0]) for name, value in printed.items()} == pytest.approx(wanted, abs=0.1)
