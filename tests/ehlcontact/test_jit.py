@@ -2,6 +2,8 @@
 
 import gc
 import importlib
+import os
+import subprocess
 import sys
 
 import numba
@@ -68,3 +70,40 @@ def test_collection_of_garbage_is_as_before_once_kernels_are_compiled():
         assert gc.get_threshold() == (701, 11, 12)
     finally:
         gc.set_threshold(*before)
+
+
+ANSWERS = """
+import hashlib
+import numpy as np
+from ehlcontact import *
+from reduced_models import BallBearing
+point, grid = MoesPoint(20, 10, 1), Grid(32)
+def bits(name, *arrays):
+    print(name, hashlib.md5(b"".join(np.ascontiguousarray(a).tobytes() for a in arrays)).hexdigest())
+bits("steady", solve_steady(point, grid=grid).P, solve_steady(MoesPoint(200, 10, 0.3), grid=grid).P)
+bits("starved", solve_steady(point, grid=grid, supply=OilLayer(H=0.3)).P)
+for name, film in {"flooded": {}, "starved": {"supply": OilLayer(H=0.3)}}.items():
+    response = impedance(point, Omega=[0.05, 1.0], grid=grid, **film)
+    bits(f"{name} impedance", response.stiffness, response.damping)
+    motion, steps = HarmonicLoad(amplitude=0.3, Omega=2.0), TimeSteps(periods=1, steps_per_period=20)
+    bits(f"{name} in time", simulate(point, motion, grid=grid, time=steps, **film).h_central)
+oil = Lubricant.iso_vg(68, temperature=50.0)
+ball = OperatingPoint.ball_bearing(
+    oil, ball_diameter=12.3e-3, pitch_diameter=43.5e-3, conformity=0.52, speed_rpm=10_000, load=800
+)
+bits("heated", solve_steady(ball, grid=grid, thermal=Heat()).P)
+bits("bearing", BallBearing.catalogue("6205", oil=oil).equilibrium((0, -1000), speed_rpm=3000).force)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
+def test_results_do_not_depend_on_the_cache_of_kernels(tmp_path):
+    """The process that compiles has the bits of later ones, whichever copy of an inner kernel is linked."""
+    given = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path), "OPENBLAS_NUM_THREADS": "1"}
+    runs = [
+        subprocess.run([sys.executable, "-c", ANSWERS], env=given, check=True, capture_output=True, text=True)
+        for _ in range(2)
+    ]
+    assert runs[0].stdout == runs[1].stdout
+    assert len(runs[0].stdout.splitlines()) == 8

@@ -28,7 +28,7 @@ So while the front passes a cell, what is stored is that cell full less what the
 second order, and it is continuous when nodes fill up. That makes the damping of starved contacts converge.
 """
 
-from ehlcontact.jit import inner, jit_loop, jit_node
+from ehlcontact.jit import jit_loop, jit_node
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, linearise_at
 from ehlcontact.solver.kernels.reynolds import Stencil, flow_mean, update_along
 
@@ -86,10 +86,13 @@ def front_weight(step):
     return step / (1.0 + 0.5 * step)
 
 
-@inner
-@jit_loop
+@jit_node
 def carry_line(j, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied):
-    """`carry_supply` on line j."""
+    """`carry_supply` on line j.
+
+    Inlined: of a kernel that several call, the process that compiles it may run another copy than later ones do,
+    with other last bits.
+    """
     h = 1.0 / stencil.inv_hx
     weight = front_weight(c_t * h)
     full = full_flow(j, 0, flow.mass)
