@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import numpy as np
@@ -85,7 +86,7 @@ def _comment(text: str) -> str:
 
 def c_double(value: float) -> str:
     """C literal that reads back as exactly this double; HUGE_VAL for infinity."""
-    if np.isinf(value):
+    if math.isinf(value):
         return "HUGE_VAL" if value > 0.0 else "(-HUGE_VAL)"
     text = format(value, ".17g")
     return text if any(mark in text for mark in ".e") else f"{text}.0"

@@ -216,8 +216,9 @@ def test_events_are_where_contacts_lift_off(made, name, contacts):
     one = made(name)
     model, points, balls = one.exchange(), state_points(one.model, 30, seed=5), one.model.bearing.balls
     seen, parted = set(), re.compile(r"ball\[[13579]\].s_(inner|outer)")
+    apart = [parted.fullmatch(name) is not None for name in states_of(one)]
     for k, states in enumerate(points.states):
-        states = np.where([parted.fullmatch(n) is not None for n in states_of(one)], -2e-5, states)
+        states = np.where(apart, -2e-5, states)
         model.place(states, **at_point(one, points, k) | {"y": -2e-6 * k})
         loads = np.array(model.get(*(f"ball[{b}].load_{race}" for b in range(1, balls + 1) for race in contacts)))
         signs = np.sign(indicators(model, loads.size))
