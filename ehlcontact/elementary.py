@@ -3,6 +3,8 @@
 Both without branches, correct to 2 units in the last place (`tests/ehlcontact/test_elementary.py`).
 """
 
+import math
+
 from ehlcontact.jit import jit_called_node
 from ehlcontact.lanes import exponent, larger, mantissa, power_of_two, smaller, where_positive
 
@@ -57,3 +59,7 @@ def logarithm(x):
     t = t * q + 2.0 / 5.0
     t = t * q + 2.0 / 3.0
     return e * LN2_HIGH + (2.0 * s + (s * q * t + e * LN2_LOW))
+
+
+if not hasattr(exponential, "py_func"):  # NUMBA_DISABLE_JIT: the functions above are for compiled kernels only
+    exponential, logarithm = math.exp, math.log
