@@ -31,6 +31,7 @@ from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import ImpedanceResult, SteadyResult
+from ehlcontact.results.impedance_result import SLOW
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import response_error
 from ehlcontact.solver.error_grids import settled_on_half
@@ -56,6 +57,7 @@ KEEP_FACTORS = 5.0  # change of Omega for which the factors of short waves serve
 MANY_NODES = 70_000  # beyond, factors of one band of frequencies are kept at a time: they take gigabytes
 SOLVE_SHARE = 0.3  # of the tolerance, for the solves themselves
 LEAST_INTERVALS = 12  # of the coarser grids that tell the error
+SLOW_SHARE = 0.1  # of C at low frequency that is not in C at `SLOW`, from which it is slow oil: else 7 % at most
 COARSE_CYCLES = 3  # of a coarser film with heat, after those at the viscosity of the finer one
 SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far
 
@@ -114,9 +116,11 @@ def impedance(
     steady = film_to_linearise(point, meshes, grid.deflection, supply, threads, thermal)
     moving = np.maximum(w, NEAR_ZERO)
     solved = held(steady, grid.deflection, threads)
-    Z, residual = linearised(steady, solved).respond(moving, TOLERANCE)
+    contact = linearised(steady, solved)
+    Z, residual = contact.respond(moving, TOLERANCE)
     coarser = [linearised(steady, film).respond(moving, TOLERANCE)[0] for film in coarser_films(solved)]
     bars = response_error(moving, [Z, *coarser])
+    by_slow_oil = 0.0 if thermal is None else slow_part(contact, moving, Z.imag / moving)
     return ImpedanceResult(
         point=moes,
         scales=scales,
@@ -126,7 +130,7 @@ def impedance(
         stiffness=Z.real.copy(),
         damping=Z.imag / moving,
         stiffness_error=bars[0],
-        damping_error=bars[1],
+        damping_error=bars[1] + by_slow_oil,
         residual=residual,
         approach=steady.approach,
         h_central=steady.h_central,
@@ -210,6 +214,20 @@ def coarser_films(solved: Multigrid) -> Iterator[Multigrid]:
 def linearised(film: SteadyResult, multigrid: Multigrid) -> LinearisedContact:
     """Derivatives of a contact at a steady film on levels that hold it, or its coarser image."""
     return LinearisedContact(multigrid, heat_of(film, multigrid))
+
+
+def slow_part(contact: LinearisedContact, omega: Array, damping: Array) -> Array:
+    """What oil that heats and cools slowly may add to C at low frequencies, (k,); 0 where it is not seen.
+
+    Far ahead of the contact hot oil flows back beside colder oil that flows forward. Oil that warms flows back
+    more and brings more heat: on few grids a line of nodes between both is near the end of its balance, and its
+    temperature has a rate of some thousandths. Another n has none of it.
+    """
+    low, part = omega < SLOW, np.zeros_like(omega)
+    if low.any():
+        Z = contact.respond(np.array([SLOW]), TOLERANCE)[0][0]
+        part[low] = np.abs(damping[low] - Z.imag / SLOW)
+    return np.where(part > SLOW_SHARE * np.abs(damping), part, 0.0)
 
 
 class LinearisedContact:

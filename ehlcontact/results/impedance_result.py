@@ -24,6 +24,7 @@ from ehlcontact.supply import OilLayer
 
 Array = NDArray[np.float64]
 
+SLOW = 0.2  # Omega below which oil that heats and cools slowly may add to C
 COARSE = 1.1  # mesh over the one that damping needs, from which a result says so
 
 
@@ -98,7 +99,9 @@ class ImpedanceResult(ScaledResponse, Origin):
             worst = int(np.argmax(share))
             if share[worst] > DOUBTFUL:
                 bar = "anything" if share[worst] >= ALL else f"{100.0 * share[worst]:.0f} %"
-                found.append(f"C may be off by {bar} at {self._frequency(worst)}")
+                slow = not found and self.temperature is not None and self.Omega[worst] < SLOW
+                advice = " (perhaps by slow oil ahead of the contact: compare another n)" if slow else ""
+                found.append(f"C may be off by {bar} at {self._frequency(worst)}{advice}")
         return "; ".join(found)
 
     def _share(self, name: str) -> Array:

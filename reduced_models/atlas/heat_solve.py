@@ -17,7 +17,7 @@ from reduced_models.atlas.solve import FILM, OMEGAS
 
 # Of the atlas; what heat changes follows them within 0.01 of the damping at low frequency, and 0.4 % of K.
 HEAT_OMEGAS = tuple(OMEGAS[k] for k in (0, 3, 6, 8, 10, 13, 16, 19, 22, 25, 28, 33, 41))
-# Stands for 0: on few grids oil that hardly moves, far ahead of the contact, has a slow temperature of a rate of
+# Stands for 0: on few grids oil far ahead of the contact has a slow temperature of a rate of
 # 2e-3, which adds to C at lower frequencies (docs/heat.md).
 SLOWEST = 0.02
 

@@ -1,5 +1,6 @@
 """Stiffness and damping of a film with heat: against steady films, a slow ramp, and temperatures at rest."""
 
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 
@@ -8,6 +9,8 @@ import pytest
 from scipy import linalg
 
 from ehlcontact import (
+    Domain,
+    Geometry,
     Grid,
     Heat,
     InputError,
@@ -20,7 +23,7 @@ from ehlcontact import (
     save,
     solve_steady,
 )
-from ehlcontact.impedance import LinearisedContact, heat_of, held
+from ehlcontact.impedance import LinearisedContact, heat_of, held, slow_part
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.film_heat import FilmHeat, HeatedCycles
 from ehlcontact.solver.linear_heat import LinearHeat
@@ -183,6 +186,37 @@ def test_damping_converges_with_the_grid():
     for coarse, fine in pairwise(found):
         assert (np.abs(coarse.damping - found[-1].damping) < coarse.damping_error).all()
         assert (fine.damping_error < 0.7 * coarse.damping_error).all()
+
+
+def test_slow_oil_ahead_of_the_contact_is_said():
+    """A line of nodes where the flow of heat turns has a rate of 2e-3: C of this n is an error bar, not a result.
+
+    C at rest is .160 and .155 with n = 80 and 96.
+    """
+    oil = Lubricant(0.03189888, 1.913109e-8, temperature=69.79312, temperature_slope=0.0385520863)
+    body = Geometry(0.004100407377, 0.06768634058581521, e1=206e9, nu1=0.3, e2=206e9, nu2=0.3)
+    point = OperatingPoint(body, oil, 125.31601186, 40.09500118)
+    region = Grid(64, Domain(-4.5, 1.5, 3.0))
+    found = impedance(point, Omega=[1e-4, 0.005, 0.02, 0.3], grid=region, thermal=Heat())
+    assert found.damping[0] > 10.0 * found.damping[3]
+    assert (np.abs(found.damping - 0.155) < found.damping_error).all()
+    assert "C may be off by anything" in found.reservation
+    fine = replace(found, n=256)  # else the coarse grid is reason enough
+    assert "slow oil" not in found.reservation
+    assert "perhaps by slow oil ahead of the contact: compare another n" in fine.reservation
+
+
+class Known:
+    """Stands for a linearised contact whose C is the same at all frequencies."""
+
+    @staticmethod
+    def respond(omega, _tolerance):
+        return 1.0 + 0.5j * omega, np.zeros_like(omega)
+
+
+def test_what_slow_oil_adds_is_seen_at_low_frequencies_alone():
+    omega, damping = np.array([1e-4, 0.1, 0.1, 0.2, 1.0]), np.array([5.0, 0.54, 0.44, 0.9, 0.1])
+    np.testing.assert_allclose(slow_part(Known(), omega, damping), [4.5, 0.0, 0.06, 0.0, 0.0])
 
 
 def test_what_is_refused():
