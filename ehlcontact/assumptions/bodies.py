@@ -43,7 +43,8 @@ def one_direction(contact: Contact, vibration: float | None) -> Assumption:
     if contact.scales is not None:
         u = contact.require_si()[3]
         details = {"largest_cross_speed": LARGEST_CROSS_SPEED * u}
-        verdict = f"holds up to {details['largest_cross_speed']:.2g} m/s across; a reversal is not covered"
+        largest = details["largest_cross_speed"]
+        verdict = f"holds up to {largest:.2g} m/s across; a reversal needs `speed=` of `simulate`"
         value, verdict = _against_rolling(vibration, u, verdict)
     return Assumption(
         name="one direction",

@@ -22,11 +22,7 @@ _PRELOAD = (
     "`ehlcontact bearing --axial` is that of one bearing, with a --clearance below 0 radially; "
     "--pair has that of two"
 )
-_SUPPLY = (
-    "a layer of oil ahead of the contact is, as --layer of `ehlcontact steady`, `impedance` and `simulate`; "
-    "films of the other commands are flooded"
-)
-_FILMS = "films are fully flooded and isothermal, without sliding; what that leaves out stands in the answer"
+_FILMS = "films are fully flooded and isothermal, without sliding; the answer lists the assumptions that do not hold"
 # What people ask for and no command computes, by the option that they try.
 NOT_IN_THE_MODEL = {
     **dict.fromkeys(("--axial", "--axial-load", "--thrust", "--contact-angle", "--angle"), _RADIAL),
@@ -34,7 +30,7 @@ NOT_IN_THE_MODEL = {
     **dict.fromkeys(("--preload", "--axial-preload"), _PRELOAD),
     **dict.fromkeys(
         ("--starvation", "--starved"),
-        "`ehlcontact steady`, `impedance` and `simulate` have --layer; elsewhere " + _FILMS,
+        "`ehlcontact steady`, `impedance`, `simulate` and `bearing` have --layer; elsewhere " + _FILMS,
     ),
     **dict.fromkeys(
         ("--thermal", "--heat", "--sliding", "--slide-roll"),

@@ -50,7 +50,7 @@ class TractionLaw:
     def thinning(self, log_newton: ArrayLike) -> tuple[Array, Array]:
         """Logarithms of the effective viscosities of a small flow beside the sliding, over the Newtonian one.
 
-        Along the sliding the slope d tau/d tau_N, across it the ratio tau/tau_N (eqs. 14, 15).
+        Along the sliding the slope d tau/d tau_N, across it the ratio tau/tau_N (eqs. 8, 9).
         """
         raise NotImplementedError
 

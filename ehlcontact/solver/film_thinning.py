@@ -32,7 +32,7 @@ class FilmThinning:
         self.multigrid, self.law, self.log_newton = multigrid, law, log_newton
 
     def solve(self, rounds: int = 1) -> Array:
-        """What ``Flow.heat`` becomes at the present P and H (eq. 14); the flow across is set too (eq. 15)."""
+        """What ``Flow.heat`` becomes at the present P and H (eq. 8); the flow across is set too (eq. 9)."""
         level = self.multigrid.finest
         flow, H = level.fields.flow, np.maximum(level.H, FILM_FLOOR)
         log_eta = np.log(flow.rho * H**3 / (level.stencil.lam * flow.eps))

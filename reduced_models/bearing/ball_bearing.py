@@ -145,7 +145,7 @@ class BallBearing(Summary):
         Diameters of the shoulders beside the grooves [m], as catalogues have them: loads under which a contact
         ellipse reaches over one are refused (`reduced_models.bearing.shoulders`).
     oil : Lubricant, optional
-        Flooded contacts, by the atlas. None is dry: Hertz' contacts without film or damping.
+        Of the films, which are those of the atlas. None is dry: Hertz contacts without film or damping.
     rq_ball, rq_race : float, optional
         Roughness Rq [m], for the lambda ratio.
     cutoff_gap : float, optional

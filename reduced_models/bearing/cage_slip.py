@@ -99,7 +99,7 @@ def cage_slip(bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionL
 
 
 def _loaded(bearing: Any, state: BearingState, law: TractionLaw) -> list[_Ball]:
-    """Balls that both races press, with the moments of their films (eqs. 12, 13)."""
+    """Balls that both races press, with the moments of their films (eqs. 14, 15)."""
     assert state.moment is not None
     r, pitch = 0.5 * bearing.ball_diameter, 0.5 * bearing.pitch_diameter
     found = []

@@ -57,7 +57,7 @@ class SlidingContact:
         In m.
     law : TractionLaw
     radius_across : float
-        Of the surface that both bodies share, across rolling [m] (eq. 8).
+        Of the surface that both bodies share, across rolling [m] (eq. 10).
     spin_to_roll : float
         Angular speed of both surfaces against each other about their normal over that of rolling.
     """
@@ -73,7 +73,7 @@ class SlidingContact:
         self._p = s.pressure * P
         self._newton = log_eta + log(moes.eta0 * self.speed / film)
         x, y = s.a * X, s.b * Y
-        # slip of the race against the ball over the rolling speed, but for that of the middle (eq. 9)
+        # slip of the race against the ball over the rolling speed, but for that of the middle (eq. 11)
         self._along = y * y / (2.0 * radius_across * rx) + spin_to_roll * y / rx
         self._across = -spin_to_roll * x / rx
 
@@ -220,7 +220,7 @@ def sliding_contact(
 
 
 def radius_across(conformity: float, ball_diameter: float) -> float:
-    """Radius of the surface that ball and groove share: its curvature is the mean of both (eq. 8)."""
+    """Radius of the surface that ball and groove share: its curvature is the mean of both (eq. 10)."""
     return 2.0 * conformity * ball_diameter / (2.0 * conformity + 1.0)
 
 

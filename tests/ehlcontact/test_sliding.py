@@ -79,7 +79,7 @@ def flow(law, eta, h, slide, gradient):
 @pytest.mark.parametrize("law", [Eyring(5e6), Carreau(5e6, 0.4)], ids=lambda law: type(law).__name__)
 @pytest.mark.parametrize("ratio", [0.3, 3.0, 100.0])
 def test_viscosities_against_the_flow_over_the_gap(law, ratio):
-    """A small gradient of pressure along and across beside the stress of sliding, eqs. 14 and 15."""
+    """A small gradient of pressure along and across beside the stress of sliding, eqs. 8 and 9."""
     eta, h = 2.0, 0.3e-6
     slide = ratio * 5e6 * h / eta
     small = 1e-3 * 5e6 / h

@@ -349,7 +349,7 @@ def bearing(
     In the model: radial and axial load, moments and tilts on rigid rings;
     balls with contact angles, centrifugal force and gyroscopic moment, and
     with elastic contacts and oil films, memory included, at both races.
-    Films are flooded, isothermal and between smooth surfaces. With --load
+    Films are between smooth surfaces, flooded and isothermal. With --load
     alone axial motion and tilts are held, and contact angles are zero.
     With --pair two such bearings carry the load, which acts in their middle.
     With --thermal, --layer or --layer-ratio a table has films, stiffness,

@@ -147,7 +147,7 @@ def test_what_is_not_covered_is_not_called_impossible():
     """A vibration faster than the rolling reverses it: no verdict may say that this does not happen."""
     found = assumptions(bearing(), vibration=30.0)
     said = found["one direction"].verdict
-    assert not found["one direction"].holds and said.endswith("across; a reversal is not covered")
+    assert not found["one direction"].holds and said.endswith("across; a reversal needs `speed=` of `simulate`")
     change, crossing = (found["constant speed"].details[name] for name in ("largest_change", "crossing_time"))
     claim = (
         f"a change of {change:.2g} m/s within the {crossing * 1e6:.2g} µs that the film takes to cross makes 1 %"
