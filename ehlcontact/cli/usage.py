@@ -22,7 +22,7 @@ _PRELOAD = (
     "`ehlcontact bearing --axial` is that of one bearing, with a --clearance below 0 radially; "
     "--pair has that of two"
 )
-_FILMS = "films are fully flooded and isothermal, without sliding; the answer lists the assumptions that do not hold"
+_FILMS = "films are fully flooded and isothermal, without sliding; the answer lists assumptions that do not hold"
 # What people ask for and no command computes, by the option that they try.
 NOT_IN_THE_MODEL = {
     **dict.fromkeys(("--axial", "--axial-load", "--thrust", "--contact-angle", "--angle"), _RADIAL),
