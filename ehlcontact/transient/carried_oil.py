@@ -1,8 +1,8 @@
-"""Oil on the surfaces beyond both ends of the computed region, which comes back where they turn round.
+"""Oil on the surfaces beyond both ends of the computed region, which comes back after a reversal.
 
-A layer leaves with the surfaces, and each part of it is as far from the border as they have gone since. So what is
-beyond an end is a stack over the way s = int U dT: rolling on adds to that behind the contact and takes from that
-ahead of it; the bottom of a stack goes on for ever.
+A layer that has left moves with the surfaces. So the oil beyond each end is a stack of layers over the distance
+s = int U dT: forward motion adds layers to the stack behind the contact and removes layers from the stack ahead of
+it. The layer at the bottom of a stack is unlimited.
 """
 
 from __future__ import annotations

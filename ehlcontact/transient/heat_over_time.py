@@ -1,7 +1,7 @@
-"""Heat of a film over time: what oil stores, and surfaces bring from upstream; eqs. 10 and 11 of docs/heat.md.
+"""Heat of a film over time: storage in oil and surfaces, and its transport; eqs. 10 and 11 of docs/heat.md.
 
-Differences in time are those of the film. What was given to the surfaces is kept for as long as they take through
-the computed region, and is straight between the steps: all of it is of second order in the step.
+Differences in time are those of the film. The heat given to the surfaces is stored for the time that they take
+through the computed region, and is linear between the steps: all of this is of second order in the step.
 """
 
 from __future__ import annotations

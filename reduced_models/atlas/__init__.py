@@ -6,7 +6,7 @@
 | answer | `AtlasAnswer`: one contact with error bars; `AtlasImpedance`; `AtlasAnswers`: many contacts |
 | frequency_curve | K or C between the frequencies of the table |
 | conditions | changes of these answers under other conditions than flooded and isothermal |
-| change | `Change`: what a condition does to answers |
+| change | `Change`: change of answers by a condition |
 | supply_condition | `SupplyCondition`: an oil supply, from its own table |
 | supply_table | `SupplyTable`: what a supply changes, and its interpolation over M, L, kappa and r |
 | supply_build | building the table of oil supply |

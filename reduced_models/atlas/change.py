@@ -1,4 +1,4 @@
-"""`Change`: what a condition does to answers of the atlas."""
+"""`Change`: change of answers of the atlas by an oil supply or by heat."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Change:
-    """What a condition does to rows of answers in the order of `AtlasTable.answers`, shape (n, 5 + 2 k).
+    """Change of rows of answers by a condition, in the order of `AtlasTable.answers`, shape (n, 5 + 2 k).
 
     Attributes
     ----------

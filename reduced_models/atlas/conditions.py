@@ -1,7 +1,7 @@
-"""Answers of the atlas under conditions that its contacts were not solved under: an oil supply, heat.
+"""Answers of the atlas with an oil supply and with heat, which its flooded isothermal contacts do not have.
 
-Each has a table of its own, from which it gives a `Change`: factors, and differences of C, which may touch zero.
-Under several conditions one is applied to what the other leaves: products of factors, an assumption.
+Each condition has its own table and gives a `Change`: factors, and for C differences, because C may be zero. With
+both conditions their factors are multiplied, which is an assumption.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ _Floats = NDArray[np.float64]
 class Condition(Protocol):
     """A condition at a point: it changes answers under loads in units of the point's."""
 
-    name: str  # of the argument that it is given by
+    name: str  # of its keyword argument
 
     def change(self, loads: _Floats, values: _Floats, Omega: _Floats) -> Change:
         """Change of flooded isothermal `values`, shape (n, 5 + 2 k) with K and C at `Omega`, under `loads`."""
 
     def noted(self, flooded: float, film: float) -> dict[str, Any]:
-        """Fields of an `AtlasAnswer` that tell of it; central film that a supply finds, and that of all."""
+        """Fields of an `AtlasAnswer` for it; central films flooded under other conditions, and under all."""
 
     def to_dict(self) -> dict[str, Any]:
         """Its inputs, ready for JSON."""

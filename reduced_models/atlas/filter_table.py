@@ -3,8 +3,8 @@
 What is interpolated, at every wave number k per semi-axis, is G/Z less that of dry contacts, sin(k)/k, over
 h/(0.1 + h) with the published central film h in dry approaches: thin films change little of the dry filter. As
 coordinates serve ln M, L^(2/3), ln kappa and the logarithm of the width of the inlet. Between the wave numbers
-there is a cubic spline, at k = 0 the filter is 1. Shorter waves than the table has are given as 0: less than the
-error bar there gets through.
+there is a cubic spline, at k = 0 the filter is 1. For waves shorter than those of the table the filter is given as
+0, and its size is below the error bar.
 """
 
 from __future__ import annotations
@@ -242,9 +242,9 @@ def contact_filter(point: Point, *, wavelength: ArrayLike) -> FilterAnswer:
 def film_over_dry(point: Point, k: ArrayLike) -> _Complex:
     """What the film of a contact leaves of heights that a dry contact has filtered, at wave numbers k >= 0.
 
-    The filter of the film over that of the dry contact up to k = 2 per semi-axis. There and beyond, where the dry
-    one has its zeros, it goes on as the transform of a Gaussian, with the delay that it has there. Applied to the
-    heights of `reduced_models.bearing.height_tables` it makes them those of a contact with its film.
+    Ratio of the filter of the film to that of the dry contact up to k = 2 per semi-axis. Beyond, where the dry
+    filter has zeros, the ratio is continued as the transform of a Gaussian with the same delay. Heights of
+    `reduced_models.bearing.height_tables`, filtered by it, are those of a contact with its film.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""`HeatCondition`: heat as a condition of the atlas, with what the table of heat has for it."""
+"""`HeatCondition`: change of answers of the atlas by heat, from the table of heat."""
 
 from __future__ import annotations
 

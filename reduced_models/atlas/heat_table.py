@@ -1,4 +1,4 @@
-"""Table of what heat changes of rolling contacts, over M, L, kappa, thermal load Q and the slope of the oil.
+"""Table of the changes of rolling contacts by heat, over M, L, kappa, thermal load Q and the slope of the oil.
 
 In pure rolling, Q = -d eta0/dT u^2/k is what the published factors depend on; their g = ln(1 + 0.1 (4 Q)^0.64)
 (`ehlcontact.film_formulas.wilson_heating`) is the unit of all changes here. At given M, L, kappa and Q the Peclet

@@ -1,4 +1,4 @@
-"""`SupplyCondition`: a layer of oil as a condition of the atlas, with what the table of oil supply has for it."""
+"""`SupplyCondition`: change of answers of the atlas by a layer of oil, from the table of oil supply."""
 
 from __future__ import annotations
 

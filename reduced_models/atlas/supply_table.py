@@ -1,4 +1,4 @@
-"""Table of what an oil supply changes: over M, L, kappa and r, the layer over what the flooded film lets through.
+"""Table of the changes by an oil supply over M, L, kappa and r, the layer over what the flooded film lets through.
 
 What is interpolated, per point and r, against the flooded contact on the same grid: ln of the central film's
 share over the curve ``r/(1 + r^g)^(1/g)`` with the g of the ellipse; ln of the share of h_min/h_c; the changes of

@@ -168,7 +168,7 @@ class OilAndHeat(Summary):
         ]
         if without:
             lines.append(
-                f"Damping below 0 ({', '.join(without)}): at low frequencies scarce oil feeds the vibration."
+                f"Damping below 0 ({', '.join(without)}): at low frequencies films add energy to vibrations."
             )
         return lines + [f"{key.capitalize()}: {reason}" for key, reason in self.refused.items()]
 

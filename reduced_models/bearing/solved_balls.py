@@ -1,8 +1,8 @@
 """Small motion of a bearing under an oil supply with the impedance of its solved contacts, of either sign.
 
-Elements leave out the negative damping that starved contacts have at low frequencies, because no motion may create
-energy in them. The impedance of a contact is known beside its element, and so is that of the bearing: balls in
-series between both races, as in `reduced_models.bearing.linear_balls`.
+Elements are passive, so they do not have the negative damping of starved contacts at low frequencies. The atlas
+has the impedance of each contact; that of the bearing follows with both races of a ball in series, as in
+`reduced_models.bearing.linear_balls`.
 """
 
 from __future__ import annotations

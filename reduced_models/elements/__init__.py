@@ -17,8 +17,8 @@
 | film_element | elements with a film memory: state, steps, tangents, impedance |
 | film_memory | `FilmMemoryContact`: one load |
 | wide_range | `WideRangeContact`: every load |
-| film_speed | compiled: the speed of the film in a contact whose surfaces change theirs |
-| speed_range | `SpeedRangeContact`: every load, a speed that may change |
+| film_speed | compiled: the speed at which the film in a contact was made, while the speed changes |
+| speed_range | `SpeedRangeContact`: any load, a speed that may change |
 | motion_errors | error of wide-range elements by kind of motion, from full solves |
 | element_summary | summary and figure of an element |
 

@@ -1,4 +1,4 @@
-"""Speed of the film in a contact whose surfaces change theirs, compiled.
+"""Speed at which the film in a contact was made, while the speed of the surfaces changes; compiled.
 
 Films of different speeds are in a contact at the same time: that at the inlet is of the present speed, that on its
 way through the contact of earlier ones. A static film grows as U^p, p = `FILM_GROWTH`, so the mean film in the

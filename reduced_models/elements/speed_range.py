@@ -1,4 +1,4 @@
-"""The element over speed: one contact at any load, whose surfaces may change their speed while it moves."""
+"""`SpeedRangeContact`: contact element for any load and for a speed of the surfaces that changes over time."""
 
 from __future__ import annotations
 
@@ -55,10 +55,10 @@ class SpeedRangeContact(FilmContact):
 
     At a constant speed it is the `WideRangeContact` of that speed. After `set_speed` the film in the contact is
     that of the speeds at which it was made (`film_speed`), so it follows a change of speed as late as one of the
-    approach; rest and linear laws are those of the present speed. The sign of the speed does not matter: films
-    that turn back count as going on. Between the speeds of the tables ln h_s goes straight over ln U, gains over
-    U^0.67; below the lowest both fall as U^0.67, to no film at standstill. Where the surfaces stop, the film on
-    its way through the contact stays.
+    approach; rest and linear laws are those of the present speed. Only the magnitude of the speed is used: after a
+    reversal the film moves on through the contact. Between the speeds of the tables ln h_s is linear in ln U,
+    gains are linear in U^0.67; below the lowest both fall as U^0.67, to no film at standstill. Where the surfaces
+    stop, the film in the contact keeps its thickness.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
 """`simulate_full_films`: a rotor in which some contacts of its ball bearings are full films, the others elements.
 
-A full film takes the place of an element for a while, as the passage of a defect, whose height is its surface. In
-every time step the ball is balanced on the film's force, straight over the approach from where the film was solved
-last, with a slope from the last two solves; the film is solved again, from the start of the step, until the place
-of the ball and the film belong together.
+A full film replaces an element during a time interval, for example while a defect passes; the height of the defect
+is the surface of the film. In every time step the equilibrium of the ball is solved with a force of the film that
+is linear in the approach about the last film solve, with the slope of the last two solves. The film is solved
+again, from the start of the step, until the position of the ball and the force of the film are consistent.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ MOST_EVALUATIONS = 30  # of the balance of a step
 
 @dataclass(frozen=True, kw_only=True)
 class FullFilm:
-    """A contact of a ball bearing that is a full film for a while.
+    """A contact of a ball bearing that is computed as a full film during a time interval.
 
     Parameters
     ----------
@@ -56,15 +56,15 @@ class FullFilm:
         From 0, which is the ball at the cage angle.
     race : {"inner", "outer"}
     between : (float, float)
-        Times [s] from which on, and until when, the film is solved. It starts at rest under the force that the
-        contact has then.
+        Start and end [s] of the interval in which the film is solved. It starts at rest under the force that the
+        contact has at the start.
     bearing : int
         Among the ball bearings of the rotor.
     grid : Grid
     largest_load : float
-        Force to expect, over that at the start: the computed region is wide enough for it.
+        Largest expected force, over that at the start; it determines the computed region.
     solved : bool
-        False: the element stays, and its history alone is kept, beside which to hold that of the film.
+        False keeps the element and records its history only, for comparison with a run on the full film.
 
     Raises
     ------
@@ -179,15 +179,15 @@ def simulate_full_films(
     dt, until, start, tolerance, rho_inf, callback
         As of `simulate_rotor`.
     processes : int
-        At most so many in which films are solved side by side; with 1, in this one.
+        Largest number of processes that solve films in parallel; with 1, films are solved in this process.
 
     Raises
     ------
     InputError
-        As `simulate_rotor`; a ball, a race or a bearing that is not there, a contact given twice, bearings with
-        axial motion or without oil, a surface that the grid does not resolve.
+        As `simulate_rotor`; a ball, a race or a bearing that does not exist, a contact given twice, bearings with
+        axial motion, without oil, with an oil supply or with heat, a surface that the grid does not resolve.
     ConvergenceError
-        A step found no balance, or a film in it was not solved; ``result`` is the `FullFilmRun` before.
+        No equilibrium was found in a step, or a film was not solved; ``result`` is the `FullFilmRun` up to then.
     """
     require_instance("rotor", rotor, Rotor, "a Rotor")
     require_integer("processes", processes, "a whole number >= 1", 1)
