@@ -7,30 +7,26 @@ into the file of the atlas and are read from there.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact import Domain, MoesPoint, __version__
-from ehlcontact.errors import InputError
-from ehlcontact.executors import require_scheduler
+from ehlcontact import Domain, MoesPoint
 from ehlcontact.film_formulas import LIGHT_BLEND, LIGHT_LOAD
 from ehlcontact.store import save
 from reduced_models.atlas import interpolation
 from reduced_models.atlas.gain_fit import FLOOR, HIGHEST, RIDGE, smooth_gains
 from reduced_models.atlas.sample import SAMPLED, sample_points
 from reduced_models.atlas.solve import FILM, OMEGAS, solve_point
-from reduced_models.atlas.solved_points import Solve, solve_points
+from reduced_models.atlas.solved_points import FEWEST, Entry, Solve, Solving, require_enough, solved_table
 from reduced_models.atlas.table import AtlasTable, Box, Interpolation, OtherOil
 from reduced_models.elements.film_response import FilterRates
 
 _Floats = NDArray[np.float64]
-Entry = Mapping[str, Any]
-Progress = Callable[[int, int], None]
 
 DRAWS, LIGHT_DRAWS, SEED = 448, 256, 4
 BOX = Box(M=(1.0, 30000.0), L=(0.0, 30.0), kappa=(0.045, 1.0), p_hertz=4.1e9)
@@ -58,7 +54,6 @@ OIL = OtherOil(
 )
 # That fit all points together, by that script: those of the atlas before, without light loads, fit a third worse.
 RATES = FilterRates(lags=14, lag_rate=6.42, inlet_rate=14.9, fast_rate=43.0)
-FEWEST = 20  # converged points of an atlas, and pairs from which the oil further out is learnt
 
 
 def build_atlas(
@@ -68,10 +63,8 @@ def build_atlas(
     light_draws: int = LIGHT_DRAWS,
     *,
     seed: int = SEED,
-    processes: int = 1,
-    scheduler: str | None = None,
-    progress: Progress | None = None,
     solve: Solve = solve_point,
+    **solving: Unpack[Solving],
 ) -> AtlasTable:
     """Solve the missing points, assemble the table and write it.
 
@@ -88,14 +81,10 @@ def build_atlas(
         Over the box, and over its light loads; see `reduced_models.atlas.sample.sample_points`.
     seed : int
         Of the Sobol sequence.
-    processes : int
-        Of this machine.
-    scheduler : str, optional
-        Address of a Dask scheduler, whose workers solve instead.
-    progress : callable, optional
-        Called with the numbers of points done and in all.
     solve : callable
         Of one point; to be found by name in every worker.
+    **solving
+        Processes, scheduler and progress, as of `reduced_models.atlas.solved_points.solve_points`.
 
     Raises
     ------
@@ -103,18 +92,10 @@ def build_atlas(
         No folder, no scheduler at that address, or too few points that converged.
     """
     points = sample_points(draws, light_draws, seed)
-    if len(points) < FEWEST:  # before they are solved
-        allowed = f"at least {FEWEST}; draws = {draws} and light_draws = {light_draws} have too few in the box"
-        raise InputError("points", len(points), allowed)
-    if scheduler is not None:
-        require_scheduler(scheduler)
-    entries = solve_points(points, work, solve, processes=processes, scheduler=scheduler, progress=progress)
-    made_by = {
-        "command": f"ehlcontact atlas build --draws {draws} --light-draws {light_draws} --seed {seed}",
-        "version": __version__,
-        "sampled": SAMPLED.to_dict(),
-    }
-    table = assemble(entries, made_by)
+    advice = f"; draws = {draws} and light_draws = {light_draws} have too few in the box"
+    require_enough("points", points, advice)  # before they are solved
+    command = f"ehlcontact atlas build --draws {draws} --light-draws {light_draws} --seed {seed}"
+    table = solved_table(points, work, solve, assemble, command, **solving)
     save(table.rounded(), output, "atlas")
     return table
 
@@ -135,8 +116,7 @@ def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable
     if not all(isinstance(e["status"], str) for e in entries):
         raise TypeError("a status that is no word")
     good = [e for e in entries if e["status"] == "converged"]
-    if len(good) < FEWEST:
-        raise InputError("converged points", len(good), f"at least {FEWEST} (more draws)")
+    require_enough("converged points", good, " (more draws)")
     omega = np.array(OMEGAS)
     points = _column(good, "M", "L", "kappa")
     steady = [e.get("film", e) for e in good]
@@ -160,7 +140,7 @@ def assemble(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> AtlasTable
         ),
         left_out=np.empty(0),
         factor=np.empty(0),
-        metadata={**_metadata(entries, good), **made_by},
+        metadata={**_metadata(entries, good), **made_by, "sampled": SAMPLED.to_dict()},
     )
     return judged(table)
 

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
-from ehlcontact import __version__
-from ehlcontact.errors import InputError
-from ehlcontact.executors import require_scheduler
 from ehlcontact.store import save
 from reduced_models.atlas.filter_points import FILTERED, WAVE_NUMBERS, filter_points, solve_filter
 from reduced_models.atlas.filter_table import FilterTable
-from reduced_models.atlas.solved_points import Solve, solve_points
+from reduced_models.atlas.solved_points import Entry, Solve, Solving, require_enough, solved_table
 
 DRAWS, SEED = 72, 7
-FEWEST = 20  # converged points of a table
 
 
 def build_filters(
@@ -28,25 +24,19 @@ def build_filters(
     draws: int = DRAWS,
     *,
     seed: int = SEED,
-    processes: int = 1,
-    scheduler: str | None = None,
-    progress: Callable[[int, int], None] | None = None,
     solve: Solve = solve_filter,
+    **solving: Unpack[Solving],
 ) -> FilterTable:
     """Solve the missing points, put the table together and write it; arguments and errors as of `build_atlas`."""
     points = filter_points(draws, seed)
-    if len(points) < FEWEST:
-        raise InputError("points", len(points), f"at least {FEWEST}; draws = {draws} have too few in the box")
-    if scheduler is not None:
-        require_scheduler(scheduler)
-    entries = solve_points(points, work, solve, processes=processes, scheduler=scheduler, progress=progress)
+    require_enough("points", points, f"; draws = {draws} have too few in the box")
     command = f"ehlcontact atlas waves --draws {draws} --seed {seed}"
-    table = assemble_filters(entries, {"command": command, "version": __version__})
+    table = solved_table(points, work, solve, assemble_filters, command, **solving)
     save(table, output, "table of contact filters")
     return table
 
 
-def assemble_filters(entries: Sequence[Mapping[str, Any]], made_by: Mapping[str, Any]) -> FilterTable:
+def assemble_filters(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> FilterTable:
     """Table of the converged entries, in single precision but for the points; `made_by` goes into its metadata.
 
     Raises
@@ -55,8 +45,7 @@ def assemble_filters(entries: Sequence[Mapping[str, Any]], made_by: Mapping[str,
         Too few converged.
     """
     good = [one for one in entries if one["status"] == "converged"]
-    if len(good) < FEWEST:
-        raise InputError("converged points", len(good), f"at least {FEWEST} (more draws)")
+    require_enough("converged points", good, " (more draws)")
     meshes = Counter(f"{one['n']} from X = {one['domain'][0]:.3g}" for one in good)
     table = FilterTable(
         points=np.array([[one["M"], one["L"], one["kappa"]] for one in good]),

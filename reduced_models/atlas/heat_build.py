@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
-from ehlcontact import __version__
-from ehlcontact.errors import InputError
-from ehlcontact.executors import require_scheduler
 from ehlcontact.store import save
-from reduced_models.atlas.build import BOX, FEWEST
+from reduced_models.atlas.build import BOX
 from reduced_models.atlas.heat_sample import sample_heated
 from reduced_models.atlas.heat_solve import HEAT_OMEGAS, solve_heated
 from reduced_models.atlas.heat_table import KNOWN, HeatTable, Settings, changes_of
-from reduced_models.atlas.solved_points import solve_points
+from reduced_models.atlas.solved_points import Entry, Solving, require_enough, solved_table
 
 HEAT_DRAWS, HEAT_SEED = 256, 11
 SETTINGS = Settings(weights=(0.6, 0.145, 0.08, 0.45, 0.5))  # of least error, about, when each point is left out
@@ -29,27 +26,19 @@ def build_heat(
     draws: int = HEAT_DRAWS,
     *,
     seed: int = HEAT_SEED,
-    processes: int = 1,
-    scheduler: str | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    **solving: Unpack[Solving],
 ) -> HeatTable:
     """Solve the missing contacts and write the table of all; arguments and errors as of `build_atlas`."""
     contacts = sample_heated(draws, seed, BOX)
-    if len(contacts) < FEWEST:
-        raise InputError("contacts", len(contacts), f"at least {FEWEST}; draws = {draws} have too few")
-    if scheduler is not None:
-        require_scheduler(scheduler)
-    entries = solve_points(
-        contacts, work, solve_heated, processes=processes, scheduler=scheduler, progress=progress
-    )
-    made_by = {"command": f"ehlcontact atlas heat --draws {draws} --seed {seed}", "version": __version__}
-    table = assemble_heat(entries, made_by).rounded()
+    require_enough("contacts", contacts, f"; draws = {draws} have too few")
+    command = f"ehlcontact atlas heat --draws {draws} --seed {seed}"
+    table = solved_table(contacts, work, solve_heated, assemble_heat, command, **solving).rounded()
     save(table, output, "table of heat")
     return table
 
 
 def assemble_heat(
-    entries: Sequence[Mapping[str, Any]], made_by: Mapping[str, Any], settings: Settings = SETTINGS
+    entries: Sequence[Entry], made_by: Mapping[str, Any], settings: Settings = SETTINGS
 ) -> HeatTable:
     """Table of the converged entries; `made_by` goes into its metadata.
 
@@ -59,8 +48,7 @@ def assemble_heat(
         Too few converged.
     """
     good = [one for one in entries if one["status"] == "converged"]
-    if len(good) < FEWEST:
-        raise InputError("converged contacts", len(good), f"at least {FEWEST} (more draws)")
+    require_enough("converged contacts", good, " (more draws)")
     return HeatTable(
         points=np.array([[one[name] for name in KNOWN] for one in good]),
         omega=np.array(HEAT_OMEGAS),

@@ -1,17 +1,55 @@
-"""Points of an atlas build: solved by an executor, and kept in a store by content as they come."""
+"""Points of a table: solved by an executor, kept in a store by content as they come, and put together."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence, Sized
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict, TypeVar, Unpack
 
+from ehlcontact import __version__
 from ehlcontact.content_store import ContentStore, key_of
-from ehlcontact.executors import executor_for, results_of
+from ehlcontact.errors import InputError
+from ehlcontact.executors import executor_for, require_scheduler, results_of
 from ehlcontact.files import parse_json
 
 Solve = Callable[[Any], dict[str, Any]]  # of a point with `to_dict` and `inlet_width`
+Entry = Mapping[str, Any]
+T = TypeVar("T")
+
+FEWEST = 20  # converged points of a table, and pairs from which the atlas learns the oil further out
+
+
+class Solving(TypedDict, total=False):
+    """Who solves points, and who is told: arguments of `solve_points`."""
+
+    processes: int
+    scheduler: str | None
+    progress: Callable[[int, int], None] | None
+
+
+def require_enough(things: str, found: Sized, advice: str) -> None:
+    """Raise `InputError` unless a table can be made of these."""
+    if len(found) < FEWEST:
+        raise InputError(things, len(found), f"at least {FEWEST}{advice}")
+
+
+def solved_table(
+    points: Mapping[str, Any],
+    folder: Path,
+    solve: Solve,
+    assemble: Callable[[Sequence[Entry], Mapping[str, Any]], T],
+    command: str,
+    **solving: Unpack[Solving],
+) -> T:
+    """Table that `assemble` makes of the entries of all points, with the command and the version for its metadata.
+
+    Other arguments and errors as of `solve_points`; a scheduler is looked for before the folder is made.
+    """
+    if (scheduler := solving.get("scheduler")) is not None:
+        require_scheduler(scheduler)
+    entries = solve_points(points, folder, solve, **solving)
+    return assemble(entries, {"command": command, "version": __version__})
 
 
 def solve_points(

@@ -4,26 +4,23 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact import MoesPoint, __version__
-from ehlcontact.errors import InputError
-from ehlcontact.executors import require_scheduler
+from ehlcontact import MoesPoint
 from ehlcontact.store import save
-from reduced_models.atlas.build import FEWEST, INTERPOLATION
-from reduced_models.atlas.solved_points import solve_points
+from reduced_models.atlas.build import INTERPOLATION
+from reduced_models.atlas.solved_points import Entry, Solving, require_enough, solved_table
 from reduced_models.atlas.supply_solve import INTERVALS, RATIOS, SUPPLY_OMEGAS, solve_supply
 from reduced_models.atlas.supply_table import FAINT, REFERENCE, SupplyTable, share_of_layer
 from reduced_models.atlas.table import Box
 
 _Floats = NDArray[np.float64]
-Entry = Mapping[str, Any]
 
 # Weights for the smallest errors of points left out: kappa counts for more than in the atlas, the film for less.
 SUPPLY_INTERPOLATION = replace(INTERPOLATION, weights=(0.4, 0.2, 0.6, 1.0, 0.25), covered=0.95)
@@ -57,19 +54,13 @@ def build_supply(
     draws: int = SUPPLY_DRAWS,
     *,
     seed: int = SUPPLY_SEED,
-    processes: int = 1,
-    scheduler: str | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    **solving: Unpack[Solving],
 ) -> SupplyTable:
     """Solve the missing points, put the table together and write it; arguments and errors as of `build_atlas`."""
     points = sample_supply(draws, seed)
-    if len(points) < FEWEST:
-        raise InputError("points", len(points), f"at least {FEWEST}; draws = {draws} have too few in the box")
-    if scheduler is not None:
-        require_scheduler(scheduler)
-    entries = solve_points(points, work, solve_supply, processes=processes, scheduler=scheduler, progress=progress)
-    made_by = {"command": f"ehlcontact atlas supply --draws {draws} --seed {seed}", "version": __version__}
-    table = assemble_supply(entries, made_by).rounded()
+    require_enough("points", points, f"; draws = {draws} have too few in the box")
+    command = f"ehlcontact atlas supply --draws {draws} --seed {seed}"
+    table = solved_table(points, work, solve_supply, assemble_supply, command, **solving).rounded()
     save(table, output, "table of oil supply")
     return table
 
@@ -84,8 +75,7 @@ def assemble_supply(entries: Sequence[Entry], made_by: Mapping[str, Any]) -> Sup
     """
     found = [(e, changes_of(e)) for e in entries if e["status"] == "converged"]
     good = [(e, rows) for e, rows in found if rows is not None]
-    if len(good) < FEWEST:
-        raise InputError("converged points", len(good), f"at least {FEWEST} (more draws)")
+    require_enough("converged points", good, " (more draws)")
     ahead = sum(one is None for e, _ in good for one in e["starved"])
     return SupplyTable(
         points=np.array([[e["M"], e["L"], e["kappa"]] for e, _ in good]),

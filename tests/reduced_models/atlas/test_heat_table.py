@@ -9,7 +9,7 @@ from ehlcontact import Heat, InputError, Lubricant, MoesPoint, OperatingPoint
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.store import load, save
-from reduced_models.atlas import heat_build
+from reduced_models.atlas import solved_points
 from reduced_models.atlas.build import BOX
 from reduced_models.atlas.heat_build import SETTINGS, assemble_heat, build_heat
 from reduced_models.atlas.heat_condition import SHIPPED, heat_surface
@@ -157,7 +157,7 @@ def test_sample_is_of_bearings_and_grows():
 
 def test_build_writes_what_it_can_read(tmp_path, monkeypatch):
     monkeypatch.setattr(
-        heat_build, "solve_points", lambda contacts, *_, **__: [made_up(c) for c in contacts.values()]
+        solved_points, "solve_points", lambda contacts, *_, **__: [made_up(c) for c in contacts.values()]
     )
     table = build_heat(tmp_path / "heat.h5", tmp_path / "work", 64, seed=3)
     again = load(tmp_path / "heat.h5", HeatTable, "table of heat")
