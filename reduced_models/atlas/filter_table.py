@@ -26,7 +26,7 @@ from ehlcontact.quantities import NUMBER
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import load, stored
 from ehlcontact.summary import contact_text, span
-from reduced_models.atlas.interpolation import Radial, films, left_out_errors
+from reduced_models.atlas.interpolation import Neighbours, Radial, error_factor, films, left_out_errors
 from reduced_models.atlas.table import Box
 
 _Floats = NDArray[np.float64]
@@ -69,10 +69,7 @@ class FilterTable:
         x, wanted = coordinates(self.points), self.deviation
         parts = left_out_errors(x, np.hstack([wanted.real, wanted.imag]))
         errors = np.hypot(parts[:, : self.k.size], parts[:, self.k.size :])
-        distance = scipy.spatial.distance.cdist(x, x)
-        np.fill_diagonal(distance, np.inf)
-        local = _local(errors, np.argpartition(distance, NEAREST, axis=1)[:, :NEAREST])
-        return replace(self, left_out=errors, factor=np.quantile(errors / local, COVERED, axis=0))
+        return replace(self, left_out=errors, factor=error_factor(x, errors, NEAREST, COVERED))
 
 
 def dry_filter(k: ArrayLike) -> _Floats:
@@ -91,10 +88,6 @@ def coordinates(points: _Floats) -> _Floats:
     M, L, kappa = points.T
     width = [MoesPoint(*row).inlet_width for row in points.tolist()]
     return np.column_stack([np.log(M), L ** (2.0 / 3.0), np.log(kappa), np.log(width)]) * np.array(WEIGHTS)
-
-
-def _local(errors: _Floats, nearest: NDArray[np.int64]) -> _Floats:
-    return np.asarray(np.sqrt(np.mean(errors[nearest] ** 2, axis=1)))
 
 
 class ContactFilters:
@@ -134,27 +127,20 @@ class FilterSurface:
     def __init__(self, table: FilterTable) -> None:
         self.table, x = table, coordinates(table.points)
         self._radial = Radial(x, np.hstack([table.deviation.real, table.deviation.imag]))
-        self._usual_reach = float(
-            np.median(np.partition(scipy.spatial.distance.cdist(x, x), NEAREST, axis=1)[:, NEAREST])
-        )
+        self._neighbours = Neighbours(x, table.left_out, NEAREST)
 
     @one_blas_thread()
     def contacts(self, points: _Floats) -> ContactFilters:
-        """Filters of contacts by rows (M, L, kappa); one outside the box has that of the nearest inside.
-
-        Where nodes lie far apart the bars grow with the square of their distance, as those of the atlas.
-        """
+        """Filters of contacts by rows (M, L, kappa); one outside the box has that of the nearest inside."""
         table, box = self.table, self.table.box
         low, high = np.transpose([box.M, box.L, box.kappa])
         inside = np.clip(points, low, high)
         x, m = coordinates(inside), table.k.size
         distance = scipy.spatial.distance.cdist(x, self._radial.x)
-        nearest = np.argpartition(distance, NEAREST, axis=1)[:, :NEAREST]
-        reach = np.take_along_axis(distance, nearest, axis=1).max(axis=1, keepdims=True)
-        grown, share = np.maximum(reach / self._usual_reach, 1.0) ** 2, film_share(inside)[:, None]
+        (grown, local), share = self._neighbours.at(distance), film_share(inside)[:, None]
         found = self._radial.at(x, distance)
         nodes = dry_filter(table.k) + share * (found[:, :m] + 1j * found[:, m:])
-        bars = share * grown * table.factor * _local(table.left_out, nearest)
+        bars = share * grown * table.factor * local
         still = np.ones((1, len(points)))  # waves without end are an approach
         return ContactFilters(
             np.append(0.0, table.k), np.vstack([still, nodes.T]), np.vstack([0.0 * still, bars.T])

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from ehlcontact.film_formulas import load_number, wilson_heating
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.store import stored
-from reduced_models.atlas.interpolation import Radial, error_factor, left_out_errors
+from reduced_models.atlas.interpolation import Neighbours, Radial, error_factor, left_out_errors
 
 _Floats = NDArray[np.float64]
 Entry = Mapping[str, Any]
@@ -108,25 +108,20 @@ class HeatSurface:
     @one_blas_thread()
     def __init__(self, table: HeatTable) -> None:
         self.table, by = table, table.settings
-        self._by, self._weights = by, np.array(by.weights)
+        self._weights = np.array(by.weights)
         self.ends = np.array([table.points.min(axis=0), table.points.max(axis=0)])
         plain = coordinates(table.points)
         self._low, self._high = plain.min(axis=0), plain.max(axis=0)
         x = plain * self._weights
         self._radial, errors = Radial(x, table.changes), left_out_errors(x, table.changes)
-        self.errors, self._factor = errors, error_factor(x, errors, by)
-        self._usual_reach = float(
-            np.median(np.partition(scipy.spatial.distance.cdist(x, x), by.nearest, axis=1)[:, by.nearest])
-        )
+        self._neighbours = Neighbours(x, errors, by.nearest)
+        self._factor = error_factor(x, errors, by.nearest, by.covered)
 
     @one_blas_thread()
     def at(self, points: _Floats) -> tuple[_Floats, _Floats]:
         """Changes of contacts and half widths of their error bars, both over g, shape (n, 4 + 2 k)."""
-        nearest = self._by.nearest
         x = np.clip(coordinates(points), self._low, self._high) * self._weights
         distance = scipy.spatial.distance.cdist(x, self._radial.x)
         found = self._radial.at(x, distance)
-        which = np.argpartition(distance, nearest, axis=1)[:, :nearest]
-        reach = np.take_along_axis(distance, which, axis=1).max(axis=1, keepdims=True)
-        local = np.sqrt(np.mean(self.errors[which] ** 2, axis=1))
-        return found, np.maximum(reach / self._usual_reach, 1.0) ** 2 * self._factor * local
+        grown, local = self._neighbours.at(distance)
+        return found, grown * self._factor * local

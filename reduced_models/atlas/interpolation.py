@@ -14,8 +14,6 @@ Every number of it is one of the atlas's `Interpolation`.
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import numpy as np
 import scipy
 from numpy.typing import NDArray
@@ -89,28 +87,40 @@ def judge(points: _Floats, answers: _Floats, by: Interpolation) -> tuple[_Floats
     smooth, (x, lobe) = to_smooth(film, answers, by), coordinates(points, film, by)
     errors = left_out_errors(x, smooth)
     errors[:, [LOBE]] = left_out_errors(lobe, smooth[:, [LOBE]])
-    return errors, error_factor(x, errors, by)
+    return errors, error_factor(x, errors, by.nearest, by.covered)
 
 
-class ErrorBars(Protocol):
-    """What error bars of an interpolation are made by."""
-
-    @property
-    def nearest(self) -> int:
-        """Points whose errors make the error bar."""
-
-    @property
-    def covered(self) -> float:
-        """Share of points that it covers when each is left out."""
-
-
-def error_factor(x: _Floats, errors: _Floats, by: ErrorBars) -> _Floats:
+def error_factor(x: _Floats, errors: _Floats, nearest: int, covered: float) -> _Floats:
     """Factor on the local error that covers a given share of the nodes, each judged by its neighbours."""
     distance = scipy.spatial.distance.cdist(x, x)
     np.fill_diagonal(distance, np.inf)
-    nearest = np.argpartition(distance, by.nearest, axis=1)[:, : by.nearest]
-    local = np.sqrt(np.mean(errors[nearest] ** 2, axis=1))
-    return np.quantile(np.abs(errors) / local, by.covered, axis=0)
+    _, local = Neighbours(x, errors, nearest).at(distance)
+    return np.quantile(np.abs(errors) / local, covered, axis=0)
+
+
+class Neighbours:
+    """The nearest nodes of a place, whose errors make its error bar.
+
+    Attributes
+    ----------
+    usual_reach : float
+        Median distance of the nodes from the farthest of their neighbours.
+    """
+
+    def __init__(self, x: _Floats, errors: _Floats, nearest: int) -> None:
+        self._squares, self._nearest = errors**2, nearest
+        reach = np.partition(scipy.spatial.distance.cdist(x, x), nearest, axis=1)[:, nearest]
+        self.usual_reach = float(np.median(reach))
+
+    def at(self, distance: _Floats) -> tuple[_Floats, _Floats]:
+        """Growth of error bars, shape (n, 1), and root mean square of the errors, given distances from all nodes.
+
+        Where nodes lie far apart the bars grow with the square of their distance.
+        """
+        nearest = np.argpartition(distance, self._nearest, axis=1)[:, : self._nearest]
+        reach = np.take_along_axis(distance, nearest, axis=1).max(axis=1, keepdims=True)
+        local = np.sqrt(np.mean(self._squares[nearest], axis=1))
+        return np.maximum(reach / self.usual_reach, 1.0) ** 2, local
 
 
 class Radial:
@@ -139,9 +149,7 @@ class AtlasSurface:
         smooth = to_smooth(film, table.answers, by)
         self._smooth = smooth.shape[1]
         self._all, self._lobe = Radial(x, np.hstack([smooth, table.gains])), Radial(lobe, smooth[:, [LOBE]])
-        self._squares, self._factor = table.left_out**2, table.factor
-        reach = np.partition(scipy.spatial.distance.cdist(x, x), by.nearest, axis=1)[:, by.nearest]
-        self._usual_reach = float(np.median(reach))
+        self._neighbours, self._factor = Neighbours(x, table.left_out, by.nearest), table.factor
 
     @property
     def coefficients(self) -> tuple[_Floats, _Floats]:
@@ -155,7 +163,7 @@ class AtlasSurface:
     @property
     def usual_reach(self) -> float:
         """Median distance of the points from the farthest of their neighbours that make the error bar."""
-        return self._usual_reach
+        return self._neighbours.usual_reach
 
     @one_blas_thread()
     def at(self, points: _Floats) -> tuple[_Floats, _Floats]:
@@ -179,10 +187,8 @@ class AtlasSurface:
         by, film = self._by, films(points)
         found, distance = self._interpolated(points, film, slice(self._smooth))
         values, slopes = from_smooth(film, found, by)
-        nearest = np.argpartition(distance, by.nearest, axis=1)[:, : by.nearest]
-        reach = np.take_along_axis(distance, nearest, axis=1).max(axis=1, keepdims=True)
-        local = np.sqrt(np.mean(self._squares[nearest], axis=1))
-        smooth = np.maximum(reach / self._usual_reach, 1.0) ** 2 * self._factor * local
+        grown, local = self._neighbours.at(distance)
+        smooth = grown * self._factor * local
         k = (values.shape[1] - HEAD) // 2
         stiffness, damping = slice(HEAD, HEAD + k), slice(HEAD + k, None)
         if extra.any():

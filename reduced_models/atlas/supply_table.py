@@ -23,7 +23,14 @@ from numpy.typing import NDArray
 from ehlcontact.film_formulas import film_of_layer, layer_sharpness
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.store import stored
-from reduced_models.atlas.interpolation import Radial, coordinates, error_factor, films, left_out_errors
+from reduced_models.atlas.interpolation import (
+    Neighbours,
+    Radial,
+    coordinates,
+    error_factor,
+    films,
+    left_out_errors,
+)
 from reduced_models.atlas.table import Box, Interpolation
 
 _Floats = NDArray[np.float64]
@@ -106,17 +113,13 @@ class SupplySurface:
 
     @one_blas_thread()
     def __init__(self, table: SupplyTable) -> None:
-        self.table, self._by = table, table.interpolation
-        x = _places(table.points, self._by)
+        self.table, by = table, table.interpolation
+        self._by, x = by, _places(table.points, by)
         n, m, q = table.changes.shape
         flat = np.asarray(table.changes, float).reshape(n, m * q)
         self._radial, errors = Radial(x, flat), left_out_errors(x, flat)
-        self._squares, self._factor = errors**2, error_factor(x, errors, self._by)
-        self._usual_reach = float(
-            np.median(
-                np.partition(scipy.spatial.distance.cdist(x, x), self._by.nearest, axis=1)[:, self._by.nearest]
-            )
-        )
+        self._neighbours = Neighbours(x, errors, by.nearest)
+        self._factor = error_factor(x, errors, by.nearest, by.covered)
 
     @one_blas_thread()
     def at(self, points: _Floats, ratio: _Floats) -> SupplyChange:
@@ -125,10 +128,8 @@ class SupplySurface:
         x = _places(points, self._by)
         distance = scipy.spatial.distance.cdist(x, self._radial.x)
         found = self._radial.at(x, distance).reshape(len(points), nodes.size, q)
-        nearest = np.argpartition(distance, self._by.nearest, axis=1)[:, : self._by.nearest]
-        reach = np.take_along_axis(distance, nearest, axis=1).max(axis=1, keepdims=True)
-        local = np.sqrt(np.mean(self._squares[nearest], axis=1)) * self._factor
-        bars = (np.maximum(reach / self._usual_reach, 1.0) ** 2 * local).reshape(found.shape)
+        grown, local = self._neighbours.at(distance)
+        bars = (grown * (local * self._factor)).reshape(found.shape)
         x, place = np.arcsinh(nodes), np.arcsinh(np.clip(ratio, nodes[0], nodes[-1]))
         straight = _linear(x, place)
         rows, between = _between(x, found, place), np.einsum("nm,nmq->nq", straight, found)
