@@ -16,6 +16,8 @@ from ehlcontact import Grid, MoesPoint, __version__, excitation, impedance
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.status import Status
 from reduced_models.atlas.mesh import TableGrid
+from reduced_models.atlas.sample import overshot, sobol
+from reduced_models.atlas.solve import status_of
 from reduced_models.atlas.table import Box
 
 # Wave numbers per semi-axis: wavelengths from 63 a down to 1 a.
@@ -40,11 +42,8 @@ def filter_points(draws: int, seed: int) -> dict[str, MoesPoint]:
     What is drawn a little outside the box is moved onto its faces; a Hertz pressure above that of the box is
     brought down by M.
     """
-    from scipy.stats import qmc
-
-    drawn = qmc.Sobol(3, seed=seed).random_base2(max(draws - 1, 1).bit_length())[:draws]
     low, high = np.transpose([np.log(FILTERED.M), FILTERED.L, np.log(FILTERED.kappa)])
-    shares = np.clip(drawn * (1.0 + 2.0 * OVERSHOOT) - OVERSHOOT, 0.0, 1.0)
+    shares = overshot(sobol(3, draws, seed), OVERSHOOT)
     points = {}
     for i, (M, L, kappa) in enumerate((low + shares * (high - low)).tolist()):
         point = MoesPoint(float(np.exp(M)), L, float(np.exp(kappa)))
@@ -68,7 +67,7 @@ def solve_filter(point: MoesPoint) -> dict[str, Any]:
         entry |= respond(point, filter_grid(point))
         entry["status"] = str(Status.CONVERGED)
     except ConvergenceError as error:
-        entry["status"] = "unknown" if error.result is None else str(error.result.status)
+        entry["status"] = status_of(error)
     return entry | {"seconds": time.perf_counter() - started}
 
 

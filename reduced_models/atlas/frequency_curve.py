@@ -13,6 +13,14 @@ _Floats = NDArray[np.float64]
 SPLINE_SHARE = 0.5  # of the distance between cubic and straight line: what error bars grow by between nodes
 
 
+def over_frequency(nodes: _Floats, Omega: _Floats, unit: float = 1.0) -> _Floats:
+    """Weights, shape (nodes, others), of values at nodes in cubics over asinh(Omega/unit) that are level at 0."""
+    cubic = scipy.interpolate.CubicSpline(
+        np.arcsinh(nodes / unit), np.eye(nodes.size), bc_type=((1, np.zeros(nodes.size)), "not-a-knot")
+    )
+    return np.asarray(cubic(np.arcsinh(Omega / unit))).T
+
+
 class FrequencyCurve:
     """K, or C, over frequency: exact at the nodes, a cubic over asinh(Omega) between, level at 0 (both are even).
 

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
@@ -17,6 +16,7 @@ from ehlcontact.heat import Heat, require_heat
 from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.store import load as read_file
 from reduced_models.atlas.change import Change
+from reduced_models.atlas.frequency_curve import over_frequency
 from reduced_models.atlas.heat_table import KNOWN, NUMBERS, HeatSurface, HeatTable, unit_of
 from reduced_models.atlas.table import HEAD, LOW
 
@@ -143,7 +143,7 @@ class HeatCondition:
         g, k, half = unit_of(self.thermal_load), Omega.size, len(NUMBERS) + heat_surface().table.omega.size
         found, bars = (g * part for part in heat_surface().at(self._rows(loads)))
         bars = np.hypot(bars, g * self._other_errors(half, bars.shape[1]))
-        along = _over(heat_surface().table.omega, Omega)
+        along = over_frequency(heat_surface().table.omega, Omega)
         film, central, least, moment = np.exp(found[:, : len(NUMBERS)]).T
         K = np.exp(found[:, len(NUMBERS) : half] @ along)
         unit = values[:, [HEAD + k]] / values[:, [LOW]]  # of differences of C in the table over that of a `Change`
@@ -180,11 +180,3 @@ class HeatCondition:
     def to_dict(self) -> dict[str, Any]:
         """Its inputs, ready for JSON."""
         return self.heat.to_dict()
-
-
-def _over(nodes: _Floats, Omega: _Floats) -> _Floats:
-    """Weights of the frequencies of the table at others, shape (nodes, others)."""
-    curve = scipy.interpolate.CubicSpline(
-        np.arcsinh(nodes), np.eye(nodes.size), bc_type=((1, np.zeros(nodes.size)), "not-a-knot")
-    )
-    return np.asarray(curve(np.arcsinh(Omega))).T

@@ -16,6 +16,7 @@ import numpy as np
 from ehlcontact import Domain, Geometry, Heat, InputError, Lubricant, OperatingPoint
 from ehlcontact.heat import MINERAL_OIL
 from ehlcontact.hertz import hertz_contact
+from reduced_models.atlas.sample import between, sobol
 from reduced_models.atlas.table import Box
 
 GRADES = (15, 22, 32, 46, 68, 100, 150)
@@ -78,10 +79,7 @@ def sample_heated(draws: int, seed: int, box: Box) -> dict[str, HeatedContact]:
 
 
 def _drawn(draws: int, seed: int, box: Box) -> Iterator[HeatedContact | None]:
-    from scipy.stats import qmc
-
-    shares = qmc.Sobol(7, seed=seed).random_base2(math.ceil(math.log2(max(draws, 1))))[:draws]
-    for i, share in enumerate(shares.tolist()):
+    for i, share in enumerate(sobol(7, draws, seed).tolist()):
         try:
             yield _contact(("inner", "outer")[i % 2], share, box)
         except InputError:  # an oil, a speed or a load that there is not
@@ -93,16 +91,12 @@ def _contact(race: str, share: list[float], box: Box) -> HeatedContact | None:
     oil = Lubricant.iso_vg(grade, temperature=float(np.interp(share[1], (0.0, 1.0), TEMPERATURE)))
     heat = Heat()
     assert oil.temperature_slope is not None
-    speed = math.sqrt(_between(THERMAL_LOAD, share[2]) * MINERAL_OIL / (oil.temperature_slope * oil.eta0))
-    ball, osculation = _between(BALL, share[3]), _between(OSCULATION, share[4])
+    speed = math.sqrt(between(THERMAL_LOAD, share[2]) * MINERAL_OIL / (oil.temperature_slope * oil.eta0))
+    ball, osculation = between(BALL, share[3]), between(OSCULATION, share[4])
     pitch = ball * float(np.interp(share[5], (0.0, 1.0), PITCH))
     body = Geometry.ball_bearing(ball, pitch, 0.5 + osculation, race)
     unit = OperatingPoint(body, oil, 1.0, 2.0 * speed).moes
     pressure = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure
     most = min((PRESSURE / pressure) ** 3, box.M[1] / unit.M)
-    point = OperatingPoint(body, oil, _between((LIGHTEST / unit.M, most), share[6] ** MORE_LOAD), 2.0 * speed)
+    point = OperatingPoint(body, oil, between((LIGHTEST / unit.M, most), share[6] ** MORE_LOAD), 2.0 * speed)
     return HeatedContact(point, heat) if speed <= FASTEST and box.L[0] <= unit.L <= box.L[1] else None
-
-
-def _between(ends: tuple[float, float], share: float) -> float:
-    return float(ends[0] * (ends[1] / ends[0]) ** share)

@@ -13,7 +13,7 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.impedance import TOLERANCE, held, linearised
 from ehlcontact.status import Status
 from reduced_models.atlas.heat_sample import HeatedContact, intervals_of
-from reduced_models.atlas.solve import FILM, OMEGAS
+from reduced_models.atlas.solve import FILM, OMEGAS, status_of
 
 # Of the atlas; what heat changes follows them within 0.01 of the damping at low frequency, and 0.4 % of K.
 HEAT_OMEGAS = tuple(OMEGAS[k] for k in (0, 3, 6, 8, 10, 13, 16, 19, 22, 25, 28, 33, 41))
@@ -40,7 +40,7 @@ def solve_heated(contact: HeatedContact) -> dict[str, Any]:
         entry |= {"cold": respond(point, grid, None), "warm": respond(point, grid, contact.heat)}
         entry["status"] = str(Status.CONVERGED)
     except ConvergenceError as error:
-        entry["status"] = "unknown" if error.result is None else str(error.result.status)
+        entry["status"] = status_of(error)
     return entry | {"n": n, "seconds": time.perf_counter() - started}
 
 

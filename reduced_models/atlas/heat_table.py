@@ -25,6 +25,7 @@ from ehlcontact.film_formulas import load_number, wilson_heating
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.store import stored
 from reduced_models.atlas.interpolation import Neighbours, Radial, error_factor, left_out_errors
+from reduced_models.atlas.table import require_shapes
 
 _Floats = NDArray[np.float64]
 Entry = Mapping[str, Any]
@@ -68,10 +69,7 @@ class HeatTable:
         """
         n, k = len(self.points), self.omega.size
         shapes = {"points": (n, len(KNOWN)), "omega": (k,), "changes": (n, len(NUMBERS) + 2 * k)}
-        for name, shape in shapes.items():
-            array = getattr(self, name)
-            if array.shape != shape or not np.isfinite(array).all():
-                raise ValueError(f"{name} of shape {array.shape} in place of finite numbers of shape {shape}")
+        require_shapes(self, shapes)
         _ = self.settings
 
     def rounded(self) -> Self:

@@ -13,10 +13,13 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlcontact.film_formulas import load_number
 from ehlcontact.point import MoesPoint
 from reduced_models.atlas.table import Box
+
+_Floats = NDArray[np.float64]
 
 OVERSHOOT = 0.08  # share of the cube by which draws reach beyond it, to be moved onto its faces
 PRESSURE_OVERSHOOT = 1.15  # likewise beyond the largest Hertz pressure
@@ -72,17 +75,28 @@ def sample_points(draws: int, light_draws: int, seed: int) -> dict[str, MoesPoin
 
 def _drawn(which: _Set, seed: int) -> Iterator[MoesPoint]:
     """All draws of a set."""
-    from scipy.stats import qmc  # of all that is imported here it takes longest
-
-    # Sobol sequences are balanced by powers of 2, but any beginning will do here.
-    found = qmc.Sobol(3, seed=seed).random_base2(math.ceil(math.log2(max(which.draws, 1))))[: which.draws]
-    for u, v, w in np.clip(found * (1.0 + 2.0 * OVERSHOOT) - OVERSHOOT, 0.0, 1.0).tolist():
-        kappa, ends = _between(SAMPLED.kappa, w), SAMPLED.M
+    for u, v, w in overshot(sobol(3, which.draws, seed), OVERSHOOT).tolist():
+        kappa, ends = between(SAMPLED.kappa, w), SAMPLED.M
         if which.load_numbers is not None:
             low, high = (N / load_number(1.0, kappa) for N in which.load_numbers)
             ends = max(SAMPLED.M[0], low), high
-        yield MoesPoint(_between(ends, u), SAMPLED.L[0] + (SAMPLED.L[1] - SAMPLED.L[0]) * v**which.warp, kappa)
+        yield MoesPoint(between(ends, u), SAMPLED.L[0] + (SAMPLED.L[1] - SAMPLED.L[0]) * v**which.warp, kappa)
 
 
-def _between(ends: tuple[float, float], share: float) -> float:
+def sobol(axes: int, draws: int, seed: int) -> _Floats:
+    """Scrambled Sobol points of the unit cube, shape (draws, axes); more draws add to the fewer."""
+    from scipy.stats import qmc  # of all that is imported here it takes longest
+
+    # Sobol sequences are balanced by powers of 2, but any beginning will do here.
+    found = qmc.Sobol(axes, seed=seed).random_base2(math.ceil(math.log2(max(draws, 1))))
+    return np.asarray(found[:draws])
+
+
+def overshot(found: _Floats, by: float) -> _Floats:
+    """Draws stretched beyond the cube by a share of it and moved onto its faces, so that edges are sampled too."""
+    return np.clip(found * (1.0 + 2.0 * by) - by, 0.0, 1.0)
+
+
+def between(ends: tuple[float, float], share: float) -> float:
+    """Geometric mean of two ends, weighted by a share."""
     return ends[0] * (ends[1] / ends[0]) ** share

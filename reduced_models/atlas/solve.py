@@ -40,11 +40,16 @@ def solve_point(point: MoesPoint) -> dict[str, Any]:
         entry |= fine_film(point, of_film, grid)
         entry["status"] = str(Status.CONVERGED)
     except ConvergenceError as error:
-        entry["status"] = "unknown" if error.result is None else str(error.result.status)
+        entry["status"] = status_of(error)
     if near != grid:
         with suppress(ConvergenceError):
             entry["close"] = respond(point, near)
     return entry | {"seconds": time.perf_counter() - started}
+
+
+def status_of(error: ConvergenceError) -> str:
+    """Status of a solve that failed, for its entry."""
+    return "unknown" if error.result is None else str(error.result.status)
 
 
 def fine_film(point: MoesPoint, wanted: Grid, coarse: Grid) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ehlcontact import MoesPoint
 from ehlcontact.store import save
 from reduced_models.atlas.build import INTERPOLATION
+from reduced_models.atlas.sample import OVERSHOOT, between, overshot, sobol
 from reduced_models.atlas.solved_points import Entry, Solving, require_enough, solved_table
 from reduced_models.atlas.supply_solve import INTERVALS, RATIOS, SUPPLY_OMEGAS, solve_supply
 from reduced_models.atlas.supply_table import FAINT, REFERENCE, SupplyTable, share_of_layer
@@ -26,7 +27,6 @@ _Floats = NDArray[np.float64]
 SUPPLY_INTERPOLATION = replace(INTERPOLATION, weights=(0.4, 0.2, 0.6, 1.0, 0.25), covered=0.95)
 SUPPLY_DRAWS, SUPPLY_SEED = 256, 31
 SUPPLY_BOX = Box(M=(10.0, 20000.0), L=(4.0, 26.0), kappa=(0.08, 1.0), p_hertz=4.1e9)
-OVERSHOOT = 0.08  # share of the cube by which draws reach beyond it, to be moved onto its faces
 SAMPLED = Box(M=(9.5, 21000.0), L=(3.8, 26.5), kappa=(0.077, 1.05), p_hertz=4.2e9)  # with a margin
 LIGHTEST, MARGIN = 8.0, 0.9  # load number of the lightest contacts, and of the draws over it
 SLOWEST_FADE = 1.0  # power of r by which changes fade, at least, where the front lies ahead of the region
@@ -34,14 +34,11 @@ SLOWEST_FADE = 1.0  # power of r by which changes fade, at least, where the fron
 
 def sample_supply(draws: int, seed: int) -> dict[str, MoesPoint]:
     """Points to solve by name, of a Sobol sequence; those of too thin a film or too high a pressure fall away."""
-    from scipy.stats import qmc  # of all that is imported here it takes longest
-
-    found = qmc.Sobol(3, seed=seed).random_base2(math.ceil(math.log2(max(draws, 1))))[:draws]
-    shares = np.clip(found * (1.0 + 2.0 * OVERSHOOT) - OVERSHOOT, 0.0, 1.0)
+    shares = overshot(sobol(3, draws, seed), OVERSHOOT)
     M, L, kappa = SAMPLED.M, SAMPLED.L, SAMPLED.kappa
     points: dict[str, MoesPoint] = {}
     for i, (u, v, w) in enumerate(shares.tolist()):
-        point = MoesPoint(_between(M, u), L[0] + (L[1] - L[0]) * v, _between(kappa, w))
+        point = MoesPoint(between(M, u), L[0] + (L[1] - L[0]) * v, between(kappa, w))
         light = point.load_number < MARGIN * LIGHTEST
         if not light and point.inlet_width >= INTERVALS[-1][0] and point.p_hertz <= SAMPLED.p_hertz:
             points[f"supply-{i}"] = point
@@ -137,7 +134,3 @@ def _change(entry: Entry, starved: Mapping[str, Any], ratio: float) -> _Floats:
             np.arcsinh((starved["damping"] - C) / unit),
         ]
     )
-
-
-def _between(ends: tuple[float, float], share: float) -> float:
-    return ends[0] * (ends[1] / ends[0]) ** share

@@ -20,6 +20,7 @@ from ehlcontact.point import MoesPoint, Point, moes_point, scales_of
 from ehlcontact.store import load as read_file
 from ehlcontact.supply import OilLayer, require_supply
 from reduced_models.atlas.change import Change
+from reduced_models.atlas.frequency_curve import over_frequency
 from reduced_models.atlas.supply_table import (
     FAINT,
     LOW_OMEGA,
@@ -130,7 +131,8 @@ class SupplyCondition:
         self._require_inside(loads, ratio)
         surface, k = supply_surface(), Omega.size
         found, half = surface.at(self._rows(loads), ratio), NUMBERS + surface.table.omega.size
-        along = _over(surface.table.omega, Omega)
+        nodes = surface.table.omega
+        along = over_frequency(nodes, np.minimum(Omega, nodes[-1]), LOW_OMEGA)
         film, lobe, approach, moment = found.rows[:, :NUMBERS].T
         share = share_of_layer(ratio, np.full(loads.size, self.moes.kappa)) * np.exp(film)
         K, C = np.exp(found.rows[:, NUMBERS:half] @ along), found.rows[:, half:] @ along
@@ -181,10 +183,3 @@ class SupplyCondition:
 def _loaded(moes: MoesPoint, load: float) -> MoesPoint:
     """The point under another load, in units of its own."""
     return replace(moes, M=moes.M * float(load))
-
-
-def _over(nodes: _Floats, Omega: _Floats) -> _Floats:
-    """Weights of the table's frequencies at others, shape (k, l): a cubic over asinh, level at 0 and beyond."""
-    x = np.arcsinh(nodes / LOW_OMEGA)
-    cubic = scipy.interpolate.CubicSpline(x, np.eye(nodes.size), bc_type=((1, np.zeros(nodes.size)), "not-a-knot"))
-    return np.asarray(cubic(np.minimum(np.arcsinh(Omega / LOW_OMEGA), x[-1]))).T

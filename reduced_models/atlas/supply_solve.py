@@ -18,6 +18,7 @@ from ehlcontact.impedance import NEAR_ZERO, held, linearised
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density
 from ehlcontact.status import Status
+from reduced_models.atlas.solve import FILM, status_of
 
 # Layers over what the flooded film lets through: closest where oil begins to pile up ahead of the contact.
 RATIOS = (0.25, 0.5, 0.7, 0.85, 1.0, 1.15, 1.35, 1.7, 2.4, 4.0)
@@ -29,7 +30,6 @@ LONGER, LONGEST, MORE_INTERVALS = 1.5, 2.5, 1.5
 # For inlets of at least this width, in semi-axes: the mesh is 0.4 of it at most, half of it in the last.
 INTERVALS = ((0.32, 64), (0.215, 96), (0.16, 128), (0.085, 192))
 TOLERANCE = 1e-4  # of the linear residuals: C is then within 1e-4 of the flooded C at low frequency, or so
-FILM = ("approach", "h_central", "h_min", "moment")
 
 
 def supply_grids(point: MoesPoint) -> tuple[Grid, Grid]:
@@ -54,7 +54,7 @@ def solve_layers(point: MoesPoint, ratios: tuple[float, ...], Omega: tuple[float
     try:
         entry["flooded"] = _respond(point, grids[0], Omega, None)
     except ConvergenceError as error:
-        return entry | {"status": "unknown" if error.result is None else str(error.result.status)}
+        return entry | {"status": status_of(error)}
     full = entry["flooded"]["h_central"] * float(plain(density)(1.0, point.law)[0])
     entry["starved"] = []
     for ratio in ratios:

@@ -31,7 +31,7 @@ from reduced_models.atlas.interpolation import (
     films,
     left_out_errors,
 )
-from reduced_models.atlas.table import Box, Interpolation
+from reduced_models.atlas.table import Box, Interpolation, require_shapes
 
 _Floats = NDArray[np.float64]
 
@@ -91,10 +91,7 @@ class SupplyTable:
         """
         n, m, k = len(self.points), self.ratios.size, self.omega.size
         shapes = {"points": (n, 3), "ratios": (m,), "omega": (k,), "changes": (n, m, NUMBERS + 2 * k)}
-        for name, shape in shapes.items():
-            array = getattr(self, name)
-            if array.shape != shape or not np.isfinite(array).all():
-                raise ValueError(f"{name} of shape {array.shape} in place of finite numbers of shape {shape}")
+        require_shapes(self, shapes)
         _ = self.box, self.narrowest, self.lightest, self.interpolation
 
     def rounded(self) -> Self:

@@ -120,6 +120,14 @@ class OtherOil:
             object.__setattr__(self, name, float(value) if name == "secant" else tuple(map(float, value)))
 
 
+def require_shapes(table: object, shapes: Mapping[str, tuple[int, ...]]) -> None:
+    """Raise `ValueError` unless arrays of a table have these shapes, and finite numbers."""
+    for name, shape in shapes.items():
+        array = getattr(table, name)
+        if array.shape != shape or not np.isfinite(array).all():
+            raise ValueError(f"{name} of shape {array.shape} in place of finite numbers of shape {shape}")
+
+
 @stored("table of an atlas", 4)
 @dataclass(frozen=True, eq=False)
 class AtlasTable:
@@ -183,10 +191,7 @@ class AtlasTable:
         shapes = {"points": (n, 3), "omega": (k,), "left_out": (n, HEAD + 2 * k), "factor": (HEAD + 2 * k,)}
         shapes |= dict.fromkeys(("approach", "h_central", "h_min", "moment"), (n,)) | {"gains": (n, gains)}
         shapes |= dict.fromkeys(("stiffness", "damping"), (n, k))
-        for name, shape in shapes.items():
-            array = getattr(self, name)
-            if array.shape != shape or not np.isfinite(array).all():
-                raise ValueError(f"{name} of shape {array.shape} in place of finite numbers of shape {shape}")
+        require_shapes(self, shapes)
         _ = self.box, self.oil, float(self.metadata["highest_omega"]), str(self.metadata["version"])
         if not 0 <= self.interpolation.reference < k:
             raise ValueError(f"reference {self.interpolation.reference} is no frequency of {k}")
