@@ -262,29 +262,33 @@ def oil_and_heat(
         found = oiled_state(variant, load, speed_rpm, law, tilt)
         return _tabulated(variant, found, variant.coefficients(load, speed_rpm=speed_rpm, tilt=tilt, hz=hz), law)
 
+    small = bearing.coefficients(load, speed_rpm=speed_rpm, tilt=tilt, hz=hz)
     if not solve:
         with suppress(InputError):  # beyond the tables
-            made = _from_tables(tabulated, state.heaviest, supply, thermal)
+            flooded = _tabulated(bearing, state, small, law)
+            made = _from_tables(flooded, tabulated, state.heaviest, supply, thermal)
             return OilAndHeat(state=state, hz=hz, conditions=made, refused={}, solved=False)
-    small = bearing.coefficients(load, speed_rpm=speed_rpm, tilt=tilt, hz=hz)
     ratios, refused = _ratios(points, hz, supply, thermal, callback)
     made = {key: _condition(bearing, state, small, one, law) for key, one in ratios.items()}
     return OilAndHeat(state=state, hz=hz, conditions=made, refused=refused, solved=True)
 
 
 def _from_tables(
-    tabulated: Callable[..., Condition], heaviest: int, supply: OilLayer | None, thermal: Heat | None
+    flooded: Condition,
+    tabulated: Callable[..., Condition],
+    heaviest: int,
+    supply: OilLayer | None,
+    thermal: Heat | None,
 ) -> dict[str, Condition]:
     """The conditions that are asked for, each of the bearing as a whole."""
-    made = {FLOODED: tabulated()}
+    made = {FLOODED: flooded}
     if thermal is not None:
         made[HEAT] = tabulated(thermal=thermal)
     if supply is not None:
         made[LAYER] = tabulated(supply=supply)
     if supply is not None and thermal is not None:
-        heated, flooded = made[HEAT], made[FLOODED]
-        share = float((heated.h_central / flooded.h_central)[heaviest].mean())
-        made[BOTH] = heated.times(tabulated(supply=_over(supply, share)), flooded)
+        share = float((made[HEAT].h_central / flooded.h_central)[heaviest].mean())
+        made[BOTH] = made[HEAT].times(tabulated(supply=_over(supply, share)), flooded)
     return made
 
 
