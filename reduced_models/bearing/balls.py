@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.jit import inner, jit_exact_loop, jit_exact_node
+from ehlcontact.jit import inner, jit_exact_called_node, jit_exact_loop, jit_exact_node
 from reduced_models.bearing.contact_heights import (
     ANGLE_NOW,
     ANGLE_RATE,
@@ -255,7 +255,7 @@ def _ball(balls, at_speed, films, k, delta, rate, gain):
     return nan, nan, nan
 
 
-@jit_exact_loop
+@jit_exact_called_node
 def press_balls(balls, at_speed, films, normals, q, v, gain, out):
     """Force that the ring at `q`, moving at `v`, exerts on the balls, and its derivatives by both.
 
