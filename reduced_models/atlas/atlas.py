@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import warnings
 from copy import deepcopy
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -42,6 +43,7 @@ from reduced_models.elements.film_memory import FilmMemoryContact
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
 from reduced_models.elements.polynomial import CubicContact
 from reduced_models.elements.speed_range import SpeedRangeContact
+from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -167,7 +169,8 @@ class Atlas:
             unit of time) at every point; at an `OperatingPoint` also in rad/s, Hz or rev/min. A damper without
             memory is right at one frequency only, so there is no default.
         supply : OilLayer, optional
-            Oil that the surfaces carry to the contact; by default it is flooded.
+            Oil that the surfaces carry to the contact; by default it is flooded. A cubic warns where its damper
+            would be below zero, and has none.
         thermal : Heat, optional
             Let the film heat up; by default it is isothermal. With both the factors of both are multiplied.
 
@@ -294,6 +297,10 @@ class Atlas:
         at, k = np.array([w]), nodes.size
         K, C = FrequencyCurve(nodes, values[0, HEAD : HEAD + k]), FrequencyCurve(nodes, values[0, HEAD + k :])
         tangent, damper, band = float(K.at(at)[0]), float(C.at(at)[0]), damper_band(nodes, C, w)
+        if damper < 0.0:
+            found = f"{damper:.3g}" if scales is None else f"{damper * scales.damping:.3g} N s/m"
+            message = f"under this layer the solver finds damping below zero at this frequency ({found})"
+            warnings.warn(f"{message}; the cubic element leaves it out, its C1 is 0", OutsideValidityWarning, 4)
         cubic = cubic_element(float(values[0, 0]), tangent, damper, band, self._whence(point, given))
         return cubic if scales is None else cubic.to_si(scales)
 

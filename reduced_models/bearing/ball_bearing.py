@@ -92,7 +92,7 @@ from reduced_models.bearing.race import (
 )
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
 from reduced_models.bearing.shoulders import require_below_shoulders, shoulder_angle
-from reduced_models.bearing.solved_balls import signed_damping
+from reduced_models.bearing.solved_balls import damping_left_out, signed_damping
 from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -494,13 +494,18 @@ class BallBearing(Summary):
             small = self._small_angular(speed, places)
             full = np.mean([at.load for at in places], axis=0)
             outside = "" if self.oil is None else assumptions_at_angles(self, speed, places).headline
-            return BearingCoefficients.of(full, speed, cage_angle, w, small.coefficients(w), places, outside)
+            left_out = damping_left_out(self, speed, np.array([at.force for at in places]))
+            matrices = small.coefficients(w)
+            return BearingCoefficients.of(
+                full, speed, cage_angle, w, matrices, places, outside, damping_left_out=left_out
+            )
         equilibria = self.ring_equilibria(force, speed, cage_angle)
         balls = SmallBalls.of(self._kernel(speed), self._speed_state(speed), equilibria)
         matrices, forces = balls.coefficients(w), np.array([at.force for at in equilibria])
         outside = "" if self.oil is None else assumptions_under(self, speed, forces).headline
         signed = None if self.supply is None else signed_damping(self, speed, balls, equilibria, w)
-        return BearingCoefficients.of(force, speed, cage_angle, w, matrices, equilibria, outside, signed)
+        notes = outside, signed, damping_left_out(self, speed, forces)
+        return BearingCoefficients.of(force, speed, cage_angle, w, matrices, equilibria, *notes)
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
     def excitation(

@@ -141,6 +141,9 @@ class BearingCoefficients(FrequencyResponse):
     signed_damping : ndarray, shape (k, 2, 2), or None
         C [N s/m] of the solved contacts under an oil supply, which at low frequency may be below zero; `damping`
         is that of the elements, which leave that out. None in flooded bearings and with five degrees of freedom.
+    damping_left_out : str
+        Below which frequency contacts under an oil supply have damping below zero, which `damping` leaves out, in
+        words; empty where there is none.
     """
 
     load: Annotated[_Floats, FORCE.over("axis")]
@@ -153,6 +156,7 @@ class BearingCoefficients(FrequencyResponse):
     peak_to_peak: Annotated[_Floats, LENGTH.over("axis")]
     outside_assumptions: str = ""
     signed_damping: Annotated[_Floats | None, DAMPING.over("hz axis by")] = None
+    damping_left_out: str = ""
 
     DISPLAY: ClassVar[Display] = Display(
         rows="hz", panels=("stiffness", "damping"), labels={"axis": ("x", "y"), "by": ("x", "y")}, logs="x"
@@ -179,6 +183,7 @@ class BearingCoefficients(FrequencyResponse):
             *axial,
             *self._signed_line(),
             "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
+            *([self.damping_left_out] if self.damping_left_out else []),
             *note_line(self.outside_assumptions),
         ]
 
@@ -190,7 +195,8 @@ class BearingCoefficients(FrequencyResponse):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        return super().to_dict() | {"outside_assumptions": self.outside_assumptions}
+        left_out = {"damping_left_out": self.damping_left_out} if self.damping_left_out else {}
+        return super().to_dict() | {"outside_assumptions": self.outside_assumptions} | left_out
 
     @property
     def hz(self) -> Annotated[_Floats, HERTZ.over("hz")]:
@@ -208,10 +214,11 @@ class BearingCoefficients(FrequencyResponse):
         equilibria: Sequence[RingAtRest],
         outside_assumptions: str = "",
         signed_damping: _Floats | None = None,
+        damping_left_out: str = "",
     ) -> BearingCoefficients:
         """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""
         places = np.array([at.displacement for at in equilibria])
         mean, peak_to_peak = places.mean(axis=0), np.ptp(places, axis=0)
         K, C = matrices
-        outside = outside_assumptions
-        return cls(load, speed_rpm, cage_angle, omega, K, C, mean, peak_to_peak, outside, signed_damping)
+        notes = outside_assumptions, signed_damping, damping_left_out
+        return cls(load, speed_rpm, cage_angle, omega, K, C, mean, peak_to_peak, *notes)

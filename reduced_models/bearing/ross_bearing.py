@@ -27,6 +27,7 @@ from ehlcontact.checks.frequency import is_given, radians_per_second
 from ehlcontact.errors import InputError
 from reduced_models.bearing.freedoms import PLANAR, bearing_load
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.bearing.solved_balls import warn_of_damping_left_out
 
 _Floats = NDArray[np.float64]
 
@@ -88,6 +89,8 @@ def bearing_element(
         bearing.coefficients(downward(load), speed_rpm=rpm, omega=rpm * RPM_TO_RAD_S if whirl is None else whirl)
         for rpm in speeds.tolist()
     ]
+    for at in reversed(found):  # the faster, the higher these frequencies
+        warn_of_damping_left_out(bearing, bearing.name or "ball bearing", at.damping_left_out, stacklevel=5)
     K, C = (np.array([getattr(at, name) for at in found]) for name in ("stiffness", "damping"))
     axes = {"speed" if has_whirl_axis(ross) else "frequency": speeds * RPM_TO_RAD_S} if speeds.size > 1 else {}
     if whirl is not None and whirl.size > 1:

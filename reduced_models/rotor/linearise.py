@@ -19,6 +19,7 @@ from reduced_models.bearing.five_degrees import angular_equilibrium, equilibrium
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.linear_balls import SmallBalls
+from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
 from reduced_models.rotor.equilibrium import require_held
@@ -87,6 +88,9 @@ class LinearRotor(Summary):
         What a small vibration finds in each contact.
     balls : tuple
         What it finds in each ball bearing.
+    damping_left_out : tuple of str
+        Damping below zero of starved contacts that elements leave out, by ball bearing, in words; empty where
+        there is none.
     """
 
     rotor: Rotor
@@ -96,9 +100,12 @@ class LinearRotor(Summary):
     loads: _Floats
     contacts: tuple[LinearElement | ContactImpedance, ...]
     balls: tuple[SmallBalls | SmallAngularBalls, ...]
+    damping_left_out: tuple[str, ...] = ()
 
     def _summary_lines(self) -> list[str]:
-        return [f"about rest at {self.speed_rpm:.5g} rev/min", *self.rotor._summary_lines()]
+        named = zip(self.rotor.ball_bearing_names, self.damping_left_out, strict=False)
+        left_out = [f"{name}: {words}" for name, words in named if words]
+        return [f"about rest at {self.speed_rpm:.5g} rev/min", *self.rotor._summary_lines(), *left_out]
 
     @cached_property
     def matrices(self) -> Matrices:
@@ -303,6 +310,9 @@ def linearise(
 ) -> LinearRotor:
     """Linearise a rotor about rest under its load.
 
+    A bearing warns, once, where its elements leave out damping below zero under its oil supply
+    (docs/oil_supply.md): decrements are too high then.
+
     Parameters
     ----------
     rotor : Rotor or JeffcottRotor
@@ -342,14 +352,18 @@ def linearise(
         _linear_bearing(mount, speed, r[at], passage)
         for at, mount in zip(rotor.ball_columns, bearings, strict=True)
     ]
+    names, words = rotor.ball_bearing_names, tuple(left_out for _, _, left_out in found)
+    for mount, name, left_out in zip(bearings, names, words, strict=True):
+        warn_of_damping_left_out(mount.ball_bearing, name, left_out, stacklevel=3)
     return LinearRotor(
         rotor,
         speed,
         passage,
         rest,
-        np.array([load for load, _ in found]) if found else np.zeros((0, 2)),
+        np.array([load for load, _, _ in found]) if found else np.zeros((0, 2)),
         tuple(_linear_contact(mount, float(u) + mount.offset) for mount, u in zip(mounted, r, strict=False)),
-        tuple(balls for _, balls in found),
+        tuple(balls for _, balls, _ in found),
+        words,
     )
 
 
@@ -373,8 +387,8 @@ def _linear_contact(mount: ContactMount, approach: float) -> LinearElement | Con
 
 def _linear_bearing(
     mount: BearingMount, speed: float, ring: _Floats, passage: bool
-) -> tuple[_Floats, SmallBalls | SmallAngularBalls]:
-    """Force on the inner ring at rest, and what a small vibration finds in the bearing."""
+) -> tuple[_Floats, SmallBalls | SmallAngularBalls, str]:
+    """Force on the inner ring at rest, what a small vibration finds in the bearing, damping left out."""
     if mount.z is not None:
         return _linear_angular(mount, speed, ring + mount.shift, passage)
     bearing = mount.ball_bearing
@@ -383,12 +397,13 @@ def _linear_bearing(
     if np.linalg.norm(force) < UNLOADED * held.films.force.max():
         force = np.zeros(2)
     at_angles = bearing.ring_equilibria(force, speed, None if passage else mount.cage_angle)
-    return force, SmallBalls.of(held.balls, held.at_speed, at_angles)
+    left_out = damping_left_out(bearing, speed, np.array([at.force for at in at_angles]))
+    return force, SmallBalls.of(held.balls, held.at_speed, at_angles), left_out
 
 
 def _linear_angular(
     mount: BearingMount, speed: float, ring: _Floats, passage: bool
-) -> tuple[_Floats, SmallAngularBalls]:
+) -> tuple[_Floats, SmallAngularBalls, str]:
     """Likewise of a bearing with five degrees of freedom."""
     bearing, rpm = mount.ball_bearing, mount.ball_bearing.speed(speed)
     held = equilibrium_at(bearing._static_ring(rpm, mount.cage_angle, ring.size), ring)
@@ -399,4 +414,5 @@ def _linear_angular(
         places = [
             angular_equilibrium(one, force, first=ring) if loaded else equilibrium_at(one, ring) for one in rings
         ]
-    return force, bearing._small_angular(rpm, places)
+    left_out = damping_left_out(bearing, rpm, np.array([at.force for at in places]))
+    return force, bearing._small_angular(rpm, places), left_out

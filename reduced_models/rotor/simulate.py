@@ -16,6 +16,7 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
+from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out
 from reduced_models.elements.validity import OutsideValidityWarning, frequency_of
 from reduced_models.rotor.integrate_compiled import CompiledSteps
 from reduced_models.rotor.integrate_python import PythonSteps
@@ -60,7 +61,8 @@ def simulate_rotor(
 
     Elements warn, once: before the run where the rotor's speed lies outside their band, or a mount has the point
     of another contact than they were made for; after it where it left their validity box. A bearing of which a
-    ball carried more than the atlas has warns after the run.
+    ball carried more than the atlas has warns after the run, and so does, once, one whose elements leave out
+    damping below zero under its oil supply (docs/oil_supply.md).
 
     Parameters
     ----------
@@ -157,6 +159,7 @@ def integrate(
         raise ConvergenceError(f"rotor at t = {run.t[integrator.reached]:.6g} s: {error}", result) from error
     result = _result(run, integrator.made, status)
     _warn_of_overload(run)
+    _warn_of_damping(run)
     _warn_of_contacts(run.rotor, result)
     return result
 
@@ -246,6 +249,14 @@ def _warn_of_overload(run: PreparedRun) -> None:
             if load > most:
                 message = f"a ball of {which} carried {load:.4g} N on the {name} race (atlas up to {most:.4g} N)"
                 warnings.warn(message, OutsideValidityWarning, stacklevel=4)
+
+
+def _warn_of_damping(run: PreparedRun) -> None:
+    """Warn of starved bearings whose elements leave out damping below zero."""
+    fastest = float(law_speeds(run.omega / RPM_TO_RAD_S)[-1])
+    for mount, name, balls in zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, run.balls, strict=True):
+        words = damping_left_out(mount.ball_bearing, fastest, balls.films.largest)
+        warn_of_damping_left_out(mount.ball_bearing, name, words, stacklevel=5)
 
 
 def _warn_of_contacts(rotor: Rotor, result: RotorResult) -> None:

@@ -1,5 +1,8 @@
 """Ball bearings under an oil supply: films, damping of either sign, and what cannot be asked."""
 
+import re
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -17,7 +20,9 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_rotor,
 )
+from reduced_models.bearing import ross_bearing
 from reduced_models.bearing.race import RACES
+from reduced_models.elements.validity import OutsideValidityWarning
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
 LOAD = (0.0, -1000.0)
@@ -157,12 +162,79 @@ def test_modes_and_runs_in_time_have_less_damping():
             discs=[Disc.cylinder(position=0.1, diameter=0.15, width=0.05, bore=0.025, unbalance=1e-5)],
             supports=[Support(position=0.02, bearing=one), Support(position=0.18, bearing=one)],
         )
+        if supply is not None:
+            with pytest.warns(OutsideValidityWarning, match="bearing 0: under this layer"):
+                linearise(rotor, 3000.0)
         decrement.append(linearise(rotor, 3000.0).modes()[0].decrement)
         run = simulate_rotor(rotor, speed_rpm=3000.0, dt=1e-4, until=0.02)
         assert np.isfinite(run.ring).all()
         reach.append(np.ptp(run.ring[-100:, 0, 0]))
     assert 0.0 < decrement[1] < 0.5 * decrement[0]
     assert reach[1] > reach[0]
+
+
+def starved_rotor(axial):
+    """Stiff shaft and disc on 6008, preloaded by 4 um."""
+    one = BallBearing.catalogue(
+        "6008", oil=Lubricant.iso_vg(100, temperature=60.0), clearance=-4e-6, supply=OilLayer(over_flooded=1.0)
+    )
+    return rotor_on_bearings(
+        Shaft(length=0.3, diameter=0.04),
+        discs=[Disc.cylinder(position=0.15, diameter=0.2, width=0.05, bore=0.04)],
+        supports=[Support(position=at, bearing=one) for at in (0.03, 0.27)],
+        axial=axial,
+    )
+
+
+@pytest.mark.parametrize("axial", [False, True])
+def test_damping_below_zero_that_elements_leave_out_is_said_once(axial):
+    """Numbers are those of the heaviest contact; the solver's C changes its sign at the frequency named."""
+    rotor = starved_rotor(axial)
+    with pytest.warns(OutsideValidityWarning, match="damping of a contact below zero") as caught:
+        linear = linearise(rotor, 9000.0)
+    assert len(caught) == 1 and caught[0].filename == __file__
+    words = linear.damping_left_out[0]
+    assert words in str(caught[0].message) and f"bearing 0: {words}" in str(linear)
+    hz, least = (float(found) for found in re.findall(r"([-\d.e+]+) (?:Hz|N s)", words))
+    one = rotor.ball_bearings[0].ball_bearing
+    found = one.coefficients(linear.loads[0], speed_rpm=9000.0, hz=245.0)
+    assert "decrements are too high" in str(found) and found.to_dict()["damping_left_out"]
+    state = one.equilibrium(linear.loads[0], speed_rpm=9000.0)
+    answers = [
+        one.race(name).answer(load, 9000.0) for name, load in zip(RACES, state.force.max(axis=0), strict=True)
+    ]
+    signs = np.array([at.impedance(hz=[0.9 * hz, 1.1 * hz]).damping for at in answers])
+    assert signs[:, 0].min() < 0.0 < signs[:, 1].min()
+    assert least == pytest.approx(min(at.si.damping.min() for at in answers), rel=0.05)
+    linearise(rotor, 9000.0)  # said already: another warning would be an error here
+
+
+def test_runs_in_time_say_what_elements_leave_out():
+    with pytest.warns(OutsideValidityWarning, match="below zero below") as caught:
+        simulate_rotor(starved_rotor(False), speed_rpm=9000.0, dt=5e-5, until=1e-3)
+    assert len(caught) == 1 and caught[0].filename == __file__
+
+
+def test_export_to_ross_says_what_elements_leave_out(monkeypatch):
+    """With something that takes the place of ROSS, which need not be installed."""
+    ross = SimpleNamespace(BearingElement=lambda **entries: entries)
+    monkeypatch.setattr(ross_bearing, "import_ross", lambda: ross)
+    with pytest.warns(OutsideValidityWarning, match="6205: under this layer") as caught:
+        bearing(OilLayer(over_flooded=1.0)).to_ross(0, speeds_rpm=[2000.0, 3000.0], load=1000.0)
+    assert len(caught) == 1 and caught[0].filename == __file__
+    assert bearing().to_ross(0, speeds_rpm=3000.0, load=1000.0)["cyy"] > 0.0  # flooded: no warning
+
+
+def test_flooded_and_well_fed_bearings_leave_nothing_out():
+    for supply in (None, OilLayer(over_flooded=10.0)):
+        assert bearing(supply).coefficients(LOAD, speed_rpm=3000.0, hz=50.0).damping_left_out == ""
+
+
+def test_cubic_element_says_that_it_has_no_damper():
+    point = bearing().race("inner").point(400.0, 3000.0)
+    with pytest.warns(OutsideValidityWarning, match=r"\(-\d.* N s/m\); the cubic element leaves it out") as caught:
+        assert Atlas().element(point, "cubic", rpm=3000.0, supply=OilLayer(over_flooded=1.0)).C1 == 0.0
+    assert caught[0].filename == __file__
 
 
 def test_heat_and_supply_together_are_a_product():
