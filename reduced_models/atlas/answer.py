@@ -72,7 +72,8 @@ class AtlasAnswer(ScaledTable):
     scales : Scales or None
         Its units in SI; None for a dimensionless point.
     over_flooded : float or None
-        r of an oil supply: its layer over what the flooded film lets through; None where the inlet is flooded.
+        r of an oil supply: its layer over what the flooded isothermal film lets through, with heat too; None where
+        the inlet is flooded.
     temperature : HeatedFilm or None
         What heat takes of the film; None where it is isothermal.
     """
@@ -118,6 +119,7 @@ class AtlasAnswer(ScaledTable):
         size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
         rigid, damps = (1.0, 1.0) if s is None else (s.stiffness * 1e-6, s.damping)
         names = ("", "") if s is None else (" N/µm", " N s/m")
+        film = "flooded films" if self.temperature is None else "flooded isothermal films"
         return [
             contact_text(self.point, s),
             f"approach {size * self.approach:.5g} ± {size * bar['approach']:.1g} {unit}",
@@ -125,7 +127,7 @@ class AtlasAnswer(ScaledTable):
             f"{size * self.h_min:.4g} ± {size * bar['h_min']:.1g} at least, {unit}",
             f"static tangent {rigid * self.stiffness[0]:.4g}{names[0]}, "
             f"damping {span(self.damping, damps)}{names[1]}",
-            *([] if self.over_flooded is None else [f"under a layer of {self.over_flooded:.4g} flooded films"]),
+            *([] if self.over_flooded is None else [f"under a layer of {self.over_flooded:.4g} {film}"]),
             *([] if self.temperature is None else [self.temperature.summary]),
             *note_line(self.outside_assumptions),
         ]

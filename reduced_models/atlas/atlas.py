@@ -266,10 +266,8 @@ class Atlas:
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         for numbers in (named, error):
             numbers |= {name: float(numbers[name]) for name in NUMBERS}
-        others = [one for one in given if not isinstance(one, SupplyCondition)]
-        found, _ = changed(others, load, flooded, np.zeros_like(flooded), self._table.omega)  # by a supply
         for condition in given:
-            named |= condition.noted(float(found[0, 1]), named["h_central"])
+            named |= condition.noted(float(flooded[0, 1]), named["h_central"])
         return AtlasAnswer(moes, Omega=Omega, **named, error_bars=error, scales=scales_of(point))
 
     def _under(
@@ -277,15 +275,17 @@ class Atlas:
     ) -> tuple[_Floats, _Floats, _Floats]:
         """Answers under conditions and their error bars, and the frequencies of their K and C.
 
-        A supply comes last: it is over the film that heat leaves, and has frequencies below those of the atlas.
+        A supply comes last: its table is read at the layer over the film that heat leaves, and has frequencies
+        below those of the atlas.
         """
+        isothermal = values[:, 1]
         Omega, supply = self._table.omega, [one for one in given if isinstance(one, SupplyCondition)]
         others = [one for one in given if not isinstance(one, SupplyCondition)]
         values, bars = changed(others, loads, values, bars, Omega)
         for layer in supply:
             nodes = np.unique(np.concatenate([Omega, layer.omega[layer.omega < Omega[1]]]))
             values, bars = (_refined(part, Omega, nodes) for part in (values, bars))
-            values, bars = layer.change(loads, values, nodes).of(values, bars)
+            values, bars = layer.change(loads, values, nodes, isothermal).of(values, bars)
             Omega = nodes
         return Omega, values, bars
 

@@ -1,7 +1,8 @@
 """Answers of the atlas with an oil supply and with heat, which its flooded isothermal contacts do not have.
 
 Each condition has its own table and gives a `Change`: factors, and for C differences, because C may be zero. With
-both conditions their factors are multiplied, which is an assumption.
+both, the joint film is T S(r/T): T the share that heat leaves, S the curve over supply, r the layer over the
+flooded isothermal film. K and C are changed likewise, which is an assumption.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ class Condition(Protocol):
         """Change of flooded isothermal `values`, shape (n, 5 + 2 k) with K and C at `Omega`, under `loads`."""
 
     def noted(self, flooded: float, film: float) -> dict[str, Any]:
-        """Fields of an `AtlasAnswer` for it; central films flooded under other conditions, and under all."""
+        """Fields of an `AtlasAnswer` for it; central films, flooded and isothermal, and under all."""
 
     def to_dict(self) -> dict[str, Any]:
         """Its inputs, ready for JSON."""

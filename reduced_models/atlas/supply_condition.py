@@ -80,7 +80,8 @@ def heaviest_load(moes: MoesPoint) -> float:
 
 
 class SupplyCondition:
-    """A uniform layer ahead of the contacts at a point, the same in m under all loads, or in flooded films.
+    """A uniform layer ahead of the contacts at a point, the same in m under all loads, or in flooded
+    isothermal films.
 
     Loads lighter than those of the table have the change of its lightest at the same r. Heavier ones are refused,
     unless lighter ones are asked for beside them: then they have the change of its heaviest, so that an element
@@ -117,17 +118,23 @@ class SupplyCondition:
         """Frequencies of the table."""
         return supply_surface().table.omega
 
-    def ratio(self, loads: _Floats, h_central: _Floats) -> _Floats:
-        """r, the layer over what the flooded films [dry approaches of their loads] let through."""
+    def ratio(self, loads: _Floats, h_central: _Floats, isothermal: _Floats) -> _Floats:
+        """The layer over what the flooded films [dry approaches of their loads] let through.
+
+        A given r is over the `isothermal` ones: it stands for the same oil where heat leaves thinner films.
+        """
         if self.supply.over_flooded is not None:
-            return np.full(loads.size, float(self.supply.over_flooded))
+            return float(self.supply.over_flooded) * (isothermal / h_central)
         squeezed = [float(plain(density)(1.0, _loaded(self.moes, load).law)[0]) for load in loads.tolist()]
         layer = self.supply.unit(self.moes, self.scales, np.nan) * float(self.supply.at(0.0))
         return np.asarray(layer / (loads ** (2.0 / 3.0) * h_central * squeezed))
 
-    def change(self, loads: _Floats, values: _Floats, Omega: _Floats) -> Change:
-        """Change of the flooded isothermal `values`, shape (n, 5 + 2 k) with K and C at `Omega`, under `loads`."""
-        ratio = self.ratio(loads, values[:, 1])
+    def change(self, loads: _Floats, values: _Floats, Omega: _Floats, isothermal: _Floats | None = None) -> Change:
+        """Change of the flooded `values`, shape (n, 5 + 2 k) with K and C at `Omega`, under `loads`.
+
+        Where they are films with heat, `isothermal` are the central ones without it, shape (n,).
+        """
+        ratio = self.ratio(loads, values[:, 1], values[:, 1] if isothermal is None else isothermal)
         self._require_inside(loads, ratio)
         surface, k = supply_surface(), Omega.size
         found, half = surface.at(self._rows(loads), ratio), NUMBERS + surface.table.omega.size
@@ -172,8 +179,9 @@ class SupplyCondition:
             raise InputError("supply", f"{float(ratio.min()):.2g} flooded films", allowed)
 
     def noted(self, flooded: float, film: float) -> dict[str, Any]:
-        """r, for which the flooded central film is needed."""
-        return {"over_flooded": float(self.ratio(np.ones(1), np.array([flooded]))[0])}
+        """r, for which the flooded isothermal central film is needed."""
+        isothermal = np.array([flooded])
+        return {"over_flooded": float(self.ratio(np.ones(1), isothermal, isothermal)[0])}
 
     def to_dict(self) -> dict[str, Any]:
         """Its inputs, ready for JSON."""

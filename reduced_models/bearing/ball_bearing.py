@@ -170,7 +170,7 @@ class BallBearing(Summary):
     supply : OilLayer, optional
         Oil that the surfaces carry to every contact (docs/oil_supply.md): one layer ``OilLayer(h)`` [m] on all
         tracks, as that of an `OilBalance`, or ``OilLayer(over_flooded=r)`` times what each flooded film lets
-        through. By default contacts are flooded.
+        through, r over the isothermal film with `thermal` too. By default contacts are flooded.
 
     Raises
     ------
@@ -231,7 +231,8 @@ class BallBearing(Summary):
         if self.supply is None:
             return "flooded"
         r, h = self.supply.over_flooded, self.supply.h
-        return f"a layer of {1e6 * h:.4g} µm" if r is None else f"a layer of {r:.4g} flooded films"
+        films = "flooded films" if self.thermal is None else "flooded isothermal films"
+        return f"a layer of {1e6 * h:.4g} µm" if r is None else f"a layer of {r:.4g} {films}"
 
     def _require_supply(self) -> None:
         if self.supply is None:
@@ -382,8 +383,12 @@ class BallBearing(Summary):
 
     @property
     def highest_speed(self) -> float:
-        """Speed [rev/min] up to which the atlas has films for it; infinite where it is dry."""
-        return inf if self.oil is None else min(race.highest_speed for race in self._cache["races"].values())
+        """Speed [rev/min] up to which the atlas and its tables have films for it; infinite where it is dry."""
+        return inf if self.oil is None else self._end[0]
+
+    @property
+    def _end(self) -> tuple[float, str]:
+        return min(race.end for race in self._cache["races"].values())
 
     def race(self, name: str) -> Race:
         """The contact with the "inner" or the "outer" race."""
@@ -817,8 +822,7 @@ class BallBearing(Summary):
             raise InputError("speed_rpm", speed, "> 0 for a bearing with oil: without rolling there is no film")
         INPUTS["speed_rpm"].require("speed_rpm", speed)
         if speed > self.highest_speed:
-            table = "the atlas" if self.thermal is None else "the atlas or its table of heat"
-            allowed = f"at most {self.highest_speed:.5g}, where {table} ends for this bearing and oil"
+            allowed = f"at most {self.highest_speed:.5g}, where {self._end[1]} ends for this bearing and oil"
             raise InputError("speed_rpm", speed, allowed)
         return speed
 

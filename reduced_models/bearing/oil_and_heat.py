@@ -159,7 +159,9 @@ class OilAndHeat(Summary):
         if self.solved:
             lines = ["K and C are those of flooded films times the ratio of the heaviest ball's solved contacts."]
         if BOTH in self.conditions:
-            lines.append("With both is a product: the layer is taken over the film that heat leaves.")
+            lines.append(
+                "With both is a product: heat thins the flooded film, and the same oil is more of that film."
+            )
         without = [
             f"{key} at {hz:.4g} Hz"
             for key, one in self.conditions.items()

@@ -103,12 +103,20 @@ class Race:
     @property
     def highest_speed(self) -> float:
         """Speed of the shaft [rev/min] up to which the atlas reaches, with its tables of supply and heat."""
-        unit, L = self.point(1.0, 1.0), shared_atlas(self.atlas).box.L[1]
-        L = L if self.supply is None else min(L, supply_box().L[1])
-        most = (L / unit.moes.L) ** POWER_OF_SPEED
+        return self.end[0]
+
+    @property
+    def end(self) -> tuple[float, str]:
+        """That speed, and the table that ends there."""
+        unit = self.point(1.0, 1.0)
+        boxes = {"the atlas": shared_atlas(self.atlas).box}
+        if self.supply is not None:
+            boxes["the table of oil supply"] = supply_box()
+        ends = [((box.L[1] / unit.moes.L) ** POWER_OF_SPEED, table) for table, box in boxes.items()]
         if self.thermal is not None:
-            most = min(most, fastest(unit, self.thermal))
-        return float(most * (1.0 - INSIDE))
+            ends.append((fastest(unit, self.thermal), "the table of heat"))
+        most, table = min(ends)
+        return float(most * (1.0 - INSIDE)), table
 
     def loads(self, speed_rpm: float) -> tuple[float, float]:
         """Range of loads [N] of the atlas at this speed."""
@@ -296,10 +304,9 @@ def films_at_angles(bearing: Any, speed_rpm: float, at: AngularEquilibrium) -> d
     for (k, column), angle in np.ndenumerate(at.angles):
         nominal, load = bearing.race(RACES[column]), at.force[k, column]
         race = nominal.at_angle(bearing.pitch_diameter, float(angle), float(at.speed_sum[k, column]))
-        if speed_rpm > race.highest_speed:
-            allowed = (
-                f"at most {race.highest_speed:.5g}, where the atlas ends at a contact angle of {angle:.3g} rad"
-            )
+        highest, table = race.end
+        if speed_rpm > highest:
+            allowed = f"at most {highest:.5g}, where {table} ends at a contact angle of {angle:.3g} rad"
             raise InputError("speed_rpm", speed_rpm, allowed)
         race.require_bearable(float(load), speed_rpm, "load", at.load.tolist())
         gap = (load / nominal.kn) ** (2.0 / 3.0) - at.approach[k, column]

@@ -73,7 +73,7 @@ def supply_words(supply: OilLayer | None) -> str:
         return ""
     if supply.h is not None:
         return f"{numeral(1e6 * supply.h)} µm on both surfaces together"
-    return f"r = {numeral(supply.over_flooded)} over what the flooded film of each contact lets through"
+    return f"r = {numeral(supply.over_flooded)} over what the flooded isothermal film of each contact lets through"
 
 
 def run_oil_and_heat(study: Study) -> OilAndHeat | str | None:

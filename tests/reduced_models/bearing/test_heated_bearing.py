@@ -140,7 +140,7 @@ def test_refused(words, changes):
 
 def test_a_speed_beyond_the_table(warm):
     assert 13_000.0 < warm.highest_speed < 25_000.0
-    with pytest.raises(InputError, match=r"speed_rpm = 30000\.0: must be at most .*its table of heat ends"):
+    with pytest.raises(InputError, match=r"speed_rpm = 30000\.0: must be at most .*where the table of heat ends"):
         warm.equilibrium(LOAD, speed_rpm=30_000.0)
 
 

@@ -238,17 +238,30 @@ def test_cubic_element_says_that_it_has_no_damper():
 
 
 def test_heat_and_supply_together_are_a_product():
-    """The layer is over the film that heat leaves: the same in m is more of it."""
+    """T S(r/T): the same oil, in m or over the isothermal film, is more of the film that heat leaves."""
     heated = bearing(thermal=True).race("inner").answer(400.0, 10000.0)
     flooded = bearing().race("inner").answer(400.0, 10000.0)
+    less = heated.h_central / flooded.h_central
+    assert less < 0.97
     for supply in (OilLayer(over_flooded=0.8), OilLayer(0.4e-6)):
         both = bearing(supply, thermal=True).race("inner").answer(400.0, 10000.0)
         cold = bearing(supply).race("inner").answer(400.0, 10000.0)
-        less = heated.h_central / flooded.h_central
-        assert less < 0.97
-        if supply.h is None:
-            assert both.h_central == pytest.approx(cold.h_central * less, rel=1e-9)
-            assert both.over_flooded == cold.over_flooded == 0.8
-        else:
-            assert both.over_flooded == pytest.approx(cold.over_flooded / less, rel=1e-9)
-            assert cold.h_central > both.h_central > cold.h_central * less
+        more = bearing(OilLayer(over_flooded=cold.over_flooded / less)).race("inner").answer(400.0, 10000.0)
+        assert both.h_central == pytest.approx(more.h_central * less, rel=1e-9)
+        assert both.over_flooded == pytest.approx(cold.over_flooded, rel=1e-12)
+        assert f"a layer of {cold.over_flooded:.4g} flooded isothermal films" in str(both)
+        assert f"a layer of {cold.over_flooded:.4g} flooded films" in str(cold)
+
+
+def test_joint_film_is_the_solved_one():
+    """6305, 2 kN, 10 000 rev/min, r = 1: .621 um inside, solved with both (n = 512)."""
+    ring = BallBearing.catalogue("6305", oil=OIL, supply=OilLayer(over_flooded=1.0), thermal=True)
+    state = ring.equilibrium((0.0, -2000.0), speed_rpm=10000.0)
+    assert 1e6 * state.h_central[state.heaviest, 0] == pytest.approx(0.621, rel=0.006)
+
+
+def test_the_table_that_ends_is_named():
+    for given, table in (({}, "the atlas"), ({"supply": OilLayer(over_flooded=1.0)}, "the table of oil supply")):
+        one = BallBearing.catalogue("6205", oil=OIL, **given)
+        with pytest.raises(InputError, match=f"where {table} ends"):
+            one.equilibrium((0.0, -500.0), speed_rpm=1.01 * one.highest_speed)
