@@ -34,7 +34,7 @@ from ehlcontact.hertz import hertz_contact
 from ehlcontact.quantities import FORCE, HERTZ, LENGTH, NUMBER, RADIAN, SPEED, Quantity
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.summary import span
-from reduced_models.atlas.filter_table import ContactFilters, dry_filter, shipped_filters
+from reduced_models.atlas.filter_table import SHORTER, ContactFilters, dry_filter, shipped_filters
 from reduced_models.bearing.features import (
     FEATURES,
     BallDiameter,
@@ -90,6 +90,8 @@ class BearingExcitation(QuantityTable):
         Largest amplitude of the features [m], half of a ball's excess diameter.
     approach : float
         Of both contacts of the heaviest ball together [m].
+    short_waves : int
+        Largest number of waves of a waviness shorter than those of the table of contact filters; 0 without one.
     """
 
     order: Annotated[_Floats, NUMBER.over("order")]
@@ -99,6 +101,7 @@ class BearingExcitation(QuantityTable):
     speed_rpm: Annotated[float, SPEED]
     height: Annotated[float, LENGTH]
     approach: Annotated[float, LENGTH]
+    short_waves: int = 0
 
     DISPLAY: ClassVar[Display] = Display(rows="order", panels=("amplitude",), labels={"axis": ("x", "y")})
 
@@ -109,11 +112,21 @@ class BearingExcitation(QuantityTable):
 
     @property
     def reservation(self) -> str:
-        """What the result leaves open, in words: heights for which contacts are not linear; else empty."""
-        if self.height <= LARGE * self.approach:
-            return ""
-        share = 100.0 * self.height / self.approach
-        return f"features are {share:.2g} % of the approach of the heaviest ball: forces are not linear in them"
+        """What the result leaves open, in words; else empty.
+
+        Heights for which contacts are not linear, and waves whose contact filter is not in the table.
+        """
+        notes, share = [], 100.0 * self.height / self.approach
+        if self.height > LARGE * self.approach:
+            notes.append(
+                f"features are {share:.2g} % of the approach of the heaviest ball: forces are not linear in them"
+            )
+        if self.short_waves:
+            notes.append(
+                f"{self.short_waves} waves are shorter than those of the table of contact filters: "
+                f"their filter is taken as 0 ± {SHORTER:g}"
+            )
+        return "; ".join(notes)
 
     def force(self, turns: ArrayLike) -> _Floats:
         """Forces [N], [N m] at these turns of the shaft, shape of `turns` + (n,)."""
@@ -187,10 +200,9 @@ class FeaturedBalls:
 
     def filters(self, waves: int, ball: bool) -> tuple[_Complex, _Complex]:
         """Contact filters of waves around a race, or the ball, at both contacts, (positions, balls)."""
-        b, found = self.bearing, []
+        found = []
         for j, name in enumerate(RACES):
-            radius = 0.5 * b.ball_diameter if ball else track_radius(b, name)
-            k = waves * self._semi_axes[j] / radius
+            k = waves * self._semi_axes[j] / self._radius(name, ball)
             if self.contact_filter == "none":
                 found.append(np.ones_like(k, complex))
             elif self._films is None:
@@ -198,6 +210,10 @@ class FeaturedBalls:
             else:
                 found.append(self._films[j].at(k.ravel())[0].reshape(k.shape))
         return found[0], found[1]
+
+    def _radius(self, race: str, ball: bool) -> float:
+        """Of the track of a race, or of a ball [m]."""
+        return 0.5 * self.bearing.ball_diameter if ball else track_radius(self.bearing, race)
 
     @cached_property
     def _semi_axes(self) -> list[_Floats]:
@@ -230,6 +246,20 @@ class FeaturedBalls:
             else:
                 found += self._ball_lines(ball, n, amplitude, cage_angle)
         return found
+
+    def short_waves(self, feature: Feature) -> int:
+        """Number of waves of a waviness that are shorter than any of the table of contact filters; else 0."""
+        if not isinstance(feature, RaceWaviness | BallWaviness) or self.contact_filter != FILTERS[0]:
+            return 0
+        if self._films is None:
+            return 0
+        ball = isinstance(feature, BallWaviness)
+        k = [
+            feature.waves * float(self._semi_axes[j].max()) / self._radius(name, ball)
+            for j, name in enumerate(RACES)
+            if name == getattr(feature, "race", name)
+        ]
+        return feature.waves if max(k) > shipped_filters().table.k[-1] else 0
 
     def waves_of(self, feature: Waves | Defect) -> list[tuple[int, complex]]:
         """Waves n around a race or a ball and their complex amplitudes: heights ``Re sum A exp(i n theta)``."""
@@ -285,7 +315,10 @@ def excitation_of(
     least = NO_LINE * max(heights) * balls.force.max() / approach
     kept = (np.abs(force) / unit).max(axis=1) > least
     force, order = force[kept], order[kept]
-    return BearingExcitation(order, np.abs(force), np.angle(force), load, balls.speed_rpm, max(heights), approach)
+    short = max(balls.short_waves(one) for one in features)
+    return BearingExcitation(
+        order, np.abs(force), np.angle(force), load, balls.speed_rpm, max(heights), approach, short
+    )
 
 
 def _height(feature: Feature) -> float:

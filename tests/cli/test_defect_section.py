@@ -64,6 +64,16 @@ def test_film_takes_the_edges_off(found):
     assert one.harmonics["film"][0] < one.harmonics["none"][0]
 
 
+def test_bare_step_does_not_overshoot(tmp_path):
+    """Its largest change is the height of the step; that of its series is 9 % of the jump above it."""
+    one = defect_of(study(tmp_path, 'clearance_um = 8.0\nspall = "outer,0.5,0.05"'))
+    step = one.force["none"]
+    low, high = one.passage
+    inside = step[(low <= one.turns) & (one.turns <= high) & (step < 0.5 * step.min())]
+    assert one.highest["none"] == pytest.approx(-np.median(inside), rel=0.025)
+    assert 0.96 < one.highest["film"] / one.highest["none"] < 0.99
+
+
 def test_page_and_picture(found, tmp_path):
     asked, one = found
     figure = defect.signal(one)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from math import ceil, pi
 from typing import TYPE_CHECKING, Any
 
@@ -98,6 +98,7 @@ def defect_of(study: Study) -> StudyDefect | None:
     force = {name: _vibration(one, turns) for name, one in lines.items()}
     band = LOW * highest * speed * RPM_TO_HZ, HIGH * highest * speed * RPM_TO_HZ
     envelopes = {name: envelope_spectrum(one, rate, band) for name, one in force.items()}
+    force["none"] = _vibration(_without_ripple(lines["none"]), turns)
     orders = bearing.orders_under(load, speed_rpm=speed)
     met = orders.bpfi if spall.race == "inner" else orders.bpfo
     rolled = spall.length * bearing.balls / (2.0 * pi * track_radius(bearing, str(spall.race)) * met)
@@ -105,6 +106,15 @@ def defect_of(study: Study) -> StudyDefect | None:
     strongest = float(turns[np.abs(force[FILTERS[0]][turns <= FIRST]).argmax()])
     passage = strongest - reach, strongest + reach
     return StudyDefect(spall, orders, speed, lines, turns, force, envelopes, band, passage)
+
+
+def _without_ripple(lines: BearingExcitation) -> BearingExcitation:
+    """Lines of a force that is averaged twice over the shortest wave, by the square of Lanczos' factors.
+
+    A series that ends overshoots a jump by 9 %, however long it is (Gibbs), so its largest value is not the jump.
+    """
+    share = lines.order / max(float(lines.order.max(initial=0.0)), 1.0)
+    return replace(lines, amplitude=lines.amplitude * np.sinc(share)[:, None] ** 2)
 
 
 def _vibration(lines: BearingExcitation, turns: _Floats) -> _Floats:

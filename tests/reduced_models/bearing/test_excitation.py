@@ -238,3 +238,19 @@ def test_bad_input_is_one_line(make, message):
 def test_large_features_are_named():
     found = DRY.excitation([BallDiameter(ball=0, excess=5e-6)], (0.0, 0.0, 100.0), speed_rpm=SLOW)
     assert "not linear" in found.reservation and found.reservation in repr(found)
+
+
+@pytest.mark.parametrize(
+    ("contact_filter", "waves", "noted"), [("film", 2999, 1), ("film", 40, 0), ("dry", 2999, 0)]
+)
+def test_waves_shorter_than_the_table_are_named(contact_filter, waves, noted):
+    """Their filter is taken as 0 +- .03: no lines, which the result says."""
+    oiled = BallBearing.catalogue("6205", clearance=8e-6, oil=Lubricant.iso_vg(68, temperature=50.0))
+    found = oiled.excitation(
+        [RaceWaviness(race="outer", waves=waves, amplitude=1e-8)],
+        (0.0, -300.0),
+        speed_rpm=3000.0,
+        contact_filter=contact_filter,
+    )
+    assert ("2999 waves are shorter" in found.reservation) == bool(noted)
+    assert ("0 ± 0.03" in repr(found)) == bool(noted)
