@@ -44,12 +44,11 @@ def signed_damping(
 
     `small` is the bearing about the same equilibria with its elements, whose inertia and losses count.
     """
-    force = np.concatenate([at.force for at in equilibria])
+    force, w = np.concatenate([at.force for at in equilibria]), np.maximum(omega, TINY_OMEGA)
     races = (bearing.race(name) for name in RACES)
     inner, outer = (
-        SolvedContacts(_solved(race, speed_rpm, loads, omega)) for race, loads in zip(races, force.T, strict=True)
+        SolvedContacts(_solved(race, speed_rpm, loads, w)) for race, loads in zip(races, force.T, strict=True)
     )
-    w = np.maximum(omega, TINY_OMEGA)
     Z = small._replace(inner=inner, outer=outer).impedance(1j * w)  # type: ignore[arg-type]
     return np.asarray(Z.imag / w[:, None, None])
 

@@ -82,6 +82,8 @@ def test_signed_damping_is_that_of_both_contacts_of_every_ball_in_series(at_r):
     assert found.damping[:, 1, 1].min() >= 0.0
     assert "below zero too" in str(found)
     assert bearing().coefficients(LOAD, speed_rpm=3000.0, hz=50).signed_damping is None
+    slow = one.coefficients(LOAD, speed_rpm=3000.0, cage_angle=-np.pi / 2, hz=[0.0, 0.5]).signed_damping[:, 1, 1]
+    assert slow[0] == pytest.approx(slow[1], rel=1e-3) and slow[0] < found.signed_damping[0, 1, 1]
 
 
 def test_layer_in_metres_is_the_same_under_all_balls():
