@@ -67,7 +67,8 @@ class BearingState(QuantityTable):
     rolling_torque : float or None
         Torque on the inner ring [N m] that these moments take: `reduced_models.bearing.kinematics.rolling_torque`.
         The hydrodynamic rolling resistance alone. Not in it: sliding, spin and the slip within curved contacts;
-        cage, seals and churned oil; hysteresis of the steel; that a hot or starved inlet resists less.
+        cage, seals and churned oil; hysteresis of the steel; that a hot or starved inlet resists less,
+        but with `thermal` and `supply` of the bearing.
     skf_rolling, skf_sliding : float or None
         Moments of friction by SKF's published model, an empirical one [N m], in an oil bath of mineral oil:
         `reduced_models.bearing.friction`. None in a dry bearing, and in one whose series has no constants there.
