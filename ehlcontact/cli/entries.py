@@ -159,6 +159,11 @@ OilThickness = Annotated[
 LayerRatio = Annotated[
     Positive, Field(le=1e6), meaning("that layer over what the flooded film of the contact lets through")
 ]
+BearingLayerRatio = Annotated[  # as tables of oil supply have it: THINNEST of `reduced_models.atlas`
+    Finite,
+    Field(ge=0.02, le=1e6),
+    meaning("that layer over what the flooded film of each contact lets through"),
+]
 Intervals = Annotated[Whole, Field(ge=16, le=2048, multiple_of=16)]
 Frequency = Annotated[Finite, Field(ge=SLOWEST, le=FASTEST)]  # dimensionless
 Steps = Annotated[Whole, Field(ge=20, le=2000, description="time steps in each of them")]

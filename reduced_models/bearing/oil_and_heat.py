@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact import Heat, OilLayer, OperatingPoint, impedance
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.lubricant import TractionLaw
+from ehlcontact.status import Status
 from ehlcontact.summary import Summary
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.kinematics import RPM_TO_HZ, rolling_torque
@@ -358,10 +359,17 @@ def _ratios(
         try:
             found = solve(key, thermal if key == HEAT else None, layers).over(flooded)
         except ConvergenceError as error:
-            refused[key] = str(error)
+            refused[key] = _reason(error)
             continue
         made[key] = found.times(made[HEAT]) if key == BOTH else found
     return made, refused
+
+
+def _reason(error: ConvergenceError) -> str:
+    """Why there is no film; the advice of a solve is about its grid, which nobody can choose here."""
+    if getattr(error.result, "status", None) is Status.STARVED:
+        return "the layer of oil is so thin that a film is zero: let more oil in"
+    return str(error)
 
 
 def _over(supply: OilLayer, share: float) -> OilLayer:

@@ -17,6 +17,8 @@ from ehlcontact.cli.study.headline import oil_and_heat as sentence
 from ehlcontact.cli.study.oil_and_heat import FREQUENCIES, run_oil_and_heat
 from ehlcontact.cli.study.report import conditions
 from ehlcontact.cli.study.schema import load_study
+from ehlcontact.status import Status
+from reduced_models.atlas.supply_condition import THINNEST
 from reduced_models.bearing.oil_and_heat import FLOODED
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
@@ -79,7 +81,8 @@ def test_without_them_nothing_of_it_is_there(call):
         ((*OIL, "--layer", "-0.2"), ("--layer = -0.2", "um")),
         ((*OIL, "--layer", "2e-7"), ("--layer = 2e-07", "in m?")),
         ((*OIL, "--layer", "nan"), ("--layer = nan",)),
-        ((*OIL, "--layer-ratio", "0"), ("--layer-ratio = 0", "above 0")),
+        ((*OIL, "--layer-ratio", "0"), ("--layer-ratio = 0", "between 0.02")),
+        ((*OIL, "--layer-ratio", "0.019"), ("--layer-ratio = 0.019", "between 0.02")),
         ((*OIL, "--layer-ratio", "inf"), ("--layer-ratio = inf", "finite")),
         (("--thermal",), ("--thermal = True", "dry bearing")),
         (("--layer", "0.2"), ("--layer = 0.2", "dry bearing")),
@@ -90,6 +93,30 @@ def test_without_them_nothing_of_it_is_there(call):
 )
 def test_mistakes(refused, given, words):
     refused(words, *AT, *given)
+
+
+def test_the_thinnest_layer_is_that_of_the_tables(refused, tmp_path):
+    text = EXAMPLE.read_text().replace("[1000, 3000, 6000]", "[3000]\nlayer_ratio = 0.0199")
+    (tmp_path / "b.toml").write_text(text)
+    refused(("operation.layer_ratio = 0.0199", f"between {THINNEST:g}"), "bearing", tmp_path / "b.toml")
+
+
+def test_a_condition_without_a_film_ends_with_exit_code_1(call, monkeypatch):
+    """After all else is shown, with an advice in options of the command."""
+
+    class Starved:
+        status = Status.STARVED
+
+    def solved(point, *, hz, supply, thermal):
+        if supply is None:
+            return impedance(point, hz=hz, grid=Grid(48))
+        raise ConvergenceError("steady solve starved: raise n", Starved())
+
+    monkeypatch.setattr(module, "impedance", solved)
+    found = call(*AT, *OIL, "--layer", "0.0001", "--solve")
+    assert found.code == 1 and "stiffness" in found.out and "let more oil in" in found.out
+    assert "raise n" not in found.out + found.err and "no films with the layer at 6000 rpm" in found.err
+    assert "thicker layer, by --layer or --layer-ratio" in found.err
 
 
 @pytest.mark.parametrize(
@@ -159,7 +186,7 @@ def test_a_study_tells_why_there_is_no_answer(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("layer_ratio = 1.0", "layer_ratio = -1.0", ("whole_bearing.layer_ratio = -1.0", "above 0")),
+        ("layer_ratio = 1.0", "layer_ratio = 0.001", ("whole_bearing.layer_ratio = 0.001", "between 0.02")),
         ("layer_ratio = 1.0", "layer_um = 2e-7", ("whole_bearing.layer_um = 2e-07", "in m?")),
         ("layer_ratio = 1.0", "layer_ratio = 1.0\nlayer_um = 0.2", ("whole_bearing.layer_um", "left out")),
         (GRADE, PLAIN, ("whole_bearing.thermal", "by its grade")),

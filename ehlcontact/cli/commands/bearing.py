@@ -17,7 +17,7 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli import orders as measured
 from ehlcontact.cli import spall as defect
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import STDOUT, say, show_columns, show_table, write_to
+from ehlcontact.cli.output import FAILED, STDOUT, complain, say, show_columns, show_table, write_to
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, in_unit
 from ehlcontact.cli.study.oil_and_heat import columns, csv_text, skf_words
@@ -28,6 +28,7 @@ from ehlcontact.files import write_text
 from reduced_models.bearing.equilibrium_result import NOTICED
 from reduced_models.bearing.freedoms import DECIMALS, FIVE, PLANAR
 from reduced_models.bearing.kinematics import LEAST_SLIP, RPM_TO_HZ
+from reduced_models.bearing.oil_and_heat import HEAT
 from reduced_models.bearing.sliding import USUAL_LAW, friction_at
 
 if TYPE_CHECKING:
@@ -306,7 +307,7 @@ class BearingOptions(o.Options):
     ] = None
     rq: Annotated[e.Roughness | None, _bearing("--rq"), e.meaning("roughness of ball and race together")] = None
     layer: Annotated[e.OilThickness | None, _films("--layer", help=None)] = None
-    layer_ratio: Annotated[e.LayerRatio | None, _films("--layer-ratio", help=None)] = None
+    layer_ratio: Annotated[e.BearingLayerRatio | None, _films("--layer-ratio", help=None)] = None
     thermal: Annotated[
         bool | None,
         _films("--thermal", help="Films that heat up, beside isothermal ones; with --oil and --temp."),
@@ -390,6 +391,17 @@ def bearing(
         partial(_show, report, out.json_to),
         figure=draw,
     )
+    if missing := [(one, key) for one in report.oil_and_heat for key in one.refused]:
+        told = "; ".join(f"{key} at {numeral(one.state.speed_rpm)} rpm" for one, key in missing)
+        complain(f"no films {told}: {_advice(missing)}")
+        raise typer.Exit(FAILED)
+
+
+def _advice(missing: list[tuple[OilAndHeat, str]]) -> str:
+    """What to change, in options of this command."""
+    if any(key != HEAT for _, key in missing):
+        return "give a thicker layer, by --layer or --layer-ratio"
+    return "leave --solve out, or --thermal"
 
 
 def _oil_and_heat(

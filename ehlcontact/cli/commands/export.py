@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -17,6 +18,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.store import load
 
 if TYPE_CHECKING:
+    from ehlcontact.supply import OilLayer
     from fmu import BearingModel, RotorModel, ShaftModel, SpeedController, Verification, WholeRotorModel
     from fmu.system.check import SystemVerification
 
@@ -264,9 +266,18 @@ def _bearing_of(file: Path) -> BearingModel:
     if job.tilt is not None:
         allowed = "left out: tilts are inputs of the FMU"
         raise InputError("operation.tilt_x_mrad", 1e3 * job.tilt[0], allowed)
+    _require_flooded(job.supply, f"{file}: operation")
     speeds = sorted({job.speeds[0], job.speeds[-1]})
     with job.called():
-        return BearingModel(job.bearing, speeds, job.load)
+        return BearingModel(replace(job.bearing, thermal=job.thermal), speeds, job.load)
+
+
+def _require_flooded(supply: OilLayer | None, section: str) -> None:
+    """Raise `InputError` for a layer of oil, as `BearingModel` does, by its entry."""
+    if supply is None:
+        return
+    name, value = ("layer_ratio", supply.over_flooded) if supply.h is None else ("layer_um", 1e6 * supply.h)
+    raise InputError(f"{section}.{name}", float(f"{value:.6g}"), "left out: the contacts of an FMU are flooded")
 
 
 def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
@@ -302,6 +313,7 @@ def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
 def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftModel:
     """The rotor of a study between its whole bearings, at its speed, at rest under the load on them."""
     from ehlcontact.cli.study.bearing_rotor import whole_rotor
+    from ehlcontact.cli.study.oil_and_heat import supply_and_heat
     from ehlcontact.cli.study.schema import load_study
     from ehlcontact.cli.study.whole_bearing import whole_bearing
     from fmu import ShaftModel
@@ -316,7 +328,10 @@ def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftM
             "left out: these options have planar bearings; others in Python, by export_drive, export_whole_rotor"
         )
         raise InputError("whole_bearing.axial_load", axial, allowed)
-    rotor = whole_rotor(study, whole_bearing(study, oil=True))
+    whole = study.whole_bearing
+    supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant, paired=whole.pair is not None)
+    _require_flooded(supply, f"{file}: whole_bearing")
+    rotor = whole_rotor(study, replace(whole_bearing(study, oil=True), thermal=thermal))
     with o.called(torque="--torque", inertia="--inertia"):
         return ShaftModel(rotor, study.bearing.speed_rpm, inertia, torque or 0.0)
 

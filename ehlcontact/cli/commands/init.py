@@ -38,7 +38,7 @@ class Wish(o.Options):
         e.Load | None, typer.Option("--axial"), e.meaning("axial load; an angular contact bearing needs one")
     ] = None
     layer: Annotated[e.OilThickness | None, typer.Option("--layer")] = None
-    layer_ratio: Annotated[e.LayerRatio | None, typer.Option("--layer-ratio")] = None
+    layer_ratio: Annotated[e.BearingLayerRatio | None, typer.Option("--layer-ratio")] = None
     thermal: Annotated[
         bool, typer.Option("--thermal", help="Films of the whole bearing with heat, beside isothermal ones.")
     ] = False

@@ -116,7 +116,7 @@ class Operation(Section):
     speed_rpm: Annotated[list[e.NotNegative], Field(min_length=1)]
     hz: Annotated[list[e.NotNegative] | None, Field(min_length=1)] = None
     layer_um: e.OilThickness | None = None
-    layer_ratio: e.LayerRatio | None = None
+    layer_ratio: e.BearingLayerRatio | None = None
     thermal: StrictBool = False
 
     def load(self, *, paired: bool) -> tuple[float, ...]:

@@ -279,9 +279,7 @@ class WholeBearing(Section):
         e.Distance | None, e.meaning("distance of both bearings; 200 where left out with axial_load")
     ] = None
     layer_um: e.OilThickness | None = None
-    layer_ratio: Annotated[
-        e.LayerRatio | None, e.meaning("that layer over what the flooded film of each contact lets through")
-    ] = None
+    layer_ratio: e.BearingLayerRatio | None = None
     thermal: Annotated[bool, e.meaning("films that heat up, beside isothermal ones")] = False
 
 
