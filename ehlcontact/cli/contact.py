@@ -22,7 +22,7 @@ from ehlcontact.cli.options import Options, called, option_of
 from ehlcontact.cli.rows import Row
 from ehlcontact.cli.study.schema import lubricant_of, oil_grade
 from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat
+from ehlcontact.heat import RANGES, Heat
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Eyring, LimitingShear, Lubricant, TractionLaw
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
@@ -440,8 +440,8 @@ class Sliding(Options):
             raise InputError("--eyring-mpa", self.eyring, "left out with --limiting-shear: one traction law")
         return LimitingShear(require_between("--limiting-shear", self.limiting_shear, 1e-3, 0.5))
 
-    def check(self, contact: Contact) -> None:
-        """Raise `InputError` for sliding that has no traction, before anything is solved."""
+    def check(self, contact: Contact, *, heated: bool) -> None:
+        """Raise `InputError` for sliding that has no traction, or no heat, before anything is solved."""
         if self.slide_roll is None:
             for name, value in (("--eyring-mpa", self.eyring), ("--limiting-shear", self.limiting_shear)):
                 if value is not None:
@@ -451,7 +451,8 @@ class Sliding(Options):
                     "--thinning", True, "given with --slide-roll: in pure rolling nothing thins the oil"
                 )
             return
-        require_between("--slide-roll", self.slide_roll, 0.0, LARGEST_SLIDE_ROLL)
+        most = RANGES["slide_roll"][1] if heated else LARGEST_SLIDE_ROLL
+        require_between("--slide-roll", self.slide_roll, 0.0, most)
         if not contact.in_si:
             allowed = "left out: a point of --M --L --kappa has no pascals, which a traction law needs"
             raise InputError("--slide-roll", self.slide_roll, allowed)

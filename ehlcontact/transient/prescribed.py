@@ -19,16 +19,21 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.transient.bodies import LONGEST_ABRUPT, Array, Motion, MotionState, Start, UnderLoad, scales_at
 
 CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a corner; 1/20 period of a sine is 0.31
+FEWEST_ROWS = 4  # of a cubic spline; the same for straight tables
 Table = tuple[Array, Array]  # times and values, shape (k,) each
 
 
 def as_table(times: ArrayLike, values: ArrayLike, names: tuple[str, str] = ("T", "values")) -> Table:
     """Copies of both columns: four rows or more, with times that increase from 0; `names` are for messages."""
     of_times, of_values = names
-    column = as_column(of_times, times, least=4, increasing=True)
+    column = as_column(of_times, times, increasing=True)
     if column[0] != 0.0:
         raise InputError(f"{of_times}[0]", float(column[0]), "0, where the run begins")
-    return column, as_column(of_values, values, size=column.size)
+    row = as_column(of_values, values, size=column.size)
+    if column.size < FEWEST_ROWS:
+        allowed = f"at least {FEWEST_ROWS}, in every table over time, for the cubic splines of approaches"
+        raise InputError(f"length of {of_times}", column.size, allowed)
+    return column, row
 
 
 def corners_of(T: Array, values: Array) -> tuple[float, ...]:

@@ -286,10 +286,26 @@ class SimulationResult(ScaledTable, Origin):
                 f"approach {span(self.approach, 1e6 * s.length, 'µm')}, force {span(self.force, s.force, 'N')}"
             ]
             lines += [f"film at least {1e6 * s.length * self.h_min.min():.4g} µm"]
+        lines[-1] += "".join(f", {text}" for text in (self._oil_words, self._heat_words) if text)
         if self.film_error is not None:
             central, least = film_bars(self.film_error)
             lines[-1] += f"; at the start {central} in the centre, {least} at least"
         return [*lines, *filter(None, [self.reservation])]
+
+    @property
+    def _oil_words(self) -> str:
+        """Layer of oil ahead of the contact, in words; empty of a flooded one."""
+        if self.layer is None:
+            return ""
+        unit, name = (1.0, "dry approaches") if self.scales is None else (1e6 * self.scales.length, "µm")
+        return f"under a layer of {unit * self.layer[0]:.4g} {name}"
+
+    @property
+    def _heat_words(self) -> str:
+        """Largest warming of the oil, in words; empty of an isothermal film."""
+        if self.warmest_oil is None:
+            return ""
+        return f"with heat: oil up to {self.warmest_oil.max():.3g} K above the inlet"
 
     def to_dict(self) -> dict[str, Any]:
         """Histories, status and origin, ready for JSON; of an SI point with ``si``."""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions import assumptions
-from ehlcontact.checks import as_column, require_choice, require_positive
+from ehlcontact.checks import as_column, as_numbers, require_choice, require_positive
 from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
@@ -244,10 +244,11 @@ class Atlas:
         if moes.L > 0.0:
             most = min(most, (self.box.L[1] / moes.L) ** 4)
         inside = max(1.0 / USUAL_SPEEDS, lowest * (1.0 + INSIDE)), min(USUAL_SPEEDS, most * (1.0 - INSIDE))
-        low, high = inside if speeds is None else (float(speed / unit) for speed in speeds)
+        between = f"{lowest * unit:.4g} to {most * unit:.4g}"
+        allowed = f"from {between}, with the speed of the point, {unit:.4g}, between"
+        low, high = inside if speeds is None else (speed / unit for speed in _two_ends(speeds, allowed))
         if not lowest <= low <= 1.0 <= high <= most or not low < high:
-            between = f"{lowest * unit:.4g} to {most * unit:.4g}"
-            raise InputError("speeds", speeds, f"from {between}, with the speed of the point, {unit:.4g}, between")
+            raise InputError("speeds", speeds, allowed)
         places = np.concatenate([_steps(low, 1.0)[:-1], _steps(1.0, high)])
         rows = []
         for U in places.tolist():
@@ -491,6 +492,14 @@ def _opened(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
 def _read(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
     table = read_file(path, AtlasTable, "atlas")
     return table, AtlasSurface(table)
+
+
+def _two_ends(speeds: ArrayLike, allowed: str) -> tuple[float, float]:
+    """The lowest and the highest speed; raises `InputError` for anything but two numbers."""
+    ends = as_numbers("speeds", speeds, f"a pair of numbers, {allowed}")
+    if ends.shape != (2,):
+        raise InputError("speeds", speeds, f"a pair of numbers, {allowed}")
+    return float(ends[0]), float(ends[1])
 
 
 def _steps(low: float, high: float) -> _Floats:

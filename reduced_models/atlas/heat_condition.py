@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
+from ehlcontact.checks import require_instance
 from ehlcontact.heat import Heat, require_heat
 from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.store import load as read_file
@@ -51,6 +52,7 @@ def heat_given(thermal: object) -> Heat | None:
     if thermal is None or thermal is False:
         return None
     found = Heat() if thermal is True else thermal
+    require_instance("thermal", found, Heat, "True or a Heat() of pure rolling")
     require_rolling(found)
     assert isinstance(found, Heat)
     return found

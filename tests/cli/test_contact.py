@@ -323,7 +323,9 @@ def test_heat(call, refused):
     moved = call("simulate", *options(), *COARSE, "--thermal", "--free", "5", "--until", "1e-5").out
     assert re.search(r"warmest oil +\d.*K +mean over the film", moved)
     assert "NOT isothermal" not in moved
-    refused(("--slide-roll = 2.0", "between -1 and 1"), "steady", *options(), "--thermal", "--slide-roll", "2")
+    for bad in ("2", "nan", "-0.5"):
+        words = f"--slide-roll = {float(bad)}", "between 0 and 1"
+        refused(words, "steady", *options(), "--thermal", "--slide-roll", bad)
     refused(("--thermal = True", "no metres"), "steady", "--M", "20", "--L", "10", "--kappa", "1", "--thermal")
     shaken = json.loads(call("impedance", *options(), *COARSE, "--thermal", "--hz", "10", "--json", "-").out)
     assert shaken["temperature"]["film_share"] == pytest.approx(warm["temperature"]["film_share"], abs=0.02)

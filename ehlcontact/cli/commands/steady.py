@@ -76,7 +76,7 @@ def steady(
     from ehlcontact.steady import solve_steady
 
     chosen = grid.chosen() | solving.model_dump() | {"supply": supply.chosen(contact)}
-    sliding.check(contact)
+    sliding.check(contact, heated=heating.thermal)
     chosen |= {"sliding": sliding.thinned(), "thermal": heating.chosen(contact, sliding)}
     point = contact.solvable()
     surfaces.check(contact)

@@ -150,6 +150,7 @@ def test_kept(tmp_path):
     np.testing.assert_array_equal(again.warmest_oil, run.warmest_oil)
     assert again.temperature.inputs == run.temperature.inputs
     assert run.to_dict()["temperature"]["film_share"] < 0.9
+    assert f"with heat: oil up to {run.warmest_oil.max():.3g} K above the inlet" in str(run)
 
 
 def test_what_heat_does_not_go_with():

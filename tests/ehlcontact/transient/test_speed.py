@@ -293,6 +293,10 @@ def test_in_si():
         ([0.0, 1.0, 1.0, 2.0], np.ones(4), "T"),
         ([0.0, 1.0, 1.0 + 1e-12, 2.0], [1.0, 1.0, 2.0, 2.0], "change by at most"),
         ([0.0, 1.0, 2.0, 3.0], [1.0, np.nan, 1.0, 1.0], "values"),
+        ([0.0, 2.0], [1.0, 0.5], "length of T = 2: must be at least 4, .*cubic splines"),
+        ([0.0, 2.0], [1.0, np.nan], r"^values\[1\] = nan"),
+        ([0.0, np.nan], [1.0, 0.5], r"^T\[1\] = nan"),
+        ([0.0, 2.0], [1.0, 0.5, 0.5], "^length of values = 3: must be 2"),
         ([0.0, 1.0, 2.0, 3.0], [1.0, 3000.0, 1.0, 1.0], "times that of the operating point"),
     ],
 )

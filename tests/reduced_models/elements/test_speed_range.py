@@ -216,6 +216,9 @@ def test_bad_speeds_are_named(atlas, over):
     for bad in ((1.5, 2.0), (0.5, 0.9), (1e-9, 1.0), (1.0, 1e9), (1.0, 1.0), (nan, 2.0)):
         with pytest.raises(InputError, match=r"^speeds = .*from .* to .*between"):
             atlas.element_over_speed(POINT, bad)
+    for bad in (3.0, "fast", (1.0,), (0.5, 1.0, 2.0), ("slow", "fast")):
+        with pytest.raises(InputError, match=r"^speeds = .*a pair of numbers, from .* to .*between"):
+            atlas.element_over_speed(POINT, bad)
     T = np.linspace(0.0, 1.0, 5)
     with pytest.raises(InputError, match="as many as"):
         over.drive(T, T, T, T[:3])
