@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError
 from ehlcontact.checks import require_instance
+from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat, require_heat
 from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.store import load as read_file

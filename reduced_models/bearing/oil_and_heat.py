@@ -33,6 +33,7 @@ _Complex = NDArray[np.complex128]
 
 FLOODED, HEAT, LAYER, BOTH = "flooded, isothermal", "with heat", "with the layer", "with both"
 HIGH = 500.0  # Hz, beside the frequency of the shaft
+SHOWN = 2  # frequencies of tables and notes: these two
 AXIAL, RADIAL = 2, 1  # of the degrees of freedom of a ring
 
 
@@ -135,7 +136,7 @@ class OilAndHeat(Summary):
                 if all(value is not None for value in values.values()):
                     shown = {key: float(value[ball, column]) / size for key, value in values.items()}
                     found.append((f"{words}, {race}", unit, shown))
-        for k, hz in enumerate(self.hz[:2].tolist()):
+        for k, hz in enumerate(self.hz[:SHOWN].tolist()):
             for name, unit, size in SMALL:
                 for words, way in self.ways.items():
                     which = f" {words}" if len(self.ways) > 1 else ""
@@ -166,7 +167,7 @@ class OilAndHeat(Summary):
         without = [
             f"{key} at {hz:.4g} Hz"
             for key, one in self.conditions.items()
-            for k, hz in enumerate(self.hz[:2].tolist())
+            for k, hz in enumerate(self.hz[:SHOWN].tolist())
             if (one.damping[k, list(self.ways.values())] < 0.0).any()
         ]
         if without:

@@ -105,7 +105,7 @@ def test_results_report_and_words_of_a_pair(paired):
     one, at = paired
     numbers = json.loads(json.dumps(at.to_dict(), default=lambda array: array.tolist()))
     assert len(numbers["frequencies_hz"]) == len(numbers["state"]["bearings"]) == 2
-    text = sentence(SimpleNamespace(at_angles=at))
+    text = sentence(SimpleNamespace(at_angles=at, oil_and_heat=None))
     assert "balls of a pair of 7205 A, back to back run" in text and "a floating bearing has" in text
     drawings = drawings_at_angles(at)
     assert set(drawings) == {"angles_balls", "angles_balls1", "angles_coefficients", "angles_campbell"}

@@ -69,7 +69,7 @@ def test_results_and_report(found):
     numbers = json.loads(json.dumps(at.to_dict(), default=lambda array: array.tolist()))
     assert np.shape(numbers["over_frequency"]["damping"]) == (31, 5, 5)
     assert numbers["modes"][0]["hz"] == at.modes[0].hz and numbers["no_modes"] is None
-    text = sentence(SimpleNamespace(at_angles=at))
+    text = sentence(SimpleNamespace(at_angles=at, oil_and_heat=None))
     assert "Under 50 N of axial load" in text and f"{at.modes[0].hz:.4g} Hz" in text
     assert sentence(SimpleNamespace(at_angles=None)) == ""
     figures = {name: draw() for name, draw in drawings_at_angles(at).items()}

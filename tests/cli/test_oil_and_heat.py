@@ -2,6 +2,7 @@
 
 import csv
 import json
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -13,13 +14,15 @@ import reduced_models.bearing.oil_and_heat as module
 from ehlcontact import ConvergenceError, Grid, impedance
 from ehlcontact.cli.plots.oil_and_heat import coefficients, films
 from ehlcontact.cli.study.forecast import CONDITION, closing_cost
+from ehlcontact.cli.study.headline import conditions as beside
+from ehlcontact.cli.study.headline import damping_below_zero
 from ehlcontact.cli.study.headline import oil_and_heat as sentence
 from ehlcontact.cli.study.oil_and_heat import FREQUENCIES, run_oil_and_heat
 from ehlcontact.cli.study.report import conditions
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.status import Status
 from reduced_models.atlas.supply_condition import THINNEST
-from reduced_models.bearing.oil_and_heat import FLOODED
+from reduced_models.bearing.oil_and_heat import FLOODED, LAYER
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
 OIL = ("--oil", "68", "--temp", "60")
@@ -165,6 +168,14 @@ def test_section_of_a_study(coarse, tmp_path):
     assert told["conditions"][0][1:] == list(found.conditions) and "r = 1 over" in told["supply_words"]
     words = sentence(Findings)
     assert words.count("% of the film") == 3 and f"{found.conditions[FLOODED].damping[0, 1]:.3g} N s/m" in words
+    assert "computed with heat, with the layer, with both too" in beside(Findings)
+    C = found.conditions[LAYER].damping[0, 1]
+    assert C < 0.0
+    assert f"DAMPING BELOW ZERO: the whole bearing has with the layer {C:.3g} N s/m" in damping_below_zero(
+        Findings
+    )
+    Findings.oil_and_heat = replace(found, conditions={FLOODED: found.conditions[FLOODED]})
+    assert damping_below_zero(Findings) == "" == beside(Findings)
     around, band = films(found), coefficients(found)
     assert [line.name for line in around.data] == 2 * list(found.conditions)
     np.testing.assert_allclose(around.data[0].x, -around.data[0].x[::-1], atol=1e-9)

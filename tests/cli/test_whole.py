@@ -84,6 +84,7 @@ def test_a_rotor_that_no_bearing_holds_costs_no_study(tmp_path, monkeypatch):
     assert "has left it" in found.failed["dry"]
 
     class Holds:
+        oil_and_heat = None
         whole = found
 
     assert "could not be run on whole bearings with: film memory under every ball (rotor at t" in sentence(Holds)

@@ -14,7 +14,8 @@ from ehlcontact.cli.study.differences import Events
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
-from reduced_models.bearing.oil_and_heat import FLOODED
+from reduced_models import OilAndHeat
+from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN
 
 # Change by half the step, over the standard deviation of a signal or the decrement, that has a sentence.
 LARGE_CHANGE = 0.01
@@ -49,7 +50,17 @@ def verdict(found: Findings) -> str:
     film = f"Smallest film {numeral(op['h_min_um'], 3)} \N{MICRO SIGN}m{ratio}."
     outside = ", ".join(one.name for one in found.assumptions.out_of_range)
     held = f"Does not hold: {outside}." if outside else "All assumptions that can be judged hold."
-    return f"{decides}{', '.join(said)}. {film} {held}"
+    return " ".join(filter(None, (f"{decides}{', '.join(said)}. {film} {held}", conditions(found))))
+
+
+def conditions(found: Findings) -> str:
+    """What the whole bearing is computed with beside flooded isothermal films; else empty."""
+    w = found.oil_and_heat
+    if not isinstance(w, OilAndHeat):
+        return ""
+    keys = [key for key in w.conditions if key != FLOODED]
+    beside = "The single contact is flooded and isothermal; the whole bearing is computed"
+    return f"{beside} {', '.join(keys)} too." if keys else ""
 
 
 def headline(found: Findings) -> str:
@@ -64,7 +75,16 @@ def findings(found: Findings) -> list[str]:
 
 def reservations(found: Findings) -> list[str]:
     """Reservations about the findings, a text per subject."""
-    return _sentences(found, unsettled, step_check, mesh_warnings, contact_events, failures, broken_assumptions)
+    return _sentences(
+        found,
+        damping_below_zero,
+        unsettled,
+        step_check,
+        mesh_warnings,
+        contact_events,
+        failures,
+        broken_assumptions,
+    )
 
 
 def _sentences(found: Findings, *parts: Callable[[Findings], str]) -> list[str]:
@@ -151,7 +171,8 @@ def whole(found: Findings) -> str:
     if slowest:
         said = (f"with {NAMES[name]} {numeral(m['decrement'], 3)} at {numeral(m['hz'])} Hz" for name, m in slowest)
         parts.append(
-            f"On two whole bearings its slowest vertical vibration has a decrement of: {'; '.join(said)}."
+            f"On two whole bearings{_flooded_words(found)} its slowest vertical vibration has a decrement of: "
+            f"{'; '.join(said)}."
         )
     heard = [(name, row["at_ball_passage"]) for name, row in rows.items() if row["at_ball_passage"] is not None]
     if heard:
@@ -164,6 +185,11 @@ def whole(found: Findings) -> str:
     if found.whole.said:
         parts.append(f"NOTE, whole bearings: {'; '.join(found.whole.said)}.")
     return " ".join(parts)
+
+
+def _flooded_words(found: Findings) -> str:
+    """Of bearings of a rotor, where heat or a layer is asked for: they have neither."""
+    return "" if found.oil_and_heat is None else ", flooded and isothermal,"
 
 
 def at_angles(found: Findings) -> str:
@@ -182,6 +208,7 @@ def at_angles(found: Findings) -> str:
         f"angles of {low} to {high} degrees; it has {stiff} N/\N{MICRO SIGN}m along the shaft."
     )
     on = "between two of them" if w.pair is None else "on it and a floating bearing"
+    on += _flooded_words(found)
     if not w.modes:
         return f"{text} Vibrations of the rotor {on} were not found: {w.no_modes}."
     first = w.modes[0]
@@ -209,6 +236,23 @@ def oil_and_heat(found: Findings) -> str:
     text = f"Flooded and isothermal, the bearing has {own} N s/m of damping at the frequency of the speed; "
     missing = "".join(f" {key.capitalize()} there is no answer: {reason}." for key, reason in w.refused.items())
     return f"{text}{'; '.join(said) or 'nothing beside it'}.{missing}"
+
+
+def damping_below_zero(found: Findings) -> str:
+    """Conditions of oil and heat in which the bearing adds energy to small vibrations."""
+    w = found.oil_and_heat
+    if not isinstance(w, OilAndHeat):
+        return ""
+    said = [
+        f"{key} {numeral(C, 3)} N s/m at {numeral(hz)} Hz{f' {way}' if len(w.ways) > 1 else ''}"
+        for key, one in w.conditions.items()
+        for k, hz in enumerate(w.hz[:SHOWN].tolist())
+        for way, column in w.ways.items()
+        if (C := float(one.damping[k, column])) < 0.0
+    ]
+    if not said:
+        return ""
+    return f"DAMPING BELOW ZERO: the whole bearing has {'; '.join(said)}: there films add energy to vibrations."
 
 
 def unsettled(found: Findings) -> str:
