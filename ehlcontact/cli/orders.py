@@ -44,6 +44,7 @@ class Found(NamedTuple):
     angle: Interval
     axial: tuple[float, ...]
     clearance: Interval | None
+    remark: str = ""  # on the clearance
 
 
 def measured_order_of(text: str) -> MeasuredOrder:
@@ -78,12 +79,16 @@ def allowed_by(measured: MeasuredOrder, job: BearingJob, slip: float) -> Found:
     try:
         angle = angle_from_order(job.bearing, **measured.given, slip=slip)
     except InputError as error:
-        raise InputError(OPTION, error.value, error.allowed) from None
-    if job.planar or job.load[2] <= 0.0 or job.bearing.contact_angle is not None:
-        return Found(angle, (), None)
+        field = f"{OPTION}, its error" if error.field == "error" else OPTION
+        raise InputError(field, error.value, error.allowed) from None
+    if job.bearing.contact_angle is not None:
+        return Found(angle, (), None, "not searched: that of an angular contact bearing follows from its angle")
+    if job.planar or job.load[2] <= 0.0:
+        return Found(angle, (), None, "not searched without an --axial load above 0")
     axial = tuple(job.load[2] * one for one in BESIDE)
     at = {"radial": -job.load[1], "speed_rpm": job.speeds[0], "slip": slip}
-    return Found(angle, axial, clearance_from_order(job.bearing, axial, **measured.given, **at))
+    remark = f"{_micrometres(job.bearing.clearance)} µm of the bearing not used" if job.bearing.clearance else ""
+    return Found(angle, axial, clearance_from_order(job.bearing, axial, **measured.given, **at), remark)
 
 
 def summary(measured: MeasuredOrder, found: Found) -> dict[str, Any]:
@@ -99,14 +104,16 @@ def show(measured: MeasuredOrder, found: Found) -> None:
     """Contact angle and clearances with their intervals."""
     value, low, high = (f"{numeral(degrees(float(one)), 4)}°" for one in found.angle)
     order = f"{measured.name.upper()} {numeral(measured.order, 5)} ± {numeral(measured.error, 2)}"
-    show_table(f"measured {order}", [("contact angle", value, f"{low} to {high}: mean of the balls")], None)
+    rows = [("contact angle", value, f"{low} to {high}: mean of the balls")]
+    rows += [("clearance", "", found.remark)] if found.remark else []
+    show_table(f"measured {order}", rows, None)
     if found.clearance is None:
         return
-    rows = [
+    loads = [
         [numeral(load), *(_micrometres(float(np.asarray(one)[k])) for one in found.clearance)]
         for k, load in enumerate(found.axial)
     ]
-    show_columns(["axial load [N]", "clearance [µm]", "from", "to"], rows, "clearances with this order")
+    show_columns(["axial load [N]", "clearance [µm]", "from", "to"], loads, "clearances with this order")
 
 
 def _micrometres(clearance: float) -> str:

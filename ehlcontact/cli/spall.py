@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import pi
 from typing import TYPE_CHECKING, Any
 
@@ -13,10 +12,11 @@ from ehlcontact.cli.output import show_columns, show_table
 from ehlcontact.errors import InputError
 from reduced_models.bearing.features import Spall
 from reduced_models.bearing.freedoms import FIVE
+from reduced_models.bearing.height_tables import defect_limits
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.bearing import BearingJob
-    from reduced_models import BearingExcitation
+    from reduced_models import BallBearing, BearingExcitation
     from reduced_models.bearing.kinematics import DefectFrequencies
 
 OPTION = "--spall"
@@ -49,8 +49,19 @@ def spall_of(text: str) -> Spall:
         raise InputError(OPTION, text, f"{WORDS}; {error.field}: {error.allowed}") from None
 
 
-def excitations(job: BearingJob, spall: Spall) -> list[BearingExcitation]:
-    """Lines of force of the spall at every speed.
+def require_fit(spall: Spall, bearing: BallBearing, field: str, text: str) -> None:
+    """Raise `InputError` for a spall, given as `text`, that the bearing has no place for."""
+    assert spall.race is not None
+    least, track, deepest = defect_limits(bearing, spall.race)
+    if not least <= spall.length <= track:
+        allowed = f"from {1e3 * least:.2g} to {1e3 * track:.4g} mm, the track around the {spall.race} race"
+        raise InputError(field, text, f"{WORDS}; length: {allowed}")
+    if spall.depth > deepest:
+        raise InputError(field, text, f"{WORDS}; depth: at most {1e6 * deepest:.4g} um, a ball's radius")
+
+
+def excitations(job: BearingJob, spall: Spall, text: str, slip: float) -> list[BearingExcitation]:
+    """Lines of force of the spall, given as `text`, at every speed, with slip of the cage.
 
     Raises
     ------
@@ -59,12 +70,9 @@ def excitations(job: BearingJob, spall: Spall) -> list[BearingExcitation]:
     """
     for given, option in ((job.pair, "--pair"), (job.tilt, "--tilt-x, --tilt-y")):
         if given is not None:
-            raise InputError(OPTION, f"{spall.race} race", f"without {option}")
-    try:
-        replace(job.bearing, features=[spall])  # whether it has a place for it
-    except InputError as error:
-        raise InputError(OPTION, spall.race, f"{WORDS}; {error.field} {error.allowed}") from None
-    return [job.bearing.excitation([spall], job.load, speed_rpm=speed) for speed in job.speeds]
+            raise InputError(OPTION, text, f"without {option}")
+    require_fit(spall, job.bearing, OPTION, text)
+    return [job.bearing.excitation([spall], job.load, speed_rpm=speed, slip=slip) for speed in job.speeds]
 
 
 def summary(spall: Spall, found: list[BearingExcitation]) -> dict[str, Any]:

@@ -54,6 +54,7 @@ from reduced_models.bearing.excitation import (
     excitation_of,
     require_features,
     turns_of,
+    with_cage_slip,
 )
 from reduced_models.bearing.features import Feature, feature_entries, features_from
 from reduced_models.bearing.five_degrees import (
@@ -278,7 +279,7 @@ class BallBearing(Summary):
             if abs(self.clearance - own) > SAME_CLEARANCE * own:
                 allowed = f"left out beside a contact angle, which makes it {own:.4g} m with these conformities"
                 raise InputError("clearance", self.clearance, allowed)
-        given = require_features(self.features, self.balls) if self.features else []
+        given = require_features(self.features, self.balls, self.ball_diameter) if self.features else []
         object.__setattr__(self, "features", tuple(given))
         require_features_fit(self)
         self._cache["shoulders"] = {name: shoulder_angle(self, name) for name in RACES}
@@ -348,7 +349,7 @@ class BallBearing(Summary):
         speed_rpm : float
             As in `equilibrium` [rev/min].
         slip : float
-            By which share the cage turns slower than with balls that roll, as `cage_slip` gives it.
+            By which share the cage turns slower than with balls that roll (0.01 for 1 %), as `cage_slip` gives it.
 
         Raises
         ------
@@ -521,6 +522,7 @@ class BallBearing(Summary):
         speed_rpm: float = 0.0,
         cage_angle: float = 0.0,
         contact_filter: str = "film",
+        slip: float = 0.0,
     ) -> BearingExcitation:
         """Forces by which features of balls and races excite the bearing, linear in their heights, as lines.
 
@@ -538,13 +540,16 @@ class BallBearing(Summary):
         contact_filter : {"film", "dry", "none"}
             How short waves are filtered by the length of a contact: with its film, by `atlas.contact_filter`
             (dry bearings have none); as dry contacts do, sin(k)/k; or not, as the bare height under their middle.
+        slip : float
+            As in `orders_under`; it moves the lines, while films are those of balls that roll.
 
         Raises
         ------
         InputError
-            No feature, or one of a ball that there is not; what `equilibrium` refuses.
+            No feature, one of a ball that there is not, one too high for the bearing; a slip that is no share; what
+            `equilibrium` refuses.
         """
-        own = require_features(features, self.balls)
+        own = require_features(features, self.balls, self.ball_diameter)
         require_choice("contact_filter", contact_filter, FILTERS)
         force, speed, cage_angle = self._bearing_load(load), self.speed(speed_rpm), angle_of(cage_angle)
         cages = self._cage_angles(force, None)
@@ -558,6 +563,7 @@ class BallBearing(Summary):
             small = SmallBalls.of(self._kernel(speed), self._speed_state(speed), rings)
             forces, approach = (np.array([getattr(at, name) for at in rings]) for name in ("force", "approach"))
             full, turns = force, (self.orders.ftf, self.orders.bsf)
+        turns = with_cage_slip(self.balls, *turns, slip)
         balls = FeaturedBalls(self, small, forces, cages[0], speed, *turns, contact_filter)
         return excitation_of(balls, full, float(approach.sum(axis=-1).max()), own, cage_angle)
 

@@ -47,7 +47,7 @@ from reduced_models.bearing.features import (
 from reduced_models.bearing.five_degrees import AngularEquilibrium
 from reduced_models.bearing.freedoms import PLANAR, in_freedoms, labelled, load_words
 from reduced_models.bearing.height_tables import profile_of, track_radius
-from reduced_models.bearing.kinematics import RPM_TO_HZ, RPM_TO_RAD_S
+from reduced_models.bearing.kinematics import RPM_TO_HZ, RPM_TO_RAD_S, DefectFrequencies
 from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.bearing.loss import response
@@ -65,6 +65,7 @@ SHORTEST = (
     4.0 * np.pi
 )  # wave number per semi-axis of the heaviest ball, to which defects are waves: 8 % get through
 FILTERS = ("film", "dry", "none")
+HIGHEST = 0.01  # of a ball's diameter: amplitudes, rims, excess diameters
 LARGE = 0.1  # height over the approach of both contacts of the heaviest ball, from which a result says so
 
 
@@ -327,8 +328,8 @@ def _height(feature: Feature) -> float:
     return feature.amplitude if isinstance(feature, RaceWaviness | BallWaviness) else feature.depth
 
 
-def require_features(features: object, balls: int) -> list[Feature]:
-    """Return the features as a list, or raise `InputError`: none, what is none, a ball that the bearing lacks."""
+def require_features(features: object, balls: int, ball_diameter: float) -> list[Feature]:
+    """Return the features as a list, or raise `InputError`: none, what is none, too high, a ball that there is not."""
     given: list[Any] = list(features) if isinstance(features, Sequence) else [features]
     if not given:
         raise InputError("features", [], "at least one, as RaceWaviness(...) or BallDiameter(...)")
@@ -337,7 +338,18 @@ def require_features(features: object, balls: int) -> list[Feature]:
         ball = getattr(one, "ball", None)
         if ball is not None and ball >= balls:
             raise InputError("ball", ball, f"from 0 to {balls - 1}")
+        _require_low(one, HIGHEST * ball_diameter)
     return given
+
+
+def _require_low(feature: Feature, most: float) -> None:
+    """Raise `InputError` for heights that no bearing has: above `most` [m]."""
+    for name in ("amplitude", "excess", "rim"):
+        height = getattr(feature, name, 0.0)
+        if abs(height) > most:
+            low = "between {0:.3g} and {1:.3g} m" if name == "excess" else "at most {1:.3g} m"
+            where = f"{HIGHEST:g} of the ball's diameter (given in um?)"
+            raise InputError(name, height, f"{low.format(-most, most)}, {where}")
 
 
 def turns_of(places: Sequence[AngularEquilibrium]) -> tuple[float, float]:
@@ -348,6 +360,12 @@ def turns_of(places: Sequence[AngularEquilibrium]) -> tuple[float, float]:
         for name in ("orbit", "ball_rotation")
     )
     return cage, rotation
+
+
+def with_cage_slip(balls: int, cage: float, rotation: float, slip: float) -> tuple[float, float]:
+    """Turns of the cage and of a ball where the cage turns slower by the share `slip`."""
+    found = DefectFrequencies(cage, balls * cage, balls * (1.0 - cage), rotation).with_slip(slip)
+    return found.ftf, found.bsf
 
 
 def _force_on_ring(

@@ -47,7 +47,8 @@ class RaceWaviness:
     Raises
     ------
     InputError
-        An unknown race, less than one wave, an amplitude that is not positive, a phase in degrees.
+        An unknown race, less than one wave, an amplitude that is not positive, a phase in degrees. The bearing
+        refuses an amplitude of more than 0.01 of a ball's diameter.
     """
 
     race: str
@@ -107,7 +108,7 @@ class BallDiameter:
     Raises
     ------
     InputError
-        A ball below 0, an excess that is not finite.
+        A ball below 0, an excess that is not finite. The bearing refuses more than 0.01 of its diameter.
     """
 
     ball: int
@@ -187,7 +188,7 @@ class Indentation:
     Raises
     ------
     InputError
-        As `Spall`; a rim below 0.
+        As `Spall`; a rim below 0. The bearing refuses one above 0.01 of a ball's diameter.
     """
 
     race: str | None = None

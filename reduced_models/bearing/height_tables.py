@@ -149,14 +149,19 @@ def require_features_fit(bearing: BallBearing) -> None:
             raise InputError("waves", one.waves, allowed)
         if isinstance(one, Waves | BallDiameter):
             continue
-        radius = 0.5 * bearing.ball_diameter if race is None else track_radius(bearing, race)
-        track = 2.0 * pi * radius
-        least = PER_LENGTH * track / MOST_PLACES
+        least, track, deepest = defect_limits(bearing, race)
         if not least <= one.length <= track:
             where = "around the ball" if race is None else f"around the {race} race"
             raise InputError("length", one.length, f"from {least:.2g} to {track:.4g} m, the track {where}")
-        if one.depth > 0.5 * bearing.ball_diameter:
-            raise InputError("depth", one.depth, f"at most {0.5 * bearing.ball_diameter:.4g} m, a ball's radius")
+        if one.depth > deepest:
+            raise InputError("depth", one.depth, f"at most {deepest:.4g} m, a ball's radius")
+
+
+def defect_limits(bearing: BallBearing, race: str | None) -> tuple[float, float, float]:
+    """Least and largest length, and largest depth, of a defect of a race, or of a ball [m]."""
+    radius = 0.5 * bearing.ball_diameter
+    track = 2.0 * pi * (radius if race is None else track_radius(bearing, race))
+    return PER_LENGTH * track / MOST_PLACES, track, radius
 
 
 def _strip(race: Race) -> tuple[float, float]:

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_numbers, require_finite, require_nonnegative
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from reduced_models.bearing.ball_bearing import LARGEST_ANGLE, BallBearing
+from reduced_models.bearing.ball_bearing import LARGEST_ANGLE, LARGEST_PLAY, BallBearing
 from reduced_models.bearing.kinematics import DefectFrequencies
 
 _Floats = NDArray[np.float64]
@@ -54,23 +54,26 @@ def angle_from_order(
     error : float
         Of the order.
     slip : float
-        By which share the cage turns slower than with balls that roll.
+        By which share the cage turns slower than with balls that roll (0.01 for 1 %).
 
     Raises
     ------
     InputError
-        No order or both; one that no contact angle up to 45 degrees has; a negative error; a slip
-        that is no share.
+        No order or both; one that no contact angle up to 45 degrees has; an error that is negative, or that allows
+        larger angles; a slip that is no share.
     """
     name, order, outer = _outer_order(bearing, bpfo, bpfi)
     slower = bearing.orders.with_slip(slip).ftf / bearing.orders.ftf
     outer, reach = outer / slower, require_nonnegative("error", error) / slower
     least, most = _bpfo(bearing, 0.0), _bpfo(bearing, LARGEST_ANGLE)
     if not least - reach <= outer <= most:
-        low, high = slower * (least - reach), slower * most
+        low, high = slower * least, slower * most
         if name == "bpfi":
             low, high = bearing.balls - high, bearing.balls - low
         raise InputError(name, order, f"between {low:.5g} and {high:.5g}: contact angles from 0 to 45 degrees")
+    if outer + reach > most:
+        allowed = f"at most {slower * (most - outer):.4g}: a larger one allows contact angles above 45 degrees"
+        raise InputError("error", error, allowed)
     value, low, high = (_angle(bearing, outer + part) for part in (0.0, -reach, reach))
     return Interval(value, low, high)
 
@@ -158,7 +161,7 @@ def _clearance(bearing: BallBearing, load: tuple[float, ...], speed_rpm: float, 
 
     distance = (bearing.conformity_inner + bearing.conformity_outer - 1.0) * bearing.ball_diameter
     # with the clearance of the free angle any load leads to a larger one, but for the inertia of balls
-    most = 2.0 * distance * (1.0 - cos(angle))
-    if most <= SHARPEST or above(0.0) > 0.0 or above(BEYOND * most) < 0.0:
+    most = min(BEYOND * (2.0 * distance * (1.0 - cos(angle))), LARGEST_PLAY * bearing.ball_diameter)
+    if most <= SHARPEST or above(0.0) > 0.0 or above(most) < 0.0:
         return np.nan
-    return float(scipy.optimize.brentq(above, 0.0, BEYOND * most, xtol=SHARPEST))
+    return float(scipy.optimize.brentq(above, 0.0, most, xtol=SHARPEST))

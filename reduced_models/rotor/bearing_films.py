@@ -86,13 +86,18 @@ class FullFilm:
         require_choice("race", self.race, RACES)
         require_instance("grid", self.grid, Grid, "a Grid")
         require_positive("largest_load", self.largest_load)
-        if len(self.between) != 2 or not 0.0 <= self.between[0] < self.between[1] < np.inf:
+        if np.shape(self.between) != (2,) or not 0.0 <= self.between[0] < self.between[1] < np.inf:
             raise InputError("between", self.between, "two times, 0 <= start < end [s]")
 
     @property
     def contact(self) -> int:
         """Number of its contact in the bearing."""
         return 2 * self.ball + RACES.index(self.race)
+
+    def steps(self, dt: float) -> tuple[int, int]:
+        """Numbers of the steps `dt` [s] at whose ends it starts and ends."""
+        start, end = self.between
+        return round(start / dt), round(end / dt)
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,6 +135,8 @@ class ContactHistory(QuantityTable):
     DISPLAY: ClassVar[Display] = Display(rows="t", panels=("force", "approach", "h_central h_min"), first=0)
 
     def _summary_lines(self) -> list[str]:
+        if not self.t.size:  # of a run that ended before
+            return ["not begun"]
         what = "element" if self.operating_point is None else f"full film, solved {self.solves.sum()} times"
         lines = [
             f"{what}, from {self.t[0]:.6g} to {self.t[-1]:.6g} s in {self.t.size - 1} steps",
@@ -154,7 +161,7 @@ class FullFilmRun:
 
 def simulate_full_films(
     rotor: Rotor,
-    films: Sequence[FullFilm],
+    films: FullFilm | Sequence[FullFilm],
     *,
     speed_rpm: float,
     dt: float,
@@ -173,7 +180,8 @@ def simulate_full_films(
     Parameters
     ----------
     rotor : Rotor
-    films : sequence of FullFilm
+    films : FullFilm or sequence of FullFilm
+        At least one.
     speed_rpm : float
         Of the shaft [rev/min], constant.
     dt, until, start, tolerance, rho_inf, callback
@@ -185,13 +193,19 @@ def simulate_full_films(
     ------
     InputError
         As `simulate_rotor`; a ball, a race or a bearing that does not exist, a contact given twice, bearings with
-        axial motion, without oil, with an oil supply or with heat, a surface that the grid does not resolve.
+        axial motion, without oil, with an oil supply or with heat, a surface that the grid does not resolve; no
+        film, or one that is solved in no step of the run.
     ConvergenceError
         No equilibrium was found in a step, or a film was not solved; ``result`` is the `FullFilmRun` up to then.
     """
     require_instance("rotor", rotor, Rotor, "a Rotor")
     require_integer("processes", processes, "a whole number >= 1", 1)
+    films = [films] if isinstance(films, FullFilm) else films
+    require_instance("films", films, Sequence, "a FullFilm, or a sequence of them")
+    if not films:
+        raise InputError("films", films, "at least one FullFilm; simulate_rotor runs without")
     _require_there(rotor, films)
+    _require_times(films, dt, steps_until(dt, until))
     run = PreparedRun(rotor, require_positive("speed_rpm", speed_rpm), dt, steps_until(dt, until), start, rho_inf)
     with film_places(len(films), processes) as places:
         running = [_RunningFilm(run, one, place) for one, place in zip(films, places, strict=True)]
@@ -235,6 +249,17 @@ def _require_there(rotor: Rotor, films: Sequence[FullFilm]) -> None:
         if (film.bearing, film.contact) in taken:
             raise InputError(field, f"{film.race} race, ball {film.ball}", "a contact that no other film has")
         taken.add((film.bearing, film.contact))
+
+
+def _require_times(films: Sequence[FullFilm], dt: float, steps: int) -> None:
+    """Raise `InputError` for films that are solved in no step of a run."""
+    for i, film in enumerate(films):
+        first, last = film.steps(dt)
+        if first >= steps:
+            allowed = f"a start of at most {(steps - 1) * dt:g} s, where the last step of the run begins"
+            raise InputError(f"films[{i}].between", film.between, allowed)
+        if first == last:
+            raise InputError(f"films[{i}].between", film.between, f"at least a step long, {dt:g} s")
 
 
 class FilmSteps(BallSteps):
@@ -283,7 +308,7 @@ class _RunningFilm:
         assert isinstance(motion, BallMotion)
         self.spec, self._run, self._motion, self._submit = spec, run, motion, submit
         self._bearing: BallBearing = mount.ball_bearing
-        self._first, self._last = (round(t / run.dt) for t in spec.between)
+        self._first, self._last = spec.steps(run.dt)
         self._given = motion.films.heights[spec.contact]
         self._rows: list[tuple[float, ...]] = []
         self._point: OperatingPoint | None = None

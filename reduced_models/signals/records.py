@@ -104,6 +104,7 @@ class RecordCase(Summary):
         if load.size > 3:
             raise InputError("load", load.tolist(), "two or three forces [N]")
         object.__setattr__(self, "load", tuple(load.tolist()))
+        require_instance("label", self.label, str, "text of letters, digits, - and _")
         if not self.label or not self.label.replace("-", "").replace("_", "").isalnum():
             raise InputError("label", self.label, "letters, digits, - and _")
         for name in ("speed_rpm", "mass", "seconds", "rate"):

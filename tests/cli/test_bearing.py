@@ -357,6 +357,13 @@ def test_lines_of_a_spall(call):
     order = bearing.equilibrium((0.0, -30.0, 32.0), speed_rpm=1800.0).orders.bpfi
     row = next(line for line in table.splitlines() if "BPFI - 1" in line and "2 BPFI" not in line)
     assert row.split()[0] == f"{order - 1.0:.5g}" and "NOT LINEAR" not in table
+    slipping = bearing.orders_under((0.0, -30.0, 32.0), speed_rpm=1800.0, slip=0.01).bpfi
+    row = next(
+        line
+        for line in call("bearing", "6205", *OIL, *given, "--slip", "1").out.splitlines()
+        if "BPFI - 1" in line
+    )
+    assert row.split()[0] == f"{slipping - 1.0:.5g}"
     deep = call("bearing", "6205", *OIL, "--load", "500", "--speed-rpm", "1800", "--spall", "outer, 0.5, 3").out
     assert "NOT LINEAR" in deep and "BPFO" in deep
 
@@ -378,6 +385,9 @@ def test_orders_with_slip_and_from_a_measured_order(call):
     for name in ("value", "low", "high"):
         assert back["clearance"][name] == pytest.approx(getattr(clearance, name))
     assert f"{np.degrees(angle.value):.4g}°" in printed and f"{1e6 * clearance.value[1]:.3g}" in printed
+    assert "8 µm of the bearing not used" in printed
+    short = call("bearing", "6205", "--load", "5", "--speed-rpm", "9", "--axial", "-20", *measured).out
+    assert "not searched without an --axial load above 0" in short
     planar = json.loads(call("bearing", "6205", "--load", "5", "--speed-rpm", "9", *measured, "--json", "-").out)
     assert "clearance" not in planar["measured_order"]
 
@@ -391,6 +401,11 @@ def test_orders_with_slip_and_from_a_measured_order(call):
         (("--measured-order", "bpfo,nan"), ("--measured-order",)),
         (("--measured-order", "bpfo,3.5,0.001,2"), ("--measured-order", "its error")),
         (("--measured-order", "bpfo,3.4,0.001"), ("--measured-order = 3.4", "between 3.58")),
+        (
+            ("--measured-order", "bpfi,5.4021,0.5", "--axial", "5"),
+            ("--measured-order, its error = 0.5", "at most 0.2"),
+        ),
+        (("--measured-order", "bpfi,162,0.5"), ("--measured-order = 162.0", "and 5.41")),
         (("--measured-order", "bpfo,3.6", "--axial", "5", "--moment-x", "1"), ("without --moment-x",)),
     ],
 )
@@ -403,8 +418,10 @@ def test_mistakes_about_orders(refused, given, words):
     [
         ("outer,0.5", (), "race,length,depth, as outer,0.5,3"),
         ("middle,1,1", (), "race: one of inner, outer"),
-        ("outer,500,1", (), "length"),
-        ("outer,1,9000", (), "depth"),
+        ("outer,500,1", (), "length: from 0.14"),
+        ("outer,500,1", (), "mm, the track around the outer race"),
+        ("outer,500,1", (), "--spall = 'outer,500,1'"),
+        ("outer,1,9000", (), "depth: at most 3970 um, a ball's radius"),
         ("outer,-1,1", (), "length: a finite number > 0"),
         ("outer,1,nan", (), "depth: a finite number > 0"),
         ("outer,1,1", ("--pair", "back-to-back", "--contact-angle", "25"), "without --pair"),

@@ -100,7 +100,7 @@ def test_a_deep_spall_is_named(tmp_path):
     ("entries", "words"),
     [
         ('spall = "outer,0.5"', ("whole_bearing.spall = 'outer,0.5'", "race,length,depth")),
-        ('spall = "outer,500,1"', ("whole_bearing.spall", "length")),
+        ('spall = "outer,500,1"', ("whole_bearing.spall = 'outer,500,1'", "length", "mm, the track")),
         ('spall = "cage,1,1"', ("whole_bearing.spall", "inner, outer")),
         (
             'spall = "outer,1,1"\naxial_load = 30.0\ntilt_x_mrad = 0.1',

@@ -62,9 +62,7 @@ _oil, _bearing, _load, _pair, _films = (
 )
 AXIAL = FIVE.index("z")  # up to it directions have forces, beyond it tilts have moments
 PASSAGE = "means over a ball passage"
-SLIP_UNIT = (
-    "of the speed of the cage with balls that roll; in frequencies and orders under load, not in spall lines"
-)
+SLIP_UNIT = "of the speed of the cage with balls that roll; in frequencies, orders under load and spall lines"
 # Of the entries of the JSON, whatever they are nested in; other entries have no unit, or have it in their name.
 UNITS = {
     "load": "N; radial; of a state (x, y), downwards is -y",
@@ -372,7 +370,7 @@ def bearing(
         allowed = "given with --thermal, --layer or --layer-ratio, whose table it is"
         raise InputError("--csv", str(out.csv_to), allowed)
     with progress("bearing") as update, job.called():
-        lines = () if spall is None else tuple(defect.excitations(job, spall))
+        lines = () if spall is None else tuple(defect.excitations(job, spall, options.spall or "", slip))
         found = None if order is None else measured.allowed_by(order, job, slip)
         report = replace(_computed(job), spall=spall, excitations=lines, slip=slip, order=order, allowed=found)
         report = replace(report, oil_and_heat=tuple(_oil_and_heat(job, update, options.solve)))
@@ -475,7 +473,7 @@ def _show(report: BearingReport, json_to: str | None) -> None:
         for title, one in bearings_of(state).items():
             _show_balls(one, title)
         if report.spall is not None:
-            defect.show(report.spall, _orders(bearing, one), report.excitations[k])
+            defect.show(report.spall, _orders(bearing, one, report.slip), report.excitations[k])
     if report.order is not None and report.allowed is not None:
         measured.show(report.order, report.allowed)
 

@@ -5,13 +5,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import ceil, radians
 from typing import Any
 
 import numpy as np
 
-from ehlcontact.cli.spall import spall_of
+from ehlcontact.cli.spall import require_fit, spall_of
 from ehlcontact.cli.study.oil_and_heat import supply_and_heat
 from ehlcontact.cli.study.pair import pair_of
 from ehlcontact.cli.study.ring_load import moments_of, tilt_of
@@ -183,8 +182,7 @@ def spall_in(study: Any) -> Spall | None:
             raise InputError("whole_bearing.spall", whole.spall, f"left out beside whole_bearing.{name}")
     try:
         found = spall_of(whole.spall)
-        replace(whole_bearing(study, oil=False), features=[found])
     except InputError as error:
-        allowed = error.allowed if error.field.startswith("--") else f"with {error.field} {error.allowed}"
-        raise InputError("whole_bearing.spall", whole.spall, allowed) from None
+        raise InputError("whole_bearing.spall", whole.spall, error.allowed) from None
+    require_fit(found, whole_bearing(study, oil=False), "whole_bearing.spall", whole.spall)
     return found

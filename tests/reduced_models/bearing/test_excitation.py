@@ -235,6 +235,21 @@ def test_bad_input_is_one_line(make, message):
         make()
 
 
+@pytest.mark.parametrize("load", [(0.0, -100.0), (0.0, -30.0, 32.0)])
+def test_slip_of_the_cage_moves_lines(load):
+    """To the orders with slip: of the inner race j BPFI + k, of a ball twice its rotation and the cage."""
+    given = {"speed_rpm": SLOW, "slip": 0.01}
+    race, ball = (
+        RaceWaviness(race="inner", waves=10, amplitude=1e-7),
+        BallWaviness(ball=0, waves=2, amplitude=1e-7),
+    )
+    orders = DRY.orders_under(load, **given)
+    found, turned = (DRY.excitation([one], load, **given).order for one in (race, ball))
+    assert np.abs(found - (orders.bpfi + 1.0)).min() < 2e-4
+    assert np.abs(turned - (2.0 * orders.bsf + orders.ftf)).min() < 2e-4
+    assert (np.abs(DRY.excitation([race], load, speed_rpm=SLOW).order - (orders.bpfi + 1.0)) > 0.02).all()
+
+
 def test_large_features_are_named():
     found = DRY.excitation([BallDiameter(ball=0, excess=5e-6)], (0.0, 0.0, 100.0), speed_rpm=SLOW)
     assert "not linear" in found.reservation and found.reservation in repr(found)

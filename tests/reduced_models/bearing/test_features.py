@@ -338,6 +338,17 @@ SPALL = {"race": "outer", "angle": 0.0, "length": 1e-3, "depth": 1e-5}
         (lambda: replace(DRY, features=[Spall(**{**SPALL, "length": 1e-6})]), "length = 1e-06"),
         (lambda: replace(DRY, features=[Spall(**{**SPALL, "depth": 5e-3})]), "depth = 0.005: .* ball's radius"),
         (lambda: replace(DRY, features=[BallDiameter(ball=9, excess=1e-7)]), "ball = 9: must be from 0 to 8"),
+        (
+            lambda: replace(DRY, features=[BallDiameter(ball=3, excess=-8e-3)]),
+            "excess = -0.008: .* between -7.94e-05",
+        ),
+        (lambda: replace(DRY, features=[BallDiameter(ball=3, excess=5e-3)]), "excess = 0.005: .*given in um"),
+        (lambda: replace(DRY, features=[BallWaviness(ball=3, waves=2, amplitude=5e-3)]), "amplitude = 0.005"),
+        (
+            lambda: DRY.excitation([RaceWaviness(race="inner", waves=10, amplitude=5e-3)], (0.0, -100.0)),
+            "amplitude = 0.005: must be at most 7.94e-05 m",
+        ),
+        (lambda: replace(DRY, features=[Indentation(**SPALL, rim=1e-3)]), "rim = 0.001: must be at most"),
         (lambda: replace(DRY, features=["spall"]), "features = 'str'"),
         (
             lambda: replace(DRY, features=[RaceWaviness(race="inner", waves=5000, amplitude=1e-9)]),

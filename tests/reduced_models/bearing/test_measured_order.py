@@ -60,7 +60,12 @@ def test_a_load_that_needs_no_clearance():
         (lambda: angle_from_order(BEARING, bpfo=3.6, bpfi=5.4), "order = 'bpfo and bpfi': must be given once"),
         (lambda: angle_from_order(BEARING, bpfo=3.5), r"bpfo = 3.5: must be between 3.58\d+ and 3.8"),
         (lambda: angle_from_order(BEARING, bpfi=5.5), r"bpfi = 5.5: must be between 5.1\d+ and 5.41"),
+        (
+            lambda: angle_from_order(BEARING, bpfi=162.0, error=0.5),
+            r"bpfi = 162.0: must be between 5.1\d+ and 5.41",
+        ),
         (lambda: angle_from_order(BEARING, bpfo=3.6, error=-1.0), "error = -1.0"),
+        (lambda: angle_from_order(BEARING, bpfo=3.6, error=5.0), r"error = 5.0: must be at most 0.25\d*: .* 45"),
         (lambda: clearance_from_order(BEARING, [0.0], bpfo=3.6), "axial = .*each > 0"),
         (
             lambda: clearance_from_order(BallBearing.catalogue("7205 C"), 10.0, bpfo=3.6),

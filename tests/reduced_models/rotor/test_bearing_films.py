@@ -170,6 +170,9 @@ BAD = (
     ({"ball": -1}, "ball = -1"),
     ({"between": (2e-3, 1e-3)}, "between"),
     ({"between": (0.0, float("nan"))}, "between"),
+    ({"between": 1e-3}, "between"),
+    ({"between": (1.0, 2.0)}, r"films\[0\].between = .*at most 9e-05 s"),
+    ({"between": (2e-5, 2.2e-5)}, r"films\[0\].between = .*at least a step long, 1e-05 s"),
     ({"largest_load": 0.0}, "largest_load = 0"),
     ({"ball": 9}, r"films\[0\].ball = 9: must be below 9"),
     ({"bearing": 1}, r"films\[0\].bearing = 1"),
@@ -189,8 +192,12 @@ def test_films_that_no_run_can_have(smooth, known):
     options = {"speed_rpm": RPM, "dt": 1e-5, "until": 1e-4}
     with pytest.raises(InputError, match="a contact that no other film has"):
         simulate_full_films(block(smooth), [film, film], **options)
-    with pytest.raises(InputError, match="one with oil"):
-        simulate_full_films(block(replace(smooth, oil=None)), [film], **options)
+    with pytest.raises(InputError, match="one with oil"):  # of one alone, too
+        simulate_full_films(block(replace(smooth, oil=None)), film, **options)
+    with pytest.raises(InputError, match=r"films = .*at least one"):
+        simulate_full_films(block(smooth), [], **options)
+    with pytest.raises(InputError, match="films = 'int': must be a FullFilm"):
+        simulate_full_films(block(smooth), 3, **options)
     with pytest.raises(InputError, match="one without heat: full films are isothermal"):
         simulate_full_films(block(replace(smooth, thermal=True)), [film], **options)
     with pytest.raises(InputError, match="processes"):
