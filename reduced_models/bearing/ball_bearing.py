@@ -546,8 +546,8 @@ class BallBearing(Summary):
         Raises
         ------
         InputError
-            No feature, one of a ball that there is not, one too high for the bearing; a slip that is no share; what
-            `equilibrium` refuses.
+            No feature, one of a ball that there is not, one too high for the bearing; a slip that is no share;
+            what `equilibrium` refuses.
         """
         own = require_features(features, self.balls, self.ball_diameter)
         require_choice("contact_filter", contact_filter, FILTERS)

@@ -329,7 +329,7 @@ def _height(feature: Feature) -> float:
 
 
 def require_features(features: object, balls: int, ball_diameter: float) -> list[Feature]:
-    """Return the features as a list, or raise `InputError`: none, what is none, too high, a ball that there is not."""
+    """Return the features as a list, or raise `InputError`: none, what is none, too high, no such ball."""
     given: list[Any] = list(features) if isinstance(features, Sequence) else [features]
     if not given:
         raise InputError("features", [], "at least one, as RaceWaviness(...) or BallDiameter(...)")
