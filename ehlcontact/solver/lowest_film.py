@@ -54,6 +54,14 @@ def lowest_film(H: Array) -> tuple[float, float, float]:
     return (lowest, row, column) if 0.0 < lowest < node else at_node
 
 
+def beside_lowest(H: Array) -> float:
+    """Mean film at both nodes beside the lowest one along X, over its own; infinite where that has no film."""
+    j, i = (int(k) for k in np.unravel_index(int(np.argmin(H)), H.shape))
+    row, lowest = H[j], float(H[j, i])
+    beside = float(row[max(i - 1, 0)] + row[min(i + 1, row.size - 1)])
+    return 0.5 * beside / lowest if lowest > 0.0 else float("inf")
+
+
 def _cells_near(H: Array, limit: float) -> NDArray[np.bool_]:
     """Cells (ny, nx) with a node at most `limit` high and all nodes that their cubics need."""
     low = H <= limit

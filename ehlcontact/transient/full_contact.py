@@ -16,6 +16,7 @@ from ehlcontact.results.steady_result import grid_doubt
 from ehlcontact.results.table import SIView
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
+from ehlcontact.solver.lowest_film import beside_lowest
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
@@ -183,6 +184,11 @@ class FullContact(Summary):
     def h_min(self) -> Annotated[float, LENGTH]:
         """Smallest film."""
         return self._film.level.lowest_film()
+
+    @property
+    def beside_h_min(self) -> float:
+        """Film at the nodes beside the lowest one along X, over its own: near 1 where the grid resolves it."""
+        return beside_lowest(self._film.level.H)
 
     @property
     def si(self) -> SIView:

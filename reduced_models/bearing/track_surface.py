@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from reduced_models.bearing.features import BallDiameter, Feature
+from ehlcontact.errors import InputError
+from reduced_models.bearing.features import BallDiameter, BallWaviness, Feature, RaceWaviness
 from reduced_models.bearing.height_tables import features_on, heights_along, track_radius
 from reduced_models.bearing.race import RACES
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from reduced_models.bearing.ball_bearing import BallBearing
 
 _Floats = NDArray[np.float64]
+
+FEWEST_NODES = 4.0  # to a wave, as `simulate` asks of a rough surface
 
 
 @dataclass(frozen=True)
@@ -63,6 +66,15 @@ class TrackSurface:
             theta = track.angle + track.rate * T - ahead * X
             raised = raised + heights_along(track.features, track.radius, theta)
         return -raised / self.approach
+
+    def require_resolved(self, mesh: float) -> None:
+        """Raise `InputError` for waves with fewer than `FEWEST_NODES` nodes of a mesh along X, in semi-axes."""
+        for track in self.tracks:
+            most = int(2.0 * pi * track.radius / (self.axis * FEWEST_NODES * mesh))
+            for one in track.features:
+                if isinstance(one, RaceWaviness | BallWaviness) and one.waves > most:
+                    allowed = f"at most {most} in a full film, {FEWEST_NODES:g} nodes to a wave: raise n"
+                    raise InputError("waves", one.waves, allowed)
 
 
 def tracks_at(

@@ -43,6 +43,7 @@ CLOSE = 1e-3  # of the load at its start: force that a film may miss where it st
 MOST_SOLVES = 12  # of a film in a step: one or two
 NOISE = 3e-4  # of that load: smaller changes of force give no slope, for films are solved to a third of it
 SLOPES = 0.05, 20.0  # over the dry slope at that load
+STEEP = 1.5  # film at the nodes beside the lowest one over its own, from which a history says so
 MOST_EVALUATIONS = 30  # of the balance of a step
 
 
@@ -121,6 +122,9 @@ class ContactHistory(QuantityTable):
     offset : float
         Approach of the full film over that of the element under the load of the start [m]: their difference at
         rest, which the run leaves out.
+    reservation : str
+        What the history leaves open, in words; else empty: where the grid does not show the film at rest, and a
+        smallest film with too few nodes.
     """
 
     t: Annotated[_Floats, TIME.over("t")]
@@ -131,6 +135,7 @@ class ContactHistory(QuantityTable):
     solves: Annotated[NDArray[np.int64], NUMBER.over("t")]
     operating_point: OperatingPoint | None
     offset: float
+    reservation: str = ""
 
     DISPLAY: ClassVar[Display] = Display(rows="t", panels=("force", "approach", "h_central h_min"), first=0)
 
@@ -143,7 +148,11 @@ class ContactHistory(QuantityTable):
             f"force {span(self.force, 1.0, 'N')}, approach {span(self.approach, 1e6, 'µm')}",
         ]
         film = [] if self.operating_point is None else [f"smallest film {1e6 * self.h_min.min():.3g} µm"]
-        return lines + film
+        return [*lines, *film, *filter(None, [self.reservation])]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return super().to_dict() | {"reservation": self.reservation}
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,8 +202,8 @@ def simulate_full_films(
     ------
     InputError
         As `simulate_rotor`; a ball, a race or a bearing that does not exist, a contact given twice, bearings with
-        axial motion, without oil, with an oil supply or with heat, a surface that the grid does not resolve; no
-        film, or one that is solved in no step of the run.
+        axial motion, without oil, with an oil supply or with heat, a surface that the grid does not resolve, as
+        waves with fewer than four nodes; no film, or one that is solved in no step of the run.
     ConvergenceError
         No equilibrium was found in a step, or a film was not solved; ``result`` is the `FullFilmRun` up to then.
     """
@@ -315,6 +324,7 @@ class _RunningFilm:
         self._scales: Scales
         self._offset, self._load = 0.0, 0.0
         self._step = self._solves = 0
+        self._doubt = ""
         self._trend, self._before = 0.0, (0.0, 0.0)
         self._answer: FilmAnswer
         self._pending: Any = None
@@ -375,9 +385,12 @@ class _RunningFilm:
 
     def history(self) -> ContactHistory:
         """What was recorded."""
-        t, approach, force, h_central, h_min, solves = np.array(self._rows).reshape(-1, 6).T
-        counts = solves.astype(np.int64)
-        return ContactHistory(t, approach, force, h_central, h_min, counts, self._point, self._offset)
+        t, approach, force, h_central, h_min, beside, solves = np.array(self._rows).reshape(-1, 7).T
+        counts, steep = solves.astype(np.int64), ""
+        if self._point is not None and (most := float(beside[np.argmin(h_min)])) > STEEP:
+            steep = f"the smallest film may be off by far: one node beside it, film is {most:.2g} times as thick"
+        doubt = "; ".join(filter(None, [self._doubt, steep]))
+        return ContactHistory(t, approach, force, h_central, h_min, counts, self._point, self._offset, doubt)
 
     @property
     def _active(self) -> bool:
@@ -416,6 +429,7 @@ class _RunningFilm:
         surface = TrackSurface(tracks_at(bearing, k, spec.race, angles, rates), s.a, s.length)
         task = self._submit(open_film, id(self), self._point, spec.grid, surface, spec.largest_load)
         self._answer = task.result()
+        self._doubt = self._answer.doubt
         here = self._approach()
         self._offset = self._answer.approach * s.length - here
         self._give(force, 1.5 * s.stiffness, here)
@@ -424,9 +438,10 @@ class _RunningFilm:
     def _record(self, step: int, solves: int) -> None:
         films, k = self._motion.films, self.spec.ball
         column = RACES.index(self.spec.race)
-        film = (np.nan, np.nan)
+        film = (np.nan, np.nan, np.nan)
         if self._active:
-            film = self._answer.h_central * self._scales.length, self._answer.h_min * self._scales.length
+            answer, unit = self._answer, self._scales.length
+            film = answer.h_central * unit, answer.h_min * unit, answer.beside_h_min
         self._rows.append((self._run.t[step], self._approach(), float(films.force[k, column]), *film, solves))
 
 

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple, Protocol
 from ehlcontact import FullContact, Grid, OperatingPoint
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.executors import ProcessExecutor
+from reduced_models.bearing.track_surface import TrackSurface
 
-Surface = Callable[..., Any]  # of X, Y and T, as `simulate` takes it
 SHARES = (1, 2, 4, 8)  # of a time step, tried one after another where a film is not solved
 
 
@@ -26,6 +26,8 @@ class FilmAnswer(NamedTuple):
     force: float
     h_central: float
     h_min: float
+    beside_h_min: float = 1.0  # of `FullContact`
+    doubt: str = ""  # about its grid at rest
 
 
 @dataclass
@@ -42,9 +44,12 @@ class _Following:
 _films: dict[int, _Following] = {}  # of this process
 
 
-def open_film(number: int, point: OperatingPoint, grid: Grid, surface: Surface, largest_load: float) -> FilmAnswer:
-    """A film at rest under the load of its point."""
+def open_film(
+    number: int, point: OperatingPoint, grid: Grid, surface: TrackSurface, largest_load: float
+) -> FilmAnswer:
+    """A film at rest under the load of its point; raises `InputError` for waves too short for its grid."""
     contact = FullContact(point, grid=grid, surface=surface, largest_load=largest_load)
+    surface.require_resolved((contact.domain.x_out - contact.domain.x_in) / contact.n)
     _films[number] = _Following(contact, contact.static_approach)
     return _answer(_films[number])
 
@@ -76,7 +81,8 @@ def close_film(number: int) -> None:
 
 def _answer(film: _Following) -> FilmAnswer:
     contact = film.contact
-    return FilmAnswer(film.approach, contact.force, contact.h_central, contact.h_min)
+    films = contact.h_central, contact.h_min, contact.beside_h_min
+    return FilmAnswer(film.approach, contact.force, *films, contact.reservation)
 
 
 class Submit(Protocol):

@@ -18,6 +18,8 @@ from ehlcontact import (
     simulate,
 )
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.solver.lowest_film import beside_lowest
+from ehlcontact.transient import roughness
 from reduced_models import (
     BallBearing,
     BallDiameter,
@@ -31,6 +33,7 @@ from reduced_models import (
     simulate_full_films,
     simulate_rotor,
 )
+from reduced_models.bearing import track_surface
 from reduced_models.bearing.contact_heights import height_of
 from reduced_models.bearing.height_tables import track_radius
 from reduced_models.bearing.track_surface import TrackSurface, tracks_at
@@ -202,6 +205,44 @@ def test_films_that_no_run_can_have(smooth, known):
         simulate_full_films(block(replace(smooth, thermal=True)), [film], **options)
     with pytest.raises(InputError, match="processes"):
         simulate_full_films(block(smooth), [film], processes=0, **options)
+
+
+def test_waves_that_the_grid_does_not_show_are_refused(smooth):
+    """Four nodes of the grid to a wave, as of a rough surface in `simulate`."""
+    film = FullFilm(ball=8, race="outer", between=(0.0, 1e-3), grid=Grid(n=48))
+    wavy = block(replace(smooth, features=[RaceWaviness(race="outer", waves=4000, amplitude=1e-8)]))
+    with pytest.raises(InputError, match=r"waves = 4000: must be at most .* 4 nodes to a wave: raise n"):
+        simulate_full_films(wavy, [film], speed_rpm=RPM, dt=1e-5, until=1e-4)
+    assert track_surface.FEWEST_NODES == roughness.FEWEST_NODES
+    point = smooth.race("outer").point(200.0, RPM)
+    tracks = tracks_at(wavy.mounts[0].bearing, 8, "outer", (0.0, 0.0), (1.0, 1.0))
+    surface = TrackSurface(tracks, point.scales.a, point.scales.length)
+    wave = 2.0 * pi * tracks[0].radius / 4000 / point.scales.a
+    surface.require_resolved(0.2499 * wave)
+    with pytest.raises(InputError, match="at most 3998 in a"):
+        surface.require_resolved(0.2501 * wave)
+
+
+@pytest.mark.parametrize(("beside", "noted"), [(3.5, True), (1.2, False)])
+def test_smallest_film_of_a_node_is_named(smooth, known, monkeypatch, beside, noted):
+    """Judged at the smallest film of the run, not elsewhere; with the doubt of the film at rest."""
+
+    def step(number, step, dT, approach):
+        lowest = step == 30
+        found = known.step(number, step, dT, approach)
+        return found._replace(h_min=0.01 if lowest else 0.05, beside_h_min=beside if lowest else 9.0)
+
+    monkeypatch.setattr(bearing_films, "step_film", step)
+    film = FullFilm(ball=8, race="outer", between=(0.0, 1e-3))
+    found = simulate_full_films(block(smooth), [film], speed_rpm=RPM, dt=1e-5, until=1e-3).films[0]
+    assert ("one node beside it, film is 3.5 times as thick" in str(found)) == noted
+    assert bool(found.to_dict()["reservation"]) == noted
+
+
+def test_film_beside_the_lowest_node():
+    H = np.array([[3.0, 2.0, 4.0, 5.0], [3.0, 1.0, 4.0, 5.0]])
+    assert beside_lowest(H) == 3.5
+    assert beside_lowest(-H) == np.inf
 
 
 def test_film_that_is_not_solved_ends_the_run(smooth, known, monkeypatch):
