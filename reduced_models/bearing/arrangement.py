@@ -44,6 +44,7 @@ from reduced_models.bearing.freedoms import FACINGS, bearing_load, facing_signs,
 from reduced_models.bearing.linear_balls import BearingCoefficients
 from reduced_models.bearing.race import assumptions_at_angles
 from reduced_models.bearing.set_result import SetState
+from reduced_models.bearing.solved_balls import damping_left_out, require_frequencies, with_solved_contacts
 from reduced_models.bearing.static_set import AXIAL, NAMES, SetEquilibrium, SmallSet, StaticSet, ring_rows
 
 _Floats = NDArray[np.float64]
@@ -376,10 +377,27 @@ class BearingSet(Summary):
         by_bearing = [[at.bearings[k] for at in places] for k in range(len(self.bearings))]
         rows = list(zip(self.bearings, by_bearing, strict=True))
         small = SmallSet([bearing._small_angular(speed, own) for bearing, own in rows], self._rows)
+        signed, left_out = self._starved(speed, small, by_bearing, w)
         judged = [assumptions_at_angles(one, speed, own) for one, own in rows if one.oil is not None]
         outside = Assumptions.worst_of(judged).headline if judged else ""
         full = np.mean([at.load for at in places], axis=0)
-        return BearingCoefficients.of(full, speed, cage_angle, w, small.coefficients(w), places, outside)
+        notes = outside, signed, left_out
+        return BearingCoefficients.of(full, speed, cage_angle, w, small.coefficients(w), places, *notes)
+
+    def _starved(
+        self, speed: float, small: SmallSet, places: Sequence[Sequence[Any]], omega: _Floats
+    ) -> tuple[_Floats | None, str]:
+        """Damping by the solved contacts of bearings under an oil supply, and what elements leave out of it."""
+        if all(bearing.supply is None for bearing in self.bearings):
+            return None, ""
+        rows = list(zip(self.bearings, small.bearings, places, strict=True))
+        solved = [with_solved_contacts(bearing, speed, one, at) for bearing, one, at in rows]
+        for bearing, one in zip(self.bearings, solved, strict=True):
+            if bearing.supply is not None:
+                require_frequencies(one, omega)
+        words = [damping_left_out(one, speed, np.array([k.force for k in at])) for one, _, at in rows]
+        said = "; ".join(f"bearing {k}: {one}" for k, one in enumerate(words) if one)
+        return SmallSet(solved, small.rows).coefficients(omega)[1], said
 
     @takes(speed_rpm="rev/min")
     def lift_off(self, direction: str, *, speed_rpm: float = 0.0) -> float:

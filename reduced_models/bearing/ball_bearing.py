@@ -501,16 +501,13 @@ class BallBearing(Summary):
             full = np.mean([at.load for at in places], axis=0)
             outside = "" if self.oil is None else assumptions_at_angles(self, speed, places).headline
             left_out = damping_left_out(self, speed, np.array([at.force for at in places]))
-            matrices = small.coefficients(w)
-            return BearingCoefficients.of(
-                full, speed, cage_angle, w, matrices, places, outside, damping_left_out=left_out
-            )
+            notes = outside, signed_damping(self, speed, small, places, w), left_out
+            return BearingCoefficients.of(full, speed, cage_angle, w, small.coefficients(w), places, *notes)
         equilibria = self.ring_equilibria(force, speed, cage_angle)
         balls = SmallBalls.of(self._kernel(speed), self._speed_state(speed), equilibria)
         matrices, forces = balls.coefficients(w), np.array([at.force for at in equilibria])
         outside = "" if self.oil is None else assumptions_under(self, speed, forces).headline
-        signed = None if self.supply is None else signed_damping(self, speed, balls, equilibria, w)
-        notes = outside, signed, damping_left_out(self, speed, forces)
+        notes = outside, signed_damping(self, speed, balls, equilibria, w), damping_left_out(self, speed, forces)
         return BearingCoefficients.of(force, speed, cage_angle, w, matrices, equilibria, *notes)
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")

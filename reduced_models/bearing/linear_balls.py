@@ -23,7 +23,7 @@ from ehlcontact.results.table import Display
 from ehlcontact.summary import note_line, span
 from reduced_models.bearing.balls import Balls, SpeedState
 from reduced_models.bearing.equilibrium import RingEquilibrium
-from reduced_models.bearing.freedoms import PLANAR, in_freedoms, labelled, load_words
+from reduced_models.bearing.freedoms import FIVE, PLANAR, in_freedoms, labelled, load_words
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_contact import curve, film_cutoff, film_made
 from reduced_models.bearing.race_table import RaceForceTable
@@ -138,9 +138,9 @@ class BearingCoefficients(FrequencyResponse):
         Peak-to-peak displacement of the ring while a ball passes slowly [m]; 0 at a given angle of the cage.
     outside_assumptions : str
         Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
-    signed_damping : ndarray, shape (k, 2, 2), or None
+    signed_damping : ndarray, shape (k, n, n), or None
         C [N s/m] of the solved contacts under an oil supply, which at low frequency may be below zero; `damping`
-        is that of the elements, which leave that out. None in flooded bearings and with five degrees of freedom.
+        is that of the elements, which leave that out. None in flooded bearings.
     damping_left_out : str
         Below which frequency contacts under an oil supply have damping below zero, which `damping` leaves out, in
         words; empty where there is none.
@@ -190,8 +190,9 @@ class BearingCoefficients(FrequencyResponse):
     def _signed_line(self) -> list[str]:
         if self.signed_damping is None:
             return []
-        xx, yy = (span(self.signed_damping[:, k, k], 1.0, "N s/m") for k in range(2))
-        return [f"of the solved contacts, below zero too: C_xx {xx}, C_yy {yy}"]
+        C = np.einsum("kii->ik", self.signed_damping)[:3]  # in x, y and z
+        said = ", ".join(f"C_{2 * way} {span(row, 1.0, 'N s/m')}" for way, row in zip(FIVE, C, strict=False))
+        return [f"of the solved contacts, below zero too: {said}"]
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""

@@ -6,11 +6,13 @@ of the flooded films times the ratio of the solved ones: films and moments race 
 ball, both contacts in series. With both, heat thins the film and the layer is over what is left of it:
 
     value = heated value * value(layer/s)/flooded value,    s = heated central film over the flooded one.
+
+Of a set of bearings films are those of the one with the heaviest ball, K, C and torques those of the set.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -23,10 +25,12 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.lubricant import TractionLaw
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary
+from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.kinematics import RPM_TO_HZ, rolling_torque
 from reduced_models.bearing.race import RACES
-from reduced_models.bearing.sliding import USUAL_LAW, friction_at, oiled_state, race_at
+from reduced_models.bearing.set_result import SetState
+from reduced_models.bearing.sliding import USUAL_LAW, friction_at, race_at, require_oil
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -71,12 +75,12 @@ class Ratios(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Condition:
-    """A bearing under one condition.
+    """A bearing, or a set of them, under one condition.
 
     Attributes
     ----------
     h_central, h_min : ndarray, shape (balls, 2)
-        Films at inner and outer race [m].
+        Films at inner and outer race [m]; of a set those of the bearing with the heaviest ball.
     lambda_ratio : ndarray, shape (balls, 2), or None
         Smallest film over composite roughness; None where no roughness is given.
     stiffness, damping : ndarray, shape (k, n)
@@ -104,11 +108,11 @@ class Condition:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class OilAndHeat(Summary):
-    """A bearing under several conditions of oil and heat.
+    """A bearing, or a set of them, under several conditions of oil and heat.
 
     Attributes
     ----------
-    state : BearingState
+    at_rest : BearingState or SetState
         With flooded isothermal films.
     hz : ndarray, shape (k,)
         Frequencies of small vibrations: that of the shaft, 500 Hz, and those of a band where it was given.
@@ -120,11 +124,28 @@ class OilAndHeat(Summary):
         Whether contacts of the heaviest ball were solved, and all is not from tables.
     """
 
-    state: BearingState
+    at_rest: BearingState | SetState
     hz: _Floats
     conditions: Mapping[str, Condition]
     refused: Mapping[str, str]
     solved: bool
+
+    @property
+    def bearing(self) -> int:
+        """Index of the bearing with the heaviest ball; 0 of a single one."""
+        return _heaviest_of(_states(self.at_rest))
+
+    @property
+    def state(self) -> BearingState:
+        """State of that bearing."""
+        return _states(self.at_rest)[self.bearing]
+
+    @property
+    def skf(self) -> tuple[float, float] | None:
+        """Rolling and sliding moment by SKF's model [N m], of a set in sum; None where it has no constants."""
+        found = [(one.skf_rolling, one.skf_sliding) for one in _states(self.at_rest)]
+        rolling, sliding = ([one for one in column if one is not None] for column in zip(*found, strict=True))
+        return (sum(rolling), sum(sliding)) if len(rolling) == len(sliding) == len(found) else None
 
     @property
     def rows(self) -> list[tuple[str, str, dict[str, float]]]:
@@ -151,8 +172,9 @@ class OilAndHeat(Summary):
     @property
     def ways(self) -> dict[str, int]:
         """Directions of K and C that rows have, by their words."""
-        along = {"along the load": RADIAL} if np.any(self.state.load[:2]) else {}
-        return along | ({"axially": AXIAL} if self.state.load.size > AXIAL else {})
+        load = self.at_rest.load
+        along = {"along the load": RADIAL} if np.any(load[:2]) else {}
+        return along | ({"axially": AXIAL} if load.size > AXIAL else {})
 
     @property
     def notes(self) -> list[str]:
@@ -160,6 +182,9 @@ class OilAndHeat(Summary):
         lines = ["Films, K and C are those of all balls, from tables of solved contacts."]
         if self.solved:
             lines = ["K and C are those of flooded films times the ratio of the heaviest ball's solved contacts."]
+        if isinstance(self.at_rest, SetState):
+            where = f"bearing {self.bearing}, facing {self.at_rest.facings[self.bearing]}"
+            lines.append(f"The heaviest ball is that of {where}; K, C and torques are those of all bearings.")
         if BOTH in self.conditions:
             lines.append(
                 "With both is a product: heat thins the flooded film, and the same oil is more of that film."
@@ -182,20 +207,22 @@ class OilAndHeat(Summary):
             film, C = 1e6 * one.h_central[ball].min(), one.damping[0, next(iter(self.ways.values()))]
             torque = 1e3 * (one.rolling + one.sliding)
             words.append(f"{key}: film {film:.3g} µm, damping {C:.4g} N s/m, torque {torque:.4g} N mm")
-        return [f"{self.state.name or 'ball bearing'} at {self.state.speed_rpm:.5g} rev/min", *words[:4]]
+        return [f"{self.at_rest.name or 'ball bearing'} at {self.state.speed_rpm:.5g} rev/min", *words[:4]]
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the state, ready for JSON, in SI."""
         names = "h_central", "h_min", "lambda_ratio", "stiffness", "damping", "rolling", "sliding"
+        rolling, sliding = self.skf or (None, None)
         return {
+            **({"bearing": self.bearing} if isinstance(self.at_rest, SetState) else {}),
             "hz": self.hz.tolist(),
             "conditions": {
                 key: {name: _plain(getattr(one, name)) for name in names} for key, one in self.conditions.items()
             },
             "refused": dict(self.refused),
             "solved": self.solved,
-            "skf_rolling": self.state.skf_rolling,
-            "skf_sliding": self.state.skf_sliding,
+            "skf_rolling": rolling,
+            "skf_sliding": sliding,
             "notes": self.notes,
         }
 
@@ -222,13 +249,13 @@ def oil_and_heat(
     solve: bool = False,
     callback: Callable[[int, int, str], object] = lambda done, total, words: None,
 ) -> OilAndHeat:
-    """Films, K, C and torque of a `BallBearing`, flooded and isothermal, with heat, with a layer, with both.
+    """Films, K, C and torque of a bearing, flooded and isothermal, with heat, with a layer, with both.
 
     Parameters
     ----------
-    bearing : BallBearing
+    bearing : BallBearing or BearingSet
     load, tilt
-        As of `BallBearing.equilibrium`.
+        As of its `equilibrium`.
     speed_rpm : float
         Of the shaft [rev/min].
     supply : OilLayer, optional
@@ -251,30 +278,58 @@ def oil_and_heat(
     ConvergenceError
         Of flooded films that are solved. Other films that do not converge are in `OilAndHeat.refused`.
     """
-    if bearing.supply is not None:
-        raise InputError("bearing.supply", "an OilLayer", "left out of the bearing: `supply` here is that layer")
-    if bearing.thermal is not None:
-        raise InputError("bearing.thermal", "a Heat", "left out of the bearing: `thermal` here is that heat")
-    state = oiled_state(bearing, load, speed_rpm, law, tilt)
-    hz = np.array([state.speed_rpm * RPM_TO_HZ, HIGH, *np.ravel(band).tolist()])
-    points = [_point(bearing, state, column) for column in range(len(RACES))]
+    for one in _bearings(bearing):
+        require_oil(one, law)
+        if one.supply is not None:
+            raise InputError(
+                "bearing.supply", "an OilLayer", "left out of the bearing: `supply` here is that layer"
+            )
+        if one.thermal is not None:
+            raise InputError("bearing.thermal", "a Heat", "left out of the bearing: `thermal` here is that heat")
+    under: dict[str, Any] = {"speed_rpm": speed_rpm, "tilt": tilt}
+    at_rest = bearing.equilibrium(load, **under)
+    states = _states(at_rest)
+    most = _heaviest_of(states)
+    hz = np.array([at_rest.speed_rpm * RPM_TO_HZ, HIGH, *np.ravel(band).tolist()])
+    points = [_point(_bearings(bearing)[most], states[most], column) for column in range(len(RACES))]
     if thermal is not None:
         thermal.at(points[0])  # which names data that are missing
 
     def tabulated(**given: Any) -> Condition:
-        variant = replace(bearing, **given)
-        found = oiled_state(variant, load, speed_rpm, law, tilt)
-        return _tabulated(variant, found, variant.coefficients(load, speed_rpm=speed_rpm, tilt=tilt, hz=hz), law)
+        variant = _with(bearing, **given)
+        found = _states(variant.equilibrium(load, **under))
+        return _tabulated(_bearings(variant), found, most, variant.coefficients(load, hz=hz, **under), law)
 
-    small = bearing.coefficients(load, speed_rpm=speed_rpm, tilt=tilt, hz=hz)
+    small = bearing.coefficients(load, hz=hz, **under)
     if not solve:
         with suppress(InputError):  # beyond the tables
-            flooded = _tabulated(bearing, state, small, law)
-            made = _from_tables(flooded, tabulated, state.heaviest, supply, thermal)
-            return OilAndHeat(state=state, hz=hz, conditions=made, refused={}, solved=False)
+            flooded = _tabulated(_bearings(bearing), states, most, small, law)
+            made = _from_tables(flooded, tabulated, states[most].heaviest, supply, thermal)
+            return OilAndHeat(at_rest=at_rest, hz=hz, conditions=made, refused={}, solved=False)
     ratios, refused = _ratios(points, hz, supply, thermal, callback)
-    made = {key: _condition(bearing, state, small, one, law) for key, one in ratios.items()}
-    return OilAndHeat(state=state, hz=hz, conditions=made, refused=refused, solved=True)
+    made = {key: _condition(_bearings(bearing), states, most, small, one, law) for key, one in ratios.items()}
+    return OilAndHeat(at_rest=at_rest, hz=hz, conditions=made, refused=refused, solved=True)
+
+
+def _bearings(one: Any) -> tuple[Any, ...]:
+    """The bearings of a set, or the one alone."""
+    return tuple(one.bearings) if isinstance(one, BearingSet) else (one,)
+
+
+def _states(at_rest: BearingState | SetState) -> tuple[BearingState, ...]:
+    return at_rest.bearings if isinstance(at_rest, SetState) else (at_rest,)
+
+
+def _heaviest_of(states: Sequence[BearingState]) -> int:
+    """Index of the bearing with the heaviest ball."""
+    return int(np.argmax([one.force[one.heaviest, 0] for one in states]))
+
+
+def _with(one: Any, **given: Any) -> Any:
+    """A bearing, or all of a set, with other arguments."""
+    if isinstance(one, BearingSet):
+        return replace(one, bearings=[replace(single, **given) for single in one.bearings])
+    return replace(one, **given)
 
 
 def _from_tables(
@@ -296,21 +351,27 @@ def _from_tables(
     return made
 
 
-def _tabulated(bearing: Any, state: BearingState, small: Any, law: TractionLaw) -> Condition:
-    """A bearing as it is; raises `InputError` where its elements do not have damping below zero."""
-    damping = small.damping if bearing.supply is None else small.signed_damping
-    if damping is None:
-        raise InputError("supply", "contact angles", "solved: their elements have no damping below zero")
-    assert state.h_central is not None and state.h_min is not None and state.rolling_torque is not None
+def _tabulated(
+    bearings: Sequence[Any], states: Sequence[BearingState], most: int, small: Any, law: TractionLaw
+) -> Condition:
+    """Bearings as they are; `most` is the one with the heaviest ball."""
+    damping, state = small.damping if small.signed_damping is None else small.signed_damping, states[most]
+    assert state.h_central is not None and state.h_min is not None
     return Condition(
         h_central=state.h_central,
         h_min=state.h_min,
         lambda_ratio=state.lambda_ratio,
         stiffness=_diagonal(small.stiffness),
         damping=_diagonal(damping),
-        rolling=state.rolling_torque,
-        sliding=friction_at(bearing, state, law, heat=False).sliding,
+        rolling=sum(one.rolling_torque or 0.0 for one in states),
+        sliding=_sliding(bearings, states, law),
     )
+
+
+def _sliding(bearings: Sequence[Any], states: Sequence[BearingState], law: TractionLaw) -> float:
+    """Sliding torque of all bearings [N m]."""
+    pairs = zip(bearings, states, strict=True)
+    return sum(friction_at(bearing, state, law, heat=False).sliding for bearing, state in pairs)
 
 
 def _diagonal(matrices: _Floats) -> _Floats:
@@ -379,20 +440,37 @@ def _over(supply: OilLayer, share: float) -> OilLayer:
     return replace(supply, **{name: np.asarray(getattr(supply, name)) / share})
 
 
-def _condition(bearing: Any, state: BearingState, small: Any, ratios: Ratios, law: TractionLaw) -> Condition:
-    """The bearing with its flooded values times these ratios."""
-    assert state.h_central is not None and state.h_min is not None and state.moment is not None
-    inner, outer = (state.moment * ratios.moment).T
-    thin = replace(state, h_central=state.h_central * ratios.h_central)
+def _condition(
+    bearings: Sequence[Any],
+    states: Sequence[BearingState],
+    most: int,
+    small: Any,
+    ratios: Ratios,
+    law: TractionLaw,
+) -> Condition:
+    """Bearings with their flooded values times these ratios; `most` is the one with the heaviest ball."""
+    state = states[most]
+    assert state.h_central is not None and state.h_min is not None
+    thin = [replace(one, h_central=np.asarray(one.h_central) * ratios.h_central) for one in states]
     return Condition(
         h_central=state.h_central * ratios.h_central,
         h_min=state.h_min * ratios.h_min,
         lambda_ratio=None if state.lambda_ratio is None else state.lambda_ratio * ratios.h_min,
         stiffness=_diagonal(small.stiffness) * ratios.stiffness[:, None],
         damping=_diagonal(small.damping) * ratios.damping[:, None],
-        rolling=rolling_torque(inner, outer, bearing.ball_diameter, bearing.pitch_diameter),
-        sliding=friction_at(bearing, thin, law, heat=False).sliding,
+        rolling=sum(_rolling(*row, ratios.moment) for row in zip(bearings, states, strict=True)),
+        sliding=_sliding(bearings, thin, law),
     )
+
+
+def _rolling(bearing: Any, state: BearingState, ratios: _Floats) -> float:
+    """Rolling torque [N m] with the moments of both races times these ratios."""
+    assert state.moment is not None and state.rolling_torque is not None
+    unchanged, found = (
+        rolling_torque(moment[:, 0], moment[:, 1], bearing.ball_diameter, bearing.pitch_diameter)
+        for moment in (state.moment, state.moment * ratios)
+    )  # as if balls had no contact angles
+    return found if state.contact_angles is None else state.rolling_torque * found / unchanged
 
 
 def _plain(value: Any) -> Any:

@@ -194,11 +194,16 @@ def oiled_state(
     bearing: Any, load: ArrayLike, speed_rpm: float, law: TractionLaw, tilt: ArrayLike | None = None
 ) -> BearingState:
     """State of a bearing in oil; raises `InputError` for a dry one, or without a traction law."""
+    require_oil(bearing, law)
+    state: BearingState = bearing.equilibrium(load, speed_rpm=speed_rpm, tilt=tilt)
+    return state
+
+
+def require_oil(bearing: Any, law: TractionLaw) -> None:
+    """Raise `InputError` for a dry bearing, or without a traction law."""
     require_law(law)
     if bearing.oil is None:
         raise InputError("oil", None, "given to the bearing: a dry one has no films")
-    state: BearingState = bearing.equilibrium(load, speed_rpm=speed_rpm, tilt=tilt)
-    return state
 
 
 def sliding_contact(

@@ -9,58 +9,113 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from reduced_models.atlas.answer import AtlasAnswer
 from reduced_models.atlas.atlas import NEGATIVE
-from reduced_models.bearing.equilibrium import RingEquilibrium
-from reduced_models.bearing.linear_balls import TINY_OMEGA, SmallBalls
+from reduced_models.atlas.frequency_curve import FrequencyCurve
+from reduced_models.bearing.linear_angular import SmallAngularBalls
+from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.bearing.race import INSIDE, RACES, Race
 from reduced_models.elements.validity import OutsideValidityWarning
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
+Small = TypeVar("Small", SmallBalls, SmallAngularBalls)
 
-ALIKE = 9  # digits to which the loads of two balls are the same
+ALIKE = 9  # digits to which the loads, angles and speeds of two contacts are the same
 WARNED = "warned of damping left out"  # where a bearing keeps that
 
 
-class SolvedContacts(NamedTuple):
-    """Impedance of k contacts [N/m] at frequencies chosen before, shape (frequencies, k)."""
+class SolvedContacts:
+    """Contacts with the impedance that the atlas has of each over real frequencies.
 
-    Z: _Complex
+    At a complex s it is K + s C at the frequency of s, as of `reduced_models.rotor.linear_contact`. Beyond the
+    highest frequency of the atlas K and C stay what they are there.
+
+    Parameters
+    ----------
+    contacts : sequence of (Race, float)
+        Race and load [N] of each; one lighter than the atlas knows carries nothing.
+    speed_rpm : float
+        Of the shaft [rev/min].
+    """
+
+    def __init__(self, contacts: Sequence[tuple[Race, float]], speed_rpm: float) -> None:
+        keys, found = [], {}
+        for race, load in contacts:
+            sizes = load, race.geometry.radius_x, race.speed_sum
+            keys.append(tuple(float(f"{size:.{ALIKE}g}") for size in sizes))
+            rounded = keys[-1][0]
+            if keys[-1] not in found and rounded > race.loads(speed_rpm)[0]:
+                found[keys[-1]] = race.answer(rounded, speed_rpm)
+        self.answers: list[AtlasAnswer] = list(found.values())
+        self._which = [np.flatnonzero([one == key for one in keys]) for key in found]
+        self._count = len(keys)
+        self._curves = [
+            (FrequencyCurve(one.Omega, one.stiffness), FrequencyCurve(one.Omega, one.damping))
+            for one in self.answers
+        ]
 
     def impedance(self, s: ArrayLike) -> _Complex:
-        """At those frequencies, which `s` has again."""
-        return self.Z
+        """Z [N/m] at s [1/s] of exp(s t), shape of `s`, whose last axis is 1, with that of the contacts."""
+        s = np.asarray(s, complex)[..., 0]
+        Z = np.zeros((*s.shape, self._count), complex)
+        for at, which, (K, C) in zip(self.answers, self._which, self._curves, strict=True):
+            assert at.scales is not None
+            Omega = np.minimum(np.abs(s.imag) * at.scales.time, at.Omega[-1])
+            Z[..., which] = (K.at(Omega) * at.scales.stiffness + s * (C.at(Omega) * at.scales.damping))[..., None]
+        return Z
 
 
-def signed_damping(
-    bearing: Any, speed_rpm: float, small: SmallBalls, equilibria: Sequence[RingEquilibrium], omega: _Floats
-) -> _Floats:
-    """C [N s/m] of a `BallBearing`, shape (k, 2, 2), at angular frequencies [rad/s], shape (k,).
+def with_solved_contacts(bearing: Any, speed_rpm: float, small: Small, equilibria: Sequence[Any]) -> Small:
+    """A `BallBearing` about rest with the impedances of its solved contacts in place of those of its elements.
 
-    `small` is the bearing about the same equilibria with its elements, whose inertia and losses count.
+    Flooded bearings stay as they are: their elements leave out nothing. `small` is the bearing about the
+    `equilibria`, with its inertia and losses.
+
+    Raises
+    ------
+    InputError
+        A contact that the table of oil supply does not have.
     """
-    force, w = np.concatenate([at.force for at in equilibria]), np.maximum(omega, TINY_OMEGA)
-    races = (bearing.race(name) for name in RACES)
-    inner, outer = (
-        SolvedContacts(_solved(race, speed_rpm, loads, w)) for race, loads in zip(races, force.T, strict=True)
-    )
-    Z = small._replace(inner=inner, outer=outer).impedance(1j * w)  # type: ignore[arg-type]
-    return np.asarray(Z.imag / w[:, None, None])
+    if bearing.supply is None:
+        return small
+    force = np.concatenate([at.force for at in equilibria])
+    columns = []
+    for column, name in enumerate(RACES):
+        races = [bearing.race(name)] * len(force)
+        if isinstance(small, SmallAngularBalls):
+            angles, speeds = (
+                np.concatenate([getattr(at, what)[:, column] for at in equilibria]).tolist()
+                for what in ("angles", "speed_sum")
+            )
+            races = [races[0].at_angle(bearing.pitch_diameter, *one) for one in zip(angles, speeds, strict=True)]
+        loads = force[:, column].tolist()
+        columns.append(SolvedContacts(list(zip(races, loads, strict=True)), speed_rpm))
+    return small._replace(inner=columns[0], outer=columns[1])  # type: ignore[arg-type]
 
 
-def _solved(race: Race, speed_rpm: float, loads: _Floats, omega: _Floats) -> _Complex:
-    """Impedance of contacts under loads [N], shape (frequencies, contacts); 0 below the lightest of the atlas."""
-    found = np.zeros((omega.size, loads.size), complex)
-    rounded = np.array([float(f"{load:.{ALIKE}g}") for load in loads.tolist()])
-    for load in np.unique(rounded[rounded > race.loads(speed_rpm)[0]]).tolist():
-        at = race.answer(load, speed_rpm).impedance(omega=omega).si
-        found[:, rounded == load] = (at.stiffness + 1j * omega * at.damping)[:, None]
-    return found
+def signed_damping(bearing: Any, speed_rpm: float, small: Small, equilibria: Sequence[Any], omega: _Floats) -> Any:
+    """C [N s/m] of a `BallBearing` by its solved contacts, shape (k, n, n), at angular frequencies [rad/s], (k,).
+
+    None of a flooded bearing. Raises `InputError` above the highest frequency of the atlas.
+    """
+    if bearing.supply is None:
+        return None
+    solved = with_solved_contacts(bearing, speed_rpm, small, equilibria)
+    require_frequencies(solved, omega)
+    return solved.coefficients(omega)[1]
+
+
+def require_frequencies(solved: Any, omega: _Floats) -> None:
+    """Raise `InputError` above the highest frequency that the atlas has of solved contacts."""
+    for contacts in (solved.inner, solved.outer):
+        for one in contacts.answers:
+            one.impedance(omega=omega.max())
 
 
 def damping_left_out(bearing: Any, speed_rpm: float, force: _Floats) -> str:

@@ -1,6 +1,7 @@
 """Studies of angular contact bearings by their names in the catalogue: the contact of the heaviest ball."""
 
 import json
+from dataclasses import replace
 from math import cos, pi, radians
 from types import SimpleNamespace
 
@@ -9,13 +10,17 @@ import pytest
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from tiny_study import STUDY
 
+from ehlcontact import OilLayer
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.plots.bearing import drawings_at_angles
 from ehlcontact.cli.study.bearing_at_angles import rotor_between, run_at_angles
 from ehlcontact.cli.study.headline import at_angles as sentence
+from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
+from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.whole_bearing import whole_bearing
 from reduced_models import BallBearing, BearingSet, linearise
+from reduced_models.bearing.oil_and_heat import LAYER
 
 CATALOGUE = 'catalogue = "7205"\nradial_load = 200.0\nspeed_rpm = 6000.0\n'
 
@@ -99,6 +104,22 @@ def test_a_rotor_on_a_pair_and_a_floating_bearing(paired):
     assert first[2] - second[2] == pytest.approx(100.0, abs=1e-6)
     assert right[2] == pytest.approx(100.0) and len(at.modes) == 6
     assert first[1] + second[1] + right[1] == pytest.approx(-400.0) and -200.0 < right[1] < -100.0
+
+
+def test_a_pair_with_a_layer_of_oil(study):
+    """What the study has of it is that of the set; its words are of a pair."""
+    whole = 'axial_load = 100.0\npair = "back-to-back"\npreload = 200.0\nlayer_ratio = 0.8'
+    one = load_study(study(whole))
+    found = run_oil_and_heat(one)
+    pair = BearingSet.pair(whole_bearing(one, oil=True), preload=200.0)
+    starved = replace(pair, bearings=[replace(k, supply=OilLayer(over_flooded=0.8)) for k in pair.bearings])
+    load = (0.0, -200.0, 100.0)
+    small = starved.coefficients(load, speed_rpm=6000.0, hz=found.hz)
+    state = starved.equilibrium(load, speed_rpm=6000.0).bearings[0]
+    layer = found.conditions[LAYER]
+    np.testing.assert_array_equal(layer.damping, np.einsum("kii->ki", small.signed_damping)[:, :3])
+    np.testing.assert_array_equal(layer.h_central, state.h_central)
+    assert "isothermal, the pair has" in conditions_sentence(SimpleNamespace(oil_and_heat=found))
 
 
 def test_results_report_and_words_of_a_pair(paired):

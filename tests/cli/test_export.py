@@ -254,7 +254,11 @@ def test_a_bearing_file_becomes_the_fmu_of_its_bearing(call, refused, tmp_path):
     text = BEARING.read_text(encoding="utf-8")
     tilted.write_text(text.replace("radial_load", "tilt_x_mrad = 1.0\naxial_load = 100.0\nradial_load"), "utf-8")
     refused(("operation.tilt_x_mrad", "1.0", "left out"), "export", tilted, "-o", tmp_path / "x.fmu")
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["6205.fmu", "tilted.toml"]
+    paired = tmp_path / "paired.toml"
+    text = text.replace('"6205"', '"7205"').replace("clearance_um", "# ")
+    paired.write_text(f'{text}\n[pair]\narrangement = "back-to-back"\npreload = 100.0\n', "utf-8")
+    refused(("pair.arrangement", "the FMU is that of one bearing"), "export", paired, "-o", tmp_path / "x.fmu")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["6205.fmu", "paired.toml", "tilted.toml"]
 
 
 def test_heat_and_a_layer_of_oil_in_fmus(call, refused, tmp_path):

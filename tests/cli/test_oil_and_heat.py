@@ -11,7 +11,7 @@ import pytest
 from tiny_study import STUDY
 
 import reduced_models.bearing.oil_and_heat as module
-from ehlcontact import ConvergenceError, Grid, impedance
+from ehlcontact import ConvergenceError, Grid, Lubricant, OilLayer, impedance
 from ehlcontact.cli.plots.oil_and_heat import coefficients, films
 from ehlcontact.cli.study.forecast import CONDITION, closing_cost
 from ehlcontact.cli.study.headline import conditions as beside
@@ -21,12 +21,12 @@ from ehlcontact.cli.study.oil_and_heat import FREQUENCIES, run_oil_and_heat
 from ehlcontact.cli.study.report import conditions
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.status import Status
+from reduced_models import BallBearing, BearingSet, oil_and_heat
 from reduced_models.atlas.supply_condition import THINNEST
 from reduced_models.bearing.oil_and_heat import FLOODED, LAYER
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
 OIL = ("--oil", "68", "--temp", "60")
-PAIR = ("--pair", "back-to-back", "--preload", "100")
 AT = ("bearing", "6205", "--load", "100", "--speed-rpm", "6000")
 
 
@@ -72,6 +72,20 @@ def test_entries_of_a_file_and_options_in_their_place(call, coarse, tmp_path):
     assert thick["with the layer"]["rolling"] == pytest.approx(thick["flooded, isothermal"]["rolling"], rel=1e-3)
 
 
+def test_a_pair_has_the_numbers_of_the_library(call, tmp_path):
+    given = ("--pair", "back-to-back", "--preload", "150", "--axial", "100", "--speed-rpm", "6000")
+    files = ("--json", tmp_path / "p.json", "--csv", tmp_path / "p.csv")
+    result = call("bearing", "7205", *given, *OIL, "--layer-ratio", "1", *files)
+    assert result.code == 0 and "The heaviest ball is that of bearing 0, facing +z" in result.out
+    found = json.loads((tmp_path / "p.json").read_text())["oil_and_heat"][0]
+    bearing = BallBearing.catalogue("7205", oil=Lubricant.iso_vg(68, temperature=60.0))
+    under = {"speed_rpm": 6000.0, "supply": OilLayer(over_flooded=1.0)}
+    expected = oil_and_heat(BearingSet.pair(bearing, preload=150.0), (0.0, 0.0, 100.0), **under)
+    assert found == json.loads(json.dumps(expected.to_dict()))
+    assert found["conditions"][LAYER]["damping"][0][2] < 0.0
+    assert '"damping, 100 Hz",N s/m' in (tmp_path / "p.csv").read_text()
+
+
 def test_without_them_nothing_of_it_is_there(call):
     found = json.loads(call(*AT, *OIL, "--json", "-").out)
     assert "oil_and_heat" not in found and "oil_and_heat" not in found["units"]
@@ -91,7 +105,6 @@ def test_without_them_nothing_of_it_is_there(call):
         (("--layer", "0.2"), ("--layer = 0.2", "dry bearing")),
         ((*OIL, "--csv", "b.csv"), ("--csv", "--thermal")),
         ((*OIL, "--thermal", "--csv", "b.txt"), ("--csv", ".csv")),
-        ((*OIL, "--thermal", "--contact-angle", "15", *PAIR), ("--thermal", "pair")),
     ],
 )
 def test_mistakes(refused, given, words):

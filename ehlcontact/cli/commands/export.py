@@ -263,6 +263,9 @@ def _bearing_of(file: Path) -> BearingModel:
     from fmu import BearingModel
 
     job = load_job(str(file), {})
+    if job.pair is not None:
+        allowed = "left out: the FMU is that of one bearing; a rotor with pairs is an FMU by export_whole_rotor"
+        raise InputError(f"{file}: pair.arrangement", job.pair.name, allowed)
     if job.tilt is not None:
         allowed = "left out: tilts are inputs of the FMU"
         raise InputError("operation.tilt_x_mrad", 1e3 * job.tilt[0], allowed)
@@ -329,7 +332,7 @@ def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftM
         )
         raise InputError("whole_bearing.axial_load", axial, allowed)
     whole = study.whole_bearing
-    supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant, paired=whole.pair is not None)
+    supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant)
     _require_flooded(supply, f"{file}: whole_bearing")
     rotor = whole_rotor(study, replace(whole_bearing(study, oil=True), thermal=thermal))
     with o.called(torque="--torque", inertia="--inertia"):

@@ -205,7 +205,7 @@ class BearingJob:
         from reduced_models.bearing.oil_and_heat import oil_and_heat
 
         return oil_and_heat(
-            self.bearing,
+            self.bearing_or_pair,
             self.load,
             speed_rpm=speed_rpm,
             supply=self.supply,
@@ -268,7 +268,7 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
         if asked.axial_load is None and (tandem or (len(load) == 2 and bearing.contact_angle is not None)):
             which = "bearings in tandem need" if tandem else "an angular contact bearing needs"
             raise InputError("operation.axial_load", None, f"given: {which} an axial load, in +z")
-        supply, thermal = supply_and_heat(asked, "operation", bearing.oil, paired=pair is not None)
+        supply, thermal = supply_and_heat(asked, "operation", bearing.oil)
         require_apart("operation.speed_rpm", asked.speed_rpm)
         require_apart("operation.hz", asked.hz or ())
     speeds, hz = (tuple(sorted(values or ())) for values in (asked.speed_rpm, asked.hz))

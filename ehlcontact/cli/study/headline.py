@@ -14,7 +14,7 @@ from ehlcontact.cli.study.differences import Events
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
-from reduced_models import OilAndHeat
+from reduced_models import OilAndHeat, SetState
 from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN
 
 # Change by half the step, over the standard deviation of a signal or the decrement, that has a sentence.
@@ -233,7 +233,8 @@ def oil_and_heat(found: Findings) -> str:
         if key != FLOODED
     )
     own = numeral(float(flooded.damping[0, way]), 3)
-    text = f"Flooded and isothermal, the bearing has {own} N s/m of damping at the frequency of the speed; "
+    carrier = "pair" if isinstance(w.at_rest, SetState) else "bearing"
+    text = f"Flooded and isothermal, the {carrier} has {own} N s/m of damping at the frequency of the speed; "
     missing = "".join(f" {key.capitalize()} there is no answer: {reason}." for key, reason in w.refused.items())
     return f"{text}{'; '.join(said) or 'nothing beside it'}.{missing}"
 

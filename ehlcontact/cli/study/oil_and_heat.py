@@ -26,9 +26,7 @@ ENTRIES = "layer_um", "layer_ratio", "thermal"
 BAND, FREQUENCIES = (0.2, 50.0), 13  # over the frequency of the shaft: K and C of the figure
 
 
-def supply_and_heat(
-    given: Any, section: str, oil: Lubricant | None, *, paired: bool
-) -> tuple[OilLayer | None, Heat | None]:
+def supply_and_heat(given: Any, section: str, oil: Lubricant | None) -> tuple[OilLayer | None, Heat | None]:
     """The layer of oil and the data of heat that are given, each None where it is not.
 
     Parameters
@@ -39,13 +37,11 @@ def supply_and_heat(
         Its name, for messages.
     oil : Lubricant or None
         None of a dry bearing.
-    paired : bool
-        Whether two bearings carry the load.
 
     Raises
     ------
     InputError
-        Both thicknesses; any of the entries of a dry bearing or a pair; heat of an oil without its data.
+        Both thicknesses; any of the entries of a dry bearing; heat of an oil without its data.
     """
     asked = [name for name in ENTRIES if getattr(given, name)]
     if not asked:
@@ -53,8 +49,6 @@ def supply_and_heat(
     field, value = f"{section}.{asked[0]}", getattr(given, asked[0])
     if oil is None:
         raise InputError(field, value, "left out: a dry bearing has no films")
-    if paired:
-        raise InputError(field, value, "left out with a pair: of single bearings only")
     if len({"layer_um", "layer_ratio"}.intersection(asked)) > 1:
         raise InputError(field, value, "left out where the layer is given over the flooded film (layer_ratio)")
     if given.thermal and oil.temperature_slope is None:
@@ -78,16 +72,16 @@ def supply_words(supply: OilLayer | None) -> str:
 
 def run_oil_and_heat(study: Study) -> OilAndHeat | str | None:
     """The study's bearing with heat and with its layer, or why there is none; None where neither is asked for."""
-    from ehlcontact.cli.study.whole_bearing import ring_load, whole_bearing
+    from ehlcontact.cli.study.whole_bearing import bearing_or_pair, ring_load
 
     whole = study.whole_bearing
-    supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant, paired=whole.pair is not None)
+    supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant)
     if supply is None and thermal is None:
         return None
     speed = study.bearing.speed_rpm
     try:
         return oil_and_heat(
-            whole_bearing(study, oil=True),
+            bearing_or_pair(study, oil=True),
             ring_load(study),
             speed_rpm=speed,
             supply=supply,
@@ -111,9 +105,9 @@ def columns(found: OilAndHeat) -> tuple[list[str], list[list[str]]]:
 
 def skf_words(found: OilAndHeat) -> str:
     """Torque by SKF's model in words; empty where there is none."""
-    rolling, sliding = found.state.skf_rolling, found.state.skf_sliding
-    if rolling is None or sliding is None:
+    if found.skf is None:
         return ""
+    rolling, sliding = found.skf
     parts = {"rolling": rolling, "sliding": sliding, "together": rolling + sliding}
     words = ", ".join(f"{name} {numeral(1e3 * one, 4)}" for name, one in parts.items())
     return f"SKF's model: {words} N mm, with its own factors of heat and supply"
@@ -127,7 +121,7 @@ def csv_text(results: Iterable[OilAndHeat]) -> str:
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(["speed_rpm", "quantity", "unit", *names, "SKF"])
     for one in results:
-        skf = {"rolling torque": one.state.skf_rolling, "sliding torque": one.state.skf_sliding}
+        skf = dict(zip(("rolling torque", "sliding torque"), one.skf or (), strict=False))
         for words, unit, values in one.rows:
             beside = skf.get(words)
             row = [values.get(name, "") for name in names]

@@ -73,7 +73,7 @@ def conditions(found: Findings) -> dict[str, Any]:
     if not isinstance(found.oil_and_heat, OilAndHeat):
         return {}
     whole, one = found.study.whole_bearing, found.oil_and_heat
-    supply, _ = supply_and_heat(whole, "whole_bearing", found.study.lubricant, paired=False)
+    supply, _ = supply_and_heat(whole, "whole_bearing", found.study.lubricant)
     return {"conditions": columns(one), "skf": skf_words(one), "supply_words": supply_words(supply)}
 
 

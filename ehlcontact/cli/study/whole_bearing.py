@@ -139,7 +139,7 @@ def require_whole_bearing(study: Any) -> None:
             "whole_bearing.conformity_other"
         )
     load, steps = ring_load(study), whole.steps_per_revolution
-    supply_and_heat(whole, "whole_bearing", study.lubricant, paired=whole.pair is not None)
+    supply_and_heat(whole, "whole_bearing", study.lubricant)
     if len(load) > len(PLANAR):
         names["load"] = "bearing.radial_load, whole_bearing.axial_load"
     try:

@@ -9,7 +9,7 @@ import pytest
 
 import reduced_models.bearing.oil_and_heat as module
 from ehlcontact import Grid, Heat, InputError, Lubricant, OilLayer, impedance
-from reduced_models import BallBearing, bearing_friction
+from reduced_models import BallBearing, BearingSet, bearing_friction
 from reduced_models.bearing.oil_and_heat import BOTH, FLOODED, HEAT, HIGH, LAYER, oil_and_heat
 from reduced_models.bearing.sliding import USUAL_LAW, race_at
 
@@ -54,10 +54,24 @@ def test_conditions_are_those_of_the_bearing_with_heat_and_with_the_layer():
 
 
 def test_what_tables_do_not_have_is_solved(coarse, monkeypatch):
-    """Damping below zero at contact angles; layers and points that they do not reach."""
-    found = oil_and_heat(BEARING, (0.0, 0.0, 200.0), speed_rpm=SPEED, supply=OilLayer(over_flooded=1.0))
+    """For a bearing, and for both of a pair."""
+
+    def beyond(*given):
+        raise InputError("supply", 1.0, "one that the table of oil supply has")
+
+    monkeypatch.setattr(module, "_from_tables", beyond)
+    pair, supply = BearingSet.tandem(BEARING), OilLayer(over_flooded=1.0)
+    found, two = (
+        oil_and_heat(one, (0.0, 0.0, force), speed_rpm=SPEED, supply=supply)
+        for one, force in ((BEARING, 200.0), (pair, 400.0))
+    )
     assert found.solved and list(found.conditions) == [FLOODED, LAYER]
     assert "solved contacts" in found.notes[0]
+    state = BEARING.equilibrium((0.0, 0.0, 200.0), speed_rpm=SPEED)
+    assert found.conditions[FLOODED].rolling == pytest.approx(state.rolling_torque, rel=1e-12)
+    for key, one in found.conditions.items():
+        for name in ("damping", "rolling", "sliding"):
+            np.testing.assert_allclose(getattr(two.conditions[key], name), 2.0 * getattr(one, name), rtol=1e-4)
 
 
 def test_conditions_are_solved_ratios_times_flooded_values(coarse):
