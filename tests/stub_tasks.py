@@ -54,6 +54,9 @@ class StubTasks:
             "memory": {"refused": "why"},
             "fmu": FMU | {"passes": f"{key} without FMU" not in self.orders},
             "film_fmu": None,
+            "oil_and_heat": {
+                "refused": {"with the layer": "thin"} if f"{key} without films" in self.orders else {}
+            },
             "operating_point": {
                 "h_central_um": 1e-4 * speed,
                 "h_min_um": 0.5e-4 * speed,

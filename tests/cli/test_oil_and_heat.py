@@ -15,9 +15,10 @@ from ehlcontact import ConvergenceError, Grid, Lubricant, OilLayer, impedance
 from ehlcontact.cli.plots.oil_and_heat import coefficients, films
 from ehlcontact.cli.study.forecast import CONDITION, closing_cost
 from ehlcontact.cli.study.headline import conditions as beside
-from ehlcontact.cli.study.headline import damping_below_zero
+from ehlcontact.cli.study.headline import damping_below_zero, without_films
 from ehlcontact.cli.study.headline import oil_and_heat as sentence
 from ehlcontact.cli.study.oil_and_heat import FREQUENCIES, run_oil_and_heat
+from ehlcontact.cli.study.points.finalise import faults
 from ehlcontact.cli.study.report import conditions
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.status import Status
@@ -188,7 +189,9 @@ def test_section_of_a_study(coarse, tmp_path):
         Findings
     )
     Findings.oil_and_heat = replace(found, conditions={FLOODED: found.conditions[FLOODED]})
-    assert damping_below_zero(Findings) == "" == beside(Findings)
+    assert damping_below_zero(Findings) == "" == beside(Findings) == without_films(Findings)
+    Findings.oil_and_heat = replace(found, refused={LAYER: "thin"})
+    assert without_films(Findings) == "NO FILMS of the whole bearing with the layer (thin)."
     around, band = films(found), coefficients(found)
     assert [line.name for line in around.data] == 2 * list(found.conditions)
     np.testing.assert_allclose(around.data[0].x, -around.data[0].x[::-1], atol=1e-9)
@@ -204,7 +207,10 @@ def test_a_study_tells_why_there_is_no_answer(tmp_path, monkeypatch):
     class Findings:
         oil_and_heat = run_oil_and_heat(load_study(study(tmp_path, ASKED)))
 
-    assert "no film" in sentence(Findings) and conditions(Findings) == {}
+    assert "NOT COMPUTED" in (said := without_films(Findings)) and "no film" in said
+    assert sentence(Findings) == "" and conditions(Findings) == {}
+    results = {"fmu": {"passes": True}, "film_fmu": None, "oil_and_heat": Findings.oil_and_heat}
+    assert faults(results) == [f"oil supply and heat of the whole bearing: {Findings.oil_and_heat}"]
 
 
 @pytest.mark.parametrize(

@@ -271,6 +271,15 @@ def test_fmus_that_fail_are_tried_again(run, stub):
     assert run(with_lists()).code == 0 and stub() == ["4000rpm_20N report"]
 
 
+def test_a_condition_without_films_at_some_speed_is_a_failure(run, stub):
+    """Named with its point, with exit code 1; the rest is there. The same run again only says it."""
+    stub.orders = ["4000rpm_20N report without films"]
+    for done in (3 * TASKS, 0):
+        found = run(with_lists())
+        assert found.code == 1 and "4000rpm_20N: no films of the whole bearing with the layer: thin" in found.err
+        assert len(stub()) == done and (run.folder / "report.html").is_file()
+
+
 def test_entries_of_the_log(run, stub):
     run(with_lists("[3000.0, 4000]"))
     run(with_lists("[3000.0, 5000]"))

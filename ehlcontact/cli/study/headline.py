@@ -77,6 +77,7 @@ def reservations(found: Findings) -> list[str]:
     """Reservations about the findings, a text per subject."""
     return _sentences(
         found,
+        without_films,
         damping_below_zero,
         unsettled,
         step_check,
@@ -221,10 +222,8 @@ def at_angles(found: Findings) -> str:
 def oil_and_heat(found: Findings) -> str:
     """The bearing with heat and with its layer of oil, where they are asked for: films and damping."""
     w = found.oil_and_heat
-    if w is None:
+    if not isinstance(w, OilAndHeat):
         return ""
-    if isinstance(w, str):
-        return f"Oil supply and heat of the whole bearing were not computed: {w}"
     ball, way, flooded = w.state.heaviest, next(iter(w.ways.values())), w.conditions[FLOODED]
     said = (
         f"{key} {percent(float((one.h_central / flooded.h_central)[ball, 0]), 3)} of the film and "
@@ -235,8 +234,16 @@ def oil_and_heat(found: Findings) -> str:
     own = numeral(float(flooded.damping[0, way]), 3)
     carrier = "pair" if isinstance(w.at_rest, SetState) else "bearing"
     text = f"Flooded and isothermal, the {carrier} has {own} N s/m of damping at the frequency of the speed; "
-    missing = "".join(f" {key.capitalize()} there is no answer: {reason}." for key, reason in w.refused.items())
-    return f"{text}{'; '.join(said) or 'nothing beside it'}.{missing}"
+    return f"{text}{'; '.join(said) or 'nothing beside it'}."
+
+
+def without_films(found: Findings) -> str:
+    """Conditions of oil and heat that were asked for and have no films, and why."""
+    w = found.oil_and_heat
+    if isinstance(w, str):
+        return f"NOT COMPUTED: oil supply and heat of the whole bearing ({w})."
+    said = [] if w is None else [f"{key} ({reason})" for key, reason in w.refused.items()]
+    return f"NO FILMS of the whole bearing {'; '.join(said)}." if said else ""
 
 
 def damping_below_zero(found: Findings) -> str:

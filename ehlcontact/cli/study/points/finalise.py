@@ -53,7 +53,7 @@ def finalise(study: Study, folder: Path, seconds: Mapping[str, float]) -> Final:
         return Final(Status.FAILED, str(error))
     told = tuple(dict.fromkeys(one_line(str(one.message)) for one in said))
     files = {name: checksum(folder / name) for name in products(results).values()}
-    return Final(Status.CONVERGED, "", not faults(results), told, files=files)
+    return Final(Status.CONVERGED, "", not _broken_fmus(results), told, files=files)
 
 
 def read_results(folder: Path) -> dict[str, Any]:
@@ -80,7 +80,17 @@ def products(results: Mapping[str, Any]) -> dict[str, str]:
 
 
 def faults(results: Mapping[str, Any]) -> list[str]:
-    """FMUs that could not be made, with reasons."""
+    """FMUs that could not be made and conditions of oil and heat without films, with reasons."""
+    return [*_broken_fmus(results), *_without_films(results.get("oil_and_heat"))]
+
+
+def _without_films(found: Mapping[str, Any] | str | None) -> list[str]:
+    if found is None or isinstance(found, str):
+        return [] if found is None else [f"oil supply and heat of the whole bearing: {found}"]
+    return [f"no films of the whole bearing {key}: {reason}" for key, reason in found["refused"].items()]
+
+
+def _broken_fmus(results: Mapping[str, Any]) -> list[str]:
     return [
         f"{entry['file']}: {entry.get('error') or 'differs from the element'}"
         for entry in _fmus(results)

@@ -41,7 +41,7 @@ class Row:
     files: Mapping[str, str]  # by what they are, relative to the folder of the study
     stages: Mapping[str, str]  # how each ended
     answer: str | None
-    faults: tuple[str, ...]  # FMUs that could not be made
+    faults: tuple[str, ...]  # what is missing in the results of a point that is done: `finalise.faults`
 
     @property
     def ok(self) -> bool:
