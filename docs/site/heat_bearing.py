@@ -8,14 +8,17 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from ehlcontact import Lubricant
-from reduced_models import BallBearing
+from ehlcontact import Heat, Lubricant
+from reduced_models import Atlas, BallBearing
+from reduced_models.atlas.build import BOX
+from reduced_models.atlas.heat_sample import sample_heated
 
 IMAGES = Path(__file__).parents[1] / "images"
 OIL = Lubricant.iso_vg(68, temperature=50.0)
 BEARINGS = (("6205", 1000.0), ("6305", 2000.0))  # radial load, N
 SPEEDS = np.array([1000.0, 2000.0, 3000.0, 4500.0, 6000.0, 8000.0, 10_000.0, 12_500.0, 15_000.0])
 TABLE = (1000.0, 3000.0, 6000.0, 10_000.0, 15_000.0)
+LOADS = ((1.0, np.inf), (0.2, 1.0))  # Q of the contacts whose elements are compared with answers
 STYLES = ((None, "--", "isothermal"), (True, "-", "with heat"))
 
 
@@ -31,8 +34,58 @@ def along(name, load, thermal):
     return np.array(rows).T
 
 
+def carrying(bearing, load, rpm):
+    """C [N s/m] of balls whose loads the atlas has, by elements and answers, at the frequency of the shaft."""
+    state, hz, total = bearing.equilibrium((0.0, -load), speed_rpm=rpm), rpm / 60.0, np.zeros(2, complex)
+    races = [bearing.race(name) for name in ("inner", "outer")]
+    elements = [race.element(rpm) for race in races]
+    for forces, angle in zip(state.force.tolist(), state.angles.tolist(), strict=True):
+        if all(force > race.loads(rpm)[0] for force, race in zip(forces, races, strict=True)):
+            own = [one.impedance(load=force, hz=hz).item() for one, force in zip(elements, forces, strict=True)]
+            found = [
+                answered(race.point(force, rpm), hz, bearing.thermal)
+                for race, force in zip(races, forces, strict=True)
+            ]
+            total += [np.sin(angle) ** 2 / sum(1.0 / Z for Z in of) for of in (own, found)]
+    return total.imag / (2.0 * np.pi * hz)
+
+
+def answered(point, hz, thermal):
+    """Impedance of an answer of the atlas, N/m."""
+    found = Atlas().at(point, thermal=thermal).impedance(hz=hz)
+    K, C = found.stiffness * point.scales.stiffness, found.damping * point.scales.damping
+    return np.squeeze(K + 2j * np.pi * np.asarray(hz) * C)[()]
+
+
+def compare():
+    """Elements beside the answers that they are made of."""
+    for name, load in BEARINGS:
+        for thermal, _, word in STYLES:
+            bearing = BallBearing.catalogue(name, oil=OIL, thermal=thermal)
+            for rpm in (3000.0, 10_000.0, 15_000.0):
+                whole = bearing.coefficients((0.0, -load), speed_rpm=rpm, hz=rpm / 60.0).damping[0, 1, 1]
+                own, found = carrying(bearing, load, rpm)
+                print(f"{name}, {word}, {rpm:g}: C {whole:.4g}, of carrying balls {own:.4g}, answers {found:.4g}")
+    hz, points = np.array([20.0, 200.0, 2000.0, 6000.0, 20_000.0]), sample_heated(512, 5, BOX).values()
+    strong, weak = ([one.point for one in points if low < heated(one.point) < high] for low, high in LOADS)
+    for word, these in (("Q > 1", strong[:30]), ("Q < 1", weak[:20])):
+        for thermal in (None, Heat()):
+            elements = [Atlas().element(point, "memory", thermal=thermal).impedance(hz=hz) for point in these]
+            off = np.imag(elements) / np.imag([answered(point, hz, thermal) for point in these]) - 1.0
+            rms, most = np.sqrt(np.mean(off**2, axis=0)), np.abs(off).max(axis=0)
+            print(
+                f"{word}, heat {thermal is not None}: rms {(100 * rms).round(1)}, largest {(100 * most).round(1)}"
+            )
+
+
+def heated(point):
+    """Thermal load Q."""
+    return Heat().at(point).load(point.moes, point.scales)
+
+
 def main():
     """All of it."""
+    compare()
     figure = Figure(figsize=(9.2, 3.4), layout="constrained")
     panels = figure.subplots(1, 3)
     names = (

@@ -35,7 +35,7 @@ from reduced_models.atlas.atlas_elements import (
 )
 from reduced_models.atlas.conditions import Given, changed, conditions_at
 from reduced_models.atlas.frequency_curve import FrequencyCurve
-from reduced_models.atlas.gain_fit import FLOOR, smooth_gains
+from reduced_models.atlas.gain_fit import FADED, FLOOR, heated_gains, smooth_gains
 from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.supply_condition import FAINT_GAIN, SLOWEST, SupplyCondition
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
@@ -57,7 +57,6 @@ INSIDE = 1e-9  # relative, that speeds keep from the ends of the box
 USUAL_SPEEDS = 10.0  # and its inverse: speeds of such an element over that of its point, unless given
 SPEED_STEP = 1.6  # ratio of the speeds of an element over speed, at most
 NEGATIVE = 0.02  # share of the flooded C below which a negative one is as good as zero
-FADED = 4  # power of what is left of damping, see `_left`
 NEIGHBOURS = 1.2  # ratio below which a load is left out beside the end of the box
 
 
@@ -314,11 +313,15 @@ class Atlas:
         flooded, shapes = self._surface.at(self._rows(moes, loads))
         Omega, values, _ = self._under(given, loads, flooded, np.zeros_like(flooded))
         low, at_rest = flooded[:, LOW], flooded[:, HEAD + self._table.omega.size]
-        supplied = any(isinstance(one, SupplyCondition) for one in given)
+        layers = [one for one in given if isinstance(one, SupplyCondition)]
+        supplied, heats = bool(layers), [one for one in given if one not in layers]
         followed, faint = Omega >= (SLOWEST if supplied else 0.0), FAINT_GAIN if supplied else 0.0
-        if given:
+        if heats:
+            _, hot, _ = self._under(heats, loads, flooded, np.zeros_like(flooded))
+            shapes, flooded = self._heated(flooded, hot, shapes, low), hot
+        if supplied:
             fit = self._shapes(self._table.omega, flooded, low, faint)
-            beside = shapes - fit if not supplied else (shapes - fit) * _left(Omega, values, flooded)
+            beside = (shapes - fit) * _left(Omega, values, flooded)
             shapes = self._shapes(Omega[followed], values[:, _both(followed)], low, faint) + beside
         gains = np.maximum(shapes * low[:, None], 0.0)
         gains[:, 0] = np.maximum(gains[:, 0], LEAST_VISCOUS / DRY * low)  # as fitted: rates need it
@@ -349,6 +352,14 @@ class Atlas:
             smooth_gains(omega, row[HEAD : HEAD + k], C, rates, one, max(FLOOR, faint * float(C.max()) / one))
             for row, C, one in zip(rows, rows[:, HEAD + k :], low.tolist(), strict=True)
         ]
+        return np.array(fits)
+
+    def _heated(self, cold: _Floats, hot: _Floats, gains: _Floats, low: _Floats) -> _Floats:
+        """Gains with heat, from those of isothermal elements and the answers of both, over `low`."""
+        Omega, k = self._table.omega, self._table.omega.size
+        Z = [rows[:, HEAD : HEAD + k] + 1j * rows[:, HEAD + k :] for rows in (cold, hot)]
+        rows = zip(*Z, np.maximum(gains, 0.0), low.tolist(), strict=True)
+        fits = [heated_gains(Omega, one, other, g, self._table.rates, unit) for one, other, g, unit in rows]
         return np.array(fits)
 
     def _whence(self, point: Point, given: Given) -> dict[str, Any]:

@@ -9,10 +9,13 @@ from numpy.typing import NDArray
 from reduced_models.elements.film_response import DRY, WEIGHT_C, WEIGHT_K, FilterRates
 
 _Floats = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
 
 HIGHEST = 32.0  # frequency up to which the film memory is fitted
 FLOOR = 0.05  # share of the low-frequency damping below which errors of C count absolutely
 RIDGE = 0.02  # keeps gains small and smooth over the points where data leave them open
+SLOW, SLOW_WEIGHT = 0.3, 10.0  # with heat: frequency up to which C counts so many times, that of rotors and shafts
+FADED = 4  # power of what is left of damping, by which what is beside the answers fades
 
 
 def smooth_gains(
@@ -23,13 +26,51 @@ def smooth_gains(
     return np.asarray(scipy.optimize.nnls(rows, target, maxiter=1000)[0])
 
 
+def heated_gains(
+    omega: _Floats, cold: _Complex, hot: _Complex, gains: _Floats, rates: FilterRates, low: float
+) -> _Floats:
+    """Gains with heat, over `low`: fitted to the answer with heat and what `gains` are beside the isothermal one.
+
+    Of the latter the fourth power of what heat leaves of the low-frequency damping is taken: so heat that changes
+    nothing leaves `gains` as they are, and strong heat leaves their errors behind.
+
+    Parameters
+    ----------
+    omega : ndarray, shape (k,)
+        From 0.
+    cold, hot : ndarray, shape (k,)
+        K + i C of the answers without and with heat.
+    gains : ndarray, shape (3 + lags,)
+        Of the isothermal element, over `low`.
+    rates : FilterRates
+    low : float
+        Damping of the isothermal answer at low frequency.
+    """
+    left = min(max(hot.imag[0] / cold.imag[0], 0.0), 1.0) ** FADED
+    G = rates.basis(omega) @ gains * (DRY * low)
+    K = hot.real + left * (cold.real[0] - omega * G.imag - cold.real)
+    C = hot.imag + left * (G.real - cold.imag)
+    rows, target = gain_equations(omega, K, C, rates, low, slow=SLOW_WEIGHT)
+    target[-gains.size :] = RIDGE * left * gains
+    return np.asarray(scipy.optimize.nnls(rows, target, maxiter=1000)[0])
+
+
 def gain_equations(
-    omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates, low: float, floor: float = FLOOR
+    omega: _Floats,
+    K: _Floats,
+    C: _Floats,
+    rates: FilterRates,
+    low: float,
+    floor: float = FLOOR,
+    slow: float = 1.0,
 ) -> tuple[_Floats, _Floats]:
-    """Matrix and right-hand side of `smooth_gains`: rows for C, for K, and for the size of the gains."""
+    """Matrix and right-hand side of `smooth_gains`: rows for C, for K, and for the size of the gains.
+
+    C up to `SLOW` has the weight `slow`.
+    """
     used = omega <= HIGHEST
     basis = rates.basis(omega[used]) * DRY
-    size = np.maximum(np.abs(C[used]), floor * low) * WEIGHT_C
+    size = np.maximum(np.abs(C[used]), floor * low) * WEIGHT_C / np.where(omega[used] <= SLOW, slow, 1.0)
     rows = np.vstack(
         [
             basis.real / size[:, None],
