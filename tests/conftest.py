@@ -1,7 +1,8 @@
 """What several test folders share: every steady film is solved once per session; and disks that are full.
 
-``pytest`` alone shares the suite among the cores, where pytest-xdist is there. Files or tests that are named, and
-slow ones, which take all cores themselves, stay in one process; so does all with ``-n 0`` or a debugger.
+``pytest`` and ``pytest -m long`` share their tests among the cores, where pytest-xdist is there. Files or tests
+that are named, and slow ones, which take all cores themselves, stay in one process; so does all with ``-n 0`` or a
+debugger.
 """
 
 import gc
@@ -18,6 +19,8 @@ import pytest
 from ehlcontact import Grid, MoesPoint, solve_steady
 from ehlcontact.process.threads import cores
 
+SHARED = "not slow and not long", "long"  # the default suite, and the longer tests of which each takes one core
+
 # A shell starts what runs in the background with Ctrl-C ignored, and that is inherited: the programs under test,
 # which are interrupted here, would not notice.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -28,7 +31,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 def pytest_cmdline_main(config):
     """Before pytest-xdist looks at its options."""
     option = config.option
-    default = config.args_source is pytest.Config.ArgsSource.TESTPATHS and option.markexpr == "not slow"
+    default = config.args_source is pytest.Config.ArgsSource.TESTPATHS and option.markexpr in SHARED
     asked = getattr(option, "numprocesses", 0) is not None or option.usepdb or option.collectonly
     if not default or asked or hasattr(config, "workerinput"):
         return
@@ -149,7 +152,7 @@ def _quick(compiler, folder):
 
     Those of `tests/fmu/binaries` are compiled as users have them.
     """
-    (folder / "cc").write_text(f'#!/bin/sh\nexec {shlex.quote(compiler)} "$@" -O1\n')
+    (folder / "cc").write_text(f'#!/bin/sh\nexec {shlex.quote(compiler)} "$@" -O0\n')
     (folder / "cc").chmod(0o755)
 
 

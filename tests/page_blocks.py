@@ -1,8 +1,11 @@
 """Blocks of code in pages of markdown, as a reader would run them: from the top of a page to its end."""
 
 import re
+from collections.abc import Collection, Iterable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import pytest
 
 ROOT = Path(__file__).parents[1]
 BLOCK = re.compile(r"(?:<!-- needs: (\w+) -->\n)?^```(python|\{code-cell\})\n(.*?)^```$", flags=re.M | re.S)
@@ -16,6 +19,11 @@ WRITTEN = {  # every page that there is
     )
 }
 PAGES = {name: path for name, path in WRITTEN.items() if BLOCK.search(path.read_text(encoding="utf-8"))}
+
+
+def cases(pages: Iterable[str], long: Collection[str]) -> list[Any]:
+    """Pages as cases of a test, some of them for `pytest -m long`."""
+    return [pytest.param(page, marks=pytest.mark.long) if page in long else page for page in pages]
 
 
 class Block(NamedTuple):

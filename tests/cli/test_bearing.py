@@ -342,6 +342,7 @@ def test_mistakes_in_a_file_of_an_angular_contact_bearing(refused, file, changes
     refused(("b.toml", *words), "bearing", file(own | changes))
 
 
+@pytest.mark.long
 def test_lines_of_a_spall(call):
     """Those of the library; the table has the strongest, and names them by the orders of defect and shaft."""
     given = ("--axial", "32", "--load", "30", "--speed-rpm", "1800", "--spall", "inner,0.18,0.05")

@@ -135,6 +135,7 @@ def test_a_disk_without_room(call, refused, full_disk, element, tmp_path_factory
     assert zipfile.is_zipfile(where)
 
 
+@pytest.mark.long
 def test_without_a_home_or_a_network(element, tmp_path):
     """Nothing is looked up, and nothing has to be kept."""
     unshare = [] if shutil.which("unshare") is None else ["unshare", "-n"]
@@ -292,6 +293,7 @@ def test_a_study_becomes_a_rotor_with_its_bearings(call, tmp_path):
     assert {"torque", "speed", "bearing[2].smallest_film", "disc.force_x"} < about
 
 
+@pytest.mark.long
 def test_a_study_becomes_a_shaft_and_a_drive(call, refused, tmp_path):
     """Its rotor between its whole bearings, whose FMUs are outside or wired."""
     drive, shaft = tmp_path / "drive.ssp", tmp_path / "shaft.fmu"

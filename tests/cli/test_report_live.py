@@ -11,7 +11,7 @@ from browsers import dom
 from ehlcontact import load
 
 LARGEST = 4e6  # bytes
-WIDTHS = (400, 768, 1280)
+WIDTHS = (400, *(pytest.param(width, marks=pytest.mark.long) for width in (768, 1280)))
 WAIT = ("--virtual-time-budget=60000",)  # for what the page does after it was loaded
 
 
@@ -221,6 +221,7 @@ def test_the_page_opens_with_a_verdict_and_a_table(seen, results):
         assert (row[3] == "-") is (name == "full") and len(row) == 4
 
 
+@pytest.mark.long
 def test_the_slider_runs_through_the_period(seen, figures):
     body = """const figure = document.getElementById("figure-instants"), plot = figure.querySelector(".plot");
     const input = figure.querySelector("input[type=range]"), told = figure.querySelector("output");
@@ -248,6 +249,7 @@ def test_the_legend_hides_what_has_the_same_name(figures):
     assert all(trace["legendgroup"] == trace["name"] for trace in traces)
 
 
+@pytest.mark.long
 def test_dark_pages_have_dark_figures(seen):
     body = """const parts = colour => colour.match(/[\\d.]+/g).slice(0, 3).map(Number);
     const luminance = colour => parts(colour).reduce((sum, part) => sum + part) / 765;
@@ -259,6 +261,7 @@ def test_dark_pages_have_dark_figures(seen):
     assert (dark["line"], light["line"]) == ("#56b4e9", "#0072b2")
 
 
+@pytest.mark.long
 def test_print_cuts_nothing(seen):
     """The rules for paper, on a page wider than a sheet: figures shrunk to it, every column inside."""
     body = """for (const sheet of document.styleSheets) for (const { media } of sheet.cssRules) {

@@ -103,7 +103,7 @@ def test_second_run_keeps_what_is_finished(finished, call):
     assert json.loads((folder / "summary.json").read_text())["run"]["solved"] == []
 
 
-@pytest.mark.parametrize("damage", ["cut", "byte"])
+@pytest.mark.parametrize("damage", ["cut", pytest.param("byte", marks=pytest.mark.long)])
 def test_what_is_kept_and_damaged_is_made_again(finished, tmp_path, capsys, monkeypatch, damage):
     """One line says so; the rest is kept, and the file of the stage is the same."""
     folder = shutil.copytree(finished[1], tmp_path / "out")
@@ -196,6 +196,7 @@ def is_running(pid):
         return False
 
 
+@pytest.mark.long
 def test_a_terminated_run_leaves_no_workers(tmp_path):
     """`kill`, or `timeout`: as after Ctrl-C, although the workers have sessions of their own."""
     study = tmp_path / "long.toml"

@@ -16,7 +16,7 @@ from types import SimpleNamespace
 import fake_ross
 import numpy as np
 import pytest
-from page_blocks import PAGES, ROOT, WRITTEN, blocks, commands, fences, shell_lines
+from page_blocks import PAGES, ROOT, WRITTEN, blocks, cases, commands, fences, shell_lines
 
 import ehlcontact
 import fmu
@@ -36,6 +36,7 @@ ELSEWHERE = {  # lines of a shell that no test calls: where they are run instead
     'pip install ".[test]"': ".ci/run",
     'pip install -e ".[test,docs]"': ".ci/run",
     "pytest": ".ci/run",
+    "pytest -m long": ".ci/run",
     "ruff check .": ".ci/run",
     "ruff format .": ".ci/run",
     "mypy": ".ci/run",
@@ -125,7 +126,7 @@ def called(line, folder):
 OURS = {page: lines for page in WRITTEN if (lines := commands(page))}
 
 
-@pytest.mark.parametrize("page", OURS)
+@pytest.mark.parametrize("page", cases(OURS, ["README.md", "docs/bearings.md", "docs/signals.md"]))
 def test_quick_command_lines_do_what_they_say(page, checkout, capsys):
     """In the order of the page; `SLOW` tells which are left to the slow tests."""
     for line in OURS[page]:

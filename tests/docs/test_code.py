@@ -12,7 +12,7 @@ from zipfile import ZipFile
 import matplotlib
 import numpy as np
 import pytest
-from page_blocks import PAGES, ROOT, blocks, commands, run
+from page_blocks import PAGES, ROOT, blocks, cases, commands, run
 
 from ehlcontact import HarmonicLoad, TimeSteps, impedance, simulate
 from ehlcontact.cli import main
@@ -53,7 +53,7 @@ def test_pages_are_found():
     assert [block.needs for block in blocks("docs/tutorials/bearing.md")].count("ross") == 1
 
 
-@pytest.mark.parametrize("page", sorted(set(PAGES) - TUTORIALS - {"README.md"}))
+@pytest.mark.parametrize("page", cases(sorted(set(PAGES) - TUTORIALS - {"README.md"}), ["docs/signals.md"]))
 def test_page(page):
     run(page, {})
 
@@ -122,6 +122,7 @@ def test_an_error_tells_its_page_and_line():
     assert block.line <= last.lineno + 1 < block.line + block.code.count("\n")
 
 
+@pytest.mark.long
 def test_tutorial_of_the_ball_on_a_disc(capsys):
     """Ratios to measured films as its text says; films over viscosity and coefficient likewise."""
     found = {}
@@ -149,6 +150,7 @@ def test_tutorial_of_the_film(capsys):
     assert "isothermal" in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_tutorial_of_the_rotor():
     """Whirl and damping at its critical speeds, the peaks beside them, and the run-up, as its text says."""
     found = {}
@@ -231,6 +233,7 @@ def test_a_system_archive_in_other_masters(master):
         assert status.error_code == 0 and status.current_time > 1000 * 100  # ns, in its own step
 
 
+@pytest.mark.long
 def test_tutorial_of_the_fmu():
     """The FMU is its element, and the difference is that of the loop: it falls with the step."""
     shares = {}

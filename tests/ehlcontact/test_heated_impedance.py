@@ -117,7 +117,7 @@ def force_on_a_ramp(given, near, rate):
     return solved.finest.force()
 
 
-@pytest.mark.parametrize("given", HEATS)
+@pytest.mark.parametrize("given", [HEATS[0], pytest.param(HEATS[1], marks=pytest.mark.long)])
 def test_slow_vibrations_against_steady_films_and_a_ramp(given):
     """Stiffness of neighbouring steady films; damping from films that pass through them slowly."""
     near, rate = Neighbours(given), 2e-3
@@ -188,6 +188,7 @@ def test_damping_converges_with_the_grid():
         assert (fine.damping_error < 0.7 * coarse.damping_error).all()
 
 
+@pytest.mark.long
 def test_slow_oil_ahead_of_the_contact_is_said():
     """A line of nodes where the flow of heat turns has a rate of 2e-3: C of this n is an error bar, not a result.
 

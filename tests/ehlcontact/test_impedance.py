@@ -139,6 +139,7 @@ def test_interrupted_start_gives_no_result(monkeypatch):
         impedance(MoesPoint(200, 10, 0.5), Omega=[0.0, 1.0], grid=Grid(n=48))
 
 
+@pytest.mark.long
 def test_thin_film_on_the_region_of_its_steady_solve():
     point = MoesPoint(20000, 2, 0.2)
     assert (

@@ -128,6 +128,7 @@ def against():
     return example("full_against_reduced")
 
 
+@pytest.mark.long
 def test_the_element_with_a_memory_loses_what_the_film_does(against):
     """The cubic of another band does not, and says so; the dry contact loses nothing."""
     with pytest.warns(OutsideValidityWarning, match="for the band it was made in"):
@@ -197,6 +198,7 @@ def test_a_small_atlas_of_solved_contacts(tmp_path, capsys):
         assert abs(h - theirs) < 2.0 * bar and narrow < bar
 
 
+@pytest.mark.long
 def test_a_run_up_and_a_coast_down_enclose_the_critical_speeds(tmp_path):
     up_and_down = example("run_up")
     line = up_and_down.rotor()
@@ -227,6 +229,7 @@ def test_ross_drop_in(tmp_path):
     assert drawn(drop_in, tmp_path / "ross.png", 0.01)
 
 
+@pytest.mark.long
 # scipy's BDF subtracts room it has not written yet, in its first steps: a warning where that holds an infinity.
 @pytest.mark.filterwarnings("ignore:invalid value encountered in subtract:RuntimeWarning:scipy")
 def test_a_control_loop(tmp_path):
@@ -270,6 +273,7 @@ def test_a_preloaded_motor(tmp_path):
     assert np.degrees(found["state"].contact_angles.min()) > 10.0
 
 
+@pytest.mark.long
 def test_a_rotor_on_bearing_fmus(tmp_path):
     """A step of w h = 0.1 at the fastest mode gives the run in one; four times that does not."""
     found = example("rotor_on_bearing_fmus").main(str(tmp_path / "rotor.png"))
@@ -313,6 +317,7 @@ def test_a_speed_controlled_drive(tmp_path, monkeypatch):
     assert found["speed"][-1] == pytest.approx(module.LAST, rel=1e-3)
 
 
+@pytest.mark.long
 def test_orders_of_defects(tmp_path):
     """Clearances of the issue for 9.6 degrees; damping of films falls with preload (Mitsuya et al., 1998)."""
     module = example("orders_of_defects")

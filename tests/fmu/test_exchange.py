@@ -109,7 +109,7 @@ def oscillate(rates, count, u0, rtol):
     return run.y
 
 
-@pytest.mark.parametrize("u0", [1.0, 3.0])
+@pytest.mark.parametrize("u0", [1.0, pytest.param(3.0, marks=pytest.mark.long)])
 def test_mass_in_a_loop_converges_to_scipy(model, elements, u0):
     """The second one swings through lift-off; no event is looked for."""
     element, unit = elements["wide"], model("wide")
@@ -164,7 +164,7 @@ def pointer():
     return POINTER(c_double)
 
 
-@pytest.mark.parametrize("kind", ["memory", "wide_si"])
+@pytest.mark.parametrize("kind", ["memory", pytest.param("wide_si", marks=pytest.mark.long)])
 def test_fmpy_solves_model_exchange(fmus, elements, kind):
     """fmpy's CVode on the film's states, the motion given; force against the continuous element."""
     element = elements[kind]

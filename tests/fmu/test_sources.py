@@ -144,16 +144,18 @@ def random_calls_of(name):
     return [f"-DFUZZ_{macro}={text}" for macro, text in given.items()]
 
 
-def but(few, *others):
-    """Cases of the default suite, and others, as long, whose C is mostly that of the few."""
-    return [*few, *(pytest.param(*case, marks=pytest.mark.slow) for case in others)]
+def but(few, *others, long=()):
+    """Cases of the default suite, those of `pytest -m long`, and others whose C is mostly that of these."""
+    marks = ((pytest.mark.long, long), (pytest.mark.slow, others))
+    return [*few, *(pytest.param(*case, marks=mark) for mark, cases in marks for case in cases)]
 
 
 @pytest.mark.parametrize(
     "name",
     but(
-        ["rotor mixed", "bearing five", *SHAFTS, *CONTROLLERS],
+        ["shaft", *CONTROLLERS],
         *(("rotor alone",), ("rotor alone in y",), ("bearing planar",), ("bearing dry",)),
+        long=(("rotor mixed",), ("bearing five",), ("whole rotor",)),
     ),
 )
 def test_strict_warnings_of_rotors(compiled, name):
@@ -182,11 +184,15 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
     ("fmi", "name"),
     but(
         [
-            *((2, name) for name in ("cubic", "wide_si", "rotor mixed", "bearing five", *SHAFTS, *CONTROLLERS)),
-            *((3, name) for name in ("wide_si", "rotor mixed")),
+            *((2, name) for name in ("cubic", "shaft", *CONTROLLERS)),
+            (3, "wide_si"),
         ],
         *((2, name) for name in ("polynomial", "power_si", "memory", "rotor alone", "rotor wide in y")),
         *((2, "bearing planar"), (3, "cubic")),
+        long=(
+            *((2, name) for name in ("wide_si", "rotor mixed", "bearing five", "whole rotor")),
+            (3, "rotor mixed"),
+        ),
     ),
 )
 def test_random_calls_under_sanitizers(compiled, fmi, name):

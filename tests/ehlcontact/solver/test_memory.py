@@ -61,7 +61,7 @@ def free(monkeypatch):
 @pytest.mark.parametrize(
     ("what", "n", "kappa"),
     [
-        ("cycles", 512, 0.5),
+        pytest.param("cycles", 512, 0.5, marks=pytest.mark.long),
         pytest.param("cycles", 512, 0.05, marks=pytest.mark.slow),
         pytest.param("newton", 256, 0.5, marks=pytest.mark.slow),
         pytest.param("impedance", 256, 0.5, marks=pytest.mark.slow),

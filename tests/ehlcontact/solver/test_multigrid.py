@@ -205,6 +205,7 @@ def test_lines_far_apart_cost_no_cycles(kappa):
     assert (changes[1] / changes[7]) ** (1.0 / 6.0) >= 5.0
 
 
+@pytest.mark.long
 def test_close_lines_show_side_lobes():
     """Of a film that comes out negative on lines as far apart as the nodes; cycles fall as fast as elsewhere."""
     point, domain = MoesPoint(1351.4385, 3.4935, 4.7044), Domain(-1.5, 1.2, 1.25)
@@ -286,6 +287,7 @@ def test_sweeps_of_a_careful_film_are_not_repeated(load_continuation, sweep_fact
     assert mg.sweep_factor == sweep_factor
 
 
+@pytest.mark.long
 def test_where_cycles_fail_on_close_lines_a_careful_start_follows(monkeypatch):
     tried = []
 

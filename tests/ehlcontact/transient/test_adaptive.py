@@ -72,7 +72,10 @@ def test_error_falls_with_the_tolerance(pulse, pulse_reference):
     assert errors[1e-3] / errors[1e-4] > 3.0
 
 
-@pytest.mark.parametrize("motion", [FreeVibration(Omega_n=5.13), HarmonicLoad(Omega=pi, Omega_n=5.13)])
+@pytest.mark.parametrize(
+    "motion",
+    [pytest.param(FreeVibration(Omega_n=5.13), marks=pytest.mark.long), HarmonicLoad(Omega=pi, Omega_n=5.13)],
+)
 def test_errors_of_a_run_are_what_is_said(motion):
     """About error^(2/3) in force and two thirds of it in approach, of bodies with inertia: within a factor 3."""
     reference = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=2.5, local_error=2e-6))

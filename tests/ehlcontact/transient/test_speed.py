@@ -76,6 +76,7 @@ def test_slow_changes_are_steady_films_to_first_order():
     assert -0.02 < off[2] < -0.001  # the film is what the slower inlet has made before
 
 
+@pytest.mark.long
 def test_order_in_time():
     """Through a stop and back to speed, with a slope that does not jump."""
     U = SpeedHistory.from_function(lambda T: 0.5 * (1.0 + np.cos(np.pi * T)), 2.0, steps=2000)
@@ -103,7 +104,7 @@ def test_backwards_is_the_mirror_image():
     np.testing.assert_array_equal(ahead.snapshot_H, back.snapshot_H[:, ::-1])
 
 
-@pytest.mark.parametrize("local_error", [None, 1e-3])
+@pytest.mark.parametrize("local_error", [pytest.param(None, marks=pytest.mark.long), 1e-3])
 def test_turned_round_it_ends_in_the_mirror_image_of_its_start(local_error):
     U = SpeedHistory([0.0, 0.5, 1.5, 10.0], [1.0, 1.0, -1.0, -1.0])
     time = TimeSteps(until=8.0, local_error=local_error, tol=None if local_error else 1e-5)
@@ -231,7 +232,7 @@ def vibrating(point, grid, W, swing=0.02, periods=4, steps=40):
     return sine + 1j * cosine
 
 
-@pytest.mark.parametrize("W", [0.3, 4.0])
+@pytest.mark.parametrize("W", [0.3, pytest.param(4.0, marks=pytest.mark.long)])
 def test_response_to_a_vibrating_speed(W):
     found = speed_response(POINT, Omega=W, grid=COARSE)
     assert found.R[0] == pytest.approx(vibrating(POINT, COARSE, W), rel=0.01)

@@ -240,6 +240,7 @@ def test_on_the_faster_surface_it_stays_behind(passages):
     assert np.abs(change[contact & (passage.X > centre + 0.4)]).max() < 0.02
 
 
+@pytest.mark.long
 def test_example_draws_both_passages(tmp_path, capsys):
     """The oil that ran ahead is told and drawn; M and L are those of the rolling dimple in `dimple.py`."""
     example = script("examples/studies/fine_features.py")

@@ -24,7 +24,7 @@ from reduced_models import BearingMount, Rotor, simulate_rotor
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 OMEGA = RPM * RPM_TO_RAD_S
-LONG = pytest.mark.slow
+LONG, SECONDS = pytest.mark.slow, pytest.mark.long
 DEEP = 2e-6  # m of both approaches of a ball, from which the tables of both are within rounding of each other
 
 
@@ -73,10 +73,10 @@ def indicators(model, count):
         ("range", 3),
         ("dry", 2),
         ("five", 3),
-        ("five dry", 2),
-        ("angular", 2),
-        ("inner", 2),
-        ("shared", 3),
+        *(
+            pytest.param(*case, marks=SECONDS)
+            for case in (("five dry", 2), ("angular", 2), ("inner", 2), ("shared", 3))
+        ),
     ],
 )
 def test_equations_are_those_of_python(made, name, fmi):
@@ -114,7 +114,7 @@ def test_equations_are_those_of_python(made, name, fmi):
 @pytest.mark.parametrize(
     ("name", "fmi"),
     [
-        ("planar", 2), ("range", 3), ("five", 2), ("shared", 3),
+        ("planar", 2), ("range", 3), ("five", 2), pytest.param("shared", 3, marks=SECONDS),
         *(pytest.param(name, 2, marks=LONG) for name in ("angular", "inner")),
     ],
 )  # fmt: skip

@@ -139,6 +139,7 @@ def test_many_at_once(kept):
     assert [path.name for path in kept.iterdir()] == ["key.library"]
 
 
+@pytest.mark.long
 def test_several_processes_export_at_once(kept, tmp_path):
     code = (
         "import sys; from fmu import export_contact; from reduced_models import CubicContact;"

@@ -330,6 +330,7 @@ def controlled(rotors, tmp_path_factory):
     return path, controller
 
 
+@pytest.mark.long
 def test_the_torque_of_a_drive_is_that_of_its_controller(controlled):
     """At the speed of the run, a step later; the shaft gains what it leaves."""
     path, controller = controlled
@@ -354,6 +355,7 @@ def test_a_controlled_drive_in_masters_of_others(controlled, master):
     assert np.abs(found - wanted).max() < 1e-4 * np.ptp(wanted)
 
 
+@pytest.mark.long
 def test_a_step_that_is_too_long_is_not_written(rotors, tmp_path):
     with pytest.raises(VerificationError, match=r"of their way off|does not run"):
         export_drive(

@@ -407,7 +407,7 @@ def test_numbers_that_cannot_be_are_refused(tmp_path, entry):
         Atlas(changed(SHIPPED, tmp_path / "a.h5", interpolation=new))
 
 
-@pytest.mark.parametrize("point", [CASE, MoesPoint(12.0, 4.0, 0.3)])
+@pytest.mark.parametrize("point", [pytest.param(CASE, marks=pytest.mark.long), MoesPoint(12.0, 4.0, 0.3)])
 def test_shipped_answers_against_fresh_solves(shipped, point):
     found = errors(shipped.at(point), solve_point(point))
     assert all(found[name] < limit for name, limit in LIMITS.items())

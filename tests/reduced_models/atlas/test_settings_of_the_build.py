@@ -63,6 +63,7 @@ def test_only_ratios_of_weights_count(few):
     assert tune.weights_error(few, [3.0 * w for w in few.interpolation.weights]) == pytest.approx(own, rel=1e-4)
 
 
+@pytest.mark.long
 def test_shipped_rates_fit_nearly_best(shipped):
     rates, own = shipped.rates, tune.rates_error(shipped, shipped.rates)
     for factor in (0.5, 2.0):

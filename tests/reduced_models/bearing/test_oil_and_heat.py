@@ -115,6 +115,7 @@ def test_conditions_are_solved_ratios_times_flooded_values(coarse):
     assert any("product" in line for line in found.notes) and "with both" in str(found)
 
 
+@pytest.mark.long
 def test_limits_of_much_oil_and_of_an_oil_that_heat_does_not_change(coarse):
     find, _ = coarse
     found = find(supply=OilLayer(over_flooded=1e3), thermal=Heat())

@@ -44,6 +44,7 @@ def answers(seed, cases, each, oils=()):
     return found
 
 
+@pytest.mark.long
 def test_random_loads_of_dry_bearings():
     found = answers(1, 150, 3)
     assert found["balanced"] > 110

@@ -161,6 +161,7 @@ def test_energy_of_a_dry_rotor_is_kept():
     assert np.ptp(kinetic + work) < 1e-3 * kinetic.max()
 
 
+@pytest.mark.long
 def test_through_lift_off_against_scipy():
     """The light balls of a pair leave their races; the cage turns by the angles of the others."""
     rotor = dry_pair(offset=1e-6, unbalances=(Unbalance(x=0, y=1, amount=4e-4),))

@@ -68,6 +68,7 @@ def overhung(film, oil):
 COURSE = SpeedProfile(np.array([0.0, 0.02, 0.04]), np.array([3000.0, 8000.0, 6000.0]))
 
 
+@pytest.mark.long
 def test_run_ups_are_of_second_order(overhung):
     """Up and down through four laws: errors fall fourfold with half the step."""
     ends = [
