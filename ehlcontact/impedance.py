@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.checks.machine import require_threads
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.errors import ConvergenceError
 from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
@@ -92,7 +92,7 @@ def impedance(
         approach: the oil that it takes up and leaves behind is part of the problem.
     thermal : Heat, optional
         Let the film heat up, as in `solve_steady`; its temperatures follow the vibration as fast as oil and
-        surfaces can (docs/heat.md). Not together with `supply`.
+        surfaces can (docs/heat.md).
     threads : int, optional
         As in `solve_steady`.
 
@@ -105,8 +105,6 @@ def impedance(
         The steady state did not converge.
     """
     started = time.perf_counter()
-    if supply is not None and thermal is not None:
-        raise InputError("thermal", type(thermal).__name__, "left out with a supply: a steady film takes both")
     moes, scales = require_solvable(point), scales_of(point)
     time_unit = None if scales is None else scales.time
     w = dimensionless(time_unit, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=LARGEST_OMEGA)
@@ -120,7 +118,9 @@ def impedance(
     Z, residual = contact.respond(moving, TOLERANCE)
     coarser = [linearised(steady, film).respond(moving, TOLERANCE)[0] for film in coarser_films(solved)]
     bars = response_error(moving, [Z, *coarser])
-    by_slow_oil = 0.0 if thermal is None else slow_part(contact, moving, Z.imag / moving)
+    # A front of full film is slow by itself
+    still = None if supply is None or thermal is None else LinearisedContact(solved)
+    by_slow_oil = 0.0 if thermal is None else slow_part(contact, moving, Z.imag / moving, still)
     return ImpedanceResult(
         point=moes,
         scales=scales,
@@ -216,8 +216,12 @@ def linearised(film: SteadyResult, multigrid: Multigrid) -> LinearisedContact:
     return LinearisedContact(multigrid, heat_of(film, multigrid))
 
 
-def slow_part(contact: LinearisedContact, omega: Array, damping: Array) -> Array:
+def slow_part(
+    contact: LinearisedContact, omega: Array, damping: Array, still: LinearisedContact | None = None
+) -> Array:
     """What oil that heats and cools slowly may add to C at low frequencies, (k,); 0 where it is not seen.
+
+    It is what C changes below `SLOW`, less what it changes with temperatures that stand `still`, where given.
 
     Far ahead of the contact hot oil flows back beside colder oil that flows forward. Oil that warms flows back
     more and brings more heat: on few grids a line of nodes between both is near the end of its balance, and its
@@ -225,8 +229,11 @@ def slow_part(contact: LinearisedContact, omega: Array, damping: Array) -> Array
     """
     low, part = omega < SLOW, np.zeros_like(omega)
     if low.any():
-        Z = contact.respond(np.array([SLOW]), TOLERANCE)[0][0]
-        part[low] = np.abs(damping[low] - Z.imag / SLOW)
+        w = np.append(omega[low], SLOW)
+        C = np.append(damping[low], contact.respond(w[-1:], TOLERANCE)[0].imag / SLOW)
+        if still is not None:
+            C -= still.respond(w, TOLERANCE)[0].imag / w
+        part[low] = np.abs(C[:-1] - C[-1])
     return np.where(part > SLOW_SHARE * np.abs(damping), part, 0.0)
 
 

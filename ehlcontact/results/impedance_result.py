@@ -99,7 +99,8 @@ class ImpedanceResult(ScaledResponse, Origin):
             worst = int(np.argmax(share))
             if share[worst] > DOUBTFUL:
                 bar = "anything" if share[worst] >= ALL else f"{100.0 * share[worst]:.0f} %"
-                slow = not found and self.temperature is not None and self.Omega[worst] < SLOW
+                heated = self.temperature is not None and self.supply is None  # a front is slow by itself
+                slow = not found and heated and self.Omega[worst] < SLOW
                 advice = " (perhaps by slow oil ahead of the contact: compare another n)" if slow else ""
                 found.append(f"C may be off by {bar} at {self._frequency(worst)}{advice}")
         return "; ".join(found)

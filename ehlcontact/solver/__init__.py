@@ -22,6 +22,7 @@ module           responsibility
 ``linear``       linearised film: operator, preconditioner, Krylov solution
 ``mixed_film``   cycles of a film beside asperities that carry part of the load
 ``linear_heat``  linearised film with temperatures that follow a vibration
+``linear_fronts``  its fronts of full film, where oil runs short
 ``film_thinning`` shear thinning of a film by sliding
 ``film_heat``    temperatures of a film: energy equation; cycles after which the viscosity follows them
 ``newton``       Newton steps on the finest grid

@@ -105,6 +105,8 @@ class LinearFilm:
         self.by_pressure = stencil_matrix(NEIGHBOUR_OFFSETS, p_coef, free.shape)
         self.by_film = stencil_matrix(NEIGHBOUR_OFFSETS, h_coef, free.shape)
         self.by_approach = -h_coef.sum(axis=0).ravel()
+        self._passed_on: Any = None  # what reaches the fronts of full film of changes at partly filled nodes
+        self._pressed_back: Any = None  # and what the flow pressed back there does, of changes of ln(eps)
         if level.inflow.size:
             self._supply(level, feeding, fed)
         self.deflection = level.deflection
@@ -125,6 +127,7 @@ class LinearFilm:
             self.by_pressure = self.by_pressure + passed_on @ self.by_pressure
             self.by_film = self.by_film + passed_on @ self.by_film
             self.by_approach = self.by_approach + passed_on @ self.by_approach
+            self._passed_on = passed_on
         if self.c_t == 0.0 or not fronts.nodes.size:
             return
         # The front: what is pressed back moves it, and what it passes is stored
@@ -132,6 +135,7 @@ class LinearFilm:
         back = -half / (1.0 + half) * arrives[own] - 2.0 * half * fronts.stored
         self.by_pressure = self.by_pressure + _entries(size, (own, own, back * fronts.by_pressure))
         film = _entries(size, (own, own, back * fronts.by_film), (own, own - 1, back * fronts.by_film_before))
+        self._pressed_back = film @ scipy.sparse.diags(1.0 / level.fields.flow.film_slope.ravel())
         # By the film: of a full gap at the node, through the face behind it, and through the face before it
         rest, moved = 1.0 - fronts.passed, fronts.stored * fronts.passed
         shares = (-moved, 5.0 * moved + 0.5 * rest, 3.5 * rest + 2.0 * moved, -rest)
@@ -142,6 +146,14 @@ class LinearFilm:
         self.by_pressure = self.by_pressure + mass @ scipy.sparse.diags(flow.mass_slope.ravel())
         self.by_film = self.by_film + film
         self.by_approach = self.by_approach - np.asarray(film.sum(axis=1)).ravel()
+
+    def with_supply(self, change: Array, log_eps: Array) -> Array:
+        """Change of the operator by that of ln(eps), with what a supply passes on of it and stores; all flat.
+
+        `change` is that of a film in which no front moves.
+        """
+        found = change if self._passed_on is None else change + self._passed_on @ change
+        return found if self._pressed_back is None else found + self._pressed_back @ log_eps
 
     def __call__(self, x: Array) -> Array:
         """Left-hand sides, shape (nodes + 1,), of the change `x` = (dP, du)."""

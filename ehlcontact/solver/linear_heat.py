@@ -31,6 +31,7 @@ from ehlcontact.solver.film_heat import (
     divergence,
 )
 from ehlcontact.solver.linear import CROSS, SPARSE_LU, LinearFilm, Preconditioner, stencil_matrix
+from ehlcontact.solver.linear_fronts import LinearFronts
 
 Array = NDArray[Any]
 
@@ -51,6 +52,7 @@ class Changes(NamedTuple):
     exchange: Array
     slid: Array
     mass: Array
+    share: Any = 0.0  # of the cells before fronts of full film
 
 
 class LinearHeat:
@@ -75,8 +77,15 @@ class LinearHeat:
         seen = heat.seen(t)
         self._by_seen = -n.exponent * (1.0 + heat.numbers.heating(seen)) / (n.temperature_scale + seen)
         self._storage = np.where(t.wet, self.rate * n.convection * level.fields.flow.mass, 0.0)
+        self._storage_of_walls = self._storage
         # Of a unit of mean temperature: what compression and sliding make
         self._warmer = t.work * heat.ahead + self._slid.by_mean
+        self._fronts = LinearFronts(heat, t, self.rate) if level.inflow.size else None
+        if self._fronts is not None:
+            # Walls see the oil in the cells, the rise the part of it that is in the full film
+            self._storage *= t.share
+            self._storage_of_walls = np.where(t.wet, self.rate * n.convection * level.oil, 0.0)
+            self._turns = (1.0 - t.share) * (heat.ahead | t.wet)
         self._factorise()
         self._memories = [_memory(level.nx, level.hx, omega / speed) for speed in heat.speeds]
 
@@ -88,7 +97,8 @@ class LinearHeat:
         taken = (-np.maximum(west, 0.0), np.minimum(along, 0.0), -np.maximum(south, 0.0), np.minimum(across, 0.0))
         given = np.maximum(along, 0.0) - np.minimum(west, 0.0) + np.maximum(across, 0.0) - np.minimum(south, 0.0)
         own = given + t.exchange - self._warmer + self._storage
-        matrix = stencil_matrix(CROSS, np.array([own, *taken]), shape)
+        # Where the cell before a front is partly full the rest of the heat that comes turns round
+        matrix = stencil_matrix(CROSS, np.array([own, *(t.share * part for part in taken)]), shape)
         self._nodes = np.flatnonzero(t.wet)
         self._lu = scipy.sparse.linalg.splu(matrix[self._nodes][:, self._nodes].tocsc(), **SPARSE_LU)
 
@@ -119,17 +129,26 @@ class LinearHeat:
         flow, s, P = level.fields.flow, level.stencil, level.P
         step_x, step_y = np.diff(P, axis=1), np.diff(P, axis=0)
         change_x, change_y = np.diff(dP, axis=1), np.diff(dP, axis=0)
-        mean_x, mean_y = self._means(flow.eps_slope * dP + flow.film_slope * dH - self.above * dg)
+        log_eps = flow.eps_slope * dP + flow.film_slope * dH - self.above * dg
+        mean_x, mean_y = self._means(log_eps)
         flow_x, flow_y = flow.along[:, :-1], flow.across[:-1]
         mass = flow.mass_slope * dP + flow.rho * dH
-        along = s.inv_hx * level.full_flow(mass)
-        along[:, :-1] -= s.cx * (mean_x * step_x + flow_x * change_x)
+        through: Array = level.full_flow(mass)
+        share: Any = 0.0
+        by_pressure = s.cx * (mean_x * step_x + flow_x * change_x)
         across = _padded(-s.cy * (mean_y * step_y + flow_y * change_y), 0)
         back = _padded(0.5 * s.inv_hx * (mass[:, :-1] + mass[:, 1:]), 1)
-        pressed = at_nodes(
-            s.cx * (mean_x * step_x + 2.0 * flow_x * change_x) * step_x,
-            s.cy * (mean_y * step_y + 2.0 * flow_y * change_y) * step_y,
-        )
+        by_x = s.cx * (mean_x * step_x + 2.0 * flow_x * change_x) * step_x
+        if (fronts := self._fronts) is not None:
+            pressed_back, full = fronts.back(dP, log_eps), through
+            through = fronts.through(full, divergence(_padded(by_pressure, 1), -across), pressed_back)
+            share = fronts.share(full, through, pressed_back)
+            by_x = _padded(by_x, 1).astype(complex)
+            by_x.ravel()[fronts.before] = fronts.made(dP, pressed_back)
+            by_x = by_x[:, :-1]
+        along = s.inv_hx * through
+        along[:, :-1] -= by_pressure
+        pressed = at_nodes(by_x, s.cy * (mean_y * step_y + 2.0 * flow_y * change_y) * step_y)
         work = at_nodes(
             along[:, :-1] * step_x + t.along[:, :-1] * change_x, across[:-1] * step_y + t.across[:-1] * change_y
         )
@@ -141,9 +160,10 @@ class LinearHeat:
             heat_across=n.convection * NET * across,
             pressed=np.where(t.wet, pressed / flow.rho, 0.0) - lighter * t.pressed,
             work=np.where(t.wet, n.expansion * work / flow.rho, 0.0) - lighter * t.work,
-            exchange=-t.exchange * dH / t.H,
+            exchange=np.where(t.wet, share * n.conduction / t.H, 0.0) - t.exchange * dH / t.H,
             slid=self._sliding(dP, dH),
             mass=mass,
+            share=share,
         )
 
     def _sliding(self, dP: Array, dH: Array) -> Array:
@@ -166,31 +186,56 @@ class LinearHeat:
         slid = c.slid + self._slid.by_mean * (rise + walls.mean(axis=0))
         beside = BY_PRESSURE * c.pressed * heat.ahead + BY_SLIDING * slid
         was = BY_PRESSURE * t.pressed * heat.ahead + BY_SLIDING * self._slid.made
-        seen = walls.mean(axis=0) + BY_RISE * heat.behind(rise, t.share) + (t.H * beside + dH * was) / n.conduction
+        of_rise = heat.behind(rise, t.share)
+        if self._fronts is not None:
+            of_rise = of_rise + self._fronts.seen_ahead(c.share)
+        seen = walls.mean(axis=0) + BY_RISE * of_rise + (t.H * beside + dH * was) / n.conduction
         return self._by_seen * seen
 
     def _temperatures(self, c: Changes, compressed: Array) -> tuple[Array, Array]:
         """Changes of the rise and of both surfaces; `compressed` is the heat of compression."""
         heat, n, t = self.heat, self.heat.numbers, self.terms
-        carried = _with(c.along, c.across, self.wall) + self.rate * c.mass * self.mean
-        lost = _upwind(c.heat_along, c.heat_across, t, heat.rise) + n.convection * carried
+        lost = self._lost(c)
         exchanged = c.exchange * heat.rise
         source = (compressed + INNER * c.pressed) * heat.ahead + c.slid - lost - exchanged
         straight = (1.0 - INNER * heat.ahead) * c.pressed + ~heat.ahead * compressed + exchanged
+        if (fronts := self._fronts) is not None:
+            came = fronts.comes(t.heat_along, t.heat_across, heat.rise)
+            straight = straight + self._turns * fronts.comes(c.heat_along, c.heat_across, heat.rise)
+            straight -= np.where(self._turns > 0.0, c.share * came, 0.0)
         through = c.exchange / 12.0 * (heat.walls[1] - heat.walls[0])
         share = 1.0 if heat.even else WALL_SHARE
         walls, rise = np.zeros((2, *source.shape), complex), np.zeros(source.shape, complex)
         for _ in range(MOST_ROUNDS):
             wall, before = walls.mean(axis=0), walls.copy()
-            rhs = source + (self._warmer - self._storage) * wall - n.convection * _with(t.along, t.across, wall)
+            warmed = (self._warmer - self._storage_of_walls) * wall
+            rhs = source + warmed - n.convection * _with(t.along, t.across, wall)
             rise.ravel()[self._nodes] = self._lu.solve(rhs.ravel()[self._nodes].astype(complex))
             half = 0.5 * (t.exchange * rise + straight + ~heat.ahead * t.work * (rise + wall))
+            if self._fronts is not None:
+                half += 0.5 * self._turns * self._fronts.comes(t.heat_along, t.heat_across, rise)
             cross = through + t.exchange / 12.0 * (walls[1] - walls[0])
             for k, given in enumerate((half + cross, half - cross)):
                 walls[k] += share * (n.walls[k] * (given @ self._memories[k]) - walls[k])
             if np.abs(walls - before).max() <= SETTLED * np.abs(walls).max():
                 return rise, walls
         raise ConvergenceError("temperatures of the surfaces do not converge: the film is too thin", None)
+
+    def _lost(self, c: Changes) -> Array:
+        """Change of the heat that leaves a node and is stored there, at given temperatures."""
+        heat, n, t, fronts = self.heat, self.heat.numbers, self.terms, self._fronts
+        carried = _with(c.along, c.across, self.wall)
+        if fronts is None:
+            carried = carried + self.rate * c.mass * self.mean
+            return _upwind(c.heat_along, c.heat_across, t, heat.rise) + n.convection * carried
+        # By the balance of oil, what is stored in a cell is what does not leave it
+        carried -= divergence(c.along, c.across) * self.wall
+        stored = t.share * c.mass + c.share * self.level.fields.flow.mass
+        carried += self.rate * stored * heat.rise
+        came = fronts.comes(t.heat_along, t.heat_across, heat.rise)
+        comes = fronts.comes(c.heat_along, c.heat_across, heat.rise)
+        lost = _upwind(c.heat_along, c.heat_across, t, heat.rise) + (1.0 - t.share) * comes - c.share * came
+        return lost + n.convection * carried
 
 
 class HeatedSystem:
@@ -211,7 +256,9 @@ class HeatedSystem:
         film, g = self.split(x)
         left = self.film(film)
         given = g.reshape(self.film.free.shape)
-        left[:-1] += (self.heat.viscous(-self.heat.above * given) * self.film.free).ravel()
+        log_eps = -self.heat.above * given
+        changed = self.film.with_supply(self.heat.viscous(log_eps).ravel(), log_eps.ravel())
+        left[:-1] += changed * self.film.free.ravel()
         return np.concatenate([left, self.weight * (g - self.response(film, g))])
 
     def response(self, film: Array, g: Array) -> Array:

@@ -33,41 +33,55 @@ POINT = OperatingPoint.ball_bearing(
     OIL, ball_diameter=12.3e-3, pitch_diameter=43.5e-3, conformity=0.52, speed_rpm=10_000.0, load=800.0
 )
 GRID = Grid(48)
+WIDER = Grid(48, Domain(-6.0, 1.5, 3.0))  # for layers of oil
 PAIR = Heat(0.3, effusivity=(13_000.0, 1_500.0))  # sliding on glass
 HEATS = Heat(), PAIR
 STEP = 1e-3  # of the approach, for differences of steady films
 
 
 @cache
-def film_of(given):
-    return solve_steady(POINT, grid=GRID, thermal=given, tol=1e-8)
+def film_of(given, r=None):
+    region = {"grid": GRID} if r is None else {"grid": WIDER, "supply": OilLayer(over_flooded=r)}
+    return solve_steady(POINT, **region, thermal=given, tol=1e-8)
 
 
-def response(given, omega, follows=True):
+def region_of(film):
+    """Grid, and the same layer of oil at any approach."""
+    layer = None if film.layer is None else OilLayer(H=float(film.layer[0]))
+    return {"grid": Grid(film.n, film.domain), "supply": layer}
+
+
+def response(given, omega, follows=True, r=None):
     """K and C of the film with heat, its temperatures following or standing still."""
-    film = film_of(given)
+    film = film_of(given, r)
     solved = held(film)
-    Z = LinearisedContact(solved, heat_of(film, solved) if follows else None).respond(np.array([omega]), 1e-6)[0][
-        0
-    ]
+    contact = LinearisedContact(solved, heat_of(film, solved) if follows else None)
+    Z = contact.respond(np.array([omega]), 1e-5)[0][0]
     return Z.real, Z.imag / omega
 
 
 class Neighbours:
     """Differences between steady films on both sides of an approach, over that of the approach."""
 
-    def __init__(self, given):
-        film = film_of(given)
+    def __init__(self, given, r=None):
+        film = film_of(given, r)
         heats = []
         for side in (1.0, -1.0):
-            near = solve_steady(POINT, grid=GRID, thermal=given, approach=film.approach + side * STEP, tol=1e-9)
+            at = film.approach + side * STEP
+            near = solve_steady(POINT, **region_of(film), thermal=given, approach=at, tol=1e-8)
             solved = held(near)
             heats.append((near, heat_of(near, solved)))
         self.stiffness = self.slope(heats, lambda near, heat: near.force)
         self.pressure = self.slope(heats, lambda near, heat: heat.level.P)
-        self.mass = self.slope(heats, lambda near, heat: heat.level.fields.flow.mass)
-        self.stored = self.slope(heats, lambda near, heat: heat.level.fields.flow.mass * heat.mean)
+        self.mass = self.slope(heats, lambda near, heat: heat.level.oil)
+        self.stored = self.slope(heats, lambda near, heat: self.heat_of_oil(heat))
         self.given = [self.slope(heats, lambda near, heat, k=k: heat.into_walls(heat.terms())[k]) for k in (0, 1)]
+
+    @staticmethod
+    def heat_of_oil(heat):
+        """All oil of a cell has the temperature of the surfaces, the full part of it the rise too."""
+        full = heat.terms().share * heat.level.fields.flow.mass
+        return heat.level.oil * heat.walls.mean(axis=0) + full * heat.rise
 
     @staticmethod
     def slope(heats, of):
@@ -102,9 +116,9 @@ class Ramp(FilmHeat):
         return tuple(found)
 
 
-def force_on_a_ramp(given, near, rate):
+def force_on_a_ramp(given, near, rate, r=None):
     """Force at the approach of the film while the approach grows at a rate."""
-    film = film_of(given)
+    film = film_of(given, r)
     solved = held(film)
     steady, balance = heat_of(film, solved), Balance.of_approach(film.approach)
     heat = Ramp(solved.finest, steady.numbers)
@@ -128,6 +142,34 @@ def test_slow_vibrations_against_steady_films_and_a_ramp(given):
     still_K, still_C = response(given, 1e-4, follows=False)
     assert abs(still_K / K - 1.0) > 0.01
     assert abs(still_C / C - 1.0) > 0.1
+
+
+@pytest.mark.parametrize(
+    ("r", "given"), [(1.0, Heat()), *(pytest.param(r, PAIR, marks=pytest.mark.slow) for r in (1.0, 0.6))]
+)
+def test_starved_films_with_heat_likewise(r, given):
+    """The front of the full film moves with its oil and heat, on a ramp that takes it past no node."""
+    near, rate = Neighbours(given, r), 5e-6
+    K, C = response(given, 1e-4, r=r)
+    damping = (force_on_a_ramp(given, near, rate, r) - force_on_a_ramp(given, near, -rate, r)) / (2.0 * rate)
+    assert K == pytest.approx(near.stiffness, rel=2e-6)
+    assert C == pytest.approx(damping, rel=1e-3)
+    still = response(given, 1e-4, follows=False, r=r)
+    assert abs(still[0] / K - 1.0) > 5e-4
+    assert abs(still[1] / C - 1.0) > 0.01
+
+
+def test_limits_of_starved_films_with_heat():
+    """Without a slope that of the isothermal layer; with much oil that of the flooded film with heat."""
+    given = {"Omega": [0.05, 1.0], "grid": Grid(48, Domain(-5.0, 1.5, 3.0))}
+    layer = OilLayer(over_flooded=1.0)
+    cold = impedance(POINT, supply=layer, **given)
+    still = impedance(POINT, supply=layer, thermal=Heat(temperature_slope=0.0), **given)
+    flooded = impedance(POINT, thermal=Heat(), **given)
+    much = impedance(POINT, supply=OilLayer(H=1e5), thermal=Heat(), **given)
+    for one, other in ((still, cold), (much, flooded)):
+        np.testing.assert_allclose(one.stiffness, other.stiffness, rtol=1e-5)
+        np.testing.assert_allclose(one.damping, other.damping, rtol=1e-4)
 
 
 def test_temperatures_stand_still_in_fast_vibrations():
@@ -221,8 +263,6 @@ def test_what_slow_oil_adds_is_seen_at_low_frequencies_alone():
 
 
 def test_what_is_refused():
-    with pytest.raises(InputError, match="left out with a supply"):
-        impedance(POINT, Omega=0.0, grid=GRID, thermal=Heat(), supply=OilLayer(1e-6))
     with pytest.raises(InputError, match="left out at a dimensionless point"):
         impedance(MoesPoint(200, 10, 0.5), Omega=0.0, thermal=Heat())
     with pytest.raises(InputError, match="thermal = 'bool': must be a Heat"):

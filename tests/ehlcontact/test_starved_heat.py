@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, Grid, Heat, InputError, Lubricant, OilLayer, OperatingPoint, impedance, solve_steady
+from ehlcontact import Domain, Grid, Heat, Lubricant, OilLayer, OperatingPoint, solve_steady
 from ehlcontact.impedance import heat_of, held
 from ehlcontact.solver.film_heat import divergence
 
@@ -82,11 +82,6 @@ def test_joint_film_is_the_product_of_its_factors(r):
     shifted = solve_steady(POINT, supply=OilLayer(over_flooded=r / share), **GIVEN)
     assert share * shifted.h_central == pytest.approx(joint.h_central, rel=0.01)
     assert joint.temperature.film_share > (0.9999 if r < 0.5 else 1.02 * share)
-
-
-def test_impedance_of_both_is_refused():
-    with pytest.raises(InputError, match="left out with a supply"):
-        impedance(POINT, Omega=0.1, grid=GRID, supply=OilLayer(1e-6), thermal=Heat())
 
 
 @pytest.mark.slow
