@@ -36,8 +36,9 @@ from reduced_models.atlas.atlas_elements import (
 from reduced_models.atlas.conditions import Given, changed, conditions_at
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.atlas.gain_fit import FADED, FLOOR, heated_gains, smooth_gains
+from reduced_models.atlas.heat_condition import HeatCondition, heat_given
 from reduced_models.atlas.interpolation import AtlasSurface
-from reduced_models.atlas.supply_condition import FAINT_GAIN, SLOWEST, SupplyCondition
+from reduced_models.atlas.supply_condition import FAINT_GAIN, SLOWEST, SupplyCondition, supplied_speeds
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
 from reduced_models.elements.film_memory import FilmMemoryContact
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
@@ -55,7 +56,7 @@ NUMBERS = ("approach", "h_central", "h_min", "film_share", "moment")  # beside w
 LOADS = np.array([0.01, 0.03, 0.07, 0.15, 0.3, 0.6, 1.0, 1.7, 3.0])
 INSIDE = 1e-9  # relative, that speeds keep from the ends of the box
 USUAL_SPEEDS = 10.0  # and its inverse: speeds of such an element over that of its point, unless given
-SPEED_STEP = 1.6  # ratio of the speeds of an element over speed, at most
+SPEED_STEP, SUPPLIED_STEP = 1.6, 1.2  # ratio of the speeds of an element over speed, at most; under a layer
 NEGATIVE = 0.02  # share of the flooded C below which a negative one is as good as zero
 NEIGHBOURS = 1.2  # ratio below which a load is left out beside the end of the box
 
@@ -91,7 +92,9 @@ class Atlas:
         """Command, version, sample and meshes of the build."""
         return deepcopy(self._table.metadata)
 
-    def at(self, point: Point, *, supply: OilLayer | None = None, thermal: Heat | None = None) -> AtlasAnswer:
+    def at(
+        self, point: Point, *, supply: OilLayer | None = None, thermal: Heat | bool | None = None
+    ) -> AtlasAnswer:
         """Approach, films, rolling resistance and impedance at a point.
 
         Parameters
@@ -116,6 +119,8 @@ class Atlas:
         *,
         alpha: float | None = None,
         eta0: float | None = None,
+        supply: OilLayer | None = None,
+        thermal: Heat | bool | None = None,
     ) -> AtlasAnswers:
         """The same as `at` for many points at once, in arrays: 10 to 30 us a point from a thousand up.
 
@@ -125,12 +130,19 @@ class Atlas:
             Or numbers, the same for all.
         alpha, eta0 : float, optional
             Of the oil [1/Pa, Pa s]; by default those of the atlas.
+        supply : OilLayer, optional
+            In flooded films or dry approaches, the same number at all points; some milliseconds a point.
+        thermal : optional
+            Refused: heat depends on the speed and the viscosity in SI. `at` takes it at an `OperatingPoint`.
 
         Raises
         ------
         InputError
-            A point outside the box, the first one by its own numbers; other shapes; another oil.
+            A point outside the box, the first one by its own numbers; other shapes; another oil. A layer in metres
+            or one that the table of supply does not have; heat.
         """
+        if heat_given(thermal) is not None:
+            raise InputError("thermal", thermal, "left out: `at` takes it at an OperatingPoint, in SI")
         meta = self._table.metadata
         oil = float(meta["alpha"]) if alpha is None else alpha, float(meta["eta0"]) if eta0 is None else eta0
         points = _points(M, L, kappa)
@@ -138,10 +150,16 @@ class Atlas:
         self._inside(MoesPoint(first[0], first[1], first[2], *oil))  # the oil, which is that of all
         self.box.require_all_inside(points, oil[0])
         values, bars = self._surface.with_bars(points * self._oil_factors(*oil), self._oil_error(*oil))
+        Omega = self._table.omega
+        if supply is not None:
+            given = [SupplyCondition(MoesPoint(m, ell, k, *oil), supply) for m, ell, k in points.tolist()]
+            rows = zip(given, values[:, None], bars[:, None], strict=True)
+            found = [self._under([one], np.ones(1), value, bar) for one, value, bar in rows]
+            Omega, values, bars = found[0][0], *(np.vstack([one[k] for one in found]) for k in (1, 2))
         named, error = _named(values), _named(bars)
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         axes = dict(zip(("M", "L", "kappa"), points.T, strict=True))
-        return AtlasAnswers(**axes, Omega=self._table.omega, **named, error_bars=error)
+        return AtlasAnswers(**axes, Omega=Omega, **named, error_bars=error)
 
     @by_name(3)
     def element(
@@ -154,7 +172,7 @@ class Atlas:
         hz: float | None = None,
         rpm: float | None = None,
         supply: OilLayer | None = None,
-        thermal: Heat | None = None,
+        thermal: Heat | bool | None = None,
     ) -> FilmMemoryContact | WideRangeContact | CubicContact:
         """Contact element at a point, in SI for an `OperatingPoint`.
 
@@ -170,7 +188,7 @@ class Atlas:
         supply : OilLayer, optional
             Oil that the surfaces carry to the contact; by default it is flooded. A cubic warns where its damper
             would be below zero, and has none.
-        thermal : Heat, optional
+        thermal : Heat, or True for ``Heat()``, optional
             Let the film heat up; by default it is isothermal. With both the factors of both are multiplied.
 
         Raises
@@ -193,7 +211,7 @@ class Atlas:
         loads: ArrayLike,
         *,
         supply: OilLayer | None = None,
-        thermal: Heat | None = None,
+        thermal: Heat | bool | None = None,
     ) -> WideRangeContact:
         """Wide element through loads of one's own choice, in units of the point's, which is the reference load.
 
@@ -220,8 +238,15 @@ class Atlas:
         assert isinstance(element, WideRangeContact)
         return element
 
-    def element_over_speed(self, point: Point, speeds: tuple[float, float] | None = None) -> SpeedRangeContact:
-        """Flooded, isothermal element at any load and a speed that may change, in SI for an `OperatingPoint`.
+    def element_over_speed(
+        self,
+        point: Point,
+        speeds: tuple[float, float] | None = None,
+        *,
+        supply: OilLayer | None = None,
+        thermal: Heat | bool | None = None,
+    ) -> SpeedRangeContact:
+        """Contact element at any load and a speed that may change, in SI for an `OperatingPoint`.
 
         Parameters
         ----------
@@ -231,31 +256,55 @@ class Atlas:
             Lowest and highest u_sum [m/s] of the tables, or over the speed of a `MoesPoint`; that of the point is
             between. By default a tenth and ten times that, as far as the box has the load of the point. Below the
             lowest, films fall as U^0.67.
+        supply : OilLayer, optional
+            The same oil at all speeds, so no ``over_flooded``; by default the inlet is flooded.
+        thermal : Heat, or True for ``Heat()``, optional
+            Let the film heat up, at every speed as much as a steady one; by default it is isothermal.
 
         Raises
         ------
         InputError
-            A point outside the box, or speeds at which its load is outside: it names the range that there is.
+            A point outside the box, or speeds at which its load is outside, or what a table of supply or heat does
+            not have: it names the range that there is. An ``over_flooded`` layer.
         """
         moes, scales = self._inside(point), scales_of(point)
         unit = 1.0 if scales is None else 2.0 * scales.a / scales.time
-        lowest, most = sorted((M / moes.M) ** (-4.0 / 3.0) for M in self.box.M)
-        if moes.L > 0.0:
-            most = min(most, (self.box.L[1] / moes.L) ** 4)
+        lowest, most = self._speeds(point, supply, thermal)
         inside = max(1.0 / USUAL_SPEEDS, lowest * (1.0 + INSIDE)), min(USUAL_SPEEDS, most * (1.0 - INSIDE))
         between = f"{lowest * unit:.4g} to {most * unit:.4g}"
         allowed = f"from {between}, with the speed of the point, {unit:.4g}, between"
         low, high = inside if speeds is None else (speed / unit for speed in _two_ends(speeds, allowed))
         if not lowest <= low <= 1.0 <= high <= most or not low < high:
             raise InputError("speeds", speeds, allowed)
-        places = np.concatenate([_steps(low, 1.0)[:-1], _steps(1.0, high)])
-        rows = []
+        step = SPEED_STEP if supply is None else SUPPLIED_STEP
+        places = np.concatenate([_steps(low, 1.0, step)[:-1], _steps(1.0, high, step)])
+        rows, slowest = [], 0.0
         for U in places.tolist():
             at = replace(moes, M=moes.M * U**-0.75, L=moes.L * U**0.25)
-            row = self._remembering(at, self._loads(at), ())
+            own = at if isinstance(point, MoesPoint) else replace(point, u_sum=point.u_sum * U)
+            row = self._remembering(at, self._loads(at), conditions_at(own, supply, thermal))
             assert isinstance(row, WideRangeContact)
+            assert row.omega_range is not None
             rows.append(row)
-        return speed_element(places, rows, (0.0, float(self._table.metadata["highest_omega"])), scales)
+            slowest = max(slowest, U * row.omega_range[0])
+        return speed_element(places, rows, (slowest, float(self._table.metadata["highest_omega"])), scales)
+
+    def _speeds(self, point: Point, supply: OilLayer | None, thermal: Heat | bool | None) -> tuple[float, float]:
+        """Lowest and highest speed, over that of the point, at which the atlas and its tables have its load."""
+        moes = self._inside(point)
+        lowest, most = sorted((M / moes.M) ** (-4.0 / 3.0) for M in self.box.M)
+        if moes.L > 0.0:
+            most = min(most, (self.box.L[1] / moes.L) ** 4)
+        for condition in conditions_at(point, supply, thermal):
+            if isinstance(condition, SupplyCondition):
+                if (ratio := condition.supply.over_flooded) is not None:
+                    allowed = "left out: h in m, or H, is the same oil at every speed"
+                    raise InputError("over_flooded", ratio, allowed)
+                slow, fast = supplied_speeds(moes)
+                lowest, most = max(lowest, slow), min(most, fast)
+            elif isinstance(condition, HeatCondition):
+                most = min(most, condition.fastest)
+        return lowest, most
 
     def _answer(self, point: Point, given: Given) -> AtlasAnswer:
         """Answer under conditions."""
@@ -513,9 +562,9 @@ def _two_ends(speeds: ArrayLike, allowed: str) -> tuple[float, float]:
     return float(ends[0]), float(ends[1])
 
 
-def _steps(low: float, high: float) -> _Floats:
-    """From `low` to `high` in equal ratios of at most `SPEED_STEP`."""
-    return np.geomspace(low, high, 1 + math.ceil(math.log(high / low) / math.log(SPEED_STEP) - INSIDE))
+def _steps(low: float, high: float, ratio: float) -> _Floats:
+    """From `low` to `high` in equal ratios of at most `ratio`."""
+    return np.geomspace(low, high, 1 + math.ceil(math.log(high / low) / math.log(ratio) - INSIDE))
 
 
 def _points(M: ArrayLike, L: ArrayLike, kappa: ArrayLike) -> _Floats:

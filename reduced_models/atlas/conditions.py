@@ -17,7 +17,7 @@ from ehlcontact.heat import Heat
 from ehlcontact.point import Point
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.change import Change
-from reduced_models.atlas.heat_condition import HeatCondition
+from reduced_models.atlas.heat_condition import HeatCondition, heat_given
 from reduced_models.atlas.supply_condition import SupplyCondition
 
 _Floats = NDArray[np.float64]
@@ -42,9 +42,9 @@ Given = Sequence[Condition | SupplyCondition]
 
 
 def conditions_at(
-    point: Point, supply: OilLayer | None, thermal: Heat | None
+    point: Point, supply: OilLayer | None, thermal: Heat | bool | None
 ) -> list[Condition | SupplyCondition]:
-    """The conditions given at a point, in the order in which they are applied.
+    """The conditions given at a point, in the order in which they are applied; True stands for ``Heat()``.
 
     Raises
     ------
@@ -52,8 +52,8 @@ def conditions_at(
         A supply or heat that its table does not have.
     """
     found: list[Condition | SupplyCondition] = []
-    if thermal is not None:
-        found.append(HeatCondition(point, thermal))
+    if (heat := heat_given(thermal)) is not None:
+        found.append(HeatCondition(point, heat))
     if supply is not None:
         found.append(SupplyCondition(point, supply))
     return found

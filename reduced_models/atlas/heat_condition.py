@@ -140,6 +140,11 @@ class HeatCondition:
             allowed = f"between {low:.3g} and {high:.3g}, as in the table of heat"
             raise InputError("kappa", f"{point.moes.kappa:.3g}", allowed)
 
+    @property
+    def fastest(self) -> float:
+        """Speed over that of the point at which the table ends: Q grows with its square."""
+        return sqrt(largest_load() / self.thermal_load)
+
     def change(self, loads: _Floats, values: _Floats, Omega: _Floats) -> Change:
         """Change of isothermal `values`, shape (n, 5 + 2 k), under `loads`, shape (n,), at `Omega`, shape (k,)."""
         g, k, half = unit_of(self.thermal_load), Omega.size, len(NUMBERS) + heat_surface().table.omega.size

@@ -79,6 +79,24 @@ def heaviest_load(moes: MoesPoint) -> float:
     return float(np.exp(scipy.optimize.brentq(spare, low, high))) if spare(low) > 0.0 else 0.0
 
 
+def supplied_speeds(moes: MoesPoint) -> tuple[float, float]:
+    """Speeds, over that of the point, at which the table of supply has its contact."""
+    box, speed = supply_surface().table.box, -4.0 / 3.0
+    most = (lightest_load(moes)) ** speed
+    if moes.L == 0.0:
+        return (box.M[1] / moes.M) ** speed, most
+    slow, fast = ((L / moes.L) ** 4 for L in box.L)
+
+    def spare(log_speed: float) -> float:
+        U = float(np.exp(log_speed))
+        return heaviest_load(replace(moes, M=moes.M * U**-0.75, L=moes.L * U**0.25)) - 1.0
+
+    low = np.log(max(slow, (box.M[1] / moes.M) ** speed))
+    if low < 0.0 and spare(low) < 0.0 <= spare(0.0):
+        low = scipy.optimize.brentq(spare, low, 0.0)
+    return float(np.exp(low)), min(most, fast)
+
+
 class SupplyCondition:
     """A uniform layer ahead of the contacts at a point, the same in m under all loads, or in flooded
     isothermal films.

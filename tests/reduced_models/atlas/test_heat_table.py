@@ -159,7 +159,6 @@ def test_bars_grow_where_the_sample_ends(shipped):
         ("slide_roll", (ball("6305", 1000.0, 500.0), Heat(slide_roll=0.05))),
         ("thermal load Q", (ball("6305", 22_000.0, 500.0), Heat())),
         ("thermal", (MoesPoint(300.0, 12.0, 0.2), Heat())),
-        ("thermal", (ball("6305", 1000.0, 500.0), True)),
         ("temperature_slope", (ball("6305", 1000.0, 500.0, Lubricant(0.04, 2e-8)), Heat())),
         ("temperature", (ball("6305", 1000.0, 500.0, Lubricant(0.04, 2e-8)), Heat(temperature_slope=0.04))),
         ("heat_capacity", (ball("6305", 1000.0, 500.0), Heat(heat_capacity=4e6))),
