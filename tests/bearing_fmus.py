@@ -2,7 +2,7 @@
 
 import fmpy
 
-from ehlcontact import Lubricant
+from ehlcontact import Lubricant, OilLayer
 from fmu import BearingModel
 from fmu.bearing.trial import START
 from fmu.driver import Exchange, Slave
@@ -22,6 +22,12 @@ MODELS = {
     "five": lambda: BearingModel(bearing(clearance="CN", loss_factor=0.05), RPM, (0.0, -500.0, 200.0)),
     "five dry": lambda: BearingModel(
         bearing(clearance="CN", oil=None, loss_factor=0.05), RPM, (0.0, -500.0, 200.0)
+    ),
+    "starved": lambda: BearingModel(
+        bearing(clearance=5e-6, supply=OilLayer(over_flooded=1.0)), (2000.0, RPM), 500.0
+    ),
+    "starved five": lambda: BearingModel(
+        bearing("7205", supply=OilLayer(over_flooded=0.8), thermal=True), 6000.0, (0.0, -300.0, 200.0)
     ),
     "lossy": lambda: BearingModel(bearing(clearance=5e-6, loss_factor=0.05), RPM, 500.0),
     "dry": lambda: BearingModel(BallBearing.catalogue("6205", clearance=5e-6), RPM, 500.0),

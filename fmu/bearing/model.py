@@ -12,20 +12,26 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_numbers, require_instance
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
+from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.motion import AngularMotion, BallMotion, motion_of
+from reduced_models.bearing.race import RACES
+from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out
 from reduced_models.rotor.speed_profile import law_speeds
 
 _Floats = NDArray[np.float64]
 
 MOST_BALLS = 64  # of what an instance remembers, some 100 numbers each
 MOST_CONTACTS = 64  # bits of a number in core.h: those that lift off, both of a ball with inertia, else the inner
+TRIED = 5  # loads of a ball, from the heaviest to the lightest
 MOST_SPEEDS = 4  # of the tables, which then leave an FMU with the binaries of five platforms below a megabyte
 
 
 @dataclass(frozen=True)
 class BearingModel:
     """A ball bearing whose inner ring is moved from outside.
+
+    Under an oil supply it warns, once, where its elements leave out damping below zero (docs/oil_supply.md).
 
     Parameters
     ----------
@@ -60,8 +66,6 @@ class BearingModel:
             raise InputError(
                 "bearing.features", len(self.bearing.features), "none: an FMU has smooth races and balls"
             )
-        if self.bearing.supply is not None:
-            raise InputError("bearing.supply", "an OilLayer", "left out: the contacts of an FMU are flooded")
         if self.freedoms not in (None, len(PLANAR), len(FIVE)):
             raise InputError("freedoms", self.freedoms, "2 or 5")
         if self.bearing.ball_inertia and 2 * self.bearing.balls > MOST_CONTACTS:
@@ -72,6 +76,9 @@ class BearingModel:
             raise InputError("freedoms", 2, "5 under an axial load or a moment, and for angular contact bearings")
         _ = self.place
         self.motion()
+        if self.bearing.supply is not None:
+            name = self.bearing.name or "ball bearing"
+            warn_of_damping_left_out(self.bearing, name, self.damping_left_out, stacklevel=3)
 
     @cached_property
     def speeds(self) -> _Floats:
@@ -103,12 +110,37 @@ class BearingModel:
     def place(self) -> _Floats:
         """Where the inner ring starts [m], [rad]."""
         found = np.zeros(len(self.names))
-        if self.load is not None:
-            given = as_numbers("load", self.load)
-            load = np.array([0.0, -float(given)]) if np.ndim(given) == 0 else given
-            state = self.bearing.equilibrium(load, speed_rpm=float(self.speeds[-1]))
-            found[: state.displacement.size] = state.displacement
+        if self._at_rest is not None:
+            place = self._at_rest.displacement
+            found[: place.size] = place
         return found
+
+    @cached_property
+    def _at_rest(self) -> BearingState | None:
+        """The bearing under `load` at the highest speed."""
+        if self.load is None:
+            return None
+        given = as_numbers("load", self.load)
+        load = np.array([0.0, -float(given)]) if np.ndim(given) == 0 else given
+        return self.bearing.equilibrium(load, speed_rpm=float(self.speeds[-1]))
+
+    @cached_property
+    def damping_left_out(self) -> str:
+        """Damping below zero under an oil supply, which elements leave out, in words; empty where there is none.
+
+        At the highest speed, under `load`; without one under the largest load of a ball that has any, of `TRIED`.
+        """
+        bearing, speed = self.bearing, float(self.speeds[-1])
+        if bearing.supply is None:
+            return ""
+        if self._at_rest is not None:
+            return damping_left_out(bearing, speed, self._at_rest.force)
+        races = [bearing.race(name) for name in RACES]
+        low, high = max(one.loads(speed)[0] for one in races), min(one.heaviest(speed)[0] for one in races)
+        for load in np.geomspace(high, low, TRIED).tolist():
+            if words := damping_left_out(bearing, speed, np.full(len(RACES), load)):
+                return f"where a ball carries {load:.3g} N, {words}"
+        return ""
 
     def motion(self) -> BallMotion | AngularMotion:
         """Balls and films of the bearing in time, in Python."""

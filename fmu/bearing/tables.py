@@ -83,7 +83,7 @@ def film_logarithms(model: BearingModel) -> tuple[_Floats, _Floats]:
     loads_of, tables = [], []
     for name in RACES:
         race = bearing.race(name)
-        ends = [race.loads(speed) for speed in model.speeds.tolist()]
+        ends = [(race.loads(speed)[0], race.heaviest(speed)[0]) for speed in model.speeds.tolist()]
         low, high = min(end[0] for end in ends), max(end[1] for end in ends)
         x = np.linspace(log(low), log(high), FILM_NODES)
         rows = []

@@ -48,7 +48,8 @@ def whole_rotor_spec(
     laws = _laws(specs, made)
     return ModelSpec(
         name=checked_name("Rotor" if model_name is None else model_name),
-        description=f"Rotor of {model.rotor.size} degrees of freedom on {len(specs)} ball bearings; SI units",
+        description=f"Rotor of {model.rotor.size} degrees of freedom on {len(specs)} ball bearings; SI units"
+        + _left_out(model),
         sources=("core.c", "core_step.c", "model_whole_rotor.c", "linear_equations.c"),
         headers=("core.h", "model.h", "bearing_law.h", "linear_equations.h"),
         variables=tuple(made.variables),
@@ -67,6 +68,12 @@ def whole_rotor_spec(
             for node, name, _ in _points(model)
         ),
     )
+
+
+def _left_out(model: WholeRotorModel) -> str:
+    """Damping below zero of starved bearings, in words."""
+    words = [(b, bearing.damping_left_out) for b, bearing in enumerate(model.bearings, start=1)]
+    return "".join(f"; bearing {b}: {said}" for b, said in words if said)
 
 
 def _points(model: WholeRotorModel) -> Iterator[tuple[str, str, int]]:

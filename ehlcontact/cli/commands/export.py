@@ -18,7 +18,6 @@ from ehlcontact.errors import InputError
 from ehlcontact.store import load
 
 if TYPE_CHECKING:
-    from ehlcontact.supply import OilLayer
     from fmu import BearingModel, RotorModel, ShaftModel, SpeedController, Verification, WholeRotorModel
     from fmu.system.check import SystemVerification
 
@@ -269,18 +268,10 @@ def _bearing_of(file: Path) -> BearingModel:
     if job.tilt is not None:
         allowed = "left out: tilts are inputs of the FMU"
         raise InputError("operation.tilt_x_mrad", 1e3 * job.tilt[0], allowed)
-    _require_flooded(job.supply, f"{file}: operation")
     speeds = sorted({job.speeds[0], job.speeds[-1]})
     with job.called():
-        return BearingModel(replace(job.bearing, thermal=job.thermal), speeds, job.load)
-
-
-def _require_flooded(supply: OilLayer | None, section: str) -> None:
-    """Raise `InputError` for a layer of oil, as `BearingModel` does, by its entry."""
-    if supply is None:
-        return
-    name, value = ("layer_ratio", supply.over_flooded) if supply.h is None else ("layer_um", 1e6 * supply.h)
-    raise InputError(f"{section}.{name}", float(f"{value:.6g}"), "left out: the contacts of an FMU are flooded")
+        bearing = replace(job.bearing, supply=job.supply, thermal=job.thermal)
+        return BearingModel(bearing, speeds, job.load)
 
 
 def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
@@ -333,8 +324,7 @@ def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftM
         raise InputError("whole_bearing.axial_load", axial, allowed)
     whole = study.whole_bearing
     supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant)
-    _require_flooded(supply, f"{file}: whole_bearing")
-    rotor = whole_rotor(study, replace(whole_bearing(study, oil=True), thermal=thermal))
+    rotor = whole_rotor(study, replace(whole_bearing(study, oil=True), supply=supply, thermal=thermal))
     with o.called(torque="--torque", inertia="--inertia"):
         return ShaftModel(rotor, study.bearing.speed_rpm, inertia, torque or 0.0)
 

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from ehlcontact import InputError, Lubricant, OilLayer
-from fmu import BearingModel
 from reduced_models import (
     Atlas,
     BallBearing,
@@ -142,8 +141,6 @@ def test_bad_supply_is_one_line(changes, words):
 
 
 def test_what_takes_no_supply_says_so():
-    with pytest.raises(InputError, match=r"bearing\.supply.*flooded"):
-        BearingModel(bearing(OilLayer(over_flooded=1.0)), 3000.0)
     with pytest.raises(InputError, match=r"bearing\.supply.*left out of the bearing"):
         oil_and_heat(
             bearing(OilLayer(over_flooded=1.0)), LOAD, speed_rpm=3000.0, supply=OilLayer(over_flooded=0.5)
