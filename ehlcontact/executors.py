@@ -20,6 +20,7 @@ from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
 
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.process.beside import COMPILE_BESIDE, child_environment
 
 T = TypeVar("T")
 Work = TypeVar("Work")
@@ -58,7 +59,7 @@ class ProcessExecutor(Executor):
         report: Callable[[tuple[Any, ...], Any], None] | None = None,
     ) -> None:
         self._pool = ThreadPoolExecutor(processes)
-        self._environment = _environment(threads)
+        self._environment = _environment(threads, beside=processes < 2)
         self._report = report
         self._lock = threading.Lock()
         self._idle: list[_Process] = []
@@ -182,11 +183,12 @@ class _Process:
         self._errors.close()
 
 
-def _environment(threads: int | None) -> dict[str, str]:
-    """Environment of a worker: it imports what this process imports, also from a checkout."""
-    path = os.pathsep.join(entry or os.getcwd() for entry in sys.path)
+def _environment(threads: int | None, beside: bool) -> dict[str, str]:
+    """Environment of a worker. Unless `beside`, it compiles alone: workers of a pool compile beside each other."""
     own = {} if threads is None else dict.fromkeys(THREADS, str(threads))
-    return os.environ | own | {"PYTHONPATH": path, "PYTHONSAFEPATH": "1"}
+    if not beside:
+        own[COMPILE_BESIDE] = "0"
+    return child_environment() | own
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from __future__ import annotations
 import gc
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache, cached_property, partial, update_wrapper
 from hashlib import sha256
@@ -124,6 +124,12 @@ def jit_node(kernel: Any) -> Any:
 def jit_exact_node(kernel: Any) -> Any:
     """`inner`, for one node, with the bits of jit_exact."""
     return inner(jit_exact_called_node(kernel))
+
+
+def compile_for(kernel: Any, arguments: Sequence[Any]) -> None:
+    """Compile a kernel, one with `inner` too, for the types of these arguments, or find it in the cache."""
+    kernel = getattr(kernel, "_kernel", kernel)
+    kernel.compile(tuple(kernel.typeof_pyval(given) for given in arguments))
 
 
 def plain(kernel: Any) -> Any:

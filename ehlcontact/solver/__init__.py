@@ -17,6 +17,7 @@ module           responsibility
 ``error_grids``  solutions on coarser grids, for the error estimate
 ``balance``      `Balance`: load balance, prescribed approach, or Newmark's step of the motion
 ``coarse_newton``  Newton with dense elasticity on the coarsest grid
+``compiled_beside``  kernels that a second process compiles beside the first solve on a machine
 ``multigrid``    full-approximation-scheme cycle and full multigrid
 ``acceleration`` Anderson acceleration of V cycles
 ``linear``       linearised film: operator, preconditioner, Krylov solution

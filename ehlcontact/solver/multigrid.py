@@ -20,6 +20,7 @@ import scipy
 from ehlcontact.point import MoesPoint
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse_newton import CoarseNewton
+from ehlcontact.solver.compiled_beside import await_compilation
 from ehlcontact.solver.grid_rules import (
     LEAST_NESTED,
     LOBE_SHARE,
@@ -88,6 +89,7 @@ class Multigrid:
         across: int | None = None,
         supply: Supply | None = None,
     ) -> None:
+        await_compilation()
         self.point, self.mesh, self.supply = point, mesh, supply
         self._options: dict[str, Any] = {
             "supply": supply,

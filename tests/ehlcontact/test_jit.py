@@ -98,9 +98,13 @@ bits("bearing", BallBearing.catalogue("6205", oil=oil).equilibrium((0, -1000), s
 
 @pytest.mark.slow
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
-def test_results_do_not_depend_on_the_cache_of_kernels(tmp_path):
-    """The process that compiles has the bits of later ones, whichever copy of an inner kernel is linked."""
-    given = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path), "OPENBLAS_NUM_THREADS": "1"}
+@pytest.mark.parametrize("threads", ["1", "2"])
+def test_results_do_not_depend_on_the_cache_of_kernels(threads, tmp_path):
+    """The process that compiles has the bits of later ones, whichever copy of an inner kernel is linked.
+
+    With two threads another process compiles beside it (`ehlcontact.solver.compiled_beside`).
+    """
+    given = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path), "OPENBLAS_NUM_THREADS": threads}
     runs = [
         subprocess.run([sys.executable, "-c", ANSWERS], env=given, check=True, capture_output=True, text=True)
         for _ in range(2)
