@@ -19,6 +19,7 @@ import numba
 from numba import njit
 from numba.core import event
 from numba.core.caching import FunctionCache
+from numba.core.sigutils import normalize_signature
 
 _PACKAGES = "ehlcontact", "reduced_models", "fmu"
 _IMPORT = re.compile(r"^(?:from|import) ([\w.]+)", re.MULTILINE)
@@ -55,7 +56,11 @@ class _Cache(FunctionCache):
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         # compared before anything else is read
         self._cache_file._version = f"{numba.__version__} {sources(self._py_func.__module__)}"
-        return super().load_overload(sig, target_context)
+        found = super().load_overload(sig, target_context)
+        # Two processes that save one kernel for different types within a millisecond may leave an index that names
+        # the file of the other's: numba numbers files by what was in the index.
+        same = found is not None and tuple(found.signature.args) == tuple(normalize_signature(sig)[0])
+        return found if same else None
 
 
 class _Inner:

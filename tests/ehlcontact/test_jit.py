@@ -5,6 +5,7 @@ import importlib
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numba
 import pytest
@@ -53,6 +54,26 @@ def test_kernels_of_other_sources_are_not_read(tmp_path, monkeypatch):
         read.append(sum(caller.stats.cache_hits.values()))
     assert found == [2.0, 2.0, 101.0]
     assert read == [0, 1, 0]
+
+
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
+def test_kernels_saved_under_the_name_of_another_are_not_read(tmp_path, monkeypatch):
+    """As two processes leave them that save one kernel for different types at the same time."""
+    monkeypatch.setattr(jit, "_PACKAGES", ("twice", "ehlcontact"))
+    monkeypatch.syspath_prepend(tmp_path)
+    (tmp_path / "twice.py").write_text("from ehlcontact.jit import jit\n\n@jit\ndef twice(x):\n    return x + x\n")
+    read = []
+    for _ in range(3):
+        monkeypatch.delitem(sys.modules, "twice", raising=False)
+        twice = importlib.import_module("twice").twice
+        assert (twice(3), twice(0.25)) == (6, 0.5)
+        read.append(sum(twice.stats.cache_hits.values()))
+        if len(read) == 1:
+            first, second = sorted(Path(twice.stats.cache_path).glob("twice.twice-*.nbc"))
+            first_code, second_code = first.read_bytes(), second.read_bytes()
+            first.write_bytes(second_code)
+            second.write_bytes(first_code)
+    assert read == [0, 0, 2]
 
 
 def test_collection_of_garbage_is_as_before_once_kernels_are_compiled():
