@@ -107,7 +107,7 @@ while not os.path.exists("pid"):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="looks for a process by its number")
-@pytest.mark.parametrize("end", ["", "os.kill(os.getpid(), 9)", "os._exit(0)"])
+@pytest.mark.parametrize("end", ["", pytest.param("os.kill(os.getpid(), 9)", marks=pytest.mark.long)])
 def test_it_ends_with_its_parent_and_is_silent(end, tmp_path):
     (tmp_path / "sleeper.py").write_text(SLEEPER)
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), *filter(None, sys.path)])}
