@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,6 +31,7 @@ from reduced_models.bearing.kinematics import RPM_TO_HZ, rolling_torque
 from reduced_models.bearing.race import RACES
 from reduced_models.bearing.set_result import SetState
 from reduced_models.bearing.sliding import USUAL_LAW, friction_at, race_at, require_oil
+from reduced_models.bearing.table_bars import TableBars, table_bars
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -122,6 +123,8 @@ class OilAndHeat(Summary):
         Those that were asked for and have no film, and why.
     solved : bool
         Whether contacts of the heaviest ball were solved, and all is not from tables.
+    error_bars : dict of str to TableBars
+        Half widths of the error bars of conditions from tables; without entries where contacts were solved.
     """
 
     at_rest: BearingState | SetState
@@ -129,6 +132,7 @@ class OilAndHeat(Summary):
     conditions: Mapping[str, Condition]
     refused: Mapping[str, str]
     solved: bool
+    error_bars: Mapping[str, TableBars] = field(default_factory=dict)
 
     @property
     def bearing(self) -> int:
@@ -150,24 +154,42 @@ class OilAndHeat(Summary):
     @property
     def rows(self) -> list[tuple[str, str, dict[str, float]]]:
         """Quantity, unit and values by condition, of the heaviest ball and of the bearing."""
-        found, ball = [], self.state.heaviest
-        for name, words, unit, size in FILMS:
-            for column, race in enumerate(RACES):
-                values = {key: getattr(one, name) for key, one in self.conditions.items()}
-                if all(value is not None for value in values.values()):
-                    shown = {key: float(value[ball, column]) / size for key, value in values.items()}
-                    found.append((f"{words}, {race}", unit, shown))
-        for k, hz in enumerate(self.hz[:SHOWN].tolist()):
-            for name, unit, size in SMALL:
-                for words, way in self.ways.items():
-                    which = f" {words}" if len(self.ways) > 1 else ""
-                    shown = {key: float(getattr(one, name)[k, way]) / size for key, one in self.conditions.items()}
-                    found.append((f"{name}{which}, {hz:.4g} Hz", unit, shown))
+        found = []
+        for words, unit, size, name, place in self._quantities:
+            values = {key: getattr(one, name) for key, one in self.conditions.items()}
+            if all(value is not None for value in values.values()):
+                found.append((words, unit, {key: float(value[place]) / size for key, value in values.items()}))
         for name in ("rolling", "sliding"):
             shown = {key: 1e3 * float(getattr(one, name)) for key, one in self.conditions.items()}
             found.append((f"{name} torque", "N mm", shown))
         both = {key: 1e3 * (one.rolling + one.sliding) for key, one in self.conditions.items()}
         return [*found, ("torque", "N mm", both)]
+
+    @property
+    def bars(self) -> dict[str, dict[str, float]]:
+        """Half widths of the error bars of `rows`, by quantity and condition; what has none is left out."""
+        found: dict[str, dict[str, float]] = {}
+        for words, _, size, name, place in self._quantities:
+            for key, one in self.error_bars.items():
+                if (bars := getattr(one, name, None)) is not None:
+                    found.setdefault(words, {})[key] = float(bars[place[-bars.ndim :]]) / size
+        return found
+
+    @property
+    def _quantities(self) -> list[tuple[str, str, float, str, tuple[int, int]]]:
+        """Words, unit and its size, attribute and place of films of the heaviest ball, and of K and C."""
+        ball, several = self.state.heaviest, len(self.ways) > 1
+        films = [
+            (f"{words}, {race}", unit, size, name, (ball, column))
+            for name, words, unit, size in FILMS
+            for column, race in enumerate(RACES)
+        ]
+        return films + [
+            (f"{name}{f' {words}' if several else ''}, {hz:.4g} Hz", unit, size, name, (k, way))
+            for k, hz in enumerate(self.hz[:SHOWN].tolist())
+            for name, unit, size in SMALL
+            for words, way in self.ways.items()
+        ]
 
     @property
     def ways(self) -> dict[str, int]:
@@ -180,6 +202,8 @@ class OilAndHeat(Summary):
     def notes(self) -> list[str]:
         """What these numbers do not say, one line each."""
         lines = ["Films, K and C are those of all balls, from tables of solved contacts."]
+        if self.error_bars:
+            lines[0] += " Their error bars are those of the heaviest ball's contacts."
         if self.solved:
             lines = ["K and C are those of flooded films times the ratio of the heaviest ball's solved contacts."]
         if isinstance(self.at_rest, SetState):
@@ -214,6 +238,16 @@ class OilAndHeat(Summary):
         names = "h_central", "h_min", "lambda_ratio", "stiffness", "damping", "rolling", "sliding"
         rolling, sliding = self.skf or (None, None)
         return {
+            **(
+                {
+                    "error_bars": {
+                        key: {name: _plain(value) for name, value in vars(one).items()}
+                        for key, one in self.error_bars.items()
+                    }
+                }
+                if self.error_bars
+                else {}
+            ),
             **({"bearing": self.bearing} if isinstance(self.at_rest, SetState) else {}),
             "hz": self.hz.tolist(),
             "conditions": {
@@ -305,7 +339,8 @@ def oil_and_heat(
         with suppress(InputError):  # beyond the tables
             flooded = _tabulated(_bearings(bearing), states, most, small, law)
             made = _from_tables(flooded, tabulated, states[most].heaviest, supply, thermal)
-            return OilAndHeat(at_rest=at_rest, hz=hz, conditions=made, refused={}, solved=False)
+            bars = _bars(_bearings(bearing)[most], states[most], hz, made, supply, thermal)
+            return OilAndHeat(at_rest=at_rest, hz=hz, conditions=made, refused={}, solved=False, error_bars=bars)
     ratios, refused = _ratios(points, hz, supply, thermal, callback)
     made = {key: _condition(_bearings(bearing), states, most, small, one, law) for key, one in ratios.items()}
     return OilAndHeat(at_rest=at_rest, hz=hz, conditions=made, refused=refused, solved=True)
@@ -349,6 +384,23 @@ def _from_tables(
         share = float((made[HEAT].h_central / flooded.h_central)[heaviest].mean())
         made[BOTH] = made[HEAT].times(tabulated(supply=_over(supply, share)), flooded)
     return made
+
+
+def _bars(
+    bearing: Any,
+    state: BearingState,
+    hz: _Floats,
+    made: Mapping[str, Condition],
+    supply: OilLayer | None,
+    thermal: Heat | None,
+) -> dict[str, TableBars]:
+    """Error bars under each condition, of the heaviest ball under its load with flooded films."""
+    ball, found = state.heaviest, {}
+    for key, one in made.items():
+        layer, heat = supply if key in (LAYER, BOTH) else None, thermal if key in (HEAT, BOTH) else None
+        races = [replace(race_at(bearing, state, ball, k), supply=layer, thermal=heat) for k in range(len(RACES))]
+        found[key] = table_bars(races, state.force[ball].tolist(), state.speed_rpm, hz, one.stiffness)
+    return found
 
 
 def _tabulated(

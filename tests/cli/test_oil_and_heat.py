@@ -63,6 +63,20 @@ def test_table_json_and_csv_have_the_same_numbers(call, coarse, tmp_path):
     assert float(rows["central film, inner"]["with the layer"]) < float(rows["central film, inner"]["with heat"])
 
 
+def test_numbers_from_tables_have_error_bars(call, tmp_path):
+    files = ("--json", tmp_path / "b.json", "--csv", tmp_path / "b.csv")
+    result = call(*AT, *OIL, "--thermal", *files)
+    bars = json.loads((tmp_path / "b.json").read_text())["oil_and_heat"][0]["error_bars"]["with heat"]
+    rows = {row["quantity"]: row for row in csv.DictReader((tmp_path / "b.csv").read_text().splitlines())}
+    for quantity, bar in (
+        ("central film, inner", 1e6 * bars["h_central"][0]),
+        ("damping, 500 Hz", bars["damping"][1][1]),
+    ):
+        assert float(rows[quantity]["with heat, error bar"]) == pytest.approx(bar, rel=1e-12)
+        assert f"±{bar:.2g}" in result.out
+    assert rows["torque"]["with heat, error bar"] == ""
+
+
 def test_entries_of_a_file_and_options_in_their_place(call, coarse, tmp_path):
     text = EXAMPLE.read_text().replace("[1000, 3000, 6000]", "[6000]\nlayer_um = 0.2")
     path = tmp_path / "b.toml"

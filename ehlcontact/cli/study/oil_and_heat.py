@@ -94,12 +94,15 @@ def run_oil_and_heat(study: Study) -> OilAndHeat | str | None:
 
 
 def columns(found: OilAndHeat) -> tuple[list[str], list[list[str]]]:
-    """Heads and rows of a table of text, a column for each condition."""
-    heads = ["", *found.conditions]
-    rows = [
-        [f"{words}{f' [{unit}]' if unit else ''}", *(numeral(value, 4) for value in values.values())]
-        for words, unit, values in found.rows
-    ]
+    """Heads and rows of a table of text, a column for each condition, with error bars where there are any."""
+    heads, rows = ["", *found.conditions], []
+    for words, unit, values in found.rows:
+        bars = found.bars.get(words, {})
+        shown = [
+            f"{numeral(value, 4)} ±{numeral(bars[key], 2)}" if key in bars else numeral(value, 4)
+            for key, value in values.items()
+        ]
+        rows.append([f"{words}{f' [{unit}]' if unit else ''}", *shown])
     return heads, rows
 
 
@@ -119,11 +122,13 @@ def csv_text(results: Iterable[OilAndHeat]) -> str:
     names = list(dict.fromkeys(key for one in results for key in one.conditions))
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["speed_rpm", "quantity", "unit", *names, "SKF"])
+    barred = names if any(one.error_bars for one in results) else []
+    writer.writerow(["speed_rpm", "quantity", "unit", *names, "SKF", *(f"{name}, error bar" for name in barred)])
     for one in results:
         skf = dict(zip(("rolling torque", "sliding torque"), one.skf or (), strict=False))
         for words, unit, values in one.rows:
             beside = skf.get(words)
-            row = [values.get(name, "") for name in names]
-            writer.writerow([one.state.speed_rpm, words, unit, *row, "" if beside is None else 1e3 * beside])
+            row = [values.get(name, "") for name in names] + ["" if beside is None else 1e3 * beside]
+            bars = [one.bars.get(words, {}).get(name, "") for name in barred]
+            writer.writerow([one.state.speed_rpm, words, unit, *row, *bars])
     return stream.getvalue()

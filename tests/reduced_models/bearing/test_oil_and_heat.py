@@ -53,6 +53,34 @@ def test_conditions_are_those_of_the_bearing_with_heat_and_with_the_layer():
     assert sum("below 0" in line for line in found.notes) == 1
 
 
+def test_error_bars_are_those_of_the_heaviest_balls_contacts():
+    """Against the ball with both contacts off by their bars, and as many such balls as the stiffness has."""
+    found = oil_and_heat(BEARING, (0.0, -1000.0), speed_rpm=3000.0, thermal=Heat())
+    state, contacts = found.at_rest, []
+    for column, force in enumerate(state.force[state.heaviest].tolist()):
+        race = race_at(BEARING, state, state.heaviest, column)
+        answer = replace(race, thermal=Heat()).answer(force, 3000.0)
+        contacts.append(answer.impedance(hz=found.hz).si)
+        bar = answer.si.error_bars["h_min"]
+        assert found.error_bars[HEAT].h_min[column] == pytest.approx(bar, rel=1e-12)
+        name = f"smallest film, {('inner', 'outer')[column]}"
+        assert found.bars[name][HEAT] == pytest.approx(1e6 * bar) and found.bars[name][FLOODED] < 1e6 * bar * 1.5
+    w = tau * found.hz
+
+    def ball(stiff=0.0, damp=0.0):
+        K, C = (
+            np.array([getattr(one, name) + off * one.error_bars[name] for one in contacts])
+            for name, off in (("stiffness", stiff), ("damping", damp))
+        )
+        return 1.0 / (1.0 / (K + 1j * w * C)).sum(axis=0)
+
+    count = found.conditions[HEAT].stiffness[:, 1] / ball().real
+    bars = found.error_bars[HEAT]
+    np.testing.assert_allclose(bars.stiffness[:, 1], count * (ball(stiff=1.0) - ball()).real, rtol=0.01)
+    np.testing.assert_allclose(bars.damping[:, 1], count * (ball(damp=1.0) - ball()).imag / w, rtol=0.01)
+    assert "±" not in str(found) and "error bars are those of the heaviest ball" in found.notes[0]
+
+
 def test_what_tables_do_not_have_is_solved(coarse, monkeypatch):
     """For a bearing, and for both of a pair."""
 
