@@ -116,7 +116,7 @@ def impedance(
     solved = held(steady, grid.deflection, threads)
     contact = linearised(steady, solved)
     Z, residual = contact.respond(moving, TOLERANCE)
-    coarser = [linearised(steady, film).respond(moving, TOLERANCE)[0] for film in coarser_films(solved)]
+    coarser = [other.respond(moving, TOLERANCE)[0] for other in coarser_contacts(steady, solved)]
     bars = response_error(moving, [Z, *coarser])
     # A front of full film is slow by itself
     still = None if supply is None or thermal is None else LinearisedContact(solved)
@@ -209,6 +209,16 @@ def coarser_films(solved: Multigrid) -> Iterator[Multigrid]:
         if not np.isfinite(lowest) or not (first or lowest > 0.0):
             return
         yield multigrid
+
+
+def coarser_contacts(film: SteadyResult, solved: Multigrid) -> Iterator[LinearisedContact]:
+    """Derivatives at the `coarser_films`, as far as they have temperatures."""
+    for multigrid in coarser_films(solved):
+        with np.errstate(over="ignore", invalid="ignore"):  # of a coarse film that runs away
+            heat = heat_of(film, multigrid)
+        if heat is not None and not (np.isfinite(heat.rise).all() and np.isfinite(heat.walls).all()):
+            return
+        yield LinearisedContact(multigrid, heat)
 
 
 def linearised(film: SteadyResult, multigrid: Multigrid) -> LinearisedContact:

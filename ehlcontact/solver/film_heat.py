@@ -172,7 +172,7 @@ class FilmHeat:
         across = np.maximum(t.heat_across, 0.0) * self.rise + np.minimum(t.heat_across, 0.0) * rise[1:, :-1]
         turned = self._turned(t)
         carried = np.where(t.wet | (turned != 0.0), divergence(along, across), 0.0)
-        carried += np.where(t.wet, self.with_walls(t, wall) + self.stored(t, self.mean), 0.0)
+        carried += np.where(t.wet, self.with_walls(t, wall) + self.stored(t, self.mean), -self.released(t))
         left = t.pressed + slid + work - sum(self.into_walls(t)) - carried
         weights = self.level.force_weights
         return float(abs(np.vdot(weights, left)) / np.vdot(weights, t.pressed + slid + np.abs(work)))
@@ -217,7 +217,9 @@ class FilmHeat:
         level, fronts = self.level, self.level.fronts()
         before = fronts.nodes - 1
         through[...] = level.carried
-        through.ravel()[before] -= (1.0 + level.fields.flow.open.ravel()[before]) * level.hx * fronts.back
+        through.ravel()[before] -= (
+            (1.0 + level.fields.flow.open.ravel()[before]) * level.hx * fronts.back / level.speed
+        )
         by_x.ravel()[before] = fronts.back * level.P.ravel()[fronts.nodes]
         share.ravel()[before] = np.clip(fronts.passed, 0.0, 1.0)
         self.rise[share == 0.0] = 0.0
@@ -230,6 +232,10 @@ class FilmHeat:
 
     def stored(self, t: Terms, mean: Array) -> Array | float:
         """Heat that a mean temperature takes up in time: none in a steady film."""
+        return 0.0
+
+    def released(self, t: Terms) -> Array | float:
+        """Heat of oil from which a front of full film has receded: none in a steady film."""
         return 0.0
 
     def passed_on(self, k: int, heat: Array) -> Array:
@@ -246,7 +252,7 @@ class FilmHeat:
     def into_walls(self, t: Terms) -> tuple[Array, Array]:
         """Heat that goes into each surface (eq. 6)."""
         straight = (1.0 - INNER * self.ahead) * t.pressed + ~self.ahead * t.work * (self.numbers.inlet + self.mean)
-        half = 0.5 * (t.exchange * self.rise + straight + self._turned(t))
+        half = 0.5 * (t.exchange * self.rise + straight + self._turned(t) + self.released(t))
         through = t.exchange / 12.0 * (self.walls[1] - self.walls[0])
         return half + through, half - through
 

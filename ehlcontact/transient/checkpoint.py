@@ -36,7 +36,7 @@ from ehlcontact.version import __version__
 SAME = 1e-12  # of a time or a step: they differ by rounding only
 
 
-@stored("checkpoint of `simulate`", 3)
+@stored("checkpoint of `simulate`", 4)
 @dataclass(frozen=True, slots=True, eq=False)
 class Checkpoint:
     """Content of the file: the run up to its last accepted state, and that state."""
@@ -208,8 +208,8 @@ def _of_heat(heat: HeatState | None, field: tuple[int, ...]) -> list[tuple[np.nd
     """Arrays of a state of temperatures, with the shapes that they should have."""
     if heat is None:
         return []
-    fields = (heat.rise, heat.heating, *heat.stored, *heat.pressure)
-    pairs = (heat.walls, *(given for _, given in heat.given))
+    fields = (heat.rise, heat.heating, *heat.stored, *heat.of_rise, *heat.pressure)
+    pairs = (heat.walls, *(given for _, _, given in heat.given))
     return [*((array, field) for array in fields), *((array, (2, *field)) for array in pairs)]
 
 

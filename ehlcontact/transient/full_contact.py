@@ -51,7 +51,7 @@ class FullContact(Summary):
     surface : callable, optional
         Height added to the gap, as in `simulate`, over the time since this contact was made; it rests on it.
     thermal : Heat, optional
-        Let the film heat up, as in `simulate`; not together with `supply` or `surface`.
+        Let the film heat up, as in `simulate`; not together with `surface`.
     largest_load : float
         Largest force to expect, in static loads.
     tol : float
@@ -105,7 +105,7 @@ class FullContact(Summary):
         require_surface(surface)
         self._surface, self._T = surface, 0.0
         if thermal is not None:
-            thermal = require_heat_over_time(thermal, point, supply=supply, surface=surface)
+            thermal = require_heat_over_time(thermal, point, surface)
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)
         left: Step | None = None

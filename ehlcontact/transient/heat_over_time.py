@@ -1,14 +1,17 @@
 """Heat of a film over time: storage in oil and surfaces, and its transport; eqs. 10 and 11 of docs/heat.md.
 
 Differences in time are those of the film. The heat given to the surfaces is stored for the time that they take
-through the computed region, and is linear between the steps: all of this is of second order in the step.
+through the computed region, or for all time where they turn back, and is linear between the steps: all of this is
+of second order in the step.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import takewhile
+from math import log, sqrt
+from typing import Any
 
 import numpy as np
 import scipy
@@ -19,11 +22,11 @@ from ehlcontact.heat import Heat, require_heat
 from ehlcontact.point import Point, Scales
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.solver.film_heat import FilmHeat, Terms
-from ehlcontact.solver.level import Level
 from ehlcontact.solver.multigrid import Multigrid
 
 Array = NDArray[np.float64]
 
+PAIRS = "stored", "of_rise", "pressure"  # now and a step before
 LAST_ROUNDS = 5  # of the temperatures of a solved step, whose viscosity stays
 
 
@@ -35,9 +38,19 @@ class HeatState:
     walls: Array
     heating: Array  # of the viscosity
     stored: tuple[Array, Array]  # in the oil, now and a step before
+    of_rise: tuple[Array, Array]  # the part of it by which the oil is warmer than the surfaces
     pressure: tuple[Array, Array]  # likewise
     T: float
-    given: tuple[tuple[float, Array], ...]  # to the surfaces, (2, ny + 1, nx + 1), latest first, with the times
+    way: float  # of the surfaces since T = 0, as seen at T = 0
+    given: tuple[tuple[float, float, Array], ...]  # T, way, and heat of both surfaces, (2, ...), latest first
+
+    def turned(self) -> HeatState:
+        """The same, seen from the other side."""
+        fields = {name: getattr(self, name)[..., ::-1].copy() for name in ("rise", "walls", "heating")}
+        pairs = {name: tuple(one[:, ::-1].copy() for one in getattr(self, name)) for name in PAIRS}
+        given = tuple((T, way, heat[..., ::-1].copy()) for T, way, heat in self.given)
+        changed: dict[str, Any] = fields | pairs
+        return replace(self, **changed, given=given)
 
 
 class HeatOverTime(FilmHeat):
@@ -55,14 +68,13 @@ class HeatOverTime(FilmHeat):
         super().__init__(multigrid.finest, inputs.numbers(multigrid.point, scales))
         self._multigrid, self._inputs = multigrid, inputs
         self._load = inputs.load(multigrid.point, scales)
-        level: Level = multigrid.finest
-        self._weights = self.memory[0]  # of heat in a cell, by its distance
-        edges = np.append(0.0, (np.arange(level.nx + 1) + 0.5) * level.hx)
-        distance = np.diff(edges**1.5) / 1.5 / self._weights  # mean with these weights
-        self._delays = [distance / speed for speed in self.speeds]
-        self._step: tuple[Array, Array] | None = None  # what is known of the differences of heat and pressure
+        self._at_unit_speed = self.numbers
+        # What is known of the differences in time of heat, of its part by which oil is warmer, and of pressure
+        self._step: tuple[Array, Array, Array] | None = None
         self._now: list[Array] = []
         self._before: list[Array] = []
+        self._end = 0.0, 0.0  # of the step: time and way
+        self._begun = False
         self.state: HeatState
 
     def rest(self) -> None:
@@ -72,58 +84,95 @@ class HeatOverTime(FilmHeat):
         self._step = None
         self._multigrid.set_heat(np.zeros_like(self.rise))
 
-    def begin(self, dT: float, known: Callable[[Array, Array], Array]) -> None:
-        """Begin a step; ``known(now, before)`` is the known part of a difference in time."""
-        state = self.state
-        stored = self.numbers.convection * known(*state.stored)
-        self._step = stored, known(*state.pressure)
-        parts = [np.clip(1.0 - delay / dT, 0.0, 1.0) for delay in self._delays]
-        nothing = np.zeros(self.level.nx + 1)
-        self._now = [scipy.linalg.toeplitz(self._weights * part, nothing).T for part in parts]
-        self._before = [self._brought(k, dT) for k in range(1 if self.even else 2)]
+    def set_speed(self, speed: float) -> None:
+        """Let the surfaces move at `speed` > 0, over that of the operating point; they slide in proportion."""
+        unit = self._at_unit_speed
+        self.numbers = unit._replace(shear=unit.shear + log(speed), stress=unit.stress * speed)
 
-    def _brought(self, k: int, dT: float) -> Array:
-        """What a surface brings of the heat given to it in earlier steps, to the end of a step."""
-        state, delays = self.state, self._delays[k]
-        times = np.array([T for T, _ in reversed(state.given)])
-        fields = [heat[k] for _, heat in reversed(state.given)]
-        found = np.zeros_like(self.rise)
-        nodes, last = self.level.nx + 1, len(times) - 1
-        for lag in range(nodes):
-            T = state.T + dT - delays[lag]
-            if T >= state.T:
-                heat = min(delays[lag] / dT, 1.0) * fields[last][:, : nodes - lag]
-            else:
-                i = int(np.searchsorted(times, T))
-                heat = fields[i][:, : nodes - lag]
-                if i > 0:
-                    part = (T - times[i - 1]) / (times[i] - times[i - 1])
-                    heat = part * heat + (1.0 - part) * fields[i - 1][:, : nodes - lag]
-            found[:, lag:] += self._weights[lag] * heat
-        return found
+    def turn(self) -> None:
+        """See all of it from the other side."""
+        if self._begun:
+            self.restore(self.state.turned())
 
-    def end(self, dT: float) -> None:
-        """Take what was found as the state; a `dT` of 0 is that of rest."""
-        resting = dT == 0.0
-        self.solve(*() if resting else (LAST_ROUNDS,))
+    def begin(self, dT: float, known: Callable[[Array, Array], Array], moved: float, turned: bool) -> None:
+        """Begin a step in which the surfaces go on by `moved`.
+
+        ``known(now, before)`` is the known part of a difference in time; `turned` says that fields are those seen
+        from the other side.
+        """
+        state, convection = self.state, self.numbers.convection
+        stored, of_rise = (convection * known(*pair) for pair in (state.stored, state.of_rise))
+        self._step = stored, of_rise, known(*state.pressure)
+        self._end = state.T + dT, state.way + moved
+        past = [*reversed(state.given)]
+        T = np.array([*(one[0] for one in past), self._end[0]])
+        way = np.array([*(one[1] for one in past), self._end[1]]) * (-1.0 if turned else 1.0)
+        self._now, self._before = [], []
+        nx = self.level.nx
+        for k, speed in enumerate(self.speeds[:1] if self.even else self.speeds):
+            weights = sqrt(speed) * passage(T[-1] - T, (way[-1] - way) * speed / self.level.hx, nx)
+            self._now.append(scipy.linalg.toeplitz(weights[-1, nx::-1], weights[-1, nx:]))
+            before = np.zeros_like(self.rise)
+            for j, at in zip(*np.nonzero(weights[:-1]), strict=True):
+                _add_behind(weights[j, at] * past[j][2][k], int(at) - nx, before)
+            self._before.append(before)
+
+    def start(self, turned: bool) -> None:
+        """Take what was found of a steady film as the state; `turned` as of `begin`."""
+        self.solve()
+        found = self._state((0.0, 0.0), ())
+        longest = self._longest  # over this way, and before, the film has been the same
+        way = longest if turned else -longest
+        steady = (-longest / self.level.speed, way, found.given[0][2])
+        self.state, self._begun = replace(found, given=(*found.given, steady)), True
+
+    def end(self, keeps: bool) -> None:
+        """Take what was found as the state at the end of the step.
+
+        Where surfaces turn back, it `keeps` what was given to those that have left the region.
+        """
+        self.solve(LAST_ROUNDS)
+        before, past = self.state, self.state.given
+        if not keeps:
+            near = tuple(takewhile(lambda one: abs(one[1] - self._end[1]) < self._longest, past))
+            past = past[: len(near) + 1]
+        found = self._state(self._end, past)
+        pairs: dict[str, Any] = {name: (getattr(found, name)[0], getattr(before, name)[0]) for name in PAIRS}
+        self.state = replace(found, **pairs)
+
+    def _state(self, when: tuple[float, float], past: tuple[tuple[float, float, Array], ...]) -> HeatState:
+        """State of the present temperatures, as one that has not changed."""
         t, level = self.terms(), self.level
-        mean = self.behind(self.rise, t.share) + self.walls.mean(axis=0)
-        stored, P = level.fields.flow.mass * mean, level.P.copy()
-        T = 0.0 if resting else self.state.T + dT
-        given: tuple[tuple[float, Array], ...] = ((T, np.array(self.into_walls(t))),)
-        if not resting:
-            longest = max(float(delay[-1]) for delay in self._delays)
-            young = tuple(takewhile(lambda entry: entry[0] > T - longest, self.state.given))
-            given += self.state.given[: len(young) + 1]
-        self.state = HeatState(
+        stored, of_rise = self._heat_of_oil(t)
+        pressure = level.P.copy()
+        return HeatState(
             rise=self.rise.copy(),
             walls=self.walls.copy(),
             heating=level.fields.flow.heat.copy(),
-            stored=(stored, stored if resting else self.state.stored[0]),
-            pressure=(P, P if resting else self.state.pressure[0]),
-            T=T,
-            given=given,
+            stored=(stored, stored),
+            of_rise=(of_rise, of_rise),
+            pressure=(pressure, pressure),
+            T=when[0],
+            way=when[1],
+            given=((*when, np.array(self.into_walls(t))), *past),
         )
+
+    @property
+    def _longest(self) -> float:
+        """Way over which a surface crosses the region."""
+        return (self.level.nx + 1) * self.level.hx / min(self.speeds)
+
+    def _heat_of_oil(self, t: Terms) -> tuple[Array, Array]:
+        """Heat in the oil of cells, over its heat capacity, and the part by which it is warmer than the surfaces.
+
+        All oil of a cell has the temperature of the surfaces, that of the full film the rise too, and behind it
+        oil keeps the rise.
+        """
+        level, oil = self.level, self.level.oil
+        full = np.where(t.wet, t.share * level.fields.flow.mass, oil)
+        behind = np.logical_or.accumulate(level.P > 0.0, axis=1)
+        rise = np.where(t.wet, self.rise, np.where(behind, self.behind(self.rise, t.share), 0.0))
+        return oil * (rise + self.walls.mean(axis=0)) + (full - oil) * rise, full * rise
 
     def at_rest(self, cold: float) -> FilmTemperature:
         """Temperatures of a steady film whose central film would be `cold` without heat."""
@@ -152,25 +201,80 @@ class HeatOverTime(FilmHeat):
         if self._step is None:
             return t
         level, n = self.level, self.numbers
-        squeezed = n.expansion * t.H * (level.c_t * level.P + self._step[1])
-        storage = level.c_t * n.convection * level.fields.flow.mass
+        squeezed = n.expansion * t.H * (level.c_t * level.P + self._step[2])
+        storage = level.c_t * n.convection * level.fields.flow.mass * t.share
         return t._replace(work=t.work + np.where(t.wet, squeezed, 0.0), storage=np.where(t.wet, storage, 0.0))
 
     def stored(self, t: Terms, mean: Array) -> Array | float:
-        """Heat that a mean temperature takes up in time (eq. 10)."""
-        return 0.0 if self._step is None else t.storage * mean + self._step[0]
+        """Heat that a mean temperature takes up in time (eqs. 10, 12)."""
+        if self._step is None:
+            return 0.0
+        found = t.storage * mean + self._step[0]
+        if self.level.inflow.size:
+            oil = self.level.c_t * self.numbers.convection * self.level.oil
+            found += (oil - t.storage) * self.walls.mean(axis=0)
+        return found
+
+    def released(self, t: Terms) -> Array | float:
+        """Heat of oil from which a front of full film has receded: the surfaces take it."""
+        if self._step is None or not self.level.inflow.size:
+            return 0.0
+        ahead = ~np.logical_or.accumulate(self.level.P > 0.0, axis=1)
+        return np.where(ahead & ~t.wet, -self._step[1], 0.0)
 
     def passed_on(self, k: int, heat: Array) -> Array:
-        """Heat given to a surface, upstream of each node and earlier, over the root of the distance (eq. 11)."""
+        """Rise of a surface by heat given to it, upstream of each node and earlier (eq. 11)."""
         if self._step is None:
-            return super().passed_on(k, heat)
-        return np.asarray(heat @ self._now[k] + self._before[k if len(self._before) > 1 else 0])
+            return super().passed_on(k, heat) / sqrt(self.level.speed)
+        own = k if len(self._now) > 1 else 0
+        return np.asarray(heat @ self._now[own] + self._before[own])
 
 
-def require_heat_over_time(thermal: Heat, point: Point, **others: object) -> Heat:
-    """Heat with the data of the oil; raises `InputError` where there are `others` that it does not go with."""
+def passage(ages: Array, lags: Array, nx: int) -> Array:
+    """Weights of past heat in the rise of a surface: integrals over 1/sqrt(age), (steps, 2 nx + 1).
+
+    Parameters
+    ----------
+    ages : array, shape (steps,)
+        Of the ends of the steps, oldest first, the last 0; heat is linear in time between them.
+    lags : array, shape (steps,)
+        Nodes by which a place of the surface has moved since then.
+    nx : int
+        Largest lag that counts; columns are lags from -nx on.
+    """
+    weights = np.zeros((ages.size, 2 * nx + 1))
+    for j in range(ages.size - 1):
+        first, last = lags[j], lags[j + 1]
+        low, high = min(first, last), max(first, last)
+        if low > nx + 0.5 or high < -nx - 0.5:
+            continue
+        # The cell of a node reaches half a node to both sides
+        shares = (np.arange(np.ceil(low - 0.5), np.ceil(high - 0.5)) + 0.5 - first) / (last - first or 1.0)
+        edges = ages[j] + (ages[j + 1] - ages[j]) * np.array([0.0, *sorted(shares), 1.0])
+        share = 0.5 * (edges[1:] + edges[:-1] - 2.0 * ages[j]) / (ages[j + 1] - ages[j])
+        columns = np.rint(first + share * (last - first)).astype(int) + nx
+        roots = np.sqrt(np.maximum(edges, 0.0))
+        whole = 2.0 * (roots[:-1] - roots[1:])
+        mean = (edges[:-1] + roots[:-1] * roots[1:] + edges[1:]) / 3.0  # age, with these weights
+        older = (mean - ages[j + 1]) / (ages[j] - ages[j + 1])
+        inside = (columns >= 0) & (columns <= 2 * nx)
+        for row, part in ((j, older), (j + 1, 1.0 - older)):
+            np.add.at(weights[row], columns[inside], (whole * part)[inside])
+    return weights
+
+
+def _add_behind(heat: Array, lag: int, found: Array) -> None:
+    """Add what was `lag` nodes upstream; `found` written."""
+    nodes = found.shape[1]
+    if lag >= 0:
+        found[:, lag:] += heat[:, : nodes - lag]
+    else:
+        found[:, :lag] += heat[:, -lag:]
+
+
+def require_heat_over_time(thermal: Heat, point: Point, surface: object = None) -> Heat:
+    """Heat with the data of the oil; raises `InputError` where there is a surface that it does not go with."""
     require_heat(thermal)
-    for name, value in others.items():
-        if value is not None:
-            raise InputError(name, type(value).__name__, "left out with heat")
+    if surface is not None:
+        raise InputError("surface", type(surface).__name__, "left out with heat")
     return thermal.at(point)

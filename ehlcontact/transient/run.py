@@ -64,6 +64,7 @@ class Run:
         self.film, self.motion, self.surface, self.speed = film, motion, surface, speed
         self.history, self.control = history, control
         self.static_approach = film.u
+        film.keeps_oil = speed is not None and speed.reverses
         self.film_error: ErrorEstimate | None = None  # of the film at T = 0
         self._watch = watch
         self.state: MotionState
@@ -74,7 +75,6 @@ class Run:
         film, motion = self.film, self.motion
         if self.speed is not None:
             film.set_speed(self.speed(0.0))
-            film.keeps_oil = self.speed.reverses
         G = surface_height(self.surface, film.level.X, film.level.Y, 0.0)
         balance = Balance.of_load()
         step = film.start_steady(balance, surface=G)

@@ -80,7 +80,7 @@ def simulate(
         turn back, they bring back what has left. Not together with `surface`.
     thermal : Heat, optional
         Let the film heat up: oil and surfaces store heat, and its viscosity follows in every step (docs/heat.md).
-        By default the film has the temperature of the inlet. Not together with `supply`, `speed` or `surface`.
+        By default the film has the temperature of the inlet. Not together with `surface`.
     time : TimeSteps
         End, step, tolerances; in seconds for an `OperatingPoint`, in 2a/u_sum for a `MoesPoint`.
     speed : SpeedHistory, optional
@@ -125,7 +125,7 @@ def simulate(
     if supply is not None and surface is not None:
         raise InputError("surface", type(surface).__name__, "left out with a supply")
     if thermal is not None:
-        thermal = require_heat_over_time(thermal, point, supply=supply, surface=surface, speed=speed)
+        thermal = require_heat_over_time(thermal, point, surface)
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
     scales = scales_of(point)

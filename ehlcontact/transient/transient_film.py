@@ -138,8 +138,8 @@ class TransientFilm:
         ConvergenceError
             The flooded film, which the supply is given over, was not solved.
         """
+        heat = None if thermal is None or scales is None else (thermal, scales)
         if supply is None:
-            heat = None if thermal is None or scales is None else (thermal, scales)
             return cls(point, mesh, tol, deflection, threads, heat=heat)
         flooded = nan
         if supply.needs_flooded:
@@ -148,7 +148,7 @@ class TransientFilm:
             if not step.status.ok:
                 raise ConvergenceError(f"flooded film {step.status}: {step.status.advice}", step)
             flooded = film.level.central_film()
-        return cls(point, mesh, tol, deflection, threads, supply.lines(point, scales, flooded))
+        return cls(point, mesh, tol, deflection, threads, supply.lines(point, scales, flooded), heat)
 
     @property
     def level(self) -> Level:
@@ -185,9 +185,13 @@ class TransientFilm:
             self.level.P[...] = self.level.P[:, ::-1].copy()
             self.level.update_film(self.u)
             self.multigrid.newton.factors = None
+            if self.heat is not None:
+                self.heat.turn()
         self._next_speed = speed
         for level in self.multigrid.levels:
             level.set_speed(abs(speed))
+        if self.heat is not None:
+            self.heat.set_speed(self.level.speed)
 
     def start_steady(self, balance: Balance, u: float | None = None, surface: Array | float = 0.0) -> Step:
         """Solve the steady film over a resting `surface` and make it the state for all T <= 0."""
@@ -207,7 +211,7 @@ class TransientFilm:
             cold, cycles = self.level.central_film(), HeatedCycles(mg, self.heat, mg.cycle)
             cycles.start(balance)
             step = self._solve(balance, 2 * STEP_CYCLES, cycles.step)
-            self.heat.end(0.0)
+            self.heat.start(self.turned)
             self.temperature = self.heat.at_rest(cold)
         self._mass = self.level.oil.copy()
         self._mass_before = self._mass
@@ -273,12 +277,13 @@ class TransientFilm:
         if self.heat is None:
             step = self._solve(balance, STEP_CYCLES)
         else:
-            self.heat.begin(dT, partial(_known, dT, ratio))
+            moved = 0.5 * dT * (self._speed + self._next_speed)
+            self.heat.begin(dT, partial(_known, dT, ratio), moved, self.turned)
             cycles = HeatedCycles(mg, self.heat, mg.cycle)
             level.update(mg.u)
             cycles.follow()
             step = self._solve(balance, STEP_CYCLES, cycles.step)
-            self.heat.end(dT)
+            self.heat.end(self.keeps_oil)
         self._past = ((dT, P_now), *self._past)[:PAST]
         self._past_u = (u_now, *self._past_u)[:PAST]
         self._mass_before, self._mass = self._mass, level.oil.copy()

@@ -2,7 +2,7 @@
 
 Each condition has its own table and gives a `Change`: factors, and for C differences, because C may be zero. With
 both, the joint film is T S(r/T): T the share that heat leaves, S the curve over supply, r the layer over the
-flooded isothermal film. K and C are changed likewise, which is an assumption.
+flooded isothermal film. K and C are changed likewise; docs/heat.md has them beside solved ones.
 """
 
 from __future__ import annotations

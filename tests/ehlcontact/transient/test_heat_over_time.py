@@ -13,11 +13,9 @@ from ehlcontact import (
     KeepSettings,
     Lubricant,
     MoesPoint,
-    OilLayer,
     OperatingPoint,
     PrescribedApproach,
     PrescribedLoad,
-    SpeedHistory,
     TimeSteps,
     impedance,
     load,
@@ -156,12 +154,8 @@ def test_kept(tmp_path):
 def test_what_heat_does_not_go_with():
     motion = FreeVibration(Omega_n=5.0, rate=0.1)
     given = {"grid": GRID, "thermal": Heat()}
-    for name, value in (("supply", OilLayer(1e-6)), ("surface", lambda X, Y, T: 0.0 * X)):
+    for name, value in (("surface", lambda X, Y, T: 0.0 * X),):
         with pytest.raises(InputError, match=f"{name} = .*left out with heat"):
             simulate(POINT, motion, **given, **{name: value})
-    with pytest.raises(InputError, match=r"speed = .*left out with heat"):
-        simulate(POINT, motion, **given, speed=SpeedHistory([0, 1, 2, 3], [1, 1, 2, 2]))
-    with pytest.raises(InputError, match=r"supply = .*left out with heat"):
-        FullContact(POINT, supply=OilLayer(1e-6), thermal=Heat())
     with pytest.raises(InputError, match="left out at a dimensionless point"):
         simulate(MoesPoint(200, 10, 0.5), motion, thermal=Heat())
