@@ -46,6 +46,11 @@ class FrequencyCurve:
             np.arcsinh(self._Omega), self._values, bc_type=((1, 0.0), "not-a-knot")
         )
 
+    @property
+    def coefficients(self) -> _Floats:
+        """Of the cubics in asinh(Omega) from each node on, shape (4, k - 1), the highest power first."""
+        return np.asarray(self._cubic.c)
+
     def at(self, Omega: _Floats) -> _Floats:
         """Values, in the shape of `Omega`."""
         return np.asarray(self._cubic(np.arcsinh(Omega)))

@@ -53,22 +53,43 @@ class SolvedContacts:
             if keys[-1] not in found and rounded > race.loads(speed_rpm)[0]:
                 found[keys[-1]] = race.answer(rounded, speed_rpm)
         self.answers: list[AtlasAnswer] = list(found.values())
-        self._which = [np.flatnonzero([one == key for one in keys]) for key in found]
-        self._count = len(keys)
-        self._curves = [
-            (FrequencyCurve(one.Omega, one.stiffness), FrequencyCurve(one.Omega, one.damping))
-            for one in self.answers
-        ]
+        self._of = np.array([list(found).index(key) if key in found else len(found) for key in keys])
+        self._curves = _Curves(self.answers) if found else None
 
     def impedance(self, s: ArrayLike) -> _Complex:
         """Z [N/m] at s [1/s] of exp(s t), shape of `s`, whose last axis is 1, with that of the contacts."""
-        s = np.asarray(s, complex)[..., 0]
-        Z = np.zeros((*s.shape, self._count), complex)
-        for at, which, (K, C) in zip(self.answers, self._which, self._curves, strict=True):
-            assert at.scales is not None
-            Omega = np.minimum(np.abs(s.imag) * at.scales.time, at.Omega[-1])
-            Z[..., which] = (K.at(Omega) * at.scales.stiffness + s * (C.at(Omega) * at.scales.damping))[..., None]
-        return Z
+        s = np.asarray(s, complex)
+        Z = np.zeros((*s.shape[:-1], len(self.answers) + 1), complex)
+        if self._curves is not None:
+            K, C = self._curves.at(np.abs(s.imag))
+            Z[..., :-1] = K + s * C
+        return Z[..., self._of]
+
+
+class _Curves:
+    """K [N/m] and C [N s/m] of many answers over the angular frequency: those of `AtlasAnswer.impedance`."""
+
+    def __init__(self, answers: Sequence[AtlasAnswer]) -> None:
+        scales = [one.scales for one in answers if one.scales is not None]
+        self._time, *self._units = np.array([(one.time, one.stiffness, one.damping) for one in scales]).T
+        nodes = answers[0].Omega  # of one table, so the same for all
+        self._highest, self._x = nodes[-1], np.arcsinh(nodes)
+        self._cubics = [
+            np.stack([FrequencyCurve(nodes, getattr(one, name)).coefficients for one in answers], axis=-1)
+            for name in ("stiffness", "damping")
+        ]
+
+    def at(self, omega: _Floats) -> tuple[_Floats, _Floats]:
+        """K and C, shape (..., answers), at frequencies [rad/s], shape (..., 1)."""
+        x = np.arcsinh(np.minimum(omega * self._time, self._highest))
+        interval = np.clip(np.searchsorted(self._x, x, side="right") - 1, 0, self._x.size - 2)
+        t, which = x - self._x[interval], np.arange(self._time.size)
+        powers = 1.0, t, t * t, t * t * t
+        K, C = (
+            sum(cubic[3 - k, interval, which] * power for k, power in enumerate(powers)) * unit
+            for cubic, unit in zip(self._cubics, self._units, strict=True)
+        )
+        return K, C
 
 
 def with_solved_contacts(bearing: Any, speed_rpm: float, small: Small, equilibria: Sequence[Any]) -> Small:

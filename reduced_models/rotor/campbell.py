@@ -185,7 +185,14 @@ def _sides(off: _Floats) -> tuple[int, int]:
 
 
 @takes(speeds_rpm="rev/min")
-def campbell(rotor: Rotor, speeds_rpm: ArrayLike, *, count: int = DEFAULT_MODES, passage: bool = True) -> Campbell:
+def campbell(
+    rotor: Rotor,
+    speeds_rpm: ArrayLike,
+    *,
+    count: int = DEFAULT_MODES,
+    passage: bool = True,
+    signed_damping: bool = False,
+) -> Campbell:
     """Modes of a rotor on ball bearings at increasing speeds.
 
     Parameters
@@ -195,8 +202,8 @@ def campbell(rotor: Rotor, speeds_rpm: ArrayLike, *, count: int = DEFAULT_MODES,
         In rev/min.
     count : int
         Modes: the slowest at the first speed, which are then followed by frequency and shape.
-    passage : bool
-        Bearings as means over a ball passage, as in `linearise`.
+    passage, signed_damping : bool
+        Bearings as means over a ball passage, and with the signed damping of solved contacts, as in `linearise`.
 
     Raises
     ------
@@ -209,7 +216,8 @@ def campbell(rotor: Rotor, speeds_rpm: ArrayLike, *, count: int = DEFAULT_MODES,
     count = require_integer("count", count, "a whole number >= 1", 1)
     rows: list[list[RotorMode]] = []
     for speed in speeds.tolist():
-        found = list(linearise(rotor, speed, passage=passage).modes(count + BESIDE))
+        at = linearise(rotor, speed, passage=passage, signed_damping=signed_damping)
+        found = list(at.modes(count + BESIDE))
         if rows and len(found) < len(rows[-1]):
             what = f"{len(found)} of {len(rows[-1])} modes oscillate at {speed:g} rev/min: ask for fewer (count)"
             raise ConvergenceError(f"Campbell diagram: only {what}", None)

@@ -19,7 +19,7 @@ from reduced_models.bearing.five_degrees import angular_equilibrium, equilibrium
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.linear_balls import SmallBalls
-from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out
+from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out, with_solved_contacts
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
 from reduced_models.rotor.equilibrium import require_held
@@ -91,6 +91,10 @@ class LinearRotor(Summary):
     damping_left_out : tuple of str
         Damping below zero of starved contacts that elements leave out, by ball bearing, in words; empty where
         there is none.
+    signed_damping : bool
+        Contacts under an oil supply have the impedance of the solved ones, with damping below zero, in place of
+        their elements. It is known over real frequencies: K + s C with K and C at the frequency of a mode stands
+        for Z(s), to first order in the damping.
     """
 
     rotor: Rotor
@@ -101,11 +105,13 @@ class LinearRotor(Summary):
     contacts: tuple[LinearElement | ContactImpedance, ...]
     balls: tuple[SmallBalls | SmallAngularBalls, ...]
     damping_left_out: tuple[str, ...] = ()
+    signed_damping: bool = False
 
     def _summary_lines(self) -> list[str]:
         named = zip(self.rotor.ball_bearing_names, self.damping_left_out, strict=False)
         left_out = [f"{name}: {words}" for name, words in named if words]
-        return [f"about rest at {self.speed_rpm:.5g} rev/min", *self.rotor._summary_lines(), *left_out]
+        of = ", with the signed damping of solved contacts" if self.signed_damping else ""
+        return [f"about rest at {self.speed_rpm:.5g} rev/min{of}", *self.rotor._summary_lines(), *left_out]
 
     @cached_property
     def matrices(self) -> Matrices:
@@ -236,8 +242,10 @@ class LinearRotor(Summary):
         Raises
         ------
         InputError
-            A degree of freedom that is not there.
+            A degree of freedom that is not there; signed damping, which has no states.
         """
+        if self.signed_damping:
+            raise InputError("signed_damping", True, "False: impedances of solved contacts have no states")
         return linear_block(self.rotor, self.speed_rpm * RPM_TO_RAD_S, self.balls, inputs, outputs, name)
 
     @cached_property
@@ -292,7 +300,7 @@ class LinearRotor(Summary):
     def _near(self, s: complex, q: _Complex) -> list[tuple[complex, _Complex]]:
         """Roots near one of frozen bearings: of one eigenvalue problem, or by Newton's method."""
         if self._exact is None:
-            tolerance = CONVERGED_BY_STEPS if self.contacts else CONVERGED
+            tolerance = CONVERGED_BY_STEPS if self.contacts or self.signed_damping else CONVERGED
             return [refine_root(self.dynamic_stiffness, s, q, tolerance)]
         values, vectors = self._exact
         off = np.abs(values - s)
@@ -307,11 +315,12 @@ def linearise(
     *,
     contacts: Sequence[Any] | None = None,
     passage: bool = True,
+    signed_damping: bool = False,
 ) -> LinearRotor:
     """Linearise a rotor about rest under its load.
 
     A bearing warns, once, where its elements leave out damping below zero under its oil supply
-    (docs/oil_supply.md): decrements are too high then.
+    (docs/oil_supply.md): decrements are too high then. `signed_damping` has it.
 
     Parameters
     ----------
@@ -324,6 +333,10 @@ def linearise(
     passage : bool
         Ball bearings as means over a ball passage (as in `BallBearing.coefficients`, the load of a bearing being
         that with the balls as mounted); or with the balls as mounted.
+    signed_damping : bool
+        Ball bearings under an oil supply with the impedance of their solved contacts, from the atlas, in place of
+        their elements, which have no damping below zero: modes, growth, `stable` and responses then have it.
+        Flooded bearings stay the same.
 
     Raises
     ------
@@ -349,10 +362,10 @@ def linearise(
     points, normals, _ = rotor.geometry
     r = normals @ (points @ rest)
     found = [
-        _linear_bearing(mount, speed, r[at], passage)
+        _linear_bearing(mount, speed, r[at], passage, signed_damping)
         for at, mount in zip(rotor.ball_columns, bearings, strict=True)
     ]
-    names, words = rotor.ball_bearing_names, tuple(left_out for _, _, left_out in found)
+    names, words = rotor.ball_bearing_names, tuple("" if signed_damping else one for _, _, one in found)
     for mount, name, left_out in zip(bearings, names, words, strict=True):
         warn_of_damping_left_out(mount.ball_bearing, name, left_out, stacklevel=3)
     return LinearRotor(
@@ -364,6 +377,7 @@ def linearise(
         tuple(_linear_contact(mount, float(u) + mount.offset) for mount, u in zip(mounted, r, strict=False)),
         tuple(balls for _, balls, _ in found),
         words,
+        signed_damping,
     )
 
 
@@ -386,11 +400,11 @@ def _linear_contact(mount: ContactMount, approach: float) -> LinearElement | Con
 
 
 def _linear_bearing(
-    mount: BearingMount, speed: float, ring: _Floats, passage: bool
+    mount: BearingMount, speed: float, ring: _Floats, passage: bool, signed: bool
 ) -> tuple[_Floats, SmallBalls | SmallAngularBalls, str]:
     """Force on the inner ring at rest, what a small vibration finds in the bearing, damping left out."""
     if mount.z is not None:
-        return _linear_angular(mount, speed, ring + mount.shift, passage)
+        return _linear_angular(mount, speed, ring + mount.shift, passage, signed)
     bearing = mount.ball_bearing
     held = bearing._static_balls(bearing.speed(speed), mount.cage_angle)
     force = held.force(ring)
@@ -398,11 +412,12 @@ def _linear_bearing(
         force = np.zeros(2)
     at_angles = bearing.ring_equilibria(force, speed, None if passage else mount.cage_angle)
     left_out = damping_left_out(bearing, speed, np.array([at.force for at in at_angles]))
-    return force, SmallBalls.of(held.balls, held.at_speed, at_angles), left_out
+    small = SmallBalls.of(held.balls, held.at_speed, at_angles)
+    return force, with_solved_contacts(bearing, speed, small, at_angles) if signed else small, left_out
 
 
 def _linear_angular(
-    mount: BearingMount, speed: float, ring: _Floats, passage: bool
+    mount: BearingMount, speed: float, ring: _Floats, passage: bool, signed: bool
 ) -> tuple[_Floats, SmallAngularBalls, str]:
     """Likewise of a bearing with five degrees of freedom."""
     bearing, rpm = mount.ball_bearing, mount.ball_bearing.speed(speed)
@@ -415,4 +430,5 @@ def _linear_angular(
             angular_equilibrium(one, force, first=ring) if loaded else equilibrium_at(one, ring) for one in rings
         ]
     left_out = damping_left_out(bearing, rpm, np.array([at.force for at in places]))
-    return force, bearing._small_angular(rpm, places), left_out
+    small = bearing._small_angular(rpm, places)
+    return force, with_solved_contacts(bearing, rpm, small, places) if signed else small, left_out

@@ -15,7 +15,9 @@ from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
 
 @takes(speeds_rpm="rev/min")
-def unbalance_response(rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = True) -> UnbalanceResponse:
+def unbalance_response(
+    rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = True, signed_damping: bool = False
+) -> UnbalanceResponse:
     """Steady response of a rotor to its unbalances at increasing speeds, each with the films of that speed.
 
     The response is computed only at the given speeds. A peak is about decrement/pi of its speed wide, for films
@@ -27,8 +29,9 @@ def unbalance_response(rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = T
     rotor : Rotor
     speeds_rpm : array_like, shape (k,)
         In rev/min, > 0.
-    passage : bool
-        Ball bearings as means over a ball passage, as in `linearise`.
+    passage, signed_damping : bool
+        Ball bearings as means over a ball passage, and with the signed damping of solved contacts, as in
+        `linearise`.
 
     Raises
     ------
@@ -40,5 +43,8 @@ def unbalance_response(rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = T
         raise InputError("unbalances", (), "at least one Unbalance")
     if speeds[0] <= 0.0:
         raise InputError("speeds_rpm[0]", float(speeds[0]), "> 0")
-    found = [linearise(rotor, s, passage=passage)._unbalanced(s * RPM_TO_RAD_S) for s in speeds.tolist()]
+    found = [
+        linearise(rotor, s, passage=passage, signed_damping=signed_damping)._unbalanced(s * RPM_TO_RAD_S)
+        for s in speeds.tolist()
+    ]
     return UnbalanceResponse.of(rotor, speeds, np.array(found))
