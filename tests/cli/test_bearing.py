@@ -138,7 +138,9 @@ def test_every_entry_with_a_unit_is_there_and_zero_has_no_sign(call):
     assert "-0 " not in call("bearing", "6205", *OIL, "--load", "0", "--speed-rpm", "3000").out
 
 
-@pytest.mark.parametrize(("speeds", "oil"), [(("3000",), OIL), (("500", "6000"), OIL), (("0",), ())])
+@pytest.mark.parametrize(
+    ("speeds", "oil"), [(("3000",), OIL), pytest.param(("500", "6000"), OIL, marks=pytest.mark.long), (("0",), ())]
+)
 def test_a_figure(call, tmp_path, speeds, oil):
     chosen = [part for speed in speeds for part in ("--speed-rpm", speed)]
     result = call("bearing", "6205", *oil, "--load", "500", *chosen, "--figure", tmp_path / "b.png")
@@ -317,6 +319,7 @@ def test_a_file_with_axial_load(call, file):
     assert found["bearing"]["race_control"] == "inner" and found["axial_load"] == 200.0
 
 
+@pytest.mark.long
 def test_a_figure_of_an_axial_load(call, tmp_path):
     picture = tmp_path / "b.png"
     result = call("bearing", "7205", *LOAD, "--speed-rpm", "6000", "--figure", picture)

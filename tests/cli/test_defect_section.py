@@ -64,6 +64,7 @@ def test_film_takes_the_edges_off(found):
     assert one.harmonics["film"][0] < one.harmonics["none"][0]
 
 
+@pytest.mark.long
 def test_bare_step_does_not_overshoot(tmp_path):
     """Its largest change is the height of the step; that of its series is 9 % of the jump above it."""
     one = defect_of(study(tmp_path, 'clearance_um = 8.0\nspall = "outer,0.5,0.05"'))

@@ -26,7 +26,7 @@ def computing():
     return script(COMPUTING)
 
 
-@pytest.fixture(scope="module", params=ENGINES)
+@pytest.fixture(scope="module", params=[pytest.param("chromium", marks=pytest.mark.long), "node"])
 def ask(request, computing, tmp_path_factory):
     """``ask(body, asked)``: ``body`` is a function of `atlas` and one entry; its values for all entries."""
 

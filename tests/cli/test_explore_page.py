@@ -14,7 +14,7 @@ from reduced_models import Atlas, BallBearing
 from reduced_models.bearing.kinematics import DefectFrequencies
 
 LARGEST = 3e6  # bytes
-WIDTHS = (400, 768, 1280)
+WIDTHS = (400, *(pytest.param(width, marks=pytest.mark.long) for width in (768, 1280)))
 OWN = "bearing=own&balls=8&ball_diameter=7.94&pitch_diameter=39.04&conformity_inner=0.52&conformity_outer=0.53"
 
 
@@ -120,6 +120,7 @@ def test_defect_frequencies_at_a_contact_angle(seen):
     assert "contact_angle" in found["invalid"] and "0 to 45" in found["refused"]
 
 
+@pytest.mark.long
 def test_defect_frequencies_under_an_axial_load(seen):
     """The page shows BPFO as the library has it, to its fourth digit, and that the rest is of the radial load."""
     found = seen(TEXTS, "#axial_load=60&load=500&clearance=8&slip=0.5&temperature=50")
@@ -177,6 +178,7 @@ def test_refused_input_marks_its_field(seen):
             assert word in found["refused"]
 
 
+@pytest.mark.long
 def test_strange_addresses_are_the_first_case(seen):
     first = seen(TEXTS)
     assert first["refused"] is False
@@ -237,7 +239,11 @@ def test_a_full_disk_keeps_the_old_page(refused, tmp_path, no_room):
 
 @pytest.mark.parametrize(
     ("rq", "words"),
-    [("0.05", ""), ("0.1", ", mixed: asperities touch"), ("0.5", ", boundary: asperities touch all the time")],
+    [
+        pytest.param("0.05", "", marks=pytest.mark.long),
+        pytest.param("0.1", ", mixed: asperities touch", marks=pytest.mark.long),
+        ("0.5", ", boundary: asperities touch all the time"),
+    ],
 )
 def test_words_about_the_lambda_ratio(seen, rq, words):
     """A film of some 0.2 um: above 3, above 1 and below 1 times the roughness; heat, where it takes a tenth."""

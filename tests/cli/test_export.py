@@ -286,6 +286,7 @@ def test_a_layer_of_oil_in_the_fmu_of_a_rotor(call, tmp_path):
     assert "; bearing 2: where a ball carries" in about.description
 
 
+@pytest.mark.long
 def test_a_study_becomes_a_rotor_with_its_bearings(call, tmp_path):
     fmu = tmp_path / "rotor.fmu"
     done = call("export", STUDY, "--rotor", "--inertia", "0.001", "-o", fmu, "--json", "-")

@@ -70,7 +70,9 @@ def test_shipped_licence_is_the_projects():
     assert (CSRC / "licenses" / "license.txt").read_bytes() == (root / "LICENSE").read_bytes()
 
 
-@pytest.mark.parametrize("name", ["mit Leerzeichen und Umläuten ä ß.fmu", "x.FMU"])
+@pytest.mark.parametrize(
+    "name", ["mit Leerzeichen und Umläuten ä ß.fmu", pytest.param("x.FMU", marks=pytest.mark.long)]
+)
 def test_any_file_name(elements, tmp_path, name):
     folder = tmp_path / "Prüf stand"
     folder.mkdir()

@@ -52,7 +52,7 @@ def test_a_constant_speed_is_none():
         np.testing.assert_array_equal(one, other)
 
 
-@pytest.mark.parametrize("end", [0.25, 4.0])
+@pytest.mark.parametrize("end", [0.25, pytest.param(4.0, marks=pytest.mark.long)])
 def test_settled_at_another_speed_it_is_that_steady_film(end):
     """A point of M U^(-3/4), L U^(1/4): all scales but that of time stay."""
     run = simulate(POINT, HELD, grid=COARSE, time=TimeSteps(until=25.0, dt=0.1, tol=1e-5), speed=ramp(4.0, end))

@@ -104,7 +104,10 @@ def test_a_compiler_that_makes_something_else(spec, sources, monkeypatch, tmp_pa
 
 
 @pytest.mark.skipif(OWN.system == "windows", reason="the system's compiler is not looked for on Windows")
-@pytest.mark.parametrize("text", ["echo 'stdio.h: no such file' >&2; exit 1", 'exec gcc "$@" -lnone'])
+@pytest.mark.parametrize(
+    "text",
+    ["echo 'stdio.h: no such file' >&2; exit 1", pytest.param('exec gcc "$@" -lnone', marks=pytest.mark.long)],
+)
 def test_a_system_compiler_that_fails_is_passed_over(spec, sources, monkeypatch, tmp_path, text):
     """A gcc without the headers of a C library, as slim images have it."""
     script = tmp_path / "cc"
@@ -241,7 +244,9 @@ def test_the_first_for_windows_is_announced(spec, sources, monkeypatch, tmp_path
 
 
 @pytest.mark.parametrize(("kind", "fmi"), KINDS)
-@pytest.mark.parametrize("compiler", ["gcc", "clang", OWN.name])
+@pytest.mark.parametrize(
+    "compiler", ["gcc", *(pytest.param(name, marks=pytest.mark.long) for name in ("clang", OWN.name))]
+)
 def test_no_warning(elements, kind, fmi, tmp_path, compiler):
     assert_no_warning(elements[kind], fmi, tmp_path, compiler)
 

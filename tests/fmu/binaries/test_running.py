@@ -26,6 +26,7 @@ from reduced_models.bearing.race import RACES
 OWN = this_machine()
 LOADER = Path(__file__).parent / "loader.c"
 KINDS = ("cubic", "cubic_si", "wide", "wide_si")
+HERE = ["cubic", "wide", *(pytest.param(kind, marks=pytest.mark.long) for kind in ("cubic_si", "wide_si"))]
 pytestmark = pytest.mark.filterwarnings("ignore:the first library for Windows")
 
 
@@ -140,6 +141,7 @@ def element(request, elements):
 
 
 @pytest.mark.skipif(OWN.system == "windows", reason="the next one is this machine's there")
+@pytest.mark.parametrize("element", HERE, indirect=True)
 def test_on_this_machine(element, tmp_path):
     check_element(OWN, element, tmp_path / "mit Leerzeichen und Umläuten ß", *on_this_machine())
 

@@ -35,7 +35,7 @@ def started(instance, name, fmi=2):
     return model, names, np.array([float(starts[name]) for name in names])
 
 
-@pytest.mark.parametrize("name", ["wide", "cubic"])
+@pytest.mark.parametrize("name", [pytest.param("wide", marks=pytest.mark.long), "cubic"])
 def test_a_loop_around_it_converges_to_co_simulation(instance, rotors, motion_of, name):
     """As tight as the loop is told to be, it comes to what ever shorter steps of `simulate_rotor` come to."""
     unit, _, x0 = started(instance, name)

@@ -136,7 +136,12 @@ def made(tmp_path_factory):
 
 @pytest.mark.parametrize(
     ("name", "fmi"),
-    [("flexible", 2), ("motor", 3), ("rigid", 3), ("five", 2), pytest.param("axial", 3, marks=pytest.mark.slow)],
+    [
+        ("flexible", 2),
+        ("five", 2),
+        *(pytest.param(name, 3, marks=pytest.mark.long) for name in ("motor", "rigid")),
+        pytest.param("axial", 3, marks=pytest.mark.slow),
+    ],
 )
 def test_verifies(made, name, fmi):
     one = made(name, fmi)
