@@ -17,6 +17,7 @@ from functools import cache, partial
 import pytest
 
 from ehlcontact import Grid, MoesPoint, solve_steady
+from ehlcontact.process.beside import COMPILE_BESIDE
 from ehlcontact.process.threads import cores
 
 SHARED = "not slow and not long", "long"  # the default suite, and the longer tests of which each takes one core
@@ -39,6 +40,7 @@ def pytest_cmdline_main(config):
         option.numprocesses, option.dist = cores(), "loadfile"  # fixtures of a file are made once
         option.loadscopereorder = False  # long files come first: those of the command line
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a solve has as many threads, and the cores are taken
+        os.environ.setdefault(COMPILE_BESIDE, "0")  # likewise
 
 
 @pytest.hookimpl(wrapper=True)

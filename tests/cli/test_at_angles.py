@@ -110,6 +110,7 @@ def test_mistakes(refused, tmp_path, entries, words):
     assert not folder.exists()
 
 
+@pytest.mark.long
 def test_moments_tilts_and_span(tmp_path):
     one = load_study(study(tmp_path, f"{ANGLE}\nmoment_x = 0.2\nspan_mm = 100.0\nrace_control = 'harris'"))
     at = run_at_angles(one)

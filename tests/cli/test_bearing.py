@@ -98,6 +98,7 @@ def test_sliding_moment_beside_that_of_skf(call, more):
     assert f"{1e3 * at.sliding:.4g} N mm" in line and f"by SKF {1e3 * at.skf_sliding:.4g} N mm" in line
 
 
+@pytest.mark.long
 def test_sliding_moment_of_a_pair_is_that_of_both(call):
     given = ("bearing", "7205", *OIL, "--pair", "back-to-back", "--preload", "300", "--speed-rpm", "3000")
     both = json.loads(call(*given, "--json", "-").out)["friction"][0]

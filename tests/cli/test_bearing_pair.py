@@ -77,6 +77,7 @@ def test_a_file_with_a_pair_on_a_spring_tilted(call, tmp_path):
     assert min(found["states"][0]["axial_forces"]) == pytest.approx(300.0, rel=0.01)
 
 
+@pytest.mark.long
 def test_a_figure_of_a_pair(call, tmp_path):
     picture = tmp_path / "pair.png"
     assert call("bearing", *SPINDLE, *LOAD, "--speed-rpm", "0", "--figure", picture).code == 0

@@ -165,6 +165,7 @@ def test_error_of_an_fmu_in_the_results_of_a_study(tmp_path, monkeypatch, what):
     json.dumps(found, allow_nan=False)
 
 
+@pytest.mark.long
 def test_a_study_as_a_system(call, refused, element, tmp_path):
     """Rotor and contacts, each its FMU; an element alone is no system."""
     target = tmp_path / "rotor.ssp"
@@ -205,6 +206,7 @@ def test_a_study_becomes_its_rotor(call, tmp_path):
     assert float(starts["unbalance"]) == study.rotor.unbalance
 
 
+@pytest.mark.long
 def test_a_rotor_on_an_element_of_ones_own(call, tmp_path):
     """Dimensionless or in SI it is the same contact."""
     scales = load_study(STUDY).point.scales
@@ -262,6 +264,7 @@ def test_a_bearing_file_becomes_the_fmu_of_its_bearing(call, refused, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["6205.fmu", "paired.toml", "tilted.toml"]
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("default::reduced_models.elements.validity.OutsideValidityWarning")
 def test_heat_and_a_layer_of_oil_in_fmus(call, tmp_path):
     """The FMU of a bearing has its heated films and its layer; what its elements leave out is said on stderr."""

@@ -156,6 +156,7 @@ def reproduction(tmp_path_factory):
     return reproduce((), [n for n in FIGURES if n != 2], tmp_path_factory.mktemp("figures"), 32)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", [n for n in FIGURES if n != 2])
 def test_figures_of_the_paper(reproduction, number):
     (figure,) = (figure for figure in reproduction.figures if figure.number == number)

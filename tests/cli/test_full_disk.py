@@ -29,6 +29,7 @@ def test_results_on_a_disk_of_16_kb(call, full_disk, point, option):
     assert not (full_disk / name).exists()
 
 
+@pytest.mark.long
 def test_a_study_on_a_disk_of_16_kb(full_disk, tmp_path):
     """The stages run in other processes, and none is left behind."""
     study = tmp_path / "tiny.toml"

@@ -77,6 +77,7 @@ def test_numbers_from_tables_have_error_bars(call, tmp_path):
     assert rows["torque"]["with heat, error bar"] == ""
 
 
+@pytest.mark.long
 def test_entries_of_a_file_and_options_in_their_place(call, coarse, tmp_path):
     text = EXAMPLE.read_text().replace("[1000, 3000, 6000]", "[6000]\nlayer_um = 0.2")
     path = tmp_path / "b.toml"
@@ -178,6 +179,7 @@ def study(folder, text):
     return path
 
 
+@pytest.mark.long
 def test_section_of_a_study(coarse, tmp_path):
     """Table, figures and sentence of the report; its cost in the forecast; nothing where it is not asked for."""
     plain, asked = (load_study(study(tmp_path, text)) for text in (BY_GRADE, ASKED))

@@ -49,6 +49,7 @@ def test_closed(call, monkeypatch, arguments, tmp_path):
     assert not save or (tmp_path / "e.json").exists()  # what was asked for beside it
 
 
+@pytest.mark.long
 def test_stderr_full_or_closed():
     with open("/dev/full", "w") as full:
         slip = ("steady", "--M", "-1", "--L", "5", "--kappa", "1")
@@ -164,6 +165,7 @@ def test_the_backend_of_a_notebook_loses_no_figure(tmp_path):
     assert (found.returncode, found.stderr) == (0, "") and figure.read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.long
 def test_a_bearing_without_compilation_has_the_same_numbers(call):
     wet = ("bearing", "6205", "--oil", "68", "--temp", "60", "--load", "500", "--speed-rpm", "3000", "--json", "-")
     found = program(*wet, env=environment(NUMBA_DISABLE_JIT="1"))

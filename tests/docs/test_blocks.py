@@ -11,6 +11,7 @@ import pkgutil
 import re
 import shlex
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import fake_ross
@@ -171,8 +172,10 @@ def test_examples_in_docstrings_give_what_they_say():
     """None so far; one that is written is run."""
     finder, runner = doctest.DocTestFinder(exclude_empty=True), doctest.DocTestRunner(verbose=False)
     for name in modules():
-        for case in finder.find(importlib.import_module(name)):
-            runner.run(case)
+        module = importlib.import_module(name)
+        if ">>>" in Path(module.__file__).read_text(encoding="utf-8"):  # or there is nothing to look for in it
+            for case in finder.find(module):
+                runner.run(case)
     assert runner.failures == 0
 
 

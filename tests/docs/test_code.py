@@ -20,6 +20,7 @@ from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.schema import load_study
 from reduced_models import Atlas, ContactRecord, fit
 
+LONG = ["docs/oil_supply.md", "docs/signals.md", "docs/traction.md"]
 TUTORIALS = {name for name in PAGES if "tutorials" in name}
 
 
@@ -53,7 +54,7 @@ def test_pages_are_found():
     assert [block.needs for block in blocks("docs/tutorials/bearing.md")].count("ross") == 1
 
 
-@pytest.mark.parametrize("page", cases(sorted(set(PAGES) - TUTORIALS - {"README.md"}), ["docs/signals.md"]))
+@pytest.mark.parametrize("page", cases(sorted(set(PAGES) - TUTORIALS - {"README.md"}), LONG))
 def test_page(page):
     run(page, {})
 

@@ -59,6 +59,7 @@ def test_implicit_ways_keep_the_amplitude(bench, runs, part, way):
     assert run.steps == 40 * part if way == "linearly implicit" else run.steps > 40 * part
 
 
+@pytest.mark.long
 def test_the_rollback_master_equals_the_python_oscillator(example, bench, own):
     """Within twice the tolerance of its steps, tightened or loosened."""
     for tolerance, run in ((example["TOLERANCE"], own), (1e-3, bench.controlled(1e-3))):
@@ -67,6 +68,7 @@ def test_the_rollback_master_equals_the_python_oscillator(example, bench, own):
     assert bench.left(own) == pytest.approx(1.0, abs=1e-4)
 
 
+@pytest.mark.long
 def test_its_figure(example, bench, runs, own, tmp_path):
     figure = example["picture"](tmp_path / "coupling.png", bench, runs, own)
     assert (tmp_path / "coupling.png").stat().st_size > 10_000

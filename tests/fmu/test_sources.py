@@ -184,13 +184,13 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
     ("fmi", "name"),
     but(
         [
-            *((2, name) for name in ("cubic", "shaft", *CONTROLLERS)),
+            *((2, name) for name in ("cubic", "shaft")),
             (3, "wide_si"),
         ],
         *((2, name) for name in ("polynomial", "power_si", "memory", "rotor alone", "rotor wide in y")),
         *((2, "bearing planar"), (3, "cubic")),
         long=(
-            *((2, name) for name in ("wide_si", "rotor mixed", "bearing five", "whole rotor")),
+            *((2, name) for name in ("wide_si", "rotor mixed", "bearing five", "whole rotor", *CONTROLLERS)),
             (3, "rotor mixed"),
         ),
     ),
@@ -274,6 +274,7 @@ def test_valgrind_sees_what_is_wrong(compiler, valgrind, tmp_path):
         assert run([*valgrind, program]).returncode == 99
 
 
+@pytest.mark.long
 def test_sources_in_the_fmu_build_by_cmake(fmus, elements, tmp_path):
     if shutil.which("cmake") is None:
         pytest.skip("no cmake")

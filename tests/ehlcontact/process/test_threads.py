@@ -230,7 +230,7 @@ def test_cores_of_this_process():
         assert done.stdout == "1\n"
 
 
-@pytest.mark.parametrize("threads", [2, 3])
+@pytest.mark.parametrize("threads", [2, pytest.param(3, marks=pytest.mark.long)])
 def test_results_are_the_same_bit_for_bit(threads, monkeypatch):
     """On grids large enough to be shared, whatever the machine has."""
     monkeypatch.setattr("ehlcontact.checks.machine.cores", lambda: 8)

@@ -205,6 +205,7 @@ def squeezed(n, dT, until=6.0):
     return run.force[start:][pressed], run.h_central[start:][pressed], *known[pressed].T
 
 
+@pytest.mark.long
 def test_standstill_against_an_axisymmetric_squeeze_film():
     force, film, known_force, known_film = squeezed(96, 0.04)
     np.testing.assert_allclose(force, known_force, atol=0.01)
@@ -232,7 +233,8 @@ def vibrating(point, grid, W, swing=0.02, periods=4, steps=40):
     return sine + 1j * cosine
 
 
-@pytest.mark.parametrize("W", [0.3, pytest.param(4.0, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("W", [0.3, 4.0])
 def test_response_to_a_vibrating_speed(W):
     found = speed_response(POINT, Omega=W, grid=COARSE)
     assert found.R[0] == pytest.approx(vibrating(POINT, COARSE, W), rel=0.01)

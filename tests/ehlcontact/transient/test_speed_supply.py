@@ -116,6 +116,7 @@ def test_backwards_is_the_mirror_image():
     np.testing.assert_array_equal(back.layer_behind, ahead.layer_behind)
 
 
+@pytest.mark.long
 def test_stop_and_go():
     """It stands for T = 2; no oil is lost, and gone on with it ends in its first film."""
     U = np.r_[1.0, np.linspace(1.0, 0.0, 11), np.zeros(20), np.linspace(0.0, 1.0, 11), np.ones(90)]

@@ -101,6 +101,7 @@ def test_a_coarse_table_is_run_in_steps_that_show_the_film():
     assert coarse.h_min.min() > 1.1 * fine.h_min.min()
 
 
+@pytest.mark.long
 def test_a_dent_passes_in_steps_that_show_it():
     found, fine = (
         simulate(POINT, REST, grid=Grid(n=64), time=TimeSteps(dt=dT), surface=Dent(0.1, 0.5, kappa=0.5))

@@ -105,6 +105,7 @@ def test_a_mass_of_others_keeps_the_damping(fmus, model, wanted, master, h, with
     assert decay(up - down, h) == pytest.approx(wanted, rel=within)
 
 
+@pytest.mark.long
 def test_a_rotor_on_two_bearing_fmus(tmp_path, monkeypatch):
     """The table of the documentation: every master and mass, with the lead that fits."""
     studies = Path(__file__).parents[3] / "examples" / "studies"

@@ -26,7 +26,7 @@ from reduced_models.bearing.race import RACES
 OWN = this_machine()
 LOADER = Path(__file__).parent / "loader.c"
 KINDS = ("cubic", "cubic_si", "wide", "wide_si")
-HERE = ["cubic", "wide", *(pytest.param(kind, marks=pytest.mark.long) for kind in ("cubic_si", "wide_si"))]
+HERE = ["cubic", *(pytest.param(kind, marks=pytest.mark.long) for kind in KINDS[1:])]
 pytestmark = pytest.mark.filterwarnings("ignore:the first library for Windows")
 
 

@@ -187,6 +187,7 @@ def test_spec_of_one_axis_names_no_other(rotors):
     assert not any(v.name.endswith(("_x", "_x)")) for v in rotor_spec(rotors["wide in y"]).variables)
 
 
+@pytest.mark.long
 @SAYS_NOTHING
 def test_without_a_load_nothing_stands(rotors, elements, tmp_path):
     """A rotor alone needs none."""

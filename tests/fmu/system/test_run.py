@@ -79,6 +79,7 @@ def test_error_goes_down_with_the_step(system, python, master):
     assert errors[0] < 0.3 * errors[1]
 
 
+@pytest.mark.long
 def test_default_step_leaves_the_damping(tmp_path):
     """A journal on one contact that hardly damps, its disc held by a soft shaft: the decay of its vibration."""
     element = CubicContact(1e8, 0.0, 0.0, 5.0, 3e-6, 9e-6, units="SI")

@@ -86,6 +86,7 @@ def test_too_thin_a_film_is_left_out_at_once():
     assert entry["status"] == "unresolved" and "approach" not in entry
 
 
+@pytest.mark.long
 def test_damaged_entries_are_solved_again(tmp_path):
     """And sound ones are not, whatever else lies in the folder."""
     points = sample_points(DRAWS, LIGHT, 1)

@@ -246,7 +246,7 @@ def compliance_error(found, given, rpm):
     return np.abs((np.column_stack(columns) - exact) / scale).max(), state
 
 
-@pytest.mark.parametrize("rpm", [0.0, 15000.0])
+@pytest.mark.parametrize("rpm", [0.0, pytest.param(15000.0, marks=pytest.mark.long)])
 def test_tangents_of_sets(rpm):
     """With balls that have lifted off too."""
     sizes = {"other": OTHER, "distance": 20e-3}

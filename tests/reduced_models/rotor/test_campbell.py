@@ -74,6 +74,7 @@ def test_no_critical_speed_has_the_range_that_was_searched(diagram):
     assert pickle.loads(pickle.dumps(none)).searched == none.searched
 
 
+@pytest.mark.long
 def test_a_run_up_resonates_where_balls_pass_at_the_frequency_of_a_mode(film, beam, diagram):
     """Faster and faster balls: the largest swing comes a little after the crossing."""
     rotor, window = beam(film, unbalances=()), np.ones(400) / 400.0

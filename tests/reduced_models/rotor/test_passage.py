@@ -58,6 +58,7 @@ def poles(y, dt, order=30):
     return s.imag / (2.0 * pi), -2.0 * pi * s.real / s.imag
 
 
+@pytest.mark.long
 def test_a_mode_across_the_load(film, beam):
     """Stiffness across the load changes by a quarter as a ball passes: decrement by 0.7 %, frequency by 0.2 %.
 
