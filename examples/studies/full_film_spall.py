@@ -13,9 +13,8 @@ from math import pi
 
 import numpy as np
 
-from ehlcontact import Grid, Lubricant, OperatingPoint
+from ehlcontact import Grid, Lubricant
 from reduced_models import BallBearing, BearingMount, FullFilm, Rotor, Spall, simulate_full_films
-from reduced_models.atlas.filter_table import film_over_dry
 from reduced_models.bearing.height_tables import track_radius
 
 MASS, DAMPING, LOAD, SPEED = 5.0, 2000.0, 500.0, 1800.0  # kg, N s/m of what holds the mass, N, rev/min
@@ -28,19 +27,14 @@ CAGE = SMOOTH.orders.ftf * SPEED * pi / 30.0  # rad/s
 TRACK = track_radius(SMOOTH, "outer")
 
 
-def with_film(bearing: BallBearing, point: OperatingPoint) -> BallBearing:
-    """The same with heights that go through the filter of the film at a point too (`film_over_dry`)."""
-    heights = bearing._heights.copy()
-    places = heights.shape[1] - 1
-    k = point.scales.a / TRACK * np.arange(places // 2 + 1)  # per semi-axis
-    waves = np.fft.rfft(heights[1, :places], axis=0) * film_over_dry(point, k)[:, None]
-    heights[1, :places] = np.fft.irfft(waves, places, axis=0)
-    bearing._cache["heights"] = heights
+def with_dry_filter(bearing: BallBearing) -> BallBearing:
+    """The same with heights in runs as dry contacts filter them."""
+    bearing._cache["heights", SPEED] = bearing._heights
     return bearing
 
 
 def passages(depth: float, n: int = 128, refined: int = 1):
-    """Runs with the full film, reduced, reduced with its filter; time of the ball over the middle; seconds."""
+    """Runs with the full film, reduced, reduced with dry filters; time of the ball over the middle; seconds."""
     bearing = replace(SMOOTH, features=[Spall(race="outer", angle=AT, length=LENGTH, depth=depth, edge=EDGE)])
     pitch = 2.0 * pi / bearing.balls
     rotor = Rotor(
@@ -58,10 +52,9 @@ def passages(depth: float, n: int = 128, refined: int = 1):
     seconds = time.perf_counter() - began
     probe = [replace(film, solved=False)]
     reduced = simulate_full_films(rotor, probe, **options)
-    other = with_film(replace(bearing), full.films[0].operating_point)
-    rotor = replace(rotor, mounts=(replace(rotor.mounts[0], bearing=other),))
-    carried = simulate_full_films(rotor, probe, **options)
-    return full, reduced, carried, middle, seconds
+    rotor = replace(rotor, mounts=(replace(rotor.mounts[0], bearing=with_dry_filter(replace(bearing))),))
+    dry = simulate_full_films(rotor, probe, **options)
+    return full, reduced, dry, middle, seconds
 
 
 def differences(full, reduced) -> dict[str, float]:
@@ -82,21 +75,22 @@ def differences(full, reduced) -> dict[str, float]:
     return found
 
 
-def draw(full, reduced, middle: float, path: str) -> None:
+def draw(full, reduced, dry, middle: float, path: str) -> None:
     """Force of the contact, of the bearing, displacement and film over the passage."""
     import matplotlib.pyplot as plt
 
     figure, panels = plt.subplots(2, 2, figsize=(10.0, 6.4), sharex=True, layout="constrained")
     edges = 1e3 * 0.5 * LENGTH / (CAGE * TRACK)
-    films, runs = (full.films[0], reduced.films[0]), (full.rotor, reduced.rotor)
-    styles = (("k", "full film"), ("C1", "element, filtered height"))
-    for film, run, (color, label) in zip(films, runs, styles, strict=True):
+    styles = ("k", "full film"), ("C2", "element, filtered with its film"), ("C1", "element, dry filter")
+    for one, (color, label) in zip((full, reduced, dry), styles, strict=True):
+        film, run = one.films[0], one.rotor
         at, over = 1e3 * (film.t - middle), 1e3 * (run.t - middle)
         panels[0, 0].plot(at, film.force, color, label=label)
         panels[0, 1].plot(over, -run.force[:, 1], color)
         panels[1, 0].plot(over, 1e6 * run.displacement[:, 1], color)
-    panels[1, 1].plot(1e3 * (films[0].t - middle), 1e6 * films[0].h_central, "k", label="centre")
-    panels[1, 1].plot(1e3 * (films[0].t - middle), 1e6 * films[0].h_min, "k:", label="smallest")
+    film = full.films[0]
+    panels[1, 1].plot(1e3 * (film.t - middle), 1e6 * film.h_central, "k", label="centre")
+    panels[1, 1].plot(1e3 * (film.t - middle), 1e6 * film.h_min, "k:", label="smallest")
     names = "force of the contact [N]", "force of the bearing [N]", "displacement [µm]", "film [µm]"
     for axes, name in zip(panels.flat, names, strict=True):
         axes.axvspan(-edges, edges, color="#cfe3f5", zorder=0)
@@ -118,7 +112,7 @@ def main() -> None:
     parser.add_argument("--n", type=int, default=128)
     parser.add_argument("--refined", type=int, default=1)
     given = parser.parse_args()
-    full, reduced, carried, middle, seconds = passages(given.depth, given.n, given.refined)
+    full, reduced, dry, middle, seconds = passages(given.depth, given.n, given.refined)
     print(f"{seconds:.0f} s, {full.films[0].solves.sum()} solves in {full.films[0].t.size - 1} steps")
     for run, name in ((full, "full"), (reduced, "reduced")):
         force, ring, moved = run.films[0].force, -run.rotor.force[:, 1], 1e6 * run.rotor.displacement[:, 1]
@@ -127,10 +121,10 @@ def main() -> None:
             f"{ring.max():.1f} N, displacement {moved.min():.3f} to {moved.max():.3f} µm"
         )
     print(f"smallest film {1e9 * full.films[0].h_min.min():.0f} nm")
-    for run, what in ((reduced, ""), (carried, "with the filter of the film, ")):
+    for run, what in ((reduced, ""), (dry, "with the dry filter, ")):
         for name, value in differences(full, run).items():
             print(f"{what}{name}: {value:.2f} %")
-    draw(full, reduced, middle, given.path)
+    draw(full, reduced, dry, middle, given.path)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 """A spall rolls through one full film whose bodies are held: its force beside those of reduced answers.
 
 The full film is `simulate` with the spall as a surface and the approach held. Beside it: the linear answer G of
-`excitation`, a film element at an approach that the filtered height is added to, as runs of bearings have it, the
-same with what the film leaves of that height, and with the bare height. Some minutes on one core:
+`excitation`, a film element at an approach that the height is added to as dry contacts filter it, the same with
+what the film leaves of that height, as runs of bearings have it, and with the bare height. Some minutes on one
+core:
 
     python examples/studies/spall_passage.py [spall_passage.png] [--n 128]
 """
@@ -14,9 +15,11 @@ from math import pi
 import numpy as np
 
 from ehlcontact import Grid, MoesPoint, PrescribedApproach, TimeSteps, excitation, simulate, solve_steady
+from ehlcontact.dry_contact import ElasticContact
+from ehlcontact.hertz import shape_factor
 from reduced_models import Atlas
 from reduced_models.atlas.filter_table import film_over_dry
-from reduced_models.bearing.height_tables import filtered
+from reduced_models.bearing.elastic_heights import Track
 
 CASES = ((MoesPoint(200, 10, 0.5), 0.2), (MoesPoint(200, 10, 0.5), 0.5), (MoesPoint(30, 8, 0.5), 1.5))
 LENGTH, EDGE = 4.0, 1.0  # of the spall and of its slopes, in semi-axes a
@@ -72,15 +75,17 @@ def linear(G: np.ndarray, X: np.ndarray, depth: float) -> np.ndarray:
 
 
 def reduced(point: MoesPoint, element, T: np.ndarray, X: np.ndarray, depth: float) -> tuple[np.ndarray, ...]:
-    """Force of the film element with the filtered height, without and with its film, and with the bare one."""
+    """Force of the film element with the height filtered dry, with its film, and with the bare one."""
     spacing = 0.005
     x = np.arange(-PERIOD / 2, PERIOD / 2, spacing)
-    strip = filtered(height(x, depth), spacing, 0.5, 1.0)[:, -1]  # Hertz: a = 1 at the compression 1
+    # in Hertz' units a = 1 at the compression 1
+    track = Track(height(x, depth), spacing, 0.5, 0.5 / shape_factor(point.kappa), ElasticContact(point.kappa))
+    dry = track.heights(1.0, height(x, depth), np.ones(x.size, bool))
     k = 2.0 * pi * np.fft.rfftfreq(x.size, spacing)
     # the spall is symmetric: over its place X the height is what it is over the place of the contact
-    carried = np.fft.irfft(np.fft.rfft(strip) * film_over_dry(point, k), x.size)
+    carried = np.fft.irfft(np.fft.rfft(dry) * film_over_dry(point, k), x.size)
     still, forces = element.approach_at(1.0), []
-    for heights in (strip, carried, height(x, depth)):
+    for heights in (dry, carried, height(x, depth)):
         moved = np.interp(X, x, heights)
         forces.append(element.drive(T, still + moved, np.gradient(moved, T)))
     return tuple(forces)
@@ -94,8 +99,8 @@ def draw(found: list[Passage], path: str) -> None:
     for axes, one in zip(panels, found, strict=True):
         axes.plot(one.X, one.full, "k", lw=2.5, label="full film")
         axes.plot(one.X, one.linear, "C0", label="linear, G")
-        axes.plot(one.X, one.filtered, "C1", label="element, filtered height (runs)")
-        axes.plot(one.X, one.with_film, "C2", label="element, height filtered with the film")
+        axes.plot(one.X, one.filtered, "C1", label="element, dry filter")
+        axes.plot(one.X, one.with_film, "C2", label="element, filtered with its film (runs)")
         axes.plot(one.X, one.bare, "C3:", label="element, bare height")
         for side in (-1.0, 1.0):
             axes.axvline(side * LENGTH / 2, color="#bbbbbb", lw=0.8, zorder=0)

@@ -1,6 +1,7 @@
 """Force of a mass on a 6205 whose outer race has a spall of 0.5 or 2 mm: over time, and as a spectrum.
 
-Beside runs with heights that the contacts filter there are those with the bare step. One minute on one core:
+Beside runs with heights that the contacts and their films filter there are those with the bare step. One minute on
+one core:
 
     python examples/studies/spalled_bearing.py [spalled_bearing.png]
 """
@@ -41,7 +42,7 @@ def without_filter(bearing: BallBearing) -> BallBearing:
     bare = profile_of(bearing, bearing.features, "outer", track_radius(bearing, "outer"))
     heights = bearing._heights.copy()
     heights[1, : bare.size] = bare[:, None]
-    bearing._cache["heights"] = heights
+    bearing._cache["heights", SPEED] = heights
     return bearing
 
 
@@ -83,7 +84,7 @@ def draw(found: dict[float, tuple[Run, Run]], path: str) -> None:
     figure, panels = plt.subplots(2, len(found), figsize=(10.0, 6.4), sharey="row", layout="constrained")
     for (over_time, lines), (length, (filtered, bare)) in zip(panels.T, found.items(), strict=True):
         enters, leaves = filtered.passages[filtered.passages[:, 0] > SETTLED][0] * 1e3
-        for one, style, label in ((bare, "C3", "bare step"), (filtered, "k", "filtered by the contact")):
+        for one, style, label in ((bare, "C3", "bare step"), (filtered, "k", "filtered by contact and film")):
             over_time.plot(one.t * 1e3, -one.force, style, lw=0.9 if one is bare else 1.3, label=label)
             lines.semilogy(*spectrum(one), style, lw=0.6, label=label)
         over_time.axvspan(enters, leaves, color="#cfe3f5", zorder=0, label="ball over the spall")

@@ -109,8 +109,9 @@ class ContactFilters:
         self._spline = spline[..., : self._count] + 1j * spline[..., self._count :]
 
     def at(self, k: ArrayLike) -> tuple[_Complex, _Floats]:
-        """G/Z and error bars, shape (contacts,), at wave numbers k >= 0, one for each contact or for all."""
-        given = np.broadcast_to(np.asarray(k, float), self._count)
+        """G/Z and error bars, shape (..., contacts), at wave numbers k >= 0, one for each contact or for all."""
+        given = np.asarray(k, float)
+        given = np.broadcast_to(given, np.broadcast_shapes(given.shape, (self._count,)))
         i = np.clip(np.searchsorted(self._k, given, side="right") - 1, 0, self._k.size - 2)
         contact = np.arange(self._count)
         x, (a, b, c, d) = given - self._k[i], self._spline[:, i, contact]
@@ -246,11 +247,18 @@ def film_over_dry(point: Point, k: ArrayLike) -> _Complex:
     given = np.atleast_1d(as_numbers("k", k))
     if not (np.isfinite(given) & (given >= 0.0)).all():
         raise InputError("k", np.asarray(k).tolist(), "finite and >= 0")
-    moes, surface = moes_point(point), shipped_filters()
-    surface.table.box.require_inside(moes)
-    known = np.append(np.minimum(given, LAST_SURE), LAST_SURE)
-    film = surface.contacts(np.tile([moes.M, moes.L, moes.kappa], (known.size, 1))).at(known)[0]
-    *found, last = film / dry_filter(known)
-    reach = given / LAST_SURE
+    moes = moes_point(point)
+    shipped_filters().table.box.require_inside(moes)
+    return films_over_dry(np.array([[moes.M, moes.L, moes.kappa]]), given[:, None])[:, 0]
+
+
+def films_over_dry(points: _Floats, k: _Floats) -> _Complex:
+    """The same of contacts by rows (M, L, kappa), at wave numbers of shape (..., contacts).
+
+    A contact outside the box of the table has the filter of the nearest inside.
+    """
+    filters, known = shipped_filters().contacts(points), np.minimum(k, LAST_SURE)
+    found, last = filters.at(known)[0] / dry_filter(known), filters.at(LAST_SURE)[0] / dry_filter(LAST_SURE)
+    reach = k / LAST_SURE
     beyond = np.abs(last) ** (reach * reach) * np.exp(1j * np.angle(last) * reach)
-    return np.where(given <= LAST_SURE, np.array(found), beyond)
+    return np.where(k <= LAST_SURE, found, beyond)

@@ -28,6 +28,8 @@
 | solved_balls | small motion with the impedance of solved contacts, under an oil supply |
 | features | inputs: waviness and defects of races and balls, balls of another diameter |
 | height_tables | heights of features, filtered by the contact, as tables over the angle and the load |
+| elastic_heights | heights of spalls and dents, from elastic contacts over them |
+| film_heights | these tables filtered by the film, for runs of bearings in oil |
 | contact_heights | heights from these tables in a time step, compiled |
 | track_surface | `TrackSurface`: features that pass a contact, as the surface of a full film |
 | excitation | forces of features on a fixed ring, as spectral lines over orders of the shaft |

@@ -9,10 +9,12 @@ d + H:
 With Hertz' semi-axis a in R the strip has Hertz' force and contact length at every load. For heights far below d,
 H is their mean over the contact: the filter sin(k)/k of waves with the wave number k per semi-axis, that of dry
 contacts (`ehlcontact.excitation`). Where d + h <= x^2/(2 R) all along, nothing touches, and H is the height at
-which the strip would just touch: a ball does not fall to the bottom of a pit that is too short for it.
+which the strip would just touch. Near spalls and dents, which are deep, H is that of an elastic contact instead
+(`elastic_heights`): there springs lose too much of their force.
 
 H is tabulated over the angle of the contact on its track and the semi-axis. In a time step it is looked up at the
-compression that the contact had at the end of the last one (`contact_heights`).
+compression that the contact had at the end of the last one (`contact_heights`). In oil, runs have these tables
+through the filter of the film (`film_heights`); equilibria have them as they are.
 """
 
 from __future__ import annotations
@@ -25,10 +27,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks.admissible_range import LIMITS
+from ehlcontact.dry_contact import elastic_contact
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.hertz import hertz_contact
 from reduced_models.bearing.contact_heights import ANGLE_NOW, RAISED, ROTATION, TABLE, height_of
-from reduced_models.bearing.features import BallDiameter, Feature, Waves
+from reduced_models.bearing.elastic_heights import Track, highest_touch
+from reduced_models.bearing.features import BallDiameter, Defect, Feature, Indentation, Spall, Waves
 from reduced_models.bearing.race import RACES, Race
 
 if TYPE_CHECKING:
@@ -51,7 +55,7 @@ def heights_of(bearing: BallBearing) -> _Floats:
         return np.zeros((0, 0, LOADS))
     numbers = np.zeros((1 + bearing.balls, LOADS))
     numbers[0, ROTATION] = bearing.orders.bsf
-    tracks: list[tuple[str, float, _Floats]] = []
+    tracks: list[tuple[str, float, _Floats, list[Defect]]] = []
     for column, name in enumerate(RACES):
         for row in range(1 + bearing.balls):
             own = features_on(bearing, **({"race": name} if row == 0 else {"ball": row - 1}))
@@ -59,14 +63,22 @@ def heights_of(bearing: BallBearing) -> _Floats:
                 numbers[row, RAISED] = 0.5 * sum(one.excess for one in own if isinstance(one, BallDiameter))
             if waves := [one for one in own if not isinstance(one, BallDiameter)]:
                 radius = track_radius(bearing, name) if row == 0 else 0.5 * bearing.ball_diameter
-                tracks.append((name, radius, profile_of(bearing, waves, name, radius)))
+                defects = [one for one in own if isinstance(one, Spall | Indentation)]
+                tracks.append((name, radius, profile_of(bearing, waves, name, radius), defects))
                 numbers[row, TABLE + column] = len(tracks)
-    places = max((profile.size for _, _, profile in tracks), default=0)
+    places = max((profile.size for _, _, profile, _ in tracks), default=0)
     found = np.zeros((1 + len(tracks), max(places + 1, len(numbers)), LOADS))
     found[0, : len(numbers)] = numbers
-    for page, (name, radius, profile) in zip(found[1:], tracks, strict=True):
+    for page, (name, radius, profile, defects) in zip(found[1:], tracks, strict=True):
         strip, axis = _strip(bearing.race(name))
-        page[:places] = filtered(_resampled(profile, places), 2.0 * pi * radius / places, strip, axis)
+        resampled, spacing = _resampled(profile, places), 2.0 * pi * radius / places
+        page[:places] = filtered(resampled, spacing, strip, axis)
+        if defects:
+            body = bearing.race(name).geometry
+            track = Track(resampled, spacing, strip, body.radius_x, elastic_contact(body.kappa))
+            for column, a in enumerate(np.linspace(0.0, axis, LOADS).tolist()):
+                near = _near(defects, radius, places, a)
+                page[:places, column] = track.heights(a * a / (2.0 * strip), page[:places, column], near)
         page[-1, 0] = (LOADS - 1) / axis * sqrt(2.0 * strip)
     return found
 
@@ -199,6 +211,15 @@ def heights_along(features: Sequence[Feature], radius: float, theta: _Floats) ->
     return heights
 
 
+def _near(defects: Sequence[Defect], radius: float, places: int, a: float) -> NDArray[np.bool_]:
+    """Which places around a track are within a defect, its rims, or some semi-axes a of it."""
+    theta, near = 2.0 * pi * np.arange(places) / places, np.zeros(places, bool)
+    for one in defects:
+        away = radius * np.abs(np.remainder(theta - one.angle + pi, 2.0 * pi) - pi)
+        near |= away <= one.length + 4.0 * a
+    return near
+
+
 def _resampled(profile: _Floats, places: int) -> _Floats:
     return np.interp(
         np.arange(places) * profile.size / places, np.arange(profile.size + 1), np.append(profile, profile[0])
@@ -209,7 +230,7 @@ def filtered(profile: _Floats, spacing: float, strip: float, axis: float) -> _Fl
     """H at all places of a periodic profile and all semi-axes of a table, shape (places, LOADS) [m]."""
     found = np.zeros((profile.size, LOADS))
     highest, lowest = max(float(profile.max()), 0.0), min(float(profile.min()), 0.0)
-    envelope = _highest_touch(profile, spacing, strip, highest - lowest)
+    envelope = highest_touch(profile, spacing, strip, highest - lowest)
     for column, a in enumerate(np.linspace(0.0, axis, LOADS).tolist()):
         approach = a * a / (2.0 * strip)
         pressed, flat = _pressed(profile, approach, highest, spacing, strip)
@@ -239,12 +260,3 @@ def _mean_overlap(middle: _Floats, half: float) -> _Floats:
         return np.maximum(middle, 0.0)
     within = np.clip(middle + half, 0.0, 2.0 * half)
     return np.maximum(middle - half, 0.0) + within * within / (4.0 * half) + 0.0 * middle
-
-
-def _highest_touch(profile: _Floats, spacing: float, strip: float, depth: float) -> _Floats:
-    """Height at which a strip without load touches the profile, at all places."""
-    reach = min(ceil(sqrt(2.0 * strip * depth) / spacing), profile.size // 2)
-    found = profile.copy()
-    for m in range(-reach, reach + 1):
-        np.maximum(found, np.roll(profile, -m) - (m * spacing) ** 2 / (2.0 * strip), out=found)
-    return found

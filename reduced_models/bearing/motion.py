@@ -35,6 +35,7 @@ from reduced_models.bearing.balls import (
 )
 from reduced_models.bearing.contact_heights import ANGLE_RATE, HEIGHT, find_heights
 from reduced_models.bearing.equilibrium import angle_of
+from reduced_models.bearing.film_heights import heights_in_runs
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
@@ -289,12 +290,13 @@ def motion_of(bearing: BallBearing, speeds_rpm: list[float], freedoms: int) -> B
         A speed that the bearing does not take; five degrees of freedom and balls with inertia.
     """
     speeds = [bearing.speed(speed) for speed in speeds_rpm]
+    heights = heights_in_runs(bearing, speeds)
     if freedoms == len(PLANAR):
-        return BallMotion(bearing._kernel(speeds))
+        return BallMotion(bearing._kernel(speeds)._replace(heights=heights))
     if bearing.ball_inertia:
         allowed = "False in time with axial motion and tilts: balls are in equilibrium in every step"
         raise InputError("ball_inertia", True, allowed)
-    return AngularMotion(bearing._angular_balls(speeds))
+    return AngularMotion(bearing._angular_balls(speeds)._replace(heights=heights))
 
 
 def _settled(before: _Floats, heights: _Floats) -> bool:

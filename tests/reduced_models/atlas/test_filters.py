@@ -18,7 +18,13 @@ from ehlcontact.content_store import ContentStore, key_of
 from reduced_models import contact_filter
 from reduced_models.atlas.filter_build import DRAWS, SEED
 from reduced_models.atlas.filter_points import FILTERED, WAVE_NUMBERS, filter_points, solve_filter
-from reduced_models.atlas.filter_table import FilterTable, dry_filter, film_over_dry, shipped_filters
+from reduced_models.atlas.filter_table import (
+    FilterTable,
+    dry_filter,
+    film_over_dry,
+    films_over_dry,
+    shipped_filters,
+)
 
 HELD_OUT = Path(__file__).with_name("held_out_filters.json")
 SOLVED = 96  # draws, of which the table has the first
@@ -134,6 +140,19 @@ def test_film_over_dry_filter():
     assert abs(far) == pytest.approx(abs(before) ** 2)
     with pytest.raises(InputError, match=r"k = .*finite and >= 0"):
         film_over_dry(point, [-1.0])
+
+
+def test_films_over_dry_of_many_contacts():
+    """One by one the same; outside the box that of its edge."""
+    rows, k = (
+        np.array([[1300.0, 14.5, 0.13], [60.0, 9.0, 0.3], [5.0, 9.0, 0.3], [20.0, 9.0, 0.3]]),
+        np.linspace(0, 6, 5),
+    )
+    found = films_over_dry(rows, k[:, None] * np.ones(4))
+    for row, own in zip(rows[:2].tolist(), found.T, strict=False):
+        np.testing.assert_allclose(own, film_over_dry(MoesPoint(*row), k), rtol=1e-10)
+    np.testing.assert_allclose(found[:, 2], found[:, 3], rtol=1e-10)
+    assert np.abs(found[1] - found[1, 0]).max() > 0.1
 
 
 @pytest.mark.slow

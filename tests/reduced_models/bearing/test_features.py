@@ -23,7 +23,7 @@ from reduced_models import (
 from reduced_models.bearing.angular_steps import _search_ball
 from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_heights import looked_up
-from reduced_models.bearing.height_tables import track_radius
+from reduced_models.bearing.height_tables import filtered, track_radius
 from reduced_models.bearing.motion import BearingMotion
 
 DRY = BallBearing.catalogue("6205", clearance=15e-6)
@@ -67,16 +67,35 @@ WAVES = {
 )
 @pytest.mark.parametrize("name", [name for name in WAVES if name != "axial"])
 def test_runs_with_small_features_are_linear(name, bearing, load, rpm):
-    """Forces of a ring that is held within 1 % of the lines of `excitation` with dry filters, in all freedoms."""
+    """Forces of a ring that is held within 1 % of the lines of `excitation`, in all freedoms."""
     feature, steps = WAVES[name], 2000
     forces = [held(one, load, rpm, steps, 1.0)[0] for one in (replace(bearing, features=[feature]), bearing)]
     found = forces[0] - forces[1]
-    lines = bearing.excitation([feature], load, speed_rpm=rpm, cage_angle=CAGE, contact_filter="dry")
+    lines = bearing.excitation([feature], load, speed_rpm=rpm, cage_angle=CAGE)
     expected = -lines.force(np.arange(1, steps + 1) / steps)  # the ring's on the balls
     scale = unit(bearing, found.shape[1])
     largest = (np.abs(expected) / scale).max()
     assert largest > 0.02
     assert (np.abs(found - expected)[steps // 2 :] / scale).max() < 0.01 * largest
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("feature", [
+    Spall(race="outer", angle=0.4, length=5e-4, depth=SMALL, edge=1e-4),
+    Spall(race="inner", angle=0.4, length=5e-4, depth=SMALL, edge=1e-4),
+    Indentation(ball=3, angle=0.4, length=5e-4, depth=SMALL),
+])  # fmt: skip
+def test_runs_with_small_defects_have_the_lines_of_films(feature):
+    """Within 0.8 % in oil; lines with the dry filter differ by 4 % and more."""
+    rpm, steps = 1500.0, 5000
+    forces = [held(one, AXIAL, rpm, steps, 0.6)[0] for one in (replace(OILED, features=[feature]), OILED)]
+    found, after = forces[0] - forces[1], slice(steps // 10, None)
+    off, scale = {}, unit(OILED, found.shape[1])
+    for kind in ("film", "dry"):
+        lines = OILED.excitation([feature], AXIAL, speed_rpm=rpm, cage_angle=CAGE, contact_filter=kind)
+        expected = -lines.force(np.arange(1, len(found) + 1) / steps) / scale
+        off[kind] = np.abs(found / scale - expected)[after].max() / np.abs(expected).max()
+    assert off["film"] < 0.008 and off["dry"] > 0.04
 
 
 def strip_height(profile, place, approach, strip):
@@ -102,16 +121,16 @@ def strip_of(bearing, name):
     Spall(race="outer", angle=1.0, length=2e-3, depth=30e-6, edge=2e-4),
     Indentation(race="outer", angle=1.0, length=4e-4, depth=8e-6, rim=1e-6),
 ])  # fmt: skip
-def test_tables_are_those_of_a_strip_of_springs(defect):
+def test_strip_of_springs_is_its_integral(defect):
     """Compressions within 2 % of the smooth contact's (6 % at 20 N), heights within 3 % of the depth."""
-    bearing = replace(DRY, features=[defect])
-    strip, kn = strip_of(bearing, "outer")
-    radius = track_radius(bearing, "outer")
+    strip, kn = strip_of(DRY, "outer")
+    spacing = 5e-6
+    at = spacing * (np.arange(-800, 800) + 0.5)
     for load, off in ((20.0, 0.06), (400.0, 0.02), (1500.0, 0.02)):
         approach = (load / kn) ** (2.0 / 3.0)
+        table = filtered(defect.height(at), spacing, strip, sqrt(2.0 * strip * approach))[:, -1]
         for place in np.linspace(-1.6e-3, 1.6e-3, 33):
-            angle = defect.angle + place / radius
-            found = looked_up(bearing._heights, 1, angle, approach)
+            found = np.interp(place, at, table)
             expected = strip_height(defect.height, place, approach, strip)
             pressed = max(approach + expected, 0.0)
             assert max(approach + found, 0.0) == pytest.approx(pressed, abs=off * approach), (load, place)
@@ -164,7 +183,7 @@ def test_a_ring_at_rest_carries_its_load_over_a_spall():
 
 @pytest.mark.parametrize("freedoms", [2, 5])
 def test_a_ball_loses_its_load_where_the_spall_begins(freedoms):
-    """Half of its force is lost within half a semi-axis of the edges; none is left in the middle."""
+    """Half of its force is lost behind the edges, half-way to where undeformed bodies part; all in the middle."""
     length, steps, ball = 2e-3, 40_000, 4
     bearing = replace(DRY, features=[Spall(race="outer", angle=-pi / 2, length=length, depth=50e-6)])
     load = (0.0, -800.0) if freedoms == 2 else (0.0, -800.0, 100.0)
@@ -175,14 +194,12 @@ def test_a_ball_loses_its_load_where_the_spall_begins(freedoms):
     low = np.flatnonzero((force < 0.5 * without) & (without > 100.0))
     ftf = DRY.orders.ftf if freedoms == 2 else DRY.equilibrium(load, speed_rpm=60.0, cage_angle=CAGE).orders.ftf
     angle = CAGE + 2.0 * pi * (ball / 9 + ftf * (low[[0, -1]] + 1) / steps) - 1.5 * pi
-    a = hertz_contact(float(without[low[0]]), *_radii(bearing)).a
-    assert angle * track_radius(bearing, "outer") == pytest.approx([-length / 2, length / 2], abs=0.5 * a)
+    approach = sum((without[low[0]] / bearing.race(name).kn) ** (2.0 / 3.0) for name in ("inner", "outer"))
+    parted = sqrt(2.0 * bearing.race("outer").geometry.radius_x * approach)
+    behind = 0.5 * length + angle * track_radius(bearing, "outer") * [1.0, -1.0]
+    assert (behind > 0.4 * parted).all() and (behind < 0.6 * parted).all()
+    assert behind[0] == pytest.approx(behind[1], abs=0.02 * parted)
     assert force[low[low.size // 2]] < 1e-3 and (np.diff(low) == 1).all()
-
-
-def _radii(bearing):
-    body = bearing.race("outer").geometry
-    return body.radius_x, body.radius_y, body.e_reduced
 
 
 def test_waves_of_all_balls_excite_along_the_shaft():
@@ -238,7 +255,7 @@ def test_steps_from_python_are_those_of_the_loop(freedoms):
 
 
 def test_a_mass_on_a_spall_feels_both_edges():
-    """Steepest fall and rise of the force of a run within a contact length of the times of geometry."""
+    """Steepest fall and rise of the force of a run, from the times of geometry to those at which bodies part."""
     length, speed, dt = 2e-3, 1800.0, 1e-5
     spall = Spall(race="outer", angle=-pi / 2, length=length, depth=5e-5)
     bearing = replace(DRY, clearance=5e-6, features=[spall])
@@ -257,8 +274,9 @@ def test_a_mass_on_a_spall_feels_both_edges():
     slope = np.gradient(force, dt)
     found = run.t[[halves[0][np.argmin(slope[halves[0]])], halves[1][np.argmax(slope[halves[1]])]]]
     body = bearing.race("outer").geometry
-    a = hertz_contact(250.0, body.radius_x, body.radius_y, body.e_reduced).a
-    np.testing.assert_allclose(found, edges, atol=2.0 * a / (cage * radius))
+    approach = 2.0 * hertz_contact(float(force.max()), body.radius_x, body.radius_y, body.e_reduced).approach
+    behind = (found - edges) * [1.0, -1.0] * cage * radius
+    assert (behind > 0.0).all() and (behind < sqrt(2.0 * body.radius_x * approach)).all()
     assert mount.cage_angle == pytest.approx(-pi / 2) and force.max() > 900.0
 
 
