@@ -74,6 +74,7 @@ Positive = Annotated[Finite, Field(gt=0.0)]
 NotNegative = Annotated[Finite, Field(ge=0.0)]
 Whole = Annotated[int, Field(strict=True)]
 Share = Annotated[Finite, Field(gt=0.0, lt=1.0)]
+CageSlip = Annotated[Finite, Field(gt=-50.0, lt=100.0)]  # percent
 
 # The bearing.
 Catalogue = Annotated[str, meaning("name of a ball bearing in the library's catalogue, as 6205")]

@@ -16,7 +16,7 @@ from reduced_models import Spall
 
 CLEARANCE = "clearance_um = -1.0"
 CASES = {
-    "outer": 'clearance_um = 8.0\nspall = "outer,0.2,0.01"',
+    "outer": 'clearance_um = 8.0\nspall = "outer,0.2,0.01"\ncage_slip_percent = 0.5',
     "inner": 'spall = "inner, 0.2, 0.01"\naxial_load = 30.0',
 }
 
@@ -40,8 +40,10 @@ def test_lines_and_orders_are_those_of_the_library(found):
     asked, one = found
     bearing, load = whole_bearing(asked, oil=True), ring_load(asked)
     pit = Spall(race=one.spall.race, angle=-np.pi / 2.0, length=0.2e-3, depth=0.01e-6)
-    assert one.spall == pit and one.orders == bearing.orders_under(load, speed_rpm=3000.0)
-    lines = bearing.excitation([pit], load, speed_rpm=3000.0)
+    at = {"speed_rpm": 3000.0, "slip": 0.005 if one.spall.race == "outer" else 0.0}
+    assert one.spall == pit and one.orders == bearing.orders_under(load, **at)
+    lines = bearing.excitation([pit], load, **at)
+    np.testing.assert_array_equal(one.lines["film"].order, lines.order)
     np.testing.assert_array_equal(one.lines["film"].amplitude, lines.amplitude)
     turns = one.turns[:700]
     force = lines.force(turns)[:, 1]
@@ -87,6 +89,7 @@ def test_page_and_picture(found, tmp_path):
     assert "What a defect looks like" in text and f"multiples of {one.name}" in text
     assert f"{one.orders.bpfo:.5g}" in text and f"{one.highest['film']:.3g}" in text
     assert ("at the contact angles" in text) == (one.spall.race == "inner")
+    assert ("with 0.5&nbsp;% slip" in text) == (one.spall.race == "outer") == (one.to_dict()["cage_slip"] > 0.0)
     assert one.to_dict()["envelope_harmonics"] == one.harmonics
 
 
@@ -102,6 +105,11 @@ def test_a_deep_spall_is_named(tmp_path):
     [
         ('spall = "outer,0.5"', ("whole_bearing.spall = 'outer,0.5'", "race,length,depth")),
         ('spall = "outer,500,1"', ("whole_bearing.spall = 'outer,500,1'", "length", "mm, the track")),
+        (
+            "cage_slip_percent = 1.0",
+            ("whole_bearing.cage_slip_percent = 1.0", "left out without whole_bearing.spall"),
+        ),
+        ('spall = "outer,1,1"\ncage_slip_percent = 100.0', ("cage_slip_percent = 100", "above -50 and below 100")),
         ('spall = "cage,1,1"', ("whole_bearing.spall", "inner, outer")),
         (
             'spall = "outer,1,1"\naxial_load = 30.0\ntilt_x_mrad = 0.1',

@@ -37,6 +37,7 @@ class StudyDefect:
     spall: Spall
     orders: DefectFrequencies
     speed_rpm: float
+    slip: float  # of the cage, a share of its speed with balls that roll
     lines: dict[str, BearingExcitation]
     turns: _Floats
     force: dict[str, _Floats]  # change of that which carries the load, over the turns [N]
@@ -77,6 +78,7 @@ class StudyDefect:
         return {
             "spall": asdict(self.spall),
             "orders": asdict(self.orders),
+            "cage_slip": self.slip,
             "reservation": self.reservation,
             "largest_force": self.highest,
             "envelope_band_hz": list(self.band),
@@ -90,7 +92,11 @@ def defect_of(study: Study) -> StudyDefect | None:
     if spall is None:
         return None
     bearing, load, speed = whole_bearing(study, oil=True), ring_load(study), study.bearing.speed_rpm
-    lines = {name: bearing.excitation([spall], load, speed_rpm=speed, contact_filter=name) for name in FILTERS}
+    slip = 0.01 * (study.whole_bearing.cage_slip_percent or 0.0)
+    lines = {
+        name: bearing.excitation([spall], load, speed_rpm=speed, contact_filter=name, slip=slip)
+        for name in FILTERS
+    }
     highest = max(float(one.order.max(initial=0.0)) for one in lines.values())
     per_turn = max(PER_TURN, 2 ** ceil(np.log2(FINER * highest + 1.0)))
     turns = np.arange(TURNS * per_turn) / per_turn
@@ -99,13 +105,13 @@ def defect_of(study: Study) -> StudyDefect | None:
     band = LOW * highest * speed * RPM_TO_HZ, HIGH * highest * speed * RPM_TO_HZ
     envelopes = {name: envelope_spectrum(one, rate, band) for name, one in force.items()}
     force["none"] = _vibration(_without_ripple(lines["none"]), turns)
-    orders = bearing.orders_under(load, speed_rpm=speed)
+    orders = bearing.orders_under(load, speed_rpm=speed, slip=slip)
     met = orders.bpfi if spall.race == "inner" else orders.bpfo
     rolled = spall.length * bearing.balls / (2.0 * pi * track_radius(bearing, str(spall.race)) * met)
     reach = BESIDE * (rolled + 2.0 / highest)  # the shortest waves are half a semi-axis
     strongest = float(turns[np.abs(force[FILTERS[0]][turns <= FIRST]).argmax()])
     passage = strongest - reach, strongest + reach
-    return StudyDefect(spall, orders, speed, lines, turns, force, envelopes, band, passage)
+    return StudyDefect(spall, orders, speed, slip, lines, turns, force, envelopes, band, passage)
 
 
 def _without_ripple(lines: BearingExcitation) -> BearingExcitation:

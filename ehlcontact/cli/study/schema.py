@@ -275,6 +275,10 @@ class WholeBearing(Section):
         e.Text | None,
         e.meaning("spall whose force the report shows: race, mm along the track, um deep, as outer,0.5,0.3"),
     ] = None
+    cage_slip_percent: Annotated[
+        e.CageSlip | None,
+        e.meaning("slip of the cage in orders and lines of the spall, of its speed with balls that roll"),
+    ] = None
     span_mm: Annotated[
         e.Distance | None, e.meaning("distance of both bearings; 200 where left out with axial_load")
     ] = None

@@ -172,10 +172,13 @@ def spall_in(study: Any) -> Spall | None:
     Raises
     ------
     InputError
-        What is no spall, one that the bearing has no place for, or one beside a pair or a tilt.
+        What is no spall, one that the bearing has no place for, or one beside a pair or a tilt; slip without one.
     """
     whole = study.whole_bearing
     if whole.spall is None:
+        if whole.cage_slip_percent is not None:
+            allowed = "left out without whole_bearing.spall, whose lines it moves"
+            raise InputError("whole_bearing.cage_slip_percent", whole.cage_slip_percent, allowed)
         return None
     for name in ("pair", "tilt_x_mrad", "tilt_y_mrad"):
         if getattr(whole, name) is not None:
