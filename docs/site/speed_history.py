@@ -63,7 +63,7 @@ def draw(run, speed):
     left.legend(loc="lower left", fontsize="small")
     film = np.ma.masked_greater(run.h_midplane / run.h_central[0], 2.0)
     drawn = right.pcolormesh(run.X, run.T, film, cmap="viridis", vmin=0.0, vmax=1.5, rasterized=True)
-    figure.colorbar(drawn, ax=right, label="film along the middle over the central one at the start")
+    figure.colorbar(drawn, ax=right, label="film along the middle over\nthe central one at the start")
     right.set(xlabel="x/a", ylabel="T, in 2a/u_sum", xlim=(-1.6, 1.6))
     figure.savefig(IMAGES / "speed_history.png", dpi=130)
 

@@ -158,12 +158,14 @@ OilThickness = Annotated[
     meaning("layer of oil on both surfaces together ahead of the contact"),
 ]
 LayerRatio = Annotated[
-    Positive, Field(le=1e6), meaning("that layer over what the flooded film of the contact lets through")
+    Positive,
+    Field(le=1e6),
+    meaning("that layer over what the flooded isothermal film of the contact lets through"),
 ]
 BearingLayerRatio = Annotated[  # as tables of oil supply have it: THINNEST of `reduced_models.atlas`
     Finite,
     Field(ge=0.02, le=1e6),
-    meaning("that layer over what the flooded film of each contact lets through"),
+    meaning("that layer over what the flooded isothermal film of each contact lets through"),
 ]
 Intervals = Annotated[Whole, Field(ge=16, le=2048, multiple_of=16)]
 Frequency = Annotated[Finite, Field(ge=SLOWEST, le=FASTEST)]  # dimensionless

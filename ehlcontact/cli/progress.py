@@ -21,6 +21,7 @@ SPACING = 10.0  # seconds between lines, at least: what is done sooner needs non
 SHARE = 0.1  # of the work after which there is a line,
 SILENCE = 60.0  # and seconds after which there is one all the same
 TICK = 0.5  # seconds between looks at the clock
+JOBS = 2  # done, from which the time left is estimated: the first may compile, and may be of another size
 COMPILING = "compiling, which later runs need not"
 
 
@@ -69,6 +70,8 @@ class Task:
     last_share: float = 0.0  # at its last line
     first: tuple[float, float] | None = None  # time and share of the first update: a run may go on from a file
     share: float | None = None  # None where the end is not known
+    moved: float = 0.0  # time of the last update that had more of the work done
+    jobs: int = 0  # such updates since the first
     note: str = ""
     compiling: bool = False  # since the last update
 
@@ -88,10 +91,24 @@ class Task:
             parts = [f"{duration(now - self.begun)} so far", COMPILING if self.compiling else self.note]
             return f"{self.description}: {', '.join(filter(None, parts))}"
         self.last_share = self.share
-        first, share = self.first or (now, self.share)
-        moved = self.share - share
-        left = f", about {duration((now - first) * (1.0 - self.share) / moved)} left" if moved > 0.0 else ""
-        return f"{self.description}: {100.0 * self.share:.0f} %{left}"
+        left = self._left(now)
+        about = f", about {duration(left)} left" if left > 0.0 else ""
+        return f"{self.description}: {100.0 * self.share:.0f} %{about}"
+
+    def move(self, now: float, share: float | None) -> None:
+        """Take a share that is done now."""
+        if share is not None and self.first is None:
+            self.first, self.last_share = (now, share), share
+        elif share is not None and share > (self.share or 0.0):
+            self.moved, self.jobs = now, self.jobs + 1
+        self.share = share
+
+    def _left(self, now: float) -> float:
+        """Time left by the work done between updates [s]; 0 where too little is done, or it takes longer."""
+        if self.first is None or self.share is None or self.jobs < JOBS:
+            return 0.0
+        first, share = self.first
+        return (self.moved - first) * (1.0 - self.share) / (self.share - share) - (now - self.moved)
 
 
 class Lines:
@@ -114,9 +131,8 @@ class Lines:
     def update(self, task: Task, done: float, total: float | None, note: str = "") -> None:
         """Keep the progress of a task until a line is due; `total` is None where it is not known."""
         with self._lock:
-            task.note, task.share, task.compiling = note, done / total if total else None, False
-            if task.first is None and task.share is not None:
-                task.first, task.last_share = (time.monotonic(), task.share), task.share
+            task.note, task.compiling = note, False
+            task.move(time.monotonic(), done / total if total else None)
 
     def compiling(self, task: Task) -> None:
         """Note that kernels are compiled for a task, until its next update."""

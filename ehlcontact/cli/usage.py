@@ -28,6 +28,10 @@ NOT_IN_THE_MODEL = {
     **dict.fromkeys(("--axial", "--axial-load", "--thrust", "--contact-angle", "--angle"), _RADIAL),
     **dict.fromkeys(("--moment", "--tilt", "--misalignment"), f"{_RADIAL} (--moment-x, --tilt-x)"),
     **dict.fromkeys(("--preload", "--axial-preload"), _PRELOAD),
+    **dict.fromkeys(("--grease",), _FILMS),
+}
+# Likewise what some commands have.
+OF_OTHERS = {
     **dict.fromkeys(
         ("--starvation", "--starved"),
         "`ehlcontact steady`, `impedance`, `simulate` and `bearing` have --layer; elsewhere " + _FILMS,
@@ -41,7 +45,6 @@ NOT_IN_THE_MODEL = {
     **dict.fromkeys(
         ("--traction", "--slip"), "`ehlcontact steady` has --slide-roll, with its traction; elsewhere " + _FILMS
     ),
-    **dict.fromkeys(("--grease",), _FILMS),
 }
 
 
@@ -68,8 +71,11 @@ def usage_line(error: Exception, arguments: Sequence[str], root: Any) -> str:
             few = "one value" if parameter.nargs == 1 else f"{parameter.nargs} values"
             found = InputError(_title(parameter, arguments), None, f"followed by {few}{_about(parameter)}")
             return str(found).replace(" = None", "", 1)
-    if kind == "NoSuchOption" and (asked := getattr(error, "option_name", "")) in NOT_IN_THE_MODEL:
+    asked = getattr(error, "option_name", "")
+    if kind == "NoSuchOption" and asked in NOT_IN_THE_MODEL:
         return f"{asked}: not in the model; {NOT_IN_THE_MODEL[asked]}"
+    if kind == "NoSuchOption" and name and asked in OF_OTHERS:
+        return f"{asked}: no option of `{name}`; {OF_OTHERS[asked]}"
     if kind == "NoSuchOption" and name:
         options = (option.opts[0] for option in command.params if option.opts[0].startswith("--"))
         return f"{message.rstrip('.')}; `{name}` takes {', '.join(options)}"

@@ -262,6 +262,7 @@ def _macros(model: RotorModel, made: _Variables) -> dict[str, str]:
         "AXES": axes,
         "STARTS_AT_REST": int(model.start is None),
         "N_MOUNTS": len(made.mounts),
+        "REACHED": "VR_speed",
         "N_CACHE": 3 + 3 * freedoms + axes + numbers_of_laws(model.elements),
         **{f"FIRST_{name}": at for name, at in made.first.items() if name != "STATE"},
     }

@@ -185,6 +185,7 @@ def _macros(model: ShaftModel, made: _Variables) -> dict[str, str]:
         "UNBALANCES": len(model.rotor.unbalances),
         "BEARINGS": len(model.stations),
         "HAS_TORQUE": int(model.inertia is not None),
+        "REACHED": made.first["DRIVE"] if model.inertia is None else "(-1)",
         "N_CACHE": 2 * model.rotor.size + 4,
         **{f"FIRST_{name}": at for name, at in made.first.items()},
     }

@@ -27,7 +27,7 @@ from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import load, stored
 from ehlcontact.summary import contact_text, span
 from reduced_models.atlas.interpolation import Neighbours, Radial, error_factor, films, left_out_errors
-from reduced_models.atlas.table import Box
+from reduced_models.atlas.table import Box, require_shapes
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -63,6 +63,19 @@ class FilterTable:
         """G/Z less that of dry contacts, over `film_share`, shape (n, m)."""
         found = self.real + 1j * self.imag - dry_filter(self.k)
         return np.asarray(found / film_share(self.points)[:, None])
+
+    def require_complete(self) -> None:
+        """Raise `ValueError` or another error of damaged metadata unless all arrays are there and fit.
+
+        Raises
+        ------
+        ValueError
+            An array of another shape, or with numbers that are not finite.
+        """
+        n, m = len(self.points), self.k.size
+        each = dict.fromkeys(("real", "imag", "left_out"), (n, m))
+        require_shapes(self, {"points": (n, 3), "k": (m,), **each, "factor": (m,)})
+        _ = self.box
 
     def judged(self) -> Self:
         """Table with leave-one-out errors, from which its error bars follow."""

@@ -373,6 +373,11 @@ COMMANDS = [
     (("atlas", "supply", "--draws", "-1"), ("--draws = -1", "whole number >= 0")),
     (("atlas", "supply", "--draws", "5"), ("points", "at least 20", "draws = 5")),
     (("atlas", "supply", "--processes", "0"), ("--processes = 0", "> 0")),
+    # atlas waves
+    (("atlas", "waves", "-o", "a.txt"), ("--output = 'a.txt'", ".h5")),
+    (("atlas", "waves", "--draws", "-1"), ("--draws = -1", "whole number >= 0")),
+    (("atlas", "waves", "--draws", "5"), ("points", "at least 20", "draws = 5")),
+    (("atlas", "waves", "--processes", "0"), ("--processes = 0", "> 0")),
     # bearing
     (("bearing",), ("NAME|FILE.toml = None", "given")),
     (bearing("6025"), ("bearing = '6025'", "6205", "nearest", "examples/bearing_6205.toml")),

@@ -236,7 +236,8 @@ def test_what_is_not_in_the_model_is_said_in_one_line(call, command, option):
     for given in ((option, "100"), (f"{option}=100",)):
         result = call(*command, *OIL, *given)
         assert result.code == 2 and result.out == "" and len(result.err.splitlines()) == 1
-        assert f"{option}: not in the model; " in result.err
+        why = f"no option of `{command[0]}`" if option == "--starvation" else "not in the model"
+        assert f"{option}: {why}; " in result.err
     assert ("--clearance" in result.err) == (option == "--preload")
 
 

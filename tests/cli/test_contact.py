@@ -301,7 +301,12 @@ def test_asperities(call, refused):
     shown = call("steady", *options(), *COARSE, "--rq", "0.2", "--asperities").out
     assert re.search(r"load on asperities +\d\.\d+ % +their central film is 1\.0", shown)
     refused(("--asperities = True", "with --rq above 0"), "steady", *options(), "--asperities")
-    refused(("--asperities: not in the model", "`ehlcontact steady` has"), "impedance", *options(), "--asperities")
+    refused(
+        ("--asperities: no option of `impedance`", "`ehlcontact steady` has"),
+        "impedance",
+        *options(),
+        "--asperities",
+    )
 
 
 def test_heat(call, refused):
@@ -328,7 +333,7 @@ def test_heat(call, refused):
     shaken = json.loads(call("impedance", *options(), *COARSE, "--thermal", "--hz", "10", "--json", "-").out)
     assert shaken["temperature"]["film_share"] == pytest.approx(warm["temperature"]["film_share"], abs=0.02)
     assert "film by heat" in call("impedance", *options(), *COARSE, "--thermal", "--hz", "10").out
-    refused(("--thermal: not in the model", "`ehlcontact steady` has"), "element", *options(), "--thermal")
+    refused(("--thermal: no option of `element`", "`ehlcontact steady` has"), "element", *options(), "--thermal")
 
 
 def test_traction(call, refused):
@@ -372,4 +377,4 @@ def test_traction(call, refused):
     bad(("sliding", "left out with thermal"), "--slide-roll", "0.1", "--thinning", "--thermal")
     dimensionless = ("--M", "20", "--L", "10", "--kappa", "1", "--slide-roll", "0.1")
     refused(("--slide-roll = 0.1", "no pascals"), "steady", *dimensionless)
-    refused(("--traction: not in the model", "has --slide-roll"), "impedance", *options(), "--traction")
+    refused(("--traction: no option of `impedance`", "has --slide-roll"), "impedance", *options(), "--traction")

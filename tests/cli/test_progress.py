@@ -49,7 +49,7 @@ def test_a_line_every_ten_seconds_and_ten_per_cent(clock, capsys):
     said = capsys.readouterr()
     told = said.err.splitlines()
     assert said.out == ""
-    assert told[0] == "film: 10 %, about 95 s left"
+    assert told[0] == "film: 10 %, about 90 s left"
     assert len(told) == 13
 
 
@@ -61,8 +61,28 @@ def test_a_run_that_goes_on_from_a_file_is_judged_by_what_it_does_now(clock, cap
     lines.update(task, 91, 100)
     clock(lines, 1.0)
     assert capsys.readouterr().err.splitlines() == ["film: 80 %"]
+    lines.update(task, 92, 100)
     clock(lines, 9.0)
-    assert capsys.readouterr().err == "film: 91 %, about 16 s left\n"
+    assert capsys.readouterr().err == "film: 92 %\n"  # 12 per cent in 11 s, so 7 s more: it takes longer
+    lines.update(task, 96, 100)
+    clock(lines, 1.0)
+    clock(lines, 60.0)
+    assert capsys.readouterr().err == "film: 96 %\n"
+
+
+def test_the_time_left_is_that_of_jobs_that_are_done(clock, capsys):
+    """None after the first, which compiles; then by what is done when it was done, less the time since."""
+    lines = Lines()
+    task = lines.add("film")
+    for done, seconds in ((0, 30.0), (1, 12.0), (2, 12.0), (3, 12.0)):
+        lines.update(task, done, 8)
+        clock(lines, seconds)
+    assert capsys.readouterr().err.splitlines() == [
+        "film: 0 %",
+        "film: 12 %",
+        "film: 25 %, about 2 min left",  # 42 s for two of eight, so 126 s, of which 12 are over
+        "film: 38 %, about 78 s left",  # 54 s for three
+    ]
 
 
 def test_lines_of_a_task_without_known_end(clock, capsys):
@@ -129,8 +149,8 @@ def test_compilation_is_shown_until_the_next_progress(clock, capsys):
     clock(lines, 60.0)
     assert capsys.readouterr().err.splitlines() == [
         f"film: 10 s so far, {COMPILING}",
-        "film: 30 %, about 70 s left",
-        "film: 50 %, about 38 s left",
+        "film: 30 %",
+        "film: 50 %, about 15 s left",
         f"film: 2 min so far, {COMPILING}",
     ]
 

@@ -509,7 +509,7 @@ def _rows(b: BallBearing) -> list[Row]:
     if b.oil is not None:
         oil = [
             ("oil", f"{numeral(b.oil.eta0)} Pa s", f"alpha {numeral(b.oil.alpha)} 1/Pa"),
-            ("highest speed", f"{numeral(b.highest_speed, 5)} rpm", "where the atlas ends"),
+            ("highest speed", f"{numeral(b.highest_speed, 5)} rpm", "beyond it the atlas has no films"),
         ]
     conformity = f"{numeral(b.conformity_inner)}, {numeral(b.conformity_outer)}"
     angle = [

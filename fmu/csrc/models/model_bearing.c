@@ -268,13 +268,16 @@ static const char *check_forces(const double force[])
 
 Fault model_prepare(Model *m)
 {
+    const double film = m->value[VR_film];
 #if HAS_CLEARANCE
-    const Fault off = {REFUSE, "clearance is too large or too small for a bearing of this size"};
-    return fabs(m->value[VR_clearance]) <= LARGEST_PLACE ? fine : off;
-#else
-    (void)m;
-    return fine;
+    if (!(fabs(m->value[VR_clearance]) <= LARGEST_PLACE)) {
+        return fault(REFUSE, "clearance is too large or too small for a bearing of this size");
+    }
 #endif
+    if (film != 0.0 && !(film == 1.0 && races[0].nodes > 0)) {
+        return fault(REFUSE, races[0].nodes > 0 ? "film must be 0 (dry) or 1 (with oil films)" : "film must be 0: this bearing is dry");
+    }
+    return fine;
 }
 
 /* At rest with the ring at q: what the bearing remembers, and the force on its balls. */

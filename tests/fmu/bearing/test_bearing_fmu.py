@@ -1,5 +1,6 @@
 """FMUs of ball bearings beside the bearings in Python: forces, parameters, films, faults, a mass on the ring."""
 
+import re
 import zipfile
 from pathlib import Path
 from xml.etree import ElementTree
@@ -187,6 +188,23 @@ def test_what_no_bearing_does_is_told_and_leaves_a_usable_instance(made, wrong, 
     slave.step_to(float(trial.time[1]))
     assert slave.get("force_y")[0] == pytest.approx(trial.force[1, 1], rel=1e-9)
     slave.free()
+
+
+@pytest.mark.parametrize(
+    ("name", "film", "words"),
+    [
+        ("planar", 2.0, r"film must be 0 \(dry\) or 1"),
+        ("planar", 0.5, r"film must be 0 \(dry\) or 1"),
+        ("planar", float("nan"), r"film must be 0 \(dry\) or 1"),
+        ("dry", 1.0, "film must be 0: this bearing is dry"),
+    ],
+)
+def test_a_film_is_there_or_not(made, name, film, words):
+    one, messages = made(name), []
+    slave = Slave(one.folder, one.description, messages, loggingOn=True)
+    with pytest.raises(FMICallException):
+        slave.start(film=film)
+    assert re.search(words, messages[-1])
 
 
 def test_films_hold_above_the_highest_speed_of_the_tables(made):

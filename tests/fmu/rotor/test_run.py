@@ -212,8 +212,22 @@ def test_speed_and_unbalance_are_inputs(instance, rotors, motion_of, moving):
     slave.set(unbalance=0.0, speed=0.0)
     slave.step(dt)
     slave.set(speed=100.0 * np.pi)
-    slave.step(dt)  # on along the last change of the speed
-    assert slave.get("angle")[0] == pytest.approx(turned + 1.5 * dt * 100.0 * np.pi, rel=1e-12)
+    slave.step(dt)  # at the mean of the speeds before and now
+    assert slave.get("angle")[0] == pytest.approx(turned + 0.5 * dt * 100.0 * np.pi, rel=1e-12)
+
+
+@pytest.mark.parametrize("lead", [EXTRAPOLATED, HELD, END])
+def test_the_speed_that_is_given_is_reached_whatever_the_lead(instance, lead):
+    """A jump within one step, its mean in between, and down to standstill: never beyond."""
+    given = np.array([300.0, 250.0, 250.0, 100.0, 0.0, 0.0])
+    slave, turned = instance("alone"), [0.0]
+    slave.start(force_lead=lead, speed=300.0)
+    for speed in given:
+        slave.set(speed=speed)
+        slave.step(1e-4)
+        turned.append(slave.get("angle")[0])
+    means = 0.5 * (np.append(300.0, given[:-1]) + given)
+    assert np.diff(turned) / 1e-4 == pytest.approx(means, rel=1e-9, abs=1e-9)
 
 
 def test_angle_loses_nothing_in_many_steps(instance, rotors):

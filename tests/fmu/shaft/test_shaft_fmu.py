@@ -162,6 +162,20 @@ def test_motion_is_that_of_continuous_time(made, rotors):
     assert (gaps[1] < 0.27 * gaps[0] + 1e-9).all()
 
 
+@pytest.mark.parametrize("lead", [0.0, 0.5, 1.0])
+def test_the_speed_that_is_given_is_reached_whatever_the_lead(made, lead):
+    """A jump within one step, its mean in between, and down to standstill: never beyond."""
+    given = np.array([300.0, 250.0, 250.0, 100.0, 0.0, 0.0])
+    slave, turned = made("flexible").started(speed=300.0, force_lead=lead), [0.0]
+    for speed in given:
+        slave.set(speed=speed)
+        slave.step(1e-4)
+        turned.append(slave.get("angle")[0])
+    slave.free()
+    means = 0.5 * (np.append(300.0, given[:-1]) + given)
+    assert np.diff(turned) / 1e-4 == pytest.approx(means, rel=1e-9, abs=1e-9)
+
+
 def test_scales_are_those_of_the_matrices(made, rotors, tmp_path):
     """An FMU with its parameters set, beside one of another rotor."""
     rotor = rotors["flexible"]

@@ -338,6 +338,7 @@ def test_an_input_that_is_no_number_is_named(made):
         ({"mass_scale": 0.0}, "mass_scale must be"),
         ({"damping_scale": -1.0}, "damping_scale and load_scale must be"),
         ({"inner_step": 0.0}, "inner_step must be"),
+        ({"bearing[1].film": 2.0}, "film must be 0 (dry) or 1"),
         ({"bearing[1].clearance": 1.0}, "clearance is too large"),
         ({"load_scale": 1e9}, "no equilibrium under this load"),
     ],

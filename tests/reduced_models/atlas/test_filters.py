@@ -6,6 +6,7 @@
 
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from scipy.interpolate import CubicSpline
 from ehlcontact import Grid, InputError, MoesPoint, excitation, load
 from ehlcontact.cli.app import execute
 from ehlcontact.content_store import ContentStore, key_of
+from ehlcontact.store import save
 from reduced_models import contact_filter
 from reduced_models.atlas.filter_build import DRAWS, SEED
 from reduced_models.atlas.filter_points import FILTERED, WAVE_NUMBERS, filter_points, solve_filter
@@ -156,6 +158,16 @@ def test_films_over_dry_of_many_contacts():
 
 
 @pytest.mark.slow
+def test_a_damaged_table_is_refused(tmp_path):
+    table = shipped_filters().table
+    for name in ("real", "left_out", "factor"):
+        save(
+            replace(table, **{name: getattr(table, name)[1:]}), tmp_path / "filters.h5", "table of contact filters"
+        )
+        with pytest.raises(InputError):
+            load(tmp_path / "filters.h5", FilterTable, "table of contact filters")
+
+
 @pytest.mark.parametrize("row", [(750.0, 18.3, 0.107), (200.0, 10.0, 0.5), (60.0, 6.0, 0.12), (6000.0, 15.0, 0.1)])
 def test_against_finer_meshes(row):
     """Points of no sequence, n = 128: within 3 % of |Z| h at all wavelengths, within 3 % of G/Z from 4 a on."""
