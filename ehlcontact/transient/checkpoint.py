@@ -114,6 +114,8 @@ class Checkpoint:
         if asked.steps.until < T * (1.0 - SAME):
             raise InputError("until", asked.steps.until, f"at least {T!r}, which the checkpoint has reached")
         known, height = np.asarray(self.film.surface), np.asarray(surface_height(surface, level.X, level.Y, T))
+        if self.film.turned and height.ndim:
+            height = height[..., ::-1]
         if height.shape != known.shape or not np.array_equal(height, known):
             same("surface", _heights(known, T), _heights(height, T))
 

@@ -36,7 +36,7 @@ class SurfaceStep(NamedTuple):
     height: Array  # at the end of the step
     at_start: Array  # at its start
     at_previous_start: Array  # at the start of the step before
-    rate: Array  # (d/dX + d/dT) G at the end: what passing film sees; 0 in pure rolling
+    rate: Array  # (U d/dX + d/dT) G at the end: what passing film sees; 0 in pure rolling
 
 
 def require_surface(surface: object) -> None:
@@ -107,9 +107,12 @@ def require_resolved(surface: Surface, X: Array, Y: Array, T: float) -> None:
 
 
 def surface_step(
-    surface: Surface | None, X: Array, Y: Array, T: float, dT: float, dT_before: float
+    surface: Surface | None, X: Array, Y: Array, T: float, dT: float, dT_before: float, speed: float = 1.0
 ) -> SurfaceStep | None:
-    """`surface` over the step `dT` that ends at T and follows one of length `dT_before`; None without one."""
+    """`surface` over the step `dT` that ends at T and follows one of length `dT_before`; None without one.
+
+    `speed` is that of the film at T, over that of the operating point.
+    """
     if surface is None:
         return None
     height, before, earlier = (
@@ -117,7 +120,7 @@ def surface_step(
     )
     require_resolved(surface, X, Y, T)
     ahead, behind = (
-        np.asarray(surface_height(surface, X + step, Y, T + step)) for step in (RATE_STEP, -RATE_STEP)
+        np.asarray(surface_height(surface, X + speed * step, Y, T + step)) for step in (RATE_STEP, -RATE_STEP)
     )
     return SurfaceStep(height, before, earlier, (ahead - behind) / (2.0 * RATE_STEP))
 

@@ -8,7 +8,7 @@ from typing import Annotated
 from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.heat import Heat
+from ehlcontact.heat import Heat, require_heat
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.quantities import FORCE, LENGTH
@@ -22,7 +22,6 @@ from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
 from ehlcontact.supply import OilLayer, require_supply
 from ehlcontact.transient.features import Surface, require_surface, surface_height, surface_step
-from ehlcontact.transient.heat_over_time import require_heat_over_time
 from ehlcontact.transient.time_step import DEFAULT_TOL
 from ehlcontact.transient.transient_film import FilmState, Step, TransientFilm
 
@@ -51,7 +50,7 @@ class FullContact(Summary):
     surface : callable, optional
         Height added to the gap, as in `simulate`, over the time since this contact was made; it rests on it.
     thermal : Heat, optional
-        Let the film heat up, as in `simulate`; not together with `surface`.
+        Let the film heat up, as in `simulate`.
     largest_load : float
         Largest force to expect, in static loads.
     tol : float
@@ -105,7 +104,8 @@ class FullContact(Summary):
         require_surface(surface)
         self._surface, self._T = surface, 0.0
         if thermal is not None:
-            thermal = require_heat_over_time(thermal, point, surface)
+            require_heat(thermal)
+            thermal = thermal.at(point)
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)
         left: Step | None = None

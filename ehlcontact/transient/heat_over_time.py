@@ -17,9 +17,8 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat, require_heat
-from ehlcontact.point import Point, Scales
+from ehlcontact.heat import Heat
+from ehlcontact.point import Scales
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.solver.film_heat import FilmHeat, Terms
 from ehlcontact.solver.multigrid import Multigrid
@@ -71,6 +70,7 @@ class HeatOverTime(FilmHeat):
         self._at_unit_speed = self.numbers
         # What is known of the differences in time of heat, of its part by which oil is warmer, and of pressure
         self._step: tuple[Array, Array, Array] | None = None
+        self._source: Array | None = None
         self._now: list[Array] = []
         self._before: list[Array] = []
         self._end = 0.0, 0.0  # of the step: time and way
@@ -94,12 +94,21 @@ class HeatOverTime(FilmHeat):
         if self._begun:
             self.restore(self.state.turned())
 
-    def begin(self, dT: float, known: Callable[[Array, Array], Array], moved: float, turned: bool) -> None:
+    def begin(
+        self,
+        dT: float,
+        known: Callable[[Array, Array], Array],
+        moved: float,
+        turned: bool,
+        source: Array | None = None,
+    ) -> None:
         """Begin a step in which the surfaces go on by `moved`.
 
         ``known(now, before)`` is the known part of a difference in time; `turned` says that fields are those seen
-        from the other side.
+        from the other side. A `source` of oil, which corrects how features are carried, has the temperature of the
+        film.
         """
+        self._source = source
         state, convection = self.state, self.numbers.convection
         stored, of_rise = (convection * known(*pair) for pair in (state.stored, state.of_rise))
         self._step = stored, of_rise, known(*state.pressure)
@@ -203,6 +212,8 @@ class HeatOverTime(FilmHeat):
         level, n = self.level, self.numbers
         squeezed = n.expansion * t.H * (level.c_t * level.P + self._step[2])
         storage = level.c_t * n.convection * level.fields.flow.mass * t.share
+        if self._source is not None:
+            storage = storage - n.convection * self._source
         return t._replace(work=t.work + np.where(t.wet, squeezed, 0.0), storage=np.where(t.wet, storage, 0.0))
 
     def stored(self, t: Terms, mean: Array) -> Array | float:
@@ -270,11 +281,3 @@ def _add_behind(heat: Array, lag: int, found: Array) -> None:
         found[:, lag:] += heat[:, : nodes - lag]
     else:
         found[:, :lag] += heat[:, -lag:]
-
-
-def require_heat_over_time(thermal: Heat, point: Point, surface: object = None) -> Heat:
-    """Heat with the data of the oil; raises `InputError` where there is a surface that it does not go with."""
-    require_heat(thermal)
-    if surface is not None:
-        raise InputError("surface", type(surface).__name__, "left out with heat")
-    return thermal.at(point)

@@ -12,7 +12,7 @@ from ehlcontact.transient.bodies import Motion, MotionState
 from ehlcontact.transient.features import Surface, surface_height, surface_step
 from ehlcontact.transient.record import Entry, History
 from ehlcontact.transient.settings import StepPlan
-from ehlcontact.transient.speed import SpeedHistory
+from ehlcontact.transient.speed import SpeedHistory, surface_at
 from ehlcontact.transient.time_step import (
     StepControl,
     difference,
@@ -61,7 +61,8 @@ class Run:
         watch: Callable[[Run], None],
         speed: SpeedHistory | None = None,
     ) -> None:
-        self.film, self.motion, self.surface, self.speed = film, motion, surface, speed
+        self.film, self.motion, self.speed = film, motion, speed
+        self.surface = surface_at(surface, speed)
         self.history, self.control = history, control
         self.static_approach = film.u
         film.keeps_oil = speed is not None and speed.reverses
@@ -105,7 +106,8 @@ class Run:
         balance, guess = motion.balance(now, T, dT)
         if self.speed is not None:
             film.set_speed(self.speed(T))
-        feature = surface_step(self.surface, film.level.X, film.level.Y, T, dT, film.last_step)
+        U = 1.0 if self.speed is None else self.speed(T)
+        feature = surface_step(self.surface, film.level.X, film.level.Y, T, dT, film.last_step, U)
         step = film.advance(dT, balance, guess, feature)
         self.state = motion.after(now, film.u, T, dT)
         return Entry.of(film, self.state, motion.applied(T, film.level.force()), step)

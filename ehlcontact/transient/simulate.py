@@ -14,7 +14,7 @@ import numpy as np
 from ehlcontact.checks import require_instance
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.heat import Heat
+from ehlcontact.heat import Heat, require_heat
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
@@ -26,7 +26,6 @@ from ehlcontact.supply import OilLayer, require_supply
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
 from ehlcontact.transient.features import Dent, Surface, require_surface, surface_height
-from ehlcontact.transient.heat_over_time import require_heat_over_time
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
@@ -40,7 +39,7 @@ from ehlcontact.transient.settings import (
     require_groups,
     snapshot_times,
 )
-from ehlcontact.transient.speed import SpeedHistory, require_speed
+from ehlcontact.transient.speed import SpeedHistory, require_speed, surface_at
 from ehlcontact.transient.time_step import StepControl, default_fixed_step
 from ehlcontact.transient.transient_film import TransientFilm
 
@@ -80,7 +79,7 @@ def simulate(
         turn back, they bring back what has left. Not together with `surface`.
     thermal : Heat, optional
         Let the film heat up: oil and surfaces store heat, and its viscosity follows in every step (docs/heat.md).
-        By default the film has the temperature of the inlet. Not together with `surface`.
+        By default the film has the temperature of the inlet.
     time : TimeSteps
         End, step, tolerances; in seconds for an `OperatingPoint`, in 2a/u_sum for a `MoesPoint`.
     speed : SpeedHistory, optional
@@ -89,7 +88,8 @@ def simulate(
         and what is ahead then counts as flooded, but with a `supply`.
     surface : callable, optional
         Feature G(X, Y, T) added to the gap, even in Y: `Dent`, `TransverseRidge`, `Waviness`, `Roughness`, or a
-        function of one's own. At rest for T <= 0. One made for another `kappa` gives a warning.
+        function of one's own. At rest for T <= 0. One made for another `kappa` gives a warning. With a `speed` it
+        is called with the way of the surfaces, int U dT, in the place of T. Not together with `supply`.
     keep : KeepSettings
         Snapshots of whole fields, checkpoints, restart.
     run : RunSettings
@@ -116,7 +116,7 @@ def simulate(
     require_grid(grid)
     require_groups(time, keep, run)
     require_surface(surface)
-    require_speed(speed, surface, grid)
+    require_speed(speed, grid)
     reverses = speed is not None and speed.reverses
     wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load, reverses=reverses)
     mesh = next(wider)
@@ -125,7 +125,8 @@ def simulate(
     if supply is not None and surface is not None:
         raise InputError("surface", type(surface).__name__, "left out with a supply")
     if thermal is not None:
-        thermal = require_heat_over_time(thermal, point, surface)
+        require_heat(thermal)
+        thermal = thermal.at(point)
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
     scales = scales_of(point)
@@ -141,7 +142,8 @@ def simulate(
     def film_on(mesh: Mesh) -> TransientFilm:
         film = TransientFilm.under(supply, moes, scales, mesh, steps.tol, grid.deflection, threads, thermal)
         if isinstance(surface, Roughness):
-            surface.require_fit(film.level.X, film.level.Y, steps.until)
+            way = steps.until if speed is None else speed.farthest(steps.until)
+            surface.require_fit(film.level.X, film.level.Y, way)
         return film
 
     earlier = None
@@ -150,7 +152,7 @@ def simulate(
         mesh = next((other for other in meshes if other == earlier.inputs.mesh), mesh)
         film = film_on(mesh)
         given = time.step_of(motion, unit)
-        earlier.check(replace(inputs, mesh=mesh), given, surface, film.level, keep.restart)
+        earlier.check(replace(inputs, mesh=mesh), given, surface_at(surface, speed), film.level, keep.restart)
         started -= earlier.seconds
         steps = steps.going_on(earlier.inputs.steps)
         # the step follows from the end first asked for
@@ -189,7 +191,7 @@ def simulate(
             end = RunEnd(Status.INTERRUPTED)
     result = _result(film_run, inputs, scales, end.status, perf_counter() - started)
     if run.throw and not end.status.ok and end.status is not Status.INTERRUPTED:
-        G = surface_height(surface, result.X, result.Y, float(result.T[-1]))
+        G = surface_height(film_run.surface, result.X, result.Y, float(result.T[-1]))
         raise ConvergenceError(_message(result, end, -float(np.min(G))), result)
     if unkept is not None:
         raise CheckpointError(unkept, result)

@@ -89,6 +89,17 @@ class SpeedHistory:
         """U(T)."""
         return float(np.interp(T, *self._table))
 
+    def way(self, T: float) -> float:
+        """Way of the surfaces, the integral of U from 0 to T."""
+        times, speeds = self._table
+        i = int(np.clip(np.searchsorted(times, T, side="right") - 1, 0, times.size - 1))
+        whole = np.diff(times[: i + 1]) @ (0.5 * (speeds[:i] + speeds[1 : i + 1]))
+        return float(whole + 0.5 * (T - times[i]) * (speeds[i] + self(T)))
+
+    def farthest(self, until: float) -> float:
+        """Largest way from 0 to a time."""
+        return max(self.way(T) for T in (0.0, *(c for c in self.corners if c < until), until))
+
     @property
     def largest(self) -> float:
         """Largest ``abs(U)``."""
@@ -117,18 +128,21 @@ class SpeedHistory:
         return cls(**data)
 
 
-def require_speed(speed: SpeedHistory | None, surface: Surface | None, grid: Grid) -> None:
-    """Raise `InputError` unless a run can be made with this speed, these features and this grid."""
+def surface_at(surface: Surface | None, speed: SpeedHistory | None) -> Surface | None:
+    """A surface that moves with a speed that changes: over the way of the surfaces in place of time."""
+    if surface is None or speed is None:
+        return surface
+    return lambda X, Y, T: surface(X, Y, speed.way(T))
+
+
+def require_speed(speed: SpeedHistory | None, grid: Grid) -> None:
+    """Raise `InputError` unless a run can be made with this speed and this grid."""
     if speed is None:
         return
     require_instance("speed", speed, SpeedHistory, "a SpeedHistory(T, values)")
     if speed(0.0) == 0.0:
         allowed = "a speed other than 0: at standstill no film is steady; begin rolling, then stop"
         raise InputError("speed.values[0]", 0.0, allowed)
-    if surface is not None:
-        raise InputError(
-            "surface", type(surface).__name__, "none where the speed changes: features pass at u_sum/2"
-        )
     if speed.reverses and grid.domain is not None and grid.domain.x_out != -grid.domain.x_in:
         allowed = f"{-grid.domain.x_in!r}, as far behind the contact as ahead of it, where the surfaces roll back"
         raise InputError("grid.domain.x_out", grid.domain.x_out, allowed)

@@ -58,7 +58,8 @@ def default_fixed_step(
 ) -> float:
     """Default fixed step of a run under this motion, on a grid of this mesh size along X."""
     film = motion.film_step if speed is None else min(motion.film_step, LONGEST_ABRUPT) / max(speed.largest, 1.0)
-    return min(motion.default_step, film, _feature_step(surface, mesh))
+    faster = 1.0 if speed is None else max(speed.largest, 1.0)
+    return min(motion.default_step, film, _feature_step(surface, mesh) / faster)
 
 
 def _feature_step(surface: Surface | None, mesh: float) -> float:

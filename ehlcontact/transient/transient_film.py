@@ -183,6 +183,7 @@ class TransientFilm:
             self._mass, self._mass_before = self._mass[:, ::-1].copy(), self._mass_before[:, ::-1].copy()
             self._past = tuple((dT, P[:, ::-1].copy()) for dT, P in self._past)
             self.level.P[...] = self.level.P[:, ::-1].copy()
+            self.level.film_shift = _turned(self.level.film_shift)
             self.level.update_film(self.u)
             self.multigrid.newton.factors = None
             if self.heat is not None:
@@ -196,6 +197,8 @@ class TransientFilm:
     def start_steady(self, balance: Balance, u: float | None = None, surface: Array | float = 0.0) -> Step:
         """Solve the steady film over a resting `surface` and make it the state for all T <= 0."""
         mg = self.multigrid
+        if self.turned:
+            surface = _turned(surface)
         mg.set_time_coefficient(0.0)
         if u is not None:
             mg.u = u
@@ -210,6 +213,7 @@ class TransientFilm:
         if self.heat is not None and step.status.ok:
             cold, cycles = self.level.central_film(), HeatedCycles(mg, self.heat, mg.cycle)
             cycles.start(balance)
+            self.level.film_shift = surface
             step = self._solve(balance, 2 * STEP_CYCLES, cycles.step)
             self.heat.start(self.turned)
             self.temperature = self.heat.at_rest(cold)
@@ -249,12 +253,14 @@ class TransientFilm:
         `surface` holds the features on the surfaces, over this step and the one of length `last_step` before.
         """
         level, mg = self.level, self.multigrid
+        if surface is not None and self.turned:
+            surface = SurfaceStep(*(one[:, ::-1] for one in surface))
         # From rest or a corner the past is not smooth: the first step is backward Euler, the limit ratio = 0.
         ratio = dT / self._dT if self._dT > 0.0 else 0.0
         mg.set_time_coefficient((1.0 + 2.0 * ratio) / (1.0 + ratio) / dT)
         level.rhs[...] = _known(dT, ratio, self._mass, self._mass_before)
         level.film_shift = 0.0 if surface is None else surface.height
-        way = 0.0
+        way, source = 0.0, None
         if self._beyond is not None:
             way = self._beyond.way + 0.5 * dT * (self._speed + self._next_speed)
             level.set_supply(self._beyond.entering(way, self.turned))
@@ -273,12 +279,13 @@ class TransientFilm:
             # A feature much deeper than the film is carried exactly: the differences would leave a multiple of
             # its fourth derivative as a source, which eats up the film at its rim.
             known = _known(dT, ratio, surface.at_start, surface.at_previous_start)
-            level.rhs -= level.density() * (level.transport(surface.height, known) - surface.rate)
+            source = level.density() * (level.transport(surface.height, known) - surface.rate)
+            level.rhs -= source
         if self.heat is None:
             step = self._solve(balance, STEP_CYCLES)
         else:
             moved = 0.5 * dT * (self._speed + self._next_speed)
-            self.heat.begin(dT, partial(_known, dT, ratio), moved, self.turned)
+            self.heat.begin(dT, partial(_known, dT, ratio), moved, self.turned, source)
             cycles = HeatedCycles(mg, self.heat, mg.cycle)
             level.update(mg.u)
             cycles.follow()
@@ -337,6 +344,11 @@ class TransientFilm:
         if self.heat is not None and state.heat is not None:
             self.heat.restore(state.heat)
         self.level.update_film(state.u)
+
+
+def _turned(height: Array | float) -> Array | float:
+    """A surface seen from the other side."""
+    return height[:, ::-1].copy() if isinstance(height, np.ndarray) else height
 
 
 def _known(dT: float, ratio: float, now: Array, before: Array) -> Array:

@@ -159,6 +159,7 @@ def test_starved_films_with_heat_likewise(r, given):
     assert abs(still[1] / C - 1.0) > 0.01
 
 
+@pytest.mark.long
 def test_limits_of_starved_films_with_heat():
     """Without a slope that of the isothermal layer; with much oil that of the flooded film with heat."""
     given = {"Omega": [0.05, 1.0], "grid": Grid(48, Domain(-5.0, 1.5, 3.0))}

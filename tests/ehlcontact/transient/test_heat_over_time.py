@@ -153,9 +153,7 @@ def test_kept(tmp_path):
 
 def test_what_heat_does_not_go_with():
     motion = FreeVibration(Omega_n=5.0, rate=0.1)
-    given = {"grid": GRID, "thermal": Heat()}
-    for name, value in (("surface", lambda X, Y, T: 0.0 * X),):
-        with pytest.raises(InputError, match=f"{name} = .*left out with heat"):
-            simulate(POINT, motion, **given, **{name: value})
     with pytest.raises(InputError, match="left out at a dimensionless point"):
         simulate(MoesPoint(200, 10, 0.5), motion, thermal=Heat())
+    with pytest.raises(InputError, match="thermal = 'bool': must be a Heat"):
+        FullContact(POINT, thermal=True)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import (
+    Dent,
     Domain,
     Grid,
     Heat,
@@ -53,7 +54,11 @@ def columns(run):
 
 
 @pytest.mark.parametrize(
-    ("r", "given"), [(1.0, ROLLING), *(pytest.param(r, GLASS, marks=pytest.mark.slow) for r in (1.0, 0.6))]
+    ("r", "given"),
+    [
+        pytest.param(1.0, ROLLING, marks=pytest.mark.long),
+        *(pytest.param(r, GLASS, marks=pytest.mark.slow) for r in (1.0, 0.6)),
+    ],
 )
 def test_small_vibrations_under_a_layer_have_the_impedance_of_both(r, given):
     """Isothermal damping under the layer is 15 % and more away."""
@@ -127,6 +132,7 @@ def test_settled_at_another_speed_it_is_the_joint_film():
     assert run.warmest_oil[-1] == pytest.approx(steady.temperature.largest, rel=0.005)
 
 
+@pytest.mark.long
 def test_without_a_slope_it_is_the_isothermal_run_under_the_layer():
     T = np.linspace(0.0, 3.0, 301)
     motion = PrescribedApproach(T, 0.9 + 0.02 * np.sin(2.0 * T))
@@ -136,11 +142,28 @@ def test_without_a_slope_it_is_the_isothermal_run_under_the_layer():
     assert warm.warmest_oil.min() > 10.0
 
 
+@pytest.mark.long
 def test_a_constant_speed_is_none():
     given = {"motion": PrescribedApproach([0, 1, 2, 3], [0.91, 0.93, 0.93, 0.92]), "until": 1.0, "steps": 8}
     plain, same = moved(**given), moved(**given, speed=SpeedHistory([0, 1, 2, 3], np.ones(4)))
     for one, other in zip(columns(plain), columns(same), strict=True):
         np.testing.assert_array_equal(one, other)
+
+
+@pytest.mark.long
+def test_features_heat_their_film():
+    """Energy is balanced; without a slope the film is the isothermal one; far away the feature is none."""
+    dent = Dent(0.03, 0.5, start=-1.2, kappa=POINT.moes.kappa)
+    given = {"until": 1.5, "steps": 15, "grid": Grid(64), "tol": 1e-4}
+    cold, still, warm = (
+        moved(**given, thermal=t, surface=dent) for t in (None, Heat(temperature_slope=0.0), ROLLING)
+    )
+    np.testing.assert_allclose(still.h_midplane, cold.h_midplane, atol=1e-6)
+    assert max(still.heat_balance.max(), warm.heat_balance.max()) < 1e-9
+    assert np.ptp(warm.warmest_oil) > 2.0
+    short = {"until": 0.5, "steps": 5}
+    far, none = (moved(**short, surface=s) for s in (replace(dent, start=-30.0), None))
+    np.testing.assert_allclose(far.warmest_oil, none.warmest_oil, atol=1e-4)
 
 
 @pytest.mark.slow
@@ -160,6 +183,7 @@ def test_slow_changes_of_speed_pass_steady_films():
         np.testing.assert_allclose(slow / slower, 2.0, rtol=0.1)
 
 
+@pytest.mark.long
 def test_backwards_is_the_mirror_image_and_turned_round_the_film_comes_back():
     """Surfaces bring back what they were given; settled, the film is that of the first speed, turned."""
     T = np.array([0.0, 2.0, 4.0, 12.0])

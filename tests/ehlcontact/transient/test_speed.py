@@ -5,6 +5,7 @@ import pytest
 from scipy.special import ellipkm1
 
 from ehlcontact import (
+    Dent,
     Domain,
     Geometry,
     Grid,
@@ -18,7 +19,6 @@ from ehlcontact import (
     PrescribedLoad,
     SpeedHistory,
     TimeSteps,
-    Waviness,
     load,
     save,
     simulate,
@@ -315,7 +315,42 @@ def test_bad_runs():
     turned = SpeedHistory([0.0, 1.0, 2.0, 3.0], [1.0, 1.0, -1.0, -1.0])
     with pytest.raises(InputError, match="as far behind"):
         simulate(POINT, HELD, grid=Grid(n=64, domain=Domain()), speed=turned)
-    with pytest.raises(InputError, match="surface"):
-        simulate(POINT, HELD, surface=Waviness(0.1, 1.0), speed=turned)
     with pytest.raises(InputError, match="SpeedHistory"):
         simulate(POINT, HELD, speed=2.0)
+
+
+DENT = Dent(0.1, 0.6, start=-1.8)
+
+
+def over(surface, speed, until, steps, point=POINT, **given):
+    """A run over a surface in fixed steps, at speeds in equal steps of time."""
+    history = None if speed is None else SpeedHistory(np.linspace(0.0, until, len(speed)), speed)
+    time = TimeSteps(until=until, dt=until / steps, tol=1e-6)
+    return simulate(point, HELD, grid=AROUND, surface=surface, speed=history, time=time, **given)
+
+
+def test_features_move_with_the_way_of_the_surfaces():
+    """At half the speed in twice the time it is the contact of that speed, and at speed 1 the run without one."""
+    slow = over(DENT, [0.5] * 4, 4.0, 20)
+    same = MoesPoint(POINT.M * 0.5**-0.75, POINT.L * 0.5**0.25, POINT.kappa)
+    own = over(DENT, None, 2.0, 20, same)
+    np.testing.assert_allclose(slow.h_midplane, own.h_midplane, atol=1e-6)
+    assert np.abs(own.h_midplane[-1] - own.h_midplane[0]).max() > 0.05
+    for one, other in zip(films(over(DENT, [1.0] * 4, 1.0, 8)), films(over(DENT, None, 1.0, 8)), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+@pytest.mark.long
+def test_features_turn_back_with_the_surfaces(tmp_path):
+    """Backwards over the mirror image of the feature it is the mirror image; a checkpoint goes on bit for bit."""
+    speed, file = np.array([1.0, 1.0, -1.0, -1.0]), tmp_path / "run.h5"
+    ahead = over(DENT, speed, 4.5, 30)
+    back = over(lambda X, Y, T: DENT(-X, Y, -T), -speed, 4.5, 30)
+    np.testing.assert_array_equal(back.h_midplane, ahead.h_midplane[:, ::-1])
+    assert SpeedHistory(np.linspace(0.0, 4.5, 4), speed).way(4.5) == pytest.approx(0.0, abs=1e-12)
+    given = {"grid": AROUND, "surface": DENT, "speed": SpeedHistory(np.linspace(0.0, 4.5, 4), speed)}
+    half = TimeSteps(until=3.0, dt=0.15, tol=1e-6)
+    simulate(POINT, HELD, **given, time=half, keep=KeepSettings(checkpoint=file))
+    whole = TimeSteps(until=4.5, dt=0.15, tol=1e-6)
+    again = simulate(POINT, HELD, **given, time=whole, keep=KeepSettings(restart=file))
+    np.testing.assert_array_equal(again.h_midplane, ahead.h_midplane)
