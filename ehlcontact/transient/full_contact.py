@@ -8,7 +8,7 @@ from typing import Annotated
 from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.heat import Heat, require_heat
+from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.quantities import FORCE, LENGTH
@@ -20,8 +20,9 @@ from ehlcontact.solver.lowest_film import beside_lowest
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
-from ehlcontact.supply import OilLayer, require_supply
-from ehlcontact.transient.features import Surface, require_surface, surface_height, surface_step
+from ehlcontact.supply import OilLayer
+from ehlcontact.transient.features import Surface, surface_height, surface_step
+from ehlcontact.transient.settings import require_conditions
 from ehlcontact.transient.time_step import DEFAULT_TOL
 from ehlcontact.transient.transient_film import FilmState, Step, TransientFilm
 
@@ -49,6 +50,7 @@ class FullContact(Summary):
         Oil that the surfaces carry to the contact, as in `simulate`; by default the inlet is flooded.
     surface : callable, optional
         Height added to the gap, as in `simulate`, over the time since this contact was made; it rests on it.
+        Not together with `supply`.
     thermal : Heat, optional
         Let the film heat up, as in `simulate`.
     largest_load : float
@@ -100,12 +102,8 @@ class FullContact(Summary):
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         require_grid(grid)
-        require_supply(supply, self.point, self.scales)
-        require_surface(surface)
+        thermal = require_conditions(point, self.point, supply, thermal, surface)
         self._surface, self._T = surface, 0.0
-        if thermal is not None:
-            require_heat(thermal)
-            thermal = thermal.at(point)
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)
         left: Step | None = None

@@ -14,7 +14,7 @@ import numpy as np
 from ehlcontact.checks import require_instance
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.heat import Heat, require_heat
+from ehlcontact.heat import Heat
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
@@ -22,10 +22,10 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.store import load
-from ehlcontact.supply import OilLayer, require_supply
+from ehlcontact.supply import OilLayer
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
-from ehlcontact.transient.features import Dent, Surface, require_surface, surface_height
+from ehlcontact.transient.features import Dent, Surface, surface_height
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
@@ -36,6 +36,7 @@ from ehlcontact.transient.settings import (
     RunSettings,
     StepPlan,
     TimeSteps,
+    require_conditions,
     require_groups,
     snapshot_times,
 )
@@ -115,18 +116,12 @@ def simulate(
     moes = require_solvable(point, motion.largest_load)
     require_grid(grid)
     require_groups(time, keep, run)
-    require_surface(surface)
+    thermal = require_conditions(point, moes, supply, thermal, surface)
     require_speed(speed, grid)
     reverses = speed is not None and speed.reverses
     wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load, reverses=reverses)
     mesh = next(wider)
     meshes = chain([mesh], wider)
-    require_supply(supply, moes, scales_of(point))
-    if supply is not None and surface is not None:
-        raise InputError("surface", type(surface).__name__, "left out with a supply")
-    if thermal is not None:
-        require_heat(thermal)
-        thermal = thermal.at(point)
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
     scales = scales_of(point)
