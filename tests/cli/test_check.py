@@ -44,6 +44,7 @@ def unchecked(finished, tmp_path_factory):
     return file, folder, said.getvalue()
 
 
+@pytest.mark.long
 def test_a_study_without_its_fmus_has_all_the_rest(unchecked):
     _, folder, said = unchecked
     assert "Traceback" not in said
@@ -54,6 +55,7 @@ def test_a_study_without_its_fmus_has_all_the_rest(unchecked):
     assert (folder / "report.html").is_file()
 
 
+@pytest.mark.long
 def test_stages_of_the_check_are_opt_in(finished, unchecked):
     names = [stage.name for stage in STAGES]
     assert [stage.name for stage in stages_of(load_study(finished[0]))] == names
@@ -63,6 +65,7 @@ def test_stages_of_the_check_are_opt_in(finished, unchecked):
     assert plans == set(names) - set(HALF_STEP)
 
 
+@pytest.mark.long
 def test_results_of_a_study_without_a_check(finished, unchecked):
     """Its numbers are those of the study with the check, whose stages it keeps."""
     folder = unchecked[1]
@@ -78,6 +81,7 @@ def test_results_of_a_study_without_a_check(finished, unchecked):
     assert "half the step" in (finished[1] / "report.html").read_text()
 
 
+@pytest.mark.long
 def test_a_check_that_is_switched_on_later_is_all_that_is_solved(finished, unchecked):
     plans = forecast(load_study(finished[0]), unchecked[1], 2).plans
     assert {plan.stage.name for plan in plans if not plan.kept} == set(HALF_STEP)

@@ -110,6 +110,7 @@ def test_what_it_shows_is_what_python_answers(seen):
         assert name in found["defects"] and shown in found["defects"]
 
 
+@pytest.mark.long
 def test_defect_frequencies_at_a_contact_angle(seen):
     found = seen(TEXTS, "#contact_angle=9.71&load=500")
     assert found["refused"] is False and "at a contact angle of 9.71°" in found["defects"]

@@ -160,6 +160,7 @@ def test_only_what_changed_is_computed_again(finished, tmp_path):
     assert kept == ["steady", "free", "harmonic"]
 
 
+@pytest.mark.long
 def test_ctrl_c_and_resume(finished, tmp_path):
     """The harmonic load of the contact is done again beside a long free vibration: when it is, that has begun."""
     study, folder = tmp_path / "long.toml", shutil.copytree(finished[1], tmp_path / "out")
@@ -262,6 +263,7 @@ def test_a_second_ctrl_c_waits_for_no_worker(monkeypatch, tmp_path):
     assert not any(is_running(int(pid)) for pid in pids)
 
 
+@pytest.mark.long
 def test_a_stage_that_fails(call, tmp_path, monkeypatch):
     """A region that the pressure outgrows: the others are kept, exit 1, the reason on one line per stage."""
     few = tuple(stage_named(name) for name in ("decay", "steady", "free"))

@@ -108,6 +108,7 @@ def test_grid_too_coarse_for_the_start_of_a_run_warns(call, point):
     assert found["film_error"]["h_central"] > 0.1
 
 
+@pytest.mark.long
 def test_film_memory_from_a_simulation_alone(call, point, tmp_path):
     """The impedance is solved on the way, at the record's point, grid and domain."""
     record, element, report = tmp_path / "r.h5", tmp_path / "e.json", tmp_path / "fit.json"

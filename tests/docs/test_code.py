@@ -139,6 +139,7 @@ def test_tutorial_of_the_ball_on_a_disc(capsys):
         assert found["film"](found["speed"][4]).si.h_central / usual - 1.0 == pytest.approx(more, abs=0.005)
 
 
+@pytest.mark.long
 def test_tutorial_of_the_film(capsys):
     """What its text says of the answers is so."""
     found = {}

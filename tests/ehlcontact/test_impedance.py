@@ -157,7 +157,10 @@ def test_region_widens_at_light_load(monkeypatch):
     assert impedance(point, Omega=[1.0], grid=Grid(n=64)).domain.x_in < Domain().x_in
 
 
-@pytest.mark.parametrize("point", [POINT, pytest.param(MoesPoint(100, 12, 0.8), marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "point",
+    [pytest.param(POINT, marks=pytest.mark.long), pytest.param(MoesPoint(100, 12, 0.8), marks=pytest.mark.slow)],
+)
 def test_errors_hold_against_finer_grids(point):
     """Stiffness and damping on meshes about right lie within their bars of those on twice the intervals."""
     omega = [0.0, 0.05, 0.5, 1.0, 3.0, 10.0, 30.0]

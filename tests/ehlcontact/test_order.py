@@ -152,6 +152,7 @@ def test_uneven_time_steps_are_second_order(motion):
     assert (np.log2(errors[:-1] / errors[1:]) >= 1.8).all()
 
 
+@pytest.mark.long
 def test_squeeze_term_is_second_order():
     """Film and force under a given smooth approach: without the motion equation, whose error would hide it."""
     u = solve_steady(POINT, grid=Grid(n=32), tol=1e-7).approach
@@ -182,6 +183,7 @@ def wave_speed(n):
     return lags[int(np.argmax(match))] / 0.4
 
 
+@pytest.mark.long
 def test_film_travels_at_the_speed_of_the_surfaces():
     """dX/dT = 1, whatever the pressure, already on a coarse grid: the wedge term hardly disperses."""
     assert [wave_speed(n) for n in (64, 128)] == pytest.approx([1.0, 1.0], abs=0.01)

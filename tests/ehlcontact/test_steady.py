@@ -255,6 +255,7 @@ def cycles_fail(monkeypatch):
     return lambda nodes: monkeypatch.setattr(mesh, "LARGEST_NEWTON", nodes)
 
 
+@pytest.mark.long
 def test_newton_on_a_coarser_grid_where_cycles_fail_on_one_too_large_for_it(cycles_fail):
     """Better a film whose error estimate tells what the coarser mesh costs than none; but not where n is given."""
     thin = MoesPoint(500, 10, 0.8)

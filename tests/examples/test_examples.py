@@ -109,6 +109,7 @@ def test_five_lines(tmp_path, capsys):
     assert f"{state.h_min.min() * 1e9:.0f} nm" in told and f"{state.loaded} balls" in told
 
 
+@pytest.mark.long
 def test_paper(tmp_path, capsys):
     """Table 3 of the paper: where its cubic carries the load it has our tangent, and our damper."""
     paper = example("paper")
@@ -149,6 +150,7 @@ def test_the_rotor_on_four_contacts_and_its_picture(against, tmp_path, capsys):
     assert float(told["memory"]) == pytest.approx(float(told["film"]), rel=0.04)
 
 
+@pytest.mark.long
 def test_cosimulation(tmp_path, capsys, monkeypatch):
     """The default lead keeps the damping, the better the finer the step; half a step less makes it grow."""
     mass = example("cosimulation")

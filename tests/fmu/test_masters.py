@@ -107,6 +107,7 @@ def test_a_mass_of_others_keeps_the_damping(fmus, loop, reference, master, h, al
     assert found == pytest.approx(reference, rel=allowed)
 
 
+@pytest.mark.long
 def test_the_table_of_the_documentation(study, loop, reference):
     for case, lead in study["LEADS"].items():
         assert loop.run(*case, 1e-5, lead) == pytest.approx(reference, rel=0.005)

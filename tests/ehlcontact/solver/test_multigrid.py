@@ -304,6 +304,7 @@ def test_where_cycles_fail_on_close_lines_a_careful_start_follows(monkeypatch):
     assert not any(load_continuation for load_continuation, _ in tried)
 
 
+@pytest.mark.long
 def test_after_all_affordable_grids_one_more_is_tried_carefully(monkeypatch):
     """And Newton steps on a coarser one after it, whose film is the last word."""
     tried = []

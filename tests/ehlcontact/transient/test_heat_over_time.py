@@ -56,7 +56,7 @@ def waved(approach, omega, steps, thermal, amplitude=1e-3):
 
 @pytest.mark.parametrize(
     ("omega", "steps", "given"),
-    [(1.0, 40, Heat())]
+    [pytest.param(1.0, 40, Heat(), marks=pytest.mark.long)]
     + [
         pytest.param(*one, marks=pytest.mark.slow)
         for one in ((0.1, 80, Heat()), (3.0, 60, Heat()), (1.0, 40, GLASS))

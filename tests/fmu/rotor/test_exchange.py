@@ -153,6 +153,7 @@ def test_one_event_indicator_for_each_contact(instance, rotors, fmi):
     assert alone.description.numberOfEventIndicators == 0 if fmi == 2 else not alone.description.eventIndicators
 
 
+@pytest.mark.long
 def test_the_tolerance_that_it_proposes_keeps_the_orbit(elements, tmp_path):
     """An orbit of some 30 nm by fmpy, which takes the tolerance of the FMU; a hundred times that would not do."""
     rotor = JeffcottRotor.vertical(load=(0.0, WEIGHT - BALL), unbalance=2e-6, speed_rpm=8000.0, **BODIES)

@@ -50,6 +50,7 @@ def test_runs_as_it_is(system, python, master):
     assert np.all(np.abs(found - expected[-len(found) :]) <= 1e-3 * orbit)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("master", [ours, ecospy])
 def test_fmi_3(system_3, upright, master):
     found = master(system_3.path, STEP, round(UNTIL / STEP), "rotor", JOURNAL[1:])

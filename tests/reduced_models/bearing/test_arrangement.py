@@ -323,6 +323,7 @@ def answers(seed, cases):
     return found
 
 
+@pytest.mark.long
 def test_random_sets():
     assert answers(1, 30)["balanced"] >= 20
 

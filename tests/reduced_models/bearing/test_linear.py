@@ -101,7 +101,14 @@ def test_a_frequency_needs_its_unit(film):
 
 
 @pytest.mark.parametrize(
-    ("load", "low", "high"), [(1000.0, 3000.0, 3300.0), (1000.0, 3300.0, 4000.0), (500.0, 7800.0, 8100.0)]
+    ("load", "low", "high"),
+    [
+        (1000.0, 3000.0, 3300.0),
+        *(
+            pytest.param(*case, marks=pytest.mark.long)
+            for case in ((1000.0, 3300.0, 4000.0), (500.0, 7800.0, 8100.0))
+        ),
+    ],
 )
 @pytest.mark.parametrize("name", ["stiffness", "damping"])
 def test_nothing_jumps_over_the_speed(film, load, low, high, name):

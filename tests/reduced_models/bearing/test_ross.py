@@ -32,7 +32,7 @@ def _fake(version):
     return fake_ross.module(version), [0.05] * 6, [(DISC, 0.28, 0.07)], lambda node, mass: (node, mass)
 
 
-@pytest.fixture(params=["stand-in 2", "stand-in 3", "installed"])
+@pytest.fixture(params=[pytest.param("stand-in 2", marks=pytest.mark.long), "stand-in 3", "installed"])
 def program(request, monkeypatch):
     """The module, and the shaft of the issue on elements of its own."""
     installed = request.param == "installed"

@@ -128,6 +128,7 @@ def axial_decay(rotor, dt, until=0.02):
     return simulate_rotor(rotor, speed_rpm=RPM, dt=dt, until=until, start=start, rho_inf=1.0)
 
 
+@pytest.mark.long
 def test_decay_is_that_of_the_linear_answer(pair):
     mode = next(m for m in linearise(pair, RPM).modes(None) if abs(m.shape[2]) > 0.9)
     run = axial_decay(pair, 1e-6)

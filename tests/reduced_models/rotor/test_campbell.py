@@ -142,6 +142,7 @@ def test_files(film, block, diagram, tmp_path):
         load(tmp_path / "u.h5", Campbell)
 
 
+@pytest.mark.long
 def test_figures(film, block, diagram, tmp_path):
     diagram.plot(tmp_path / "c.png")
     unbalance_response(block(film), [2000.0, 3000.0, 4000.0]).plot(tmp_path / "u.png")
