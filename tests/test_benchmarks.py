@@ -169,7 +169,7 @@ def test_reached_is_reached_for_good():
     assert accuracy.first([errors(1.0)], accuracy.is_full) is None
 
 
-@pytest.mark.parametrize("motion", ["free", "harmonic"])
+@pytest.mark.parametrize("motion", [pytest.param("free", marks=pytest.mark.long), "harmonic"])
 def test_step_in_the_middle_of_a_run(motion):
     import time_to_accuracy
 

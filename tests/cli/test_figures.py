@@ -105,7 +105,9 @@ def test_spectrum_shows_amplitudes():
         assert np.delete(amplitude, highest).max() < 1e-9 * size
 
 
-@pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
+@pytest.mark.parametrize(
+    "suffix", [".png", *(pytest.param(end, marks=pytest.mark.long) for end in (".svg", ".pdf"))]
+)
 def test_steady_command_draws(call, point, tmp_path, suffix):
     target = tmp_path / f"film{suffix}"
     result = call("steady", *point, "--n", "32", "--figure", target, "--json", "-")

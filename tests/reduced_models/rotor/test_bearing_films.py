@@ -129,7 +129,7 @@ def test_run_without_films_is_that_of_simulate_rotor(smooth):
 
 
 @pytest.mark.parametrize("race", ["inner", "outer"])
-@pytest.mark.parametrize("psi", [0.3, 2.0])
+@pytest.mark.parametrize("psi", [pytest.param(0.3, marks=pytest.mark.long), 2.0])
 def test_surface_is_what_the_height_tables_have(smooth, race, psi):
     """In the centre, of waves so long that a contact does not filter them; and it moves with both surfaces."""
     waves = [
