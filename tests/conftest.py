@@ -150,7 +150,7 @@ def own_cache(common_folder, made_once):
 
 
 def _quick(compiler, folder):
-    """The compiler of this machine, not optimising, whatever glibc its libraries need: a third of the time.
+    """The compiler of this machine, not optimising, whatever glibc its libraries need: less than half of the time.
 
     Those of `tests/fmu/binaries` are compiled as users have them.
     """

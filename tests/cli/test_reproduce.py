@@ -141,7 +141,6 @@ def test_cells(value, text):
     assert cell(value) == text
 
 
-@pytest.mark.long
 def test_fit_and_export_of_the_new_models(call, folder, tmp_path):
     """Both fit from the command line, and become FMUs."""
     for model in ("polynomial", "power"):
