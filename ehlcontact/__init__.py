@@ -1,7 +1,7 @@
 """Transient elastohydrodynamic (EHL) rolling point contacts.
 
 ================= ==========================================================================================
-room              responsibility
+module            responsibility
 ================= ==========================================================================================
 ``point``         inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
 ``lubricant/``    `Lubricant`, from its numbers or its grade; the laws of viscosity, density and traction

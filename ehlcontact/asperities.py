@@ -1,6 +1,7 @@
 """`Asperities`: rough surfaces that carry part of the load beside the film (Greenwood and Tripp 1970).
 
-How the solver uses it: `ehlcontact.solver.mixed_film`; equations and limits: docs/asperities.md.
+Input, and law of the pressure of asperities; their share of the load in a solve: `ehlcontact.solver.mixed_film`;
+equations and limits: docs/asperities.md.
 """
 
 from __future__ import annotations

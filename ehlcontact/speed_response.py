@@ -1,4 +1,6 @@
-"""`speed_response`: force of a contact whose speed vibrates about its mean, at fixed approach, over frequency.
+"""`speed_response`: force over small changes of the speed about its mean, at fixed approach, over frequency.
+
+Large changes over time: `ehlcontact.transient.speed`; in elements: `reduced_models.elements.film_speed`.
 
 With u_sum (1 + s), s = exp(i Omega T), the Reynolds equation linearised about the steady film is
 

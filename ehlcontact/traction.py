@@ -1,4 +1,7 @@
-"""`traction_curve`: traction over the slide-to-roll ratio of a solved contact, isothermal or heated."""
+"""`traction_curve`: traction over the slide-to-roll ratio of a solved contact, isothermal or heated.
+
+With heat one film for each ratio. Shear stress and coefficient of one film: `ehlcontact.results.traction`.
+"""
 
 from __future__ import annotations
 

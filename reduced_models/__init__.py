@@ -1,6 +1,6 @@
 """Contact elements reduced from transient EHL, and rotors that run on them.
 
-| room | is responsible for |
+| package | is responsible for |
 |---|---|
 | elements | the elements: law, validity, units |
 | fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
@@ -112,5 +112,5 @@ from reduced_models.signals.transfer_path import SystemPath as SystemPath
 
 
 def __dir__() -> list[str]:
-    """Public names, without the rooms that they are in."""
+    """Public names, without the modules that they are in."""
     return sorted(name for name, value in globals().items() if name[0] != "_" and not _ismodule(value))

@@ -44,7 +44,7 @@ def test_every_folder_opens_with_a_table_of_its_modules():
     for folder in FOLDERS:
         table = ast.get_docstring(ast.parse((ROOT / folder / "__init__.py").read_text(encoding="utf-8")))
         rows = re.findall(r"^(?:\| ([\w/]+) \||``([\w/]+)`` )", table, flags=re.M)
-        listed = {(first or second).rstrip("/") for first, second in rows} - {"module", "room"}
+        listed = {(first or second).rstrip("/") for first, second in rows} - {"module", "package"}
         entries = {path.stem for path in (ROOT / folder).glob("*.py")} - {"__init__", "__main__"}
         entries |= {Path(inner).name for inner in FOLDERS if str(Path(inner).parent) == folder}
         assert listed - {"csrc"} == entries, folder

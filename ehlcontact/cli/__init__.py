@@ -1,7 +1,7 @@
 """The command line `ehlcontact`, above all three packages; nothing imports it.
 
 =============  =======================================================================================
-room           responsibility
+module         responsibility
 =============  =======================================================================================
 ``app``        the program: subcommands, errors to one line and an exit code
 ``entries``    type, unit, range and meaning of every input of files and options

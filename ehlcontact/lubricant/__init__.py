@@ -38,5 +38,5 @@ __all__ = [
 
 
 def __dir__() -> list[str]:
-    """Public names, without the rooms that they are in."""
+    """Public names, without the modules that they are in."""
     return sorted(__all__)

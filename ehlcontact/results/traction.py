@@ -1,4 +1,7 @@
-"""Traction of a film over the slide-to-roll ratio: shear stress by a traction law, its integral, and power."""
+"""Traction of one film over the slide-to-roll ratio: shear stress by a traction law, its integral, and power.
+
+`traction_curve`, with a heated film for each ratio, is in `ehlcontact.traction`.
+"""
 
 from __future__ import annotations
 

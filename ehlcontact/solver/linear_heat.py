@@ -1,6 +1,9 @@
-"""Linearised film with heat: temperatures that follow a vibration, beside pressure and approach.
+"""Linearised film with heat: temperatures that follow a vibration, with pressure and approach.
 
-With the heating ``g`` of ln(eta) + 9.67 as a further unknown, the equations of `linear` become
+Fronts of films under a layer of oil may move (`linear_fronts`).
+
+With ``g``, the relative change of ln(eta) + 9.67 by temperature, as a further unknown, the equations of `linear`
+become
 
     Jp dP + Jh (K dP - du) + Jg dg = r,      dg - G(Omega) [dP, K dP - du, dg] = 0,
 

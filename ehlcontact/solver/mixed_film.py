@@ -1,4 +1,4 @@
-"""Films that share the load with asperities.
+"""Films that share the load with asperities (law of their pressure: `ehlcontact.asperities`).
 
 The pressure of asperities at a gap adds to that of the oil: it deflects the bodies, ``film_shift``, and carries
 part of the load. It hardly changes the gap, which the inlet determines. So it is updated after every multigrid

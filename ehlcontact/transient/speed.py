@@ -1,5 +1,7 @@
 """Speed of the surfaces over time: run-ups, stops, reversals, as an argument of `simulate`.
 
+Small changes over frequency: `ehlcontact.speed_response`.
+
 With the scales of the operating point kept, of which u_sum is one, the Reynolds equation (eq. 1) becomes
 
     N(P) = d/dX(eps dP/dX) + kappa^2 d/dY(eps dP/dY) - U d(rho H)/dX - d(rho H)/dT,   U(T) = u_sum(T)/u_sum,

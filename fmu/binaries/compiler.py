@@ -1,4 +1,4 @@
-"""Compilers of each platform: the system's for this machine, zig for all others."""
+"""Finds a C compiler for a platform: for this machine that of ``EHLCONTACT_CC`` or the system's, else zig."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`WholeRotorModel`: inputs of the FMU of a rotor with its ball bearings."""
+"""`WholeRotorModel`: rotor, speeds and inertia of which `export_whole_rotor` makes an FMU."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Gains of the film memory from K and C over frequency: least squares with gains >= 0."""
+"""Gains of the film memory from K and C over frequency, flooded, with heat or under an oil supply.
+
+Least squares with gains >= 0.
+"""
 
 from __future__ import annotations
 

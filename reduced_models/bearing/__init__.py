@@ -40,10 +40,10 @@
 | set_result | `SetState`: a set at rest, bearing by bearing |
 | oil_balance | `OilBalance`: oil on the tracks over time: layer, side flow, feed and replenishment |
 | ross_bearing | export to ROSS: bearings as elements of a ROSS rotor |
-| sliding | sliding moment of the contacts by a traction law |
+| sliding | `bearing_friction`: sliding moment of the contacts by a traction law |
 | table_bars | error bars of films, K and C under these conditions, from the tables of the atlas |
 | oil_and_heat | a bearing with heat and with a layer of oil, beside flooded isothermal films |
 | cage_slip | slip of the cage under a drag |
-| friction | moment of friction by SKF's published model |
+| skf_friction | moment of friction by SKF's published model |
 | picture | figures |
 """

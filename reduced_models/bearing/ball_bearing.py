@@ -67,7 +67,6 @@ from reduced_models.bearing.five_degrees import (
     spin_moment_factor,
 )
 from reduced_models.bearing.freedoms import FIVE, PLANAR, bearing_load, held_tilt
-from reduced_models.bearing.friction import friction_under
 from reduced_models.bearing.height_tables import heights_of, require_features_fit, settle
 from reduced_models.bearing.kinematics import (
     RPM_TO_HZ,
@@ -93,6 +92,7 @@ from reduced_models.bearing.race import (
 )
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
 from reduced_models.bearing.shoulders import require_below_shoulders, shoulder_angle
+from reduced_models.bearing.skf_friction import friction_under
 from reduced_models.bearing.solved_balls import damping_left_out, signed_damping
 from reduced_models.elements.wide_range import WideRangeContact
 

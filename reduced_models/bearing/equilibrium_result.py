@@ -71,7 +71,8 @@ class BearingState(QuantityTable):
         but with `thermal` and `supply` of the bearing.
     skf_rolling, skf_sliding : float or None
         Moments of friction by SKF's published model, an empirical one [N m], in an oil bath of mineral oil:
-        `reduced_models.bearing.friction`. None in a dry bearing, and in one whose series has no constants there.
+        `reduced_models.bearing.skf_friction`. None in a dry bearing, and in one whose series has no constants
+        there.
     outside_assumptions : str
         Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
     contact_angles : ndarray, shape (balls, 2), or None

@@ -22,6 +22,9 @@
 | motion_errors | error of wide-range elements by kind of motion, from full solves |
 | element_summary | summary and figure of an element |
 
+Heat and oil supply are in the tables from which elements are made: `reduced_models.atlas.heat_condition`,
+`reduced_models.atlas.supply_condition` and `reduced_models.atlas.gain_fit`.
+
 A new element is a frozen dataclass with its coefficients, ``low`` and ``high`` in a file of its own, registered
 by `ehlcontact.store.stored`; the contract tests then ask for an example of it. Without memory it derives from
 `spring.MemorylessContact`: a NamedTuple for its law and a kernel for its spring (`spring.kernel_of`); ends, damper

@@ -1,4 +1,6 @@
-"""Filters of the film memory, compiled: over a step of any length, and in continuous time.
+"""First-order lags of the film memory, compiled: over a step of any length, and in continuous time.
+
+The filter of surface heights by a contact is another one: `reduced_models.bearing.height_tables`, `film_heights`.
 
 Elements (`reduced_models.elements.film_law`) and bearings (`reduced_models.bearing.race_contact`) have the same
 filters of the own rate i: an inlet lag s, a fast lag y, and a chain of lags q_1 ... which the film from the inlet

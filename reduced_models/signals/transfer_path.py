@@ -1,7 +1,8 @@
 """Transfer paths: acceleration of a housing by a force on it, over frequency (accelerance, ISO 7626-1).
 
-A path has a response A(f) in (m/s2)/N. Acceleration is computed in the frequency domain. The force is
-continued beyond the record, so that its response decays and does not wrap around to the beginning.
+A path has a response A(f) in (m/s2)/N: `ModalPath` from modes, `MeasuredPath` from a measured accelerance,
+`SystemPath` from a system of python-control. Acceleration is computed in the frequency domain. After the record
+the force returns to its first value along half a cosine, so that the response decays and does not wrap around.
 """
 
 from __future__ import annotations

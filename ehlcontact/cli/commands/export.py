@@ -1,4 +1,4 @@
-"""``ehlcontact export``: an element, a bearing or a study's rotor as an FMU; that rotor as a system."""
+"""``ehlcontact export``: elements, bearings, rotors and shafts as FMUs; systems of these."""
 
 from __future__ import annotations
 

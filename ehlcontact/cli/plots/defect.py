@@ -1,5 +1,6 @@
-"""Force of a bearing with a spall in a page: over the turns of the shaft, and as spectrum of its envelope.
+"""Figure of the force of a bearing with a spall, for pages.
 
+Four panels: force over the turns of the shaft, one passage of a ball, envelope spectrum, lines of the force.
 `found` is a `StudyDefect`.
 """
 

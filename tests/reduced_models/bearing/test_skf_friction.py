@@ -7,7 +7,7 @@ import pytest
 from ehlcontact import Lubricant
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
-from reduced_models.bearing.friction import GREASE, boundary_diameters, skf_friction, static_rating
+from reduced_models.bearing.skf_friction import GREASE, boundary_diameters, skf_friction, static_rating
 
 CASE = {"radial": 1000.0, "speed_rpm": 3000.0, "kinematic_viscosity": 40e-6}
 

@@ -1,5 +1,7 @@
 """Moment of friction of a deep-groove ball bearing by the published model of SKF: an empirical model.
 
+Friction from the computed films, `bearing_friction`, is in `reduced_models.bearing.sliding`.
+
 Formulas and constants are those of SKF, Rolling Bearings (catalogue), chapter "Friction": rolling and sliding
 frictional moment, tables of the variables G_rr and G_sl and of the constants R and S. They were fitted to measured
 bearings, and are in mm, N, rev/min, mm2/s and N mm. Drag of an oil bath and seals are not included.

@@ -1,10 +1,10 @@
 """Figures of the packages: lines, modules, layers, circles of imports, constants, long functions; and a picture.
 
-    python docs/house.py [CHECKOUT ...]               # a table, one column per checkout
-    python docs/house.py --draw docs/images/house.png # the rooms and who imports whom
+    python docs/module_map.py [CHECKOUT ...]               # a table, one column per checkout
+    python docs/module_map.py --draw docs/images/module_map.png # the modules and their imports
 
-Everything is read from the imports and definitions of the code; nothing of it is run. A room is a file or a
-folder; one room stands a floor above the highest that it imports.
+Everything is read from the imports and definitions of the code; nothing of it is run. A module is a file or a
+folder here; it is drawn one level above the highest that it imports.
 """
 
 from __future__ import annotations
@@ -55,21 +55,21 @@ def imports(root: Path) -> Graph:
     return graph
 
 
-def room_of(name: str, folder: str) -> str | None:
-    """Entry of `folder` that holds the module, None outside it; the folder's own ``__init__`` is no room."""
+def entry_of(name: str, folder: str) -> str | None:
+    """Entry of `folder` that holds the module, None outside it; the folder's own ``__init__`` is no module."""
     if not name.startswith(folder + "."):
         return None
     return name[len(folder) + 1 :].split(".", maxsplit=1)[0]
 
 
-def rooms(root: Path, folder: str) -> Graph:
+def imports_within(root: Path, folder: str) -> Graph:
     """The entries of a folder and which of them each imports."""
     graph: Graph = {}
     for name, others in imports(root).items():
-        here = room_of(name, folder)
+        here = entry_of(name, folder)
         if here is None or here == "__main__":
             continue
-        reached = {room_of(other, folder) for other in others} - {None, here}
+        reached = {entry_of(other, folder) for other in others} - {None, here}
         graph.setdefault(here, set()).update(str(other) for other in reached)
     return graph
 
@@ -97,7 +97,7 @@ def _reached(graph: Graph, start: str) -> set[str]:
 
 
 def floors(graph: Graph) -> dict[str, int]:
-    """Floor of every room, from 1; rooms of a circle share one."""
+    """Level of every module, from 1; modules of a circle share one."""
     loops = circles(graph)
     group = {name: next((min(loop) for loop in loops if name in loop), name) for name in graph}
 
@@ -173,14 +173,14 @@ def figures(root: Path) -> dict[str, str]:
         table[f"entries of {package}/"] = str(fullest[package])
     table["most entries of a folder"] = f"{fullest[busiest]} ({busiest})"
     for package in PACKAGES:
-        graph = {k: v for k, v in rooms(root, package).items() if k != "cli"}
+        graph = {k: v for k, v in imports_within(root, package).items() if k != "cli"}
         graph = {k: {other for other in v if other in graph} for k, v in graph.items()}
-        table[f"floors, arrows of {package}/"] = f"{max(floors(graph).values())}, {sum(map(len, graph.values()))}"
+        table[f"levels, arrows of {package}/"] = f"{max(floors(graph).values())}, {sum(map(len, graph.values()))}"
     loops = circles(without_faces(files, known))
     for package in PACKAGES:
-        loops += [loop for loop in circles(rooms(root, package)) if len(loop) > 1]
+        loops += [loop for loop in circles(imports_within(root, package)) if len(loop) > 1]
     named = sorted({", ".join(sorted(name.rsplit(".", 1)[-1] for name in loop)) for loop in loops})
-    table["circles of files or rooms"] = "; ".join([str(len(named)), *named])
+    table["circles of files or folders"] = "; ".join([str(len(named)), *named])
     table["constants (numbers in capitals)"] = str(len(set(constants(root))))
     found = list(functions(root))
     table[f"functions over {LONG} lines"] = str(sum(n > LONG for _, _, n, _ in found))
@@ -189,7 +189,7 @@ def figures(root: Path) -> dict[str, str]:
 
 
 def without_faces(graph: Graph, known: dict[str, Path]) -> Graph:
-    """The graph without the packages' ``__init__``, which hand names on and so import all of their rooms."""
+    """The graph without the packages' ``__init__``, which hand names on and so import all of their modules."""
     inner = {name for name, path in known.items() if path.stem != "__init__"}
     return {name: others & inner for name, others in graph.items() if name in inner}
 
@@ -205,7 +205,7 @@ SHEETS = (
 
 
 def draw(root: Path, path: Path) -> None:
-    """One sheet per folder: its rooms on their floors, their lines, and an arrow to what each stands on."""
+    """One sheet per folder: its modules on their levels, their lines, and an arrow to what each stands on."""
     import matplotlib as mpl
 
     mpl.use("Agg")
@@ -213,7 +213,7 @@ def draw(root: Path, path: Path) -> None:
 
     figure, sheets = plt.subplots(3, 2, figsize=(13, 15.5), layout="constrained")
     for axes, (folder, title) in zip(sheets.ravel(), SHEETS, strict=True):
-        graph = rooms(root, folder)
+        graph = imports_within(root, folder)
         if folder == "ehlcontact":
             graph = {name: others - {"cli"} for name, others in graph.items() if name != "cli"}
         _draw_sheet(axes, graph, sizes(root, folder))
@@ -223,10 +223,10 @@ def draw(root: Path, path: Path) -> None:
 
 
 def sizes(root: Path, folder: str) -> dict[str, int]:
-    """Lines of every room."""
+    """Lines of every module."""
     found: dict[str, int] = {}
     for name, path in modules(root).items():
-        here = room_of(name, folder)
+        here = entry_of(name, folder)
         if here is not None:
             found[here] = found.get(here, 0) + len(path.read_text(encoding="utf-8").splitlines())
     return found
@@ -237,11 +237,11 @@ def _draw_sheet(axes: Any, graph: Graph, lines: dict[str, int]) -> None:
     place: dict[str, tuple[float, float]] = {}
     for floor in sorted(set(levels.values())):
         row = sorted(name for name in graph if levels[name] == floor)
-        # below the rooms that it serves, as far as the width of the sheet allows
+        # below the modules that it serves, as far as the width of the sheet allows
         for k, name in enumerate(row):
             place[name] = ((k + 0.5 + 0.12 * (floor % 3 - 1)) / len(row), float(floor))
     for name, others in graph.items():
-        # an arrow that a way over other rooms makes as well would only hide them
+        # an arrow that a way over other modules makes as well would only hide them
         through = set().union(*(_reached(graph, other) for other in others))
         for other in others - through:
             axes.annotate(
