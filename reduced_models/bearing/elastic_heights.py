@@ -76,7 +76,8 @@ class Track:
         mean = self._means(at, np.array([-a, a]))[:, 0] - self._highest
         off = (mean - lower @ contact.first_order) * np.minimum(SHALLOW * raised / np.ptp(lower, axis=1), 1.0)
         lost = np.minimum(self.touch[at] + raised - self._highest, 0.0)
-        return np.where(force > 0.0, raised * force ** (2.0 / 3.0) + off, lost)
+        pressed = np.minimum(raised * force ** (2.0 / 3.0) + off, raised)  # no lower surface carries more
+        return np.where(force > 0.0, pressed, lost)
 
     def _means(self, at: NDArray[np.int64], cells: _Floats) -> _Floats:
         """Mean heights over cells with these m + 1 edges beside the middle of places, (n, m) [m]."""
