@@ -22,6 +22,7 @@ from ehlcontact.solver.multigrid import Multigrid
 REMEMBERED = 2  # cycles before the last: one more gains little, and every one costs two fields
 SLOW_FACTOR = 0.15  # change of P over that of the cycle before, from which combining pays for its residual
 RESET_RATIO = 0.7  # the same after a combination, from which on the kept cycles are dropped: a boundary has moved
+FRONT_MOVES = 0.002  # share of the full nodes: where as many fill up or empty in a cycle, none are combined
 
 
 class Cycle(NamedTuple):
@@ -58,6 +59,10 @@ class AcceleratedCycles:
         self._largest = change
         if last is None:
             return change
+        if self._front_moves(before):
+            self._differences.clear()
+            self._combined = False
+            return change
         if self._combined and norm(self._last.change) > RESET_RATIO * norm(last.change):
             self._differences.clear()
             self._combined = False
@@ -66,6 +71,13 @@ class AcceleratedCycles:
         if self._combined or slow:
             self._combine(self._last)
         return change
+
+    def _front_moves(self, before: NDArray[np.float64]) -> bool:
+        """Whether the front of full film moved in the cycle since pressure `before`; combined, it would be lost."""
+        level = self.multigrid.finest
+        full = before > 0.0
+        moved = np.count_nonzero(full != (level.P > 0.0))
+        return bool(level.inflow.size) and moved > FRONT_MOVES * np.count_nonzero(full)
 
     def _combine(self, new: Cycle) -> None:
         """The combination of the cycles remembered whose change would be smallest, in the mean."""

@@ -14,7 +14,7 @@ from ehlcontact.process.threads import CALLING_THREAD, Kernel, team_of
 from ehlcontact.solver.deflection import make_deflection
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid_rules import LINES_APART, is_long, longer_axis
-from ehlcontact.solver.kernels import cavitation, flanks, relax, reynolds, supply
+from ehlcontact.solver.kernels import cavitation, flanks, fronts, relax, reynolds, supply
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS
 from ehlcontact.solver.lowest_film import lowest_film
 from ehlcontact.solver.mesh import Mesh
@@ -334,6 +334,9 @@ class Level:
             self.team.run(relax.relax_lines, groups, colour, f, self.given, numbers, self.c_t, self.near, least=1)
             self.team.run(relax.apply_lines, lines, colour, f, self.near)
         own = self.near[0, 0]
+        if self.inflow.size:
+            work = (f.theta, f.w)
+            self._run_blocks(fronts.settle_fronts, f.P, f.flow, self.supply_arrays, numbers, self.c_t, own, *work)
         given = (f.P, f.H, f.flow, self.supply_arrays, self.law, numbers, self.c_t, own, self.nodes, self.marks)
         self._run_blocks(cavitation.relax_boundary_blocks, *given)
 

@@ -42,7 +42,7 @@ CONTINUATION_LOADING = 2.0  # and in load continuation: at most,
 LEAST_LOADING = 1.05  # and at least so much
 SETTLED_CHANGE = 0.05  # of P by the last cycle after a step of load continuation; a larger one halves the step
 CYCLES_AFTER_LOADING = 3  # on a level that carries more load than the one below
-FRONT_CYCLES, FRONT_SETTLED = 6, 0.01  # most of them while more than this share of the nodes fill up or empty
+FRONT_CYCLES, FRONT_SETTLED = 3, 0.02  # most of them while more than this share of the nodes fill up or empty
 # Power of load over that of a level by which its layer is thicker: films go as -2/3, inlets as -4/9.
 LAYER_POWER = 2.0 / 9.0
 NESTED_CYCLES = 4  # on a grid of half the intervals, its lines as close: its film is solved, and a start

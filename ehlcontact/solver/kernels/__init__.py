@@ -10,6 +10,7 @@ module        responsibility
 ``supply``    partly filled nodes: the flow that the surfaces carry through them
 ``heat``      sweeps of the energy equation of a film
 ``cavitation``  passes along the cavitation boundary
+``fronts``    passes along the fronts of full film behind partly filled nodes
 ``transfer``  from grid to grid
 ``mlmi``      the direct sum of the deflection, and one coarsening of multi-integration
 ============= ============================================================================================

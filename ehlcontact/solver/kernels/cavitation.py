@@ -106,7 +106,7 @@ def relax_boundary(first, last, P, H, flow, supply, law, stencil, c_t, self_defl
             node = nodes[begin + s] if sweep % 2 == 0 else nodes[end - 1 - s]
             j, i = node // width, node % width
             if len(inflow) > 0 and j != line:
-                carry_line(j, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied)
+                carry_line(j, width - 1, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied)
                 line = j
             own = total_flow(j, i, flow, stencil) + (1.5 * stencil.inv_hx + c_t) * self_deflection
             res = supplied[j, i] - operator_at(j, i, P, flow, stencil, c_t)

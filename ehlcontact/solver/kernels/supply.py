@@ -87,8 +87,8 @@ def front_weight(step):
 
 
 @jit_node
-def carry_line(j, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied):
-    """`carry_supply` on line j.
+def carry_line(j, stop, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied):
+    """`carry_supply` on line j, before node `stop`.
 
     Inlined: of a kernel that several call, the process that compiles it may run another copy than later ones do,
     with other last bits.
@@ -102,7 +102,7 @@ def carry_line(j, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied)
     partly = False  # the node before is; not the border, over which oil may flow back
     behind_full = False
     back = 0.0  # pressed into the node before, from this one
-    for i in range(1, P.shape[1] - 1):
+    for i in range(1, stop):
         if flow.open[j, i] != 1.0:
             flow.open[j, i] = 1.0
             update_along(j, i, flow)
@@ -150,7 +150,7 @@ def carry_supply(first, last, P, flow, rhs, inflow, stencil, c_t, carried, store
         P = 0 are those of nodes that fill up.
     """
     for j in range(first, last):
-        carry_line(j, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied)
+        carry_line(j, P.shape[1] - 1, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied)
 
 
 @jit_loop

@@ -27,7 +27,7 @@ class Film:
         self.errors = np.array(errors)
         self.u = 0.5 + self.errors[0]
         self.updates = []
-        self.finest = SimpleNamespace(P=self._P(), update=self.updates.append)
+        self.finest = SimpleNamespace(P=self._P(), update=self.updates.append, inflow=np.zeros(0))
 
     def _P(self):
         return self.solution + np.tensordot(self.errors, SHAPES, 1)
