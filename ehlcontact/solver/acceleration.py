@@ -73,11 +73,11 @@ class AcceleratedCycles:
         return change
 
     def _front_moves(self, before: NDArray[np.float64]) -> bool:
-        """Whether the front of full film moved in the cycle since pressure `before`; combined, it would be lost."""
+        """Whether the front of full film moved in the cycle since pressure `before`; combining would lose it."""
         level = self.multigrid.finest
         full = before > 0.0
         moved = np.count_nonzero(full != (level.P > 0.0))
-        return bool(level.inflow.size) and moved > FRONT_MOVES * np.count_nonzero(full)
+        return level.inflow.size > 0 and bool(moved > FRONT_MOVES * np.count_nonzero(full))
 
     def _combine(self, new: Cycle) -> None:
         """The combination of the cycles remembered whose change would be smallest, in the mean."""

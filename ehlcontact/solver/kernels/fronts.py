@@ -69,7 +69,7 @@ def settle_line(j, P, flow, supply, stencil, c_t, least, factors, changes):
 def settle_fronts(first, last, colour, lines, P, flow, supply, stencil, c_t, self_deflection, factors, changes):
     """Settle the fronts on the blocks of `lines` lines ``colour + 2 k``, k from `first` to `last` - 1.
 
-    `P` is written, and what `supply` holds (for `carry_line`); `factors` and `changes`, of the shape of P, are work
+    `P` is written, and what `supply` holds (for `carry_line`); `factors` and `changes`, shaped as P, are work
     space.
     """
     least = (DOMINANCE * stencil.crowding * 1.5 * stencil.inv_hx + SQUEEZE_DOMINANCE * c_t) * self_deflection

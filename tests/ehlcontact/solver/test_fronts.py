@@ -48,7 +48,7 @@ def balances(level):
 @pytest.mark.parametrize("kernel", KERNELS, ids=["jit", "python"])
 @pytest.mark.parametrize("moved", [-4, 3])
 def test_a_front_finds_its_place(kernel, moved):
-    """From nodes away on either side: balanced where flow dominates, and nodes are either full or partly filled."""
+    """From nodes away on either side: balanced where flow dominates, with one front."""
     level = starved()
     settled = front(level)
     if moved > 0:
