@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from fmu.lead import CONTACT
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
-from reduced_models.elements.film_filters import CHAIN, DIRECT, INLET, film_entering
-from reduced_models.elements.film_law import RATE, THETA, film_made, film_rest, film_step, static
+from reduced_models.elements.film_filters import CHAIN, DIRECT, INLET
+from reduced_models.elements.film_law import RATE, THETA, film_entering, film_made, film_rest, film_step, static
 
 _Floats = NDArray[np.float64]
 
@@ -155,7 +155,7 @@ def _terms(element: Any, states: _Floats, approach: float, rate: float) -> _Floa
     x, g, _ = static(approach / length, law)
     theta = g**0.5
     moved = theta * rate / length * time
-    entering = film_made(x, law) * film_entering(states[0], law.inlet_saturation)[0]
+    entering = film_made(x, law) * film_entering(states[0], law.inlet_saturation, law.closing)[0]
     fed = np.array([moved, moved, entering, *states[DIRECT - 1 : -1]])
     clock = np.full(states.size, law.lag_rate)
     clock[: DIRECT - 1] = law.inlet_rate, law.fast_rate

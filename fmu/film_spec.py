@@ -38,7 +38,7 @@ def film_parts(element: Film, lead: float) -> dict[str, Any]:
     common.flags(depends, first=False)
     common.box(low_high=True)
     nominal = max(rate * time / length, 1e-3)
-    _states(common, states, nominal, float(film_made(0.0, element.law)))
+    _states(common, states, nominal, float(film_made(0.0, element.law)), element.law.rim > 0.0)
     law = element.law
     inverse = np.append(0.0, 1.0 / np.arange(1.0, lags + 4.0))
     return {
@@ -61,7 +61,7 @@ def film_parts(element: Film, lead: float) -> dict[str, Any]:
     }
 
 
-def _states(common: ContactVariables, states: tuple[str, ...], nominal: float, made: float) -> None:
+def _states(common: ContactVariables, states: tuple[str, ...], nominal: float, made: float, rim: bool) -> None:
     texts = ("State of the inlet lag", "State of the fast lag")
     for k, name in enumerate(states):
         text = texts[k] if k < len(texts) else f"Film at the end of lag {k - 1} of the chain"
@@ -72,7 +72,8 @@ def _states(common: ContactVariables, states: tuple[str, ...], nominal: float, m
         if k < len(texts):
             depends: tuple[str, ...] = ("approach", "rate", name)
         else:
-            depends = ("approach", "s" if k == len(texts) else states[k - 1], name)
+            fed = ("s",) if k == len(texts) else (states[k - 1],)
+            depends = ("approach", "rate", *dict.fromkeys(("s", *fed)), name) if rim else ("approach", *fed, name)
         common.derivative(name, unit, depends)
 
 
@@ -83,9 +84,16 @@ def _macros(element: Film) -> dict[str, str]:
         "INLET_RATE": law.inlet_rate,
         "FAST_RATE": law.fast_rate,
         "INLET_SATURATION": law.inlet_saturation,
+        "CLOSING": law.closing,
         **dict(zip(("SCALE_FORCE", "SCALE_LENGTH", "SCALE_TIME"), element._units, strict=True)),
     }
-    counts = {"N_CACHE": 5, "LAGS": element.lags, "CURVE_NODES": law.x.size, "GAIN_ROWS": law.gain_x.size}
+    counts = {
+        "N_CACHE": 5,
+        "LAGS": element.lags,
+        "CURVE_NODES": law.x.size,
+        "GAIN_ROWS": law.gain_x.size,
+        "RIM": int(law.rim > 0.0),
+    }
     return {k: str(v) for k, v in counts.items()} | {k: c_double(float(v)) for k, v in numbers.items()}
 
 

@@ -363,7 +363,6 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
     }
     numbers = {
         "RIGID_SLOPE": RIGID_SLOPE,
-        "INLET_SATURATION": 0.0,
         "FEW_LAGS": FEW,
         "CUTOFF_GAP": math.inf if bearing.cutoff_gap is None else bearing.cutoff_gap,
         "ROUGHNESS": bearing.roughness or 1.0,

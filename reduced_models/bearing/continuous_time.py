@@ -127,8 +127,8 @@ def bearing_rates(balls, at_speed, normals, states, r, v, rates, force):
         rates[at] = own
         if wet:
             at_i, at_o = slice(at + first, second), slice(second, second + size_o)
-            filter_rates(balls.inner, 0.0, inner[4], inner[3], rate - own, states[at_i], rates[at_i])
-            filter_rates(balls.outer, 0.0, outer[4], outer[3], own, states[at_o], rates[at_o])
+            filter_rates(balls.inner, inner[4] * states[at_i][0], inner[3], rate - own, states[at_i], rates[at_i])
+            filter_rates(balls.outer, outer[4] * states[at_o][0], outer[3], own, states[at_o], rates[at_o])
         force[0] += pushed * x
         force[1] += pushed * y
 
@@ -253,8 +253,8 @@ def angular_rates(balls, rest, angle, cage, states, q, v, rates, force):
         f_i = _pushed(inner[2], inner[0] + inner[1] * rate_i)[0]
         if wet:
             at_i, at_o = slice(at + first, second), slice(second, second + size_o)
-            filter_rates(balls.inner, 0.0, inner[4], inner[3], rate_i, states[at_i], rates[at_i])
-            filter_rates(balls.outer, 0.0, outer[4], outer[3], along, states[at_o], rates[at_o])
+            filter_rates(balls.inner, inner[4] * states[at_i][0], inner[3], rate_i, states[at_i], rates[at_i])
+            filter_rates(balls.outer, outer[4] * states[at_o][0], outer[3], along, states[at_o], rates[at_o])
         p_r, p_z = p_r + f_i * n_r / l_i, p_z + f_i * n_z / l_i
         for j in range(FREEDOMS):
             force[j] += rows[0, j] * p_r + rows[1, j] * p_z + rows[2, j] * moment

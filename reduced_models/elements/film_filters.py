@@ -15,19 +15,11 @@ from __future__ import annotations
 
 from math import exp
 
-from ehlcontact.jit import jit_exact_called_node, jit_exact_node
+from ehlcontact.jit import jit_exact_node
 
 INLET, FAST, CHAIN = range(3, 6)  # entries of a state of a step, behind three of its own; the chain is the rest
 DIRECT = 3  # gains before those of the chain: viscous, inlet, fast
 FEW = 0.5  # mean of Poisson's law below which shares have to be summed: at it, differences lose two digits
-
-
-@jit_exact_called_node
-def film_entering(s, saturation):
-    """phi(s), the film that enters the chain, and its derivative."""
-    b = saturation * s
-    d = 1.0 + abs(b)
-    return s + b * s / d, 1.0 + b * (1.0 + d) / (d * d)
 
 
 @jit_exact_node
@@ -88,15 +80,15 @@ def pass_on(chain, poisson, held):
 
 
 @jit_exact_node
-def filter_rates(law, saturation, made, tau, v, states, rates):
+def filter_rates(law, made, tau, v, states, rates):
     """Fill the time derivatives of the states of one film: inlet, fast, chain; `tau` is its own time, v = u'.
 
-    `made` is the film that a unit of phi lets into the chain.
+    `made` is the film that enters the chain.
     """
     fed = tau * v
     rates[0] = law.inlet_rate * (fed - states[0]) / tau
     rates[1] = law.fast_rate * (fed - states[1]) / tau
-    fed = made * film_entering(states[0], saturation)[0]
+    fed = made
     for k in range(DIRECT - 1, states.size):
         rates[k] = law.lag_rate * (fed - states[k]) / tau
         fed = states[k]

@@ -8,14 +8,17 @@ d sigma = dT/theta with theta = F_s^(1/3). With the rate i = du/d sigma in that 
 
     inlet   s' = p_i (i - s)
     fast    y' = p_f (i - y)
-    chain   q_1' = nu (G phi(s) - q_1),  q_k' = nu (q_(k-1) - q_k),   phi(s) = s + beta s^2/(1 + |beta s|)
+    chain   q_k' = nu (q_(k-1) - q_k) + r (q_0 - q_k),   q_0 = G phi(s),   phi(s) = s + b beta s^2/(1 + |beta s|)
     m = c i + g_i s + g_f y + sum_k (g_k/G) q_k,    G = sum_k |g_k|
 
 The chain carries the film made at the inlet through the contact, and the shares g_k/G weigh the film of each age.
 All gains depend on the load. G is that of the load at which the film is made: a film that closing surfaces trap
 under a light load keeps its thickness while the load rises, until it has crossed the contact. About one load, and
 so in all small motions, G cancels; with a single row of gains it is set to 1. phi is
-monotone and above -1/beta, the saturation of the inlet: opening cannot take away more film than there is. Between
+monotone and above -1/beta, the saturation of the inlet: opening cannot take away more film than there is. There
+b = 1; closing has a b of its own (`closing`). An element for every load has a rim: where its contact grows from
+theta_0 to theta, the share 1 - theta_0/theta of it is new, and has film that the whole rim makes now, r =
+max(theta', 0)/theta. So film trapped by a fast return fills the contact at once, and fades from then on. Between
 the ends of a step u is the cubic through both approaches and rates, and every filter is advanced exactly
 (`film_filters`), so a step of any length is stable and a long one ends on the static force plus damping. In
 continuous time (`film_rates`) the states are s, y and q_1 ...; at rest all are zero.
@@ -36,7 +39,6 @@ from reduced_models.elements.film_filters import (
     FAST,
     INLET,
     chain_moments,
-    film_entering,
     filter_rates,
     lag_moments,
     pass_on,
@@ -64,6 +66,8 @@ class FilmLaw(NamedTuple):
     inlet_rate: float
     fast_rate: float
     inlet_saturation: float  # beta
+    closing: float  # b of phi where s > 0
+    rim: float  # film that the rim of a growing contact makes, over that of the inlet; 0: it does not
 
 
 @jit_exact
@@ -158,11 +162,21 @@ def _one_lag(old, start, end, bump, rate, span):
     return through3(value, slope * rate, span, r0 - r1, end, 6.0 * (r1 - r2), bump)
 
 
+@jit_exact
+def film_entering(s, saturation, closing):
+    """phi(s), the film that enters the chain, and its derivative."""
+    b = saturation * s
+    d = 1.0 + abs(b)
+    if b > 0.0:
+        b *= closing
+    return s + b * s / d, 1.0 + b * (1.0 + d) / (d * d)
+
+
 @inner
 @jit_exact
-def _entering(s, saturation):
+def _entering(s, law):
     """Film that enters the chain, of a jet."""
-    x, slope = film_entering(s.x, saturation)
+    x, slope = film_entering(s.x, law.inlet_saturation, law.closing)
     return through(x, slope, s)
 
 
@@ -211,6 +225,19 @@ def _weighed(k, q, law, between, x_u):
     return times(Jet(_gain(k, law, between), slope, 0.0), q)
 
 
+@inner
+@jit_exact
+def _with_rim(q, stayed, passed, kept, rim):
+    """Lag `q` of a contact that has grown, and kept the share `kept` of what it held at the start.
+
+    Of `q`, `stayed` is what the lag would hold of the start; what came in by the inlet, the share `passed`, has
+    grown half as long. The rest, so that all shares make 1, is film of the `rim`.
+    """
+    late = root(kept)
+    fresh = minus(minus(Jet(1.0, 0.0, 0.0), kept), times(minus(late, kept), passed))
+    return plus(plus(times(late, q), times(minus(kept, late), stayed)), times(fresh, rim))
+
+
 @jit_exact
 def film_step(law, old, new, dt, u, v):
     """Advance the state `old` into `new`; returns F, dF/du and dF/dv at the end of the step."""
@@ -235,9 +262,9 @@ def film_step(law, old, new, dt, u, v):
     between, x_u = _between(x, law), 1.5 * g.u / g.x
     made0, (made_x, by_x) = _made(3.0 * log(old[THETA]), law)[0], _made(x, law)
     made = Jet(made_x, by_x * x_u, 0.0)
-    f0 = made0 * film_entering(old[INLET], law.inlet_saturation)[0]
-    f = times(made, _entering(s, law.inlet_saturation))
-    hump = minus(times(half(made0, made), _entering(entered, law.inlet_saturation)), half(f0, f))
+    f0 = made0 * film_entering(old[INLET], law.inlet_saturation, law.closing)[0]
+    f = times(made, _entering(s, law))
+    hump = minus(times(half(made0, made), _entering(entered, law)), half(f0, f))
 
     m = _weighed(0, end, law, between, x_u)
     m = plus(m, _weighed(1, s, law, between, x_u))
@@ -246,7 +273,11 @@ def film_step(law, old, new, dt, u, v):
     per_mu, poisson, share, held = 1.0 / mu.x, np.empty(lags + 3), np.empty(lags + 3), np.zeros(lags + 1)
     poisson_shares(mu.x, lags + 2, lags + 2.0, poisson, share)
     pass_on(old[CHAIN:], poisson, held[1:])
-    carried = Jet(0.0, 0.0, 0.0)
+    grows = law.rim > 0.0 and theta.x > old[THETA]
+    kept = Jet(1.0, 0.0, 0.0)  # of the contact, where it has grown
+    if grows:
+        kept = through(old[THETA] / theta.x, -old[THETA] / (theta.x * theta.x), theta)
+    rim, carried = Jet(0.0, 0.0, 0.0), Jet(0.0, 0.0, 0.0)
     for j in range(1, lags + 1):
         r0, r1, r2 = chain_moments(j, per_mu, share)
         d0, d1 = poisson[j - 1], (j * poisson[j] - r1) * per_mu
@@ -254,8 +285,16 @@ def film_step(law, old, new, dt, u, v):
         value = held[j] + f0 * r1 + f.x * (r0 - r1) + 6.0 * hump.x * (r1 - r2)
         slope = held[j - 1] - held[j] + f0 * d1 + f.x * (d0 - d1) + 6.0 * hump.x * (d1 - d2)
         q = through3(value, slope, mu, r0 - r1, f, 6.0 * (r1 - r2), hump)
+        if grows:
+            stayed, passed = through(held[j], held[j - 1] - held[j], mu), through(r0, d0, mu)
+            if (
+                j == 1
+            ):  # what the first lag has got, a mean over the step that forgets: the film at the end of a long one
+                got = over(minus(q, stayed), passed)
+                rim = Jet(law.rim * got.x, law.rim * got.u, law.rim * got.v)
+            q = _with_rim(q, stayed, passed, kept, rim)
         carried = plus(carried, _weighed(DIRECT - 1 + j, q, law, between, x_u))
-        new[CHAIN + j - 1] = value
+        new[CHAIN + j - 1] = q.x
     new[THETA], new[RATE], new[APPROACH], new[INLET], new[FAST] = theta.x, end.x, u, s.x, y.x
     w = plus(g, plus(m, over(carried, made)))
     if w.x <= 0.0:
@@ -300,10 +339,14 @@ def _film_of_states(law, between, made, states):
 @jit_exact
 def film_rates(law, states, u, v, rates):
     """Force at approach `u` and rate `v`; fills the time derivatives of the states."""
-    x, g, _ = static(u, law)
+    x, g, g_u = static(u, law)
     theta = sqrt(g)
     made, between = _made(x, law)[0], _between(x, law)
-    filter_rates(law, law.inlet_saturation, made, theta, v, states, rates)
+    fed = made * film_entering(states[0], law.inlet_saturation, law.closing)[0]
+    filter_rates(law, fed, theta, v, states, rates)
+    if law.rim > 0.0 and v > 0.0:
+        for k in range(DIRECT - 1, states.size):
+            rates[k] += 0.5 * g_u / g * v * (law.rim * fed - states[k])
     w = g + _gain(0, law, between) * (theta * v) + _film_of_states(law, between, made, states)
     return w * sqrt(w) if w > 0.0 else 0.0
 

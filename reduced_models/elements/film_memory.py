@@ -98,6 +98,7 @@ class FilmMemoryContact(FilmContact):
     scales: Scales | None = field(default=None, kw_only=True)
 
     kind = "memory"
+    for_every_load = False
     parameter_names = ("film", "exponent", "inlet_saturation", "lag_rate", "inlet_rate", "fast_rate", "gains")
     tables = ("gains",)
     beyond: ClassVar[Mapping[str, str]] = {

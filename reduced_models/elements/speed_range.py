@@ -311,7 +311,7 @@ def slow_law(law: FilmLaw, slowed: float) -> FilmLaw:
     """Law for steps in the time of surfaces at `slowed` times the speed of the film in the contact.
 
     What the film at the inlet resists depends on its thickness, not on the present speed. So dashpot, inlet and
-    fast filter stay in the time of the film; the chain goes with the surfaces.
+    fast filter stay in the time of the film, and film that the rim makes too; the chain goes with the surfaces.
     """
     if slowed == 1.0:
         return law
@@ -322,4 +322,5 @@ def slow_law(law: FilmLaw, slowed: float) -> FilmLaw:
         inlet_rate=law.inlet_rate / slowed,
         fast_rate=law.fast_rate / slowed,
         inlet_saturation=law.inlet_saturation * slowed,
+        rim=law.rim * slowed,
     )

@@ -40,7 +40,8 @@ class WideRangeContact(FilmContact):
 
     The static curve interpolates the film h_s = F^(2/3) - u over the load, ln over ln; it is C1, rises always
     and fades as the surfaces part: below the lightest load it turns into that of rigid surfaces, F like h^-1/2.
-    Gains interpolate linearly in ln F and stay as they are beyond the table.
+    Gains interpolate linearly in ln F and stay as they are beyond the table. Where closing lets the contact
+    grow, its whole rim makes film; with `inlet_saturation` 0 only the inlet does.
 
     Parameters
     ----------

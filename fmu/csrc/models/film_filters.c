@@ -13,13 +13,6 @@ static const double few = FEW_LAGS, few_shares = FEW_LAGS;
 static const double few = 3.0, few_shares = LAGS + 2;
 #endif
 
-double film_entering(double s, double *slope)
-{
-    const double b = INLET_SATURATION * s, d = 1.0 + fabs(b);
-    *slope = 1.0 + b * (1.0 + d) / (d * d);
-    return s + b * s / d;
-}
-
 double lag_moments(double mu, Moments *r)
 {
     const double kept = exp(-mu);

@@ -9,9 +9,6 @@ typedef struct {
     double r0, r1, r2;
 } Moments;
 
-/* phi(s), the film that enters the chain, and its slope. */
-double film_entering(double s, double *slope);
-
 /* Share of its state that one lag keeps over a step of length mu in its own time, and its moments. */
 double lag_moments(double mu, Moments *r);
 

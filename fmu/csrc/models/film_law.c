@@ -28,7 +28,19 @@ static Jet one_lag(double old, double start, Jet end, Jet bump, double rate, Jet
     return through3(value, slope * rate, span, r.r0 - r.r1, end, 6.0 * (r.r1 - r.r2), bump);
 }
 
-/* Film that enters the chain, of a jet. */
+/* phi(s), the film that enters the chain, and its slope. */
+static double film_entering(double s, double *slope)
+{
+    double b = INLET_SATURATION * s;
+    const double d = 1.0 + fabs(b);
+    if (b > 0.0) {
+        b *= CLOSING;
+    }
+    *slope = 1.0 + b * (1.0 + d) / (d * d);
+    return s + b * s / d;
+}
+
+/* The same of a jet. */
 static Jet entering(Jet s)
 {
     double slope;
@@ -118,37 +130,76 @@ static double frozen_slope(const Rest *rest, const Between *b, double theta, dou
 }
 
 /* Sums over the chain, weighed with the gains at the load: of the lags at the end of the step, the same with the slopes of
- * the gains by x, and of the lags' slopes by mu, by the film made at the end and by its bump. */
+ * the gains by x, and of the lags' slopes by mu, by the film made at the end and by its bump, and by the share of the contact that it has kept while it grew. */
 typedef struct {
-    double value, by_gain, by_mu, by_end, by_hump;
+    double value, by_gain, by_mu, by_end, by_hump, by_kept;
 } Chain;
 
-/* Advances the chain: the film made goes from f0 to f with a bump. */
+/* One lag at the end of a step and its slopes. */
+typedef struct {
+    double value, by_mu, by_end, by_hump, by_kept;
+} Lag;
+
+/* Lag `q` of a contact that has grown, and kept the share `kept` of what it held at the start. Of q, `stayed` (slope by mu
+ * `stayed_mu`) is what the lag would hold of the start; what came in by the inlet, the share `passed`, has grown half as
+ * long. The rest, so that all shares make 1, is film of the `rim`. */
+static Lag with_rim(Lag q, double stayed, double stayed_mu, double passed, double passed_mu, double kept, Lag rim)
+{
+    const double late = sqrt(kept), late_k = 0.5 / late, fresh = 1.0 - kept - (late - kept) * passed;
+    Lag found;
+    found.value = late * q.value + (kept - late) * stayed + fresh * rim.value;
+    found.by_mu = late * q.by_mu + (kept - late) * stayed_mu + fresh * rim.by_mu
+                  - (late - kept) * passed_mu * rim.value;
+    found.by_end = late * q.by_end + fresh * rim.by_end;
+    found.by_hump = late * q.by_hump + fresh * rim.by_hump;
+    found.by_kept = late_k * q.value + (1.0 - late_k) * stayed - (1.0 + (late_k - 1.0) * passed) * rim.value;
+    return found;
+}
+
+/* Advances the chain: the film made goes from f0 to f with a bump; `kept` is 1 but in a contact that has grown. */
 static Chain advance_chain(const double before[FILM_SIZE], double after[FILM_SIZE], double mu, double f0, double f,
-                           double hump, const Between *b)
+                           double hump, double kept, const Between *b)
 {
     const double *row = gains[b->row], *next = gains[b->after];
     const double share_of_next = b->weight, share_of_row = 1.0 - b->weight, per_x = b->per_x, per_mu = 1.0 / mu;
     double poisson[LAGS + 3], share[LAGS + 3], held[LAGS + 1] = {0.0};
-    Chain sum = {0.0, 0.0, 0.0, 0.0, 0.0};
+    Chain sum = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    Lag rim = {0.0, 0.0, 0.0, 0.0, 0.0};
     int j;
     poisson_shares(mu, LAGS + 2, poisson, share);
     pass_on(&before[CHAIN], poisson, &held[1]);
     for (j = 1; j <= LAGS; j++) {
         const Moments r = chain_moments(j, per_mu, share);
         const double low = row[DIRECT - 1 + j], high = next[DIRECT - 1 + j];
-        const double value = held[j] + f0 * r.r1 + f * (r.r0 - r.r1) + 6.0 * hump * (r.r1 - r.r2);
-        after[CHAIN + j - 1] = value;
-        if (low != 0.0 || high != 0.0) { /* many lags have no part in the force */
+        const int counts = low != 0.0 || high != 0.0; /* many lags have no part in the force */
+        Lag q = {0.0, 0.0, 0.0, 0.0, 0.0};
+        q.value = held[j] + f0 * r.r1 + f * (r.r0 - r.r1) + 6.0 * hump * (r.r1 - r.r2);
+        if (counts || (kept < 1.0 && j == 1)) {
             const double d0 = poisson[j - 1], d1 = (j * poisson[j] - r.r1) * per_mu;
             const double d2 = (j * (j + 1) * poisson[j + 1] * per_mu - 2.0 * r.r2) * per_mu;
-            const double slope = held[j - 1] - held[j] + f0 * d1 + f * (d0 - d1) + 6.0 * hump * (d1 - d2);
+            q.by_mu = held[j - 1] - held[j] + f0 * d1 + f * (d0 - d1) + 6.0 * hump * (d1 - d2);
+            q.by_end = r.r0 - r.r1;
+            q.by_hump = 6.0 * (r.r1 - r.r2);
+        }
+        if (kept < 1.0) {
+            const double stayed_mu = held[j - 1] - held[j], passed_mu = poisson[j - 1];
+            if (j == 1) { /* what the first lag has got: a mean over the step that ends on the film at its end */
+                rim.value = (q.value - held[1]) / r.r0;
+                rim.by_mu = (q.by_mu - stayed_mu - rim.value * passed_mu) / r.r0;
+                rim.by_end = q.by_end / r.r0;
+                rim.by_hump = q.by_hump / r.r0;
+            }
+            q = with_rim(q, held[j], stayed_mu, r.r0, passed_mu, kept, rim);
+        }
+        after[CHAIN + j - 1] = q.value;
+        if (counts) {
             const double weight = low * share_of_row + high * share_of_next;
-            sum.value += weight * value;
-            sum.by_gain += (high - low) * per_x * value;
-            sum.by_mu += weight * slope;
-            sum.by_end += weight * (r.r0 - r.r1);
-            sum.by_hump += weight * (6.0 * (r.r1 - r.r2));
+            sum.value += weight * q.value;
+            sum.by_gain += (high - low) * per_x * q.value;
+            sum.by_mu += weight * q.by_mu;
+            sum.by_end += weight * q.by_end;
+            sum.by_hump += weight * q.by_hump;
+            sum.by_kept += weight * q.by_kept;
         }
     }
     return sum;
@@ -181,15 +232,17 @@ void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double d
     const double f0 = made0 * film_entering(before[INLET], &ignored);
     const Jet f = times(made, entering(s));
     const Jet hump = minus(times(half(made0, made), entering(entered)), half(f0, f));
+    const int grows = RIM && theta.x > before[THETA];
+    const double kept = grows ? before[THETA] / theta.x : 1.0, kept_u = grows ? -kept / theta.x * theta.u : 0.0;
     Chain chain;
     Jet m, w, carried;
-    chain = advance_chain(before, after, LAG_RATE * span.x, f0, f.x, hump.x, &b);
+    chain = advance_chain(before, after, LAG_RATE * span.x, f0, f.x, hump.x, kept, &b);
     m = weighed(VISCOUS, end, &b, x_u);
     m = plus(m, weighed(1, s, &b, x_u));
     m = plus(m, weighed(2, y, &b, x_u));
     carried = over(jet(chain.value,
                        x_u * chain.by_gain + LAG_RATE * span.u * chain.by_mu + chain.by_end * f.u
-                           + chain.by_hump * hump.u,
+                           + chain.by_hump * hump.u + chain.by_kept * kept_u,
                        chain.by_end * f.v + chain.by_hump * hump.v), made);
     m = plus(m, carried);
     after[THETA] = theta.x;
@@ -300,14 +353,18 @@ void film_rates(const double states[FILM_RATES], const Rest *rest, double v, dou
 {
     const double theta = sqrt(rest->g), i = theta * v, unit = clock(theta);
     const Between b = between(rest->x);
-    double fed, ignored;
+    double fed, entered, ignored;
     int k;
     rates[0] = INLET_RATE * (i - states[0]) / unit;
     rates[1] = FAST_RATE * (i - states[1]) / unit;
     fed = film_entering(states[0], &ignored);
     fed *= film_made(&b).film;
+    entered = fed;
     for (k = 2; k < FILM_RATES; k++) {
         rates[k] = LAG_RATE * (fed - states[k]) / unit;
+        if (RIM && v > 0.0) {
+            rates[k] += 0.5 * rest->g_u / theta * v / unit * (entered - states[k]);
+        }
         fed = states[k];
     }
 }
@@ -320,15 +377,24 @@ void film_rates_along(const double states[FILM_RATES], const Rest *rest, double 
     const double dunit = theta > LEAST_THETA ? theta_u * du / unit : 0.0; /* over the unit */
     const Between b = between(rest->x);
     const Made made = film_made(&b);
-    double fed, slope, dfed;
+    double fed, slope, dfed, entered, dentered, grow = 0.0, dgrow = 0.0;
     int k;
+    if (RIM && v > 0.0) {
+        double x_uu, g_uu;
+        film_curvature(rest, &x_uu, &g_uu);
+        grow = theta_u * v / unit;
+        dgrow = ((0.5 * g_uu - theta_u * theta_u) / theta * v * du + theta_u * dv) / unit - grow * dunit;
+    }
     change[0] = INLET_RATE * ((di - along[0]) - (i - states[0]) * dunit) / unit;
     change[1] = FAST_RATE * ((di - along[1]) - (i - states[1]) * dunit) / unit;
     fed = film_entering(states[0], &slope);
     dfed = made.film * slope * along[0] + made.by_x * 1.5 * rest->g_u / rest->g * du * fed;
     fed *= made.film;
+    entered = fed;
+    dentered = dfed;
     for (k = 2; k < FILM_RATES; k++) {
         change[k] = LAG_RATE * ((dfed - along[k]) - (fed - states[k]) * dunit) / unit;
+        change[k] += dgrow * (entered - states[k]) + grow * (dentered - along[k]);
         fed = states[k];
         dfed = along[k];
     }

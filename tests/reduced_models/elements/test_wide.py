@@ -115,6 +115,52 @@ def test_gain_of_a_film_is_that_of_the_load_at_which_it_is_made(wide):
     assert ours > theirs + 0.02 > wide.spring(u[-1]) + 0.02
 
 
+def closing(steps):
+    """Times, approach and rate of a fast return from a light load, and of what follows."""
+    T = np.linspace(0.0, 1.2, 12 * steps + 1)
+    phase = pi * np.minimum(T, 0.4) / 0.4
+    return T, 0.45 - 0.5 * np.cos(phase), 0.5 * pi / 0.4 * np.sin(phase)
+
+
+def film_added(element, steps=40):
+    """Film that motion has added at the end of the return, and a third of a transit later."""
+    T, u, v = closing(steps)
+    added = element.drive(T, u, v) ** (2.0 / 3.0) - element.spring(u) ** (2.0 / 3.0)
+    return added[4 * steps], added[10 * steps]
+
+
+def test_film_trapped_by_a_fast_return_fades_at_once(wide):
+    """It fills the contact, where film made at the inlet alone has yet to cross it."""
+    at_inlet = wide.copy()
+    object.__setattr__(at_inlet, "law", wide.law._replace(rim=0.0))
+    (early, late), (first, second) = film_added(wide), film_added(at_inlet)
+    assert early > 1.2 * first and late / early < 0.9 * second / first
+
+
+def test_steps_of_a_growing_contact_are_of_second_order_and_follow_continuous_time(wide):
+    T, u, v = closing(640)
+    states, h = np.zeros(wide.state_count), T[1]
+    middle = [0.5 * (x[:-1] + x[1:]) for x in (u, v)]
+    for k in range(T.size - 1):  # the midpoint rule
+        half = states + 0.5 * h * wide.continuous(states, u[k], v[k])[1]
+        states += h * wide.continuous(half, middle[0][k], middle[1][k])[1]
+    force, found = wide.continuous(states, u[-1], v[-1])[0], []
+    for steps in (20, 40, 80, 640):
+        T, u, v = closing(steps)
+        found.append(wide.drive(T, u, v)[-1])
+    errors = np.abs(np.array(found) - force)
+    assert errors[1] < 0.3 * errors[0] and errors[2] < 0.3 * errors[1] and errors[3] < 1e-5
+
+
+def test_a_contact_that_shrinks_or_does_not_saturate_has_no_rim(wide, memory):
+    T = np.linspace(0.0, 1.0, 51)
+    u, v = 1.0 - 0.3 * T**2, -0.6 * T
+    at_inlet = wide.copy()
+    object.__setattr__(at_inlet, "law", wide.law._replace(rim=0.0))
+    np.testing.assert_array_equal(wide.drive(T, u, v), at_inlet.drive(T, u, v))
+    assert memory.law.rim == replace(wide, inlet_saturation=0.0).law.rim == 0.0 < wide.law.rim
+
+
 @pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 def test_no_closed_cycle_creates_energy(wide):
     """Cycles of any size and speed, through lift-off or not, from rest back to the same approach at rest."""
