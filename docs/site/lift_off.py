@@ -35,11 +35,11 @@ sys.path.insert(0, str(DOCS.parent / "tests" / "golden"))
 import motions  # noqa: E402
 
 LATER = {  # not used to fit or choose anything
-    "(500, 15, 0.12)": MoesPoint(500, 15, 0.12),
-    "(60, 8, 1)": MoesPoint(60, 8, 1.0),
-    "(8000, 10, 0.2)": MoesPoint(8000, 10, 0.2),
-    "(30, 3, 0.15)": MoesPoint(30, 3, 0.15),
-    "(12, 8, 0.5)": MoesPoint(12, 8, 0.5),
+    "(500 15 0.12)": MoesPoint(500, 15, 0.12),
+    "(60 8 1)": MoesPoint(60, 8, 1.0),
+    "(8000 10 0.2)": MoesPoint(8000, 10, 0.2),
+    "(30 3 0.15)": MoesPoint(30, 3, 0.15),
+    "(12 8 0.5)": MoesPoint(12, 8, 0.5),
 }
 FAST = ("fast return", "impact")
 THIN = 60
