@@ -34,7 +34,7 @@ DOCS = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(DOCS.parent / "tests" / "golden"))
 import motions  # noqa: E402
 
-LATER = {  # not used to fit or choose anything
+LATER = {  # the first three were looked at while the law was chosen, the others only afterwards
     "(500 15 0.12)": MoesPoint(500, 15, 0.12),
     "(60 8 1)": MoesPoint(60, 8, 1.0),
     "(8000 10 0.2)": MoesPoint(8000, 10, 0.2),
