@@ -74,7 +74,7 @@ class BearingState(QuantityTable):
         `reduced_models.bearing.skf_friction`. None in a dry bearing, and in one whose series has no constants
         there.
     outside_assumptions : str
-        Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
+        Assumptions of films that do not hold at the most loaded ball (`ehlcontact.assumptions`); empty where none.
     contact_angles : ndarray, shape (balls, 2), or None
         Of every contact [rad]; None, as all below, in a planar bearing, where they are 0.
     spin_to_roll : ndarray, shape (balls, 2), or None

@@ -59,14 +59,14 @@ if TYPE_CHECKING:
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
-NO_LINE = 1e-6  # of the height over the approach of the heaviest ball times its force: below is rounding
+NO_LINE = 1e-6  # of the height over the approach of the most loaded ball times its force: below is rounding
 SAME_ORDER = 9  # decimal places of orders that are one line
 SHORTEST = (
     4.0 * np.pi
-)  # wave number per semi-axis of the heaviest ball, to which defects are waves: 8 % get through
+)  # wave number per semi-axis of the most loaded ball, to which defects are waves: 8 % get through
 FILTERS = ("film", "dry", "none")
 HIGHEST = 0.01  # of a ball's diameter: amplitudes, rims, excess diameters
-LARGE = 0.1  # height over the approach of both contacts of the heaviest ball, from which a result says so
+LARGE = 0.1  # height over the approach of both contacts of the most loaded ball, from which a result says so
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +90,7 @@ class BearingExcitation(QuantityTable):
     height : float
         Largest amplitude of the features [m], half of a ball's excess diameter.
     approach : float
-        Of both contacts of the heaviest ball together [m].
+        Of both contacts of the most loaded ball together [m].
     short_waves : int
         Largest number of waves of a waviness shorter than those of the table of contact filters; 0 without one.
     """
@@ -120,7 +120,8 @@ class BearingExcitation(QuantityTable):
         notes, share = [], 100.0 * self.height / self.approach
         if self.height > LARGE * self.approach:
             notes.append(
-                f"features are {share:.2g} % of the approach of the heaviest ball: forces are not linear in them"
+                f"features are {share:.2g} % of the approach of the most loaded ball:"
+                " forces are not linear in them"
             )
         if self.short_waves:
             notes.append(

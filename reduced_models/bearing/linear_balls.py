@@ -137,7 +137,7 @@ class BearingCoefficients(FrequencyResponse):
     peak_to_peak : ndarray, shape (n,)
         Peak-to-peak displacement of the ring while a ball passes slowly [m]; 0 at a given angle of the cage.
     outside_assumptions : str
-        Assumptions of films that do not hold at the heaviest ball (`ehlcontact.assumptions`); empty where none.
+        Assumptions of films that do not hold at the most loaded ball (`ehlcontact.assumptions`); empty where none.
     signed_damping : ndarray, shape (k, n, n), or None
         C [N s/m] of the solved contacts under an oil supply, which at low frequency may be below zero; `damping`
         is that of the elements, which leave that out. None in flooded bearings.

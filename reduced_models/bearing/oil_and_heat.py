@@ -1,13 +1,13 @@
 """A bearing with flooded isothermal films, with heat, and with a layer of oil on its surfaces, beside each other.
 
 Each is the bearing with `BallBearing.thermal` and `BallBearing.supply`, from the tables of the atlas. Where they
-do not have it, or on request, the contacts of the heaviest ball are solved; then films, moments, K and C are those
-of the flooded films times the ratio of the solved ones: films and moments race by race, K and C as those of the
-ball, both contacts in series. With both, heat thins the film and the layer is over what is left of it:
+do not have it, or on request, the contacts of the most loaded ball are solved; then films, moments, K and C are
+those of the flooded films times the ratio of the solved ones: films and moments race by race, K and C as those of
+the ball, both contacts in series. With both, heat thins the film and the layer is over what is left of it:
 
     value = heated value * value(layer/s)/flooded value,    s = heated central film over the flooded one.
 
-Of a set of bearings films are those of the one with the heaviest ball, K, C and torques those of the set.
+Of a set of bearings films are those of the one with the most loaded ball, K, C and torques those of the set.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ class Condition:
     Attributes
     ----------
     h_central, h_min : ndarray, shape (balls, 2)
-        Films at inner and outer race [m]; of a set those of the bearing with the heaviest ball.
+        Films at inner and outer race [m]; of a set those of the bearing with the most loaded ball.
     lambda_ratio : ndarray, shape (balls, 2), or None
         Smallest film over composite roughness; None where no roughness is given.
     stiffness, damping : ndarray, shape (k, n)
@@ -122,7 +122,7 @@ class OilAndHeat(Summary):
     refused : dict of str to str
         Those that were asked for and have no film, and why.
     solved : bool
-        Whether contacts of the heaviest ball were solved, and all is not from tables.
+        Whether contacts of the most loaded ball were solved, and all is not from tables.
     error_bars : dict of str to TableBars
         Half widths of the error bars of conditions from tables; without entries where contacts were solved.
     """
@@ -136,7 +136,7 @@ class OilAndHeat(Summary):
 
     @property
     def bearing(self) -> int:
-        """Index of the bearing with the heaviest ball; 0 of a single one."""
+        """Index of the bearing with the most loaded ball; 0 of a single one."""
         return _heaviest_of(_states(self.at_rest))
 
     @property
@@ -153,7 +153,7 @@ class OilAndHeat(Summary):
 
     @property
     def rows(self) -> list[tuple[str, str, dict[str, float]]]:
-        """Quantity, unit and values by condition, of the heaviest ball and of the bearing."""
+        """Quantity, unit and values by condition, of the most loaded ball and of the bearing."""
         found = []
         for words, unit, size, name, place in self._quantities:
             values = {key: getattr(one, name) for key, one in self.conditions.items()}
@@ -177,7 +177,7 @@ class OilAndHeat(Summary):
 
     @property
     def _quantities(self) -> list[tuple[str, str, float, str, tuple[int, int]]]:
-        """Words, unit and its size, attribute and place of films of the heaviest ball, and of K and C."""
+        """Words, unit and its size, attribute and place of films of the most loaded ball, and of K and C."""
         ball, several = self.state.heaviest, len(self.ways) > 1
         films = [
             (f"{words}, {race}", unit, size, name, (ball, column))
@@ -203,12 +203,14 @@ class OilAndHeat(Summary):
         """What these numbers do not say, one line each."""
         lines = ["Films, K and C are those of all balls, from tables of solved contacts."]
         if self.error_bars:
-            lines[0] += " Their error bars are those of the heaviest ball's contacts."
+            lines[0] += " Their error bars are those of the most loaded ball's contacts."
         if self.solved:
-            lines = ["K and C are those of flooded films times the ratio of the heaviest ball's solved contacts."]
+            lines = [
+                "K and C are those of flooded films times a ratio, of the solved contacts of the most loaded ball."
+            ]
         if isinstance(self.at_rest, SetState):
             where = f"bearing {self.bearing}, facing {self.at_rest.facings[self.bearing]}"
-            lines.append(f"The heaviest ball is that of {where}; K, C and torques are those of all bearings.")
+            lines.append(f"The most loaded ball is that of {where}; K, C and torques are those of all bearings.")
         if BOTH in self.conditions:
             lines.append(
                 "With both is a product: heat thins the flooded film, and the same oil is more of that film."
@@ -301,14 +303,14 @@ def oil_and_heat(
     band : array_like, shape (k,)
         Further frequencies of K and C [Hz].
     solve : bool
-        Solve the contacts of the heaviest ball, also where tables have them.
+        Solve the contacts of the most loaded ball, also where tables have them.
     callback : callable
         Called before every solve with those done, their number, and what is solved.
 
     Raises
     ------
     InputError
-        A dry bearing; a heaviest ball lighter than the atlas knows; an oil without the data of heat.
+        A dry bearing; a most loaded ball with less load than the atlas has; an oil without the data of heat.
     ConvergenceError
         Of flooded films that are solved. Other films that do not converge are in `OilAndHeat.refused`.
     """
@@ -356,7 +358,7 @@ def _states(at_rest: BearingState | SetState) -> tuple[BearingState, ...]:
 
 
 def _heaviest_of(states: Sequence[BearingState]) -> int:
-    """Index of the bearing with the heaviest ball."""
+    """Index of the bearing with the most loaded ball."""
     return int(np.argmax([one.force[one.heaviest, 0] for one in states]))
 
 
@@ -394,7 +396,7 @@ def _bars(
     supply: OilLayer | None,
     thermal: Heat | None,
 ) -> dict[str, TableBars]:
-    """Error bars under each condition, of the heaviest ball under its load with flooded films."""
+    """Error bars under each condition, of the most loaded ball under its load with flooded films."""
     ball, found = state.heaviest, {}
     for key, one in made.items():
         layer, heat = supply if key in (LAYER, BOTH) else None, thermal if key in (HEAT, BOTH) else None
@@ -406,7 +408,7 @@ def _bars(
 def _tabulated(
     bearings: Sequence[Any], states: Sequence[BearingState], most: int, small: Any, law: TractionLaw
 ) -> Condition:
-    """Bearings as they are; `most` is the one with the heaviest ball."""
+    """Bearings as they are; `most` is the one with the most loaded ball."""
     damping, state = small.damping if small.signed_damping is None else small.signed_damping, states[most]
     assert state.h_central is not None and state.h_min is not None
     return Condition(
@@ -432,11 +434,13 @@ def _diagonal(matrices: _Floats) -> _Floats:
 
 
 def _point(bearing: Any, state: BearingState, column: int) -> OperatingPoint:
-    """Contact of the heaviest ball with a race."""
+    """Contact of the most loaded ball with a race."""
     ball, race = state.heaviest, race_at(bearing, state, state.heaviest, column)
     load, least = float(state.force[ball, column]), race.loads(state.speed_rpm)[0]
     if load < least:
-        raise InputError("load", load, f"a heaviest ball of at least {least:.3g} N, which the atlas has")
+        raise InputError(
+            "load", load, f"such that the most loaded ball carries at least {least:.3g} N, the least of the atlas"
+        )
     found: OperatingPoint = race.point(load, state.speed_rpm)
     return found
 
@@ -500,7 +504,7 @@ def _condition(
     ratios: Ratios,
     law: TractionLaw,
 ) -> Condition:
-    """Bearings with their flooded values times these ratios; `most` is the one with the heaviest ball."""
+    """Bearings with their flooded values times these ratios; `most` is the one with the most loaded ball."""
     state = states[most]
     assert state.h_central is not None and state.h_min is not None
     thin = [replace(one, h_central=np.asarray(one.h_central) * ratios.h_central) for one in states]

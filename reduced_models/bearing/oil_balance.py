@@ -152,13 +152,13 @@ class OilBalance(Summary):
 
     @property
     def flooded(self) -> _Floats:
-        """Flooded central films of the heaviest ball [m], at inner and outer race."""
+        """Flooded central films of the most loaded ball [m], at inner and outer race."""
         assert self.state.h_central is not None
         return np.array(self.state.h_central[self.state.heaviest])
 
     @property
     def full_layer(self) -> float:
-        """Layer that the flooded film of the heaviest ball at the inner race lets through [m]."""
+        """Layer that the flooded film of the most loaded ball at the inner race lets through [m]."""
         return float(self.flooded[0]) * self._compression("inner")
 
     def _compression(self, race: str) -> float:
@@ -167,7 +167,7 @@ class OilBalance(Summary):
         return float(plain(density)(1.0, law)[0])
 
     def films(self, layer: ArrayLike) -> _Floats:
-        """Central films of the heaviest ball [m], shape (..., 2): at inner and outer race under a layer [m]."""
+        """Central films of the most loaded ball [m], shape (..., 2): at inner and outer race under a layer [m]."""
         found = []
         for column, race in enumerate(RACES):
             full = self._compression(race) * float(self.flooded[column])
@@ -268,14 +268,15 @@ class OilBalance(Summary):
         return [
             f"{self.bearing.name or 'ball bearing'} at {self.speed_rpm:.5g} rev/min, {feed}"
             + (back if self.returned else ""),
-            f"flooded films of the heaviest ball {1e6 * self.flooded[0]:.4g} and {1e6 * self.flooded[1]:.4g} µm",
+            f"flooded films of the most loaded ball"
+            f" {1e6 * self.flooded[0]:.4g} and {1e6 * self.flooded[1]:.4g} µm",
             f"a layer of {1e6 * self.full_layer:.4g} µm is lost at first with a time constant of {half:.3g} s",
         ]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class OilHistory(QuantityTable):
-    """Layer on the tracks of a bearing and central films of its heaviest ball over time.
+    """Layer on the tracks of a bearing and central films of its most loaded ball over time.
 
     Attributes
     ----------

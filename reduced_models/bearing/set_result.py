@@ -80,7 +80,7 @@ class SetState(QuantityTable):
             f"{self.name or 'set of bearings'}, load {load_words(self.load)} at {self.speed_rpm:.5g} rev/min",
             f"axial forces of bearings facing {', '.join(self.facings)}: {forces} N",
             f"shaft displaced by {place_words(self.displacement)}, axial stiffness {axial:.4g} N/µm",
-            f"heaviest ball {most.force[most.heaviest, 0]:.4g} N in bearing {k}; {film}",
+            f"most loaded ball {most.force[most.heaviest, 0]:.4g} N in bearing {k}; {film}",
             *note_line(self.outside_assumptions),
         ]
 

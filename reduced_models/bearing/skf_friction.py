@@ -35,8 +35,8 @@ OIL_BATH, GREASE = 3e-8, 6e-8  # K_rs of replenishment
 DEEP_GROOVE = 3.1  # K_Z
 MU_BOUNDARY = 0.12  # 0.15 in the catalogue's edition 10000; of no influence where films are full
 MU_MINERAL = 0.05  # full film of mineral oil; 0.04 of synthetic oil
-RATED_PRESSURE = 4.2e9  # Pa, of the heaviest ball under C0: ISO 76
-STRIBECK = 5.0  # heaviest ball over mean ball under radial load: ISO 76
+RATED_PRESSURE = 4.2e9  # Pa, of the most loaded ball under C0: ISO 76
+STRIBECK = 5.0  # most loaded ball over mean ball under radial load: ISO 76
 USUAL_DENSITY = 850.0  # kg/m3, of mineral oils at 50 C within 2 %
 
 
@@ -131,7 +131,7 @@ def skf_friction(
 
 
 def static_rating(bearing: Any) -> float:
-    """Radial static load [N] at which the heaviest ball has 4.2 GPa at the inner race: C0 as ISO 76 defines it."""
+    """Radial static load [N] at which the most loaded ball has 4.2 GPa at the inner race: C0 of ISO 76."""
     body = bearing.race("inner").geometry
     unit = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure
     return float(bearing.balls * (RATED_PRESSURE / unit) ** 3 / STRIBECK)

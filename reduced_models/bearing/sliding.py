@@ -241,7 +241,7 @@ def race_at(bearing: Any, state: BearingState, ball: int, column: int) -> Race:
 
 
 def _inlet_heat(bearing: Any, state: BearingState) -> float:
-    """Thermal reduction factor at the inner contact of the heaviest ball; it hardly depends on the load."""
+    """Thermal reduction factor at the inner contact of the most loaded ball; it hardly depends on the load."""
     ball = state.heaviest
     race = race_at(bearing, state, ball, 0)
     point = race.point(max(float(state.force[ball, 0]), race.loads(state.speed_rpm)[0]), state.speed_rpm)

@@ -1,7 +1,7 @@
 """`TableBars`: half widths of the error bars of a bearing's films, K and C from the tables of the atlas.
 
-Those of films are of the heaviest ball. Those of K and C are of its two contacts in series, whose errors are added
-with their signs alike, times what the bearing has of its stiffness:
+Those of films are of the most loaded ball. Those of K and C are of its two contacts in series, whose errors are
+added with their signs alike, times what the bearing has of its stiffness:
 
     dK = (K_2^2 dK_1 + K_1^2 dK_2)/(K_1 + K_2)^2 K_bearing/K_ball,    dC likewise.
 """
@@ -26,7 +26,7 @@ class TableBars:
     Attributes
     ----------
     h_central, h_min : ndarray, shape (2,)
-        Of the heaviest ball's films at inner and outer race [m].
+        Of the most loaded ball's films at inner and outer race [m].
     stiffness, damping : ndarray, shape (k, n)
         Of K [N/m] and C [N s/m] of the bearing at the frequencies, in x, y and, with contact angles, z.
     """
@@ -40,7 +40,7 @@ class TableBars:
 def table_bars(
     races: Sequence[Race], forces: Sequence[float], speed_rpm: float, hz: _Floats, stiffness: _Floats
 ) -> TableBars:
-    """Error bars from both contacts of the heaviest ball.
+    """Error bars from both contacts of the most loaded ball.
 
     Parameters
     ----------

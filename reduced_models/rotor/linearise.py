@@ -51,7 +51,7 @@ NEAR = 0.5  # relative distance of an eigenvalue from that with frozen supports,
 DEFAULT_MODES = 8  # modes, unless another number is given
 SLOW = 1e-3  # rad/s, stands for rest where damping is computed: films forget in less than a second
 FREE = 1e-9  # of the largest stiffness, what rounding leaves where a rotor is free
-UNLOADED = 1e-9  # of its heaviest ball, the load of a preloaded bearing that is the rounding of none
+UNLOADED = 1e-9  # of its most loaded ball, the load of a preloaded bearing that is the rounding of none
 VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 
 

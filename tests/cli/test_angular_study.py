@@ -1,4 +1,4 @@
-"""Studies of angular contact bearings by their names in the catalogue: the contact of the heaviest ball."""
+"""Studies of angular contact bearings by their names in the catalogue: the contact of the most loaded ball."""
 
 import json
 from dataclasses import replace

@@ -92,7 +92,7 @@ def test_a_pair_has_the_numbers_of_the_library(call, tmp_path):
     given = ("--pair", "back-to-back", "--preload", "150", "--axial", "100", "--speed-rpm", "6000")
     files = ("--json", tmp_path / "p.json", "--csv", tmp_path / "p.csv")
     result = call("bearing", "7205", *given, *OIL, "--layer-ratio", "1", *files)
-    assert result.code == 0 and "The heaviest ball is that of bearing 0, facing +z" in result.out
+    assert result.code == 0 and "The most loaded ball is that of bearing 0, facing +z" in result.out
     found = json.loads((tmp_path / "p.json").read_text())["oil_and_heat"][0]
     bearing = BallBearing.catalogue("7205", oil=Lubricant.iso_vg(68, temperature=60.0))
     under = {"speed_rpm": 6000.0, "supply": OilLayer(over_flooded=1.0)}

@@ -311,7 +311,7 @@ class BearingOptions(o.Options):
         _films("--thermal", help="Films that heat up, beside isothermal ones; with --oil and --temp."),
     ] = None
     solve: Annotated[
-        bool, _films("--solve", help="Solve the contacts of the heaviest ball in place of tables; a minute.")
+        bool, _films("--solve", help="Solve the contacts of the most loaded ball in place of tables; a minute.")
     ] = False
 
     def given(self) -> dict[str, Any]:
@@ -479,10 +479,10 @@ def _show(report: BearingReport, json_to: str | None) -> None:
 
 
 def _show_conditions(found: OilAndHeat) -> None:
-    """Table of a bearing under the conditions, of its heaviest ball and as a whole, and what it does not say."""
+    """Table of a bearing under the conditions, of its most loaded ball and as a whole, with its notes."""
     heads, rows = columns(found)
     where = " and ".join(found.ways)
-    show_columns(heads, rows, f"oil supply and heat: films of the heaviest ball, K and C {where}", named=True)
+    show_columns(heads, rows, f"oil supply and heat: films of the most loaded ball, K and C {where}", named=True)
     for line in filter(None, (skf_words(found), *found.notes)):
         say(f"  {line.removesuffix('.')}.")
 
@@ -669,7 +669,7 @@ def _small_vibrations(at: BearingCoefficients, directions: tuple[tuple[str, int]
 def _asperities(state: BearingState | SetState) -> list[Row]:
     """Estimated load share of asperities at the heaviest contact of every bearing with a roughness."""
     return [
-        ("on asperities", f"{100.0 * share:.2g} %", "of the heaviest ball, an estimate; not in the forces")
+        ("on asperities", f"{100.0 * share:.2g} %", "of the most loaded ball, an estimate; not in the forces")
         for one in bearings_of(state).values()
         if one.asperity_share is not None and (share := one.asperity_share[one.heaviest].max()) > NOTICED
     ]

@@ -225,7 +225,7 @@ class WholeBearing(Section):
 
     With axial_load balls have contact angles, and bearings five degrees of freedom: loads and films of all balls,
     stiffness and damping, and vibrations of the rotor between them; then nothing is computed in time.
-    The contact of the study is that of the heaviest ball, at its angle where the bearing has a contact angle.
+    The contact of the study is that of the most loaded ball, at its angle where the bearing has a contact angle.
     """
 
     conformity_other: Annotated[

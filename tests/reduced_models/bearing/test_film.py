@@ -19,7 +19,7 @@ ON = -pi / 2.0
 
 
 def as_the_prototype(bearing, rpm, load, omega):
-    """K + i C, mean over a ball passage, with laws of elements about the heaviest ball alone.
+    """K + i C, mean over a ball passage, with laws of elements about the most loaded ball alone.
 
     So had it the prototype: light balls are beyond these laws, which hold their gains there.
     """
@@ -38,8 +38,8 @@ def as_the_prototype(bearing, rpm, load, omega):
 def test_damping_in_the_direction_of_the_load(film, oil, rpm, expected):
     prototype = as_the_prototype(film, rpm, DOWN, 50.0)[1, 1].imag
     assert prototype == pytest.approx(expected, rel=0.02)
-    # Our laws go on to the lightest loads of the atlas, where films damp less than about the heaviest ball: so the
-    # unloaded half of the balls, which held a tenth of the prototype's damping, hardly counts.
+    # Our laws go on to the lightest loads of the atlas, where films damp less than about the most loaded ball: so
+    # the unloaded half of the balls, which held a tenth of the prototype's damping, hardly counts.
     ours = film.coefficients(DOWN, speed_rpm=rpm, hz=50.0).damping[0, 1, 1]
     assert 0.9 * prototype < ours < 0.93 * prototype
     loaded = BallBearing.catalogue("6205", oil=oil, cutoff_gap=5e-6)

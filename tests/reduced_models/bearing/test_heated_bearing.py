@@ -60,7 +60,7 @@ def test_damping_falls_more_than_the_film(cold, warm):
 
 @pytest.mark.parametrize("speed_rpm", [3000.0, 15_000.0])
 def test_contacts_damp_as_the_answers_of_the_atlas(cold, warm, speed_rpm):
-    """Both contacts of the heaviest ball at the frequency of the shaft, in series.
+    """Both contacts of the most loaded ball at the frequency of the shaft, in series.
 
     At 15 000 rev/min elements with heat had 6 % more while the error of the isothermal gains was added as it is.
     """

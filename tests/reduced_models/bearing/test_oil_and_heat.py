@@ -78,7 +78,7 @@ def test_error_bars_are_those_of_the_heaviest_balls_contacts():
     bars = found.error_bars[HEAT]
     np.testing.assert_allclose(bars.stiffness[:, 1], count * (ball(stiff=1.0) - ball()).real, rtol=0.01)
     np.testing.assert_allclose(bars.damping[:, 1], count * (ball(damp=1.0) - ball()).imag / w, rtol=0.01)
-    assert "±" not in str(found) and "error bars are those of the heaviest ball" in found.notes[0]
+    assert "±" not in str(found) and "error bars are those of the most loaded ball" in found.notes[0]
 
 
 def test_what_tables_do_not_have_is_solved(coarse, monkeypatch):

@@ -98,7 +98,7 @@ function filmRows({ state, films, rq }) {
 
 function frequencyRows({ contacts, hz, there, still, ratio }) {
   const rows = contacts.map((one, i) => {
-    const name = `contact of the heaviest ball, ${i ? "outer" : "inner"} race`;
+    const name = `contact of the most loaded ball, ${i ? "outer" : "inner"} race`;
     if (!one) return [name, "–", "–"];
     const { K, C } = one(hz);
     return [name, give(...K, 1e-6), give(...C)];
@@ -137,7 +137,7 @@ function drawAll(f) {
       bands.push({ points: values.map(([hz, v, bar]) => [hz, v - bar, v + bar]), kind: ways[i] });
     });
     const what = letter === "K" ? "Stiffness" : "Damping";
-    const label = `${what} of the contacts of the heaviest ball over frequency, with error bars`;
+    const label = `${what} of the contacts of the most loaded ball over frequency, with error bars`;
     if (series.length) put(id, label, unit, log, series, bands);
     else field(id).innerHTML = "<p>Lighter than any contact of the atlas: the bodies are as good as rigid there.</p>";
   }
@@ -160,7 +160,7 @@ function tables(f) {
   field("outside").textContent = f.outside;
   field("outside").hidden = f.outside === "";
   field("python").textContent = inPython();
-  field("films").innerHTML = table("Heaviest ball, right under the load", ["", "inner race", "outer race"], filmRows(f));
+  field("films").innerHTML = table("Most loaded ball, right under the load", ["", "inner race", "outer race"], filmRows(f));
   field("at").innerHTML = table(`At ${show(f.hz, 4)} Hz`, ["", "stiffness [N/µm]", "damping [N s/m]"], frequencyRows(f));
   const defects = Object.entries(f.orders).map(([name, order]) => [`${name}, ${DEFECTS[name]}`, show(order * f.rpm / 60, 4), show(order, 5)]);
   const under = f.axial > 0 ? `, under ${show(f.axial)} N of axial load, without which all else is computed` : "";
