@@ -182,7 +182,9 @@ def passes() -> None:
             print(balance)
             for ratio in (0.9, 0.5, 0.3):
                 print(f"   {3.6e12 * balance.feed_for(ratio * balance.full_layer):.3g} mm3/h for r = {ratio}")
-    right.set(xlabel="time after the start [s]", ylabel="central film of the most loaded ball [µm]", ylim=(0.0, None))
+    right.set(
+        xlabel="time after the start [s]", ylabel="central film of the most loaded ball [µm]", ylim=(0.0, None)
+    )
     right.legend()
     figure.savefig(IMAGES / "oil_passes.png", dpi=130)
 
