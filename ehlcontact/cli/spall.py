@@ -15,7 +15,6 @@ from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.height_tables import defect_limits
 
 if TYPE_CHECKING:
-    from ehlcontact.cli.study.bearing import BearingJob
     from reduced_models import BallBearing, BearingExcitation
     from reduced_models.bearing.kinematics import DefectFrequencies
 
@@ -58,21 +57,6 @@ def require_fit(spall: Spall, bearing: BallBearing, field: str, text: str) -> No
         raise InputError(field, text, f"{WORDS}; length: {allowed}")
     if spall.depth > deepest:
         raise InputError(field, text, f"{WORDS}; depth: at most {1e6 * deepest:.4g} um, a ball's radius")
-
-
-def excitations(job: BearingJob, spall: Spall, text: str, slip: float) -> list[BearingExcitation]:
-    """Lines of force of the spall, given as `text`, at every speed, with slip of the cage.
-
-    Raises
-    ------
-    InputError
-        A pair, or a ring that is held at a tilt; a spall that the bearing has no place for.
-    """
-    for given, option in ((job.pair, "--pair"), (job.tilt, "--tilt-x, --tilt-y")):
-        if given is not None:
-            raise InputError(OPTION, text, f"without {option}")
-    require_fit(spall, job.bearing, OPTION, text)
-    return [job.bearing.excitation([spall], job.load, speed_rpm=speed, slip=slip) for speed in job.speeds]
 
 
 def summary(spall: Spall, found: list[BearingExcitation]) -> dict[str, Any]:

@@ -18,6 +18,7 @@ from ehlcontact.results.asperity_contact import AsperityContact
 from ehlcontact.results.contact_map import contact_panels
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
+from ehlcontact.results.traction import Traction, traction_of
 from ehlcontact.sliding import Sliding
 from ehlcontact.solver.error_estimate import ALL, ErrorEstimate
 from ehlcontact.status import Status
@@ -27,7 +28,6 @@ from ehlcontact.supply import OilLayer
 
 if TYPE_CHECKING:
     from ehlcontact.lubricant.traction_laws import TractionLaw
-    from ehlcontact.results.traction import Traction
 
 Array = NDArray[np.float64]
 
@@ -191,8 +191,6 @@ class SteadyResult(ScaledTable, Origin):
             A ratio out of range, or another than that of the heated film; no law; a film that has not converged,
             or at a dimensionless point.
         """
-        from ehlcontact.results.traction import traction_of  # which needs this module
-
         return traction_of(self, slide_roll, law)
 
     @property

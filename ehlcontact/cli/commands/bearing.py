@@ -370,7 +370,7 @@ def bearing(
         allowed = "given with --thermal, --layer or --layer-ratio, whose table it is"
         raise InputError("--csv", str(out.csv_to), allowed)
     with progress("bearing") as update, job.called():
-        lines = () if spall is None else tuple(defect.excitations(job, spall, options.spall or "", slip))
+        lines = () if spall is None else job.excitations(spall, options.spall or "", slip)
         found = None if order is None else measured.allowed_by(order, job, slip)
         report = replace(_computed(job), spall=spall, excitations=lines, slip=slip, order=order, allowed=found)
         report = replace(report, oil_and_heat=tuple(_oil_and_heat(job, update, options.solve)))

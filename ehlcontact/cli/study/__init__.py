@@ -14,7 +14,8 @@ module                 responsibility
 ``differences``        full films beside elements, and beside what there is without them
 ``bearing_rotor``      the rotor on two whole bearings, with film memory under every ball
 ``whole_bearing``      the bearing that it takes, from the file
-``oil_and_heat``       layer of oil and heat of a bearing: entries, table and CSV
+``oil_supply``         layer of oil and heat of a bearing: entries
+``oil_and_heat``       the study's bearing with these: table and CSV
 ``bearing_at_angles``  the bearing under an axial load, and vibrations of the rotor between two of them
 ``defect``             a spall in the bearing: orders, and its force over time and as an envelope
 ``ring_load``          moments and tilts of an inner ring, of studies and of bearing files

@@ -13,7 +13,8 @@ from pydantic import Field, StrictBool, ValidationError
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
-from ehlcontact.cli.study.oil_and_heat import supply_and_heat
+from ehlcontact.cli.spall import OPTION, require_fit
+from ehlcontact.cli.study.oil_supply import supply_and_heat
 from ehlcontact.cli.study.pair import pair_of
 from ehlcontact.cli.study.points.lists import require_apart
 from ehlcontact.cli.study.ring_load import moments_of, tilt_of
@@ -25,7 +26,7 @@ from reduced_models import BallBearing, BearingSet
 
 if TYPE_CHECKING:
     from ehlcontact import Heat, OilLayer
-    from reduced_models import BearingState, SetState
+    from reduced_models import BearingExcitation, BearingState, SetState, Spall
     from reduced_models.bearing.linear_balls import BearingCoefficients
     from reduced_models.bearing.oil_and_heat import OilAndHeat
 
@@ -213,6 +214,22 @@ class BearingJob:
             tilt=self.tilt,
             solve=solve,
             callback=callback,
+        )
+
+    def excitations(self, spall: Spall, text: str, slip: float) -> tuple[BearingExcitation, ...]:
+        """Lines of force of the spall, given as `text`, at every speed, with slip of the cage.
+
+        Raises
+        ------
+        InputError
+            A pair, or a ring that is held at a tilt; a spall that the bearing has no place for.
+        """
+        for given, option in ((self.pair, "--pair"), (self.tilt, "--tilt-x, --tilt-y")):
+            if given is not None:
+                raise InputError(OPTION, text, f"without {option}")
+        require_fit(spall, self.bearing, OPTION, text)
+        return tuple(
+            self.bearing.excitation([spall], self.load, speed_rpm=speed, slip=slip) for speed in self.speeds
         )
 
     @contextmanager

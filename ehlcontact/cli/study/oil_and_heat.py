@@ -1,79 +1,31 @@
-"""Oil supply and heat of a bearing, in the files of studies and of bearings; their results as a table and CSV."""
+"""A study's bearing with its layer of oil and with heat: results as a table and CSV."""
 
 from __future__ import annotations
 
 import csv
 import io
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.study.oil_supply import supply_and_heat
 from ehlcontact.cli.study.ring_load import tilt_of
+from ehlcontact.cli.study.whole_bearing import bearing_or_pair, ring_load
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.heat import Heat
-from ehlcontact.supply import OilLayer
 from reduced_models import oil_and_heat
 from reduced_models.bearing.kinematics import RPM_TO_HZ
 
 if TYPE_CHECKING:
-    from ehlcontact import Lubricant
     from ehlcontact.cli.study.schema import Study
     from reduced_models import OilAndHeat
 
-ENTRIES = "layer_um", "layer_ratio", "thermal"
 BAND, FREQUENCIES = (0.2, 50.0), 13  # over the frequency of the shaft: K and C of the figure
-
-
-def supply_and_heat(given: Any, section: str, oil: Lubricant | None) -> tuple[OilLayer | None, Heat | None]:
-    """The layer of oil and the data of heat that are given, each None where it is not.
-
-    Parameters
-    ----------
-    given : Section
-        With the entries `ENTRIES`.
-    section : str
-        Its name, for messages.
-    oil : Lubricant or None
-        None of a dry bearing.
-
-    Raises
-    ------
-    InputError
-        Both thicknesses; any of the entries of a dry bearing; heat of an oil without its data.
-    """
-    asked = [name for name in ENTRIES if getattr(given, name)]
-    if not asked:
-        return None, None
-    field, value = f"{section}.{asked[0]}", getattr(given, asked[0])
-    if oil is None:
-        raise InputError(field, value, "left out: a dry bearing has no films")
-    if len({"layer_um", "layer_ratio"}.intersection(asked)) > 1:
-        raise InputError(field, value, "left out where the layer is given over the flooded film (layer_ratio)")
-    if given.thermal and oil.temperature_slope is None:
-        allowed = "given with an oil by its grade, which has the change of viscosity with temperature"
-        raise InputError(f"{section}.thermal", True, allowed)
-    layer, ratio = given.layer_um, given.layer_ratio
-    supply = None if layer is None else OilLayer(1e-6 * layer)
-    if ratio is not None:
-        supply = OilLayer(over_flooded=ratio)
-    return supply, Heat() if given.thermal else None
-
-
-def supply_words(supply: OilLayer | None) -> str:
-    """The layer in words."""
-    if supply is None:
-        return ""
-    if supply.h is not None:
-        return f"{numeral(1e6 * supply.h)} µm on both surfaces together"
-    return f"r = {numeral(supply.over_flooded)} over what the flooded isothermal film of each contact lets through"
 
 
 def run_oil_and_heat(study: Study) -> OilAndHeat | str | None:
     """The study's bearing with heat and with its layer, or why there is none; None where neither is asked for."""
-    from ehlcontact.cli.study.whole_bearing import bearing_or_pair, ring_load
-
     whole = study.whole_bearing
     supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant)
     if supply is None and thermal is None:
