@@ -89,7 +89,7 @@ def main():
     figure = Figure(figsize=(9.2, 3.4), layout="constrained")
     panels = figure.subplots(1, 3)
     names = (
-        "central film, most loaded ball, inner race, µm",
+        "central film of most loaded ball, µm",
         "damping C along the load, N s/m",
         "torque of the films, N mm",
     )
