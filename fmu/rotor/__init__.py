@@ -7,7 +7,7 @@ module               responsibility
 ``variables``        its variables, constants and C text
 ``laws``             each contact law inside as one C file with names of its own
 ``export``           `export_rotor`: rotor in, FMU file out
-``reference_rotor``  the rotor in Python: a short run by the steps of `simulate_rotor`, its equations in a state
+``reference_rotor``  the same in Python: a short run by the steps of `simulate_rotor`, its equations in a state
 ``comparison``       comparison of the FMU with the rotor in Python
 ``references``       reference inputs and results stored in the FMU
 ===================  ==========================================================================================

@@ -1,4 +1,4 @@
-"""The FMU of a rotor beside the rotor: a short run of co-simulation, and its equations along it."""
+"""Comparison of the FMU of a Jeffcott rotor with the rotor: a short co-simulation, and the equations along it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rotor of an FMU in Python, for comparison: a short run, and its equations in a state."""
+"""The Jeffcott rotor of an FMU in Python, for comparison: a short run, and its equations in a state."""
 
 from __future__ import annotations
 

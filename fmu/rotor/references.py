@@ -1,4 +1,4 @@
-"""References inside the FMU of a rotor: its short run, and its equations in states of that run."""
+"""References inside the FMU of a Jeffcott rotor: its short run, and its equations in states of that run."""
 
 from __future__ import annotations
 

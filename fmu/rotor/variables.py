@@ -1,4 +1,4 @@
-"""Variables and C text of the FMU of a rotor."""
+"""Variables and C text of the FMU of a Jeffcott rotor."""
 
 from __future__ import annotations
 

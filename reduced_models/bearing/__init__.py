@@ -12,10 +12,10 @@
 | ball_steps | time steps of balls, planar or at contact angles, by one interface |
 | compiled_list | `CompiledList`: bearings of any number in kernels that are compiled once |
 | five_degrees | a ring with five degrees of freedom in static equilibrium |
-| linear_angular | that ring about rest: impedance at complex frequencies |
+| linear_angular | that ring about static equilibrium: impedance at complex frequencies |
 | shoulders | shoulders of the grooves, and contact ellipses that reach over them |
 | arrangement | `BearingSet`: pairs and other sets on one shaft, their preload and growth |
-| static_set | forces and impedances of the bearings of a set, in the frame of the shaft |
+| static_set | forces and impedances of the bearings of a `BearingSet`, in the frame of the shaft |
 | kinematics | cage, balls and defect frequencies |
 | measured_order | contact angle and clearance from a measured defect order |
 | race | one contact: geometry, oil, element at a speed; the only module that imports the atlas |
@@ -23,21 +23,21 @@
 | race_contact | compiled: time step of one ball on one race: filters once, force and tangents per iteration |
 | balls | compiled: balls of a planar bearing, two contacts in series on each, as one force with tangents |
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
-| equilibrium | springs under a load; the ring of a bearing on its balls: `ring_equilibrium` |
-| linear_balls | a bearing about rest: impedance at complex frequencies, stiffness and damping over frequency |
+| equilibrium | springs under a load; the ring of a planar bearing on its balls: `ring_equilibrium` |
+| linear_balls | a planar bearing about static equilibrium: impedance; `BearingCoefficients`, of both kinds |
 | solved_balls | small motion with the impedance of solved contacts, under an oil supply |
 | features | inputs: waviness and defects of races and balls, balls of another diameter |
 | height_tables | heights of features, filtered by the contact, as tables over the angle and the load |
 | elastic_heights | heights of spalls and dents, from elastic contacts over them |
 | film_heights | these tables filtered by the film, for runs of bearings in oil |
-| contact_heights | heights from these tables in a time step, compiled |
+| contact_heights | heights of all contacts in a time step, looked up in these tables, compiled |
 | track_surface | `TrackSurface`: features that pass a contact, as the surface of a full film |
 | excitation | forces of features on a fixed ring, as spectral lines over orders of the shaft |
-| ball_states | balls and films about rest as matrices of first order |
+| ball_states | balls and films about static equilibrium as matrices of first order |
 | continuous_time | derivatives of the states of balls and films, compiled |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
-| equilibrium_result | `BearingState`: a bearing at rest, ball by ball |
-| set_result | `SetState`: a set at rest, bearing by bearing |
+| equilibrium_result | `BearingState`: a bearing in static equilibrium, ball by ball |
+| set_result | `SetState`: a `BearingSet` in static equilibrium, bearing by bearing |
 | oil_balance | `OilBalance`: oil on the tracks over time: layer, side flow, feed and replenishment |
 | ross_bearing | export to ROSS: bearings as elements of a ROSS rotor |
 | sliding | `bearing_friction`: sliding moment of the contacts by a traction law |

@@ -348,7 +348,7 @@ class BearingSet(Summary):
         hz: ArrayLike | None = None,
         rpm: ArrayLike | None = None,
     ) -> BearingCoefficients:
-        """Stiffness and damping of a small vibration of the shaft about rest under a load.
+        """Stiffness and damping of a small vibration of the shaft about static equilibrium under a load.
 
         Outer rings on the spring follow without inertia.
 

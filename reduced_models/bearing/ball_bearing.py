@@ -167,7 +167,7 @@ class BallBearing(Summary):
         temperature of the inlets is an input, that of the oil. By default films are isothermal.
     features : sequence of RaceWaviness, BallWaviness, BallDiameter, Spall and Indentation
         Of races and balls: they turn with the ring, the cage and the balls, and change equilibria and runs. What
-        is linear about rest, as coefficients and modes, is that of the smooth bearing.
+        is linear about static equilibrium, as coefficients and modes, is that of the smooth bearing.
     supply : OilLayer, optional
         Oil that the surfaces carry to every contact (docs/oil_supply.md): one layer ``OilLayer(h)`` [m] on all
         tracks, as that of an `OilBalance`, or ``OilLayer(over_flooded=r)`` times what each flooded film lets
@@ -472,7 +472,7 @@ class BallBearing(Summary):
         hz: ArrayLike | None = None,
         rpm: ArrayLike | None = None,
     ) -> BearingCoefficients:
-        """Stiffness and damping of a small vibration about rest under a load.
+        """Stiffness and damping of a small vibration about static equilibrium under a load.
 
         Parameters
         ----------

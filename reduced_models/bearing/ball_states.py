@@ -1,4 +1,4 @@
-"""Balls of a bearing about rest as matrices of first order, the films' memory as states: x' = A x + B u.
+"""Balls of a bearing about static equilibrium as matrices of first order: x' = A x + B u, with the films' memory.
 
 A planar ball between two films has its place w at the outer race as a state, for both films damp: with the forces
 

@@ -1,4 +1,4 @@
-"""Heights that the contacts of a bearing meet in time steps, compiled: from the tables of `height_tables`."""
+"""Heights of all contacts of a bearing in a time step, compiled: looked up in the tables of `height_tables`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Static equilibrium: of springs under a load, and of the ring of a bearing on its balls."""
+"""Static equilibrium of springs under a load, and of the ring of a planar bearing on its balls.
+
+The ring with five degrees of freedom: `five_degrees`.
+"""
 
 from __future__ import annotations
 

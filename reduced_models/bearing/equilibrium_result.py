@@ -1,4 +1,4 @@
-"""`BearingState`: a bearing at rest under a load, ball by ball."""
+"""`BearingState`: a bearing in static equilibrium under a load, at a speed, ball by ball."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ NOTICED = 1e-3  # load share of asperities, from which a summary says so
 @stored("state of a ball bearing")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BearingState(QuantityTable):
-    """A bearing at rest; arrays over the balls have two columns, inner and outer race.
+    """A bearing in static equilibrium; arrays over the balls have two columns, inner and outer race.
 
     Attributes
     ----------

@@ -159,7 +159,7 @@ class BearingExcitation(QuantityTable):
 
 @dataclass(frozen=True)
 class FeaturedBalls:
-    """All balls of a bearing about rest, at positions of the cage over a ball passage.
+    """All balls of a bearing about static equilibrium, at positions of the cage over a ball passage.
 
     Parameters
     ----------

@@ -1,4 +1,8 @@
-"""Features of balls and races, as inputs: waviness, defects, unequal balls. Heights count outwards."""
+"""Features of balls and races, as inputs: waviness, defects, unequal balls.
+
+Heights are positive out of the surface. `height_tables` has them over the angle, as a contact meets them,
+`film_heights` in runs in oil.
+"""
 
 from __future__ import annotations
 

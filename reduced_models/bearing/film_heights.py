@@ -1,4 +1,4 @@
-"""Heights that contacts in oil meet in runs: the tables of `height_tables` through the filter of the film.
+"""Tables of heights for runs of bearings in oil: those of `height_tables`, filtered by the film.
 
 A table has the heights that dry contacts meet, over the angle on a track, in columns of one semi-axis a, so of one
 load. Each column is a sum of waves around the track. A wave with k radians per semi-axis is multiplied by what the
@@ -7,8 +7,8 @@ at the load of the column. G/Z is for waves met as exp(i Omega T), so for contac
 as on the outer race and on balls. On the inner race they move towards smaller ones, where its complex conjugate
 holds.
 
-Films are those of one speed of the shaft. Where it changes, that is the speed whose films are the mean of those at
-the lowest and the highest speed. Loads below the table of filters have the filter of its lightest load.
+The filter is that of films at one speed of the shaft. Where the speed changes, films at that speed are the mean of
+those at the lowest and the highest one. Loads below the table of filters have the filter of its lightest load.
 """
 
 from __future__ import annotations

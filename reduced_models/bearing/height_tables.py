@@ -1,4 +1,4 @@
-"""Heights that the contacts of a bearing meet on its races and balls, filtered by the contact, as tables.
+"""Tables of heights on races and balls, over angle and load, filtered by the contact; made before a run.
 
 A contact is replaced by a strip of springs along its track (x), each pressed by its own overlap. With the
 approach d of smooth surfaces and a height h(x), positive out of the surface, its force is that of the approach

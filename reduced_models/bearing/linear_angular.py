@@ -1,4 +1,4 @@
-"""A ball bearing with five degrees of freedom about rest: impedance at complex frequencies.
+"""A ball bearing with five degrees of freedom about static equilibrium: impedance at complex frequencies.
 
 As in `linear_balls` every contact has an impedance Z along its own normal, which here takes the place of the
 stiffness in the tangent of its ball. With the balance R of the ball over its place b and the inner groove centre
@@ -32,7 +32,7 @@ _Complex = NDArray[np.complex128]
 
 
 class SmallAngularBalls(NamedTuple):
-    """All balls of a bearing about rest, at one position of the cage or at several."""
+    """All balls of a bearing about static equilibrium, at one position of the cage or at several."""
 
     inner: SmallMotion  # of all contacts, (positions * balls,)
     outer: SmallMotion

@@ -1,4 +1,7 @@
-"""A ball bearing about rest: impedance at complex frequencies, stiffness and damping over frequency.
+"""A planar ball bearing about static equilibrium at a speed: impedance at complex frequencies.
+
+`BearingCoefficients`, stiffness and damping over frequency, are those of bearings with five degrees of freedom too
+(`linear_angular`).
 
 The impedance is a rational function, for every gain is one of a filter. A ball has Z = Z_i Z_o/(Z_i + Z_o) of its
 two contacts in series (m s^2 beside Z_o if it has inertia), each of them a
@@ -64,7 +67,7 @@ def small_film(
 
 
 class SmallBalls(NamedTuple):
-    """All balls of a bearing about rest, at one position of the cage or at several."""
+    """All balls of a bearing about static equilibrium, at one position of the cage or at several."""
 
     inner: SmallMotion  # of all contacts, (positions * balls,)
     outer: SmallMotion

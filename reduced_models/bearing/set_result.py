@@ -1,4 +1,4 @@
-"""`SetState`: a set of bearings on one shaft at rest under a load, bearing by bearing."""
+"""`SetState`: a `BearingSet` in static equilibrium under a load, bearing by bearing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sliding in the contacts of a ball bearing: differential slip of the grooves and spin, under a traction law.
+"""`bearing_friction`: sliding in the contacts of a bearing by differential slip and spin, with a traction law.
 
 Equation numbers are those of docs/traction.md. A groove is curved across rolling, so only two lines of a contact
 roll without slip (Heathcote, Proc. Inst. Automobile Engineers 15 (1921) 569). Pressure is that of Hertz, the film

@@ -93,7 +93,7 @@ class _Curves:
 
 
 def with_solved_contacts(bearing: Any, speed_rpm: float, small: Small, equilibria: Sequence[Any]) -> Small:
-    """A `BallBearing` about rest with the impedances of its solved contacts in place of those of its elements.
+    """A `BallBearing` about equilibrium with impedances of its solved contacts in place of its elements'.
 
     Flooded bearings stay as they are: their elements leave out nothing. `small` is the bearing about the
     `equilibria`, with its inertia and losses.

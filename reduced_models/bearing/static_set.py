@@ -1,4 +1,4 @@
-"""Bearings on one rigid shaft: their forces summed in its frame, at rest and about rest.
+"""Forces of the bearings of a `BearingSet` summed in the frame of its shaft: in static equilibrium and about it.
 
 The ring of bearing k, in its own frame, is at
 
@@ -131,7 +131,7 @@ class StaticSet:
 
 
 class SmallSet(NamedTuple):
-    """All bearings about rest."""
+    """All bearings about static equilibrium."""
 
     bearings: list[SmallAngularBalls]
     rows: list[_Floats]  # (5, 6) of `ring_rows`

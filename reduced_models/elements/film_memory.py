@@ -1,4 +1,7 @@
-"""The film-memory element: one operating point, every frequency."""
+"""The film-memory element: one operating point, every frequency.
+
+Its equations: `film_law`. Its matrices as a state space for small motion: `small_motion`.
+"""
 
 from __future__ import annotations
 

@@ -11,18 +11,18 @@
 | beam | rotating shaft element: its matrices |
 | assembly | `rotor_on_bearings`: such a rotor by its parts |
 | nodes | degrees of freedom by node and direction |
-| equilibrium | a rotor at rest on its supports |
+| equilibrium | static equilibrium of a rotor on its supports |
 | speed_profile | `SpeedProfile`: the speed of a shaft over time, and the forces that turn with it |
 | time_step | generalised-alpha step of a rotor, condensed onto its supports |
 | contact_steps | forces and tangent stiffness of all contacts in a step |
 | prepared_run | a rotor, its supports and their start as the arrays of a run |
 | integrate_compiled | steps of a rotor on ball bearings, compiled |
-| integrate_python | Newton loop of the same steps in Python, for supports without a compiled kernel |
+| integrate_python | Newton loop of the same steps in Python, for supports other than ball bearings |
 | simulate | `simulate_rotor`: a rotor over time, from the rotor by arrays and steps to the result |
 | result | `RotorResult`: histories of a run |
-| linear_contact | a contact about rest: an element as a state space, any other by its impedance |
+| linear_contact | a contact about static equilibrium: an element as a state space, any other by its impedance |
 | linear_system | a rotor on linear supports as one system of first order; modes on elements |
-| linearise | `linearise`: a rotor about rest at a speed, `LinearRotor` |
+| linearise | `linearise`: a rotor about static equilibrium at a speed, `LinearRotor` |
 | modes | `RotorMode`: damped vibrations, exact with film memory |
 | campbell | `campbell`: modes over the speed, critical speeds |
 | unbalance | `unbalance_response`: amplitudes under the unbalances over shaft speed |

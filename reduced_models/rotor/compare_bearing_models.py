@@ -61,7 +61,7 @@ class ModelRun:
     vertical, horizontal : (float, float) or None
         Slowest mode of each direction, where one oscillates.
     linear : LinearRotor
-        The rotor about rest, films and balls as at its speed.
+        The rotor about static equilibrium, films and balls as at its speed.
     """
 
     t: _Floats

@@ -1,6 +1,6 @@
 """Rotors on ball bearings as systems of python-control: forces on degrees of freedom in, displacements out.
 
-States are differences from rest in um (um/s, urad), the films' memory among them, and their start is 0: so the
+States are differences from static equilibrium in um (um/s, urad), with the films' memory; they start at 0. So the
 absolute tolerance of python-control's solvers, 1e-6, is a picometre. Films are fast: of the solvers, take one
 for stiff equations (``solve_ivp_method="BDF"``); the relative tolerance of scipy is 1e-3 unless
 ``solve_ivp_kwargs={"rtol": 1e-6}`` is given.
@@ -200,14 +200,14 @@ def _states(size: int, bearings: Sequence[_Shape]) -> list[str]:
 
 
 class _Ring:
-    """One bearing: its balls about rest, with the ring at `r`, and its seat.
+    """One bearing: its balls about static equilibrium, with the ring at `r`, and its seat.
 
     Parameters
     ----------
     shape : _Shape
     loss : Loss
     force : ndarray
-        Of the ring at rest.
+        Of the ring in static equilibrium.
     """
 
     def __init__(self, shape: _Shape, loss: Loss, force: _Floats) -> None:

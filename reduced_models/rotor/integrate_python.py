@@ -1,4 +1,4 @@
-"""Newton loop of the generalised-alpha step in Python, for supports without a compiled kernel: films, elements.
+"""Newton loop of the generalised-alpha step in Python, for supports other than ball bearings: films, elements.
 
 The step is that of `time_step`. Its balance is found on the displacements of the points at which supports act, by
 Newton's method or, for contacts without tangents, secants.

@@ -1,4 +1,4 @@
-"""Contacts of a rotor about rest: elements as state spaces; solved films and others as impedances.
+"""Contacts of a rotor about static equilibrium: elements as state spaces; solved films and others as impedances.
 
 Contacts stay as their speed makes them: only the frequency of the excitation varies, not the speed that draws the
 oil in.
@@ -25,7 +25,7 @@ TINY_OMEGA = 1e-6  # rad/s, stands for 0: where damping is the slope of Z
 
 
 def impedance_about(element: ContactElement, load: float) -> Impedance:
-    """Impedance of an SI element about rest under `load` [N], as a function of omega [rad/s]."""
+    """Impedance of an SI element about static equilibrium under `load` [N], as a function of omega [rad/s]."""
     return lambda omega: element.impedance(omega=omega, load=load)
 
 
@@ -83,7 +83,7 @@ class ContactImpedance:
 
 
 class LinearElement:
-    """Elements at one place of a rotor about rest, exact at every complex frequency with their film memory.
+    """Elements at one place of a rotor about equilibrium, exact at every complex frequency with film memory.
 
     Parameters
     ----------

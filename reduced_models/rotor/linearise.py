@@ -64,7 +64,7 @@ class LinearSupport(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class LinearRotor(Summary):
-    """A rotor about rest under its load, made by `linearise`.
+    """A rotor about static equilibrium under its load, made by `linearise`.
 
     Ball bearings and elements are exact at complex frequencies, the memory of their films included; impedances are
     those of the frequency. Films are those of the speed. Balls stand still while the rotor vibrates, at the angle
@@ -81,9 +81,9 @@ class LinearRotor(Summary):
     passage : bool
         Mean over a ball passage, or at the angles of the mounts.
     rest : ndarray, shape (N,)
-        Displacements at rest, balls at the angles of the mounts [m]; 0 where contacts are impedances alone.
+        Static displacements, balls at the angles of the mounts [m]; 0 where contacts are impedances alone.
     loads : ndarray, shape (ball bearings, n)
-        Forces on the inner rings at rest, n = 2 or 5 [N], [N m], in the frame of each bearing.
+        Forces on the inner rings in static equilibrium, n = 2 or 5 [N], [N m], in the frame of each bearing.
     contacts : tuple
         What a small vibration finds in each contact.
     balls : tuple
@@ -111,7 +111,8 @@ class LinearRotor(Summary):
         named = zip(self.rotor.ball_bearing_names, self.damping_left_out, strict=False)
         left_out = [f"{name}: {words}" for name, words in named if words]
         of = ", with the signed damping of solved contacts" if self.signed_damping else ""
-        return [f"about rest at {self.speed_rpm:.5g} rev/min{of}", *self.rotor._summary_lines(), *left_out]
+        about = f"about static equilibrium at {self.speed_rpm:.5g} rev/min{of}"
+        return [about, *self.rotor._summary_lines(), *left_out]
 
     @cached_property
     def matrices(self) -> Matrices:
@@ -213,7 +214,7 @@ class LinearRotor(Summary):
         Parameters
         ----------
         rest : array_like, shape (N,), optional
-            Displacements about which it moves, by default those at rest.
+            Displacements about which it moves, by default those of static equilibrium.
         """
         w = self.speed_rpm * RPM_TO_RAD_S
         q = self._unbalanced(w)
@@ -317,7 +318,7 @@ def linearise(
     passage: bool = True,
     signed_damping: bool = False,
 ) -> LinearRotor:
-    """Linearise a rotor about rest under its load.
+    """Linearise a rotor about static equilibrium under its load.
 
     A bearing warns, once, where its elements leave out damping below zero under its oil supply
     (docs/oil_supply.md): decrements are too high then. `signed_damping` has it.
@@ -402,7 +403,7 @@ def _linear_contact(mount: ContactMount, approach: float) -> LinearElement | Con
 def _linear_bearing(
     mount: BearingMount, speed: float, ring: _Floats, passage: bool, signed: bool
 ) -> tuple[_Floats, SmallBalls | SmallAngularBalls, str]:
-    """Force on the inner ring at rest, what a small vibration finds in the bearing, damping left out."""
+    """Static force on the inner ring, linear bearing about it, and the damping left out, in words."""
     if mount.z is not None:
         return _linear_angular(mount, speed, ring + mount.shift, passage, signed)
     bearing = mount.ball_bearing

@@ -102,7 +102,7 @@ class BearingMount(Summary):
                 allowed = f"of {len(self.directions)} degrees of freedom, as those of its mount"
                 raise InputError("bearing", f"matrices of {size}", allowed)
             if self.offset != 0.0:
-                raise InputError("offset", self.offset, "left out: matrices are about rest")
+                raise InputError("offset", self.offset, "left out: matrices are about static equilibrium")
         else:
             require_offset("offset", self.offset, self.bearing.ball_diameter)
         if self.housing is not None and len(self.housing) != (2 if self.z is None else 3):

@@ -1,4 +1,7 @@
-"""`unbalance_response`: amplitudes of a rotor under its unbalances, over the speed of the shaft."""
+"""`unbalance_response`: amplitudes of a rotor under its unbalances, over the speed of the shaft.
+
+The response at one speed is computed by `linearise`; here it is called at every speed.
+"""
 
 from __future__ import annotations
 
