@@ -2,10 +2,11 @@
 
     python examples/orders_of_defects.py [orders_of_defects.png]     # ten seconds
 
-Defect orders of the 6205 in four records of CWRU give contact angles of 9.4 to 10.0 degrees: clearances and axial
-loads that have 9.6, dry and at standstill, with a rotor's weight on the bearing too. On the right, damping ratio of
-the films of a 6200 for an assumed mass; Mitsuya et al. (J. Tribol. 120 (1998) 413) measured 2 to 4 % with
-everything that damps. What one learns: an order gives a curve of clearance and load, and films alone are a part of the damping of a bearing.
+Defect orders of the 6205 in four records of CWRU give contact angles of 9.4 to 10.0 degrees: clearances and
+axial loads that have 9.6, dry and at standstill, with a rotor's weight on the bearing too. On the right,
+damping ratio of the films of a 6200 for an assumed mass; Mitsuya et al. (J. Tribol. 120 (1998) 413) measured 2
+to 4 % with everything that damps. What one learns: an order gives a curve of clearance and load, and films
+alone are a part of the damping of a bearing.
 """
 
 import sys
