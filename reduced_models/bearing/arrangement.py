@@ -300,7 +300,7 @@ class BearingSet(Summary):
         cage_angle: float | None = None,
         tilt: ArrayLike | None = None,
     ) -> SetState:
-        """State at rest under a load on the shaft, at 0.
+        """State in static equilibrium under a load on the shaft, at 0.
 
         Parameters
         ----------

@@ -417,7 +417,7 @@ class BallBearing(Summary):
         shaft_angle: float = 0.0,
         tilt: ArrayLike | None = None,
     ) -> BearingState:
-        """State at rest under a load on the shaft.
+        """State in static equilibrium under a load on the shaft.
 
         Parameters
         ----------
@@ -567,7 +567,7 @@ class BallBearing(Summary):
     def ring_equilibria(
         self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None
     ) -> list[RingEquilibrium]:
-        """The ring at rest under a load [N], at positions of the cage over a ball passage or at one [rad]."""
+        """Ring in equilibrium under a load [N], at positions of the cage over a ball passage or at one [rad]."""
         force, speed = radial_load(load), self.speed(speed_rpm)
         return [self._planar_equilibrium(force, speed, angle) for angle in self._cage_angles(force, cage_angle)]
 
@@ -769,7 +769,7 @@ class BallBearing(Summary):
         return 1.0 if self.contact_angle is None else cos(self.contact_angle)
 
     def _static_balls(self, speed: float, angle: float) -> StaticBalls:
-        """All balls at rest at a speed that the bearing takes, the first ball at `angle`."""
+        """All balls in static equilibrium at a speed that the bearing takes, the first ball at `angle`."""
         return StaticBalls(self._kernel(speed), self._speed_state(speed), angle)
 
     def _speed_state(self, speed: float) -> SpeedState:

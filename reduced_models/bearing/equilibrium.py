@@ -121,7 +121,7 @@ def _line_search(balance: Callable[[_Floats], _Floats], q: _Floats, step: _Float
 
 
 class StaticBalls:
-    """All balls at rest at one angle of the cage, as `equilibrium` wants contacts.
+    """All balls in static equilibrium at one angle of the cage, as `equilibrium` wants contacts.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ class StaticBalls:
 
 @dataclass(frozen=True, eq=False)
 class RingEquilibrium:
-    """A ring at rest, and its balls."""
+    """A ring in static equilibrium, and its balls."""
 
     displacement: _Floats  # (2,) [m]
     normals: _Floats  # (balls, 2)
@@ -169,7 +169,7 @@ class RingEquilibrium:
 
 
 def ring_equilibrium(still: StaticBalls, load: _Floats) -> RingEquilibrium:
-    """Ring on balls at rest under `load` [N].
+    """Ring on balls in static equilibrium under `load` [N].
 
     Raises
     ------

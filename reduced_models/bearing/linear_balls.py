@@ -41,7 +41,7 @@ TINY_OMEGA = 1e-3  # rad/s, stands for 0: films forget in less than a second
 
 
 def small_motion(law: RaceForceTable, transit: float, speed_row: tuple[int, float], u: float) -> SmallMotion:
-    """Linear law of one contact at rest at approach `u` [m]; `transit` and `speed_row` as in `SpeedState`."""
+    """Linear law of one contact about approach `u` [m]; `transit` and `speed_row` as in `SpeedState`."""
     g, by_u, _ = curve(u, speed_row[0], speed_row[1], law, 0)
     root = np.sqrt(g)
     if law.x.size == 0:

@@ -29,7 +29,7 @@ def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
     films(figure.add_subplot(1, panels, 2), state)
     if panels == 3:
         contact_angles(figure.add_subplot(1, panels, 3), state)
-    speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at rest"
+    speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at standstill"
     torque = state.rolling_torque
     resists = "" if torque is None else f"; films resist rolling by {torque * 1e3:.3g} N mm"
     figure.suptitle(f"{state.name or 'ball bearing'}, {_load(state)}, {speed}{resists}")
@@ -47,7 +47,7 @@ def draw_set(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
         load_zone(zone, one, max(float(each.force.max()) for each in state.bearings))
         zone.set_title(_bearing_title(state, k))
         contact_angles(figure.add_subplot(2, columns, 1 + columns + k), one)
-    speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at rest"
+    speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at standstill"
     figure.suptitle(f"{state.name or 'set of bearings'}, {_load(state)}, {speed}")
     return written(figure, path)
 

@@ -23,7 +23,7 @@ _Floats = NDArray[np.float64]
 @stored("state of a set of bearings")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SetState(QuantityTable):
-    """A `BearingSet` at rest, in the frame of the shaft.
+    """A `BearingSet` in static equilibrium, in the frame of the shaft.
 
     Attributes
     ----------

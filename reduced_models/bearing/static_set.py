@@ -60,7 +60,7 @@ class SetEquilibrium:
 
 
 class StaticSet:
-    """All bearings at rest, as `reduced_models.bearing.five_degrees.search` wants them.
+    """All bearings in static equilibrium, as `reduced_models.bearing.five_degrees.search` wants them.
 
     Parameters
     ----------

@@ -96,7 +96,7 @@ class ModelRun:
 
 
 class AtSpeed(NamedTuple):
-    """The bearing at one speed: at rest under the load, a ball below, and K and C over the frequency."""
+    """The bearing at one speed: in equilibrium under the load, a ball below, and K and C over the frequency."""
 
     state: BearingState
     small: BearingCoefficients
@@ -144,7 +144,7 @@ class BearingModels:
 
     @property
     def balls(self) -> list[dict[str, Any]]:
-        """Every ball at rest under the load, inner and outer race; films in m."""
+        """Every ball in static equilibrium under the load, inner and outer race; films in m."""
         state = self.state
         films = np.full_like(state.force, np.nan) if state.h_min is None else state.h_min
         degrees = np.degrees(state.angles - state.cage_angle)
@@ -220,7 +220,7 @@ def compare_bearing_models(
     KeyboardInterrupt
         A run was interrupted.
     InputError, ConvergenceError
-        Of the bearings at rest. A run that does not converge is left out, and stands in ``failed``.
+        Of the bearings in static equilibrium. A run that does not converge is left out, and stands in ``failed``.
     """
     weight, turn = (0.0, -load), 60.0 / speed_rpm
     times = turn / steps, turn * revolutions, turn * (revolutions // 2)

@@ -37,7 +37,7 @@ MOST_STEPS, MOST_HALVINGS = 60, 30  # of the search
 
 
 class StaticSupport(Protocol):
-    """A support at rest: force and its derivative over its motion."""
+    """A support in static equilibrium: force and its derivative over its motion."""
 
     def force(self, r: _Floats) -> _Floats:
         """What it carries, shape (directions,) [N]."""
@@ -47,7 +47,7 @@ class StaticSupport(Protocol):
 
 
 class StaticContact:
-    """A contact at rest, or several alike, after its static law; its state stays."""
+    """A contact in static equilibrium, or several alike, after its static law; its state stays."""
 
     def __init__(self, mount: ContactMount) -> None:
         if not has_tangents(mount.contact):
@@ -65,7 +65,7 @@ class StaticContact:
 
 
 class StaticAngularBalls:
-    """A ball bearing with five degrees of freedom at rest."""
+    """A ball bearing with five degrees of freedom in static equilibrium."""
 
     def __init__(self, mount: BearingMount, speed_rpm: float, name: str) -> None:
         bearing, self._name = mount.ball_bearing, name
@@ -149,7 +149,7 @@ def require_held(mounts: Sequence[Mount], q: _Floats, stiffness: _Floats, speed_
 
 
 class _Balance:
-    """Forces on a rotor at rest, and the search for their balance."""
+    """Forces on a rotor in static equilibrium, and the search for their balance."""
 
     def __init__(
         self,

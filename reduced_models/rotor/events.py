@@ -84,7 +84,7 @@ def contact_events(
     ----------
     result : RotorResult
     load : float
-        Of a contact at rest [N].
+        Of a contact in static equilibrium [N].
     elements : sequence, optional
         What the contacts were, for their validity boxes, in SI; None where it was a full film, which has no box.
         They are not changed. As in their warnings, a twentieth of the intervals of approach and load and of the

@@ -20,7 +20,7 @@ LEFT_OUT = 1.0  # periods at the beginning of a decay that are not fitted: what 
 def initial_velocity(
     rotor: JeffcottRotor, rest: RotorState, mode: RotorMode, *, stiffness: float, load: float, load_share: float
 ) -> RotorState:
-    """The state at rest with the velocities of a mode.
+    """The state in static equilibrium with the velocities of a mode.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def initial_velocity(
     stiffness : float
         Of one contact at the frequency of the mode [N/m].
     load : float
-        Of a contact at rest [N].
+        Of a contact in static equilibrium [N].
     load_share : float
         Amplitude of the load of a contact without damping, over `load`.
     """

@@ -320,7 +320,7 @@ class JeffcottRotor(Summary):
                 check(mount.point, stacklevel=stacklevel + 1, omega=omega)
 
     def static_equilibrium(self, contacts: Sequence[Any]) -> RotorState:
-        """State at rest under the static load, the contacts carrying it.
+        """State in static equilibrium under the static load, the contacts carrying it.
 
         Parameters
         ----------

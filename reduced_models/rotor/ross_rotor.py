@@ -195,7 +195,7 @@ class RossCallback:
     speed : float
         Of the shaft [rad/s].
     rest : ndarray, shape (ndof,)
-        Displacements at rest [m], [rad].
+        Displacements in static equilibrium [m], [rad].
     """
 
     def __init__(
@@ -301,7 +301,7 @@ class RossCallback:
 
     @property
     def _held(self) -> _Floats:
-        """Displacements of all inner rings at rest."""
+        """Displacements of all inner rings in static equilibrium."""
         return np.asarray(self._rings @ self.rest + self._shift)
 
     def _begin(self, step: int, dt: float) -> None:

@@ -249,7 +249,7 @@ class Rotor(Summary):
         return self.mass, damping, stiffness
 
     def equilibrium(self, speed_rpm: float = 0.0) -> _Floats:
-        """Displacements at rest under the load, films as at a speed, shape (N,) [m].
+        """Displacements in static equilibrium under the load, films as at a speed, shape (N,) [m].
 
         Raises
         ------
