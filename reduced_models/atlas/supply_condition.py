@@ -180,6 +180,20 @@ class SupplyCondition:
             np.column_stack([*b_head, K * bars[:, NUMBERS : NUMBERS + k], b_damping]),
         )
 
+    def approaches(self, loads: _Floats, values: _Floats) -> _Floats:
+        """Approaches of changed `values` under increasing loads, with a film that does not grow with a light load.
+
+        Loads lighter than those of the table hardly deform. Under one layer the film, dry approach less approach,
+        then goes to that layer as the load goes to zero, and never grows with the load. What these loads borrow
+        from the table's lightest is off by up to a tenth, and let thin films grow so fast that the approach fell.
+        Such a film is as thick as the thickest of the heavier loads: the least change that is monotone.
+        """
+        unit = loads ** (2.0 / 3.0)
+        film = (1.0 - values[:, 0]) * unit
+        least = np.maximum.accumulate(film[::-1])[::-1]
+        raised = (least > film) & (loads < lightest_load(self.moes))
+        return np.where(raised, 1.0 - least / unit, values[:, 0])
+
     def _rows(self, loads: _Floats) -> _Floats:
         """M, L and kappa at which the table is read."""
         M = np.clip(loads, lightest_load(self.moes), self._heaviest) * self.moes.M
@@ -190,11 +204,13 @@ class SupplyCondition:
             most = self._heaviest * self.moes.M
             allowed = f"at most {most:.4g}, where the table of oil supply ends at these L and kappa"
             raise InputError("M", self.moes.M * float(loads.min()), allowed)
-        if ratio.min() < THINNEST:
+        # of lighter loads, which hardly deform, the thinnest layer is a film, not a dry contact
+        thinnest = float(ratio[loads >= lightest_load(self.moes)].min(initial=np.inf))
+        if thinnest < THINNEST:
             allowed = (
                 f"at least {THINNEST:g} flooded films everywhere (under a layer like that the contact is dry)"
             )
-            raise InputError("supply", f"{float(ratio.min()):.2g} flooded films", allowed)
+            raise InputError("supply", f"{thinnest:.2g} flooded films", allowed)
 
     def noted(self, flooded: float, film: float) -> dict[str, Any]:
         """r, for which the flooded isothermal central film is needed."""
