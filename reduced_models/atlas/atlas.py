@@ -376,7 +376,7 @@ class Atlas:
         gains[:, 0] = np.maximum(gains[:, 0], LEAST_VISCOUS / DRY * low)  # as fitted: rates need it
         made_of = Loads(
             loads=loads,
-            approach=layers[0].approaches(loads, values) if supplied else values[:, 0],
+            approach=layers[0].approaches(loads, flooded, values) if supplied else values[:, 0],
             tangent=values[:, HEAD],
             gains=gains,
             rates=self._table.rates,

@@ -38,6 +38,9 @@ SHIPPED = Path(__file__).with_name("supply.h5")
 # Elements follow C from here on: below, the oil ahead of a wide contact comes and goes with the motion, and C
 # falls below zero. Errors count over its largest value.
 SLOWEST, FAINT_GAIN = 0.1, 1.0
+# Of the growth of the dry approach, what a light film may grow by: slopes of the cubics between loads are up to
+# three times those from load to load, and the approach rises between them too.
+MOST_GROWN = 0.25
 THINNEST = 0.02  # r, below which films are thinner than any that were solved by a factor of ten
 
 
@@ -180,17 +183,21 @@ class SupplyCondition:
             np.column_stack([*b_head, K * bars[:, NUMBERS : NUMBERS + k], b_damping]),
         )
 
-    def approaches(self, loads: _Floats, values: _Floats) -> _Floats:
-        """Approaches of changed `values` under increasing loads, with a film that does not grow with a light load.
+    def approaches(self, loads: _Floats, flooded: _Floats, values: _Floats) -> _Floats:
+        """Approaches of changed `values` under increasing loads, which rise under one layer in m.
 
-        Loads lighter than those of the table hardly deform. Under one layer the film, dry approach less approach,
-        then goes to that layer as the load goes to zero, and never grows with the load. What these loads borrow
-        from the table's lightest is off by up to a tenth, and let thin films grow so fast that the approach fell.
-        Such a film is as thick as the thickest of the heavier loads: the least change that is monotone.
+        Dry approach less approach is the central film and what the surfaces deflect less than dry ones at their
+        centre. Under one layer the film falls with a light load, to the layer at most as that goes to zero, and
+        the other part grows at most as it does `flooded`. What loads lighter than the table's borrow from its
+        lightest is off by up to a tenth, more than the approach rises. It is raised by the least that keeps this.
         """
+        if self.supply.over_flooded is not None:
+            return values[:, 0]
         unit = loads ** (2.0 / 3.0)
-        film = (1.0 - values[:, 0]) * unit
-        least = np.maximum.accumulate(film[::-1])[::-1]
+        film, full = (1.0 - values[:, 0]) * unit, flooded[:, 1] * unit
+        other = np.minimum(np.diff((1.0 - flooded[:, 0]) * unit - full), MOST_GROWN * np.diff(unit))
+        may_grow = np.append(0.0, np.cumsum(np.maximum(np.diff(full), 0.0) + other))
+        least = np.maximum.accumulate((film - may_grow)[::-1])[::-1] + may_grow
         raised = (least > film) & (loads < lightest_load(self.moes))
         return np.where(raised, 1.0 - least / unit, values[:, 0])
 
