@@ -555,13 +555,15 @@ class BallBearing(Summary):
             small: SmallBalls | SmallAngularBalls = self._small_angular(speed, places)
             forces, approach = (np.array([getattr(at, name) for at in places]) for name in ("force", "approach"))
             full, turns = np.mean([at.load for at in places], axis=0), turns_of(places)
+            rotations: _Floats | None = np.array([at.ball_rotation for at in places])
         else:
             rings = self.ring_equilibria(force, speed)
             small = SmallBalls.of(self._kernel(speed), self._speed_state(speed), rings)
             forces, approach = (np.array([getattr(at, name) for at in rings]) for name in ("force", "approach"))
-            full, turns = force, (self.orders.ftf, self.orders.bsf)
-        turns = with_cage_slip(self.balls, *turns, slip)
-        balls = FeaturedBalls(self, small, forces, cages[0], speed, *turns, contact_filter)
+            full, turns, rotations = force, (self.orders.ftf, self.orders.bsf), None
+        slipping = with_cage_slip(self.balls, *turns, slip)
+        own_turns = None if rotations is None else rotations * slipping[1] / turns[1]
+        balls = FeaturedBalls(self, small, forces, cages[0], speed, *slipping, contact_filter, own_turns)
         return excitation_of(balls, full, float(approach.sum(axis=-1).max()), own, cage_angle)
 
     def ring_equilibria(

@@ -13,6 +13,9 @@ their forces add up where m + n is a multiple of Z:
 
     F = Re sum over j of Z D_(jZ-n) A exp(i (j Z theta - n r - phase)).
 
+Where contact angles vary around the orbit, so do the turns of a ball about its axis: its n waves lead
+their mean by n phi(psi), and D is multiplied by exp(i n phi), which adds lines n BSF + m FTF.
+
 Under axial load D has m = 0 along the shaft and m = +-1 across it and in tilts. So waves of n = kZ excite axial
 vibrations and n = kZ +- 1 radial ones and tilts: those of the inner race at the orders k BPFI and k BPFI +- 1, of
 the outer race at k BPFO (the table of Wardle, Proc. IMechE C 202 (1988) 305).
@@ -23,6 +26,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import ceil
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
@@ -64,6 +68,7 @@ SAME_ORDER = 9  # decimal places of orders that are one line
 SHORTEST = (
     4.0 * np.pi
 )  # wave number per semi-axis of the most loaded ball, to which defects are waves: 8 % get through
+SWING = 1e-6  # of the phase of waves per radian of the orbit, below which it is rounding
 FILTERS = ("film", "dry", "none")
 HIGHEST = 0.01  # of a ball's diameter: amplitudes, rims, excess diameters
 LARGE = 0.1  # height over the approach of both contacts of the most loaded ball, from which a result says so
@@ -174,6 +179,9 @@ class FeaturedBalls:
         Of the shaft [rev/min]; turns of the cage, and of a ball about its axis, per turn of the shaft.
     contact_filter : {"film", "dry", "none"}
         As in `BallBearing.excitation`.
+    rotations : ndarray, shape (positions, balls), optional
+        Turns of every ball about its axis per turn of the shaft, which vary with the contact angles; the mean
+        around the orbit takes the place of `rotation` for waves of balls.
     """
 
     bearing: BallBearing
@@ -184,6 +192,7 @@ class FeaturedBalls:
     cage: float
     rotation: float
     contact_filter: str = FILTERS[0]
+    rotations: _Floats | None = None
 
     def harmonics(self, order: float, inner: _Complex, outer: _Complex) -> tuple[NDArray[np.int64], _Complex]:
         """Numbers m and force D_m on the ring, (k, n), by heights met `order` times per turn of the shaft.
@@ -277,6 +286,21 @@ class FeaturedBalls:
         last = min(int(SHORTEST * radius / a), amplitude.size - 1)
         return list(enumerate(amplitude[: last + 1].tolist()))
 
+    @cached_property
+    def _ball_turns(self) -> tuple[float, _Complex]:
+        """Mean turns of a ball per turn of the shaft, and harmonics m >= 0 of what it leads that mean by [rad].
+
+        The harmonics r_m of its turns around the orbit lead by r_m/(i m cage) exp(i m psi).
+        """
+        if self.rotations is None:
+            return self.rotation, np.zeros(1, complex)
+        around = self.rotations.T.ravel()
+        found = np.fft.rfft(around)[: (around.size + 1) // 2] / around.size
+        m = np.arange(found.size)
+        lead = 2.0 * found * np.exp(-1j * m * self.first) / (1j * np.maximum(m, 1) * self.cage)
+        lead[0] = 0.0
+        return float(found[0].real), lead
+
     def _race_lines(
         self, race: str, n: int, amplitude: complex, cage_angle: float
     ) -> list[tuple[float, _Complex]]:
@@ -293,11 +317,28 @@ class FeaturedBalls:
         self, ball: int, n: int, amplitude: complex, cage_angle: float
     ) -> list[tuple[float, _Complex]]:
         inner, outer = self.filters(n, ball=True)
-        turns = n * self.rotation
+        mean, lead = self._ball_turns
+        turns = n * mean
         m, D = self.harmonics(turns, inner, outer * (-1.0) ** n)
         psi = cage_angle + 2.0 * np.pi * ball / self.force.shape[1]
+        m, D = _modulated(m, D, n * lead, psi)
         scale = amplitude * np.exp(1j * m * psi)[:, None]
         return list(zip((m * self.cage + turns).tolist(), D * scale, strict=True))
+
+
+def _modulated(
+    m: NDArray[np.int64], D: _Complex, lead: _Complex, start: float
+) -> tuple[NDArray[np.int64], _Complex]:
+    """Harmonics (k, n) around the orbit of the D_m times exp(i phi): phi is 0 where the ball starts."""
+    numbers = np.arange(lead.size)
+    swing = float(np.sum(np.abs(lead) * numbers))  # rate of phi: shifts of m
+    if swing < SWING:
+        return m, D
+    points = 2 ** ceil(np.log2(4.0 * (np.abs(m).max() + swing)))
+    psi = 2.0 * np.pi * np.arange(points) / points
+    phi = (np.exp(1j * np.outer(psi, numbers)) @ lead).real - (np.exp(1j * start * numbers) @ lead).real
+    force = (np.exp(1j * np.outer(psi, m)) @ D) * np.exp(1j * phi)[:, None]
+    return np.fft.fftfreq(points, 1.0 / points).round().astype(np.int64), np.fft.fft(force, axis=0) / points
 
 
 def excitation_of(

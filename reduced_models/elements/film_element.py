@@ -201,6 +201,7 @@ class FilmContact(ContactElement):
         Returns
         -------
         ndarray, shape (N,)
+            Outside the validity box it warns, once per element.
         """
         f, length, time = self._units
         t, u, v = (as_numbers(name, values) for name, values in (("T", T), ("approach", approach), ("rate", rate)))
@@ -208,6 +209,7 @@ class FilmContact(ContactElement):
             raise InputError("T", t.shape, "increasing times, as many as approaches and rates")
         force = np.empty(t.size)
         film_drive(self.law, t / time, u / length, v / length * time, force)
+        self.warn_outside(u, v, force=force * f)
         return force * f
 
     def spring(self, approach: ArrayLike) -> float | _Floats:

@@ -16,6 +16,7 @@ SPEC.loader.exec_module(motions)
 STORED = json.loads((GOLDEN / "golden.json").read_text(encoding="utf-8"))["motions"]
 
 
+@pytest.mark.filterwarnings("ignore:WideRangeContact used outside")
 @pytest.mark.parametrize("case", motions.CASES)
 def test_stated_errors_are_those_of_the_solves(case):
     point, kind = case.split(", ")

@@ -17,6 +17,7 @@ from ehlcontact import (
     solve_steady,
 )
 from reduced_models import (
+    OutsideValidityWarning,
     WideRangeContact,
     fit_memory,
     simulate_oscillator,
@@ -260,3 +261,13 @@ def test_a_6205_from_lift_off_to_overload():
     static = np.sqrt(np.mean((wide.spring(run.approach) - run.force) ** 2)) / run.force.max()
     assert rms < 0.006
     assert rms < 0.6 * static, "memory must be better than no memory"
+
+
+def test_a_record_outside_the_box_warns_once(wide):
+    t, still = np.array([0.0, 1.0, 2.0]), np.zeros(3)
+    words = r"^WideRangeContact used outside .*force 4\.\S+ \(fitted"
+    with pytest.warns(OutsideValidityWarning, match=words) as told:
+        for _ in range(2):
+            wide.drive(t, np.full(3, wide.approach_at(4.2)), still)
+    assert len(told) == 1
+    assert told[0].filename == __file__
