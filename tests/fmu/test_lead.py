@@ -225,6 +225,7 @@ def test_derivatives_of_outputs_in_time(slave, a):
     assert slope == pytest.approx((forces[2] - forces[0]) / 2e-4, rel=1e-4)
 
 
+@pytest.mark.filterwarnings("ignore:WideRangeContact used outside")
 @pytest.mark.parametrize("h", [0.5, 2.0])
 def test_long_steps_are_cut_inside(slave, film, h):
     """Approach and rate fall by what is extrapolated; steps of a thousandth give the same force."""
