@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import require_between, require_instance
+from ehlcontact.checks import require_between, require_finite, require_instance
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.oil import KELVIN, typical_temperature_slope
@@ -32,6 +32,8 @@ RANGES = {
     "eyring_stress": (1e5, 1e9),
 }
 EFFUSIVITIES = (100.0, 1e5)
+STANDING = "between -1 and 1: near 2 one surface stands still, and the heat here needs surfaces that move"
+SAME = 1.0  # K: temperatures of the heat and of the viscosity this close are one
 MINERAL_OIL = 0.134  # W/(m K), measured of FVA 3 (Schwarz et al. 2023, table A1); mineral oils 0.12 to 0.15
 
 
@@ -62,9 +64,11 @@ class Heat:
     Parameters
     ----------
     slide_roll : float
-        Slide-to-roll ratio: (u1 - u2)/u_mean, -1 to 1; u1 is the speed of the first body.
+        Slide-to-roll ratio: (u1 - u2)/u_mean, -1 to 1; u1 is the speed of the first body. At 2 the other would
+        stand still, and its warming is modelled as that of a surface in motion.
     temperature : float, optional
-        Of the oil in the inlet and of the surfaces ahead of it, in degrees Celsius; by default the oil's.
+        Of the oil in the inlet and of the surfaces ahead of it, in degrees Celsius; by default the oil's, and
+        only for an oil that has none: the viscosity is that at this temperature.
     temperature_slope : float, optional
         -d ln(eta0)/dT [1/K] there; by default the oil's.
     conductivity : float
@@ -101,7 +105,10 @@ class Heat:
     def __post_init__(self) -> None:
         for name, ends in RANGES.items():
             if getattr(self, name) is not None:
-                object.__setattr__(self, name, require_between(name, getattr(self, name), *ends))
+                number = require_finite(name, getattr(self, name))
+                if name == "slide_roll" and abs(number) > 1.0:
+                    raise InputError(name, number, STANDING)
+                object.__setattr__(self, name, require_between(name, number, *ends))
         pair = self.effusivity if isinstance(self.effusivity, tuple | list) else (self.effusivity,) * 2
         if len(pair) != 2:
             raise InputError("effusivity", self.effusivity, "one number, or a pair: of both bodies")
@@ -115,7 +122,7 @@ class Heat:
         Raises
         ------
         InputError
-            A dimensionless point, or an oil without these data.
+            A dimensionless point; an oil without these data, or with its viscosity at another temperature.
         """
         if not isinstance(point, OperatingPoint):
             allowed = "left out at a dimensionless point: heat has to do with metres, seconds and kelvin"
@@ -129,6 +136,9 @@ class Heat:
             raise InputError("temperature_slope", None, allowed + "and one by its grade (iso_vg) its own")
         if warm is None:
             raise InputError("temperature", None, "given in Heat: that of the inlet in degrees Celsius")
+        if oil.temperature is not None and abs(warm - oil.temperature) > SAME:
+            allowed = f"left out: the oil has its viscosity at {oil.temperature:g} C (give an oil at {warm:g} C)"
+            raise InputError("temperature", warm, allowed)
         return replace(self, temperature=warm, temperature_slope=slope)
 
     def numbers(self, moes: MoesPoint, scales: Scales) -> HeatNumbers:
@@ -172,6 +182,11 @@ class Heat:
         return cls(**entries)
 
 
-def require_heat(value: object) -> None:
-    """Raise `InputError` unless this is a `Heat`."""
-    require_instance("thermal", value, Heat, "a Heat(slide_roll=..., ...)")
+def heat_given(value: object) -> Heat | None:
+    """Heat that is asked for: True stands for ``Heat()``, None and False for none; else `InputError`."""
+    if value is None or value is False:
+        return None
+    found = Heat() if value is True else value
+    require_instance("thermal", found, Heat, "True or a Heat(slide_roll=..., ...)")
+    assert isinstance(found, Heat)
+    return found

@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.heat import Heat
+from ehlcontact.heat import Heat, heat_given
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import ImpedanceResult, SteadyResult
@@ -73,7 +73,7 @@ def impedance(
     rpm: ArrayLike | None = None,
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
-    thermal: Heat | None = None,
+    thermal: Heat | bool | None = None,
     threads: int | None = None,
 ) -> ImpedanceResult:
     """Linearise the converged steady contact and return K(Omega) and C(Omega).
@@ -90,7 +90,7 @@ def impedance(
     supply : OilLayer, optional
         Oil that the surfaces carry to the contact, as in `solve_steady`. The front of the full film moves with the
         approach: the oil that it takes up and leaves behind is part of the problem.
-    thermal : Heat, optional
+    thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up, as in `solve_steady`; its temperatures follow the vibration as fast as oil and
         surfaces can (docs/heat.md).
     threads : int, optional
@@ -111,7 +111,8 @@ def impedance(
     require_grid(grid)
     threads = require_threads("threads", threads)
     meshes = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
-    steady = film_to_linearise(point, meshes, grid.deflection, supply, threads, thermal)
+    heat = heat_given(thermal)
+    steady = film_to_linearise(point, meshes, grid.deflection, supply, threads, heat)
     moving = np.maximum(w, NEAR_ZERO)
     solved = held(steady, grid.deflection, threads)
     contact = linearised(steady, solved)
@@ -119,8 +120,8 @@ def impedance(
     coarser = [other.respond(moving, TOLERANCE)[0] for other in coarser_contacts(steady, solved)]
     bars = response_error(moving, [Z, *coarser])
     # A front of full film is slow by itself
-    still = None if supply is None or thermal is None else LinearisedContact(solved)
-    by_slow_oil = 0.0 if thermal is None else slow_part(contact, moving, Z.imag / moving, still)
+    still = None if supply is None or heat is None else LinearisedContact(solved)
+    by_slow_oil = 0.0 if heat is None else slow_part(contact, moving, Z.imag / moving, still)
     return ImpedanceResult(
         point=moes,
         scales=scales,

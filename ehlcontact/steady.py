@@ -14,7 +14,7 @@ from ehlcontact.asperities import Asperities, AsperityNumbers, require_asperitie
 from ehlcontact.checks import require_choice, require_finite, require_instance, require_integer, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.heat import Heat, require_heat
+from ehlcontact.heat import Heat, heat_given
 from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
@@ -53,7 +53,7 @@ def solve_steady(
     *,
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
-    thermal: Heat | None = None,
+    thermal: Heat | bool | None = None,
     asperities: Asperities | None = None,
     sliding: Sliding | None = None,
     approach: float | None = None,
@@ -82,7 +82,7 @@ def solve_steady(
         Oil that the surfaces carry to the contact. The full film then begins where that oil fills the gap; ahead
         of it and behind the contact the gap is partly filled. By default the inlet is flooded up to the border of
         the region.
-    thermal : Heat, optional
+    thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up, and its viscosity follow: ``Heat()`` takes the data of the oil. The isothermal film
         is solved first, under the same supply. By default the film has the temperature of the inlet.
     asperities : Asperities, optional
@@ -138,16 +138,16 @@ def solve_steady(
     require_instance("refine", refine, bool | np.bool_, "True or False")
     require_choice("method", method, tuple(METHODS))
     require_grid(grid)
-    if thermal is not None:
-        require_heat(thermal)
-        thermal = thermal.at(point)
+    heat = heat_given(thermal)
+    if heat is not None:
+        heat = heat.at(point)
     if asperities is not None:
         require_asperities(asperities)
-        if thermal is not None:
+        if heat is not None:
             raise InputError("asperities", "given", "left out with heat: that of asperity friction is not known")
     if sliding is not None:
         require_sliding(sliding, point)
-        others = {"supply": supply, "thermal": thermal, "asperities": asperities}
+        others = {"supply": supply, "thermal": heat, "asperities": asperities}
         for other in (name for name, value in others.items() if value is not None):
             allowed = f"left out with {other}: it thins flooded, isothermal films of smooth surfaces"
             raise InputError("sliding", "given", allowed)
@@ -162,7 +162,7 @@ def solve_steady(
     moes, scales = require_solvable(point, load), scales_of(point)
     require_supply(supply, moes, scales)
     cut_short = max_cycles < MAX_CYCLES  # the caller's own limit: nothing else is what was asked for
-    inputs: dict[str, Any] = {"supply": supply, "thermal": thermal, "sliding": sliding, "scales": scales}
+    inputs: dict[str, Any] = {"supply": supply, "thermal": heat, "sliding": sliding, "scales": scales}
     inputs["rough"] = None if asperities is None else (asperities, asperities.numbers(point))
     tried = []
     for attempt in attempts(

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat, require_heat
+from ehlcontact.heat import Heat, heat_given
 from ehlcontact.lubricant.traction_laws import Eyring, TractionLaw, require_law
 from ehlcontact.point import OperatingPoint
 from ehlcontact.results.traction import Traction, slide_rolls
@@ -20,7 +20,12 @@ from ehlcontact.steady import solve_steady
 
 
 def traction_curve(
-    point: OperatingPoint, slide_roll: ArrayLike, law: TractionLaw, *, thermal: Heat | None = None, **options: Any
+    point: OperatingPoint,
+    slide_roll: ArrayLike,
+    law: TractionLaw,
+    *,
+    thermal: Heat | bool | None = None,
+    **options: Any,
 ) -> Traction:
     """Solve the film and its traction over the slide-to-roll ratio.
 
@@ -31,7 +36,7 @@ def traction_curve(
         Slide-to-roll ratios, 0 to 2.
     law : TractionLaw
         `Eyring`, `Carreau` or `LimitingShear`.
-    thermal : Heat, optional
+    thermal : Heat, or True for ``Heat()``, optional
         Solve a heated film for each ratio, up to 1, heated by Eyring's stress of the law. By default one
         isothermal film is used for all ratios: without heat, sliding does not change the film here.
     **options
@@ -49,12 +54,12 @@ def traction_curve(
     if not isinstance(point, OperatingPoint):
         allowed = "an OperatingPoint: a traction law has stresses in Pa, and a dimensionless point has no units"
         raise InputError("point", type(point).__name__, allowed)
-    if thermal is None:
+    given = heat_given(thermal)
+    if given is None:
         return solve_steady(point, **options).traction(ratios, law)
-    require_heat(thermal)
     if not isinstance(law, Eyring):
         raise InputError("law", type(law).__name__, "Eyring with thermal: his stress heats the film")
-    heats = [replace(thermal, slide_roll=ratio, eyring_stress=law.stress) for ratio in ratios.tolist()]
+    heats = [replace(given, slide_roll=ratio, eyring_stress=law.stress) for ratio in ratios.tolist()]
     return _together(
         [solve_steady(point, thermal=heat, **options).traction(heat.slide_roll, law) for heat in heats]
     )

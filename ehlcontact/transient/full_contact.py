@@ -51,7 +51,7 @@ class FullContact(Summary):
     surface : callable, optional
         Height added to the gap, as in `simulate`, over the time since this contact was made; it rests on it.
         Not together with `supply`.
-    thermal : Heat, optional
+    thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up, as in `simulate`.
     largest_load : float
         Largest force to expect, in static loads.
@@ -94,7 +94,7 @@ class FullContact(Summary):
         grid: Grid = AUTOMATIC,
         supply: OilLayer | None = None,
         surface: Surface | None = None,
-        thermal: Heat | None = None,
+        thermal: Heat | bool | None = None,
         largest_load: float = 1.0,
         tol: float = DEFAULT_TOL,
         threads: int | None = None,
@@ -102,13 +102,13 @@ class FullContact(Summary):
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         require_grid(grid)
-        thermal = require_conditions(point, self.point, supply, thermal, surface)
+        heat = require_conditions(point, self.point, supply, thermal, surface)
         self._surface, self._T = surface, 0.0
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)
         left: Step | None = None
         for mesh in wider_meshes(self.point, Purpose.CONTACT, grid, largest_load=load):
-            given = (supply, self.point, self.scales, mesh, tol, grid.deflection, threads, thermal)
+            given = (supply, self.point, self.scales, mesh, tol, grid.deflection, threads, heat)
             self._film = TransientFilm.under(*given)
             self.n, self.domain = mesh.n, mesh.domain
             level = self._film.level

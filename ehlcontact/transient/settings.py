@@ -14,7 +14,7 @@ from typing import Self
 from ehlcontact.checks import require_instance, require_nonnegative, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat, require_heat
+from ehlcontact.heat import Heat, heat_given
 from ehlcontact.point import MoesPoint, Point, scales_of
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.supply import OilLayer, require_supply
@@ -257,7 +257,7 @@ def _period(motion: Motion, name: str, value: float) -> float:
 
 
 def require_conditions(
-    point: Point, moes: MoesPoint, supply: OilLayer | None, thermal: Heat | None, surface: Surface | None
+    point: Point, moes: MoesPoint, supply: OilLayer | None, thermal: Heat | bool | None, surface: Surface | None
 ) -> Heat | None:
     """Check what a film over time is given, and that it goes together; returns heat with the data of the oil.
 
@@ -273,7 +273,5 @@ def require_conditions(
     require_surface(surface)
     if supply is not None and surface is not None:
         raise InputError("surface", type(surface).__name__, "left out with a supply")
-    if thermal is None:
-        return None
-    require_heat(thermal)
-    return thermal.at(point)
+    heat = heat_given(thermal)
+    return None if heat is None else heat.at(point)

@@ -55,7 +55,7 @@ def simulate(
     *,
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
-    thermal: Heat | None = None,
+    thermal: Heat | bool | None = None,
     time: TimeSteps = BY_MOTION,
     speed: SpeedHistory | None = None,
     surface: Surface | None = None,
@@ -78,7 +78,7 @@ def simulate(
         Oil that the surfaces carry to the contact, the same at all times, as in `solve_steady`. What leaves is
         ``result.layer_behind``. By default the inlet is flooded up to the border of the region. Where the surfaces
         turn back, they bring back what has left. Not together with `surface`.
-    thermal : Heat, optional
+    thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up: oil and surfaces store heat, and its viscosity follows in every step (docs/heat.md).
         By default the film has the temperature of the inlet.
     time : TimeSteps
@@ -116,7 +116,7 @@ def simulate(
     moes = require_solvable(point, motion.largest_load)
     require_grid(grid)
     require_groups(time, keep, run)
-    thermal = require_conditions(point, moes, supply, thermal, surface)
+    heat = require_conditions(point, moes, supply, thermal, surface)
     require_speed(speed, grid)
     reverses = speed is not None and speed.reverses
     wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load, reverses=reverses)
@@ -128,14 +128,14 @@ def simulate(
     unit = 1.0 if scales is None else scales.time
     steps = StepPlan.of(motion, time, unit, default_fixed_step(motion, surface, spacing, speed))
     inputs = RunInputs(
-        moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed, supply, thermal
+        moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed, supply, heat
     )
     if keep.checkpoint is not None:
         require_replaceable(keep.checkpoint, keep.restart)
     threads = require_threads("threads", run.threads)
 
     def film_on(mesh: Mesh) -> TransientFilm:
-        film = TransientFilm.under(supply, moes, scales, mesh, steps.tol, grid.deflection, threads, thermal)
+        film = TransientFilm.under(supply, moes, scales, mesh, steps.tol, grid.deflection, threads, heat)
         if isinstance(surface, Roughness):
             way = steps.until if speed is None else speed.farthest(steps.until)
             surface.require_fit(film.level.X, film.level.Y, way)

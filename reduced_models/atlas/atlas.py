@@ -36,7 +36,7 @@ from reduced_models.atlas.atlas_elements import (
 from reduced_models.atlas.conditions import Given, changed, conditions_at
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.atlas.gain_fit import FADED, FLOOR, heated_gains, smooth_gains
-from reduced_models.atlas.heat_condition import HeatCondition, heat_given
+from reduced_models.atlas.heat_condition import HeatCondition, rolling_heat
 from reduced_models.atlas.interpolation import AtlasSurface
 from reduced_models.atlas.supply_condition import FAINT_GAIN, SLOWEST, SupplyCondition, supplied_speeds
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
@@ -141,7 +141,7 @@ class Atlas:
             A point outside the box, the first one by its own numbers; other shapes; another oil. A layer in metres
             or one that the table of supply does not have; heat.
         """
-        if heat_given(thermal) is not None:
+        if rolling_heat(thermal) is not None:
             raise InputError("thermal", thermal, "left out: `at` takes it at an OperatingPoint, in SI")
         meta = self._table.metadata
         oil = float(meta["alpha"]) if alpha is None else alpha, float(meta["eta0"]) if eta0 is None else eta0

@@ -17,7 +17,7 @@ from ehlcontact.heat import Heat
 from ehlcontact.point import Point
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.change import Change
-from reduced_models.atlas.heat_condition import HeatCondition, heat_given
+from reduced_models.atlas.heat_condition import HeatCondition, rolling_heat
 from reduced_models.atlas.supply_condition import SupplyCondition
 
 _Floats = NDArray[np.float64]
@@ -52,7 +52,7 @@ def conditions_at(
         A supply or heat that its table does not have.
     """
     found: list[Condition | SupplyCondition] = []
-    if (heat := heat_given(thermal)) is not None:
+    if (heat := rolling_heat(thermal)) is not None:
         found.append(HeatCondition(point, heat))
     if supply is not None:
         found.append(SupplyCondition(point, supply))

@@ -11,9 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat, require_heat
+from ehlcontact.heat import Heat, heat_given
 from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.store import load as read_file
 from reduced_models.atlas.change import Change
@@ -41,20 +40,17 @@ def heat_surface() -> HeatSurface:
     return HeatSurface(read_file(SHIPPED, HeatTable, "table of heat"))
 
 
-def heat_given(thermal: object) -> Heat | None:
-    """Heat that is asked for: True stands for ``Heat()``, False for none.
+def rolling_heat(thermal: object) -> Heat | None:
+    """Heat that is asked for, as by `heat_given`, of pure rolling.
 
     Raises
     ------
     InputError
         Neither, nor a `Heat` that the table has.
     """
-    if thermal is None or thermal is False:
-        return None
-    found = Heat() if thermal is True else thermal
-    require_instance("thermal", found, Heat, "True or a Heat() of pure rolling")
-    require_rolling(found)
-    assert isinstance(found, Heat)
+    found = heat_given(thermal)
+    if found is not None:
+        require_rolling(found)
     return found
 
 
@@ -74,10 +70,8 @@ def fastest(point: OperatingPoint, thermal: Heat) -> float:
     return sqrt(largest_load() / thermal.at(point).load(point.moes, point.scales))
 
 
-def require_rolling(thermal: object) -> None:
-    """Raise `InputError` unless this is a `Heat` of pure rolling, with data near those of the table."""
-    require_heat(thermal)
-    assert isinstance(thermal, Heat)
+def require_rolling(thermal: Heat) -> None:
+    """Raise `InputError` unless this heat is of pure rolling, with data near those of the table."""
     if thermal.slide_roll != 0.0:
         allowed = "0: answers of the atlas are those of pure rolling (solve_steady takes sliding)"
         raise InputError("slide_roll", thermal.slide_roll, allowed)

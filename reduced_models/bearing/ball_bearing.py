@@ -30,7 +30,7 @@ from ehlcontact.heat import Heat
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
 from ehlcontact.supply import OilLayer
-from reduced_models.atlas.heat_condition import heat_given
+from reduced_models.atlas.heat_condition import rolling_heat
 from reduced_models.atlas.supply_condition import require_uniform
 from reduced_models.bearing.angular_balls import ANGLE, LOAD, AngularBalls
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
@@ -249,7 +249,7 @@ class BallBearing(Summary):
         if self.oil is not None:
             require_instance("oil", self.oil, Lubricant, "a Lubricant, as Lubricant.iso_vg(68, temperature=50.0)")
         self._require_supply()
-        object.__setattr__(self, "thermal", heat_given(self.thermal))
+        object.__setattr__(self, "thermal", rolling_heat(self.thermal))
         if self.thermal is not None and self.oil is None:
             raise InputError("thermal", "Heat", "left out of a dry bearing, which has no films")
         for name, rq in (("rq_ball", self.rq_ball), ("rq_race", self.rq_race)):

@@ -289,7 +289,9 @@ def test_kept_and_said(tmp_path):
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"slide_roll": 1.5}, "slide_roll = 1.5: must be between -1 and 1"),
+        ({"slide_roll": 1.5}, "slide_roll = 1.5: must be between -1 and 1: near 2 one surface stands still"),
+        ({"slide_roll": float("nan")}, "slide_roll = nan: must be a finite number"),
+        ({"temperature": float("nan")}, "temperature = nan: must be a finite number"),
         ({"temperature": 323.0}, "temperature = 323.0: must be between -50 and 250"),
         ({"temperature_slope": -0.04}, "temperature_slope = -0.04"),
         ({"conductivity": 0.0}, "conductivity = 0.0"),
@@ -312,5 +314,14 @@ def test_what_is_missing():
         solve_steady(bare, thermal=Heat(temperature_slope=0.04))
     with pytest.raises(InputError, match="left out at a dimensionless point"):
         solve_steady(MoesPoint(200, 10, 0.5), thermal=Heat())
-    with pytest.raises(InputError, match="thermal = 'bool': must be a Heat"):
-        solve_steady(POINT, thermal=True)
+    with pytest.raises(InputError, match="thermal = 'str': must be True or a Heat"):
+        solve_steady(POINT, thermal="hot")
+    with pytest.raises(InputError, match=r"temperature = 20\.0: must be left out: .* viscosity at 50 C"):
+        solve_steady(POINT, thermal=Heat(temperature=20))
+
+
+def test_true_is_the_heat_of_the_oil():
+    given = {"grid": Grid(32), "max_cycles": 1, "throw": False}
+    one, two = (solve_steady(POINT, thermal=heat, **given) for heat in (True, Heat()))
+    assert one.temperature.inputs == two.temperature.inputs
+    assert solve_steady(POINT, thermal=False, **given).temperature is None

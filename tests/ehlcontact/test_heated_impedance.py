@@ -266,5 +266,5 @@ def test_what_slow_oil_adds_is_seen_at_low_frequencies_alone():
 def test_what_is_refused():
     with pytest.raises(InputError, match="left out at a dimensionless point"):
         impedance(MoesPoint(200, 10, 0.5), Omega=0.0, thermal=Heat())
-    with pytest.raises(InputError, match="thermal = 'bool': must be a Heat"):
-        impedance(POINT, Omega=0.0, thermal=True)
+    with pytest.raises(InputError, match="thermal = 'str': must be True or a Heat"):
+        impedance(POINT, Omega=0.0, thermal="hot")

@@ -191,7 +191,7 @@ def test_result(tmp_path):
         (lambda: LimitingShear(math.nan), "coefficient = nan: must be between"),
         (lambda: TractionLaw.from_dict({"law": "Ree"}), "law = 'Ree': must be one of Eyring, Carreau"),
         (lambda: traction_curve(MoesPoint(20.0, 10.0, 1.0), 0.1, Eyring()), "point = 'MoesPoint'.*no units"),
-        (lambda: traction_curve(POINT, 0.1, Eyring(), thermal=True), "thermal = 'bool': must be a Heat"),
+        (lambda: traction_curve(POINT, 0.1, Eyring(), thermal="hot"), "thermal = 'str': must be True or a Heat"),
     ],
 )
 def test_bad_input(call, words):
