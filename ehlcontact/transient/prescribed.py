@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from math import inf
 from typing import Any, ClassVar
@@ -19,6 +19,7 @@ from ehlcontact.solver.balance import Balance
 from ehlcontact.transient.bodies import LONGEST_ABRUPT, Array, Motion, MotionState, Start, UnderLoad, scales_at
 
 CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a corner; 1/20 period of a sine is 0.31
+MISSED = 0.5  # of the range of a table, by which a row is beyond the values at both ends of a step
 FEWEST_ROWS = 4  # of a cubic spline; the same for straight tables
 Table = tuple[Array, Array]  # times and values, shape (k,) each
 
@@ -41,6 +42,39 @@ def corners_of(T: Array, values: Array) -> tuple[float, ...]:
     slope = np.diff(values) / np.diff(T)
     jump = np.abs(np.diff(slope)) > CORNER * np.abs(slope).max()
     return tuple(T[1:-1][jump].tolist())
+
+
+def passed_over(table: Table, T: Array) -> bool:
+    """Whether one of the steps between the times `T` passes over a change of the table and back, or all of it."""
+    times, values = table
+    if T.size < 2 or not np.ptp(values):
+        return False
+    inside = times <= T[-1]
+    step = np.minimum(np.searchsorted(T, times[inside], side="right") - 1, T.size - 2)
+    ends = np.interp(T, times, values)
+    beyond = np.abs(values[inside] - np.clip(values[inside], *np.sort([ends[step], ends[step + 1]], axis=0)))
+    return bool(T[1] >= times[-1] or beyond.max() > MISSED * np.ptp(values))
+
+
+def passed_over_note(inputs: Iterable[object], T: Array, unit: float | None) -> str:
+    """Note on those inputs with a table over time that the steps between the times `T` pass over; else empty.
+
+    `unit` is that of `T` in seconds, None at a dimensionless point.
+    """
+    for one in inputs:
+        name, table = type(one).__name__, getattr(one, "_table", None)
+        if table is None or not passed_over(table, T):
+            continue
+        step, end = float(np.diff(T).max()), float(table[0][-1])
+        length, last, hint = f"T = {step:.3g}", f"T = {end:.3g}", ""
+        if unit is not None:
+            length, last = f"{length} ({unit * step:.3g} s)", f"{last} ({unit * end:.3g} s)"
+            hint = f"; {name}(T, ...) is in 2a/u_sum, {name}.at(point, ...) in seconds"
+        return (
+            f"steps pass over changes of the {name}: they are up to {length} long, "
+            f"its table ends at {last}; take a smaller dt{hint}"
+        )
+    return ""
 
 
 class Tabulated(Motion):

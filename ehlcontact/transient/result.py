@@ -35,6 +35,7 @@ from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, span
 from ehlcontact.supply import OilLayer
 from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.prescribed import passed_over_note
 from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.transient.time_step import coarse_step_note, coarse_tolerance_note
 
@@ -260,14 +261,17 @@ class SimulationResult(ScaledTable, Origin):
     def reservation(self) -> str:
         """What a converged run leaves open, in words; else empty.
 
-        Where the grid does not show the film at the start, and where step or `tol` are coarse for the motion.
+        Where the grid does not show the film at the start, where step or `tol` are coarse for the motion, and
+        where steps pass over changes of a table.
         """
         if not self.status.ok:
             return ""
         tol = "" if self.tol is None else coarse_tolerance_note(self.motion, self.tol)
-        return "; ".join(
-            filter(None, [grid_doubt(self.film_error, "at the start"), coarse_step_note(self.motion, self.T), tol])
+        over = passed_over_note(
+            (self.motion, self.speed), self.T, None if self.scales is None else self.scales.time
         )
+        step = coarse_step_note(self.motion, self.T)
+        return "; ".join(filter(None, [grid_doubt(self.film_error, "at the start"), step, tol, over]))
 
     def _summary_lines(self) -> list[str]:
         lines = [

@@ -26,6 +26,7 @@ from ehlcontact.supply import OilLayer
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
 from ehlcontact.transient.features import Dent, Surface, surface_height
+from ehlcontact.transient.prescribed import passed_over_note
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
@@ -127,6 +128,7 @@ def simulate(
     scales = scales_of(point)
     unit = 1.0 if scales is None else scales.time
     steps = StepPlan.of(motion, time, unit, default_fixed_step(motion, surface, spacing, speed))
+    _warn_of_steps(motion, speed, steps, scales)
     inputs = RunInputs(
         moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed, supply, heat
     )
@@ -202,6 +204,15 @@ def _warn_of_shape(surface: Surface | None, kappa: float) -> None:
             RuntimeWarning,
             stacklevel=4,
         )
+
+
+def _warn_of_steps(motion: Motion, speed: SpeedHistory | None, steps: StepPlan, scales: Scales | None) -> None:
+    """Say where fixed steps pass over changes of a table: most often its times are in another unit."""
+    if steps.local_error is not None:
+        return
+    T = np.linspace(0.0, steps.until, round(steps.until / steps.dT) + 1)
+    if note := passed_over_note((motion, speed), T, None if scales is None else scales.time):
+        warnings.warn(note, RuntimeWarning, stacklevel=4)
 
 
 def _first_inside(

@@ -26,6 +26,7 @@ from ehlcontact import (
     speed_response,
 )
 from ehlcontact.lubricant import density, log_viscosity
+from ehlcontact.transient.prescribed import passed_over
 
 POINT = MoesPoint(20.0, 5.0, 1.0)
 HELD = PrescribedLoad(np.linspace(0.0, 100.0, 5), np.ones(5))
@@ -306,6 +307,30 @@ def test_in_si():
 def test_bad_histories(T, U, words):
     with pytest.raises(InputError, match=words):
         SpeedHistory(T, U)
+
+
+def test_steps_over_all_of_a_history_are_said():
+    """Times of a history are dimensionless, those of the run at this point seconds."""
+    point = OperatingPoint(Geometry(0.01, 0.02), Lubricant(eta0=0.04, alpha=2.2e-8), load=50.0, u_sum=2.0)
+    turned = SpeedHistory([0.0, 10.0, 15.0, 20.0, 30.0], [1.0, 1.0, 0.0, 1.0, 1.0])
+    with pytest.warns(RuntimeWarning, match=r"changes of the SpeedHistory: .* \(0.1 s\) .* T = 30 .* in seconds"):
+        run = simulate(point, HELD, grid=COARSE, time=TimeSteps(until=0.2, dt=0.1), speed=turned)
+    assert "steps pass over changes of the SpeedHistory" in run.reservation
+
+
+@pytest.mark.parametrize(
+    ("T", "values", "dT", "passed"),
+    [
+        ([0.0, 10.0, 15.0, 20.0], [1.0, 1.0, 0.0, -1.0], 25.0, True),  # all of it
+        ([0.0, 10.0, 15.0, 20.0], [1.0, 1.0, 0.0, -1.0], 8.0, False),
+        ([0.0, 10.0, 10.1, 10.2, 20.0], [1.0, 1.0, 2.0, 1.0, 1.0], 0.5, True),  # there and back
+        ([0.0, 10.0, 10.001, 20.0], [1.0, 1.0, 2.0, 2.0], 0.5, False),  # a jump
+        ([0.0, 1.0, 2.0, 3.0], [1.0, 1.0, 1.0, 1.0], 20.0, False),  # constant
+    ],
+)
+def test_what_steps_pass_over(T, values, dT, passed):
+    table = np.array(T), np.array(values)
+    assert passed_over(table, np.arange(0.0, 60.0, dT)) is passed
 
 
 def test_bad_runs():
