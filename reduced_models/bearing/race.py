@@ -5,7 +5,8 @@ Tables for the compiled kernels are in `race_table`, forces in time steps in `ra
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from math import ceil, cos, log10, sqrt
@@ -155,10 +156,28 @@ class Race:
         inside = 10.0 ** (np.arange(ceil(first), ceil(last)) / PER_DECADE)
         loads = np.concatenate([[low], inside, [high]])
         reference = float(np.sqrt(low * high))
-        found = shared_atlas(self.atlas).wide(
-            self.point(reference, speed_rpm), loads / reference, supply=self.supply, thermal=self.thermal
-        )
+        with self._films_named(speed_rpm):
+            found = shared_atlas(self.atlas).wide(
+                self.point(reference, speed_rpm), loads / reference, supply=self.supply, thermal=self.thermal
+            )
         return replace(found, inlet_saturation=0.0)
+
+    @contextmanager
+    def _films_named(self, speed_rpm: float) -> Iterator[None]:
+        """Let an `InputError` of approaches under a layer of oil, which nobody gave, name layer and contact."""
+        try:
+            yield
+        except InputError as error:
+            if self.supply is None or not error.field.startswith("approach"):
+                raise
+            h, r = self.supply.h, self.supply.over_flooded
+            layer = f"{r:.4g} flooded films" if h is None else f"{1e6 * h:.4g} µm"
+            allowed = (
+                f"another layer, or left out: on the {self.name} race at {speed_rpm:.4g} rev/min no element "
+                f"can be made of the films under it; a thicker one helps, or one over the flooded film "
+                f"(OilLayer(over_flooded=), layer_ratio in a file): {error}"
+            )
+            raise InputError("supply", layer, allowed) from error
 
     def answer(self, load: float, speed_rpm: float) -> AtlasAnswer:
         """Of the atlas for the contact under a load [N] at this speed."""

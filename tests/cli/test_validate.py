@@ -84,6 +84,17 @@ def test_nothing_is_solved(call, monkeypatch, tmp_path):
     assert "rotor on full contacts" in result.out and "factor of two" in result.out
 
 
+@pytest.mark.parametrize("rpm", ["1500", "[1500, 2000]"])
+def test_layer_and_heat_of_the_whole_bearing_are_said(call, tmp_path, rpm):
+    file = tmp_path / "s.toml"
+    file.write_text(
+        f'[bearing]\ncatalogue = "6205"\nradial_load = 200.0\nspeed_rpm = {rpm}\n[oil]\niso_vg = 68\n'
+        "temperature = 50.0\n[whole_bearing]\nlayer_um = 2.0\nthermal = true\n"
+    )
+    said = call("validate", file, "-o", tmp_path / "none").out
+    assert "also with heat (thermal) and under a layer of oil, 2 µm on both surfaces together" in said
+
+
 def test_what_is_finished_is_kept(call, tmp_path):
     """As the runner finds it: in the store, by the inputs of this study."""
     study, folder = load_study(SMALL), tmp_path / "out"

@@ -69,6 +69,8 @@ def _show_points(document: Mapping[str, Any], json_to: str | None) -> None:
         rows.append([one["name"], *numbers, pressure, film, stages, _time(one["seconds"])])
     heads = ("point", "M", "L", "kappa", "p_h [GPa]", "h_c by formula [µm]", "kept", "to do")
     show_columns(heads, rows, document["title"], named=True)
+    for films in sorted({one["films"] for one in document["points"]} - {""}):
+        say(f"whole bearing: beside flooded isothermal films also {films}")
     for warning in document["warnings"]:
         say(f"warning: {warning}")
     _say_whole(document["seconds"], document["jobs"])
@@ -110,6 +112,8 @@ def _show(found: Forecast, json_to: str | None) -> None:
         json_to,
     )
     _show_stages(found)
+    if found.films:
+        say(f"whole bearing: beside flooded isothermal films also {found.films}")
     for warning in found.warnings:
         say(f"warning: {warning}")
     _say_whole(found.seconds, found.jobs)

@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 
 from ehlcontact.checks.admissible_range import MEASURED
+from ehlcontact.cli.study.oil_supply import supply_and_heat, supply_words
 from ehlcontact.cli.study.points.kept import STORE, Kept
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
@@ -69,6 +70,7 @@ class Forecast:
     conv: float  # seconds of one convolution here and now
     plans: tuple[Plan, ...]
     closed: bool  # results and report are there, of this study
+    films: str  # oil supply and heat of the whole bearing, in words; empty of flooded isothermal ones
     warnings: tuple[str, ...]
 
     @property
@@ -118,6 +120,7 @@ class Forecast:
             "domain": self.study.domain.as_tuple(),
             "folder": str(self.folder),
             "stages": [plan.to_dict() for plan in self.plans],
+            "films": self.films,
             "jobs": self.jobs,
             "seconds": self.seconds,
             "warnings": list(self.warnings),
@@ -145,7 +148,17 @@ def forecast(study: Study, folder: Path, jobs: int, root: Path | None = None) ->
         kept = store is not None and store.stage(stage, study) is not None
         plans.append(Plan(stage, _mesh(stage, study), *_steps(stage, study), estimate, kept))
     closed = store is not None and all(p.kept for p in plans) and store.final(study, folder) is not None
-    return Forecast(study, folder, jobs, conv, tuple(plans), closed, tuple(cautions(study)))
+    return Forecast(study, folder, jobs, conv, tuple(plans), closed, films_words(study), tuple(cautions(study)))
+
+
+def films_words(study: Study) -> str:
+    """Films of the whole bearing beside flooded isothermal ones, in words; empty where none are asked for."""
+    supply, thermal = supply_and_heat(study.whole_bearing, "whole_bearing", study.lubricant)
+    conditions = (
+        "" if thermal is None else "with heat (thermal)",
+        "" if supply is None else f"under a layer of oil, {supply_words(supply)}",
+    )
+    return " and ".join(filter(None, conditions))
 
 
 def stage_cost(stage: Stage, study: Study) -> float:

@@ -141,6 +141,20 @@ def test_bad_supply_is_one_line(changes, words):
     assert words in str(caught.value) and "\n" not in str(caught.value)
 
 
+def test_an_element_that_cannot_be_made_names_layer_and_contact(monkeypatch):
+    made = bearing(OilLayer(3e-7))
+
+    def falling(*_, **__):
+        raise InputError("approach[3]", -0.88, "above the one before")
+
+    monkeypatch.setattr(Atlas, "wide", falling)
+    words = r"supply = '0\.3 µm': .* outer race at 3000 rev/min .* thicker .*layer_ratio.* approach\[3\] = -0\.88"
+    with pytest.raises(InputError, match=words):
+        made.element("outer", 3000.0)
+    with pytest.raises(InputError, match=r"^approach\[3\]"):
+        bearing().element("outer", 3000.0)
+
+
 def test_what_takes_no_supply_says_so():
     with pytest.raises(InputError, match=r"bearing\.supply.*left out of the bearing"):
         oil_and_heat(
