@@ -26,6 +26,8 @@ from ehlcontact.transient.settings import require_conditions
 from ehlcontact.transient.time_step import DEFAULT_TOL
 from ehlcontact.transient.transient_film import FilmState, Step, TransientFilm
 
+LIKE_METRES = 1e-3  # dry approaches, below which an approach is more likely one in metres
+
 
 @dataclass(frozen=True, slots=True)
 class ContactState(FilmState):
@@ -165,7 +167,7 @@ class FullContact(Summary):
         feature = surface_step(self._surface, film.level.X, film.level.Y, T, dt, film.last_step)
         state = film.save_state()
         try:
-            self._check(film.advance(dt, Balance.of_approach(u), u, feature))
+            self._check(film.advance(dt, Balance.of_approach(u), u, feature), self._unit_hint(dt, u))
         except ConvergenceError:
             film.restore_state(state)
             raise
@@ -205,6 +207,16 @@ class FullContact(Summary):
         self._T = state.T
         self.force = self._film.level.force()
 
-    def _check(self, step: Step) -> None:
+    def _check(self, step: Step, hint: str = "") -> None:
         if step.status is not Status.CONVERGED:
-            raise ConvergenceError(f"EHL step {step.status}: {step.status.advice}", step)
+            raise ConvergenceError(f"EHL step {step.status}: {step.status.advice}{hint}", step)
+
+    def _unit_hint(self, dt: float, u: float) -> str:
+        """For a step that fails: what the units are, where an approach of an SI point is like none of its own."""
+        if self.scales is None or not 0.0 < abs(u) < LIKE_METRES:
+            return ""
+        return (
+            f" Or were SI units meant? approach = {u:.3g} counts in dry approaches of {self.scales.length:.3g} m "
+            f"({self.static_approach:.3g} at rest) and dt = {dt:.3g} in 2a/u_sum = {self.scales.time:.3g} s here; "
+            "reduced_models.ScaledContact takes metres and seconds."
+        )

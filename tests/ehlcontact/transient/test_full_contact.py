@@ -10,9 +10,12 @@ from ehlcontact import (
     ConvergenceError,
     Domain,
     FullContact,
+    Geometry,
     Grid,
     InputError,
+    Lubricant,
     MoesPoint,
+    OperatingPoint,
     PrescribedApproach,
     Status,
     TimeSteps,
@@ -170,6 +173,16 @@ def test_bad_step_is_named(contact, value):
     with pytest.raises(InputError, match=r"^dt = "):
         contact.advance(value, 0.9)
     assert contact.force == force
+
+
+def test_metres_are_said_to_be_dry_approaches():
+    ball = OperatingPoint(Geometry(0.01, 0.02), Lubricant(eta0=0.04, alpha=2.2e-8), load=50.0, u_sum=2.0)
+    contact = FullContact(ball, grid=Grid(n=64))
+    with pytest.raises(
+        ConvergenceError, match=r"were SI units meant\? .*1\.97e-06 m .*0\.000132 s .*ScaledContact"
+    ):
+        contact.advance(1e-5, 1.2e-6)
+    assert contact.force == pytest.approx(1.0, rel=1e-3)
 
 
 @pytest.mark.parametrize("value", [NAN, INF, True, None, "deep"])
