@@ -67,7 +67,7 @@ def summary(spall: Spall, found: list[BearingExcitation]) -> dict[str, Any]:
 
 
 def show(spall: Spall, orders: DefectFrequencies | None, found: BearingExcitation) -> None:
-    """Table of the strongest lines at one speed, by order."""
+    """Table of the strongest lines at one speed, by order; without forces where a ball loses its load."""
     assert orders is not None  # a bearing that is loaded
     defect, name = (orders.bpfi, "BPFI") if spall.race == "inner" else (orders.bpfo, "BPFO")
     axes = FIVE[: min(found.load.size, 3)]
@@ -78,13 +78,14 @@ def show(spall: Spall, orders: DefectFrequencies | None, found: BearingExcitatio
             numeral(float(found.order[k]), 5),
             _of_defect(float(found.order[k]), defect, name),
             numeral(float(found.hz[k]), 5),
-            *(numeral(float(value), 3) for value in forces[k]),
+            *(numeral(float(value), 3) for value in forces[k] if not found.loses_load),
         ]
         for k in strongest.tolist()
     ]
     size = f"{numeral(1e3 * spall.length)} mm, {numeral(1e6 * spall.depth)} um deep"
     title = f"spall of the {spall.race} race, {size}"
-    show_columns(["line", "of", "Hz", *(f"{axis} [N]" for axis in axes)], rows, title)
+    sizes = [] if found.loses_load else [f"{axis} [N]" for axis in axes]
+    show_columns(["line", "of", "Hz", *sizes], rows, title)
     if found.reservation:
         show_table("", [("NOT LINEAR", "", found.reservation)], None)
 

@@ -117,13 +117,24 @@ class BearingExcitation(QuantityTable):
         return np.asarray(self.order * self.speed_rpm * RPM_TO_HZ)
 
     @property
+    def loses_load(self) -> bool:
+        """Whether heights are at least the approach of the most loaded ball: linear forces then mean nothing."""
+        return self.height >= self.approach
+
+    @property
     def reservation(self) -> str:
         """What the result leaves open, in words; else empty.
 
         Heights for which contacts are not linear, and waves whose contact filter is not in the table.
         """
         notes, share = [], 100.0 * self.height / self.approach
-        if self.height > LARGE * self.approach:
+        if self.loses_load:
+            notes.append(
+                f"features of {1e6 * self.height:.3g} um are {self.height / self.approach:.2g} times the approach"
+                " of the most loaded ball: forces are not linear in them, and those here mean nothing: a ball"
+                " loses its load over a pit or dent; simulate_rotor computes the force (docs/defects.md)"
+            )
+        elif self.height > LARGE * self.approach:
             notes.append(
                 f"features are {share:.2g} % of the approach of the most loaded ball:"
                 " forces are not linear in them"

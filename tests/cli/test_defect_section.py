@@ -10,6 +10,7 @@ from tiny_study import STUDY
 from ehlcontact.cli.page import write_page
 from ehlcontact.cli.plots import defect
 from ehlcontact.cli.study.defect import defect_of
+from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.whole_bearing import ring_load, whole_bearing
 from reduced_models import Spall
@@ -95,9 +96,20 @@ def test_page_and_picture(found, tmp_path):
 
 @pytest.mark.slow
 def test_a_deep_spall_is_named(tmp_path):
-    deep = defect_of(study(tmp_path, 'spall = "outer,0.5,20"'))
-    assert "not linear" in deep.reservation
+    asked = study(tmp_path, 'spall = "outer,0.5,20"')
+    deep = defect_of(asked)
+    assert "not linear" in deep.reservation and "simulate_rotor" in deep.reservation
+    assert deep.loses_load and deep.to_dict()["largest_force"] is None
+    inside = SimpleNamespace(defect=deep, study=asked)
+    page = write_page(tmp_path / "d.html", "defect.html.j2", {}, found=inside, picture=lambda name, text: text)
+    assert "forces are left out" in page.read_text() and "largest change" not in page.read_text()
     assert defect_of(study(tmp_path, CLEARANCE)) is None
+
+
+@pytest.mark.parametrize(("spall", "warned"), [("inner,1.0,60", True), ("inner,1.0,0.5", False)])
+def test_validate_warns_of_a_spall_over_which_balls_lose_their_load(tmp_path, spall, warned):
+    found = cautions(study(tmp_path, f'{CLEARANCE}\naxial_load = 50.0\nspall = "{spall}"'))
+    assert any("lose their load" in text and "simulate_rotor" in text for text in found) == warned
 
 
 @pytest.mark.parametrize(

@@ -61,6 +61,11 @@ class StudyDefect:
         return self.lines[FILTERS[0]].reservation
 
     @property
+    def loses_load(self) -> bool:
+        """Whether balls lose their load over the spall, so that linear forces mean nothing."""
+        return self.lines[FILTERS[0]].loses_load
+
+    @property
     def highest(self) -> dict[str, float]:
         """Largest change of the force that carries the load [N], by filter."""
         return {name: float(np.abs(force).max()) for name, force in self.force.items()}
@@ -80,9 +85,9 @@ class StudyDefect:
             "orders": asdict(self.orders),
             "cage_slip": self.slip,
             "reservation": self.reservation,
-            "largest_force": self.highest,
+            "largest_force": None if self.loses_load else self.highest,
             "envelope_band_hz": list(self.band),
-            "envelope_harmonics": self.harmonics,
+            "envelope_harmonics": None if self.loses_load else self.harmonics,
         }
 
 

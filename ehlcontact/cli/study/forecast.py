@@ -16,6 +16,7 @@ from ehlcontact.cli.study.points.kept import STORE, Kept
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Stage, stages_of
+from ehlcontact.cli.study.whole_bearing import ring_load, spall_in, whole_bearing
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.solver.mesh import Mesh
@@ -211,7 +212,24 @@ def _steps(stage: Stage, study: Study) -> tuple[int, int, float | None]:
 
 def cautions(study: Study) -> list[str]:
     """Warnings about grids and numbers that the study will run with, but not accurately."""
-    return [*_coarse(study), *_outside(study)]
+    return [*_coarse(study), *_outside(study), *_deep_spall(study)]
+
+
+def _deep_spall(study: Study) -> list[str]:
+    """Warning of a spall over which the most loaded ball loses its load, by the dry bearing at rest."""
+    spall = spall_in(study)
+    if spall is None:
+        return []
+    approach = whole_bearing(study, oil=False).equilibrium(ring_load(study)).approach
+    pressed = float(approach.sum(axis=-1).max())
+    if spall.depth < pressed:
+        return []
+    return [
+        f"whole_bearing.spall is {1e6 * spall.depth:.3g} um deep, the balls are pressed by"
+        f" {1e6 * pressed:.3g} um at most: "
+        "they lose their load over it, and the linear forces of the report mean nothing; its orders hold. "
+        "simulate_rotor computes the force (docs/defects.md)"
+    ]
 
 
 def _coarse(study: Study) -> list[str]:

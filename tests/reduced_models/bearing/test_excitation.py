@@ -252,7 +252,9 @@ def test_slip_of_the_cage_moves_lines(load):
 
 def test_large_features_are_named():
     found = DRY.excitation([BallDiameter(ball=0, excess=5e-6)], (0.0, 0.0, 100.0), speed_rpm=SLOW)
-    assert "not linear" in found.reservation and found.reservation in repr(found)
+    assert "not linear" in found.reservation and found.reservation in repr(found) and not found.loses_load
+    deep = DRY.excitation([BallDiameter(ball=0, excess=40e-6)], (0.0, 0.0, 100.0), speed_rpm=SLOW)
+    assert deep.loses_load and "mean nothing" in deep.reservation and "simulate_rotor" in deep.reservation
 
 
 @pytest.mark.parametrize(
