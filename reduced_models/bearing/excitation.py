@@ -141,8 +141,8 @@ class BearingExcitation(QuantityTable):
             )
         if self.short_waves:
             notes.append(
-                f"{self.short_waves} waves are shorter than those of the table of contact filters: "
-                f"their filter is taken as 0 ± {SHORTER:g}"
+                f"{self.short_waves} waves are shorter than those of the table of contact filters at the most"
+                f" loaded ball: its filter is taken as 0 ± {SHORTER:g}, and lines of lighter contacts remain"
             )
         return "; ".join(notes)
 

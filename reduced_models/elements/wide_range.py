@@ -15,7 +15,7 @@ from ehlcontact.store import stored
 from reduced_models.elements.film_curve import curve_nodes
 from reduced_models.elements.film_element import FilmContact
 from reduced_models.elements.film_filters import DIRECT
-from reduced_models.elements.motion_errors import WITHIN, motion_errors
+from reduced_models.elements.motion_errors import UNLOADING, WITHIN, motion_errors
 
 _Floats = NDArray[np.float64]
 
@@ -107,21 +107,22 @@ class WideRangeContact(FilmContact):
     def motion_errors(self) -> dict[str, float]:
         """RMS error of the force over its standard deviation, by kind of motion (`elements.motion_errors`).
 
-        Estimated from full solves at three points, by the film under the reference load.
+        Estimated from full solves at three points, by the film under the reference load; typical, not bounds.
         """
         f, length, _ = self._units
         return motion_errors(1.0 - self.approach_at(f) / length)
 
     @property
     def rms(self) -> float | None:
-        """RMS error of the force over its standard deviation: of the fit, or else of vibrations within contact."""
+        """RMS error of the force over its standard deviation: of the fit, or else of vibrations in contact."""
         fitted = super().rms
-        return self.motion_errors[WITHIN] if fitted is None else fitted
+        errors = self.motion_errors
+        return max(errors[WITHIN], errors[UNLOADING]) if fitted is None else fitted
 
     def _summary_lines(self) -> list[str]:
         errors = list(self.motion_errors.items())[1:]  # small vibrations have K and C
         said = ", ".join(f"{kind} {100.0 * error:.2g} %" for kind, error in errors)
-        return [*super()._summary_lines(), f"rms error of the force: {said}"]
+        return [*super()._summary_lines(), f"typical rms error of the force: {said}"]
 
     def _tables(self) -> dict[str, _Floats]:
         gains = {"gain_x": np.log(np.array(self.gain_loads)), "gains": np.array(self.gains)}

@@ -4,10 +4,12 @@ import importlib.util
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from ehlcontact import MoesPoint, PrescribedApproach, TimeSteps, simulate
 from reduced_models import Atlas
-from reduced_models.elements.motion_errors import ERRORS, WITHIN
+from reduced_models.elements.motion_errors import ERRORS, UNLOADING, WITHIN
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 SPEC = importlib.util.spec_from_file_location("motions", GOLDEN / "motions.py")
@@ -26,7 +28,27 @@ def test_stated_errors_are_those_of_the_solves(case):
 
 
 def test_kinds_are_those_of_the_solves(memory):
-    assert tuple(ERRORS) == motions.KINDS
+    assert tuple(ERRORS)[: len(motions.KINDS)] == motions.KINDS
     element = Atlas().element(motions.POINTS["middle"], "wide")
-    assert element.rms == element.motion_errors[WITHIN]
+    assert element.rms == max(element.motion_errors[kind] for kind in (WITHIN, UNLOADING))
     assert "impact" in repr(element) and memory.rms is None
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore:WideRangeContact used outside")
+@pytest.mark.parametrize(
+    ("kind", "depth", "period", "dt"), [("unloading", 0.5, 3.0, 0.02), ("repeated lift-off", 1.3, 1.5, 0.01)]
+)
+def test_errors_at_a_point_between_are_below_those_stated(kind, depth, period, dt):
+    """At (200, 10, 0.5), which was not solved for the table: 0.7 of 1.1 % and 7.1 of 8.7 %."""
+    point = MoesPoint(200, 10, 0.5)
+    element = Atlas().element(point, "wide")
+    until = 2.0 * period + 0.5
+    T = np.linspace(0.0, until, 4 * round(until / dt) + 1)
+    u = element.approach_at(1.0) - 0.5 * depth * (
+        1.0 - np.cos(2.0 * np.pi * np.clip((T - 0.2) / period, 0.0, 2.0))
+    )
+    run = simulate(point, PrescribedApproach(T, u), time=TimeSteps(until=until, dt=dt))
+    off = element.drive(run.T, run.approach, run.rate) - run.force
+    stated = element.motion_errors[kind]
+    assert 0.5 * stated < np.sqrt(np.mean(off**2)) / run.force.std() < stated
