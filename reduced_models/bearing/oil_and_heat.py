@@ -1,11 +1,18 @@
 """A bearing with flooded isothermal films, with heat, and with a layer of oil on its surfaces, beside each other.
 
-Each is the bearing with `BallBearing.thermal` and `BallBearing.supply`, from the tables of the atlas. Where they
-do not have it, or on request, the contacts of the most loaded ball are solved; then films, moments, K and C are
-those of the flooded films times the ratio of the solved ones: films and moments race by race, K and C as those of
-the ball, both contacts in series. With both, heat thins the film and the layer is over what is left of it:
+Each is the bearing with `BallBearing.thermal` and `BallBearing.supply`, from the tables of the atlas. With both,
+heat thins the film and the layer is over what is left of it:
 
     value = heated value * value(layer/s)/flooded value,    s = heated central film over the flooded one.
+
+On request, both contacts of the most loaded ball are solved as well, under its load with flooded films. R is the
+ratio of a solved value to the flooded one, T the same of these contacts in the tables: of films and moments race
+by race, of K and C with both contacts in series. The bearing then has
+
+    value = tabled value * R/T,    C = tabled C + flooded C * (R - T), because C may be zero.
+
+Where the tables do not have the bearing, it has value = flooded value * R: preload and the loads of all balls are
+then those of flooded films.
 
 Of a set of bearings films are those of the one with the most loaded ball, K, C and torques those of the set.
 """
@@ -13,8 +20,8 @@ Of a set of bearings films are those of the one with the most loaded ball, K, C 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,10 +32,11 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.lubricant import TractionLaw
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary
+from ehlcontact.supply import THICKEST
 from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.kinematics import RPM_TO_HZ, rolling_torque
-from reduced_models.bearing.race import RACES
+from reduced_models.bearing.race import RACES, shared_atlas
 from reduced_models.bearing.set_result import SetState
 from reduced_models.bearing.sliding import USUAL_LAW, friction_at, race_at, require_oil
 from reduced_models.bearing.table_bars import TableBars, table_bars
@@ -122,7 +130,9 @@ class OilAndHeat(Summary):
     refused : dict of str to str
         Those that were asked for and have no film, and why.
     solved : bool
-        Whether contacts of the most loaded ball were solved, and all is not from tables.
+        Whether contacts of the most loaded ball were solved, and not all is from tables.
+    beyond_tables : str
+        Why the tables do not have it, so that loads of the balls are those of flooded films; empty where they do.
     error_bars : dict of str to TableBars
         Half widths of the error bars of conditions from tables; without entries where contacts were solved.
     """
@@ -133,6 +143,7 @@ class OilAndHeat(Summary):
     refused: Mapping[str, str]
     solved: bool
     error_bars: Mapping[str, TableBars] = field(default_factory=dict)
+    beyond_tables: str = ""
 
     @property
     def bearing(self) -> int:
@@ -204,10 +215,23 @@ class OilAndHeat(Summary):
         lines = ["Films, K and C are those of all balls, from tables of solved contacts."]
         if self.error_bars:
             lines[0] += " Their error bars are those of the most loaded ball's contacts."
-        if self.solved:
+        if self.solved and not self.beyond_tables:
             lines = [
-                "K and C are those of flooded films times a ratio, of the solved contacts of the most loaded ball."
+                "Films, K and C are those of all balls from tables, changed by what the solved contacts of the "
+                "most loaded ball differ from its tabled ones."
             ]
+        if self.beyond_tables:
+            lines = [
+                "K and C are those of flooded films times a ratio, of the solved contacts of the most loaded "
+                f"ball, because the tables do not have this bearing ({self.beyond_tables}).",
+                "So K is without the change of preload as films get thinner, and without that of lightly loaded "
+                "balls: with preload, and of pairs, K can be over 10 % too high.",
+            ]
+        elif LAYER in self.conditions:
+            lines.append(
+                "C with a layer is that of tabled contacts, other C that of elements: up to 5 % apart for equal "
+                "films."
+            )
         if isinstance(self.at_rest, SetState):
             where = f"bearing {self.bearing}, facing {self.at_rest.facings[self.bearing]}"
             lines.append(f"The most loaded ball is that of {where}; K, C and torques are those of all bearings.")
@@ -257,6 +281,7 @@ class OilAndHeat(Summary):
             },
             "refused": dict(self.refused),
             "solved": self.solved,
+            **({"beyond_tables": self.beyond_tables} if self.beyond_tables else {}),
             "skf_rolling": rolling,
             "skf_sliding": sliding,
             "notes": self.notes,
@@ -303,7 +328,8 @@ def oil_and_heat(
     band : array_like, shape (k,)
         Further frequencies of K and C [Hz].
     solve : bool
-        Solve the contacts of the most loaded ball, also where tables have them.
+        Solve the contacts of the most loaded ball, and correct the tables by them. Where the tables do not have
+        the bearing they are solved in any case, and `OilAndHeat.beyond_tables` says why.
     callback : callable
         Called before every solve with those done, their number, and what is solved.
 
@@ -336,16 +362,24 @@ def oil_and_heat(
         found = _states(variant.equilibrium(load, **under))
         return _tabulated(_bearings(variant), found, most, variant.coefficients(load, hz=hz, **under), law)
 
-    small = bearing.coefficients(load, hz=hz, **under)
-    if not solve:
-        with suppress(InputError):  # beyond the tables
-            flooded = _tabulated(_bearings(bearing), states, most, small, law)
-            made = _from_tables(flooded, tabulated, states[most].heaviest, supply, thermal)
-            bars = _bars(_bearings(bearing)[most], states[most], hz, made, supply, thermal)
-            return OilAndHeat(at_rest=at_rest, hz=hz, conditions=made, refused={}, solved=False, error_bars=bars)
-    ratios, refused = _ratios(points, hz, supply, thermal, callback)
-    made = {key: _condition(_bearings(bearing), states, most, small, one, law) for key, one in ratios.items()}
-    return OilAndHeat(at_rest=at_rest, hz=hz, conditions=made, refused=refused, solved=True)
+    small, beyond = bearing.coefficients(load, hz=hz, **under), ""
+    flooded = _tabulated(_bearings(bearing), states, most, small, law)
+    try:
+        tables = _from_tables(flooded, tabulated, states[most].heaviest, supply, thermal)
+        if not solve:
+            bars = _bars(_bearings(bearing)[most], states[most], hz, tables, supply, thermal)
+            return OilAndHeat(at_rest=at_rest, hz=hz, conditions=tables, refused={}, solved=False, error_bars=bars)
+        tabled, _ = _ratios(points, partial(_tabled_contact, _bearings(bearing)[most].atlas, hz), supply, thermal)
+    except InputError as error:
+        beyond = str(error)
+    solved, refused = _ratios(points, partial(_solved_contact, hz), supply, thermal, callback)
+    times = partial(_times, _bearings(bearing), states, flooded, law)
+    if beyond:
+        made = {key: times(one) for key, one in solved.items()}
+    else:
+        made = {key: _corrected(tables[key], times, one, tabled[key]) for key, one in solved.items()}
+    made[FLOODED] = flooded
+    return OilAndHeat(at_rest=at_rest, hz=hz, conditions=made, refused=refused, solved=True, beyond_tables=beyond)
 
 
 def _bearings(one: Any) -> tuple[Any, ...]:
@@ -445,14 +479,34 @@ def _point(bearing: Any, state: BearingState, column: int) -> OperatingPoint:
     return found
 
 
+_Contact = Callable[[OperatingPoint, OilLayer | None, Heat | None], tuple[tuple[float, float, float], _Complex]]
+
+
+def _solved_contact(
+    hz: _Floats, point: OperatingPoint, supply: OilLayer | None, thermal: Heat | None
+) -> tuple[tuple[float, float, float], _Complex]:
+    """Central and smallest film and moment of a contact, in units of its point, and its impedance [N/m]."""
+    one = impedance(point, hz=hz, supply=supply, thermal=thermal)
+    return (one.h_central, one.h_min, one.moment), one.si.stiffness + 2j * np.pi * hz * one.si.damping
+
+
+def _tabled_contact(
+    atlas: str | None, hz: _Floats, point: OperatingPoint, supply: OilLayer | None, thermal: Heat | None
+) -> tuple[tuple[float, float, float], _Complex]:
+    """The same from the tables."""
+    one = shared_atlas(atlas).at(point, supply=supply, thermal=thermal)
+    small = one.impedance(hz=hz).si
+    return (one.h_central, one.h_min, one.moment), small.stiffness + 2j * np.pi * hz * small.damping
+
+
 def _ratios(
     points: list[OperatingPoint],
-    hz: _Floats,
+    contact: _Contact,
     supply: OilLayer | None,
     thermal: Heat | None,
-    callback: Callable[[int, int, str], object],
+    callback: Callable[[int, int, str], object] = lambda done, total, words: None,
 ) -> tuple[dict[str, Ratios], dict[str, str]]:
-    """Ratios of the conditions that are asked for, and why others have none."""
+    """Ratios of the conditions that are asked for, of contacts found by `contact`, and why others have none."""
     asked = {HEAT: thermal is not None, LAYER: supply is not None}
     asked[BOTH] = all(asked.values())
     steps = iter(range(total := 2 * (1 + sum(asked.values()))))
@@ -461,9 +515,9 @@ def _ratios(
         found = []
         for race, point, layer in zip(RACES, points, layers, strict=True):
             callback(next(steps), total, f"{race} race, {words}")
-            found.append(impedance(point, hz=hz, supply=layer, thermal=heat))
-        Z = [one.si.stiffness + 2j * np.pi * hz * one.si.damping for one in found]
-        central, smallest, moment = np.array([(one.h_central, one.h_min, one.moment) for one in found]).T
+            found.append(contact(point, layer, heat))
+        films, Z = zip(*found, strict=True)
+        central, smallest, moment = np.array(films).T
         return SolvedBall(central, smallest, moment, Z[0] * Z[1] / (Z[0] + Z[1]))
 
     flooded = solve(FLOODED, None, [None, None])
@@ -493,27 +547,32 @@ def _reason(error: ConvergenceError) -> str:
 def _over(supply: OilLayer, share: float) -> OilLayer:
     """The layer in units of a film that is thinner by a share."""
     name = next(one for one in ("h", "over_flooded", "H") if getattr(supply, one) is not None)
-    return replace(supply, **{name: np.asarray(getattr(supply, name)) / share})
+    thickness = np.asarray(getattr(supply, name)) / share
+    return replace(supply, **{name: np.minimum(thickness, THICKEST[name])})  # the thickest there can be is flooded
 
 
-def _condition(
-    bearings: Sequence[Any],
-    states: Sequence[BearingState],
-    most: int,
-    small: Any,
-    ratios: Ratios,
-    law: TractionLaw,
+def _corrected(
+    tabled: Condition, times: Callable[[Ratios], Condition], solved: Ratios, answers: Ratios
 ) -> Condition:
-    """Bearings with their flooded values times these ratios; `most` is the one with the most loaded ball."""
-    state = states[most]
-    assert state.h_central is not None and state.h_min is not None
+    """A tabled condition with ratios of solved contacts in place of those of the same contacts in the tables."""
+    one = Ratios(*np.ones((len(solved), 1)))
+    ratios = Ratios(*(getattr(solved, name) / getattr(answers, name) for name in solved._fields))
+    flooded = times(one)
+    damping = tabled.damping + flooded.damping * (solved.damping - answers.damping)[:, None]
+    return replace(tabled.times(times(ratios), flooded), damping=damping)
+
+
+def _times(
+    bearings: Sequence[Any], states: Sequence[BearingState], flooded: Condition, law: TractionLaw, ratios: Ratios
+) -> Condition:
+    """Flooded bearings with their values times these ratios."""
     thin = [replace(one, h_central=np.asarray(one.h_central) * ratios.h_central) for one in states]
     return Condition(
-        h_central=state.h_central * ratios.h_central,
-        h_min=state.h_min * ratios.h_min,
-        lambda_ratio=None if state.lambda_ratio is None else state.lambda_ratio * ratios.h_min,
-        stiffness=_diagonal(small.stiffness) * ratios.stiffness[:, None],
-        damping=_diagonal(small.damping) * ratios.damping[:, None],
+        h_central=flooded.h_central * ratios.h_central,
+        h_min=flooded.h_min * ratios.h_min,
+        lambda_ratio=None if flooded.lambda_ratio is None else flooded.lambda_ratio * ratios.h_min,
+        stiffness=flooded.stiffness * ratios.stiffness[:, None],
+        damping=flooded.damping * ratios.damping[:, None],
         rolling=sum(_rolling(*row, ratios.moment) for row in zip(bearings, states, strict=True)),
         sliding=_sliding(bearings, thin, law),
     )

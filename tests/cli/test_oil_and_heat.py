@@ -120,6 +120,8 @@ def test_without_them_nothing_of_it_is_there(call):
         (("--thermal",), ("--thermal = True", "dry bearing")),
         (("--layer", "0.2"), ("--layer = 0.2", "dry bearing")),
         ((*OIL, "--csv", "b.csv"), ("--csv", "--thermal")),
+        ((*OIL, "--solve"), ("--solve", "--thermal")),
+        ((*OIL, "--thermal", "--csv", "/nonexistent/b.csv"), ("--csv = ", "a folder that exists")),
         ((*OIL, "--thermal", "--csv", "b.txt"), ("--csv", ".csv")),
     ],
 )

@@ -311,7 +311,13 @@ class BearingOptions(o.Options):
         _films("--thermal", help="Films that heat up, beside isothermal ones; with --oil and --temp."),
     ] = None
     solve: Annotated[
-        bool, _films("--solve", help="Solve the contacts of the most loaded ball in place of tables; a minute.")
+        bool,
+        _films(
+            "--solve",
+            help="Solve the contacts of the most loaded ball, a minute, and correct the tables by them. Where "
+            "tables do not have the bearing, this is done anyway: K is then without the change of preload by "
+            "thinner films.",
+        ),
     ] = False
 
     def given(self) -> dict[str, Any]:
@@ -328,7 +334,7 @@ class BearingOptions(o.Options):
 class BearingOutput(o.FigureOutput):
     """JSON, a picture, and the table of oil supply and heat."""
 
-    csv_to: Annotated[
+    csv: Annotated[
         Path | None,
         typer.Option("--csv", metavar="FILE", help="Films, K, C and torques under each condition as CSV."),
         o.Endings((".csv",)),
@@ -366,9 +372,13 @@ def bearing(
     order = None if options.measured_order is None else measured.measured_order_of(options.measured_order)
     slip = _slip_of(options.slip)
     job = load_job(source, options.given())
-    if out.csv_to is not None and job.supply is None and job.thermal is None:
+    if out.csv is not None and job.supply is None and job.thermal is None:
         allowed = "given with --thermal, --layer or --layer-ratio, whose table it is"
-        raise InputError("--csv", str(out.csv_to), allowed)
+        raise InputError("--csv", str(out.csv), allowed)
+    if options.solve and job.supply is None and job.thermal is None:
+        raise InputError(
+            "--solve", True, "given with --thermal, --layer or --layer-ratio, whose contacts it solves"
+        )
     with progress("bearing") as update, job.called():
         lines = () if spall is None else job.excitations(spall, options.spall or "", slip)
         found = None if order is None else measured.allowed_by(order, job, slip)
@@ -385,7 +395,7 @@ def bearing(
 
     out.deliver(
         report.summary(),
-        partial(write_to, "--csv", out.csv_to, write),
+        partial(write_to, "--csv", out.csv, write),
         partial(_show, report, out.json_to),
         figure=draw,
     )

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from functools import partial
 from math import cos, tau
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import reduced_models.bearing.oil_and_heat as module
 from ehlcontact import Grid, Heat, InputError, Lubricant, OilLayer, impedance
 from reduced_models import BallBearing, BearingSet, bearing_friction
 from reduced_models.bearing.oil_and_heat import BOTH, FLOODED, HEAT, HIGH, LAYER, oil_and_heat
+from reduced_models.bearing.race import shared_atlas
 from reduced_models.bearing.sliding import USUAL_LAW, race_at
 
 LOAD, SPEED = (0.0, -100.0), 6000.0
@@ -81,20 +83,75 @@ def test_error_bars_are_those_of_the_heaviest_balls_contacts():
     assert "±" not in str(found) and "error bars are those of the most loaded ball" in found.notes[0]
 
 
-def test_what_tables_do_not_have_is_solved(coarse, monkeypatch):
-    """For a bearing, and for both of a pair."""
-
+@pytest.fixture
+def without_tables(monkeypatch):
     def beyond(*given):
         raise InputError("supply", 1.0, "one that the table of oil supply has")
 
     monkeypatch.setattr(module, "_from_tables", beyond)
+
+
+@pytest.mark.parametrize(
+    ("bearing", "load", "speed"),
+    [
+        (BallBearing.catalogue("6305", clearance=-6e-6, oil=BEARING.oil), (0.0, -500.0), SPEED),
+        (
+            BearingSet.pair(BallBearing.catalogue("7205", oil=BEARING.oil), preload=150.0),
+            (0.0, -300.0, 0.0),
+            SPEED,
+        ),
+    ],
+)
+def test_solved_contacts_correct_the_tables_of_preloaded_bearings(monkeypatch, bearing, load, speed):
+    """Contacts as in the tables change nothing; errors of the tables with a layer are those of the bearing."""
+    errors = {}
+
+    def answered(point, *, hz, supply, thermal):
+        one = shared_atlas(None).at(point, supply=supply, thermal=thermal)
+        Z = one.impedance(hz=hz).si
+        off = errors if supply is not None else {}
+        scaled = {name: factor * getattr(one, name) for name, factor in off.items() if name != "stiffness"}
+        K, C = Z.stiffness * off.get("stiffness", 1.0), Z.damping * off.get("stiffness", 1.0)
+        films = {name: getattr(one, name) for name in ("h_central", "h_min", "moment")}
+        return SimpleNamespace(**films | scaled, si=SimpleNamespace(stiffness=K, damping=C))
+
+    monkeypatch.setattr(module, "impedance", answered)
+    given = {"speed_rpm": speed, "supply": OilLayer(over_flooded=0.6), "thermal": Heat()}
+    tables, same = (oil_and_heat(bearing, load, **given, solve=solve) for solve in (False, True))
+    assert same.solved and not same.beyond_tables and "from tables, changed by" in same.notes[0]
+    for key, one in tables.conditions.items():
+        for name in ("h_central", "h_min", "stiffness", "damping", "rolling", "sliding"):
+            np.testing.assert_allclose(getattr(same.conditions[key], name), getattr(one, name), rtol=1e-9)
+    errors.update(stiffness=1.05, h_central=1.1, h_min=0.9, moment=1.2)
+    off, flooded = oil_and_heat(bearing, load, **given, solve=True).conditions, tables.conditions[FLOODED]
+    tabled = tables.conditions[LAYER]
+    for name, factor in (("stiffness", 1.05), ("h_central", 1.1), ("h_min", 0.9), ("rolling", 1.2)):
+        value, before = (getattr(one, name) for one in (off[LAYER], tabled))
+        np.testing.assert_allclose(value, factor * before, rtol=1e-6)
+    assert off[LAYER].sliding != tabled.sliding and np.all(off[LAYER].damping != tabled.damping)
+    np.testing.assert_array_equal(off[FLOODED].stiffness, flooded.stiffness)
+    share = (off[LAYER].damping - tabled.damping) / flooded.damping  # 5 % of the ball's C over its flooded one
+    np.testing.assert_allclose(share, np.broadcast_to(share[:, :1], share.shape), rtol=1e-6)
+
+
+def test_a_layer_as_thick_as_any_is_flooded_with_heat_too():
+    found = oil_and_heat(BEARING, LOAD, speed_rpm=SPEED, supply=OilLayer(over_flooded=1e6), thermal=Heat())
+    one, other = found.conditions[BOTH], found.conditions[HEAT]
+    np.testing.assert_allclose(one.h_central, other.h_central, rtol=1e-6)
+    assert any("of elements: up to 5 % apart" in line for line in found.notes)
+
+
+def test_what_tables_do_not_have_is_solved(coarse, without_tables):
+    """For a bearing, and for both of a pair."""
     pair, supply = BearingSet.tandem(BEARING), OilLayer(over_flooded=1.0)
     found, two = (
         oil_and_heat(one, (0.0, 0.0, force), speed_rpm=SPEED, supply=supply)
         for one, force in ((BEARING, 200.0), (pair, 400.0))
     )
     assert found.solved and list(found.conditions) == [FLOODED, LAYER]
-    assert "solved contacts" in found.notes[0]
+    assert "solved contacts" in found.notes[0] and "one that the table of oil supply has" in found.notes[0]
+    assert "without the change of preload" in found.notes[1]
+    assert found.to_dict()["beyond_tables"].startswith("supply = 1.0")
     state = BEARING.equilibrium((0.0, 0.0, 200.0), speed_rpm=SPEED)
     assert found.conditions[FLOODED].rolling == pytest.approx(state.rolling_torque, rel=1e-12)
     for key, one in found.conditions.items():
@@ -102,7 +159,7 @@ def test_what_tables_do_not_have_is_solved(coarse, monkeypatch):
             np.testing.assert_allclose(getattr(two.conditions[key], name), 2.0 * getattr(one, name), rtol=1e-4)
 
 
-def test_conditions_are_solved_ratios_times_flooded_values(coarse):
+def test_conditions_are_solved_ratios_times_flooded_values(coarse, without_tables):
     find, solve = coarse
     supply, calls = OilLayer(0.3e-6), []
     found = find(supply=supply, thermal=Heat(), callback=lambda *given: calls.append(given))
@@ -208,12 +265,14 @@ def test_ratios_of_the_heaviest_ball_beside_those_of_all():
 
     flooded = ring()
     heated, starved = ring(thermal=Heat()), ring(supply=supply)
-    # over the flooded C; under the layer it is -3.5 at 50 Hz and 0.07 at 500, so 0.17 is 5 % of it
-    for answer, off in ((found, {HEAT: 0.003, LAYER: [0.08, 0.08]}), (tables, {HEAT: 0.005, LAYER: [0.17, 0.03]})):
+    # Over C of the flooded contacts. With heat, C over that of flooded elements; under the layer C is that of
+    # contacts, -3.5 at 50 Hz and 0.07 at 500, so 0.1 is 3 % of it.
+    for answer, off in ((found, {HEAT: 0.003, LAYER: [0.08, 0.02]}), (tables, {HEAT: 0.005, LAYER: [0.1, 0.01]})):
         for key, all_balls in ((HEAT, heated), (LAYER, starved)):
             at, cold = answer.conditions[key], answer.conditions[FLOODED]
-            K, C = at.stiffness[:, 1] / cold.stiffness[:, 1], at.damping[:, 1] / cold.damping[:, 1]
-            np.testing.assert_allclose(K, all_balls.real / flooded.real, atol=0.004 if answer is tables else 0.002)
+            K = at.stiffness[:, 1] / cold.stiffness[:, 1]
+            C = at.damping[:, 1] / (cold.damping[:, 1] if key == HEAT else flooded.imag / (tau * hz))
+            np.testing.assert_allclose(K, all_balls.real / flooded.real, atol=0.004)
             assert np.all(np.abs(C - all_balls.imag / flooded.imag) < off[key]), (key, C)  # over the flooded one
     np.testing.assert_allclose(
         tables.conditions[LAYER].h_central[0], found.conditions[LAYER].h_central[0], rtol=0.01
