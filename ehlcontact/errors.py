@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 LONGEST_VALUE = 300  # characters of a value in a message: a whole file given as one is no help
 
 
@@ -21,7 +23,7 @@ class InputError(ValueError):
     def __init__(self, field: str, value: object, allowed: str) -> None:
         self.field, self.value, self.allowed = field, value, allowed
         try:
-            shown = repr(value)
+            shown = repr(value.item() if isinstance(value, np.generic) else value)
         except ValueError:  # Python writes no whole number of more than 4300 digits
             shown = "a whole number of thousands of digits"
         if len(shown) > LONGEST_VALUE:

@@ -30,7 +30,7 @@ from ehlcontact.executors import executor_for, results_of
 from ehlcontact.files import remove_leftovers
 from ehlcontact.quantities import ACCELERATION, HERTZ
 from ehlcontact.results.table import Display, QuantityTable
-from ehlcontact.store import save, stored
+from ehlcontact.store import load, save, stored
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.features import Indentation, Spall
@@ -242,13 +242,13 @@ def make_records(
     scheduler: str | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Path]:
-    """Files of all cases in their order, one each; those that are in the folder already are kept.
+    """Files of all cases in their order, one each; whole ones that are in the folder already are kept.
 
     Parameters
     ----------
     cases : sequence of RecordCase
     folder : path
-        Made if it does not exist. After an interruption the same call computes the missing ones.
+        Made if it does not exist. After an interruption the same call computes the missing and the damaged ones.
     processes : int
         Of this machine.
     scheduler : str, optional
@@ -271,7 +271,7 @@ def make_records(
     except OSError as error:
         raise InputError("folder", str(folder), f"one that can be made ({error.strerror})") from None
     remove_leftovers(folder)
-    missing = {name: case for name, case in wanted.items() if not (folder / f"{name}{SUFFIX}").exists()}
+    missing = {name: case for name, case in wanted.items() if not _is_whole(folder / f"{name}{SUFFIX}")}
     failed, done = {}, len(wanted) - len(missing)
     if missing:
         with executor_for(processes, 1, scheduler=scheduler) as executor:
@@ -287,6 +287,14 @@ def make_records(
         name, reason = next(iter(failed.items()))
         raise ConvergenceError(f"{len(failed)} of {len(wanted)} records were not made, as {name}: {reason}", None)
     return [folder / f"{case.recording_id}{SUFFIX}" for case in cases]
+
+
+def _is_whole(path: Path) -> bool:
+    """Whether a record is there that can be read: not where a full disc or a copy has cut it."""
+    try:
+        return path.exists() and load(path, VibrationRecord) is not None
+    except InputError:
+        return False
 
 
 def _tried(case: RecordCase) -> VibrationRecord | str:

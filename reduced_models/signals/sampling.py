@@ -13,7 +13,7 @@ from ehlcontact.checks import as_numbers, require_choice, require_integer, requi
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.rotor.result import RotorResult
-from reduced_models.signals.transfer_path import TransferPath
+from reduced_models.signals.transfer_path import MeasuredPath, TransferPath
 
 if TYPE_CHECKING:
     from reduced_models.bearing.ball_bearing import BallBearing
@@ -107,7 +107,8 @@ def housing_acceleration(
     ----------
     run : RotorResult
     path : TransferPath
-        From the force on the outer ring to the sensor.
+        From the force on the outer ring to the sensor. It is applied at the steps of the run; a `MeasuredPath`
+        at the output rate, to the force after the low-pass of `sampled`.
     rate : float
         Of the output [Hz].
     bearing : int
@@ -117,15 +118,18 @@ def housing_acceleration(
     Raises
     ------
     InputError
-        As `sampled`; a bearing or an axis that is not in the run.
+        As `sampled`; a bearing or an axis that is not in the run; an output rate above twice the frequencies of a
+        `MeasuredPath`.
     """
     force, dt = run.ring_force, _step(run)
     require_choice("axis", axis, AXES[: min(force.shape[2], len(AXES))])
     last = force.shape[1] - 1
     if require_integer("bearing", bearing, f"a whole number from 0 to {last}", 0) > last:
         raise InputError("bearing", bearing, f"a whole number from 0 to {last}")
-    moved = path.acceleration(force[:, bearing, AXES.index(axis)], 1.0 / dt)
-    return sampled(moved, dt, rate)
+    pushed = force[:, bearing, AXES.index(axis)]
+    if isinstance(path, MeasuredPath):  # not known beyond its highest frequency
+        return path.acceleration(sampled(pushed, dt, rate), rate)
+    return sampled(path.acceleration(pushed, 1.0 / dt), dt, rate)
 
 
 def shaft_angle(t: ArrayLike, speed_rpm: ArrayLike) -> _Floats:

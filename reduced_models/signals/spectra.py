@@ -21,6 +21,7 @@ _Floats = NDArray[np.float64]
 
 FILTER_ORDER = 4  # of the band-pass, forwards and backwards
 FEWEST = 64  # samples of a signal
+NARROWEST = 2.0  # lines of the record that a band has at least
 FINER = 4  # factor of upsampling before interpolation at angles
 MOST_SAMPLES = 2**26  # of a signal over the angle: 0.5 GB
 
@@ -135,12 +136,13 @@ def envelope_spectrum(signal: ArrayLike, rate: float, band: tuple[float, float])
     Raises
     ------
     InputError
-        Fewer than 64 samples; a band that does not rise, or does not lie between 0 and half the rate.
+        Fewer than 64 samples; a band that does not rise, does not lie between the resolution of the record (one
+        over its length) and half the rate, or is narrower than two lines of it.
     """
     from scipy.signal import butter, hilbert, sosfiltfilt
 
     column, rate = as_column("signal", signal, least=FEWEST), require_positive("rate", rate)
-    low, high = _band(band, 0.5 * rate)
+    low, high = _band(band, 0.5 * rate, rate / column.size)
     passed = sosfiltfilt(butter(FILTER_ORDER, (low, high), "bandpass", fs=rate, output="sos"), column)
     envelope = np.abs(hilbert(passed))
     mean = float(envelope.mean())
@@ -150,12 +152,15 @@ def envelope_spectrum(signal: ArrayLike, rate: float, band: tuple[float, float])
     return EnvelopeSpectrum(np.asarray(np.fft.rfftfreq(column.size, 1.0 / rate)), amplitude, mean)
 
 
-def _band(band: tuple[float, float], highest: float) -> tuple[float, float]:
+def _band(band: tuple[float, float], highest: float, line: float) -> tuple[float, float]:
     low, high = as_column("band", band, size=2).tolist()
     if not 0.0 < low < high < highest:
         raise InputError(
             "band", [low, high], f"two rising frequencies between 0 and {highest:g} Hz, half the rate"
         )
+    if low < line or high - low < NARROWEST * line:
+        allowed = f"from {line:.4g} Hz, which the record resolves, and {NARROWEST * line:.4g} Hz wide at least"
+        raise InputError("band", [low, high], allowed)
     return low, high
 
 

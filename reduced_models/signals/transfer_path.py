@@ -25,6 +25,7 @@ _Complex = NDArray[np.complex128]
 
 FADED = 1e-6  # of an impulse response, beyond which it is left out
 LONGEST = 60.0  # s, of the decay of a path: longer ones are a wrong unit
+ROUNDED = 1.0 + 1e-9  # of a frequency over the highest measured one
 IMAGINARY = 1e-9  # of a pole over its distance from 0: one nearer to the axis does not decay
 
 
@@ -48,8 +49,7 @@ class TransferPath(Summary, ABC):
         Raises
         ------
         InputError
-            A force that is no column of numbers, a rate that is not positive, or one above twice the frequencies
-            of a measured response.
+            A force that is no column of numbers, a rate that is not positive.
         """
         column, rate = as_column("force", force, least=2), require_positive("rate", rate)
         fade = ceil(self.decay_time * rate)
@@ -74,7 +74,7 @@ class ModalPath(TransferPath):
     hz : float or array_like, shape (modes,)
         Natural frequencies [Hz].
     damping : float or array_like, shape (modes,)
-        Damping ratios zeta, above 0.
+        Damping ratios zeta, between 0 and 1 (0.05 for 5 %).
     mass : float or array_like, shape (modes,)
         Modal masses [kg]; a negative one has its sensor on the other side of a node.
 
@@ -82,7 +82,7 @@ class ModalPath(TransferPath):
     ------
     InputError
         Columns of different lengths; a frequency or a damping ratio that is not positive: its poles would not lie
-        left of the imaginary axis; a mass that is 0; a decay of more than 60 s.
+        left of the imaginary axis; a damping ratio of 1 or more; a mass that is 0; a decay of more than 60 s.
     """
 
     hz: ArrayLike
@@ -101,6 +101,8 @@ class ModalPath(TransferPath):
             raise InputError("hz", hz.tolist(), "> 0")
         if not (damping > 0.0).all():
             raise InputError("damping", damping.tolist(), "> 0: poles left of the imaginary axis")
+        if not (damping < 1.0).all():
+            raise InputError("damping", damping.tolist(), "below 1, ratios to critical damping (in per cent?)")
         if not mass.all():
             raise InputError("mass", mass.tolist(), "not 0")
         _require_decay("damping", damping.tolist(), self.decay_time)
@@ -118,8 +120,7 @@ class ModalPath(TransferPath):
     def decay_time(self) -> float:
         """Time [s] in which the slowest mode fades to 1e-6."""
         hz, damping, _ = self._columns
-        slowest = damping - np.sqrt(np.maximum(damping**2 - 1.0, 0.0))  # of overdamped modes the slower pole
-        return float((-log(FADED) / (2.0 * pi * hz * slowest)).max())
+        return float((-log(FADED) / (2.0 * pi * hz * damping)).max())
 
     def response(self, hz: ArrayLike) -> _Complex:
         """Acceleration over force [(m/s2)/N] at these frequencies [Hz], of their shape."""
@@ -173,13 +174,24 @@ class MeasuredPath(TransferPath):
         """Time [s] that the frequencies resolve: one over their smallest distance."""
         return float(1.0 / np.diff(np.asarray(self.hz)).min())
 
+    def acceleration(self, force: ArrayLike, rate: float) -> _Floats:
+        """Acceleration [m/s2] by a force [N], shape (k,), sampled at `rate` [Hz], as of every path.
+
+        Raises
+        ------
+        InputError
+            As of every path; a rate above twice the measured frequencies.
+        """
+        rate, most = require_positive("rate", rate), 2.0 * float(np.asarray(self.hz)[-1])
+        if rate > most * ROUNDED:
+            raise InputError("rate", rate, f"at most {most:g} Hz, twice the measured frequencies")
+        return super().acceleration(force, rate)
+
     def response(self, hz: ArrayLike) -> _Complex:
         """Acceleration over force [(m/s2)/N] at these frequencies [Hz], of their shape."""
         known, found, at = np.asarray(self.hz), np.asarray(self.accelerance), np.asarray(hz, float)
-        if at.size and at.max() > known[-1] * (1.0 + 1e-9):
-            raise InputError(
-                "rate", 2.0 * at.max(), f"at most {2.0 * known[-1]:g} Hz, twice the measured frequencies"
-            )
+        if at.size and at.max() > known[-1] * ROUNDED:
+            raise InputError("hz", float(at.max()), f"at most {known[-1]:g} Hz, as measured")
         real, imaginary = (np.interp(at, known, part, left=0.0) for part in (found.real, found.imag))
         return np.asarray(real + 1j * imaginary)
 

@@ -58,15 +58,18 @@ def test_lines_are_where_the_label_says(files):
 
 
 def test_made_once_and_again_the_same(files):
-    """A second call makes what is missing only; a record depends on its case alone."""
+    """A second call makes what is missing or damaged only; a record depends on its case alone."""
     folder, cases, made, seen = files
     assert seen == [(1, 3), (2, 3), (3, 3)]
     before = [path.stat().st_mtime_ns for path in made[:2]]
     kept = load(made[2]).signal
-    made[2].unlink()
+    made[2].write_bytes(made[2].read_bytes()[:3000])  # cut short
     again = []
     assert make_records(cases, folder, progress=lambda *numbers: again.append(numbers)) == made
     assert again == [(3, 3)] and [path.stat().st_mtime_ns for path in made[:2]] == before
+    assert np.array_equal(load(made[2]).signal, kept)
+    made[2].write_bytes(b"")
+    make_records(cases, folder)
     assert np.array_equal(load(made[2]).signal, kept)
     assert len({one.recording_id for one in (*cases, case(seed=8), case(speed_rpm=1801.0))}) == 5
 

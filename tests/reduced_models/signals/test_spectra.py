@@ -18,7 +18,7 @@ from reduced_models.signals.sampling import (
     shaft_angle,
 )
 from reduced_models.signals.spectra import envelope_spectrum, order_spectrum
-from reduced_models.signals.transfer_path import ModalPath
+from reduced_models.signals.transfer_path import MeasuredPath, ModalPath
 
 RATE = 12_000.0
 BAND = (2000.0, 5500.0)
@@ -144,6 +144,11 @@ def test_acceleration_of_nodes_and_housing():
     housing = housing_acceleration(run, path, RATE)
     wanted = (path.response(f) * np.exp(1j * w * t[::4])).imag
     assert housing[inner] == pytest.approx(wanted[inner], abs=2e-3 * np.abs(wanted).max())
+    hz = np.linspace(0.0, 6000.0, 3001)  # measured to half the output rate, far below that of the steps
+    measured = housing_acceleration(run, MeasuredPath(hz, path.response(hz)), RATE)
+    assert measured[inner] == pytest.approx(wanted[inner], abs=2e-3 * np.abs(wanted).max())
+    with pytest.raises(InputError, match="rate = 12000.0: must be at most 10000 Hz, twice the measured"):
+        housing_acceleration(run, MeasuredPath(hz[:2501], path.response(hz[:2501])), RATE)
     with pytest.raises(InputError, match="axis"):
         housing_acceleration(run, path, RATE, axis="z")
     with pytest.raises(InputError, match="bearing"):
@@ -162,6 +167,9 @@ def test_acceleration_of_nodes_and_housing():
         (lambda: envelope_spectrum(np.zeros(10), RATE, BAND), "signal"),
         (lambda: envelope_spectrum(np.zeros(100), RATE, (2000.0, 6000.0)), "half the rate"),
         (lambda: envelope_spectrum(np.zeros(100), RATE, (3000.0, 2000.0)), "band"),
+        (lambda: envelope_spectrum(np.zeros(100), 1e6, (1e-3, 2e-3)), "from 1e.04 Hz, which the record resolves"),
+        (lambda: envelope_spectrum(np.zeros(1200), RATE, (2000.0, 2015.0)), "20 Hz wide at least"),
+        (lambda: envelope_spectrum(np.zeros(1200), RATE, (1.0, 200.0)), "band"),
         (lambda: order_spectrum(np.zeros(100), RATE, np.zeros(100)), "angle"),
         (lambda: order_spectrum(np.zeros(100), RATE, np.linspace(0.0, 1.0, 100)), "turns of the record"),
         (lambda: order_spectrum(np.zeros(100), RATE, np.linspace(0.0, 600.0, 100)), "half the rate"),

@@ -66,6 +66,8 @@ def test_modes_add_up_and_a_negative_mass_is_the_other_side_of_a_node():
     [
         (lambda: ModalPath(hz=HZ, damping=-0.01, mass=1.0), "poles left of the imaginary axis"),
         (lambda: ModalPath(hz=HZ, damping=0.0, mass=1.0), "left of the imaginary axis"),
+        (lambda: ModalPath(hz=HZ, damping=[5.0], mass=1.0), "per cent"),
+        (lambda: paths()["measured"].response(np.array([1.0, 3e4])), "hz = 30000.0: must be at most 25000 Hz"),
         (lambda: ModalPath(hz=[HZ, 1.0], damping=0.1, mass=1.0), "as many as hz"),
         (lambda: ModalPath(hz=np.nan, damping=0.1, mass=1.0), "hz"),
         (lambda: ModalPath(hz=1e-3, damping=0.1, mass=1.0), "fades within 60 s"),
