@@ -50,6 +50,8 @@ class RotorResult(QuantityTable, ByNode):
     largest_load : ndarray, shape (ball bearings, 2)
         Largest force that any ball had, on the inner and on the outer race [N].
     status : Status
+    reservation : str
+        What the run leaves open, in words; else empty: steps that are long for a feature of a bearing.
     columns : tuple of str
         Names of the columns, as "contact 1" or "bearing 0 x".
     names : tuple of str
@@ -71,6 +73,7 @@ class RotorResult(QuantityTable, ByNode):
     columns: tuple[str, ...]
     names: tuple[str, ...] = ()
     places: NDArray[np.int64] = None  # type: ignore[assignment]
+    reservation: str = ""
 
     DISPLAY: ClassVar[Display] = Display(
         rows="t", panels=("displacement", "approach", "force"), labels={"race": ("inner", "outer")}, first=0
@@ -111,7 +114,7 @@ class RotorResult(QuantityTable, ByNode):
             along = f" and {1e6 * np.abs(self.ring[..., 2]).max():.4g} µm along" if self.ring.shape[2] > 2 else ""
             most = self.largest_load.max()
             lines.append(f"rings within {far:.4g} µm of the centre{along}, largest force on a ball {most:.4g} N")
-        return lines
+        return [*lines, *filter(None, [self.reservation])]
 
     def node(self, name: str) -> _Floats:
         """Displacements x, y of a node, shape (k, 2) [m]; 0 along a direction in which it does not move."""

@@ -14,6 +14,7 @@ from ehlcontact import FullContact, Status
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
+from reduced_models.bearing.height_tables import LEAST_STEPS, shortest_meeting
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
 from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out
@@ -91,7 +92,8 @@ def simulate_rotor(
     Returns
     -------
     RotorResult
-        With status "interrupted" and what was computed, after Ctrl-C.
+        With status "interrupted" and what was computed, after Ctrl-C. Its `reservation` names features of
+        bearings for which the steps are too long.
 
     Raises
     ------
@@ -200,6 +202,7 @@ def _result(run: PreparedRun, made: int, status: Status) -> RotorResult:
     kept, histories = slice(0, made + 1), run.histories
     columns, approach, rate, force = _supports(run, kept)
     names, places = flat_nodes(run.rotor.nodes)
+    largest = np.array([one.films.largest for one in run.balls]).reshape(-1, 2)
     return RotorResult(
         t=run.t[kept],
         speed_rpm=run.omega[kept] / RPM_TO_RAD_S,
@@ -209,12 +212,26 @@ def _result(run: PreparedRun, made: int, status: Status) -> RotorResult:
         rate=rate,
         force=force,
         iterations=histories.evaluations[kept],
-        largest_load=np.array([one.films.largest for one in run.balls]).reshape(-1, 2),
+        largest_load=largest,
         status=status,
+        reservation=_long_steps(run, largest),
         columns=columns,
         names=names,
         places=places,
     )
+
+
+def _long_steps(run: PreparedRun, largest: _Floats) -> str:
+    """Features of bearings that balls meet in too few steps, in words; else empty."""
+    notes, fastest = [], float(run.omega.max()) / RPM_TO_RAD_S
+    rows = zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, largest.max(axis=1).tolist(), strict=True)
+    for mount, name, force in rows:
+        met = shortest_meeting(mount.ball_bearing, fastest, force)
+        if met is not None and run.dt * LEAST_STEPS > met[0]:
+            size = next(f"{key}={getattr(met[1], key):g}" for key in ("waves", "length") if hasattr(met[1], key))
+            short = f"a ball meets {type(met[1]).__name__}({size}) of {name} in {met[0]:.3g} s"
+            notes.append(f"steps of {run.dt:.3g} s are too long: {short}, so dt <= {met[0] / LEAST_STEPS:.2g} s")
+    return "; ".join(notes)
 
 
 def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, _Floats, _Floats]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import hypot
+from math import ceil, hypot
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
@@ -34,6 +34,7 @@ from ehlcontact.store import load, save, stored
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.features import Indentation, Spall
+from reduced_models.bearing.height_tables import LEAST_STEPS, shortest_meeting
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.simulate import simulate_rotor
 from reduced_models.rotor.supports import BearingMount
@@ -44,7 +45,7 @@ from reduced_models.signals.transfer_path import ModalPath
 _Floats = NDArray[np.float64]
 
 LEAD = 0.1  # s of a simulation before its record, in which the transient of the start decays
-FINER = 4  # steps per sample
+FINER, COARSEST = 4, 48_000.0  # least steps per sample and per s: a mass on its contacts swings at some kHz
 TILT_INERTIA, TILT_STIFFNESS = 1e-3, 1e5  # kg m2, N m/rad: a stiff shaft holds the ring against tilts
 SUFFIX = ".h5"
 LOCATION = "test_bearing"  # of bearing and sensor, in the words of bearing-datasets
@@ -83,7 +84,7 @@ class RecordCase(Summary):
     ------
     InputError
         A value out of its range, a speed of 0, a label that cannot be part of a file name, a rate that does not
-        resolve ball passages.
+        resolve ball passages or the modes of the path; a record shorter than a ball passage.
     """
 
     bearing: BallBearing
@@ -112,6 +113,15 @@ class RecordCase(Summary):
         require_nonnegative("noise", self.noise)
         require_integer("seed", self.seed, "a whole number >= 0", 0)
         require_sampling(self.bearing, self.speed_rpm, self.rate)
+        passage = 1.0 / self.bearing.frequencies(self.speed_rpm).bpfo
+        if self.seconds < passage:
+            raise InputError(
+                "seconds", self.seconds, f"at least {passage:.3g} s, a ball passage of the outer race"
+            )
+        highest = float(np.max(np.asarray(self.path.hz)))
+        if highest > 0.5 * self.rate:
+            allowed = f"at most {0.5 * self.rate:g} Hz, half the rate: a record of it has nothing of such a mode"
+            raise InputError("path.hz", highest, allowed)
 
     def _summary_lines(self) -> list[str]:
         force = ", ".join(f"{value:.4g}" for value in self.load)
@@ -131,6 +141,17 @@ class RecordCase(Summary):
     def recording_id(self) -> str:
         """Label and a hash of everything: records of one name are the same."""
         return f"{self.label}-{key_of(self.to_dict())}"
+
+    @property
+    def steps_per_sample(self) -> int:
+        """Steps of the simulation per sample.
+
+        At least 4, 48 000 per s, and 3 while a ball meets its shortest feature.
+        """
+        force = float(self.bearing.equilibrium(self.load, speed_rpm=self.speed_rpm).force.max())
+        met = shortest_meeting(self.bearing, self.speed_rpm, force)
+        needed = COARSEST if met is None else max(COARSEST, LEAST_STEPS / met[0])
+        return max(FINER, ceil(needed / self.rate))
 
     def rotor(self) -> Rotor:
         """The mass on its bearing."""
@@ -225,7 +246,7 @@ def make_record(case: RecordCase) -> VibrationRecord:
     """
     columns = case.columns()
     size = columns["n_samples"]
-    dt = 1.0 / (FINER * case.rate)
+    dt = 1.0 / (case.steps_per_sample * case.rate)
     run = simulate_rotor(case.rotor(), speed_rpm=case.speed_rpm, dt=dt, until=LEAD + (size + 1) / case.rate)
     heard = housing_acceleration(run, case.path, case.rate)
     first = round(LEAD * case.rate)

@@ -12,15 +12,19 @@ from ehlcontact import ConvergenceError, InputError, Lubricant, load
 from reduced_models import (
     BallBearing,
     ModalPath,
+    RaceWaviness,
     RecordCase,
     Spall,
     VibrationRecord,
     envelope_spectrum,
+    housing_acceleration,
     indicators,
     make_record,
     make_records,
+    simulate_rotor,
     write_dataset,
 )
+from reduced_models.signals.records import _is_whole
 
 OIL, PATH = Lubricant.iso_vg(68, temperature=40.0), ModalPath(hz=[2700.0], damping=[0.05], mass=[3.0])
 # of every row in version 0.3.0, but for the name of the data set and the three of its files
@@ -68,9 +72,8 @@ def test_made_once_and_again_the_same(files):
     assert make_records(cases, folder, progress=lambda *numbers: again.append(numbers)) == made
     assert again == [(3, 3)] and [path.stat().st_mtime_ns for path in made[:2]] == before
     assert np.array_equal(load(made[2]).signal, kept)
-    made[2].write_bytes(b"")
-    make_records(cases, folder)
-    assert np.array_equal(load(made[2]).signal, kept)
+    (folder / "empty.h5").write_bytes(b"")
+    assert not _is_whole(folder / "empty.h5") and _is_whole(made[2])
     assert len({one.recording_id for one in (*cases, case(seed=8), case(speed_rpm=1801.0))}) == 5
 
 
@@ -106,6 +109,8 @@ def test_without_pyarrow_one_line(files, tmp_path, monkeypatch):
         ({"noise": -1.0}, "noise"),
         ({"rate": 1000.0}, "8 samples per ball passage"),
         ({"seconds": np.nan}, "seconds"),
+        ({"seconds": 1e-3}, "seconds = 0.001: must be at least 0.0093 s, a ball passage"),
+        ({"rate": 5000.0}, "path.hz = 2700.0: must be at most 2500 Hz, half the rate"),
         ({"path": 3.0}, "ModalPath"),
     ],
 )
@@ -113,6 +118,26 @@ def test_bad_input_is_one_line(changes, word):
     with pytest.raises(InputError, match=word) as caught:
         case(**changes)
     assert "\n" not in str(caught.value)
+
+
+def test_steps_of_low_rates_are_as_short_as_those_of_high_ones():
+    """A record at 4 kHz is that of steps four times as short; with 4 steps per sample it was a quarter off."""
+    path = ModalPath(hz=1500.0, damping=0.05, mass=3.0)
+    spall = Spall(race="outer", angle=-np.pi / 2.0, length=1.8e-4, depth=5e-5)
+    bearing = BallBearing.catalogue("6205", clearance=8e-6, oil=OIL, features=[spall])
+    slow = case(bearing=bearing, path=path, rate=4000.0, noise=0.0, seconds=0.2)
+    assert slow.steps_per_sample == 12 and case("outer").steps_per_sample == case().steps_per_sample == 4
+    assert case("outer", speed_rpm=6000.0).steps_per_sample > 8
+    run = simulate_rotor(slow.rotor(), speed_rpm=slow.speed_rpm, dt=1.0 / 192_000.0, until=0.31)
+    finer = housing_acceleration(run, path, 4000.0)[400:1200]
+    found = make_record(slow).signal
+    assert np.std(found - finer) < 0.03 * np.std(finer)
+    assert run.reservation == ""
+    coarse = simulate_rotor(slow.rotor(), speed_rpm=slow.speed_rpm, dt=5e-4, until=0.1)
+    assert "Spall(length=0.00018) of bearing 0" in coarse.reservation and "dt <= " in repr(coarse)
+    wavy = replace(bearing, features=[RaceWaviness(race="inner", waves=500, amplitude=1e-7)])
+    coarse = simulate_rotor(replace(slow, bearing=wavy).rotor(), speed_rpm=1800.0, dt=1e-4, until=0.1)
+    assert "RaceWaviness(waves=500) of bearing 0" in coarse.reservation
 
 
 def test_no_cases(tmp_path):

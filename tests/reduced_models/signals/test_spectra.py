@@ -147,7 +147,7 @@ def test_acceleration_of_nodes_and_housing():
     hz = np.linspace(0.0, 6000.0, 3001)  # measured to half the output rate, far below that of the steps
     measured = housing_acceleration(run, MeasuredPath(hz, path.response(hz)), RATE)
     assert measured[inner] == pytest.approx(wanted[inner], abs=2e-3 * np.abs(wanted).max())
-    with pytest.raises(InputError, match="rate = 12000.0: must be at most 10000 Hz, twice the measured"):
+    with pytest.raises(InputError, match=r"rate = 12000\.0: must be at most 10000 Hz, twice the measured"):
         housing_acceleration(run, MeasuredPath(hz[:2501], path.response(hz[:2501])), RATE)
     with pytest.raises(InputError, match="axis"):
         housing_acceleration(run, path, RATE, axis="z")
