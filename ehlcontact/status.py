@@ -42,7 +42,8 @@ _ADVICE = {
     Status.OUT_OF_DOMAIN: "Pressure reaches the border of the computed region: give a wider domain, such as "
     "Grid(domain=Domain.for_load(largest force to come)), --domain XA XB YMAX, or domain under [solver] of "
     "a study.",
-    Status.UNRESOLVED: "The grid is too coarse for this film, which is zero or negative somewhere: raise n.",
+    Status.UNRESOLVED: "The grid is too coarse for this film, which is zero or negative somewhere: raise n; in a "
+    "simulation a step that is too long, or surfaces that touch, end so too: shorten the step, lower the load.",
     Status.STARVED: "The layer of oil is so thin that the film is zero or negative on this grid: raise n, or let "
     "more oil in.",
     Status.BEYOND_REGION: "The layer of oil is so thick that the full film begins ahead of the computed region: "

@@ -527,7 +527,7 @@ class BallBearing(Summary):
 
         Parameters
         ----------
-        features : sequence of RaceWaviness, BallWaviness and BallDiameter
+        features : sequence of RaceWaviness, BallWaviness, BallDiameter, Spall and Indentation
         load : tuple of 2, 3 or 5 float
             As in `coefficients` [N], [N m].
         speed_rpm : float

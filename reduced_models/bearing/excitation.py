@@ -32,6 +32,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact import Dent
 from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact
@@ -387,7 +388,8 @@ def require_features(features: object, balls: int, ball_diameter: float) -> list
     if not given:
         raise InputError("features", [], "at least one, as RaceWaviness(...) or BallDiameter(...)")
     for one in given:
-        require_instance("features", one, Feature, FEATURES)
+        dent = " (a dent of a race or a ball is an Indentation)" if isinstance(one, Dent) else ""
+        require_instance("features", one, Feature, FEATURES + dent)
         ball = getattr(one, "ball", None)
         if ball is not None and ball >= balls:
             raise InputError("ball", ball, f"from 0 to {balls - 1}")

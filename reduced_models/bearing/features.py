@@ -128,6 +128,8 @@ class BallDiameter:
 class Spall:
     """A pit across the whole track of a race or a ball, of constant depth between its edges.
 
+    Where features overlap, their heights add up: two pits at one place are as deep as both together.
+
     Parameters
     ----------
     race : {"inner", "outer"}, optional

@@ -67,7 +67,9 @@ class DefectFrequencies:
         if slip == 0.0:
             return self
         if not LEAST_SLIP < require_finite("slip", slip) < 1.0:
-            raise InputError("slip", slip, f"above {LEAST_SLIP:g} and below 1: a share of the speed of the cage")
+            raise InputError(
+                "slip", slip, f"above {LEAST_SLIP:g} and below 1: a share of the speed of the cage (in per cent?)"
+            )
         shaft = self.ftf + self.bpfi * self.ftf / self.bpfo
         gamma, slower = 1.0 - 2.0 * self.ftf / shaft, 1.0 - slip
         balls = self.bpfo / self.ftf

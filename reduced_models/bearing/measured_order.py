@@ -155,7 +155,12 @@ def _clearance(bearing: BallBearing, load: tuple[float, ...], speed_rpm: float, 
     wanted = _bpfo(bearing, angle)
 
     def above(clearance: float) -> float:
-        orders = replace(bearing, clearance=clearance).equilibrium(load, speed_rpm=speed_rpm).orders
+        try:
+            orders = replace(bearing, clearance=clearance).equilibrium(load, speed_rpm=speed_rpm).orders
+        except InputError as error:
+            if error.field != "load" or load[1] != 0.0:
+                raise
+            raise InputError("axial", load[2], error.allowed) from None
         assert orders is not None  # axial load presses balls
         return orders.bpfo - wanted
 

@@ -6,7 +6,7 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from ehlcontact import InputError, Lubricant
+from ehlcontact import Dent, InputError, Lubricant
 from ehlcontact.hertz import hertz_contact
 from fmu.bearing.model import BearingModel
 from reduced_models import (
@@ -338,6 +338,11 @@ def test_features_without_height_change_no_bit(freedoms):
     for smooth, featured in zip(*runs, strict=True):
         np.testing.assert_array_equal(smooth, featured)
     assert OILED._heights.size == 0
+
+
+def test_a_dent_of_a_film_is_no_feature_of_a_bearing():
+    with pytest.raises(InputError, match="a dent of a race or a ball is an Indentation"):
+        replace(BallBearing.catalogue("6205"), features=[Dent(depth=0.1, radius=0.5)])
 
 
 def test_features_are_written_and_read_with_the_bearing(tmp_path):

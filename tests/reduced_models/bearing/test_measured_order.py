@@ -68,6 +68,10 @@ def test_a_load_that_needs_no_clearance():
         (lambda: angle_from_order(BEARING, bpfo=3.6, error=5.0), r"error = 5.0: must be at most 0.25\d*: .* 45"),
         (lambda: clearance_from_order(BEARING, [0.0], bpfo=3.6), "axial = .*each > 0"),
         (
+            lambda: clearance_from_order(BEARING, [5.0, 5e4], bpfo=3.59),
+            r"^axial = 50000\.0: must be such that a ball",
+        ),
+        (
             lambda: clearance_from_order(BallBearing.catalogue("7205 C"), 10.0, bpfo=3.6),
             "contact_angle = .*deep-groove",
         ),
