@@ -120,9 +120,10 @@ class WideRangeContact(FilmContact):
         return max(errors[WITHIN], errors[UNLOADING]) if fitted is None else fitted
 
     def _summary_lines(self) -> list[str]:
-        errors = list(self.motion_errors.items())[1:]  # small vibrations have K and C
-        said = ", ".join(f"{kind} {100.0 * error:.2g} %" for kind, error in errors)
-        return [*super()._summary_lines(), f"typical rms error of the force: {said}"]
+        errors = self.motion_errors
+        worst = max(errors, key=lambda kind: errors[kind])
+        said = ", ".join(f"{kind} {100.0 * errors[kind]:.2g} %" for kind in dict.fromkeys((WITHIN, worst)))
+        return [*super()._summary_lines(), f"typical rms error of the force: {said}; `motion_errors` has others"]
 
     def _tables(self) -> dict[str, _Floats]:
         gains = {"gain_x": np.log(np.array(self.gain_loads)), "gains": np.array(self.gains)}
