@@ -75,6 +75,8 @@ def require_rolling(thermal: Heat) -> None:
     if thermal.slide_roll != 0.0:
         allowed = "0: answers of the atlas are those of pure rolling (solve_steady takes sliding)"
         raise InputError("slide_roll", thermal.slide_roll, allowed)
+    if thermal.temperature_slope == 0.0:
+        raise InputError("temperature_slope", 0.0, "above 0: an oil that heat does not change has no thermal load")
     for name, (low, high) in COMMON.items():
         for value in np.atleast_1d(getattr(thermal, name)).tolist():
             if not low <= value <= high:

@@ -262,6 +262,7 @@ def test_a_control_loop(tmp_path):
     assert drawn(loop, tmp_path / "loop.png", 0.001)
 
 
+@pytest.mark.long
 def test_a_preloaded_motor(tmp_path):
     found = example("preloaded_motor").main(str(tmp_path / "motor.png"))
     assert (tmp_path / "motor.png").read_bytes().startswith(PNG)

@@ -60,6 +60,7 @@ def test_so_it_is_in_fmi_3(fmus3, kind):
     assert found.passes and found.fmi == "3.0" and len(found.interfaces) == 2
 
 
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 def test_the_motion_loads_and_parts(elements, any_kind):
     """A pulse of load beyond the box, a lift-off and a return; every flag of the motion is seen on and off."""
     element = elements[any_kind]

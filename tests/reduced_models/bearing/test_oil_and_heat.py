@@ -92,19 +92,26 @@ def without_tables(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("bearing", "load", "speed"),
+    ("made", "load", "speed"),
     [
-        (BallBearing.catalogue("6305", clearance=-6e-6, oil=BEARING.oil), (0.0, -500.0), SPEED),
-        (
-            BearingSet.pair(BallBearing.catalogue("7205", oil=BEARING.oil), preload=150.0),
+        pytest.param(
+            lambda: BallBearing.catalogue("6305", clearance=-6e-6, oil=BEARING.oil),
+            (0.0, -500.0),
+            SPEED,
+            id="6305",
+        ),
+        pytest.param(
+            lambda: BearingSet.pair(BallBearing.catalogue("7205", oil=BEARING.oil), preload=150.0),
             (0.0, -300.0, 0.0),
             SPEED,
+            id="pair",
+            marks=pytest.mark.long,
         ),
     ],
 )
-def test_solved_contacts_correct_the_tables_of_preloaded_bearings(monkeypatch, bearing, load, speed):
+def test_solved_contacts_correct_the_tables_of_preloaded_bearings(monkeypatch, made, load, speed):
     """Contacts as in the tables change nothing; errors of the tables with a layer are those of the bearing."""
-    errors = {}
+    bearing, errors = made(), {}
 
     def answered(point, *, hz, supply, thermal):
         one = shared_atlas(None).at(point, supply=supply, thermal=thermal)
@@ -205,9 +212,12 @@ def test_limits_of_much_oil_and_of_an_oil_that_heat_does_not_change(coarse):
     find, _ = coarse
     found = find(supply=OilLayer(over_flooded=1e3), thermal=Heat())
     for one, other in ((LAYER, FLOODED), (BOTH, HEAT)):
-        for name in ("h_central", "h_min", "stiffness", "damping", "rolling"):
+        for name in ("h_central", "h_min", "stiffness", "rolling"):
             a, b = (getattr(found.conditions[key], name) for key in (one, other))
             np.testing.assert_allclose(a, b, rtol=1e-4)
+        # C is that of contacts under a layer, of elements without one: 2.7 % apart here (docs/bearings.md)
+        a, b = (found.conditions[key].damping for key in (one, other))
+        np.testing.assert_allclose(a, b, rtol=0.03)
     cold = find(thermal=Heat(temperature_slope=0.0))
     np.testing.assert_allclose(cold.conditions[HEAT].damping, cold.conditions[FLOODED].damping, rtol=LINEAR)
     assert list(cold.conditions) == [FLOODED, HEAT]

@@ -31,7 +31,7 @@ def test_kinds_are_those_of_the_solves(memory):
     assert tuple(ERRORS)[: len(motions.KINDS)] == motions.KINDS
     element = Atlas().element(motions.POINTS["middle"], "wide")
     assert element.rms == max(element.motion_errors[kind] for kind in (WITHIN, UNLOADING))
-    assert "impact" in repr(element) and memory.rms is None
+    assert "repeated lift-off" in repr(element) and memory.rms is None
 
 
 @pytest.mark.long

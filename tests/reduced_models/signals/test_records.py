@@ -120,6 +120,7 @@ def test_bad_input_is_one_line(changes, word):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.long
 def test_steps_of_low_rates_are_as_short_as_those_of_high_ones():
     """A record at 4 kHz is that of steps four times as short; with 4 steps per sample it was a quarter off."""
     path = ModalPath(hz=1500.0, damping=0.05, mass=3.0)
