@@ -374,6 +374,7 @@ def test_lines_of_a_spall(call):
     assert "NOT LINEAR" in deep and "BPFO" in deep
 
 
+@pytest.mark.long
 def test_orders_with_slip_and_from_a_measured_order(call):
     """Orders as in the library; angle and clearance of an order, with the interval of its error."""
     given = ("--axial", "20", "--load", "5", "--speed-rpm", "1800", "--slip", "0.5", "--clearance", "8")

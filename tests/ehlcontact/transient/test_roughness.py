@@ -255,11 +255,13 @@ def rough_runs():
     }
 
 
+@pytest.mark.long
 def test_every_step_over_roughness_converges(rough_runs):
     for run in rough_runs.values():
         assert run.status.ok and run.cycles.max() <= 4
 
 
+@pytest.mark.long
 def test_film_over_rolling_roughness_is_carried(rough_runs):
     """A quarter later the same deviation stands a quarter further on, and half the heights make half of it."""
     run, half = rough_runs["full"], rough_runs["half"]
@@ -277,6 +279,7 @@ def test_film_over_rolling_roughness_is_carried(rough_runs):
     assert np.linalg.norm((now - 2.0 * halved)[inside]) < 0.1 * np.linalg.norm(now[inside])
 
 
+@pytest.mark.long
 def test_film_over_roughness_does_not_depend_on_the_grid(rough_runs):
     """Twice the grid moves the deviation by a fifth of itself: four nodes to the shortest wave tell its shape."""
     fine, coarse = rough_runs["full"], rough_runs["coarse"]

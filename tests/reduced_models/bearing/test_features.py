@@ -62,7 +62,7 @@ WAVES = {
     [
         pytest.param(DRY, (50.0, 0.0, 300.0), 60.0, id="dry", marks=pytest.mark.long),
         pytest.param(OILED, AXIAL, 1500.0, id="oil"),
-        pytest.param(replace(OILED, clearance=-10e-6), (0.0, -1e-3), 1500.0, id="planar"),
+        pytest.param(replace(OILED, clearance=-10e-6), (0.0, -1e-3), 1500.0, id="planar", marks=pytest.mark.long),
     ],
 )
 @pytest.mark.parametrize("name", [name for name in WAVES if name != "axial"])

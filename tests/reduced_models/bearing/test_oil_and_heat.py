@@ -99,6 +99,7 @@ def without_tables(monkeypatch):
             (0.0, -500.0),
             SPEED,
             id="6305",
+            marks=pytest.mark.long,
         ),
         pytest.param(
             lambda: BearingSet.pair(BallBearing.catalogue("7205", oil=BEARING.oil), preload=150.0),

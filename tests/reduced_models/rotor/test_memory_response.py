@@ -38,6 +38,7 @@ def difference(ours, theirs):
 
 
 @pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+@pytest.mark.long
 def test_oscillator_follows_full_ehl_better_than_on_the_cubic(free, fits):
     """Measured: approach 1.0 % and force 1.1 %; the cubic of the same record 2.7 % and 2.6 %."""
     errors = {}
@@ -48,6 +49,7 @@ def test_oscillator_follows_full_ehl_better_than_on_the_cubic(free, fits):
     assert all(2.0 * ours < theirs for ours, theirs in zip(errors["memory"], errors["cubic"], strict=True))
 
 
+@pytest.mark.long
 def test_fit_of_one_record_needs_nothing_else(free, fits):
     found = fits["memory"]
     assert found.model == "memory" and found.rms < 0.008
