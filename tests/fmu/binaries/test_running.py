@@ -29,7 +29,7 @@ KINDS = ("cubic", "cubic_si", "wide", "wide_si")
 HERE = ["cubic", *(pytest.param(kind, marks=pytest.mark.long) for kind in KINDS[1:])]
 pytestmark = [
     pytest.mark.filterwarnings("ignore:the first library for Windows"),
-    pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning"),  # references leave the box on purpose
+    pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning"),  # of references, on purpose
 ]
 
 
