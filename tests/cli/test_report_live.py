@@ -188,6 +188,7 @@ def test_every_figure_is_drawn_and_nothing_sticks_out(seen, figures, width):
 
 
 @pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.long
 def test_words_of_a_figure_do_not_lie_on_each_other(seen, width):
     body = """const found = [];
     for (const figure of all("figure")) {

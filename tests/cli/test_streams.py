@@ -158,6 +158,7 @@ def test_a_pipe_whose_reader_is_gone():
     assert (done.returncode, told) in ((1, CLOSED), (0, ""))  # head may end after the table
 
 
+@pytest.mark.long
 def test_the_backend_of_a_notebook_loses_no_figure(tmp_path):
     """Nor does one whose module is not there."""
     figure = tmp_path / "bearing.png"

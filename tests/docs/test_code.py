@@ -55,6 +55,7 @@ def test_pages_are_found():
 
 
 @pytest.mark.parametrize("page", cases(sorted(set(PAGES) - TUTORIALS - {"README.md"}), LONG))
+@pytest.mark.long
 def test_page(page):
     run(page, {})
 

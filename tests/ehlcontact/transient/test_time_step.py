@@ -198,6 +198,7 @@ def damping(record, Omega):
     return (f / u).imag / Omega
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("amplitude", [0.01, 0.001])
 def test_damping_of_small_loads_is_as_good_as_that_of_large_ones(amplitude):
     motion = HarmonicLoad(Omega=pi, amplitude=amplitude)

@@ -35,7 +35,13 @@ def test_exact_at_the_nodes_and_static_at_0(shipped):
     np.testing.assert_array_equal(found.impedance, found.stiffness + 1j * NODES * found.damping)
 
 
-@pytest.mark.parametrize("point", [pytest.param(CASE, marks=pytest.mark.slow), MoesPoint(20.0, 5.0, 0.3)])
+@pytest.mark.parametrize(
+    "point",
+    [
+        pytest.param(CASE, marks=pytest.mark.slow),
+        pytest.param(MoesPoint(20.0, 5.0, 0.3), marks=pytest.mark.long),
+    ],
+)
 def test_between_the_nodes_it_is_what_is_solved_there(point):
     """The interpolation over frequency alone: nodes and what lies between are solved on one mesh."""
     mesh = impedance_grid(point)

@@ -149,6 +149,7 @@ def test_a_layer_as_thick_as_any_is_flooded_with_heat_too():
     assert any("of elements: up to 5 % apart" in line for line in found.notes)
 
 
+@pytest.mark.long
 def test_what_tables_do_not_have_is_solved(coarse, without_tables):
     """For a bearing, and for both of a pair."""
     pair, supply = BearingSet.tandem(BEARING), OilLayer(over_flooded=1.0)
@@ -167,6 +168,7 @@ def test_what_tables_do_not_have_is_solved(coarse, without_tables):
             np.testing.assert_allclose(getattr(two.conditions[key], name), 2.0 * getattr(one, name), rtol=1e-4)
 
 
+@pytest.mark.long
 def test_conditions_are_solved_ratios_times_flooded_values(coarse, without_tables):
     find, solve = coarse
     supply, calls = OilLayer(0.3e-6), []

@@ -128,6 +128,7 @@ def test_run_without_films_is_that_of_simulate_rotor(smooth):
     assert one.films[0].operating_point is None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("race", ["inner", "outer"])
 @pytest.mark.parametrize("psi", [pytest.param(0.3, marks=pytest.mark.long), 2.0])
 def test_surface_is_what_the_height_tables_have(smooth, race, psi):
