@@ -287,9 +287,8 @@ def film_step(law, old, new, dt, u, v):
         q = through3(value, slope, mu, r0 - r1, f, 6.0 * (r1 - r2), hump)
         if grows:
             stayed, passed = through(held[j], held[j - 1] - held[j], mu), through(r0, d0, mu)
-            if (
-                j == 1
-            ):  # what the first lag has got, a mean over the step that forgets: the film at the end of a long one
+            if j == 1:
+                # What the first lag has got, a mean over the step that forgets: the film at the end of a long one.
                 got = over(minus(q, stayed), passed)
                 rim = Jet(law.rim * got.x, law.rim * got.u, law.rim * got.v)
             q = _with_rim(q, stayed, passed, kept, rim)
