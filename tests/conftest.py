@@ -20,6 +20,7 @@ from ehlcontact import Grid, MoesPoint, solve_steady
 from ehlcontact.process.beside import COMPILE_BESIDE
 from ehlcontact.process.threads import cores
 
+TOGETHER = "tests/fmu/bearing/"
 SHARED = "not slow and not long", "long"  # the default suite, and the longer tests of which each takes one core
 
 # A shell starts what runs in the background with Ctrl-C ignored, and that is inherited: the programs under test,
@@ -41,6 +42,18 @@ def pytest_cmdline_main(config):
         option.loadscopereorder = False  # long files come first: those of the command line
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a solve has as many threads, and the cores are taken
         os.environ.setdefault(COMPILE_BESIDE, "0")  # likewise
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """By files; tests of bearing FMUs, which export the same ones and compile the same kernels, stay together."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class Files(LoadFileScheduling):
+        def _split_scope(self, nodeid):
+            return TOGETHER if nodeid.startswith(TOGETHER) else super()._split_scope(nodeid)
+
+    return Files(config, log) if config.option.dist == "loadfile" else None
 
 
 @pytest.hookimpl(wrapper=True)

@@ -106,6 +106,7 @@ def test_a_rotor_on_a_pair_and_a_floating_bearing(paired):
     assert first[1] + second[1] + right[1] == pytest.approx(-400.0) and -200.0 < right[1] < -100.0
 
 
+@pytest.mark.long
 def test_a_pair_with_a_layer_of_oil(study):
     """What the study has of it is that of the set; its words are of a pair."""
     whole = 'axial_load = 100.0\npair = "back-to-back"\npreload = 200.0\nlayer_ratio = 0.8'

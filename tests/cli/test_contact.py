@@ -258,6 +258,7 @@ def test_rows_of_an_element_are_the_answers_of_the_atlas_with_their_bars(call, g
         assert told == pytest.approx(bar, rel=0.5) and told == float(f"{bar:.1g}"), (start, found)
 
 
+@pytest.mark.long
 def test_a_layer_of_oil(call, refused):
     """`--layer` in um, or over the flooded film; the front of the full film is in the table."""
     point = "--M", "20", "--L", "10", "--kappa", "1", "--n", "32"
@@ -309,6 +310,7 @@ def test_asperities(call, refused):
     )
 
 
+@pytest.mark.long
 def test_heat(call, refused):
     """`--thermal`, beside the published formulas; what it needs, and what it does not go with."""
     cold, warm = (

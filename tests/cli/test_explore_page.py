@@ -187,6 +187,7 @@ def test_strange_addresses_are_the_first_case(seen):
     assert strange["headline"] == first["headline"] and strange["refused"] is False
 
 
+@pytest.mark.long
 def test_the_address_brings_a_case_back(seen):
     """As typed: by the events of a user, a name and a grade that fill in, and what is left as it was."""
     typed = json.dumps([["bearing", "own"], ["balls", "7"], ["load", "640"], ["grade", "100"]])

@@ -279,6 +279,7 @@ def test_heat_and_a_layer_of_oil_in_fmus(call, tmp_path):
     assert all(any(one in page for page in pages) for one in words)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("default::reduced_models.elements.validity.OutsideValidityWarning")
 def test_a_layer_of_oil_in_the_fmu_of_a_rotor(call, tmp_path):
     study = STUDY.read_text(encoding="utf-8").replace("[whole_bearing]", "[whole_bearing]\nlayer_ratio = 1.0")

@@ -88,6 +88,7 @@ def test_entries_of_a_file_and_options_in_their_place(call, coarse, tmp_path):
     assert thick["with the layer"]["rolling"] == pytest.approx(thick["flooded, isothermal"]["rolling"], rel=1e-3)
 
 
+@pytest.mark.long
 def test_a_pair_has_the_numbers_of_the_library(call, tmp_path):
     given = ("--pair", "back-to-back", "--preload", "150", "--axial", "100", "--speed-rpm", "6000")
     files = ("--json", tmp_path / "p.json", "--csv", tmp_path / "p.csv")

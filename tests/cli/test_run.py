@@ -218,6 +218,7 @@ def test_a_terminated_run_leaves_no_workers(tmp_path):
     assert workers and not any(is_running(worker) for worker in workers)
 
 
+@pytest.mark.long
 def test_a_second_ctrl_c_waits_for_no_worker(monkeypatch, tmp_path):
     """One that does not listen is killed then, and after an error of ours all are."""
     file = tmp_path / "study.toml"

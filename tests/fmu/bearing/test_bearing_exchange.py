@@ -435,7 +435,8 @@ def in_steps(one, rotor, start, until, dt):
     ("name", "solve", "until", "within"),
     [
         ("lossy", by_cvode, 4e-5, 1e-6),
-        ("five", by_cvode, 1e-4, 2e-6),  # of a motion that has hardly begun
+        # of a motion that has hardly begun
+        pytest.param("five", by_cvode, 1e-4, 2e-6, marks=SECONDS),
         *(
             pytest.param(name, solve, until, within, marks=LONG)
             for names, solve, until, within in (

@@ -137,8 +137,8 @@ def made(tmp_path_factory):
 @pytest.mark.parametrize(
     ("name", "fmi"),
     [
-        ("flexible", 2),
         ("five", 2),
+        pytest.param("flexible", 2, marks=pytest.mark.long),
         *(pytest.param(name, 3, marks=pytest.mark.long) for name in ("motor", "rigid")),
         pytest.param("axial", 3, marks=pytest.mark.slow),
     ],

@@ -168,7 +168,16 @@ def test_a_damaged_table_is_refused(tmp_path):
             load(tmp_path / "filters.h5", FilterTable, "table of contact filters")
 
 
-@pytest.mark.parametrize("row", [(750.0, 18.3, 0.107), (200.0, 10.0, 0.5), (60.0, 6.0, 0.12), (6000.0, 15.0, 0.1)])
+@pytest.mark.parametrize(
+    "row",
+    [
+        (200.0, 10.0, 0.5),
+        *(
+            pytest.param(row, marks=pytest.mark.long)
+            for row in ((750.0, 18.3, 0.107), (60.0, 6.0, 0.12), (6000.0, 15.0, 0.1))
+        ),
+    ],
+)
 def test_against_finer_meshes(row):
     """Points of no sequence, n = 128: within 3 % of |Z| h at all wavelengths, within 3 % of G/Z from 4 a on."""
     waves = np.array([16.0, 8.0, 4.0, 3.0, 2.0])

@@ -64,7 +64,7 @@ def test_smooth_and_raised_surfaces():
 
 @pytest.mark.parametrize("defect", [
     Spall(race="outer", angle=1.0, length=5e-4, depth=2e-6, edge=1e-4),
-    Indentation(race="outer", angle=1.0, length=4e-4, depth=4e-6, rim=5e-7),
+    pytest.param(Indentation(race="outer", angle=1.0, length=4e-4, depth=4e-6, rim=5e-7), marks=pytest.mark.long),
 ])  # fmt: skip
 def test_tables_of_defects_are_those_of_elastic_contacts(defect):
     """Within 2 % of the depth of the twin at two loads; the strip of springs differs by up to 14 %."""

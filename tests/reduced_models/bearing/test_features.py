@@ -65,7 +65,10 @@ WAVES = {
         pytest.param(replace(OILED, clearance=-10e-6), (0.0, -1e-3), 1500.0, id="planar", marks=pytest.mark.long),
     ],
 )
-@pytest.mark.parametrize("name", [name for name in WAVES if name != "axial"])
+@pytest.mark.parametrize(
+    "name",
+    ["ball", "diameter", *(pytest.param(name, marks=pytest.mark.long) for name in ("inner", "outer", "short"))],
+)
 def test_runs_with_small_features_are_linear(name, bearing, load, rpm):
     """Forces of a ring that is held within 1 % of the lines of `excitation`, in all freedoms."""
     feature, steps = WAVES[name], 2000

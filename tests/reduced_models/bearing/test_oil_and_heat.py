@@ -28,6 +28,7 @@ def coarse(monkeypatch):
     return partial(oil_and_heat, BEARING, LOAD, speed_rpm=SPEED, solve=True), solve
 
 
+@pytest.mark.long
 def test_conditions_are_those_of_the_bearing_with_heat_and_with_the_layer():
     supply, load, speed = OilLayer(over_flooded=0.8), (0.0, -1000.0), 3000.0
     found = oil_and_heat(BEARING, load, speed_rpm=speed, supply=supply, thermal=Heat(), band=[1000.0])

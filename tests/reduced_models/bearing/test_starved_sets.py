@@ -77,6 +77,7 @@ def test_a_pair_is_both_of_its_bearings(given):
             assert f"bearing {k}: {one.damping_left_out}" in small.damping_left_out
 
 
+@pytest.mark.long
 def test_conditions_of_a_pair_are_twice_those_of_a_bearing_with_half_the_load():
     given = {"speed_rpm": RPM, "supply": SUPPLY}
     one = oil_and_heat(SINGLE, (0.0, 0.0, 300.0), **given)
