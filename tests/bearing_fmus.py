@@ -1,12 +1,14 @@
-"""Bearings of which the tests of FMUs make some, and instances of these."""
+"""Bearings and rotors on them of which the tests of FMUs make some, and instances of these."""
 
 import fmpy
+import numpy as np
+import pytest
 
 from ehlcontact import Lubricant, OilLayer
 from fmu import BearingModel
 from fmu.bearing.trial import START
 from fmu.driver import Exchange, Slave
-from reduced_models import BallBearing
+from reduced_models import BallBearing, BearingMount, Rotor, Unbalance
 
 OIL = Lubricant.iso_vg(46, temperature=70.0)
 RPM = 3000.0
@@ -37,19 +39,61 @@ MODELS = {
 }
 
 
-class Made:
-    """An exported bearing, and instances of it."""
+FIVE = {"x": 0, "y": 1, "z": 2, "tilt_x": 3, "tilt_y": 4}
+POLAR = 0.012  # moment of inertia of the rotor below
 
-    def __init__(self, model, path, fmi):
-        self.model, self.path = model, path
+
+def pressed_pair():
+    """Rigid, on two 7205 that press each other, with gyroscopic moments."""
+    angular, gyroscopic = BallBearing.catalogue("7205", oil=OIL), np.zeros((5, 5))
+    gyroscopic[3, 4], gyroscopic[4, 3] = POLAR, -POLAR
+    return Rotor(
+        mass=np.diag([3.0, 3.0, 3.0, 0.01, 0.01]),
+        stiffness=np.zeros((5, 5)),
+        gyroscopic=gyroscopic,
+        mounts=(
+            BearingMount(bearing=angular, **FIVE, offset=8e-6, arm=-0.05, facing="-z"),
+            BearingMount(bearing=angular, **FIVE, offset=8e-6, arm=0.05),
+        ),
+        load=np.array([0.0, -30.0, 0.0, 0.0, 0.0]),
+        unbalances=(Unbalance(x=0, y=1, amount=2e-4, phase=0.4),),
+        nodes={"rotor": FIVE},
+    )
+
+
+class Exported:
+    """An exported FMU, what it was made of, and instances of it."""
+
+    def __init__(self, path, model=None, fmi=2):
+        self.path, self.model, self.fmi = path, model, fmi
         self.folder = fmpy.extract(str(path), unzipdir=str(path.with_suffix("")))
         self.description = fmpy.read_model_description(self.folder)
-        self.fmi = fmi
+        self.messages = []
+
+    def started(self, **values):
+        """An instance for co-simulation; its messages are added to those of the FMU."""
+        slave = Slave(self.folder, self.description, self.messages, loggingOn=True)
+        slave.start(**values)
+        return slave
+
+
+def assert_speeds_are_reached(slave, given):
+    """A jump within one step, its mean in between, and down to standstill: never beyond."""
+    turned = [0.0]
+    for speed in given:
+        slave.set(speed=speed)
+        slave.step(1e-4)
+        turned.append(slave.get("angle")[0])
+    slave.free()
+    means = 0.5 * (np.array([given[0], *given[:-1]]) + given)
+    assert np.diff(turned) / 1e-4 == pytest.approx(means, rel=1e-9, abs=1e-9)
+
+
+class ExportedBearing(Exported):
+    """The FMU of a bearing."""
 
     def started(self, lead=0.0, **values):
-        slave = Slave(self.folder, self.description, [])
-        slave.start(lead=lead, cage_angle_start=START, **values)
-        return slave
+        return super().started(lead=lead, cage_angle_start=START, **values)
 
     def exchange(self, messages=None, **values):
         """A started instance for model exchange."""

@@ -3,7 +3,7 @@
 import warnings
 
 import pytest
-from bearing_fmus import MODELS, Made
+from bearing_fmus import MODELS, ExportedBearing
 
 from fmu import export_bearing
 from reduced_models.elements.validity import OutsideValidityWarning
@@ -22,7 +22,7 @@ def made(tmp_path_factory):
                 model = MODELS[name]()
                 own = {"speeds_rpm": model.speeds_rpm, "load": model.load, "freedoms": model.freedoms}
                 export_bearing(model.bearing, path, **own, fmi=fmi)
-            known[name, fmi] = Made(model, path, fmi)
+            known[name, fmi] = ExportedBearing(path, model, fmi)
         return known[name, fmi]
 
     return make

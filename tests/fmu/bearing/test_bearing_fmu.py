@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from bearing_fmus import RPM, Made, bearing
+from bearing_fmus import RPM, ExportedBearing, bearing
 from fmpy.fmi1 import FMICallException
 from mass_on_bearing import decay, in_one_run
 
@@ -267,7 +267,7 @@ def test_a_mass_that_holds_the_force_keeps_the_damping(tmp_path, dt, within):
     model, mass, load, until, kick = BearingModel(bearing("6305"), RPM, 500.0), 5.0, 500.0, 0.012, 1e-4
     path = tmp_path / "6305.fmu"
     export_bearing(model.bearing, path, speeds_rpm=RPM, load=load)
-    one = Made(model, path, 2)
+    one = ExportedBearing(path, model)
     steps = round(until / dt)
 
     def fmu(v):

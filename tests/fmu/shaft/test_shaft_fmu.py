@@ -2,14 +2,14 @@
 
 from dataclasses import replace
 
-import fmpy
 import numpy as np
 import pytest
+from bearing_fmus import FIVE, OIL, POLAR, RPM, Exported, assert_speeds_are_reached, pressed_pair
 from fmpy.fmi1 import FMICallException
 from other_masters import ecospy, libcosimpy, ours
 from scipy.integrate import solve_ivp
 
-from ehlcontact import InputError, Lubricant
+from ehlcontact import InputError
 from fmu import (
     ShaftModel,
     SpeedController,
@@ -19,45 +19,21 @@ from fmu import (
     verify,
     verify_references,
 )
-from fmu.driver import Slave
 from fmu.system.master import SystemRun
 from reduced_models import (
     BallBearing,
     BearingMount,
     Disc,
     LinearBearing,
-    Rotor,
     Shaft,
     Support,
-    Unbalance,
     rotor_on_bearings,
     simulate_rotor,
 )
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.speed_profile import SpeedProfile
 
-OIL = Lubricant.iso_vg(46, temperature=70.0)
-FIVE = {"x": 0, "y": 1, "z": 2, "tilt_x": 3, "tilt_y": 4}
-RPM, INERTIA = 3000.0, 0.012
-
-
-def rigid():
-    """On two 7205, preloaded against each other."""
-    bearing = BallBearing.catalogue("7205", oil=OIL)
-    gyroscopic = np.zeros((5, 5))
-    gyroscopic[3, 4], gyroscopic[4, 3] = INERTIA, -INERTIA
-    return Rotor(
-        mass=np.diag([3.0, 3.0, 3.0, 0.01, 0.01]),
-        stiffness=np.zeros((5, 5)),
-        gyroscopic=gyroscopic,
-        mounts=(
-            BearingMount(bearing=bearing, **FIVE, offset=8e-6, arm=-0.05, facing="-z"),
-            BearingMount(bearing=bearing, **FIVE, offset=8e-6, arm=0.05),
-        ),
-        load=np.array([0.0, -30.0, 0.0, 0.0, 0.0]),
-        unbalances=(Unbalance(x=0, y=1, amount=2e-4, phase=0.4),),
-        nodes={"rotor": FIVE},
-    )
+INERTIA = POLAR
 
 
 def flexible():
@@ -73,20 +49,7 @@ def flexible():
 
 @pytest.fixture(scope="module")
 def rotors():
-    return {"rigid": rigid(), "flexible": flexible()}
-
-
-class Made:
-    """An exported shaft, and instances of it."""
-
-    def __init__(self, path):
-        self.path, self.folder = path, fmpy.extract(str(path), unzipdir=str(path.with_suffix("")))
-        self.description = fmpy.read_model_description(self.folder)
-
-    def started(self, **values):
-        slave = Slave(self.folder, self.description, [])
-        slave.start(**values)
-        return slave
+    return {"rigid": pressed_pair(), "flexible": flexible()}
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +61,7 @@ def made(rotors, tmp_path_factory):
         if (name, inertia, fmi) not in known:
             path = tmp_path_factory.mktemp("shaft") / "x.fmu"
             export_shaft(rotors[name], path, speed_rpm=RPM, inertia=inertia, fmi=fmi)
-            known[name, inertia, fmi] = Made(path)
+            known[name, inertia, fmi] = Exported(path)
         return known[name, inertia, fmi]
 
     return make
@@ -164,16 +127,8 @@ def test_motion_is_that_of_continuous_time(made, rotors):
 
 @pytest.mark.parametrize("lead", [0.0, 0.5, 1.0])
 def test_the_speed_that_is_given_is_reached_whatever_the_lead(made, lead):
-    """A jump within one step, its mean in between, and down to standstill: never beyond."""
-    given = np.array([300.0, 250.0, 250.0, 100.0, 0.0, 0.0])
-    slave, turned = made("flexible").started(speed=300.0, force_lead=lead), [0.0]
-    for speed in given:
-        slave.set(speed=speed)
-        slave.step(1e-4)
-        turned.append(slave.get("angle")[0])
-    slave.free()
-    means = 0.5 * (np.append(300.0, given[:-1]) + given)
-    assert np.diff(turned) / 1e-4 == pytest.approx(means, rel=1e-9, abs=1e-9)
+    first = made("flexible").started(speed=300.0, force_lead=lead)
+    assert_speeds_are_reached(first, [300.0, 250.0, 250.0, 100.0, 0.0, 0.0])
 
 
 def test_scales_are_those_of_the_matrices(made, rotors, tmp_path):
@@ -193,7 +148,7 @@ def test_scales_are_those_of_the_matrices(made, rotors, tmp_path):
     found = []
     scales = {"mass_scale": 1.3, "stiffness_scale": 0.8, "damping_scale": 2.0, "load_scale": 0.9}
     held = {f"bearing[{b}].force_{k}": float(f) for b in (1, 2) for k, f in zip("xy", (3.0, 50.0), strict=True)}
-    for one, values in ((made("flexible"), scales), (Made(path), {})):
+    for one, values in ((made("flexible"), scales), (Exported(path), {})):
         slave = one.started(**held, **values)
         for _ in range(300):
             slave.step(2e-6)
@@ -239,22 +194,19 @@ def test_rolling_torque_holds_a_shaft_that_stands(made):
     ],
 )
 def test_bad_parameters(made, wrong, words):
-    one, messages = made("rigid", INERTIA), []
-    slave = Slave(one.folder, one.description, messages, loggingOn=True)
+    one = made("rigid", INERTIA)
     with pytest.raises(FMICallException):
-        slave.start(**wrong)
-    assert words in messages[-1]
-    slave.free()
+        one.started(**wrong)
+    assert words in one.messages[-1]
 
 
 def test_steps_that_are_too_long_leave_a_usable_instance(made):
-    one, messages = made("rigid", None), []
-    slave = Slave(one.folder, one.description, messages, loggingOn=True)
-    slave.start()
+    one = made("rigid", None)
+    slave = one.started()
     slave.set(**{"speed": 1e6, "bearing[1].moment_x": 1.0})
     with pytest.raises(FMICallException):
         slave.step(1e-3)
-    assert "too long for the gyroscopic forces" in messages[-1]
+    assert "too long for the gyroscopic forces" in one.messages[-1]
     slave.set(speed=RPM * RPM_TO_RAD_S)
     slave.step(1e-5)
     assert np.isfinite(slave.get("rotor.x")).all()
