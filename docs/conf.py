@@ -26,7 +26,7 @@ from ehlcontact.cli.explorer import write_explorer
 LOG = logging.getLogger(__name__)
 PUBLIC = {
     name: f"{package.__name__}.{name}"
-    for package in (ehlcontact, reduced_models, fmu)
+    for package in (ehlcontact, ehlcontact.film, reduced_models, reduced_models.signals, fmu)
     for name, value in vars(package).items()
     if name[0] != "_" and not inspect.ismodule(value)
 }

@@ -25,7 +25,7 @@ module            responsibility
 ``results/``      results of films at rest and of linearised ones; tables, SI values and figures of all results
 ``origin``        contact, mesh and version that a result or an element comes from
 ``version``       of the distribution
-``film/``         films for display: maps, mid-planes, fringes, film waves
+``film/``         films for display: maps, mid-planes, fringes, film waves; a namespace of its own
 ``store``         `save` and `load`: one file header, one way back, for every class
 ``content_store`` `ContentStore`: what is computed, found by the hash of its inputs
 ``files``         files written in one move; texts of any origin
@@ -41,8 +41,9 @@ module            responsibility
 ``cli/``          the command line; stands above all packages
 ================= ==========================================================================================
 
-Public names are those that a user calls or passes on. Classes that are only returned (`film.Film`, `point.Scales`)
-stay in their modules.
+Public names are those that a user calls, constructs or catches, and the results `ImpedanceResult`,
+`SimulationResult` and `SteadyResult`; other classes that are only returned (`film.Film`, `point.Scales`) stay in
+their modules.
 """
 
 from ehlcontact import process as process  # first: from here on Ctrl-C ends the command line in one line
@@ -50,18 +51,16 @@ from ehlcontact.asperities import Asperities
 from ehlcontact.assumptions import assumptions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.excitation import excitation
-from ehlcontact.film import film_history, film_of, film_wave, interferogram, track_wave
 from ehlcontact.heat import Heat
 from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Carreau, Eyring, LimitingShear, Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
-from ehlcontact.results import ExcitationResult, ImpedanceResult, SpeedResponseResult, SteadyResult, Traction
-from ehlcontact.side_flow import layer_after_passes, oil_passes
+from ehlcontact.results import ImpedanceResult, SteadyResult
+from ehlcontact.side_flow import oil_passes
 from ehlcontact.sliding import Sliding
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.speed_response import speed_response
-from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 from ehlcontact.store import load, save
 from ehlcontact.supply import OilLayer
@@ -83,7 +82,6 @@ __all__ = [
     "ConvergenceError",
     "Dent",
     "Domain",
-    "ExcitationResult",
     "Eyring",
     "FreeVibration",
     "FullContact",
@@ -107,29 +105,20 @@ __all__ = [
     "SimulationResult",
     "Sliding",
     "SpeedHistory",
-    "SpeedResponseResult",
-    "Status",
     "SteadyResult",
     "TimeSteps",
-    "Traction",
     "TransverseRidge",
     "Waviness",
     "__version__",
     "assumptions",
     "excitation",
-    "film_history",
-    "film_of",
-    "film_wave",
     "impedance",
-    "interferogram",
-    "layer_after_passes",
     "load",
     "oil_passes",
     "save",
     "simulate",
     "solve_steady",
     "speed_response",
-    "track_wave",
     "traction_curve",
 ]
 

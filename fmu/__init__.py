@@ -44,24 +44,18 @@ the two cannot be installed into one environment.
 from inspect import ismodule as _ismodule
 
 from fmu.bearing.export import export_bearing as export_bearing
-from fmu.bearing.model import BearingModel as BearingModel
 from fmu.binaries import BuildError as BuildError
 from fmu.controller.export import export_controller as export_controller
 from fmu.controller.model import SpeedController as SpeedController
 from fmu.export import export_contact as export_contact
-from fmu.references.check import ReferenceCheck as ReferenceCheck
 from fmu.references.check import verify_references as verify_references
 from fmu.rotor.export import export_rotor as export_rotor
-from fmu.rotor.model import RotorModel as RotorModel
 from fmu.shaft.export import export_shaft as export_shaft
-from fmu.shaft.model import ShaftModel as ShaftModel
 from fmu.system.drive import export_drive as export_drive
 from fmu.system.export import export_system as export_system
-from fmu.verification import Verification as Verification
 from fmu.verify import verify as verify
 from fmu.verify_before_write import VerificationError as VerificationError
 from fmu.whole_rotor.export import export_whole_rotor as export_whole_rotor
-from fmu.whole_rotor.model import WholeRotorModel as WholeRotorModel
 
 
 def __dir__() -> list[str]:

@@ -7,22 +7,21 @@
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
 | bearing | ball bearings of such contacts: `BallBearing` |
 | rotor | rotors on contacts, full films and ball bearings: equilibrium, motion over time, responses |
-| signals | acceleration of nodes and housings, its spectra and features |
+| signals | acceleration of nodes and housings, its spectra and features; a namespace of its own |
 
-Symbols and units: `ehlcontact.point`.
+Public names are those that a user calls, constructs or catches, and the results `BearingState`, `FitResult` and
+`RotorResult`; other classes that are only returned stay in their modules. Symbols and units: `ehlcontact.point`.
 """
 
 from inspect import ismodule as _ismodule
 
-from reduced_models.atlas.answer import AtlasAnswer as AtlasAnswer
+from reduced_models import signals as signals
 from reduced_models.atlas.atlas import Atlas as Atlas
-from reduced_models.atlas.filter_table import FilterAnswer as FilterAnswer
 from reduced_models.atlas.filter_table import contact_filter as contact_filter
 from reduced_models.bearing.arrangement import BearingSet as BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
 from reduced_models.bearing.cage_slip import cage_slip as cage_slip
 from reduced_models.bearing.equilibrium_result import BearingState as BearingState
-from reduced_models.bearing.excitation import BearingExcitation as BearingExcitation
 from reduced_models.bearing.features import BallDiameter as BallDiameter
 from reduced_models.bearing.features import BallWaviness as BallWaviness
 from reduced_models.bearing.features import Indentation as Indentation
@@ -31,12 +30,8 @@ from reduced_models.bearing.features import Spall as Spall
 from reduced_models.bearing.measured_order import angle_from_order as angle_from_order
 from reduced_models.bearing.measured_order import clearance_from_order as clearance_from_order
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
-from reduced_models.bearing.oil_and_heat import OilAndHeat as OilAndHeat
 from reduced_models.bearing.oil_and_heat import oil_and_heat as oil_and_heat
 from reduced_models.bearing.oil_balance import OilBalance as OilBalance
-from reduced_models.bearing.oil_balance import OilHistory as OilHistory
-from reduced_models.bearing.set_result import SetState as SetState
-from reduced_models.bearing.sliding import BearingFriction as BearingFriction
 from reduced_models.bearing.sliding import bearing_friction as bearing_friction
 from reduced_models.elements.base import ContactElement as ContactElement
 from reduced_models.elements.film_memory import FilmMemoryContact as FilmMemoryContact
@@ -50,30 +45,20 @@ from reduced_models.elements.wide_range import WideRangeContact as WideRangeCont
 from reduced_models.fitting.fit import fit as fit
 from reduced_models.fitting.memory_fit import fit_memory as fit_memory
 from reduced_models.fitting.records import ContactRecord as ContactRecord
-from reduced_models.fitting.result import ElementFit as ElementFit
 from reduced_models.fitting.result import FitResult as FitResult
-from reduced_models.fitting.result import MemoryFit as MemoryFit
-from reduced_models.fitting.sensitivity import Sensitivity as Sensitivity
 from reduced_models.fitting.sensitivity import sensitivity as sensitivity
-from reduced_models.fitting.wide_range_fit import wide_range_contact as wide_range_contact
 from reduced_models.fitting.wide_range_fit import wide_range_from_solves as wide_range_from_solves
 from reduced_models.rotor.assembly import rotor_on_bearings as rotor_on_bearings
 from reduced_models.rotor.baselines import dry_contact as dry_contact
-from reduced_models.rotor.baselines import local_contact as local_contact
-from reduced_models.rotor.bearing_films import ContactHistory as ContactHistory
 from reduced_models.rotor.bearing_films import FullFilm as FullFilm
 from reduced_models.rotor.bearing_films import simulate_full_films as simulate_full_films
-from reduced_models.rotor.campbell import Campbell as Campbell
 from reduced_models.rotor.campbell import campbell as campbell
 from reduced_models.rotor.compare import compare as compare
 from reduced_models.rotor.control import rotor_to_control as rotor_to_control
 from reduced_models.rotor.decay import log_decrement as log_decrement
-from reduced_models.rotor.events import contact_events as contact_events
 from reduced_models.rotor.jeffcott import JeffcottRotor as JeffcottRotor
-from reduced_models.rotor.jeffcott import RotorState as RotorState
 from reduced_models.rotor.linear_bearing import LinearBearing as LinearBearing
 from reduced_models.rotor.linear_contact import film_impedance as film_impedance
-from reduced_models.rotor.linearise import LinearRotor as LinearRotor
 from reduced_models.rotor.linearise import linearise as linearise
 from reduced_models.rotor.oscillator import simulate_oscillator as simulate_oscillator
 from reduced_models.rotor.parts import Disc as Disc
@@ -85,30 +70,11 @@ from reduced_models.rotor.ross_rotor import from_ross as from_ross
 from reduced_models.rotor.rotor import Rotor as Rotor
 from reduced_models.rotor.rotor import Unbalance as Unbalance
 from reduced_models.rotor.scaled_contact import ScaledContact as ScaledContact
-from reduced_models.rotor.settling import settling as settling
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
 from reduced_models.rotor.speed_profile import SpeedProfile as SpeedProfile
 from reduced_models.rotor.supports import BearingMount as BearingMount
 from reduced_models.rotor.supports import ContactMount as ContactMount
 from reduced_models.rotor.unbalance import unbalance_response as unbalance_response
-from reduced_models.rotor.unbalance_result import UnbalanceResponse as UnbalanceResponse
-from reduced_models.signals.indicators import indicators as indicators
-from reduced_models.signals.records import RecordCase as RecordCase
-from reduced_models.signals.records import VibrationRecord as VibrationRecord
-from reduced_models.signals.records import make_record as make_record
-from reduced_models.signals.records import make_records as make_records
-from reduced_models.signals.records import write_dataset as write_dataset
-from reduced_models.signals.sampling import housing_acceleration as housing_acceleration
-from reduced_models.signals.sampling import node_acceleration as node_acceleration
-from reduced_models.signals.sampling import sampled as sampled
-from reduced_models.signals.sampling import shaft_angle as shaft_angle
-from reduced_models.signals.spectra import EnvelopeSpectrum as EnvelopeSpectrum
-from reduced_models.signals.spectra import OrderSpectrum as OrderSpectrum
-from reduced_models.signals.spectra import envelope_spectrum as envelope_spectrum
-from reduced_models.signals.spectra import order_spectrum as order_spectrum
-from reduced_models.signals.transfer_path import MeasuredPath as MeasuredPath
-from reduced_models.signals.transfer_path import ModalPath as ModalPath
-from reduced_models.signals.transfer_path import SystemPath as SystemPath
 
 
 def __dir__() -> list[str]:

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from ehlcontact import Lubricant, OilLayer
-from fmu import BearingModel
+from fmu.bearing.model import BearingModel
 from fmu.bearing.trial import START
 from fmu.driver import Exchange, Slave
 from reduced_models import BallBearing, BearingMount, Rotor, Unbalance

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ehlcontact import Lubricant, OperatingPoint, Status
+from ehlcontact import Lubricant, OperatingPoint
+from ehlcontact.status import Status
 from reduced_models import JeffcottRotor, RotorResult
 
 POINT = OperatingPoint.ball_bearing(

@@ -26,64 +26,98 @@ from ehlcontact import (
     RunSettings,
     TimeSteps,
     excitation,
-    film_history,
-    film_of,
-    film_wave,
     impedance,
-    interferogram,
     simulate,
     solve_steady,
     speed_response,
 )
 from ehlcontact.assumptions.table import Assumption, Assumptions
-from ehlcontact.film import Film, FilmHistory, FilmWave, Interferogram, WaveTrack
+from ehlcontact.film import (
+    Film,
+    FilmHistory,
+    FilmWave,
+    Interferogram,
+    WaveTrack,
+    film_history,
+    film_of,
+    film_wave,
+    interferogram,
+)
 from ehlcontact.point import Scales
+from ehlcontact.results import ExcitationResult, SpeedResponseResult, Traction
 from ehlcontact.results.table import QuantityTable, SIView
+from ehlcontact.status import Status
 from ehlcontact.summary import Summary, span
 from ehlcontact.transient.result import Instants
-from fmu.references.check import Interface
+from fmu.bearing.model import BearingModel
+from fmu.references.check import Interface, ReferenceCheck
+from fmu.rotor.model import RotorModel
+from fmu.shaft.model import ShaftModel
+from fmu.verification import Verification
+from fmu.whole_rotor.model import WholeRotorModel
 from reduced_models import (
     Atlas,
     BallBearing,
     BallDiameter,
     BearingMount,
     BearingSet,
-    ContactHistory,
     ContactMount,
     ContactRecord,
     Disc,
     JeffcottRotor,
-    MeasuredPath,
-    ModalPath,
     OilBalance,
-    RecordCase,
     Rotor,
     Shaft,
     SpeedProfile,
     Support,
-    SystemPath,
     Unbalance,
-    VibrationRecord,
     campbell,
     compare,
     contact_filter,
-    envelope_spectrum,
     fit,
     linearise,
-    order_spectrum,
     rotor_on_bearings,
     sensitivity,
     simulate_oscillator,
     simulate_rotor,
     unbalance_response,
 )
-from reduced_models.atlas.answer import AtlasAnswers
+from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
+from reduced_models.atlas.filter_table import FilterAnswer
+from reduced_models.bearing.excitation import BearingExcitation
 from reduced_models.bearing.linear_balls import BearingCoefficients
+from reduced_models.bearing.oil_and_heat import OilAndHeat
+from reduced_models.bearing.oil_balance import OilHistory
+from reduced_models.bearing.set_result import SetState
+from reduced_models.bearing.sliding import BearingFriction
+from reduced_models.fitting.result import ElementFit, MemoryFit
+from reduced_models.fitting.sensitivity import Sensitivity
+from reduced_models.rotor.bearing_films import ContactHistory
+from reduced_models.rotor.campbell import Campbell
+from reduced_models.rotor.jeffcott import RotorState
 from reduced_models.rotor.linear_contact import impedance_about
+from reduced_models.rotor.linearise import LinearRotor
 from reduced_models.rotor.settling import Settling
+from reduced_models.rotor.unbalance_result import UnbalanceResponse
+from reduced_models.signals import (
+    MeasuredPath,
+    ModalPath,
+    RecordCase,
+    SystemPath,
+    VibrationRecord,
+    envelope_spectrum,
+    order_spectrum,
+)
+from reduced_models.signals.spectra import EnvelopeSpectrum, OrderSpectrum
 
 # Classes that are only returned: no public names, but results like the others.
-RETURNED = Assumption, Assumptions, Film, FilmHistory, FilmWave, Instants, Interferogram, Scales, WaveTrack
+RETURNED = (
+    *(Assumption, Assumptions, Film, FilmHistory, FilmWave, Instants, Interferogram, Scales, WaveTrack),
+    *(ExcitationResult, SpeedResponseResult, Traction, Status, AtlasAnswer, FilterAnswer, BearingExcitation),
+    *(BearingFriction, SetState, OilAndHeat, OilHistory, ElementFit, MemoryFit, Sensitivity, Campbell),
+    *(LinearRotor, RotorState, UnbalanceResponse, ContactHistory, EnvelopeSpectrum, OrderSpectrum),
+    *(BearingModel, RotorModel, ShaftModel, WholeRotorModel, Verification, ReferenceCheck),
+)
 # What a user gives, or a few numbers: shown as they are.
 SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness", "SpeedHistory"
 INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no result: it is used by its kind"
@@ -199,10 +233,10 @@ def verifications():
         Interface(name, 9, ("force",), 1.0, "force", 0.1) for name in ("co-simulation", "model exchange")
     )
     return [
-        fmu.Verification((), 100, 10, 5, *3 * (1e-16,), 0),
-        fmu.Verification(wrong, 100, 10, 5, 1e-3, 0.1, float("inf"), 2, 1e-16, 1e-5),
-        fmu.ReferenceCheck("3.0", (), interfaces, 1e-9),
-        fmu.ReferenceCheck("3.0", wrong, interfaces, 1e-9),
+        Verification((), 100, 10, 5, *3 * (1e-16,), 0),
+        Verification(wrong, 100, 10, 5, 1e-3, 0.1, float("inf"), 2, 1e-16, 1e-5),
+        ReferenceCheck("3.0", (), interfaces, 1e-9),
+        ReferenceCheck("3.0", wrong, interfaces, 1e-9),
     ]
 
 
@@ -249,7 +283,7 @@ def test_summaries_are_short(results):
 def test_they_say_what_is_there(point, results):
     film, run = results[0], results[4]
     assert f"{1e6 * film.si.h_central:.4g} (±" in repr(film) and "49 N" in repr(film) and "converged" in repr(film)
-    assert "unresolved" in repr(replace(film, status=ehlcontact.Status.UNRESOLVED))
+    assert "unresolved" in repr(replace(film, status=Status.UNRESOLVED))
     assert f"force {span(run.si.force, 1.0, 'N')}" in repr(run) and f"{run.steps} steps" in repr(run)
     state = next(thing for thing in results if isinstance(thing, reduced_models.BearingState))
     assert f"heaviest {state.force[state.heaviest, 0]:.4g} N" in repr(state) and "lambda" in repr(state)
@@ -268,7 +302,8 @@ def test_every_public_result_of_arrays_has_a_summary():
 
 def public_classes():
     """Those that a package shows, and those that are only returned."""
-    shown = [getattr(package, name) for package in (ehlcontact, reduced_models, fmu) for name in dir(package)]
+    packages = (ehlcontact, reduced_models, reduced_models.signals, fmu)
+    shown = [getattr(package, name) for package in packages for name in dir(package)]
     return {value.__name__: value for value in (*shown, *RETURNED) if inspect.isclass(value)}
 
 
@@ -302,7 +337,7 @@ def test_a_figure_of_a_point_in_si_is_in_si(results):
     assert names == {"x along rolling [µm]", "y across [µm]"} and results[0].scales is not None
     films = [thing for thing in results if isinstance(thing, ehlcontact.SteadyResult) and thing.scales is None]
     assert films[0].plot().axes[0].get_xlabel() == "x/a"
-    answer = next(thing for thing in results if isinstance(thing, reduced_models.AtlasAnswer))
+    answer = next(thing for thing in results if isinstance(thing, AtlasAnswer))
     assert [axes.get_xscale() for axes in answer.plot().axes] == ["symlog"] * 2  # it begins at rest
     with pytest.raises(ehlcontact.InputError, match=r"path = .*a file name ending in one of"):
         results[0].plot("figure.docx")
@@ -323,7 +358,7 @@ def test_tables_of_xarray(results):
     assert run.force.dims == ("T",) and run.h_midplane.dims == ("T", "X") and run.force.attrs["units"] == "f0"
     state = next(thing for thing in results if isinstance(thing, reduced_models.BearingState)).to_xarray()
     assert list(state.race.values) == ["inner", "outer"] and state.force.sel(race="outer").shape == (9,)
-    answer = next(thing for thing in results if isinstance(thing, reduced_models.AtlasAnswer))
+    answer = next(thing for thing in results if isinstance(thing, AtlasAnswer))
     data = answer.to_xarray()
     assert (
         np.array_equal(data.stiffness_error, answer.error_bars["stiffness"]) and data.attrs["M"] == answer.point.M
@@ -396,4 +431,4 @@ def test_dir_lists_public_names_only():
 
 def test_the_three_packages_list_what_they_show():
     assert {len(dir(package)) > 9 for package in (ehlcontact, reduced_models, fmu)} == {True}
-    assert {"export_contact", "verify", "RotorModel"} <= set(dir(fmu))
+    assert {"export_contact", "verify", "SpeedController"} <= set(dir(fmu))

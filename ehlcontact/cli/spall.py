@@ -15,7 +15,8 @@ from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.height_tables import defect_limits
 
 if TYPE_CHECKING:
-    from reduced_models import BallBearing, BearingExcitation
+    from reduced_models import BallBearing
+    from reduced_models.bearing.excitation import BearingExcitation
     from reduced_models.bearing.kinematics import DefectFrequencies
 
 OPTION = "--spall"

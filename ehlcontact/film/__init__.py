@@ -9,15 +9,13 @@ module        responsibility
 """
 
 from ehlcontact.film.over_time import FilmHistory, FilmWave, WaveTrack, film_history, film_wave, track_wave
-from ehlcontact.film.plane import Constriction, Film, Interferogram, Profile, film_of, interferogram
+from ehlcontact.film.plane import Film, Interferogram, film_of, interferogram
 
 __all__ = [
-    "Constriction",
     "Film",
     "FilmHistory",
     "FilmWave",
     "Interferogram",
-    "Profile",
     "WaveTrack",
     "film_history",
     "film_of",

@@ -21,7 +21,6 @@ import numpy as np
 from ehlcontact import Lubricant
 from reduced_models import (
     BallBearing,
-    Campbell,
     Disc,
     Rotor,
     RotorResult,
@@ -33,7 +32,7 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_rotor,
 )
-from reduced_models.rotor.campbell import CriticalSpeed
+from reduced_models.rotor.campbell import Campbell, CriticalSpeed
 
 STEEL = {"youngs_modulus": 211e9, "poisson_ratio": 0.2993, "density": 7810.0}
 RANGE, SECONDS, DT = (500.0, 9000.0), 5.0, 5e-5  # rev/min, s, s

@@ -10,7 +10,8 @@ import sys
 
 import numpy as np
 
-from ehlcontact import ExcitationResult, Grid, MoesPoint, excitation
+from ehlcontact import Grid, MoesPoint, excitation
+from ehlcontact.results import ExcitationResult
 
 WAVES = np.geomspace(1.0, 32.0, 41)  # semi-axes a
 GRID = Grid(n=128)

@@ -31,10 +31,10 @@ from ehlcontact import (
     Roughness,
     SimulationResult,
     TimeSteps,
-    film_of,
     simulate,
     solve_steady,
 )
+from ehlcontact.film import film_of
 
 HALF = 110e9 * (1.0 - 0.3**2)  # two equal bodies of this modulus have E' = 110 GPa, steel on glass
 BALL_ON_DISC = OperatingPoint(

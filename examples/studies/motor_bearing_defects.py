@@ -22,7 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, ModalPath, Spall, clearance_from_order, envelope_spectrum
+from reduced_models import BallBearing, Spall, clearance_from_order
+from reduced_models.signals import ModalPath, envelope_spectrum
 
 SIZE = {"balls": 9, "ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3}
 OIL, WEIGHT = Lubricant.iso_vg(100, temperature=40.0), 30.0  # of the grease; N of the rotor, an assumption

@@ -26,8 +26,9 @@ from ehlcontact import (
     save,
     simulate,
 )
-from reduced_models import ContactRecord, MemoryFit, fit_memory
+from reduced_models import ContactRecord, fit_memory
 from reduced_models.fitting.least_squares import linear_fit
+from reduced_models.fitting.result import MemoryFit
 
 POINT = MoesPoint(200.0, 10.0, 0.5)
 DOMAIN = Domain()  # one region for all: damping depends on it

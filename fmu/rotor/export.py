@@ -10,7 +10,8 @@ from typing import Any
 from fmu.binaries.libraries import Progress
 from fmu.export import export_verified
 from fmu.rotor.model import RotorModel
-from reduced_models import JeffcottRotor, RotorState
+from reduced_models import JeffcottRotor
+from reduced_models.rotor.jeffcott import RotorState
 
 
 def export_rotor(

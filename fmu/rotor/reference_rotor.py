@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from fmu.comparison import bounds, film_rates_at, tangents
 from fmu.contact_variables import Element, Film
-from reduced_models import JeffcottRotor, OutsideValidityWarning, RotorState, simulate_rotor
+from reduced_models import JeffcottRotor, OutsideValidityWarning, simulate_rotor
+from reduced_models.rotor.jeffcott import RotorState
 from reduced_models.rotor.speed_profile import SpeedProfile
 from reduced_models.rotor.time_step import free_displacement, move_to, steps_of
 

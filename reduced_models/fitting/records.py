@@ -9,13 +9,13 @@ from typing import Annotated, Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact import Status
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
 from ehlcontact.checks.frequency import fields_by_name
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.quantities import ACCELERATION, FORCE, LENGTH, RATE, TIME
 from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.status import Status
 from ehlcontact.summary import contact_text, span
 from reduced_models.elements.validity import UNITS
 

@@ -15,12 +15,13 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact import Grid, Status
+from ehlcontact import Grid
 from ehlcontact.checks import require_choice, require_instance, require_integer, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import OperatingPoint, Scales
 from ehlcontact.quantities import FORCE, LENGTH, NUMBER, TIME
 from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.status import Status
 from ehlcontact.summary import span
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.balls import POSITION
@@ -157,7 +158,7 @@ class ContactHistory(QuantityTable):
 
 @dataclass(frozen=True, eq=False)
 class FullFilmRun:
-    """A run of a rotor, and the histories of its full films in the order in which they were given."""
+    """`rotor`: run of a rotor; `films`: histories of its full films, in the order in which they were given."""
 
     rotor: RotorResult
     films: tuple[ContactHistory, ...]

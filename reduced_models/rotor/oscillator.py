@@ -10,12 +10,12 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact import Status
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
 from ehlcontact.checks.frequency import Frequency, by_name
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.quantities import FORCE, LENGTH, RATE, TIME
 from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.status import Status
 from ehlcontact.summary import span
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import frequency_of

@@ -9,11 +9,11 @@ from typing import Annotated, Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact import Status
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import FORCE, LENGTH, NUMBER, RATE, SPEED, TIME
 from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import span
 from reduced_models.rotor.nodes import LENGTHS, PLANE, ByNode

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact import FullContact, Status
+from ehlcontact import FullContact
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.status import Status
 from reduced_models.bearing.height_tables import LEAST_STEPS, shortest_meeting
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES

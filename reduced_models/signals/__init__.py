@@ -8,3 +8,32 @@
 | indicators | rms, kurtosis, crest factor and others |
 | records | labelled synthetic records: cases, their runs on many processes, files |
 """
+
+from reduced_models.signals.indicators import indicators
+from reduced_models.signals.records import RecordCase, VibrationRecord, make_record, make_records, write_dataset
+from reduced_models.signals.sampling import housing_acceleration, node_acceleration, sampled, shaft_angle
+from reduced_models.signals.spectra import envelope_spectrum, order_spectrum
+from reduced_models.signals.transfer_path import MeasuredPath, ModalPath, SystemPath
+
+__all__ = [
+    "MeasuredPath",
+    "ModalPath",
+    "RecordCase",
+    "SystemPath",
+    "VibrationRecord",
+    "envelope_spectrum",
+    "housing_acceleration",
+    "indicators",
+    "make_record",
+    "make_records",
+    "node_acceleration",
+    "order_spectrum",
+    "sampled",
+    "shaft_angle",
+    "write_dataset",
+]
+
+
+def __dir__() -> list[str]:
+    """Public names, without the modules that they are in."""
+    return sorted(__all__)

@@ -133,7 +133,7 @@ def test_drawing_leaves_matplotlib_alone(tmp_path):
 
 
 def test_panels_of_several_results_in_one_figure():
-    from ehlcontact import film_of, interferogram
+    from ehlcontact.film import film_of, interferogram
     from ehlcontact.results.picture import Panel, draw
 
     film = solve_steady(IN_SI, grid=Grid(n=32))

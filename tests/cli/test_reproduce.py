@@ -8,12 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlcontact import InputError, Status, load
+from ehlcontact import InputError, load
 from ehlcontact.cli.page import cell
 from ehlcontact.cli.paper import runs
 from ehlcontact.cli.paper.data import paper_fits, paper_sensitivity
 from ehlcontact.cli.paper.figures import FIGURES
 from ehlcontact.cli.paper.tables import EQUATION_13, SIGNED
+from ehlcontact.status import Status
 from reduced_models import OutsideValidityWarning
 
 

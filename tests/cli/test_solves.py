@@ -7,8 +7,9 @@ import zipfile
 import numpy as np
 import pytest
 
-from ehlcontact import SimulationResult, Status, SteadyResult, load
+from ehlcontact import SimulationResult, SteadyResult, load
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.status import Status
 from ehlcontact.transient.transient_film import TransientFilm
 
 STEADY_KEYS = (

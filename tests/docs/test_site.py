@@ -4,6 +4,7 @@ import inspect
 import re
 import tomllib
 from dataclasses import fields, is_dataclass
+from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -12,13 +13,18 @@ import typer
 from programs import script
 
 import ehlcontact
+import ehlcontact.film
 import fmu
 import reduced_models
+import reduced_models.signals
 from ehlcontact.cli.app import app
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
-PACKAGES = {package.__name__: package for package in (ehlcontact, reduced_models, fmu)}
+PACKAGES = {
+    package.__name__: package
+    for package in (ehlcontact, ehlcontact.film, reduced_models, reduced_models.signals, fmu)
+}
 
 
 def public(package):
@@ -28,12 +34,14 @@ def public(package):
 
 
 def described():
-    """(package, directive, name) of every entry of the reference."""
+    """(package or module, directive, name) of every entry of the reference."""
     found = []
     for page in sorted((DOCS / "api").glob("*.rst")):
         text = page.read_text(encoding="utf-8")
-        package = re.search(r"^.. currentmodule:: (\w+)$", text, flags=re.M)[1]
-        found += [(package, *entry) for entry in re.findall(r"^.. auto(\w+):: (\w+)$", text, flags=re.M)]
+        package = re.search(r"^.. currentmodule:: ([\w.]+)$", text, flags=re.M)[1]
+        for directive, entry in re.findall(r"^.. auto((?!module)\w+):: ([\w.]+)$", text, flags=re.M):
+            module, _, name = entry.rpartition(".")
+            found.append((module or package, directive, name))
     return found
 
 
@@ -45,7 +53,7 @@ def test_reference_has_every_public_name_once(name):
 
 def test_entries_are_of_their_kind():
     for package, directive, name in described():
-        value = getattr(PACKAGES[package], name)
+        value = getattr(import_module(package), name)
         if not inspect.isclass(value):
             assert directive == "function", name
         else:
@@ -55,7 +63,7 @@ def test_entries_are_of_their_kind():
 def test_every_field_is_described():
     """By its name, in the list of parameters or attributes of the class or, of the smallest, in its text."""
     for package, _, name in described():
-        if not is_dataclass(kind := getattr(PACKAGES[package], name)):
+        if not is_dataclass(kind := getattr(import_module(package), name)):
             continue
         text = inspect.getdoc(kind)
         lists = re.findall(r"^(?:Parameters|Attributes)\n-+\n(.*?)(?=^\w+\n-+\n|\Z)", text, flags=re.M | re.S)
@@ -99,7 +107,7 @@ def test_the_explorer_is_part_of_the_site(tmp_path):
 def test_calls_and_commands_of_the_how_to_are_there():
     """Functions, classes and methods by their names; subcommands and options of the program."""
     text = (DOCS / "guide" / "howto.md").read_text(encoding="utf-8")
-    shown = {name: getattr(package, name) for package in PACKAGES.values() for name in public(package)}
+    shown = {name: getattr(import_module(package), name) for package, _, name in described()}
     members = {name for value in shown.values() if inspect.isclass(value) for name in dir(value)}
     code = re.findall(r"`([^`]+)`", text)
     calls = {name for part in code for name in re.findall(r"([\w.]+)\(", part)}

@@ -16,7 +16,6 @@ from ehlcontact import (
     Lubricant,
     MoesPoint,
     OperatingPoint,
-    Status,
     solve_steady,
 )
 from ehlcontact import steady as steady_module
@@ -26,6 +25,7 @@ from ehlcontact.solver.attempts import CYCLES_TIME
 from ehlcontact.solver.grid_rules import coarsest_intervals
 from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.mesh import Mesh
+from ehlcontact.status import Status
 
 POINT = MoesPoint(200, 10, 0.5)
 CASES = [(200, 10, 0.5), (20, 10, 1.0), (500, 15, 0.12)]

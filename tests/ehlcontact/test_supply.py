@@ -18,7 +18,6 @@ from ehlcontact import (
     MoesPoint,
     OilLayer,
     OperatingPoint,
-    Status,
     TimeSteps,
     impedance,
     load,
@@ -31,6 +30,7 @@ from ehlcontact.impedance import held as held_film
 from ehlcontact.lubricant import density
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.mesh import Mesh
+from ehlcontact.status import Status
 from ehlcontact.transient.transient_film import TransientFilm
 
 CIRCLE = MoesPoint(20, 10, 1)

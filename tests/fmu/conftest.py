@@ -13,9 +13,10 @@ import pytest
 from fmpy import fmi2
 
 from ehlcontact.point import Scales
-from fmu import RotorModel, export_contact, export_rotor
+from fmu import export_contact, export_rotor
 from fmu.driver import Exchange
 from fmu.driver import Slave as DriverSlave
+from fmu.rotor.model import RotorModel
 from reduced_models import (
     CubicContact,
     FilmMemoryContact,

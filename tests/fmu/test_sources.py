@@ -19,13 +19,16 @@ from fmpy.build import build_platform_binary
 from fmpy.validation import validate_fmu
 
 from ehlcontact import Lubricant
-from fmu import BearingModel, ShaftModel, SpeedController, WholeRotorModel, export_contact, verify
+from fmu import SpeedController, export_contact, verify
 from fmu.archive import content_guid
+from fmu.bearing.model import BearingModel
 from fmu.comparison import film_motion, state_grid
 from fmu.contact_spec import contact_spec
 from fmu.fmu_model import fmu_model
 from fmu.rotor.laws import distinct, law_source
+from fmu.shaft.model import ShaftModel
 from fmu.sources import CSRC, source_files, standard_folder, standard_headers
+from fmu.whole_rotor.model import WholeRotorModel
 from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")

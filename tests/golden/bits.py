@@ -47,15 +47,13 @@ from ehlcontact import (
     RampLoad,
     TimeSteps,
     Waviness,
-    film_of,
-    film_wave,
     impedance,
     load,
     save,
     simulate,
     solve_steady,
-    track_wave,
 )
+from ehlcontact.film import film_of, film_wave, track_wave
 from fmu import export_contact, export_rotor, export_system
 from reduced_models import (
     Atlas,

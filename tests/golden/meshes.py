@@ -4,10 +4,11 @@ from math import exp, log
 
 import numpy as np
 
-from ehlcontact import Domain, Grid, InputError, MoesPoint, Status
+from ehlcontact import Domain, Grid, InputError, MoesPoint
 from ehlcontact.solver.grid_rules import coarsest_intervals, resolved_load
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import Purpose, allows_newton, mesh_for, remedy
+from ehlcontact.status import Status
 from reduced_models.atlas.mesh import film_grid, impedance_grid, near_grid
 
 PICKED = [

@@ -35,18 +35,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from ehlcontact.cli.study.bearing import BearingJob
-    from reduced_models import (
-        BallBearing,
-        BearingExcitation,
-        BearingFriction,
-        BearingSet,
-        BearingState,
-        SetState,
-        Spall,
-    )
+    from reduced_models import BallBearing, BearingSet, BearingState, Spall
+    from reduced_models.bearing.excitation import BearingExcitation
     from reduced_models.bearing.kinematics import DefectFrequencies
     from reduced_models.bearing.linear_balls import BearingCoefficients
     from reduced_models.bearing.oil_and_heat import OilAndHeat
+    from reduced_models.bearing.set_result import SetState
+    from reduced_models.bearing.sliding import BearingFriction
 
 CURVE = 15  # speeds of the curves of a figure
 BESIDE = (0.5, 2.0)  # over a single speed: where its curves begin and end

@@ -19,7 +19,7 @@ from ehlcontact.errors import InputError
 SHOWN = 0.05, 1.0, math.tau  # dimensionless frequencies of the atlas that the table shows
 
 if TYPE_CHECKING:
-    from reduced_models import AtlasAnswer
+    from reduced_models.atlas.answer import AtlasAnswer
 
 
 class Kind(o.Options):

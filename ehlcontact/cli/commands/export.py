@@ -18,8 +18,13 @@ from ehlcontact.errors import InputError
 from ehlcontact.store import load
 
 if TYPE_CHECKING:
-    from fmu import BearingModel, RotorModel, ShaftModel, SpeedController, Verification, WholeRotorModel
+    from fmu import SpeedController
+    from fmu.bearing.model import BearingModel
+    from fmu.rotor.model import RotorModel
+    from fmu.shaft.model import ShaftModel
     from fmu.system.check import SystemVerification
+    from fmu.verification import Verification
+    from fmu.whole_rotor.model import WholeRotorModel
 
 
 @o.grouped
@@ -259,7 +264,7 @@ def _exporter(system: bool, *, drive: bool) -> Any:
 def _bearing_of(file: Path) -> BearingModel:
     """The bearing of a bearing file, from its lowest to its highest speed, at rest under its load."""
     from ehlcontact.cli.study.bearing import load_job
-    from fmu import BearingModel
+    from fmu.bearing.model import BearingModel
 
     job = load_job(str(file), {})
     if job.pair is not None:
@@ -278,7 +283,7 @@ def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
     """The rotor of a study, closed with an element from a file, or from the atlas."""
     from ehlcontact.cli.study.rotor import build_rotor
     from ehlcontact.cli.study.schema import load_study
-    from fmu import RotorModel
+    from fmu.rotor.model import RotorModel
     from reduced_models import ContactElement
     from reduced_models.atlas.atlas import Atlas
 
@@ -310,7 +315,7 @@ def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftM
     from ehlcontact.cli.study.oil_supply import supply_and_heat
     from ehlcontact.cli.study.schema import load_study
     from ehlcontact.cli.study.whole_bearing import whole_bearing
-    from fmu import ShaftModel
+    from fmu.shaft.model import ShaftModel
 
     study = load_study(file)
     if "whole_bearing" not in study.model_fields_set:
@@ -339,7 +344,7 @@ def _controller_of(speed_rpm: float, values: tuple[float, float, float]) -> Spee
 
 def _with_bearings(shaft: ShaftModel, top_rpm: float) -> WholeRotorModel:
     """The rotor of a study with its bearings, from its speed to a higher one."""
-    from fmu import WholeRotorModel
+    from fmu.whole_rotor.model import WholeRotorModel
 
     speeds = sorted({shaft.speed_rpm, top_rpm})
     return WholeRotorModel(shaft.rotor, speeds, shaft.speed_rpm, shaft.inertia)
@@ -347,7 +352,10 @@ def _with_bearings(shaft: ShaftModel, top_rpm: float) -> WholeRotorModel:
 
 def _about(exported: Any, system: bool) -> list[Row]:
     """What it is."""
-    from fmu import BearingModel, RotorModel, ShaftModel, WholeRotorModel
+    from fmu.bearing.model import BearingModel
+    from fmu.rotor.model import RotorModel
+    from fmu.shaft.model import ShaftModel
+    from fmu.whole_rotor.model import WholeRotorModel
 
     if isinstance(exported, WholeRotorModel):
         speeds = " to ".join(f"{speed:g}" for speed in sorted({*exported.bearings[0].speeds[[0, -1]].tolist()}))
@@ -384,8 +392,11 @@ def _advice(exported: Any, found: Any) -> list[Row]:
         return [
             ("step", f"{step:g} s", "of the default experiment; longer ones damp more, and blow up in the end")
         ]
-    from fmu import BearingModel, RotorModel, ShaftModel, WholeRotorModel
+    from fmu.bearing.model import BearingModel
+    from fmu.rotor.model import RotorModel
+    from fmu.shaft.model import ShaftModel
     from fmu.steps import step_advice
+    from fmu.whole_rotor.model import WholeRotorModel
 
     if isinstance(exported, BearingModel | ShaftModel):
         return [("step", "1e-05 s", "of the default experiment; how long one may be: docs/coupling.md")]

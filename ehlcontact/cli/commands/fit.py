@@ -15,7 +15,8 @@ from ehlcontact.cli.rows import Row
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
-    from reduced_models import ElementFit, FitResult
+    from reduced_models import FitResult
+    from reduced_models.fitting.result import ElementFit
 
 
 @o.grouped

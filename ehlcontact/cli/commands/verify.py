@@ -12,7 +12,7 @@ from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.rows import Row
 
 if TYPE_CHECKING:
-    from fmu import ReferenceCheck
+    from fmu.references.check import ReferenceCheck
 
 
 @o.grouped

@@ -13,15 +13,14 @@ from ehlcontact.errors import InputError
 from reduced_models import (
     ContactElement,
     ContactRecord,
-    ElementFit,
     FitResult,
     OutsideValidityWarning,
-    Sensitivity,
     fit,
     sensitivity,
     simulate_oscillator,
 )
-from reduced_models.fitting.result import rms_error
+from reduced_models.fitting.result import ElementFit, rms_error
+from reduced_models.fitting.sensitivity import Sensitivity
 from reduced_models.rotor.oscillator import OscillatorResult
 
 BEYOND = 0.25  # of the range of a motion that an element of the paper reaches beyond it on either side

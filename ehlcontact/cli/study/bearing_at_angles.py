@@ -12,14 +12,16 @@ import numpy as np
 from ehlcontact.cli.study.ring_load import tilt_of
 from ehlcontact.cli.study.whole_bearing import bearing_or_pair, bearings_of, ring_load, whole_bearing
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import BallBearing, BearingSet, Campbell, Disc, Shaft, Support, linearise, rotor_on_bearings
+from reduced_models import BallBearing, BearingSet, Disc, Shaft, Support, linearise, rotor_on_bearings
 from reduced_models.bearing.freedoms import FIVE
+from reduced_models.rotor.campbell import Campbell
 from reduced_models.rotor.compare_bearing_models import BAND, FREQUENCIES, campbell_or_reason
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
-    from reduced_models import BearingState, Rotor, SetState
+    from reduced_models import BearingState, Rotor
     from reduced_models.bearing.linear_balls import BearingCoefficients
+    from reduced_models.bearing.set_result import SetState
     from reduced_models.rotor.modes import RotorMode
 
 SPAN = 0.2  # m, of the bearings where none is given

@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.cli.study.whole_bearing import ring_load, spall_in, whole_bearing
-from reduced_models import BearingExcitation, Spall, envelope_spectrum
+from reduced_models import Spall
+from reduced_models.bearing.excitation import BearingExcitation
 from reduced_models.bearing.height_tables import track_radius
 from reduced_models.bearing.kinematics import RPM_TO_HZ, DefectFrequencies
+from reduced_models.signals import envelope_spectrum
 from reduced_models.signals.spectra import EnvelopeSpectrum
 
 if TYPE_CHECKING:

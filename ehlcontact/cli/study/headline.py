@@ -14,8 +14,8 @@ from ehlcontact.cli.study.differences import Events
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
-from reduced_models import OilAndHeat, SetState
-from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN
+from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN, OilAndHeat
+from reduced_models.bearing.set_result import SetState
 
 # Change by half the step, over the standard deviation of a signal or the decrement, that has a sentence.
 LARGE_CHANGE = 0.01

@@ -19,7 +19,7 @@ from reduced_models.bearing.kinematics import RPM_TO_HZ
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
-    from reduced_models import OilAndHeat
+    from reduced_models.bearing.oil_and_heat import OilAndHeat
 
 BAND, FREQUENCIES = (0.2, 50.0), 13  # over the frequency of the shaft: K and C of the figure
 

@@ -17,9 +17,10 @@ from ehlcontact.results import ImpedanceResult
 from ehlcontact.store import save
 from ehlcontact.transient.motion import HarmonicLoad
 from ehlcontact.transient.result import SimulationResult
-from reduced_models import ContactRecord, CubicContact, FitResult, MemoryFit, dry_contact, fit, fit_memory
+from reduced_models import ContactRecord, CubicContact, FitResult, dry_contact, fit, fit_memory
 from reduced_models.elements.validity import frequency_text
 from reduced_models.fitting.memory_fit import OMEGAS
+from reduced_models.fitting.result import MemoryFit
 from reduced_models.rotor.baselines import without_damper
 
 RECORDS = {"free": "free vibration", "harmonic": "harmonic, contact band", "rotor_band": "harmonic, rotor band"}

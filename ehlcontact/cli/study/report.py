@@ -17,7 +17,7 @@ from ehlcontact.cli.study.oil_supply import supply_and_heat, supply_words
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, RECORDS, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.stages import STAGES
-from reduced_models import OilAndHeat
+from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
 from reduced_models.rotor.events import LOST
 from reduced_models.rotor.settling import MOST_REVOLUTIONS

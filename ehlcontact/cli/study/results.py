@@ -35,7 +35,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.results import SteadyResult
 from ehlcontact.store import load
 from ehlcontact.transient.result import SimulationResult
-from reduced_models import OilAndHeat
+from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.rotor.compare_bearing_models import BearingModels
 
 

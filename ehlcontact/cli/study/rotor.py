@@ -17,15 +17,13 @@ from ehlcontact.solver.grid import Grid
 from reduced_models import (
     ContactElement,
     JeffcottRotor,
-    LinearRotor,
     OutsideValidityWarning,
     RotorResult,
-    RotorState,
     film_impedance,
     linearise,
-    local_contact,
 )
 from reduced_models.fitting.memory_fit import OMEGAS
+from reduced_models.rotor.baselines import local_contact
 from reduced_models.rotor.free_decay import initial_velocity, simulate_decay
 from reduced_models.rotor.full_films import (
     ELEMENT_TOLERANCE,
@@ -35,7 +33,9 @@ from reduced_models.rotor.full_films import (
     settled_run,
     simulate_on_films,
 )
+from reduced_models.rotor.jeffcott import RotorState
 from reduced_models.rotor.linear_contact import impedance_about
+from reduced_models.rotor.linearise import LinearRotor
 from reduced_models.rotor.modes import RotorMode
 
 BELOW = 0.5  # of the rotor's frequency: the lowest one of the impedance, but for rest

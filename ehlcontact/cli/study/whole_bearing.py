@@ -15,9 +15,10 @@ from ehlcontact.cli.study.oil_supply import supply_and_heat
 from ehlcontact.cli.study.pair import pair_of
 from ehlcontact.cli.study.ring_load import moments_of, tilt_of
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import BallBearing, BearingSet, BearingState, SetState, Spall
+from reduced_models import BallBearing, BearingSet, BearingState, Spall
 from reduced_models.bearing.ball_bearing import LARGEST_PLAY
 from reduced_models.bearing.freedoms import PLANAR
+from reduced_models.bearing.set_result import SetState
 from reduced_models.rotor.prepared_run import LEAST_STEPS
 
 ENTRIES = {  # of a study, where the library calls them otherwise

@@ -6,13 +6,14 @@ from dataclasses import astuple, replace
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, Grid, MoesPoint, Status, load, save, solve_steady
+from ehlcontact import Domain, Grid, MoesPoint, load, save, solve_steady
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import ALL, ErrorEstimate, regular_error
 from ehlcontact.solver.error_grids import estimate_error
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import ACCURACY, Purpose, mesh_for, remedy
 from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.status import Status
 
 NUMBERS = ("approach", "h_central", "h_min")
 PAPER = MoesPoint(200, 10, 0.5)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, MoesPoint, Status
+from ehlcontact import Domain, MoesPoint
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.iterate import (
     LARGEST_SWEEP_FACTOR,
@@ -15,6 +15,7 @@ from ehlcontact.solver.iterate import (
 )
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.status import Status
 
 NAN, INF = float("nan"), float("inf")
 FALLING = [10.0**-k for k in range(20)]

@@ -16,7 +16,6 @@ from ehlcontact import (
     KeepSettings,
     MoesPoint,
     RunSettings,
-    Status,
     TimeSteps,
     impedance,
     simulate,
@@ -30,6 +29,7 @@ from ehlcontact.solver.domain import check_intervals
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import Purpose, mesh_for
+from ehlcontact.status import Status
 
 
 def test_default_is_the_documented_region():

@@ -5,7 +5,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, Grid, MoesPoint, Status, solve_steady, steady
+from ehlcontact import Domain, Grid, MoesPoint, solve_steady, steady
 from ehlcontact.solver.attempts import CLOSE_LAST_RESORT, CLOSE_METHODS, CONTINUATION, METHODS
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid_rules import coarsest_intervals
@@ -14,6 +14,7 @@ from ehlcontact.solver.level import Level
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import NEAREST_DOMAIN, is_last
 from ehlcontact.solver.multigrid import CONTINUATION_LOADING, Multigrid, initial_approach
+from ehlcontact.status import Status
 
 LOAD = Balance.of_load()
 

@@ -17,10 +17,10 @@ from ehlcontact import (
     PrescribedLoad,
     RampLoad,
     RunSettings,
-    Status,
     TimeSteps,
     simulate,
 )
+from ehlcontact.status import Status
 from ehlcontact.transient.bodies import MotionState
 from ehlcontact.transient.record import Entry
 from ehlcontact.transient.time_step import LARGEST_GROWTH, StepControl, local_error, next_time

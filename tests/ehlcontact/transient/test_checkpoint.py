@@ -25,12 +25,12 @@ from ehlcontact import (
     RampLoad,
     Roughness,
     SimulationResult,
-    Status,
     TimeSteps,
     Waviness,
     load,
     simulate,
 )
+from ehlcontact.status import Status
 from ehlcontact.transient import checkpoint
 from ehlcontact.transient.checkpoint import Checkpoint
 from ehlcontact.transient.transient_film import TransientFilm

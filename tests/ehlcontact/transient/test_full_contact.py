@@ -17,10 +17,10 @@ from ehlcontact import (
     MoesPoint,
     OperatingPoint,
     PrescribedApproach,
-    Status,
     TimeSteps,
     simulate,
 )
+from ehlcontact.status import Status
 
 POINT = MoesPoint(200, 10, 0.5)
 NAN, INF = float("nan"), float("inf")

@@ -19,11 +19,11 @@ from ehlcontact import (
     PrescribedLoad,
     RampLoad,
     RunSettings,
-    Status,
     TimeSteps,
     simulate,
     solve_steady,
 )
+from ehlcontact.status import Status
 
 POINT = MoesPoint(200, 10, 0.5)
 OMEGA_N = 5.13

@@ -18,7 +18,6 @@ from ehlcontact import (
     PrescribedLoad,
     RampLoad,
     Roughness,
-    Status,
     TimeSteps,
     TransverseRidge,
     Waviness,
@@ -26,6 +25,7 @@ from ehlcontact import (
     save,
     simulate,
 )
+from ehlcontact.status import Status
 from ehlcontact.transient.bodies import LONGEST_ABRUPT, LONGEST_SMOOTH
 from ehlcontact.transient.features import require_surface
 from ehlcontact.transient.settings import StepPlan

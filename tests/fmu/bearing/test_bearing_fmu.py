@@ -12,8 +12,9 @@ from fmpy.fmi1 import FMICallException
 from mass_on_bearing import decay, in_one_run
 
 from ehlcontact import InputError
-from fmu import BearingModel, export_bearing, verify, verify_references
+from fmu import export_bearing, verify, verify_references
 from fmu.bearing.comparison import largest_difference
+from fmu.bearing.model import BearingModel
 from fmu.bearing.tables import _curve
 from fmu.bearing.trial import START, bearing_trial
 from fmu.bearing.variables import FORCES, RATES

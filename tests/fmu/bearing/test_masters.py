@@ -14,7 +14,8 @@ from mass_on_bearing import decay, in_one_run
 from other_masters import ecospy, libcosimpy, ours
 
 from ehlcontact import Lubricant
-from fmu import BearingModel, export_bearing
+from fmu import export_bearing
+from fmu.bearing.model import BearingModel
 from fmu.system.structure import Component, Connector, Wire, system_structure
 from reduced_models import BallBearing
 

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from ehlcontact import Lubricant, OilLayer
-from fmu import BearingModel, verify
+from fmu import verify
+from fmu.bearing.model import BearingModel
 from fmu.bearing.trial import START
 from fmu.whole_rotor.model import WholeRotorModel
 from fmu.whole_rotor.variables import whole_rotor_spec

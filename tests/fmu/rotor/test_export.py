@@ -10,9 +10,11 @@ import pytest
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from fmu import RotorModel, VerificationError, export_rotor, sources, verify
+from fmu import VerificationError, export_rotor, sources, verify
+from fmu.rotor.model import RotorModel
 from fmu.rotor.variables import rotor_spec
-from reduced_models import OutsideValidityWarning, RotorState, ScaledContact, simulate_rotor
+from reduced_models import OutsideValidityWarning, ScaledContact, simulate_rotor
+from reduced_models.rotor.jeffcott import RotorState
 
 SAYS_NOTHING = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 SCALES = Scales(force=850.0, length=1.31e-5, time=2.1e-5, a=1.1e-4, b=9e-4, pressure=1.6e9)

@@ -9,9 +9,11 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from scipy.linalg import expm
 
-from fmu import RotorModel, export_rotor
+from fmu import export_rotor
 from fmu.driver import Slave
-from reduced_models import RotorState, SpeedProfile, simulate_rotor
+from fmu.rotor.model import RotorModel
+from reduced_models import SpeedProfile, simulate_rotor
+from reduced_models.rotor.jeffcott import RotorState
 
 EXTRAPOLATED, END, HELD = 0.0, 1.0, 0.5  # values of force_lead
 # the elements are for other frequencies than that of the speed

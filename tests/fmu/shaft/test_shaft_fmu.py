@@ -10,15 +10,8 @@ from other_masters import ecospy, libcosimpy, ours
 from scipy.integrate import solve_ivp
 
 from ehlcontact import InputError
-from fmu import (
-    ShaftModel,
-    SpeedController,
-    VerificationError,
-    export_drive,
-    export_shaft,
-    verify,
-    verify_references,
-)
+from fmu import SpeedController, VerificationError, export_drive, export_shaft, verify, verify_references
+from fmu.shaft.model import ShaftModel
 from fmu.system.master import SystemRun
 from reduced_models import (
     BallBearing,

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from other_masters import ecospy, libcosimpy, ours
 
-from fmu import RotorModel
+from fmu.rotor.model import RotorModel
 from fmu.system.export import export_verified_system
 from fmu.system.master import SystemRun
 from reduced_models import CubicContact, JeffcottRotor, simulate_rotor

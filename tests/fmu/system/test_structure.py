@@ -10,8 +10,9 @@ import fmpy
 import pytest
 
 from ehlcontact.errors import InputError
-from fmu import RotorModel, VerificationError, export_system, verify_references
+from fmu import VerificationError, export_system, verify_references
 from fmu.archive import pack
+from fmu.rotor.model import RotorModel
 from fmu.system.check import schema_findings, verify_system
 from fmu.system.export import export_verified_system
 from fmu.system.structure import SSC, SSD, SSV

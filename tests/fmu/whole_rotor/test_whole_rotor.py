@@ -11,8 +11,9 @@ from bearing_fmus import OIL, POLAR, Exported, assert_speeds_are_reached, presse
 from fmpy.fmi1 import FMICallException
 
 from ehlcontact import InputError
-from fmu import WholeRotorModel, export_whole_rotor, verify, verify_references
+from fmu import export_whole_rotor, verify, verify_references
 from fmu.sources import CSRC
+from fmu.whole_rotor.model import WholeRotorModel
 from fmu.whole_rotor.variables import whole_rotor_spec
 from reduced_models import (
     BallBearing,

@@ -11,7 +11,8 @@ from scipy.optimize import brentq
 
 from ehlcontact import Lubricant, load, save
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingSet, SetState
+from reduced_models import BallBearing, BearingSet
+from reduced_models.bearing.set_result import SetState
 
 SPINDLE = BallBearing(balls=13, ball_diameter=7.938e-3, pitch_diameter=38.5e-3, contact_angle=radians(25.0))
 OTHER = BallBearing(balls=10, ball_diameter=9.5e-3, pitch_diameter=46e-3, contact_angle=radians(15.0))

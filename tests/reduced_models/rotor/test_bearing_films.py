@@ -6,19 +6,10 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import (
-    Dent,
-    FullContact,
-    Grid,
-    Lubricant,
-    MoesPoint,
-    PrescribedApproach,
-    Status,
-    TimeSteps,
-    simulate,
-)
+from ehlcontact import Dent, FullContact, Grid, Lubricant, MoesPoint, PrescribedApproach, TimeSteps, simulate
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.solver.lowest_film import beside_lowest
+from ehlcontact.status import Status
 from ehlcontact.transient import roughness
 from reduced_models import (
     BallBearing,

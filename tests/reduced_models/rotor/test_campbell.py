@@ -8,15 +8,9 @@ import pytest
 
 from ehlcontact import load, save
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import (
-    Campbell,
-    SpeedProfile,
-    UnbalanceResponse,
-    campbell,
-    linearise,
-    simulate_rotor,
-    unbalance_response,
-)
+from reduced_models import SpeedProfile, campbell, linearise, simulate_rotor, unbalance_response
+from reduced_models.rotor.campbell import Campbell
+from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
 SPEEDS = np.linspace(2000.0, 10000.0, 5)
 PNG = b"\x89PNG"

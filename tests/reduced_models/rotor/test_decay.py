@@ -7,8 +7,9 @@ import pytest
 from rotor_twins import C, K, one_mass, spring
 
 from ehlcontact import InputError
-from reduced_models import RotorState, linearise, log_decrement, simulate_rotor
+from reduced_models import linearise, log_decrement, simulate_rotor
 from reduced_models.elements.polynomial import LinearContact
+from reduced_models.rotor.jeffcott import RotorState
 
 
 @pytest.mark.parametrize("delta", [-0.02, 0.0, 0.003, 0.03, 0.3, 1.0])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from rotor_twins import run_of
 
-from reduced_models import CubicContact, contact_events
-from reduced_models.rotor.events import lift_offs
+from reduced_models import CubicContact
+from reduced_models.rotor.events import contact_events, lift_offs
 
 ELEMENT = CubicContact(
     2e7,

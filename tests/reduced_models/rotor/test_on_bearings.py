@@ -8,9 +8,10 @@ import pytest
 from beam_rotor import NODES, beam, block
 from scipy.integrate import solve_ivp
 
-from ehlcontact import FullContact, Grid, Lubricant, MoesPoint, Status, load, save
+from ehlcontact import FullContact, Grid, Lubricant, MoesPoint, load, save
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Scales
+from ehlcontact.status import Status
 from reduced_models import (
     BallBearing,
     BearingMount,

@@ -7,9 +7,9 @@ import pytest
 from rotor_twins import SCALES, C, K, one_mass, run_of
 
 from ehlcontact import InputError
-from reduced_models import dry_contact, settling
+from reduced_models import dry_contact
 from reduced_models.elements.polynomial import LinearContact
-from reduced_models.rotor.settling import QUIET, run_until_settled
+from reduced_models.rotor.settling import QUIET, run_until_settled, settling
 
 STEPS = 40
 

@@ -7,16 +7,10 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from ehlcontact import Status
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import (
-    JeffcottRotor,
-    LinearContact,
-    OutsideValidityWarning,
-    RotorState,
-    ScaledContact,
-    simulate_rotor,
-)
+from ehlcontact.status import Status
+from reduced_models import JeffcottRotor, LinearContact, OutsideValidityWarning, ScaledContact, simulate_rotor
+from reduced_models.rotor.jeffcott import RotorState
 
 BODY = {"disc_mass": 20.0, "journal_mass": 1.0, "shaft_stiffness": 2e7, "shaft_damping": 200.0}
 TURNING = BODY | {"unbalance": 1e-4, "speed_rpm": 6000.0}

@@ -9,19 +9,16 @@ import numpy as np
 import pytest
 
 from ehlcontact import ConvergenceError, InputError, Lubricant, load
-from reduced_models import (
-    BallBearing,
+from reduced_models import BallBearing, RaceWaviness, Spall, simulate_rotor
+from reduced_models.signals import (
     ModalPath,
-    RaceWaviness,
     RecordCase,
-    Spall,
     VibrationRecord,
     envelope_spectrum,
     housing_acceleration,
     indicators,
     make_record,
     make_records,
-    simulate_rotor,
     write_dataset,
 )
 from reduced_models.signals.records import _is_whole

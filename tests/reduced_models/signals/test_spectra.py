@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlcontact import InputError, Status
+from ehlcontact import InputError
+from ehlcontact.status import Status
 from reduced_models import BallBearing
 from reduced_models.rotor.result import RotorResult
 from reduced_models.signals.indicators import indicators
