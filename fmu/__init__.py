@@ -29,9 +29,9 @@ module                   responsibility
 ``verify``               `verify`: an FMU against fmpy's rules and the Python element, state by state
 ``verify_before_write``  verification of an FMU before it is written
 ``bearing/``             FMU of a ball bearing whose inner ring is moved from outside
-``rotor/``               FMU of a Jeffcott rotor, alone or with its contacts
+``jeffcott/``            FMU of a Jeffcott rotor, alone or with its contacts
+``rotor/``               FMU of a rotor with its ball bearings inside
 ``shaft/``               FMU of a shaft whose bearings are outside, with the torque of its motor
-``whole_rotor/``         FMU of a rotor with its ball bearings inside
 ``controller/``          FMU of a speed controller: torque of that motor
 ``system/``              `export_system`, `export_drive`: system archives (SSP) of a rotor, of a drive
 ``csrc/``                C sources: core, interface of each FMI version, models; equations in its README
@@ -48,6 +48,7 @@ from fmu.binaries import BuildError as BuildError
 from fmu.controller.export import export_controller as export_controller
 from fmu.controller.model import SpeedController as SpeedController
 from fmu.export import export_contact as export_contact
+from fmu.jeffcott.export import export_jeffcott as export_jeffcott
 from fmu.references.check import verify_references as verify_references
 from fmu.rotor.export import export_rotor as export_rotor
 from fmu.shaft.export import export_shaft as export_shaft
@@ -55,7 +56,6 @@ from fmu.system.drive import export_drive as export_drive
 from fmu.system.export import export_system as export_system
 from fmu.verify import verify as verify
 from fmu.verify_before_write import VerificationError as VerificationError
-from fmu.whole_rotor.export import export_whole_rotor as export_whole_rotor
 
 
 def __dir__() -> list[str]:

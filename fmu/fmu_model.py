@@ -15,25 +15,25 @@ from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element, Film
 from fmu.controller.comparison import compare_controller, controller_references
 from fmu.controller.model import SpeedController, controller_spec
+from fmu.jeffcott.comparison import compare_jeffcott
+from fmu.jeffcott.model import JeffcottModel
+from fmu.jeffcott.references import jeffcott_references
+from fmu.jeffcott.variables import jeffcott_spec
 from fmu.lead import HELD_PARALLEL
 from fmu.references.contact_references import contact_references
 from fmu.references.series import References
-from fmu.rotor.comparison import compare_rotor
+from fmu.rotor.comparison import compare_rotor, rotor_references
 from fmu.rotor.model import RotorModel
-from fmu.rotor.references import rotor_references
 from fmu.rotor.variables import rotor_spec
 from fmu.shaft.comparison import compare_shaft, shaft_references
 from fmu.shaft.model import ShaftModel
 from fmu.shaft.variables import shaft_spec
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
-from fmu.whole_rotor.comparison import compare_whole_rotor, whole_rotor_references
-from fmu.whole_rotor.model import WholeRotorModel
-from fmu.whole_rotor.variables import whole_rotor_spec
 from reduced_models import JeffcottRotor
 
 # what an FMU is made from
-Source = Element | RotorModel | BearingModel | ShaftModel | SpeedController | WholeRotorModel
+Source = Element | JeffcottModel | BearingModel | ShaftModel | SpeedController | RotorModel
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,21 +69,21 @@ def fmu_model(source: Source, model_name: str | None = None, lead: float | None 
         Neither of them, a name that is empty, too long or not printable, or another lead.
     """
     if isinstance(source, JeffcottRotor):
-        allowed = "RotorModel(rotor, contacts), of `fmu`: what export_rotor makes an FMU of"
+        allowed = "JeffcottModel(rotor, contacts), of `fmu.jeffcott.model`: what export_jeffcott makes an FMU of"
         raise InputError("element", type(source).__name__, allowed)
-    if isinstance(source, RotorModel):
-        spec, elements = rotor_spec(source, model_name, lead), source.elements
-        compare: Any = compare_rotor
-        references: Any = rotor_references
+    if isinstance(source, JeffcottModel):
+        spec, elements = jeffcott_spec(source, model_name, lead), source.elements
+        compare: Any = compare_jeffcott
+        references: Any = jeffcott_references
     elif isinstance(source, BearingModel):
         spec, elements = bearing_spec(source, model_name, lead), ()
         compare, references = compare_bearing, bearing_references
     elif isinstance(source, ShaftModel):
         spec, elements = shaft_spec(source, model_name, lead), ()
         compare, references = compare_shaft, shaft_references
-    elif isinstance(source, WholeRotorModel):
-        spec, elements = whole_rotor_spec(source, model_name, lead), ()
-        compare, references = compare_whole_rotor, whole_rotor_references
+    elif isinstance(source, RotorModel):
+        spec, elements = rotor_spec(source, model_name, lead), ()
+        compare, references = compare_rotor, rotor_references
     elif isinstance(source, SpeedController):
         spec, elements = controller_spec(source, model_name, lead), ()
         compare, references = compare_controller, controller_references

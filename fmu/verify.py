@@ -42,10 +42,10 @@ def verify(path: str | os.PathLike[str], element: Source) -> Verification:
     ----------
     path : path-like
         The FMU.
-    element : ContactElement, RotorModel, BearingModel, ShaftModel or WholeRotorModel
-        What it should be; ``RotorModel(rotor, contacts)`` for what `export_rotor` makes of these,
+    element : ContactElement, JeffcottModel, BearingModel, ShaftModel or RotorModel
+        What it should be; ``JeffcottModel(rotor, contacts)`` for what `export_jeffcott` makes of these,
         ``BearingModel(bearing, speeds_rpm, load)`` for `export_bearing`, ``ShaftModel(rotor, speed_rpm, inertia)``
-        for `export_shaft`, ``WholeRotorModel(rotor, speeds_rpm, speed_rpm, inertia)`` for `export_whole_rotor`.
+        for `export_shaft`, ``RotorModel(rotor, speeds_rpm, speed_rpm, inertia)`` for `export_rotor`.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def _known_variables(file: FmuFile, spec: ModelSpec) -> dict[str, Any]:
             raise InputError(
                 "path",
                 str(file.path),
-                "an FMU of this kind, made by export_contact, export_rotor, export_bearing or export_shaft",
+                "an FMU of this kind, made by export_contact, export_jeffcott, export_bearing or export_shaft",
             )
     return known
 

@@ -50,11 +50,11 @@ from ehlcontact.status import Status
 from ehlcontact.summary import Summary, span
 from ehlcontact.transient.result import Instants
 from fmu.bearing.model import BearingModel
+from fmu.jeffcott.model import JeffcottModel
 from fmu.references.check import Interface, ReferenceCheck
 from fmu.rotor.model import RotorModel
 from fmu.shaft.model import ShaftModel
 from fmu.verification import Verification
-from fmu.whole_rotor.model import WholeRotorModel
 from reduced_models import (
     Atlas,
     BallBearing,
@@ -116,7 +116,7 @@ RETURNED = (
     *(ExcitationResult, SpeedResponseResult, Traction, Status, AtlasAnswer, FilterAnswer, BearingExcitation),
     *(BearingFriction, SetState, OilAndHeat, OilHistory, ElementFit, MemoryFit, Sensitivity, Campbell),
     *(LinearRotor, RotorState, UnbalanceResponse, ContactHistory, EnvelopeSpectrum, OrderSpectrum),
-    *(BearingModel, RotorModel, ShaftModel, WholeRotorModel, Verification, ReferenceCheck),
+    *(BearingModel, JeffcottModel, ShaftModel, RotorModel, Verification, ReferenceCheck),
 )
 # What a user gives, or a few numbers: shown as they are.
 SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness", "SpeedHistory"
@@ -134,8 +134,8 @@ WITHOUT_PLOT = {
         ("BallBearing", "BearingSet", "LinearBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT
     ),
     **dict.fromkeys(("MeasuredPath", "ModalPath", "SystemPath", "RecordCase"), INPUT),
-    **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "RotorModel"), INPUT),
-    **dict.fromkeys(("BearingModel", "ShaftModel", "WholeRotorModel", "OilBalance"), INPUT),
+    **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "JeffcottModel"), INPUT),
+    **dict.fromkeys(("BearingModel", "ShaftModel", "RotorModel", "OilBalance"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
     **dict.fromkeys(("RotorState", "BearingFriction", "OilAndHeat"), NUMBERS),
     **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),

@@ -1,14 +1,12 @@
-"""A Jeffcott rotor as an FMU, either with contact forces as inputs or with the contacts inside.
+"""A rotor with its ball bearings as one FMU: forces at its nodes, unbalances and speed in, motions and loads out.
 
 ===================  ==========================================================================================
 module               responsibility
 ===================  ==========================================================================================
-``model``            `RotorModel`: what is exported, checked; where it starts
-``variables``        its variables, constants and C text
-``laws``             each contact law inside as one C file with names of its own
+``model``            `RotorModel`: a `Rotor` on ball bearings, the speeds of the tables, where it starts
+``variables``        its variables, constants and tables, and the bearings inside
+``trial``            a run by the steps of `simulate_rotor`, with inputs as the FMU has them
+``comparison``       comparison of the FMU with that; references stored in the FMU
 ``export``           `export_rotor`: rotor in, FMU file out
-``reference_rotor``  the same in Python: a short run by the steps of `simulate_rotor`, its equations in a state
-``comparison``       comparison of the FMU with the rotor in Python
-``references``       reference inputs and results stored in the FMU
 ===================  ==========================================================================================
 """

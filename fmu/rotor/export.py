@@ -1,25 +1,25 @@
-"""Export of a Jeffcott rotor as an FMU file."""
+"""Export of a rotor with its ball bearings as an FMU file."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 from fmu.binaries.libraries import Progress
 from fmu.export import export_verified
 from fmu.rotor.model import RotorModel
-from reduced_models import JeffcottRotor
-from reduced_models.rotor.jeffcott import RotorState
+from reduced_models.rotor.rotor import Rotor
 
 
 def export_rotor(
-    rotor: JeffcottRotor,
+    rotor: Rotor,
     path: str | os.PathLike[str],
-    contacts: Sequence[Any] | None = None,
     *,
-    start: RotorState | None = None,
+    speeds_rpm: Any,
+    speed_rpm: float | None = None,
+    inertia: float | None = None,
     fmi: int = 2,
     model_name: str | None = None,
     force_lead: float | None = None,
@@ -27,33 +27,29 @@ def export_rotor(
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> Path:
-    """Write a Jeffcott rotor as an FMU for co-simulation and model exchange, once it is verified against it.
+    """Write a rotor with its ball bearings as one FMU for co-simulation, after verification against the rotor.
 
-    Inputs are `unbalance`, `speed` [rad/s], `angular_acceleration`, and further forces on journal and disc,
-    `journal_force_x`, ..., `disc_force_y`; outputs positions and velocities of both, `journal_x`,
-    `journal_velocity_x`, `disc_x`, ..., and `approach[i]` and `rate[i]` of every mount. `disc_mass`,
-    `journal_mass`, `shaft_stiffness`, `shaft_damping` and `disc_damping` can be set before initialization.
-    Without contacts their forces are inputs too, `force[i]`, as the FMU of a contact gives them: connect the two
-    to close the rotor. With contacts they are inside, steps are balanced by Newton's method, and `force[i]` are
-    outputs, of one bearing. In co-simulation a step is cut into inner ones of at most `inner_step`, a fixed
-    parameter that resolves shaft and contacts by default: generalised-alpha steps, those of `simulate_rotor`.
-    Start values of positions and velocities can be set; where they are not, the rotor starts in equilibrium with
-    the parameters that are set.
+    Shaft, bearings, balls and films are inside and have the time steps of `simulate_rotor`: no force of a film is
+    exchanged between tools. Inputs are forces at named nodes beside the load, as `disc.force_x`, `unbalance[u]`,
+    and `speed` [rad/s], or with `inertia` the `torque` of the motor; outputs displacements and rates of named
+    nodes, `disc.x`, `disc.velocity_x`, ..., those of the inner rings, `bearing[b].x`, the forces on them and what
+    the FMU of `export_bearing` has of balls and films, `bearing[b].force_x`, `bearing[b].largest_load_inner`,
+    `bearing[b].smallest_film`, ..., the `angle` of the shaft, and `outside_validity`. Bearings count from 1, each
+    in the frame of its mount. `mass_scale`, `stiffness_scale`, `damping_scale`, `load_scale`, `inertia`,
+    `speed_start`, and of every bearing `clearance`, `offset`, `cage_angle_start` and `film`, as far as it has
+    them, can be set before initialization; the rotor then starts in equilibrium under its load. A step is cut into
+    inner ones of at most `inner_step`.
 
     Parameters
     ----------
-    rotor : JeffcottRotor
+    rotor : Rotor
+        On ball bearings, as of `rotor_on_bearings`; linear ones may be beside them.
     path : path-like
         File to write, ending in ``.fmu``.
-    contacts : sequence of ContactElement, optional
-        One per mount, in SI or as `ScaledContact`, of any kind; their films start at rest.
-    start : RotorState, optional
-        Where it starts: by default at its static equilibrium; without contacts, with the journal at the origin and
-        the shaft bent by the static load.
+    speeds_rpm, speed_rpm, inertia
+        As of `RotorModel`: speeds of the tables and at the start [rev/min], moment of inertia [kg m2].
     force_lead : float, optional
-        Start value of the parameter `force_lead`: the forces given are those of the time `force_lead`
-        communication steps after the start of the step, 0 to 1. By default 1/2 without contacts, for the FMUs of
-        contacts give those of the middle of the step, and 0 with them.
+        Start value of `force_lead`, as of `export_jeffcott`; 0 by default.
     fmi, model_name, platforms, overwrite, progress
         As of `export_contact`.
 
@@ -62,20 +58,17 @@ def export_rotor(
     Path
         The file.
 
-    Elements warn here where the rotor's speed lies outside their band, or they were made for another contact.
-
     Raises
     ------
     InputError
-        Contacts that do not fit the mounts, are no elements, not in SI, or do not carry the static load; else as
-        `export_contact`.
+        A rotor that `RotorModel` refuses; else as `export_contact`.
+    ConvergenceError
+        The bearings do not hold the load.
     BuildError, VerificationError
         As `export_contact`.
     """
-    model = RotorModel(rotor, contacts, start)
-    rotor.check([element.copy() for element in model.elements], stacklevel=3)
     return export_verified(
-        model,
+        RotorModel(rotor, speeds_rpm, speed_rpm, inertia),
         path,
         fmi=fmi,
         model_name=model_name,

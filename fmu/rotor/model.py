@@ -1,114 +1,88 @@
-"""`RotorModel`: checked input of the rotor FMU: Jeffcott rotor, contacts, initial state."""
+"""`RotorModel`: rotor, speeds and inertia of which `export_rotor` makes an FMU."""
 
 from __future__ import annotations
 
-import math
-import warnings
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
+from ehlcontact.checks import require_instance, require_nonnegative
+from ehlcontact.errors import InputError
+from fmu.bearing.model import BearingModel
+from fmu.shaft.model import MOST_INPUTS, ShaftModel
+from fmu.steps import round_down
+from reduced_models.rotor.prepared_run import LEAST_STEPS
+from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.supports import BearingMount
 
-from ehlcontact.errors import ConvergenceError, InputError
-from fmu.contact_variables import Element
-from fmu.rotor.reference_rotor import Run, reference_run
-from fmu.steps import default_step, round_down
-from reduced_models import JeffcottRotor, OutsideValidityWarning, ScaledContact
-from reduced_models.rotor.jeffcott import RotorState
-
-# An FMU counts its contacts, and all inputs that have derivatives, in the bits of one number.
-MOST_MOUNTS = 32
-STEPS_PER_PERIOD = 60.0  # of the disc on its shaft against the journal, which an inner step resolves
+MOST_BALLS = 128  # of all bearings: a step keeps some hundred numbers of each on the stack
+MOST_BEARINGS = 32  # two bits of a number each
+LONGEST_STEP = 1e-5  # s
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RotorModel:
-    """A rotor alone, or closed with its contacts.
+    """A rotor with its ball bearings inside.
 
     Parameters
     ----------
-    rotor : JeffcottRotor
-    contacts : sequence of ContactElement, optional
-        One per mount, in SI; or `ScaledContact` around dimensionless ones. Without them the contacts are outside.
-    start : RotorState, optional
-        By default the static equilibrium; without contacts, with the journal at the origin and the shaft bent by
-        the static load.
+    rotor : Rotor
+        On ball bearings; linear ones may be beside them.
+    speeds_rpm : float or (float, float)
+        Speed of the shaft [rev/min], or lowest and highest one: as of `BearingModel`.
+    speed_rpm : float, optional
+        Speed at the start, in equilibrium under the load; the highest by default.
+    inertia : float, optional
+        Polar moment of inertia [kg m2] of all that turns: the speed then follows from the torque of the motor,
+        an input. By default the speed is an input.
 
     Raises
     ------
     InputError
-        No rotor, a wrong number of contacts, one that is no element or not in SI; too many mounts; contacts that
-        do not carry the load.
+        Contacts as supports, no ball bearing, too many balls; else as `ShaftModel` and `BearingModel`.
     """
 
-    rotor: JeffcottRotor
-    contacts: Sequence[Any] | None = None
-    start: RotorState | None = None
+    rotor: Rotor
+    speeds_rpm: Any
+    speed_rpm: float | None = None
+    inertia: float | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.rotor, JeffcottRotor):
-            raise InputError("rotor", type(self.rotor).__name__, "a JeffcottRotor")
-        if len(self.rotor.mounts) > MOST_MOUNTS:
-            raise InputError("rotor.mounts", len(self.rotor.mounts), f"at most {MOST_MOUNTS} in an FMU")
-        if self.start is not None and not isinstance(self.start, RotorState):
-            raise InputError("start", self.start, "a RotorState, or left out")
-        if self.contacts is not None:
-            object.__setattr__(self, "contacts", self._elements(self.contacts))
-        _ = self.state
-
-    def _elements(self, contacts: Sequence[Any]) -> tuple[Element, ...]:
-        if not isinstance(contacts, list | tuple):
-            raise InputError("contacts", type(contacts).__name__, "a list of contact elements, one per mount")
-        if len(contacts) != len(self.rotor.mounts):
-            raise InputError("contacts", len(contacts), f"one per mount, {len(self.rotor.mounts)}")
-        return tuple(_element(f"contacts[{i}]", contact) for i, contact in enumerate(contacts))
+        require_instance("rotor", self.rotor, Rotor, "a Rotor")
+        shaft, stations = self.shaft, self.stations
+        balls = sum(mount.ball_bearing.balls for mount in stations)
+        if balls > MOST_BALLS or len(stations) > MOST_BEARINGS:
+            allowed = f"at most {MOST_BALLS} in {MOST_BEARINGS} bearings"
+            raise InputError("balls", f"{balls} in {len(stations)} bearings", allowed)
+        inputs = len(shaft.points) + len(self.rotor.unbalances) + 1
+        if inputs > MOST_INPUTS:
+            allowed = f"at most {MOST_INPUTS}: forces along the directions of named nodes, unbalances, speed"
+            raise InputError("inputs", inputs, allowed)
 
     @property
-    def elements(self) -> tuple[Element, ...]:
-        """Contacts inside; none of a rotor alone."""
-        return () if self.contacts is None else tuple(self.contacts)
+    def stations(self) -> tuple[BearingMount, ...]:
+        """Mounts of the ball bearings."""
+        return self.rotor.ball_bearings
 
     @cached_property
-    def state(self) -> RotorState:
-        """Where the FMU starts."""
-        if self.start is not None:
-            return self.start
-        if not self.elements:
-            return self.rotor.rest_state(np.zeros(len(self.rotor.axes)))
-        try:
-            with warnings.catch_warnings():  # about the speed, on which rest does not depend
-                warnings.simplefilter("ignore", OutsideValidityWarning)
-                return self.rotor.static_equilibrium([element.copy() for element in self.elements])
-        except ConvergenceError as error:
-            load = f"{self.rotor.static_load.tolist()} N"
-            raise InputError("contacts", str(error), f"ones that carry the static load {load}") from None
+    def shaft(self) -> ShaftModel:
+        """The rotor as the FMU of a shaft has it: named nodes, equilibrium at the start."""
+        start = self.speed_rpm
+        if start is None:
+            start = float(self.bearings[0].speeds[-1]) if self.bearings else 0.0
+        return ShaftModel(self.rotor, require_nonnegative("speed_rpm", start), self.inertia)
 
     @cached_property
-    def run(self) -> Run:
-        """Reference run of the FMU."""
-        return reference_run(self.rotor, self.elements, self.state, self.inner_step)
-
-    @property
-    def inner_step(self) -> float:
-        """Longest step that resolves shaft and contacts [s]: 1, 2 or 5 times a power of ten."""
-        r = self.rotor
-        omega = math.sqrt(r.shaft_stiffness * (1.0 / r.disc_mass + 1.0 / r.journal_mass))
-        return min(
-            round_down(2.0 * math.pi / omega / STEPS_PER_PERIOD),
-            *(default_step(e) for e in self.elements),
-            math.inf,
+    def bearings(self) -> tuple[BearingModel, ...]:
+        """Each ball bearing as its own FMU has it."""
+        return tuple(
+            BearingModel(mount.ball_bearing, self.speeds_rpm, freedoms=len(mount.directions))
+            for mount in self.stations
         )
 
-
-def _element(name: str, contact: Any) -> Element:
-    """A contact element in SI that the FMU can hold."""
-    found = contact
-    if isinstance(contact, ScaledContact) and isinstance(contact.contact, Element):
-        found = contact.contact.to_si(contact.scales)
-    if not isinstance(found, Element):
-        raise InputError(name, type(contact).__name__, "a contact element (linear, cubic, ..., wide)")
-    if found.units != "SI":
-        raise InputError(f"{name}.units", found.units, "SI; see to_si and ScaledContact")
-    return found.copy()
+    @cached_property
+    def inner_step(self) -> float:
+        """Longest step [s]: 10 us, and 16 in every turn of the shaft and ball passage, as of `simulate_rotor`."""
+        fastest = float(self.bearings[0].speeds[-1])
+        passages = [mount.ball_bearing.frequencies(fastest).bpfo for mount in self.stations]
+        return round_down(min(LONGEST_STEP, 1.0 / (LEAST_STEPS * max(fastest / 60.0, *passages))))

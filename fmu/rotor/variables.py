@@ -1,294 +1,298 @@
-"""Variables and C text of the FMU of a Jeffcott rotor."""
+"""Variables, C tables and bearings of the FMU of a rotor with its ball bearings."""
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterator
 
 import numpy as np
 
+from fmu.bearing.variables import FORCES, RATES, bearing_spec
 from fmu.c_headers import c_double, c_table
-from fmu.contact_spec import checked_name, contact_spec, source_text
+from fmu.contact_spec import checked_name
 from fmu.contact_variables import ALLOWED_ERROR
-from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
-from fmu.rotor.laws import law_tables, numbers_of_laws
-from fmu.rotor.model import STEPS_PER_PERIOD, RotorModel
-from fmu.spec import ModelSpec
+from fmu.jeffcott.laws import law_file, law_size
+from fmu.lead import ROTOR
+from fmu.rotor.model import RotorModel
+from fmu.shaft.variables import SCALES, node_name
+from fmu.spec import ModelSpec, Variable
 from fmu.variable_list import VariableList
+from reduced_models.bearing.freedoms import FIVE, PLANAR
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
-BODIES = ("disc", "journal")
-LEAST_INNER_STEP = 1e-6  # of the default: below it, importers repeat what is refused without end
-EXCHANGE_TOLERANCE = 1e-8  # an orbit is some thousandths of the approach; 1e-6 of that is a tenth of it
-_FORCES = {"journal": "Further force on the journal", "disc": "Further force on the disc"}
+LEAST_INNER_STEP = 1e-3  # of the default
+SHOWN = (
+    "force_",
+    "moment_",
+    "largest_",
+    "smallest_",
+    "rolling_",
+    "outside_",
+)  # outputs of a bearing that the rotor has
+PARAMETERS = ("clearance", "offset", "cage_angle_start", "film")
+ALL = "outside_validity"
 
 
 def rotor_spec(model: RotorModel, model_name: str | None = None, force_lead: float | None = None) -> ModelSpec:
-    """Specification of a rotor's FMU.
-
-    Parameters
-    ----------
-    model : RotorModel
-    model_name : str, optional
-        Name of the model; the class of the rotor by default.
-    force_lead : float, optional
-        Start value of the parameter, 0 to 1 communication steps. By default 1/2 between FMUs of contacts, whose
-        forces are those of the middle of a step, and 0 with the contacts inside.
+    """Specification of the FMU of a rotor with its ball bearings.
 
     Raises
     ------
     InputError
-        A name that is empty, too long or not printable.
+        A name that is empty, too long or not printable, or another lead.
     """
-    name = checked_name(type(model.rotor).__name__ if model_name is None else model_name)
-    made = _Variables(model, force_lead)
-    made.fill()
-    closed = bool(model.elements)
-    mounts = range(1, len(model.rotor.mounts) + 1)
-    body = "rotor_contacts.c" if closed else "rotor_free.c"
-    words = (
-        f"closed with {len(mounts)} contact{'s' * (len(mounts) != 1)} in each bearing"
-        if closed
-        else "its contacts outside"
-    )
+    specs = [bearing_spec(bearing) for bearing in model.bearings]
+    made = _Variables(model, specs)
+    made.fill(0.0 if force_lead is None else force_lead)
+    laws = _laws(specs, made)
     return ModelSpec(
-        name=name,
-        description=f"Jeffcott rotor, {words}; SI units{source_text(model.elements)}",
-        sources=("core.c", "core_step.c", "model_rotor.c", "rotor_step.c", body),
-        headers=("core.h", "model.h", "rotor.h", *(("contact_law.h",) if closed else ())),
+        name=checked_name("Rotor" if model_name is None else model_name),
+        description=f"Rotor of {model.rotor.size} degrees of freedom on {len(specs)} ball bearings; SI units"
+        + _left_out(model),
+        sources=("core.c", "core_step.c", "model_whole_rotor.c", "linear_equations.c"),
+        headers=("core.h", "model.h", "bearing_law.h", "linear_equations.h"),
         variables=tuple(made.variables),
-        notes=_notes(model),
-        macros=_macros(model, made),
-        tables={"rotor_data.h": _data(model), **(law_tables(model.elements) if closed else {})},
+        notes=_notes(model, specs),
+        macros=_macros(model, made, specs),
+        tables={"rotor_data.h": _data(model), **laws},
         step=model.inner_step,
-        tolerance=EXCHANGE_TOLERANCE,
-        indicators=tuple((f"contact_indicator[{i}]", f"force[{i}]") for i in mounts) if closed else (),
-        flanges=()
-        if closed
-        else tuple(
+        exchange=False,
+        indicators=(),
+        flanges=tuple(
             (
-                f"contact_{i}",
-                "Where a contact sits: its approach and rate out, its force in",
-                (f"approach[{i}]", f"rate[{i}]", f"force[{i}]"),
+                f"{node}_{name}",
+                f"{node} along {name}: displacement and rate out, force in",
+                (f"{node}.{name}", f"{node}.{RATES[name]}", f"{node}.{FORCES[name]}"),
             )
-            for i in mounts
+            for node, name, _ in _points(model)
         ),
     )
+
+
+def _left_out(model: RotorModel) -> str:
+    """Damping below zero of starved bearings, in words."""
+    words = [(b, bearing.damping_left_out) for b, bearing in enumerate(model.bearings, start=1)]
+    return "".join(f"; bearing {b}: {said}" for b, said in words if said)
+
+
+def _points(model: RotorModel) -> Iterator[tuple[str, str, int]]:
+    for node, name, place in model.shaft.points:
+        yield node_name(node), name, place
 
 
 class _Variables(VariableList):
     """The variables of a rotor, numbered as they are made."""
 
-    def __init__(self, model: RotorModel, lead: float | None) -> None:
+    def __init__(self, model: RotorModel, specs: list[ModelSpec]) -> None:
         super().__init__()
-        self.model, self.rotor = model, model.rotor
-        between_contacts = 0.0 if model.elements else force_lead_for(HELD_PARALLEL)
-        self.start_of_lead = between_contacts if lead is None else lead
-        self.axes = [("x", "y")[k] for k in model.rotor.axes]
-        self.mounts = range(1, len(model.rotor.mounts) + 1)
-        self.first: dict[str, int] = {}  # value references of the first of many
-        load = float(np.abs(self.rotor.static_load).max())
-        self.force = load if load > 0.0 else 1.0
-        bend = self.force / self.rotor.shaft_stiffness
-        eccentric = self.rotor.unbalance / self.rotor.disc_mass
-        self.length = max(bend, eccentric, *(e.validity.approach[1] for e in model.elements), 0.0)
-        omega = math.sqrt(self.rotor.shaft_stiffness / self.rotor.disc_mass)
-        self.rate = self.length * max(omega, self.rotor.omega)
+        self.model, self.specs = model, specs
+        self.first: dict[str, int] = {}
+        self.shown_at: list[int] = []  # first output of each bearing
+        self.outside_at: list[int] = []
+        self.parameters_at: list[int] = []
+        self.points = tuple(_points(model))
 
-    def fill(self) -> None:
+    def fill(self, lead: float) -> None:
         """All of them."""
-        for body, text in _FORCES.items():
-            for axis in self.axes:
-                self._input(f"{body}_force_{axis}", f"{text} along {axis}")
-        if not self.model.elements:
-            for i in self.mounts:
-                self._input(
-                    f"force[{i}]", f"Force of the contact at mount {i} of one bearing, positive = repulsive"
-                )
-        self._turning()
-        self._states()
-        self._derivatives()
-        self._outputs()
-        self._parameters()
+        self._inputs()
+        for moving in (False, True):
+            self._motions(moving)
+        self._bearings()
+        self._parameters(lead)
 
-    def _turning(self) -> None:
-        rate = "angular_acceleration"
-        text = "Unbalance of the disc: mass times eccentricity"
-        self.add(
-            "unbalance", "input", "continuous", text,
-            unit="kg.m", start=float(self.rotor.unbalance), nominal=1e-4,
-        )  # fmt: skip
-        text = "Speed of the shaft; films of contacts inside stay those of the speed that they were made for"
-        self.add(
-            "speed", "input", "continuous", text,
-            unit="rad/s", start=float(self.rotor.omega), nominal=100.0, rate=rate,
-        )  # fmt: skip
-        text = "Rate of the speed, for the tangential force of the unbalance"
-        self.add(rate, "input", "continuous", text, unit="rad/s2", start=0.0, nominal=100.0)
+    def _inputs(self) -> None:
+        model = self.model
+        for node, name, _ in self.points:
+            tilt = name.startswith("tilt")
+            text = f"{'Moment' if tilt else 'Force'} on {node}, {name}, beside the load"
+            self.add(
+                f"{node}.{FORCES[name]}", "input", "continuous", text,
+                unit="N.m" if tilt else "N", start=0.0, nominal=1.0 if tilt else 100.0,
+            )  # fmt: skip
+        self.first["UNBALANCE"] = len(self.variables)
+        for u, unbalance in enumerate(model.rotor.unbalances, start=1):
+            self.add(
+                f"unbalance[{u}]", "input", "continuous", "Unbalance: mass times eccentricity",
+                unit="kg.m", start=float(unbalance.amount), nominal=1e-4,
+            )  # fmt: skip
+        self.first["DRIVE"] = len(self.variables)
+        if model.inertia is None:
+            self.add(
+                "speed", "input", "continuous", "Speed of the shaft about z, reached at the end of a step",
+                unit="rad/s", start=model.shaft.speed_rpm * RPM_TO_RAD_S, nominal=100.0, minimum=0.0,
+            )  # fmt: skip
+        else:
+            text = "Torque of the motor about z"
+            self.add("torque", "input", "continuous", text, unit="N.m", start=0.0, nominal=1.0)
 
-    def _input(self, name: str, text: str) -> None:
-        self.add(name, "input", "continuous", text, unit="N", start=0.0, nominal=self.force)
-
-    def _motion(self) -> list[str]:
-        """Positions, then velocities, in the order of `JeffcottRotor.matrices`."""
-        return [f"{body}{what}_{axis}" for what in ("", "_velocity") for body in BODIES for axis in self.axes]
-
-    def _films(self) -> list[tuple[int, ModelSpec]]:
-        return [(i, contact_spec(e)) for i, e in zip(self.mounts, self.model.elements, strict=False)]
-
-    def _states(self) -> None:
-        self.first["STATE"] = len(self.variables)
-        state = self.model.state
-        starts = [
-            getattr(state, f"{body}{what}")[k]
-            for what in ("", "_velocity")
-            for body in BODIES
-            for k in self.rotor.axes
+    def _motions(self, moving: bool) -> None:
+        rings = [
+            (f"bearing[{b}]", name) for b, mount in enumerate(self.model.stations, 1) for name in mount.directions
         ]
-        for name, start in zip(self._motion(), starts, strict=True):
-            moving = "velocity" in name
-            what, body = "Velocity" if moving else "Position", name.split("_")[0]
+        self.first["VELOCITY" if moving else "PLACE"] = len(self.variables)
+        for what, name in [*((node, name) for node, name, _ in self.points), *rings]:
+            unit, nominal = ("rad", 1e-4) if name.startswith("tilt") else ("m", 1e-5)
             self.add(
-                name, "output", "continuous", f"{what} of the {body} along {name[-1]}",
-                unit="m/s" if moving else "m", start=float(start),
-                nominal=self.rate if moving else self.length, depends=(name,),
+                f"{what}.{RATES[name] if moving else name}", "output", "continuous",
+                f"{'Rate' if moving else 'Displacement'} of {what}, {name}",
+                unit=f"{unit}/s" if moving else unit, nominal=100.0 * nominal if moving else nominal,
             )  # fmt: skip
-        text = "Angle of the unbalance from x towards y"
-        self.add("angle", "output", "continuous", text, unit="rad", start=0.0, nominal=1.0, depends=("angle",))
-        for i, spec in self._films():
-            for v in spec.states:
+
+    def _bearings(self) -> None:
+        for b, spec in enumerate(self.specs, start=1):
+            self.shown_at.append(len(self.variables))
+            for one in _shown(spec):
+                if one.name == ALL:
+                    self.outside_at.append(len(self.variables))
                 self.add(
-                    f"contact[{i}].{v.name}", "local", "continuous", f"{v.description} (contact {i})",
-                    unit=v.unit, start=v.start, nominal=v.nominal,
+                    f"bearing[{b}].{one.name}", "output", one.variability, one.description,
+                    type=one.type, unit=one.unit, nominal=one.nominal, minimum=one.minimum,
                 )  # fmt: skip
-
-    def _derivatives(self) -> None:
-        contacts = self._contact_depends()
-        for name in self._motion():
-            body, axis = name.split("_")[0], name[-1]
-            if "velocity" not in name:
-                depends: tuple[str, ...] = (f"{body}_velocity_{axis}",)
-            else:
-                depends = tuple(f"{other}{what}_{axis}" for other in BODIES for what in ("", "_velocity"))
-                depends += (f"{body}_force_{axis}",)
-                if body == "disc":
-                    depends += ("angle", "unbalance", "speed", "angular_acceleration")
-                else:
-                    depends += tuple(n for i in self.mounts for n in contacts[i]) if contacts else tuple(
-                        f"force[{i}]" for i in self.mounts
-                    )  # fmt: skip
-            self.derivative(name, "m/s" if "velocity" not in name else "m/s2", tuple(dict.fromkeys(depends)))
-        self.derivative("angle", "rad/s", ("speed",))
-        moving = {
-            what: tuple(f"journal{part}_{axis}" for axis in self.axes)
-            for what, part in (("approach", ""), ("rate", "_velocity"))
-        }
-        for i, spec in self._films():
-            for v in spec.derivatives:
-                depends = tuple(m for name in v.depends for m in moving.get(name, (f"contact[{i}].{name}",)))
-                self.derivative(f"contact[{i}].{v.derivative_of}", v.unit, depends)
-
-    def _contact_depends(self) -> dict[int, tuple[str, ...]]:
-        """States that the force of each contact inside depends on."""
-        journal = tuple(f"journal{what}_{axis}" for what in ("", "_velocity") for axis in self.axes)
-        return {i: (*journal, *(f"contact[{i}].{v.name}" for v in spec.states)) for i, spec in self._films()}
-
-    def _outputs(self) -> None:
-        depends = self._contact_depends()
-        for i in depends:
-            self.first.setdefault("FORCE", len(self.variables))
+        self.add("angle", "output", "continuous", "Angle of the shaft about z", unit="rad", nominal=1.0)
+        if self.model.inertia is not None:
             self.add(
-                f"force[{i}]", "output", "continuous",
-                f"Force of contact {i} of one bearing, positive = repulsive",
-                unit="N", minimum=0.0, nominal=self.force, depends=depends[i],
+                "speed", "output", "continuous", "Speed of the shaft about z", unit="rad/s", nominal=100.0,
+                depends=("speed_start",),
             )  # fmt: skip
-        for name, what, unit, nominal, text in (
-            ("approach", "", "m", self.length, "Mutual approach"),
-            ("rate", "_velocity", "m/s", self.rate, "Rate of the approach"),
-        ):
-            self.first[name.upper()] = len(self.variables)
-            for i in self.mounts:
-                self.add(
-                    f"{name}[{i}]", "output", "continuous", f"{text} at mount {i}",
-                    unit=unit, nominal=nominal, depends=tuple(f"journal{what}_{axis}" for axis in self.axes),
-                )  # fmt: skip
-        if not depends:
-            return
-        journal = tuple(dict.fromkeys(name for names in depends.values() for name in names))
-        text = "True where a contact is outside the box of its element by more than the margin"
-        self.add("outside_validity", "output", "discrete", text, type="Boolean", depends=journal)
-        self.first["OUTSIDE"] = len(self.variables)
-        for i in depends:
-            self.add(
-                f"contact[{i}].outside_validity", "local", "discrete", f"Likewise of contact {i}", type="Boolean"
-            )
+        self.add(ALL, "output", "discrete", "True where a bearing is outside its tables", type="Boolean")
 
-    def _parameters(self) -> None:
-        r = self.rotor
-        self.lead(ROTOR, self.start_of_lead)
+    def _parameters(self, lead: float) -> None:
+        model = self.model
+        self.lead(ROTOR, lead)
         self.add(
-            "inner_step", "parameter", "fixed",
-            "Longest step inside one of co-simulation, cut evenly; its start value follows a stiffer shaft",
-            unit="s", start=self.model.inner_step, minimum=LEAST_INNER_STEP * self.model.inner_step,
+            "inner_step", "parameter", "fixed", "Longest step inside one of co-simulation, which is cut evenly",
+            unit="s", start=model.inner_step, minimum=LEAST_INNER_STEP * model.inner_step,
         )  # fmt: skip
-        for name, unit, text in (
-            ("disc_mass", "kg", "Mass of the disc"),
-            ("journal_mass", "kg", "Mass of both journals"),
-            ("shaft_stiffness", "N/m", "Stiffness between disc and journal"),
-            ("shaft_damping", "N.s/m", "Damping between disc and journal"),
-            ("disc_damping", "N.s/m", "Damping from the disc to the ground"),
-        ):
-            self.add(name, "parameter", "fixed", text, unit=unit, start=float(getattr(r, name)), minimum=0.0)
+        for name, text in SCALES.items():
+            self.add(name, "parameter", "fixed", text, unit="1", start=1.0, minimum=0.0)
+        if model.inertia is not None:
+            self.add(
+                "inertia", "parameter", "fixed", "Polar moment of inertia of all that turns, times mass_scale",
+                unit="kg.m2", start=float(model.inertia), minimum=0.0,
+            )  # fmt: skip
+            self.add(
+                "speed_start", "parameter", "fixed", "Speed of the shaft at the start",
+                unit="rad/s", start=model.shaft.speed_rpm * RPM_TO_RAD_S, minimum=0.0,
+            )  # fmt: skip
+        for b, (mount, spec) in enumerate(zip(model.stations, self.specs, strict=True), start=1):
+            self.parameters_at.append(len(self.variables))
+            for one in _parameters(spec):
+                name = one.name
+                start = mount.cage_angle if name == "cage_angle_start" else one.start
+                self.add(
+                    f"bearing[{b}].{name}", "parameter", "fixed", one.description,
+                    unit=one.unit, start=start, minimum=one.minimum, maximum=one.maximum,
+                )  # fmt: skip
+
+
+def _shown(spec: ModelSpec) -> list[Variable]:
+    return [one for one in spec.outputs if one.name.startswith(SHOWN)]
+
+
+def _parameters(spec: ModelSpec) -> list[Variable]:
+    return [one for one in spec.variables if one.name in PARAMETERS]
+
+
+def _laws(specs: list[ModelSpec], made: _Variables) -> dict[str, str]:
+    """A C file for each bearing that differs; ``rotor_laws.h``: which is where, and where its numbers stand."""
+    texts: dict[str, str] = {}
+    names = []
+    for spec in specs:
+        five = int(spec.macros["FREEDOMS"]) == len(FIVE)
+        macros = {"LAW_WORK": str(_work(spec)), "LAW_SETTLED": "SETTLED" if five else "0"}
+        references = {"law_parameters": _parameters(spec), "law_outputs": _shown(spec)}
+        lists = [
+            f"static const int {name}[] = {{{', '.join(str(one.value_reference) for one in of)}}};\n"
+            for name, of in references.items()
+        ]
+        text = law_file(
+            spec, "LAW_NAME", "bearing_law.c", spec.description, macros, {"law_references.h": "".join(lists)}
+        )
+        names.append(texts.setdefault(text, f"bearing_law_{len(texts) + 1}"))
+    numbers = np.cumsum([0, *(law_size(spec) for spec in specs)]).tolist()
+    work = np.cumsum([0, *(_work(spec) for spec in specs)]).tolist()
+    tables = {
+        "law_numbers": numbers[:-1],
+        "law_work": work[:-1],
+        "law_shown_at": made.shown_at,
+        "law_outside": made.outside_at,
+        "law_parameters_at": made.parameters_at,
+    }
+    lines = [
+        "/* Generated by ehlcontact: the law of each bearing, where its numbers and its outputs stand. */",
+        *(f"extern const BearingLaw {name};" for name in texts.values()),
+        f"static const BearingLaw *const law_of[BEARINGS] = {{{', '.join(f'&{name}' for name in names)}}};",
+        *(f"static const int {name}[BEARINGS] = {{{', '.join(map(str, at))}}};" for name, at in tables.items()),
+        "",
+    ]
+    sources = {f"{name}.c": text.replace("LAW_NAME", name) for text, name in texts.items()}
+    return {"rotor_laws.h": "\n".join(lines), **sources}
+
+
+def _work(spec: ModelSpec) -> int:
+    """Numbers that a step of a bearing is kept in: `LawStep` of ``bearing_law.c``, or a few more."""
+    balls, lags = int(spec.macros["BALLS"]), int(spec.macros["LAGS"])
+    contact = 8 + 22 + 3 * lags  # `RaceStep` and `StepFilters`
+    own = 16 if int(spec.macros["FREEDOMS"]) == len(PLANAR) else 104  # of a ball, beside its contacts
+    return 48 + 2 * int(spec.macros["N_CACHE"]) + balls * (2 * contact + own)
 
 
 def _data(model: RotorModel) -> str:
+    rotor = model.rotor
+    M, C, K = rotor.matrices(0.0)
+    points, ties, _ = rotor.geometry
+    q, _ = model.shaft.motion
+    phases = [unbalance.phase for unbalance in rotor.unbalances] or [0.0]
+    at = [(u.x, u.y) for u in rotor.unbalances] or [(None, None)]
     tables = {
-        "rotor_normals": model.rotor.normals,
-        "rotor_offsets": model.rotor.offsets,
-        "rotor_gravity": np.array(model.rotor.gravity)[list(model.rotor.axes)],
-        "rotor_force": np.array(model.rotor.load)[list(model.rotor.axes)],
-        "rotor_rest": model.rotor.motion(model.state)[0],
+        "mass_matrix": M,
+        "mass_inverse": np.linalg.inv(M),
+        "damping_matrix": C,
+        "gyroscopic_matrix": rotor.gyroscopic,
+        "stiffness_matrix": K,
+        "load": rotor.load,
+        "points": points,
+        "ties": ties,
+        "ring_shift": model.shaft.shifts[: len(ties)],
+        "rest": q,
+        "unbalance_phase": np.array(phases),
     }
-    return "\n".join(
-        [
-            "/* Generated by ehlcontact: normals and offsets of the mounts; loads, and rest under them. */",
-            *(c_table(name, values) for name, values in tables.items()),
-            "",
-        ]
-    )
+    pairs = ", ".join("{" + ", ".join("-1" if k is None else str(k) for k in pair) + "}" for pair in at)
+    shown = ", ".join(str(place) for _, _, place in model.shaft.points) or "0"
+    lines = [
+        "/* Generated by ehlcontact: matrices, points at which bearings act, and the place at rest. */",
+        *(c_table(*one) for one in tables.items()),
+        f"static const int unbalance_at[][2] = {{{pairs}}};",
+        f"static const int shown[] = {{{shown}}};",
+        "",
+    ]
+    return "\n".join(lines)
 
 
-def _macros(model: RotorModel, made: _Variables) -> dict[str, str]:
-    axes, freedoms = len(made.axes), 2 * len(made.axes)
+def _macros(model: RotorModel, made: _Variables, specs: list[ModelSpec]) -> dict[str, str]:
+    size, (points, ties, _) = model.rotor.size, model.rotor.geometry
     counts = {
-        "AXES": axes,
-        "STARTS_AT_REST": int(model.start is None),
-        "N_MOUNTS": len(made.mounts),
-        "REACHED": "VR_speed",
-        "N_CACHE": 3 + 3 * freedoms + axes + numbers_of_laws(model.elements),
-        **{f"FIRST_{name}": at for name, at in made.first.items() if name != "STATE"},
+        "FREEDOMS": size,
+        "POINTS": len(points),
+        "MOTIONS": len(ties),
+        "BEARINGS": len(specs),
+        "SHOWN": len(made.points),
+        "UNBALANCES": len(model.rotor.unbalances),
+        "HAS_TORQUE": int(model.inertia is not None),
+        "REACHED": made.first["DRIVE"] if model.inertia is None else "(-1)",
+        "HAS_GYROSCOPIC": int(model.rotor.gyroscopic.any()),
+        "LAW_WORK": sum(_work(spec) for spec in specs),
+        "N_CACHE": 4 * size + 4 * len(points) + 8 + sum(law_size(spec) for spec in specs),
+        **{f"FIRST_{name}": at for name, at in made.first.items()},
     }
-    numbers = {
-        "BEARINGS": float(model.rotor.bearings),
-        "DEFAULT_TOLERANCE": ALLOWED_ERROR,
-        "LEAST_INNER_STEP": LEAST_INNER_STEP * model.inner_step,
-        "DEFAULT_INNER_STEP": model.inner_step,
-        "SHAFT_STEP": 2.0 * math.pi / STEPS_PER_PERIOD,
-    }
+    numbers = {"DEFAULT_TOLERANCE": ALLOWED_ERROR, "LEAST_INNER_STEP": LEAST_INNER_STEP * model.inner_step}
     return (
         {k: str(v) for k, v in counts.items()} | {k: c_double(v) for k, v in numbers.items()} | dict(ROTOR.macros)
     )
 
 
-def _notes(model: RotorModel) -> tuple[tuple[str, str], ...]:
-    r = model.rotor
-    load = ", ".join(f"{force:.6g}" for force in r.static_load)
-    lines = [("Rotor", f"{len(r.mounts)} contacts in each of {r.bearings} bearings, which move as one")]
-    lines += [
-        (
-            f"Mount {i}",
-            f"approach = n . journal + offset, n at {math.degrees(m.angle):g} degrees, offset {m.offset:g} m",
-        )
-        for i, m in enumerate(r.mounts, start=1)
-    ]
-    for i, element in enumerate(model.elements, start=1):
-        lines += [(f"Contact {i}: {label}", text) for label, text in contact_spec(element).notes]
-    return (*lines, ("Static load", f"{load} N along {' and '.join(('x', 'y')[k] for k in r.axes)}"))
+def _notes(model: RotorModel, specs: list[ModelSpec]) -> tuple[tuple[str, str], ...]:
+    turns = "its speed is an input" if model.inertia is None else "the torque of its motor decides on its speed"
+    lines = [("Rotor", f"{model.rotor.size} degrees of freedom; turns about z, from x towards y; {turns}")]
+    for b, spec in enumerate(specs, start=1):
+        lines += [(f"Bearing {b}: {label}", text) for label, text in spec.notes]
+    return tuple(lines)

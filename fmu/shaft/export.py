@@ -46,7 +46,7 @@ def export_shaft(
     speed_rpm, inertia, torque, start
         As of `ShaftModel`: speed at the start [rev/min], moment of inertia [kg m2], torque [N m], motion.
     force_lead : float, optional
-        Start value of `force_lead`, as of `export_rotor`; 1/2 by default, for bearings give forces of the
+        Start value of `force_lead`, as of `export_jeffcott`; 1/2 by default, for bearings give forces of the
         middle of the step.
     fmi, model_name, platforms, overwrite, progress
         As of `export_contact`.

@@ -76,7 +76,7 @@ class ShaftModel:
         elif require_finite("torque", self.torque):
             raise InputError("torque", self.torque, "left out without inertia: the speed is an input")
         if self.rotor.contacts:
-            raise InputError("rotor.mounts", "contacts", "bearings; of rotors on contacts see export_rotor")
+            raise InputError("rotor.mounts", "contacts", "bearings; of rotors on contacts see export_jeffcott")
         if not self.stations:
             raise InputError("rotor.mounts", "no ball bearing", "one at least")
         for mount in self.rotor.bearings:

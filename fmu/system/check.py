@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.errors import ConvergenceError
-from fmu.rotor.model import RotorModel
+from fmu.jeffcott.model import JeffcottModel
 from fmu.system.master import DESCRIPTION, SystemRun
 from fmu.verify_before_write import VerificationError
 from reduced_models.rotor.jeffcott import JeffcottRotor
@@ -41,7 +41,7 @@ class SystemVerification:
         return asdict(self) | {"passes": self.passes}
 
 
-def verify_system(content: bytes, made: RotorModel, step: float, *, serial: bool = False) -> SystemVerification:
+def verify_system(content: bytes, made: JeffcottModel, step: float, *, serial: bool = False) -> SystemVerification:
     """Hold an archive against the schema, and run it beside the Python rotor from equilibrium.
 
     At the start a force comes on the disc, a tenth of the static load along it and across, where the rotor moves
@@ -77,7 +77,7 @@ def verify_system(content: bytes, made: RotorModel, step: float, *, serial: bool
     return SystemVerification(findings, deviation if np.isfinite(deviation) else float("inf"), step)
 
 
-def resting(made: RotorModel) -> list[Any]:
+def resting(made: JeffcottModel) -> list[Any]:
     """Copies of the contacts, at rest where the system starts."""
     copies = [element.copy() for element in made.elements]
     for contact, approach in zip(copies, made.rotor.approaches(made.state.journal).tolist(), strict=True):

@@ -21,9 +21,9 @@ from fmu.binaries import Platform, choose, this_machine
 from fmu.binaries.libraries import Progress
 from fmu.contact_spec import checked_name
 from fmu.export import export_contact, free_target
+from fmu.jeffcott.export import export_jeffcott
+from fmu.jeffcott.model import JeffcottModel
 from fmu.lead import CONTACT, HELD_PARALLEL, force_lead_for
-from fmu.rotor.export import export_rotor
-from fmu.rotor.model import RotorModel
 from fmu.sources import FMI_FILES
 from fmu.steps import ADDED_DAMPING, damping_at, round_down
 from fmu.system.check import ALLOWED, SystemVerification, verify_system
@@ -53,7 +53,7 @@ def export_system(
 ) -> Path:
     """Write a rotor and its contacts as a system archive (SSP 1.0), wired and in equilibrium: ready to run.
 
-    Component ``rotor`` is the FMU of `export_rotor` without contacts, ``contact_1`` and so on are those of
+    Component ``rotor`` is the FMU of `export_jeffcott` without contacts, ``contact_1`` and so on are those of
     `export_contact`, one for each mount: approach and rate go from the rotor to each, its force back. An importer
     gives all components the same step and passes values on after it, as Ecos and the Open Simulation Platform do.
 
@@ -96,7 +96,7 @@ def export_system(
         The system differs from the rotor, or `step` is too long for it; nothing is written.
     """
     return export_verified_system(
-        RotorModel(rotor, contacts),  # with copies of the contacts, in SI
+        JeffcottModel(rotor, contacts),  # with copies of the contacts, in SI
         path,
         fmi=fmi,
         model_name=model_name,
@@ -109,7 +109,7 @@ def export_system(
 
 
 def export_verified_system(
-    made: RotorModel,
+    made: JeffcottModel,
     path: str | os.PathLike[str],
     *,
     fmi: int = 2,
@@ -143,7 +143,7 @@ def export_verified_system(
     return write_bytes(target, content), found
 
 
-def default_system_step(made: RotorModel) -> float:
+def default_system_step(made: JeffcottModel) -> float:
     """A step [s] that leaves the contacts their damping, 1, 2 or 5 times a power of ten.
 
     Contacts extrapolate the motion of the rotor, which adds about 2.4 K h (w h)^4 to the damping of a vibration of
@@ -183,7 +183,7 @@ def _require_verified(content: bytes, system: _System) -> SystemVerification:
 class _System:
     """What goes into an archive."""
 
-    made: RotorModel
+    made: JeffcottModel
     name: str
     step: float
     lead: float
@@ -195,7 +195,7 @@ class _System:
         with tempfile.TemporaryDirectory(prefix="ehlcontact-system-", ignore_cleanup_errors=True) as folder:
             files = {part: Path(folder, f"{part}.fmu") for part in self._parts}
             parts = iter(_shared(progress, len(files)))
-            export_rotor(
+            export_jeffcott(
                 self.made.rotor,
                 files["rotor"],
                 start=self.made.state,

@@ -13,10 +13,10 @@ import pytest
 from fmpy import fmi2
 
 from ehlcontact.point import Scales
-from fmu import export_contact, export_rotor
+from fmu import export_contact, export_jeffcott
 from fmu.driver import Exchange
 from fmu.driver import Slave as DriverSlave
-from fmu.rotor.model import RotorModel
+from fmu.jeffcott.model import JeffcottModel
 from reduced_models import (
     CubicContact,
     FilmMemoryContact,
@@ -69,7 +69,7 @@ class Unit:
 
     path: Path
     folder: str
-    model: RotorModel
+    model: JeffcottModel
     fmi: int
 
     @property
@@ -203,17 +203,17 @@ def elements() -> dict[str, Any]:
 
 
 @pytest.fixture(scope="session")
-def rotors(elements) -> dict[str, RotorModel]:
+def rotors(elements) -> dict[str, JeffcottModel]:
     """Alone and closed, with two axes and with one, with equal contacts and with different ones."""
     scales = elements["wide_si"], elements["cubic_si"], elements["power_si"]
     wide, cubic, power = scales
     return {
-        "alone": RotorModel(VEE),
-        "alone in y": RotorModel(VERTICAL),
-        "wide": RotorModel(VEE, [wide, wide]),
-        "cubic": RotorModel(VEE, [cubic, cubic]),
-        "mixed": RotorModel(VEE, [wide, power]),
-        "wide in y": RotorModel(VERTICAL, [wide]),
+        "alone": JeffcottModel(VEE),
+        "alone in y": JeffcottModel(VERTICAL),
+        "wide": JeffcottModel(VEE, [wide, wide]),
+        "cubic": JeffcottModel(VEE, [cubic, cubic]),
+        "mixed": JeffcottModel(VEE, [wide, power]),
+        "wide in y": JeffcottModel(VERTICAL, [wide]),
     }
 
 
@@ -225,7 +225,7 @@ def unit(rotors, tmp_path_factory) -> Callable[..., Unit]:
     def make(name: str, fmi: int = 2) -> Unit:
         if (name, fmi) not in made:
             folder, model = tmp_path_factory.mktemp("rotor"), rotors[name]
-            path = export_rotor(model.rotor, folder / "x.fmu", model.contacts, fmi=fmi)
+            path = export_jeffcott(model.rotor, folder / "x.fmu", model.contacts, fmi=fmi)
             made[name, fmi] = Unit(path, fmpy.extract(str(path), unzipdir=str(folder / "x")), model, fmi)
         return made[name, fmi]
 

@@ -25,10 +25,10 @@ from fmu.bearing.model import BearingModel
 from fmu.comparison import film_motion, state_grid
 from fmu.contact_spec import contact_spec
 from fmu.fmu_model import fmu_model
-from fmu.rotor.laws import distinct, law_source
+from fmu.jeffcott.laws import distinct, law_source
+from fmu.rotor.model import RotorModel
 from fmu.shaft.model import ShaftModel
 from fmu.sources import CSRC, source_files, standard_folder, standard_headers
-from fmu.whole_rotor.model import WholeRotorModel
 from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
@@ -87,7 +87,7 @@ def models(elements, rotors):
     )
     shafts = {
         "shaft": ShaftModel(shaft, 3e3, inertia=0.02),
-        "whole rotor": WholeRotorModel(whole, 3e3, inertia=0.02),
+        "whole rotor": RotorModel(whole, 3e3, inertia=0.02),
         "controller": SpeedController(3e3, proportional_gain=1.0, integral_gain=1e4, torque_limit=50.0),
     }
     return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings | shafts

@@ -54,7 +54,7 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.film import film_of, film_wave, track_wave
-from fmu import export_contact, export_rotor, export_system
+from fmu import export_contact, export_jeffcott, export_system
 from reduced_models import (
     Atlas,
     BallBearing,
@@ -504,7 +504,7 @@ def fmus() -> Leaves:
                 yield from fmu_steps(f"{name} {fmi}", path, contact, scale)
             closed = [made["wide in SI"], made["wide in SI"].copy()]
             for name, contacts in (("rotor alone", None), ("rotor", closed)):
-                path = export_rotor(VEE, Path(folder) / f"{name}{fmi}.fmu", contacts, fmi=fmi)
+                path = export_jeffcott(VEE, Path(folder) / f"{name}{fmi}.fmu", contacts, fmi=fmi)
                 yield from texts(f"{name} {fmi}", path)
                 for kind, dt in (("CoSimulation", 1e-5), ("ModelExchange", 1e-7)):
                     options = {"solver": "Euler", "stop_time": 200 * dt, "step_size": dt, "output_interval": dt}

@@ -20,11 +20,11 @@ from ehlcontact.store import load
 if TYPE_CHECKING:
     from fmu import SpeedController
     from fmu.bearing.model import BearingModel
+    from fmu.jeffcott.model import JeffcottModel
     from fmu.rotor.model import RotorModel
     from fmu.shaft.model import ShaftModel
     from fmu.system.check import SystemVerification
     from fmu.verification import Verification
-    from fmu.whole_rotor.model import WholeRotorModel
 
 
 @o.grouped
@@ -268,7 +268,7 @@ def _bearing_of(file: Path) -> BearingModel:
 
     job = load_job(str(file), {})
     if job.pair is not None:
-        allowed = "left out: the FMU is that of one bearing; a rotor with pairs is an FMU by export_whole_rotor"
+        allowed = "left out: the FMU is that of one bearing; a rotor with pairs is an FMU by export_rotor"
         raise InputError(f"{file}: pair.arrangement", job.pair.name, allowed)
     if job.tilt is not None:
         allowed = "left out: tilts are inputs of the FMU"
@@ -279,11 +279,11 @@ def _bearing_of(file: Path) -> BearingModel:
         return BearingModel(bearing, speeds, job.load)
 
 
-def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
+def _rotor_of(file: Path, contact: Path | None) -> JeffcottModel:
     """The rotor of a study, closed with an element from a file, or from the atlas."""
     from ehlcontact.cli.study.rotor import build_rotor
     from ehlcontact.cli.study.schema import load_study
-    from fmu.rotor.model import RotorModel
+    from fmu.jeffcott.model import JeffcottModel
     from reduced_models import ContactElement
     from reduced_models.atlas.atlas import Atlas
 
@@ -304,7 +304,7 @@ def _rotor_of(file: Path, contact: Path | None) -> RotorModel:
             element = Atlas().element(study.point)
         place = str(file)
     with o.called(contacts=place):
-        model = RotorModel(rotor, [element] * len(rotor.mounts))
+        model = JeffcottModel(rotor, [element] * len(rotor.mounts))
     rotor.check([one.copy() for one in model.elements])
     return model
 
@@ -323,9 +323,7 @@ def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftM
             "file", str(file), "a study with a table [whole_bearing], for --shaft, --drive and --rotor"
         )
     if (axial := study.whole_bearing.axial_load) is not None:
-        allowed = (
-            "left out: these options have planar bearings; others in Python, by export_drive, export_whole_rotor"
-        )
+        allowed = "left out: these options have planar bearings; others in Python, by export_drive, export_rotor"
         raise InputError("whole_bearing.axial_load", axial, allowed)
     whole = study.whole_bearing
     supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant)
@@ -342,22 +340,22 @@ def _controller_of(speed_rpm: float, values: tuple[float, float, float]) -> Spee
         return SpeedController(speed_rpm, *values)
 
 
-def _with_bearings(shaft: ShaftModel, top_rpm: float) -> WholeRotorModel:
+def _with_bearings(shaft: ShaftModel, top_rpm: float) -> RotorModel:
     """The rotor of a study with its bearings, from its speed to a higher one."""
-    from fmu.whole_rotor.model import WholeRotorModel
+    from fmu.rotor.model import RotorModel
 
     speeds = sorted({shaft.speed_rpm, top_rpm})
-    return WholeRotorModel(shaft.rotor, speeds, shaft.speed_rpm, shaft.inertia)
+    return RotorModel(shaft.rotor, speeds, shaft.speed_rpm, shaft.inertia)
 
 
 def _about(exported: Any, system: bool) -> list[Row]:
     """What it is."""
     from fmu.bearing.model import BearingModel
+    from fmu.jeffcott.model import JeffcottModel
     from fmu.rotor.model import RotorModel
     from fmu.shaft.model import ShaftModel
-    from fmu.whole_rotor.model import WholeRotorModel
 
-    if isinstance(exported, WholeRotorModel):
+    if isinstance(exported, RotorModel):
         speeds = " to ".join(f"{speed:g}" for speed in sorted({*exported.bearings[0].speeds[[0, -1]].tolist()}))
         turns = "its speed is an input" if exported.inertia is None else f"{exported.inertia:g} kg m2 turn"
         return [
@@ -375,7 +373,7 @@ def _about(exported: Any, system: bool) -> list[Row]:
         speeds = " to ".join(f"{speed:g}" for speed in sorted({exported.speeds[0], exported.speeds[-1]}))
         of = f"{exported.bearing.balls} balls; displacements {', '.join(exported.names)}"
         return [("bearing", exported.bearing.name, of), ("speed", f"{speeds} rpm", "of the tables of the films")]
-    if not isinstance(exported, RotorModel):
+    if not isinstance(exported, JeffcottModel):
         return [("element", exported.kind, exported.units)]
     rotor, kinds = exported.rotor, sorted({element.kind for element in exported.elements})
     where = f"bearings: {rotor.bearings}, contacts in each: {len(rotor.mounts)}; SI"
@@ -393,14 +391,14 @@ def _advice(exported: Any, found: Any) -> list[Row]:
             ("step", f"{step:g} s", "of the default experiment; longer ones damp more, and blow up in the end")
         ]
     from fmu.bearing.model import BearingModel
+    from fmu.jeffcott.model import JeffcottModel
     from fmu.rotor.model import RotorModel
     from fmu.shaft.model import ShaftModel
     from fmu.steps import step_advice
-    from fmu.whole_rotor.model import WholeRotorModel
 
     if isinstance(exported, BearingModel | ShaftModel):
         return [("step", "1e-05 s", "of the default experiment; how long one may be: docs/coupling.md")]
-    if isinstance(exported, RotorModel | WholeRotorModel):
+    if isinstance(exported, JeffcottModel | RotorModel):
         return [("inner step", f"{exported.inner_step:g} s", "steps of the master are cut into such ones")]
     return step_advice(exported)
 

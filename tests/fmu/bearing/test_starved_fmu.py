@@ -10,8 +10,8 @@ from ehlcontact import Lubricant, OilLayer
 from fmu import verify
 from fmu.bearing.model import BearingModel
 from fmu.bearing.trial import START
-from fmu.whole_rotor.model import WholeRotorModel
-from fmu.whole_rotor.variables import whole_rotor_spec
+from fmu.rotor.model import RotorModel
+from fmu.rotor.variables import rotor_spec
 from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.elements.validity import OutsideValidityWarning
@@ -73,6 +73,6 @@ def test_a_rotor_with_starved_bearings_has_it_in_its_description():
         supports=[Support(position=0.0, bearing=flooded), Support(position=0.2, bearing=starved)],
     )
     with pytest.warns(OutsideValidityWarning, match="where a ball carries"):
-        spec = whole_rotor_spec(WholeRotorModel(rotor, 3000.0))
+        spec = rotor_spec(RotorModel(rotor, 3000.0))
     assert "bearing 1" not in spec.description
     assert re.search(r"; bearing 2: where a ball carries [\d.e+]+ N, under this layer", spec.description)

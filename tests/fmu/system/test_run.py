@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from other_masters import ecospy, libcosimpy, ours
 
-from fmu.rotor.model import RotorModel
+from fmu.jeffcott.model import JeffcottModel
 from fmu.system.export import export_verified_system
 from fmu.system.master import SystemRun
 from reduced_models import CubicContact, JeffcottRotor, simulate_rotor
@@ -87,7 +87,7 @@ def test_default_step_leaves_the_damping(tmp_path):
     rotor = JeffcottRotor.vertical(
         disc_mass=1e3, journal_mass=1.0, shaft_stiffness=1e4, gravity=(0.0, 0.0), load=(0.0, -500.0)
     )
-    path, found = export_verified_system(RotorModel(rotor, [element]), tmp_path / "x.ssp")
+    path, found = export_verified_system(JeffcottModel(rotor, [element]), tmp_path / "x.ssp")
     y, w = rotor.static_equilibrium([element]).journal[1], 1e4  # rad/s
     with SystemRun(path.read_bytes(), {"rotor": {"journal_velocity_y": 1e-3 * abs(y) * w}}) as run:
         steps = round(20.0 * 2.0 * np.pi / w / found.step)
@@ -101,7 +101,7 @@ def test_default_step(system):
     """That of the archive, which the Open Simulation Platform takes."""
     from fmu.system.export import default_system_step
 
-    assert default_system_step(RotorModel(system.rotor, system.contacts)) == STEP
+    assert default_system_step(JeffcottModel(system.rotor, system.contacts)) == STEP
     pytest.importorskip("libcosimpy")
     from libcosimpy.CosimExecution import CosimExecution
 

@@ -12,7 +12,7 @@ import pytest
 from ehlcontact.errors import InputError
 from fmu import VerificationError, export_system, verify_references
 from fmu.archive import pack
-from fmu.rotor.model import RotorModel
+from fmu.jeffcott.model import JeffcottModel
 from fmu.system.check import schema_findings, verify_system
 from fmu.system.export import export_verified_system
 from fmu.system.structure import SSC, SSD, SSV
@@ -173,7 +173,7 @@ def test_verification_finds_wrong_wires(system, wrong):
     else:
         text = text.replace('startConnector="approach[2]"', 'startConnector="approach"')
     there["SystemStructure.ssd"] = text.encode()
-    made = RotorModel(system.rotor, system.contacts)
+    made = JeffcottModel(system.rotor, system.contacts)
     content = pack(there)
     if wrong == "renamed":
         with pytest.raises(VerificationError, match="does not run"):
@@ -205,5 +205,5 @@ def test_default_step_runs_any_system(tmp_path, C1, journal_mass):
     """Contacts without damper, and with one that stops the journal at once; journals light and heavy."""
     rotor = dataclasses.replace(ROTOR, journal_mass=journal_mass)
     element = dataclasses.replace(ELEMENT, C1=C1)
-    _, found = export_verified_system(RotorModel(rotor, [element]), tmp_path / "x.ssp")
+    _, found = export_verified_system(JeffcottModel(rotor, [element]), tmp_path / "x.ssp")
     assert found.passes and found.deviation < 0.005

@@ -11,10 +11,10 @@ from bearing_fmus import OIL, POLAR, Exported, assert_speeds_are_reached, presse
 from fmpy.fmi1 import FMICallException
 
 from ehlcontact import InputError
-from fmu import export_whole_rotor, verify, verify_references
+from fmu import export_rotor, verify, verify_references
+from fmu.rotor.model import RotorModel
+from fmu.rotor.variables import rotor_spec
 from fmu.sources import CSRC
-from fmu.whole_rotor.model import WholeRotorModel
-from fmu.whole_rotor.variables import whole_rotor_spec
 from reduced_models import (
     BallBearing,
     Disc,
@@ -70,11 +70,11 @@ def axial():
 
 
 MODELS = {
-    "flexible": lambda: WholeRotorModel(flexible(), SPEEDS, SPEEDS[0]),
-    "motor": lambda: WholeRotorModel(flexible(), SPEEDS, SPEEDS[0], INERTIA),
-    "rigid": lambda: WholeRotorModel(rigid(), 6000.0),
-    "five": lambda: WholeRotorModel(pressed_pair(), 3000.0, None, POLAR),
-    "axial": lambda: WholeRotorModel(axial(), 3000.0),
+    "flexible": lambda: RotorModel(flexible(), SPEEDS, SPEEDS[0]),
+    "motor": lambda: RotorModel(flexible(), SPEEDS, SPEEDS[0], INERTIA),
+    "rigid": lambda: RotorModel(rigid(), 6000.0),
+    "five": lambda: RotorModel(pressed_pair(), 3000.0, None, POLAR),
+    "axial": lambda: RotorModel(axial(), 3000.0),
 }
 
 
@@ -87,7 +87,7 @@ def made(tmp_path_factory):
         if (name, fmi) not in known:
             model, path = MODELS[name](), tmp_path_factory.mktemp("whole") / "x.fmu"
             own = {"speeds_rpm": model.speeds_rpm, "speed_rpm": model.speed_rpm, "inertia": model.inertia}
-            export_whole_rotor(model.rotor, path, **own, fmi=fmi)
+            export_rotor(model.rotor, path, **own, fmi=fmi)
             known[name, fmi] = Exported(path, model, fmi)
         return known[name, fmi]
 
@@ -162,7 +162,7 @@ def test_slopes_of_a_step(name, ring, parameters, start, tmp_path):
     if compiler is None:
         pytest.skip("no system C compiler")
     law, program = tmp_path / "law.c", tmp_path / "slopes"
-    law.write_text(whole_rotor_spec(MODELS[name]()).tables["bearing_law_1.c"])
+    law.write_text(rotor_spec(MODELS[name]()).tables["bearing_law_1.c"])
     given = {"TESTED": "bearing_law_1", "RING": ring, "PARAMETERS": parameters, "START": start}
     line = [compiler, "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", "-I", CSRC / "models"]
     line += [*(f"-D{macro}={text}" for macro, text in given.items()), Path(__file__).with_name("slopes.c"), law]
@@ -329,5 +329,5 @@ def test_bad_models():
         ({"inertia": 0.0}, "inertia"),
     ):
         with pytest.raises(InputError) as error:
-            WholeRotorModel(**{"rotor": rotor, "speeds_rpm": SPEEDS} | wrong)
+            RotorModel(**{"rotor": rotor, "speeds_rpm": SPEEDS} | wrong)
         assert error.value.field == field

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fmu.bearing.model import BearingModel
 from fmu.bearing.tables import film_logarithms
-from fmu.whole_rotor.model import WholeRotorModel
+from fmu.rotor.model import RotorModel
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import AngularMotion
 from reduced_models.bearing.race import RACES
@@ -31,7 +31,7 @@ UNIT, MORE = 1e-6, 2e-5  # kg m, unbalances: by which forces are scaled; by whic
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class WholeRotorTrial:
+class RotorTrial:
     """Ends of equal steps, the first one at rest.
 
     Attributes
@@ -64,7 +64,7 @@ class WholeRotorTrial:
 class _Run(PreparedRun):
     """A prepared run with the tables of the FMU, forces at named nodes, and unbalances that change."""
 
-    def __init__(self, model: WholeRotorModel, dt: float, course: SpeedProfile, given: _Floats) -> None:
+    def __init__(self, model: RotorModel, dt: float, course: SpeedProfile, given: _Floats) -> None:
         self._model, self._given, self._course = model, given, course
         super().__init__(model.rotor, course, dt, len(given) - 1, "static", RHO)
 
@@ -82,7 +82,7 @@ class _Run(PreparedRun):
 
 
 @lru_cache(maxsize=1)
-def whole_rotor_trial(model: WholeRotorModel, steps: int = STEPS) -> WholeRotorTrial:
+def rotor_trial(model: RotorModel, steps: int = STEPS) -> RotorTrial:
     """A run-up with forces that lift the rotor off its bearings, and unbalances that grow."""
     rng, speeds = np.random.default_rng(1), model.bearings[0].speeds
     dt, rotor, points = model.inner_step, model.rotor, model.shaft.points
@@ -97,7 +97,7 @@ def whole_rotor_trial(model: WholeRotorModel, steps: int = STEPS) -> WholeRotorT
     return _recorded(model, _Run(model, dt, course, given), given)
 
 
-def _recorded(model: WholeRotorModel, run: _Run, given: _Floats) -> WholeRotorTrial:
+def _recorded(model: RotorModel, run: _Run, given: _Floats) -> RotorTrial:
     integrator = PythonSteps(run, TOLERANCE, 30)
     forces, rolls, resisted = [[one.films.force.copy() for one in run.balls]], [_rolls(run)], [0.0]
     for k in range(run.steps):
@@ -109,7 +109,7 @@ def _recorded(model: WholeRotorModel, run: _Run, given: _Floats) -> WholeRotorTr
     d, v, motion, rate, force, _ = run.histories
     places = [place for _, _, place in model.shaft.points]
     drive = run.omega if model.inertia is None else _torque(model, run, forces, rolls, np.array(resisted))
-    return WholeRotorTrial(
+    return RotorTrial(
         time=run.t,
         inputs=np.column_stack([given, drive]),
         displacement=np.hstack([d[:, places], motion + run.shift]),
@@ -122,7 +122,7 @@ def _recorded(model: WholeRotorModel, run: _Run, given: _Floats) -> WholeRotorTr
     )
 
 
-def _slowed(model: WholeRotorModel, run: _Run, given: _Floats, k: int) -> float:
+def _slowed(model: RotorModel, run: _Run, given: _Floats, k: int) -> float:
     """Torque that the unbalances take from the shaft at the end of a step, through their accelerations."""
     angle, acceleration, found = float(run._course.at(run.t[k : k + 1])[1][0]), run.state[2], 0.0
     for u, amount in zip(model.rotor.unbalances, given[len(model.shaft.points) :], strict=True):
@@ -142,7 +142,7 @@ def _rolls(run: _Run) -> list[_Floats]:
 
 
 def _torque(
-    model: WholeRotorModel,
+    model: RotorModel,
     run: _Run,
     forces: list[list[_Floats]],
     rolls: list[list[_Floats]],

@@ -9,9 +9,9 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from scipy.linalg import expm
 
-from fmu import export_rotor
+from fmu import export_jeffcott
 from fmu.driver import Slave
-from fmu.rotor.model import RotorModel
+from fmu.jeffcott.model import JeffcottModel
 from reduced_models import SpeedProfile, simulate_rotor
 from reduced_models.rotor.jeffcott import RotorState
 
@@ -268,7 +268,7 @@ OTHER = {
 def test_other_masses_springs_and_dampers(instance, rotors, motion_of, moving, name, fmi):
     """Set before initialization: the run of a rotor that has them, from its own equilibrium on."""
     model, steps, dt = rotors[name], 500, 1e-5
-    other = RotorModel(replace(model.rotor, **OTHER), model.contacts)
+    other = JeffcottModel(replace(model.rotor, **OTHER), model.contacts)
     names = moving(other.rotor)
     found = run(instance(name, fmi), names, steps, dt, inner_step=dt if model.elements else 1e-6, **OTHER)
     start = np.concatenate(other.rotor.motion(other.state))
@@ -291,7 +291,7 @@ def test_equilibrium_follows_until_a_start_is_set(instance, rotors, moving):
     found = []
     for mass in (OTHER["disc_mass"], 4.0):
         slave.set(disc_mass=mass)
-        other = RotorModel(replace(rotors["wide"].rotor, disc_mass=mass), rotors["wide"].contacts)
+        other = JeffcottModel(replace(rotors["wide"].rotor, disc_mass=mass), rotors["wide"].contacts)
         found.append(slave.get("journal_y", "disc_y"))
         assert found[-1] == pytest.approx([other.state.journal[1], other.state.disc[1]], rel=1e-12)
     slave.set(journal_y=1e-6)
@@ -302,7 +302,7 @@ def test_equilibrium_follows_until_a_start_is_set(instance, rotors, moving):
 def test_masses_that_the_contacts_do_not_carry(rotors, tmp_path):
     """Lifted from its contact by its load, once it is lighter."""
     model, messages = rotors["wide in y"], []
-    path = export_rotor(replace(model.rotor, load=(0.0, 15.0)), tmp_path / "x.fmu", model.contacts)
+    path = export_jeffcott(replace(model.rotor, load=(0.0, 15.0)), tmp_path / "x.fmu", model.contacts)
     folder = fmpy.extract(str(path), unzipdir=str(tmp_path / "x"))
     slave = Slave(folder, fmpy.read_model_description(str(path)), messages)
     slave.raw.fmi2SetDebugLogging(slave.raw.component, True, 0, None)

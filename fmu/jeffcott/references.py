@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu.jeffcott.model import JeffcottModel
+from fmu.jeffcott.reference_rotor import accelerations, felt_by
 from fmu.lead import ROTOR
 from fmu.references.series import References, Trial
-from fmu.rotor.model import RotorModel
-from fmu.rotor.reference_rotor import accelerations, felt_by
 from fmu.spec import ModelSpec
 
 _Floats = NDArray[np.float64]
@@ -19,12 +19,12 @@ ABOUT = "A short run from beside its rest, with an unbalance that shows and furt
 TOLERANCE = 1e-5  # of references: Python and C balance the contacts to a billionth of the load, each for itself
 
 
-def rotor_references(model: RotorModel, spec: ModelSpec) -> References:
+def jeffcott_references(model: JeffcottModel, spec: ModelSpec) -> References:
     """Reference inputs and results of the FMU of a rotor, which turns with an unbalance that shows.
 
     Parameters
     ----------
-    model : RotorModel
+    model : JeffcottModel
     spec : ModelSpec
         Of its FMU.
     """
@@ -42,7 +42,7 @@ def rotor_references(model: RotorModel, spec: ModelSpec) -> References:
     return References(steps, _points(model, names), parameters, TOLERANCE, ABOUT)
 
 
-def _points(model: RotorModel, names: list[str]) -> Trial:
+def _points(model: JeffcottModel, names: list[str]) -> Trial:
     """Derivatives in states of the run, with films away from rest."""
     rotor, run = model.rotor, model.run
     count = run.motion.shape[1]
