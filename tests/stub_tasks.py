@@ -7,7 +7,7 @@ as ``4000rpm_20N free``; with ``slow`` in it every task takes a moment.
 import json
 import time
 
-from ehlcontact.cli.study.points.tasks import Answer
+from ehlcontact.cli.study.stages import Answer
 from ehlcontact.content_store import checksum
 from ehlcontact.executors import ProcessExecutor
 
@@ -38,13 +38,13 @@ class StubTasks:
             return {"status": "diverged", "message": "The residual grows: use a finer grid.", "seconds": 0.01}
         return {"status": "converged", "message": "", "seconds": 0.01}
 
-    def solve_stage(self, key, document, name):
+    def solve_stage(self, key, study, name):
         entry = self._begin(key)
         return Answer(entry, key.encode() if entry["status"] == "converged" else b"some")
 
-    def finalise_point(self, key, document, folder, seconds):
+    def finalise_point(self, key, study, folder, seconds):
         entry = self._begin(key)
-        speed, load = document["bearing"]["speed_rpm"], document["bearing"]["radial_load"]
+        speed, load = study.bearing.speed_rpm, study.bearing.radial_load
         results = {
             "answer": f"It rolls at {speed:g} rpm.",
             "fits": [
@@ -67,6 +67,6 @@ class StubTasks:
             "rotor": {"decay": {"decrements": {"full": {"hz": 800.0, "decrement": 0.02}}}},
         }
         (folder / "results.json").write_text(json.dumps(results))
-        (folder / "report.html").write_text(document.get("title", ""))
+        (folder / "report.html").write_text(study.title)
         files = {name: checksum(folder / name) for name in ("results.json", "report.html")}
         return Answer(entry | {"whole": results["fmu"]["passes"], "warnings": ["a warning"], "files": files})

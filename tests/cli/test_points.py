@@ -20,12 +20,11 @@ from tiny_study import STUDY
 
 from ehlcontact import Grid, InputError, load, solve_steady
 from ehlcontact.cli.study import runner
+from ehlcontact.cli.study.points.folder import locked
 from ehlcontact.cli.study.points.lists import MOST, load_points, points_of
-from ehlcontact.cli.study.points.lock import locked
 from ehlcontact.cli.study.points.numbers import MEANINGS, UNITS
-from ehlcontact.cli.study.points.tasks import solve_stage
 from ehlcontact.cli.study.schema import load_study
-from ehlcontact.cli.study.stages import stage_named
+from ehlcontact.cli.study.stages import solve_stage, stage_named
 from ehlcontact.executors import ProcessExecutor
 
 NAMES = ["steady", "free", "harmonic"]
@@ -60,7 +59,7 @@ def no_pictures(request, monkeypatch):
     if request.node.name != "test_all_points_are_solved_and_summed_up":
         empty = Figure((1.0, 1.0))
         monkeypatch.setattr(
-            "ehlcontact.cli.study.points.page.draw_points", lambda numbers, path: empty.savefig(path)
+            "ehlcontact.cli.study.points.summary.draw_points", lambda numbers, path: empty.savefig(path)
         )
 
 
@@ -405,7 +404,7 @@ def cluster(stub, monkeypatch):
 
 
 def test_stages_of_a_cluster_are_those_of_this_machine(run, stub, cluster, monkeypatch):
-    """Workers get a document and give the content of a file; what is kept is not sent there."""
+    """Workers get a study and give the content of a file; what is kept is not sent there."""
     monkeypatch.setattr(runner, "solve_stage", solve_stage)
     monkeypatch.setattr(runner, "STAGES", (stage_named("steady"),))
     text = with_lists("[3000.0, 4000]")
@@ -439,8 +438,8 @@ def test_a_dask_cluster(run, stub, monkeypatch, tmp_path):
     (point,) = load_points(tmp_path / "one.toml", tmp_path)
     for _ in range(2):  # where kernels are compiled, last digits may differ from those of cached ones
         with ProcessExecutor(1, threads=1) as executor:
-            document = point.study.model_dump(exclude_unset=True, exclude_none=True)
-            (tmp_path / "free.h5").write_bytes(executor.submit(solve_stage, "", document, "free").result().content)
+            content = executor.submit(solve_stage, "", point.study, "free").result().content
+            (tmp_path / "free.h5").write_bytes(content)
     ours = load(tmp_path / "free.h5")
     with dask_cluster(tmp_path) as (scheduler, _):
         assert run(with_lists("[3000.0, 4000]"), "--scheduler", scheduler).code == 0

@@ -15,8 +15,8 @@ from ehlcontact import load
 from ehlcontact.cli.plots import rotor as pictures
 from ehlcontact.cli.study import headline
 from ehlcontact.cli.study.differences import compare_rotors
+from ehlcontact.cli.study.points.finalise import evaluate
 from ehlcontact.cli.study.reduction import CONTACTS
-from ehlcontact.cli.study.results import evaluate
 from ehlcontact.cli.study.rotor import film_response, frequencies
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.errors import ConvergenceError

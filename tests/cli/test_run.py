@@ -21,9 +21,9 @@ from tiny_study import STUDY
 
 from ehlcontact import assumptions, load
 from ehlcontact.cli.study import reduction, runner
+from ehlcontact.cli.study.points.folder import Log
 from ehlcontact.cli.study.points.kept import Kept, stage_key
 from ehlcontact.cli.study.points.lists import load_points
-from ehlcontact.cli.study.points.log import Log
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES, stage_named
 from ehlcontact.status import Status

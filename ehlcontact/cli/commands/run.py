@@ -18,11 +18,10 @@ from ehlcontact.point import moes_point
 from ehlcontact.process.early_interrupt import INTERRUPTED
 
 if TYPE_CHECKING:
+    from ehlcontact.cli.study.points.folder import Log
     from ehlcontact.cli.study.points.lists import Point
-    from ehlcontact.cli.study.points.log import Log
-    from ehlcontact.cli.study.points.scheduler import Scheduler
     from ehlcontact.cli.study.points.summary import Row
-    from ehlcontact.cli.study.runner import Share
+    from ehlcontact.cli.study.runner import Scheduler, Share
     from ehlcontact.cli.study.schema import Study
 
 
@@ -54,8 +53,7 @@ def run(
         require_scheduler(scheduler)
     prepare_folder(folder)
 
-    from ehlcontact.cli.study.points.lock import locked
-    from ehlcontact.cli.study.points.log import LOG, Log
+    from ehlcontact.cli.study.points.folder import LOG, Log, locked
     from ehlcontact.cli.study.runner import Share
 
     with locked(folder):
@@ -79,9 +77,8 @@ def _require_room(study: Study, path: Path) -> None:
 
 def _compute(points: Sequence[Point], folder: Path, share: Share, log: Log) -> tuple[Scheduler, float]:
     """Everything that is not done yet, and how long it took [s]."""
-    from ehlcontact.cli.study.points.log import versions
-    from ehlcontact.cli.study.points.scheduler import StorageError
-    from ehlcontact.cli.study.runner import run_points
+    from ehlcontact.cli.study.points.folder import versions
+    from ehlcontact.cli.study.runner import StorageError, run_points
 
     started = time.perf_counter()
     where = share.cluster or f"{share.jobs} side by side, threads of each: {share.threads}"
@@ -118,9 +115,7 @@ def _tell(points: Sequence[Point], folder: Path, done: Scheduler, seconds: float
         for text in row.faults:
             log.warn(row.point.titled(f"{text}; the rest is in {row.point.folder}"))
     if several:
-        from ehlcontact.cli.study.points.page import write_overview
-
-        report = write_overview(rows, document, folder)
+        report = s.write_overview(rows, document, folder)
         _show(rows, json_to)
         write_json(document, json_to)
     elif failed:
@@ -147,7 +142,7 @@ def _show(rows: Sequence[Row], json_to: str | None) -> None:
     """A row per point, unless JSON goes to stdout."""
     if json_to == STDOUT:
         return
-    from ehlcontact.cli.study.points.page import NARROW, cells
+    from ehlcontact.cli.study.points.summary import NARROW, cells
 
     heads, lines = [one.head for one in NARROW.values()], [[*cells(row, NARROW), row.status] for row in rows]
     show_columns([*heads, "status"], lines, rows[0].point.study_title, padding=(0, 1, 0, 0))

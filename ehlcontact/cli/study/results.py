@@ -2,38 +2,28 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ehlcontact.assumptions import Assumptions, assumptions
-from ehlcontact.cli.study.bearing_at_angles import BearingAtAngles, run_at_angles
-from ehlcontact.cli.study.bearing_rotor import run_whole
-from ehlcontact.cli.study.defect import StudyDefect, defect_of
-from ehlcontact.cli.study.differences import RotorFindings, compare_rotors
-from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
-from ehlcontact.cli.study.points.log import versions
+from ehlcontact.cli.study.bearing_at_angles import BearingAtAngles
+from ehlcontact.cli.study.defect import StudyDefect
+from ehlcontact.cli.study.differences import RotorFindings
+from ehlcontact.cli.study.points.folder import versions
 from ehlcontact.cli.study.reduction import (
     CONTACTS,
     FULL,
     RECORDS,
     ROTOR_BAND,
     Reduction,
-    contact_text,
-    export_fmu,
-    reduce_records,
-    save_elements,
 )
-from ehlcontact.cli.study.rotor import film_response, stiffness_and_damping
+from ehlcontact.cli.study.rotor import stiffness_and_damping
 from ehlcontact.cli.study.schema import Study
-from ehlcontact.errors import InputError
 from ehlcontact.results import SteadyResult
-from ehlcontact.store import load
 from ehlcontact.transient.result import SimulationResult
 from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.rotor.compare_bearing_models import BearingModels
@@ -231,38 +221,3 @@ class Findings:
             "seconds": self.seconds,
             "versions": self.versions,
         }
-
-
-def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findings:
-    """Reduce, export and compare what the stages left in the folder; files are written on the way.
-
-    `seconds` are the wall times of the stages.
-    """
-    started = time.perf_counter()
-    steady = load(folder / "steady.h5", SteadyResult)
-    simulations = {name: load(folder / f"{name}.h5", SimulationResult) for name in RECORDS}
-    if not isinstance(steady, SteadyResult):
-        raise InputError("file", str(folder / "steady.h5"), "a steady film")
-    histories = {name: run for name, run in simulations.items() if isinstance(run, SimulationResult)}
-    scales = study.point.scales
-    assumed = assumptions(study.point, film=steady, roughness=study.roughness).short()
-    response = film_response(study)
-    known = {"assumptions": assumed, "contact": contact_text(study)}
-    reduction = reduce_records(histories, response, scales, known)
-    save_elements(reduction, folder)
-    exported = export_fmu(reduction.chosen, folder / "contact.fmu")
-    film = reduction.memory_si
-    exported_film = None if film is None else export_fmu(film, folder / "contact_film.fmu")
-    rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
-    times = {**seconds, "elements, FMUs, reduced rotors": time.perf_counter() - started}
-    started = time.perf_counter()
-    whole, at_angles = run_whole(study, folder), run_at_angles(study)
-    if whole is not None or at_angles is not None:
-        times["rotor on whole bearings"] = time.perf_counter() - started
-    started = time.perf_counter()
-    conditions = run_oil_and_heat(study)
-    if conditions is not None:
-        times["oil supply and heat"] = time.perf_counter() - started
-    bearings = whole, at_angles, conditions
-    rest = reduction, rotors, *bearings, exported, exported_film, times
-    return Findings(study, steady, histories, *rest, defect=defect_of(study))

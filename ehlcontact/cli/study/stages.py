@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from math import ceil
@@ -10,7 +12,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ehlcontact.cli.study.schema import Study
-from ehlcontact.errors import ConvergenceError
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.jit import compilation_told
+from ehlcontact.process.worker import report
 from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
@@ -18,13 +22,14 @@ from ehlcontact.transient.settings import KeepSettings, RunSettings, TimeSteps
 
 Update = Callable[[float, float], None]  # done, total
 FRAMES = 24  # of a period: whole fields that the report can run through
+SPACING = 0.1  # seconds between reports
 
 
-class Outcome(NamedTuple):
-    """Status at the end of a stage, and a message about it."""
+class Answer(NamedTuple):
+    """How a task ended."""
 
-    status: Status
-    message: str = ""
+    entry: dict[str, Any]  # status, message, seconds; of a finalised point also what `finalise_point` adds
+    content: bytes | None = None  # of the file of a stage, converged or not
 
 
 class Steps(NamedTuple):
@@ -82,20 +87,6 @@ class Stage:
     def partial(self, folder: Path) -> Path:
         """Where a result stands that did not get to its end."""
         return folder / f"{self.name}.partial.h5"
-
-    def run(self, study: Study, update: Update) -> tuple[Outcome, bytes | None]:
-        """Compute; give how it ended and the content of the file, also of a result that is not converged."""
-        from ehlcontact.store import content_of
-
-        try:
-            result = self.compute(study, update)
-            outcome = Outcome(result.status, result.status.advice)
-        except ConvergenceError as error:
-            result, outcome = error.result, Outcome(Status.FAILED, str(error))
-        except KeyboardInterrupt:
-            return Outcome(Status.INTERRUPTED, "stopped before anything could be kept"), None
-        # not a single failed step, but a result
-        return outcome, content_of(result) if outcome.status.ok or hasattr(result, "force") else None
 
 
 def _steady(study: Study, update: Update) -> Any:
@@ -208,3 +199,42 @@ def stages_of(study: Study) -> tuple[Stage, ...]:
 def stage_named(name: str) -> Stage:
     """The stage of a name."""
     return next(stage for stage in STAGES if stage.name == name)
+
+
+def solve_stage(key: str, study: Study, name: str) -> Answer:
+    """Solve a stage of the study of one point, on this machine or on a cluster; `key` is for the reports.
+
+    Workers write no files: the run writes the content of what they return, converged or not.
+    """
+    from ehlcontact.store import content_of
+
+    started = time.perf_counter()
+    status, result = Status.FAILED, None
+    try:
+        with reporting() as update:
+            result = stage_named(name).compute(study, update)
+        status, message = result.status, result.status.advice
+    except ConvergenceError as error:
+        result, message = error.result, str(error)
+    except InputError as error:
+        message = str(error)
+    except KeyboardInterrupt:
+        status, message = Status.INTERRUPTED, "stopped before anything could be kept"
+    # not a single failed step, but a result
+    content = content_of(result) if status.ok or hasattr(result, "force") else None
+    return Answer({"status": str(status), "message": message, "seconds": time.perf_counter() - started}, content)
+
+
+@contextmanager
+def reporting() -> Iterator[Update]:
+    """Give ``update(done, total)``, which reports to the run, as compilations are; each kind seldom."""
+    last = dict.fromkeys(("update", "compiling"), 0.0)
+
+    def seldom(kind: str, value: tuple[float, float] | None) -> None:
+        now = time.perf_counter()
+        if now - last[kind] > SPACING:
+            last[kind] = now
+            report(value)
+
+    with compilation_told(lambda: seldom("compiling", None)):
+        yield lambda done, total: seldom("update", (done, total))

@@ -2,58 +2,110 @@
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
+from ehlcontact.assumptions import assumptions
 from ehlcontact.cli.output import one_line, write_json
+from ehlcontact.cli.study.bearing_at_angles import run_at_angles
+from ehlcontact.cli.study.bearing_rotor import run_whole
+from ehlcontact.cli.study.defect import defect_of
+from ehlcontact.cli.study.differences import compare_rotors
+from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
+from ehlcontact.cli.study.reduction import RECORDS, contact_text, export_fmu, reduce_records, save_elements
+from ehlcontact.cli.study.results import Findings
+from ehlcontact.cli.study.rotor import film_response
 from ehlcontact.cli.study.schema import Study
+from ehlcontact.cli.study.stages import Answer, reporting
 from ehlcontact.content_store import checksum
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import parse_json, read_text
+from ehlcontact.results import SteadyResult
 from ehlcontact.status import Status
+from ehlcontact.store import load
+from ehlcontact.transient.result import SimulationResult
 
 RESULTS, REPORT = "results.json", "report.html"
 TITLE = "elements, FMUs, rotors, report"
 
 
-class Final(NamedTuple):
-    """How the finalisation ended."""
-
-    status: Status
-    message: str = ""
-    whole: bool = False  # also all FMUs
-    warnings: tuple[str, ...] = ()
-    bad_input: bool = False  # the study is to blame, or there is no room
-    files: Mapping[str, str | None] = {}  # checksums, by where they are in the folder
-
-
-def finalise(study: Study, folder: Path, seconds: Mapping[str, float]) -> Final:
+def finalise_point(key: str, study: Study, folder: Path, seconds: Mapping[str, float]) -> Answer:
     """Compute results of a point and write them, with report, elements and FMUs, to its folder.
 
-    `seconds` are the wall times of its stages, whose files are there.
+    Parameters
+    ----------
+    key : str
+        Of the task, for the reports.
+    study : Study
+    folder : Path
+        With the files of the stages.
+    seconds : mapping
+        Wall times of the stages.
+
+    Returns
+    -------
+    Answer
+        Beside status, message and seconds: ``whole``, whether all FMUs are there too; ``warnings``; ``bad_input``,
+        whether the study is to blame, or there is no room; ``files``, their checksums by where they are.
     """
     from ehlcontact.cli.study.headline import document
     from ehlcontact.cli.study.report import write_report
-    from ehlcontact.cli.study.results import evaluate
 
-    said: list[warnings.WarningMessage]
+    started = time.perf_counter()
+    status, message = Status.FAILED, ""
+    entry: dict[str, Any] = {"whole": False, "warnings": (), "bad_input": False, "files": {}}
     try:
-        with warnings.catch_warnings(record=True) as said:
+        with reporting(), warnings.catch_warnings(record=True) as said:
             found = evaluate(study, folder, seconds)
             results = document(found)
             write_json(results, str(folder / RESULTS), "file")
             write_report(found, folder / REPORT)
+        entry["warnings"] = tuple(dict.fromkeys(one_line(str(one.message)) for one in said))
+        entry["files"] = {name: checksum(folder / name) for name in products(results).values()}
+        entry["whole"], status = not _broken_fmus(results), Status.CONVERGED
     except KeyboardInterrupt:
-        return Final(Status.INTERRUPTED, "stopped before it was done")
-    except InputError as error:
-        return Final(Status.FAILED, str(error), bad_input=True)
-    except ConvergenceError as error:
-        return Final(Status.FAILED, str(error))
-    told = tuple(dict.fromkeys(one_line(str(one.message)) for one in said))
-    files = {name: checksum(folder / name) for name in products(results).values()}
-    return Final(Status.CONVERGED, "", not _broken_fmus(results), told, files=files)
+        status, message = Status.INTERRUPTED, "stopped before it was done"
+    except (InputError, ConvergenceError) as error:
+        message, entry["bad_input"] = str(error), isinstance(error, InputError)
+    return Answer({"status": str(status), "message": message, "seconds": time.perf_counter() - started, **entry})
+
+
+def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findings:
+    """Reduce, export and compare what the stages left in the folder; files are written on the way.
+
+    `seconds` are the wall times of the stages.
+    """
+    started = time.perf_counter()
+    steady = load(folder / "steady.h5", SteadyResult)
+    simulations = {name: load(folder / f"{name}.h5", SimulationResult) for name in RECORDS}
+    if not isinstance(steady, SteadyResult):
+        raise InputError("file", str(folder / "steady.h5"), "a steady film")
+    histories = {name: run for name, run in simulations.items() if isinstance(run, SimulationResult)}
+    scales = study.point.scales
+    assumed = assumptions(study.point, film=steady, roughness=study.roughness).short()
+    response = film_response(study)
+    known = {"assumptions": assumed, "contact": contact_text(study)}
+    reduction = reduce_records(histories, response, scales, known)
+    save_elements(reduction, folder)
+    exported = export_fmu(reduction.chosen, folder / "contact.fmu")
+    film = reduction.memory_si
+    exported_film = None if film is None else export_fmu(film, folder / "contact_film.fmu")
+    rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
+    times = {**seconds, "elements, FMUs, reduced rotors": time.perf_counter() - started}
+    started = time.perf_counter()
+    whole, at_angles = run_whole(study, folder), run_at_angles(study)
+    if whole is not None or at_angles is not None:
+        times["rotor on whole bearings"] = time.perf_counter() - started
+    started = time.perf_counter()
+    conditions = run_oil_and_heat(study)
+    if conditions is not None:
+        times["oil supply and heat"] = time.perf_counter() - started
+    bearings = whole, at_angles, conditions
+    rest = reduction, rotors, *bearings, exported, exported_film, times
+    return Findings(study, steady, histories, *rest, defect=defect_of(study))
 
 
 def read_results(folder: Path) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""All points of a study in numbers, with units and files: ``summary.json``, ``summary.csv``.
+"""All points of a study in numbers, with units and files: ``summary.json``, ``summary.csv``; a page over them.
 
 Two runs of one study give the same summary, however often they were interrupted: what differs between them, as
 times do, stands under ``run``, and in ``run.log``.
@@ -6,6 +6,7 @@ times do, stands under ``run``, and in ``run.log``.
 
 from __future__ import annotations
 
+import base64
 import csv
 import io
 from collections.abc import Mapping, Sequence
@@ -13,13 +14,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import plain
+from ehlcontact.cli.page import write_page
+from ehlcontact.cli.plots.points import draw_points
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.points.finalise import REPORT, faults, products, read_results
+from ehlcontact.cli.study.points.folder import LOG, versions
 from ehlcontact.cli.study.points.kept import FINALISE, Entry
 from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
-from ehlcontact.cli.study.points.log import LOG, versions
-from ehlcontact.cli.study.points.numbers import MEANINGS, UNITS, numbers_of
+from ehlcontact.cli.study.points.numbers import MEANINGS, NUMBERS, UNITS, Number, numbers_of
 from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text
@@ -27,6 +31,8 @@ from ehlcontact.status import Status
 
 FORMAT = 1  # of the summary
 SUMMARY, TABLE, PICTURE = "summary.json", "summary.csv", "summary.png"
+COLUMNS = {name: one for name, one in NUMBERS.items() if one.head}  # of the table for people
+NARROW = {name: one for name, one in COLUMNS.items() if one.narrow}
 
 
 @dataclass(frozen=True)
@@ -176,3 +182,35 @@ def table(rows: Sequence[Row]) -> str:
         numbers = ("" if v is None else repr(float(v)) for v in values.values())
         writer.writerow([row.point.name, *numbers, row.status, "; ".join(row.warnings)])
     return stream.getvalue()
+
+
+def cells(row: Row, columns: Mapping[str, Number] = COLUMNS) -> list[str]:
+    """Numbers of a point in words; a dash where there is none."""
+    return [
+        numeral(None if (value := row.numbers[name]) is None else one.factor * value, one.figures)
+        for name, one in columns.items()
+    ]
+
+
+def write_overview(rows: Sequence[Row], document: Mapping[str, Any], folder: Path) -> Path:
+    """Write the picture and the page; returns where the page is.
+
+    Raises
+    ------
+    InputError
+        One of them cannot be written.
+    """
+    picture = ""
+    if document["converged"]:
+        draw_points([row.numbers for row in rows], folder / PICTURE)
+        picture = base64.b64encode((folder / PICTURE).read_bytes()).decode("ascii")
+    return write_page(
+        folder / REPORT,
+        "points.html.j2",
+        {},
+        picture=picture,
+        summary=document,
+        rows=rows,
+        heads=[one.head for one in COLUMNS.values()],
+        cells=cells,
+    )
