@@ -3,12 +3,9 @@
 =======================  ===========================================================================
 module                   responsibility
 =======================  ===========================================================================
-``spec``                 `ModelSpec`: name, value reference, unit and start value of every variable
-``variable_list``        `VariableList`: variables in their order; the lead of forces, of all FMUs
+``spec``                 `ModelSpec`: name, value reference, unit and start value of every variable; `VariableList`
 ``contact_variables``    variables that the FMUs of all contact elements have
-``spring_spec``          variables and C text of the elements without film memory
-``film_spec``            variables, C text and tables of the elements with a film memory
-``contact_spec``         `contact_spec`: specification of the FMU of a contact element
+``contact_spec``         `contact_spec`: specification of the FMU of a contact element, with or without film memory
 ``lead``                 `Lead`: the parameter `lead` of contacts, `force_lead` of rotors
 ``steps``                default communication step of a contact; advice on longer ones
 ``fmu_model``            `FmuModel`: specification, references and comparison of an element or rotor
@@ -26,8 +23,7 @@ module                   responsibility
 ``driver``               one instance of an FMU, driven through fmpy
 ``comparison``           FMU and Python element: forces, tangents and derivatives
 ``verification``         `Verification`: result of a comparison
-``verify``               `verify`: an FMU against fmpy's rules and the Python element, state by state
-``verify_before_write``  verification of an FMU before it is written
+``verify``               `verify`: an FMU against fmpy's rules and the Python element, also before it is written
 ``bearing/``             FMU of a ball bearing whose inner ring is moved from outside
 ``jeffcott/``            FMU of a Jeffcott rotor, alone or with its contacts
 ``rotor/``               FMU of a rotor with its ball bearings inside
@@ -54,8 +50,8 @@ from fmu.rotor.export import export_rotor as export_rotor
 from fmu.shaft.export import export_shaft as export_shaft
 from fmu.system.drive import export_drive as export_drive
 from fmu.system.export import export_system as export_system
+from fmu.verify import VerificationError as VerificationError
 from fmu.verify import verify as verify
-from fmu.verify_before_write import VerificationError as VerificationError
 
 
 def __dir__() -> list[str]:

@@ -1,22 +1,56 @@
-"""Specification of the FMU of a contact element: name, description, variables and notes."""
+"""Specification of the FMU of a contact element: name, description, variables, C text and notes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
-from fmu.contact_variables import Element, Film
-from fmu.film_spec import film_parts
-from fmu.lead import HELD_PARALLEL
+from fmu.c_headers import c_double, c_table
+from fmu.contact_variables import ContactVariables, Element, Film, band_text
+from fmu.lead import CONTACT, HELD_PARALLEL
 from fmu.spec import ModelSpec
-from fmu.spring_spec import spring_parts
 from fmu.steps import default_step, step_advice
+from reduced_models import CubicContact, LinearContact, PolynomialContact, PowerLawContact
+from reduced_models.elements.film_law import film_made
 from reduced_models.elements.validity import frequency_text, text_of
 
 LONGEST_NAME = 200  # characters of the name of a contact in the description of an FMU
 
 _DIMENSIONLESS = "dimensionless: force in static loads, approach in dry Hertz approaches, time in 2a/u_sum"
+LAW = "film_law", "film_filters", "film_curve"  # C files of the film law, each with its header
+# Unit and description of every coefficient.
+_POLYNOMIAL = {
+    "K1": ("N/m", "Coefficient of the approach in the spring force"),
+    "K2": ("N.m-2", "Coefficient of the squared approach in the spring force"),
+    "K3": ("N.m-3", "Coefficient of the cubed approach in the spring force"),
+    "C1": ("N.s/m", "Damping coefficient"),
+    "C2": ("N.s2.m-2", "Coefficient of the squared rate"),
+    "C3": ("N.s3.m-3", "Coefficient of the cubed rate"),
+    "B4": ("N.s.m-2", "Coefficient of approach times rate"),
+}
+_POWER = {
+    "K": (
+        None,
+        "Factor K of the spring force K (u + u0)^n + F0",
+    ),  # N/m^n: not a unit of FMI
+    "n": ("1", "Exponent of the spring force"),
+    "u0": ("m", "Shift of the approach in the spring force"),
+    "F0": ("N", "Offset of the spring force"),
+    "C": ("N.s/m", "Damping coefficient"),
+}
+_ENDS = {
+    "low": ("m", "Lower end of the validity interval of the approach"),
+    "high": ("m", "Upper end of the validity interval of the approach"),
+}
+_POSITIVE = ("K", "n")
+_VISCOUS = ("C1", "C")
+
+Spring = LinearContact | CubicContact | PolynomialContact | PowerLawContact
 
 
 def contact_spec(element: Element, model_name: str | None = None, lead: float = HELD_PARALLEL) -> ModelSpec:
@@ -43,7 +77,7 @@ def contact_spec(element: Element, model_name: str | None = None, lead: float = 
     if not isinstance(element, Element):
         raise InputError("element", type(element).__name__, "a contact element (linear, cubic, ..., wide)")
     name = checked_name(type(element).__name__ if model_name is None else model_name)
-    parts = film_parts(element, lead) if isinstance(element, Film) else spring_parts(element, lead)
+    parts = _film_parts(element, lead) if isinstance(element, Film) else _spring_parts(element, lead)
     system = "SI units" if element.units == "SI" else _DIMENSIONLESS
     return ModelSpec(
         name=name,
@@ -105,3 +139,172 @@ def _plain(value: object) -> str:
     if isinstance(value, list | tuple):
         return f"({', '.join(map(_plain, value))})"
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _spring_parts(element: Spring, lead: float) -> dict[str, Any]:
+    """Fields of the `ModelSpec` of an element without memory."""
+    common = ContactVariables(element)
+    coefficients = dict(_POWER if isinstance(element, PowerLawContact) else _POLYNOMIAL)
+    seven = isinstance(element, PolynomialContact)
+    if not seven:
+        for name in ("C2", "C3", "B4"):
+            coefficients.pop(name, None)
+    damper = "seven-term" if seven else "viscous"
+    levels_off = seven and element.rate is not None
+    law = (*coefficients, *_ENDS, *(("rate_max",) if levels_off else ()))
+    _spring_variables(element, common, coefficients, law, levels_off, lead)
+    return {
+        "description": f"Rolling contact as a {element.kind} spring with a {damper} damper",
+        "sources": ("core.c", "core_step.c", "validity.c", "model_contact.c"),
+        "headers": ("core.h", "model.h", "validity.h", "dual.h"),
+        "variables": tuple(common.variables),
+        "macros": common.macros() | _spring_macros(law, element, levels_off),
+    }
+
+
+def _spring_variables(
+    element: Spring,
+    common: ContactVariables,
+    coefficients: dict[str, Any],
+    law: tuple[str, ...],
+    levels_off: bool,
+    lead: float,
+) -> None:
+    values = {"K2": 0.0, "K3": 0.0} | element.parameters | {"low": element.low, "high": element.high}
+    force, stiffness, damping = element.step_tangents(1.0, float(element.high), 0.0)
+    depends = ("approach", "rate", *law)
+    middle, length = 0.5 * (element.low + element.high), element.high - element.low
+    rate = element.rate if element.rate else force / damping if damping > 0.0 else length
+    common.input("approach", "m", middle, element.high, "Mutual approach, positive when the bodies come closer")
+    common.input("rate", "m/s", 0.0, rate, "Rate of the approach")
+    common.output("force", "N", force, depends, "Contact force, positive = repulsive, never negative")
+    common.output("stiffness", "N/m", stiffness, depends, "Tangent d(force)/d(approach)")
+    common.output("damping", "N.s/m", damping, depends, "Tangent d(force)/d(rate)")
+    common.flags(depends, first=True)
+    # a seven-term damper may start below zero where its other terms make up for it
+    positive = _POSITIVE if isinstance(element, PolynomialContact) else (*_POSITIVE, *_VISCOUS)
+    for name, (unit, text) in (coefficients | _ENDS).items():
+        more = band_text(element) if name in _VISCOUS else ""
+        common.add(
+            name, "parameter", "tunable", text + more,
+            unit=None if unit is None and element.units == "SI" else common.unit(unit or "1"),
+            start=float(values[name]), minimum=0.0 if name in positive else None,
+        )  # fmt: skip
+    if levels_off:
+        common.add(
+            "rate_max", "parameter", "tunable", "Largest rate of the data, beyond which the damper levels off",
+            unit=common.unit("m/s"), start=float(element.rate or 0.0), minimum=0.0,
+        )  # fmt: skip
+    common.lead(CONTACT, lead)
+    common.flags(depends, first=False)
+    common.box(low_high=False, rate=not levels_off)
+
+
+def _spring_macros(law: tuple[str, ...], element: Spring, levels_off: bool) -> dict[str, str]:
+    power, seven = isinstance(element, PowerLawContact), isinstance(element, PolynomialContact)
+    damper = "C" if power else "C1"
+    springs = ("K", "n", "u0", "F0") if power else ("K1", "K2", "K3")
+    entries = {name: f"spring[{k}]" for k, name in enumerate(springs)}
+    entries |= {damper: "C1", "rate_max": "rate"}
+    pairs = ", ".join(f"law->{entries.get(name, name)} = read(value, seed, VR_{name})" for name in law)
+    flags = {"LAW_POWER": "1"} if power else {}
+    flags |= {"LAW_SEVEN": "1", "LAW_LEVELS_OFF": str(int(levels_off))} if seven else {}
+    return flags | {
+        "N_CACHE": "4",
+        "LAW_READ": pairs,
+        "LAW_REFERENCES": ", ".join(f"VR_{name}" for name in law),
+        "LAW_NAMES": f'"{", ".join(law[:-1])} and {law[-1]}"',
+        "LAW_DAMPER": f'"{damper}"',
+    }
+
+
+def _film_parts(element: Film, lead: float) -> dict[str, Any]:
+    """Fields of the `ModelSpec` of an element with a film memory."""
+    common, lags = ContactVariables(element), element.lags
+    states = ("s", "y", *(f"q[{k}]" for k in range(1, lags + 1)))
+    force, length, time = element._units
+    u = element.approach_at(force)
+    K = element.spring_tangent(u)
+    C = float(element.step_tangents(time, u, 0.0)[2])
+    rate = element.rate if element.rate else length / time
+    depends = ("approach", "rate", *states)
+    common.input("approach", "m", u, length, "Mutual approach, positive when the bodies come closer")
+    common.input("rate", "m/s", 0.0, rate, "Rate of the approach")
+    common.output("force", "N", force, depends, "Contact force, positive = repulsive, never negative")
+    common.output("stiffness", "N/m", K, depends, "d(force)/d(approach), the states of the film as they are")
+    common.output("damping", "N.s/m", C, depends, "d(force)/d(rate), the states of the film as they are")
+    common.flags(depends, first=True)
+    words = "at the end of the last inner step, through the film's memory too"
+    for name, of, unit in (("step_stiffness", "approach", "N/m"), ("step_damping", "rate", "N.s/m")):
+        common.add(name, "local", "discrete", f"d(force)/d({of}) {words}", unit=common.unit(unit))
+    common.lead(CONTACT, lead)
+    common.flags(depends, first=False)
+    common.box(low_high=True)
+    nominal = max(rate * time / length, 1e-3)
+    _film_states(common, states, nominal, float(film_made(0.0, element.law)), element.law.rim > 0.0)
+    law = element.law
+    inverse = np.append(0.0, 1.0 / np.arange(1.0, lags + 4.0))
+    return {
+        "description": f"Rolling contact with a film memory ({element.kind} element, {lags} lags)",
+        "sources": ("core.c", "core_step.c", "validity.c", "model_film.c", *(f"{name}.c" for name in LAW)),
+        "headers": ("core.h", "model.h", "validity.h", "jet.h", *(f"{name}.h" for name in LAW)),
+        "variables": tuple(common.variables),
+        "macros": common.macros() | _film_macros(element),
+        "tables": {
+            "film_curve_data.h": _header(
+                "ln F_s, ln h_s, its slope and the approach at the nodes of the static curve",
+                {"curve_x": law.x, "curve_y": law.y, "curve_slope": law.slope, "curve_u": law.u},
+            ),
+            "film_gains.h": _header(
+                "ln F_s of the rows of gains; viscous, inlet and fast gain and those of the chain",
+                {"gain_x": law.gain_x, "gains": law.gains},
+            ),
+            "film_inverse.h": _header("1/k, and 0 for k = 0", {"inverse": inverse}),
+        },
+    }
+
+
+def _film_states(
+    common: ContactVariables, states: tuple[str, ...], nominal: float, made: float, rim: bool
+) -> None:
+    texts = ("State of the inlet lag", "State of the fast lag")
+    for k, name in enumerate(states):
+        text = texts[k] if k < len(texts) else f"Film at the end of lag {k - 1} of the chain"
+        size = nominal if k < len(texts) else max(made * nominal, 1e-6)  # the chain holds film made
+        common.add(name, "local", "continuous", text, unit="1", start=0.0, nominal=size)
+    unit = "1/s" if common.element.units == "SI" else "1"
+    for k, name in enumerate(states):
+        if k < len(texts):
+            depends: tuple[str, ...] = ("approach", "rate", name)
+        else:
+            fed = ("s",) if k == len(texts) else (states[k - 1],)
+            depends = ("approach", "rate", *dict.fromkeys(("s", *fed)), name) if rim else ("approach", *fed, name)
+        common.derivative(name, unit, depends)
+
+
+def _film_macros(element: Film) -> dict[str, str]:
+    law = element.law
+    numbers = {
+        "LAG_RATE": law.lag_rate,
+        "INLET_RATE": law.inlet_rate,
+        "FAST_RATE": law.fast_rate,
+        "INLET_SATURATION": law.inlet_saturation,
+        "CLOSING": law.closing,
+        **dict(zip(("SCALE_FORCE", "SCALE_LENGTH", "SCALE_TIME"), element._units, strict=True)),
+    }
+    counts = {
+        "N_CACHE": 5,
+        "LAGS": element.lags,
+        "CURVE_NODES": law.x.size,
+        "GAIN_ROWS": law.gain_x.size,
+        "RIM": int(law.rim > 0.0),
+    }
+    return {k: str(v) for k, v in counts.items()} | {k: c_double(float(v)) for k, v in numbers.items()}
+
+
+def _header(text: str, tables: dict[str, NDArray[np.float64]]) -> str:
+    lines = [
+        f"/* Generated by ehlcontact: {text}. */",
+        *(c_table(name, values) for name, values in tables.items()),
+    ]
+    return "\n".join([*lines, ""])

@@ -6,7 +6,7 @@ import math
 
 from fmu.c_headers import c_double
 from fmu.lead import CONTACT
-from fmu.variable_list import VariableList
+from fmu.spec import VariableList
 from reduced_models import (
     CubicContact,
     FilmMemoryContact,

@@ -15,7 +15,7 @@ from fmu.contact_variables import Element
 from fmu.fmu_model import Source, fmu_model
 from fmu.sources import FMI_FILES
 from fmu.verification import Verification
-from fmu.verify_before_write import require_finite, require_verified
+from fmu.verify import require_finite, require_verified
 
 
 def export_contact(

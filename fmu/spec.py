@@ -6,8 +6,10 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 from ehlcontact.errors import InputError
+from fmu.lead import Lead
 
 # Exponents of the SI base units, by unit name; "1" has none.
 UNITS: dict[str, dict[str, int]] = {
@@ -182,3 +184,28 @@ class ModelSpec:
         if variable.causality == "parameter":
             return "TUNABLE" if variable.variability == "tunable" else "FIXED"
         return variable.causality.upper()
+
+
+class VariableList:
+    """Variables, numbered as they are appended."""
+
+    def __init__(self) -> None:
+        self.variables: list[Variable] = []
+
+    def add(self, name: str, causality: str, variability: str, text: str, **more: Any) -> None:
+        """Append a variable."""
+        self.variables.append(Variable(name, len(self.variables), causality, variability, text, **more))
+
+    def derivative(self, name: str, unit: str | None, depends: tuple[str, ...]) -> None:
+        """Append the derivative of a state."""
+        self.add(
+            f"der({name})", "local", "continuous", f"Derivative of {name}",
+            unit=unit, depends=depends, derivative_of=name,
+        )  # fmt: skip
+
+    def lead(self, kind: Lead, start: float) -> None:
+        """Append the lead of forces."""
+        self.add(
+            kind.name, "parameter", "fixed", kind.text,
+            unit="1", start=kind.check(start), minimum=0.0, maximum=kind.most,
+        )  # fmt: skip

@@ -16,8 +16,7 @@ from fmu.c_headers import c_double, c_table
 from fmu.contact_spec import checked_name
 from fmu.contact_variables import ALLOWED_ERROR
 from fmu.lead import CONTACT, HELD_PARALLEL
-from fmu.spec import ModelSpec
-from fmu.variable_list import VariableList
+from fmu.spec import ModelSpec, VariableList
 from reduced_models import BallBearing
 from reduced_models.bearing.angular_balls import AngularBalls
 from reduced_models.bearing.freedoms import FIVE

@@ -14,8 +14,7 @@ from fmu.c_headers import c_double
 from fmu.contact_spec import checked_name
 from fmu.contact_variables import ALLOWED_ERROR
 from fmu.lead import CONTACT
-from fmu.spec import ModelSpec
-from fmu.variable_list import VariableList
+from fmu.spec import ModelSpec, VariableList
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 _Floats = NDArray[np.float64]

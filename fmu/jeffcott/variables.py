@@ -12,8 +12,7 @@ from fmu.contact_variables import ALLOWED_ERROR
 from fmu.jeffcott.laws import law_tables, numbers_of_laws
 from fmu.jeffcott.model import STEPS_PER_PERIOD, JeffcottModel
 from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
-from fmu.spec import ModelSpec
-from fmu.variable_list import VariableList
+from fmu.spec import ModelSpec, VariableList
 
 BODIES = ("disc", "journal")
 LEAST_INNER_STEP = 1e-6  # of the default: below it, importers repeat what is refused without end

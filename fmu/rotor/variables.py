@@ -14,8 +14,7 @@ from fmu.jeffcott.laws import law_file, law_size
 from fmu.lead import ROTOR
 from fmu.rotor.model import RotorModel
 from fmu.shaft.variables import SCALES, node_name
-from fmu.spec import ModelSpec, Variable
-from fmu.variable_list import VariableList
+from fmu.spec import ModelSpec, Variable, VariableList
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 

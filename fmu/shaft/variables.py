@@ -12,8 +12,7 @@ from fmu.contact_spec import checked_name
 from fmu.contact_variables import ALLOWED_ERROR
 from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
 from fmu.shaft.model import ShaftModel
-from fmu.spec import ModelSpec
-from fmu.variable_list import VariableList
+from fmu.spec import ModelSpec, VariableList
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.speed_profile import turning_forces
 

@@ -14,7 +14,7 @@ import numpy as np
 from ehlcontact.errors import ConvergenceError
 from fmu.jeffcott.model import JeffcottModel
 from fmu.system.master import DESCRIPTION, SystemRun
-from fmu.verify_before_write import VerificationError
+from fmu.verify import VerificationError
 from reduced_models.rotor.jeffcott import JeffcottRotor
 from reduced_models.rotor.simulate import simulate_rotor
 

@@ -32,7 +32,7 @@ from fmu.system.check import STEPS, SystemVerification, schema_findings
 from fmu.system.export import connectors
 from fmu.system.master import SystemRun
 from fmu.system.structure import Component, Wire, system_structure
-from fmu.verify_before_write import VerificationError
+from fmu.verify import VerificationError
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
 from reduced_models.rotor.rotor import Rotor

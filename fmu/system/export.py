@@ -28,7 +28,7 @@ from fmu.sources import FMI_FILES
 from fmu.steps import ADDED_DAMPING, damping_at, round_down
 from fmu.system.check import ALLOWED, SystemVerification, verify_system
 from fmu.system.structure import Component, Connector, Wire, system_structure
-from fmu.verify_before_write import VerificationError
+from fmu.verify import VerificationError
 from reduced_models.rotor.jeffcott import JeffcottRotor
 
 NAME = "rotor on contacts"
