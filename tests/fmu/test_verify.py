@@ -26,6 +26,7 @@ def test_fmu_agrees_with_element(fmus, elements, any_kind):
     assert min(found.outside, found.parted, found.states - found.outside) > least
 
 
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")  # on purpose
 def test_motion_of_a_film_parts_and_is_loaded(elements, film_kind):
     element = elements[film_kind]
     T, u, v = film_motion(element)
