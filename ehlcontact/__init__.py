@@ -15,11 +15,11 @@ module            responsibility
 ``heat``          `Heat`: what the heating of a film needs of oil and surfaces
 ``traction``      `traction_curve`: traction over the slide-to-roll ratio
 ``side_flow``     `oil_passes`: films pass after pass of a track; closed form of thin layers
-``sliding``       `Sliding`: shear thinning of a film by sliding
+``shear_thinning`` `ShearThinning`: shear thinning of a film by sliding
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
 ``speed_response`` `speed_response`: force over a change of speed, likewise
 ``excitation``    `excitation`: force of waves on a surface, likewise
-``transient/``    film through time: motions, surfaces, `simulate`, `FullContact`
+``transient/``    film through time: motions, surfaces, `simulate`, `TransientContact`
 ``assumptions/``  assumptions of every solve, each with the number that shows whether it holds
 ``quantities``    units, scales and dimensions of quantities, declared once in the annotations of results
 ``results/``      results of films at rest and of linearised ones; tables, SI values and figures of all results
@@ -56,8 +56,8 @@ from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Carreau, Eyring, LimitingShear, Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
 from ehlcontact.results import ImpedanceResult, SteadyResult
+from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.side_flow import oil_passes
-from ehlcontact.sliding import Sliding
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.speed_response import speed_response
@@ -66,7 +66,6 @@ from ehlcontact.store import load, save
 from ehlcontact.supply import OilLayer
 from ehlcontact.traction import traction_curve
 from ehlcontact.transient.features import Dent, TransverseRidge, Waviness
-from ehlcontact.transient.full_contact import FullContact
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
 from ehlcontact.transient.result import SimulationResult
@@ -74,6 +73,7 @@ from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.settings import KeepSettings, RunSettings, TimeSteps
 from ehlcontact.transient.simulate import simulate
 from ehlcontact.transient.speed import SpeedHistory
+from ehlcontact.transient.transient_contact import TransientContact
 from ehlcontact.version import __version__
 
 __all__ = [
@@ -84,7 +84,6 @@ __all__ = [
     "Domain",
     "Eyring",
     "FreeVibration",
-    "FullContact",
     "Geometry",
     "Grid",
     "HarmonicLoad",
@@ -102,11 +101,12 @@ __all__ = [
     "RampLoad",
     "Roughness",
     "RunSettings",
+    "ShearThinning",
     "SimulationResult",
-    "Sliding",
     "SpeedHistory",
     "SteadyResult",
     "TimeSteps",
+    "TransientContact",
     "TransverseRidge",
     "Waviness",
     "__version__",

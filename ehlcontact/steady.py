@@ -20,7 +20,7 @@ from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
 from ehlcontact.results.asperity_contact import AsperityContact
 from ehlcontact.results.film_temperature import FilmTemperature
-from ehlcontact.sliding import Sliding, require_sliding
+from ehlcontact.shear_thinning import ShearThinning, require_sliding
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.attempts import METHODS, Method, attempts
 from ehlcontact.solver.balance import Balance
@@ -55,7 +55,7 @@ def solve_steady(
     supply: OilLayer | None = None,
     thermal: Heat | bool | None = None,
     asperities: Asperities | None = None,
-    sliding: Sliding | None = None,
+    sliding: ShearThinning | None = None,
     approach: float | None = None,
     tol: float = 1e-5,
     max_cycles: int = MAX_CYCLES,
@@ -88,7 +88,7 @@ def solve_steady(
     asperities : Asperities, optional
         Let them carry part of the load where the film is thin, as ``result.asperities`` says. The film between
         smooth surfaces is solved first. By default the surfaces are smooth.
-    sliding : Sliding, optional
+    sliding : ShearThinning, optional
         Shear thinning of the film by sliding (docs/traction.md). The Newtonian film is solved first. By
         default the film is that of pure rolling.
     approach : float, optional
@@ -203,7 +203,7 @@ class _Film:
         *,
         supply: OilLayer | None = None,
         thermal: Heat | None = None,
-        sliding: Sliding | None = None,
+        sliding: ShearThinning | None = None,
         scales: Scales | None = None,
         rough: tuple[Asperities, AsperityNumbers] | None = None,
     ) -> None:
@@ -290,7 +290,7 @@ class _Film:
 
     def _run_sliding(
         self,
-        sliding: Sliding,
+        sliding: ShearThinning,
         balance: Balance,
         tol: float,
         most: int,

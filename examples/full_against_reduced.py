@@ -12,7 +12,7 @@ from dataclasses import replace
 from math import pi, sqrt
 from typing import Any
 
-from ehlcontact import FullContact, Grid, Lubricant, OperatingPoint
+from ehlcontact import Grid, Lubricant, OperatingPoint, TransientContact
 from reduced_models import (
     Atlas,
     JeffcottRotor,
@@ -45,7 +45,7 @@ def kicked(contact: Any, rest: float, periods: float, steps: int = 40) -> RotorR
 
 def full(periods: float = 8.0, n: int | None = None) -> RotorResult:
     """On the film, solved in every step."""
-    film = FullContact(POINT, grid=Grid(n=n))
+    film = TransientContact(POINT, grid=Grid(n=n))
     return kicked(ScaledContact(film, POINT.scales), film.static_approach * POINT.scales.length, periods)
 
 

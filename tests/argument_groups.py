@@ -16,7 +16,7 @@ def grouped(**flat):
 
 
 def with_grid(**flat):
-    """Keyword arguments of `solve_steady`, `impedance` or `FullContact`: those of the grid gathered."""
+    """Keyword arguments of `solve_steady`, `impedance` or `TransientContact`: those of the grid gathered."""
     return _gathered(flat, {"grid": GROUPS["grid"]})
 
 

@@ -16,7 +16,6 @@ import fmu
 import reduced_models
 from ehlcontact import (
     Eyring,
-    FullContact,
     Grid,
     HarmonicLoad,
     Lubricant,
@@ -25,6 +24,7 @@ from ehlcontact import (
     OperatingPoint,
     RunSettings,
     TimeSteps,
+    TransientContact,
     excitation,
     impedance,
     simulate,
@@ -126,7 +126,7 @@ WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
     **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter", "Spall", "Indentation", "FullFilm"), INPUT),
     **dict.fromkeys(("SpeedHistory", "SpeedController", "Heat", "Asperities"), INPUT),
-    **dict.fromkeys(("Eyring", "Carreau", "LimitingShear", "Sliding"), INPUT),
+    **dict.fromkeys(("Eyring", "Carreau", "LimitingShear", "ShearThinning"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
     **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),
@@ -141,7 +141,9 @@ WITHOUT_PLOT = {
     **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),
     **dict.fromkeys(("InputError", "ConvergenceError", "OutsideValidityWarning", "BuildError"), KIND),
     **dict.fromkeys(("VerificationError", "Status"), KIND),
-    **dict.fromkeys(("ScaledContact", "RossCallback", "BearingMotion", "FullContact"), "stepped: its run has one"),
+    **dict.fromkeys(
+        ("ScaledContact", "RossCallback", "BearingMotion", "TransientContact"), "stepped: its run has one"
+    ),
     "Atlas": "what it answers has one",
     "LinearRotor": "asked for modes and responses, by frequency",
 }
@@ -199,7 +201,7 @@ def results(point):
         pair, pair.equilibrium((0.0, 0.0, 0.0), speed_rpm=3000.0),
         bearing.excitation([BallDiameter(ball=0, excess=1e-7)], (0.0, 0.0, 300.0), speed_rpm=3000.0),
         SpeedProfile.ramp(0.0, 3000.0, 1.0), bearing, BearingMount(bearing=bearing, x=0, y=1),
-        FullContact(point, grid=Grid(n=32)), *spectra(),
+        TransientContact(point, grid=Grid(n=32)), *spectra(),
         *verifications(), film.traction([0.01, 0.1], Eyring()),
         *(ContactHistory(*np.linspace(1e-6, 2e-6, 100).reshape(5, 20), np.ones(20, int), at, 0.0)
           for at in (None, point)),

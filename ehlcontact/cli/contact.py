@@ -26,7 +26,7 @@ from ehlcontact.heat import RANGES, Heat
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Eyring, LimitingShear, Lubricant, TractionLaw
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
-from ehlcontact.sliding import Sliding as ThinningSlide
+from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.supply import OilLayer
 
 if TYPE_CHECKING:
@@ -458,14 +458,14 @@ class Sliding(Options):
             raise InputError("--slide-roll", self.slide_roll, allowed)
         self.law  # noqa: B018  # which checks its numbers
 
-    def thinned(self) -> ThinningSlide | None:
+    def thinned(self) -> ShearThinning | None:
         """Sliding that thins the film, or None; raises `InputError` with a limiting shear stress."""
         if not self.thinning:
             return None
         if self.limiting_shear is not None:
             allowed = "left out with --thinning: it leaves no viscosity along the sliding (--eyring-mpa)"
             raise InputError("--limiting-shear", self.limiting_shear, allowed)
-        return ThinningSlide(self.slide_roll or 0.0, self.law)
+        return ShearThinning(self.slide_roll or 0.0, self.law)
 
     def traction(self, film: SteadyResult) -> Traction | None:
         """Traction of a film that has converged; None in pure rolling."""

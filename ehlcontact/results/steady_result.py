@@ -19,7 +19,7 @@ from ehlcontact.results.contact_map import contact_panels
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.results.traction import Traction, traction_of
-from ehlcontact.sliding import Sliding
+from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.error_estimate import ALL, ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
@@ -96,7 +96,7 @@ class SteadyResult(ScaledTable, Origin):
         Part of the gap that oil fills: 1 under pressure.
     layer, layer_behind : ndarray or None, shape (ny + 1,)
         Oil on both surfaces ahead of the contact and behind it, over the dry approach; in SI [m].
-    sliding : Sliding or None
+    sliding : ShearThinning or None
         As given to `solve_steady`; None of a Newtonian film.
     thinned_share : float or None
         Central film over the Newtonian one, on the same grid, where sliding thins the oil.
@@ -130,7 +130,7 @@ class SteadyResult(ScaledTable, Origin):
 
     temperature: FilmTemperature | None = None
     asperities: AsperityContact | None = None
-    sliding: Sliding | None = None
+    sliding: ShearThinning | None = None
     thinned_share: float | None = None
 
     DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
@@ -290,7 +290,7 @@ class SteadyResult(ScaledTable, Origin):
         layers = sorted({f"{size * h:.4g}" for h in (self.layer.min(), self.layer.max())})
         return f"layer of oil {' to '.join(layers)} {unit}; the film is full from X = {self.front:.3g} on"
 
-    def _sliding_line(self, sliding: Sliding) -> str:
+    def _sliding_line(self, sliding: ShearThinning) -> str:
         """Shear thinning by sliding, in words."""
         assert self.thinned_share is not None
         share = 100.0 * self.thinned_share

@@ -35,7 +35,7 @@ class Purpose(StrEnum):
     FILM = "film"  # a steady film: `solve_steady`
     DAMPING = "damping"  # the film linearised: `impedance`
     RUN = "run"  # a film through time: `simulate`
-    CONTACT = "contact"  # one inside a rotor: `FullContact`
+    CONTACT = "contact"  # one inside a rotor: `TransientContact`
 
 
 # Which region? --------------------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ module           responsibility
 ``checkpoint``   checkpoint file for a restart
 ``result``       `SimulationResult` and its `Instants`
 ``simulate``     `simulate`: from a motion to a result
-``full_contact`` `FullContact`: the whole film as a force element
+``transient_contact`` `TransientContact`: the whole film as a force element
 ================ ==========================================================================================
 
 Each module imports only those above it. The public names are those of `ehlcontact`.

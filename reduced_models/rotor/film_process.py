@@ -11,7 +11,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
-from ehlcontact import FullContact, Grid, OperatingPoint
+from ehlcontact import Grid, OperatingPoint, TransientContact
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.executors import ProcessExecutor
 from reduced_models.bearing.track_surface import TrackSurface
@@ -26,7 +26,7 @@ class FilmAnswer(NamedTuple):
     force: float
     h_central: float
     h_min: float
-    beside_h_min: float = 1.0  # of `FullContact`
+    beside_h_min: float = 1.0  # of `TransientContact`
     doubt: str = ""  # about its grid at rest
 
 
@@ -34,7 +34,7 @@ class FilmAnswer(NamedTuple):
 class _Following:
     """A film, the step it is in, and its state and approach at the start of that step."""
 
-    contact: FullContact
+    contact: TransientContact
     approach: float
     step: int = 0
     start: Any = None
@@ -48,7 +48,7 @@ def open_film(
     number: int, point: OperatingPoint, grid: Grid, surface: TrackSurface, largest_load: float
 ) -> FilmAnswer:
     """A film at rest under the load of its point; raises `InputError` for waves too short for its grid."""
-    contact = FullContact(point, grid=grid, surface=surface, largest_load=largest_load)
+    contact = TransientContact(point, grid=grid, surface=surface, largest_load=largest_load)
     surface.require_resolved((contact.domain.x_out - contact.domain.x_in) / contact.n)
     _films[number] = _Following(contact, contact.static_approach)
     return _answer(_films[number])

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact import FullContact, Grid, OperatingPoint
+from ehlcontact import Grid, OperatingPoint, TransientContact
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.status import Status
 from reduced_models.elements.base import ContactElement
@@ -32,7 +32,7 @@ LEAD_IN = (8.0, 3)
 
 def film_contacts(rotor: JeffcottRotor, point: OperatingPoint, grid: Grid) -> list[ScaledContact]:
     """Films at rest under the load of the operating point, one for every mount."""
-    return [ScaledContact(FullContact(point, grid=grid), point.scales) for _ in rotor.mounts]
+    return [ScaledContact(TransientContact(point, grid=grid), point.scales) for _ in rotor.mounts]
 
 
 def rest_on_films(rotor: JeffcottRotor, contacts: Sequence[ScaledContact]) -> RotorState:

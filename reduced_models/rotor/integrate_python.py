@@ -205,7 +205,7 @@ class PythonSteps:
         if not hint and self._has_films:
             hint = (
                 ": the force of a contact that is solved in every step is good to its own tolerance; take a "
-                "smaller tol of FullContact, or a larger tolerance of simulate_rotor"
+                "smaller tol of TransientContact, or a larger tolerance of simulate_rotor"
             )
         raise ConvergenceError(found + hint, None)
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact import FullContact
+from ehlcontact import TransientContact
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
@@ -81,8 +81,8 @@ def simulate_rotor(
         in which they are given, and bearings at rest there.
     tolerance : float, optional
         Largest imbalance of the forces at the supports over the load: by default 1e-6 with contacts, where each
-        evaluation may be a solve, and 1e-9 without; with a `FullContact` of a larger `tol` than its default as
-        many times larger, for the noise of its force grows with it.
+        evaluation may be a solve, and 1e-9 without; with a `TransientContact` of a larger `tol` than its default
+        as many times larger, for the noise of its force grows with it.
     max_iterations : int
         Evaluations of each contact in a step.
     rho_inf : float
@@ -128,7 +128,7 @@ def simulate_rotor(
 def default_tolerance(rotor: Rotor) -> float:
     """Of the balance of forces; larger with full films that are solved more coarsely than by default."""
     films = (getattr(mount.contact, "contact", mount.contact) for mount in rotor.contacts)
-    coarsest = max((film.coarseness for film in films if isinstance(film, FullContact)), default=1.0)
+    coarsest = max((film.coarseness for film in films if isinstance(film, TransientContact)), default=1.0)
     return TOLERANCE * max(coarsest, 1.0)
 
 

@@ -12,7 +12,6 @@ from ehlcontact import (
     Dent,
     Domain,
     FreeVibration,
-    FullContact,
     Geometry,
     Grid,
     HarmonicLoad,
@@ -25,6 +24,7 @@ from ehlcontact import (
     RampLoad,
     Roughness,
     TimeSteps,
+    TransientContact,
     TransverseRidge,
     Waviness,
     impedance,
@@ -63,7 +63,7 @@ def point():
 @cache
 def full_contact():
     """Solved, and compiled, before anything bad is asked of it."""
-    return FullContact(point(), grid=Grid(n=32))
+    return TransientContact(point(), grid=Grid(n=32))
 
 
 def record(**changes):

@@ -8,7 +8,6 @@ from argument_groups import grouped
 from ehlcontact import (
     Domain,
     FreeVibration,
-    FullContact,
     Geometry,
     Grid,
     HarmonicLoad,
@@ -21,6 +20,7 @@ from ehlcontact import (
     RampLoad,
     RunSettings,
     TimeSteps,
+    TransientContact,
     impedance,
     simulate,
     solve_steady,
@@ -139,7 +139,7 @@ FIELDS = [  # function, good arguments, bad values of some
         },
     ),
     (impedance, {"point": POINT, "Omega": [1.0]}, {"grid": [64], "Omega": [[], [-1.0], [NAN]]}),
-    (FullContact, {"point": POINT}, {"grid": [64], "largest_load": [0.0, NAN], "tol": [-1.0], "point": [3]}),
+    (TransientContact, {"point": POINT}, {"grid": [64], "largest_load": [0.0, NAN], "tol": [-1.0], "point": [3]}),
     (
         simulate,
         RUN,
@@ -171,7 +171,7 @@ FIELDS = [  # function, good arguments, bad values of some
     (RunSettings, {}, {"threads": NO_THREADS}),
     (solve_steady, {"point": POINT, "grid": Grid(n=64)}, {"threads": NO_THREADS}),
     (impedance, {"point": POINT, "Omega": [0.0]}, {"threads": NO_THREADS}),
-    (FullContact, {"point": POINT}, {"threads": NO_THREADS}),
+    (TransientContact, {"point": POINT}, {"threads": NO_THREADS}),
     (Grid, {}, {"deflection": ["", "FFT", None, 3]}),
     (run_until_1, {}, {"dt": [2.0, 1e-9], "snapshots": [(1.5,)]}),
     (tabulated, {}, {"periods": [2.0], "steps_per_period": [80]}),

@@ -14,7 +14,7 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import NEAR_DOMAIN, Purpose, damping_mesh, mesh_for
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.steady import solve_steady
-from ehlcontact.transient.full_contact import FullContact
+from ehlcontact.transient.transient_contact import TransientContact
 
 POINT = MoesPoint(200, 10, 0.5)
 
@@ -110,7 +110,7 @@ FOUR = [pytest.param(w, marks=[] if w == pi else pytest.mark.slow) for w in (0.2
 def test_agrees_with_small_motion_in_time(steady, omega):
     """A small harmonic approach on the full contact, last period of three, first harmonic of the force."""
     n, amplitude, steps = 48, 2e-3, 160
-    contact = FullContact(POINT, grid=Grid(n=n), tol=1e-6)
+    contact = TransientContact(POINT, grid=Grid(n=n), tol=1e-6)
     T = 2.0 * pi / omega * np.arange(1, 3 * steps + 1) / steps
     force = np.array([contact.advance(T[0], contact.static_approach + amplitude * np.sin(omega * t)) for t in T])
     last = slice(2 * steps, 3 * steps)

@@ -10,7 +10,6 @@ import pytest
 
 from ehlcontact import (
     FreeVibration,
-    FullContact,
     Grid,
     HarmonicLoad,
     ImpedanceResult,
@@ -19,6 +18,7 @@ from ehlcontact import (
     SimulationResult,
     SteadyResult,
     TimeSteps,
+    TransientContact,
     simulate,
     solve_steady,
 )
@@ -122,17 +122,17 @@ def test_motion_in_si(run):
 
 
 def test_full_contact_in_si():
-    contact = FullContact(POINT, grid=Grid(n=32))
+    contact = TransientContact(POINT, grid=Grid(n=32))
     si = contact.si
     assert si.force == contact.force * S.force
     assert contact.force == pytest.approx(1.0, rel=1e-5)  # a film at rest, solved to 1e-5 of its pressure
     assert si.static_approach == contact.static_approach * S.length
     assert (si.h_central, si.h_min) == (contact.h_central * S.length, contact.h_min * S.length)
-    assert repr(si).startswith("FullContact in SI: force ")
+    assert repr(si).startswith("TransientContact in SI: force ")
     pytest.importorskip("pandas")
     assert si.to_pandas()["force [N]"].tolist() == [si.force] and si.to_pandas().attrs["M"] == contact.point.M
     with pytest.raises(InputError, match=r"^scales = None"):
-        _ = FullContact(POINT.moes, grid=Grid(n=32)).si
+        _ = TransientContact(POINT.moes, grid=Grid(n=32)).si
 
 
 def test_dimensionless_points_have_none():
@@ -145,7 +145,9 @@ def test_dimensionless_points_have_none():
         assert "si" not in result.to_dict()
 
 
-@pytest.mark.parametrize("cls", [SteadyResult, ImpedanceResult, SimulationResult, FullContact, Film, FilmHistory])
+@pytest.mark.parametrize(
+    "cls", [SteadyResult, ImpedanceResult, SimulationResult, TransientContact, Film, FilmHistory]
+)
 def test_every_quantity_is_described(cls):
     """Name and SI name in the docstring: under Attributes, as numpydoc has it."""
     text = getdoc(cls).split("Attributes\n", 1)[1]

@@ -9,7 +9,6 @@ import pytest
 from ehlcontact import (
     ConvergenceError,
     Domain,
-    FullContact,
     Grid,
     HarmonicLoad,
     InputError,
@@ -19,6 +18,7 @@ from ehlcontact import (
     OilLayer,
     OperatingPoint,
     TimeSteps,
+    TransientContact,
     impedance,
     load,
     save,
@@ -320,7 +320,7 @@ def test_much_oil_moves_as_a_flooded_inlet():
 
 
 def test_full_contact_under_a_supply():
-    contact = FullContact(CIRCLE, grid=SMALL, supply=OilLayer(over_flooded=1.0))
+    contact = TransientContact(CIRCLE, grid=SMALL, supply=OilLayer(over_flooded=1.0))
     film = solve_steady(CIRCLE, grid=SMALL, supply=OilLayer(over_flooded=1.0))
     assert contact.h_central == pytest.approx(film.h_central, rel=1e-3)
     before = contact.save_state()
@@ -477,13 +477,13 @@ def test_layers_that_are_none(given, message):
 def test_what_does_not_go_together():
     with pytest.raises(InputError, match="over_flooded or H at a dimensionless point"):
         solve_steady(CIRCLE, supply=OilLayer(1e-7))
-    for solve in (solve_steady, FullContact, lambda point, **given: simulate(point, SHAKEN, **given)):
+    for solve in (solve_steady, TransientContact, lambda point, **given: simulate(point, SHAKEN, **given)):
         with pytest.raises(InputError, match=r"an OilLayer\(h, ...\)"):
             solve(CIRCLE, supply=1e-7)
     with pytest.raises(InputError, match="left out with a supply"):
         simulate(CIRCLE, SHAKEN, supply=OilLayer(H=0.5), surface=lambda X, Y, T: 0.0 * X)
     with pytest.raises(InputError, match="left out with a supply"):
-        FullContact(CIRCLE, supply=OilLayer(H=0.5), surface=lambda X, Y, T: 0.0 * X)
+        TransientContact(CIRCLE, supply=OilLayer(H=0.5), surface=lambda X, Y, T: 0.0 * X)
     near = Grid(64, Domain(-2.0, 1.5, 2.0))
     with pytest.raises(ConvergenceError, match="full film begins ahead of the computed region") as beyond:
         solve_steady(CIRCLE, grid=near, supply=OilLayer(H=1.0))

@@ -35,7 +35,6 @@ from ehlcontact import (
     Dent,
     Domain,
     FreeVibration,
-    FullContact,
     Grid,
     HarmonicLoad,
     KeepSettings,
@@ -46,6 +45,7 @@ from ehlcontact import (
     PrescribedLoad,
     RampLoad,
     TimeSteps,
+    TransientContact,
     Waviness,
     impedance,
     load,
@@ -250,7 +250,7 @@ def responses() -> Leaves:
 
 def full_contact() -> Leaves:
     """The film as a force element, with a return to a saved state and a step that fails."""
-    contact = FullContact(PAPER, grid=Grid(n=32))
+    contact = TransientContact(PAPER, grid=Grid(n=32))
     forces = [contact.advance(0.05, 0.88 + 0.02 * k) for k in range(6)]
     state = contact.save_state()
     forces += [contact.advance(0.3, 0.7), contact.advance(0.1, 0.3)]
@@ -391,7 +391,7 @@ def motions() -> Leaves:
                     dimensionless, np.linspace(0.0, 1.0, 21), Omega_n=omega_n, load=1.05, u0=0.87, v0=0.1
                 )
                 yield from leaves(f"oscillator {model} {omega_n}", swing)
-        full = FullContact(BEARING, grid=Grid(n=64))
+        full = TransientContact(BEARING, grid=Grid(n=64))
         start = UPRIGHT.state_at([full.static_approach * BEARING.scales.length])
         run = simulate_rotor(
             UPRIGHT, [ScaledContact(full, BEARING.scales)], dt=2e-4, until=0.004, start=start, tolerance=1e-4

@@ -8,7 +8,6 @@ import pytest
 
 from ehlcontact import (
     FreeVibration,
-    FullContact,
     Geometry,
     InputError,
     Lubricant,
@@ -17,6 +16,7 @@ from ehlcontact import (
     PrescribedApproach,
     PrescribedLoad,
     RampLoad,
+    TransientContact,
     impedance,
     simulate,
     solve_steady,
@@ -32,7 +32,7 @@ SOLVERS = {
     "solve_steady": solve_steady,
     "simulate": lambda point: simulate(point, FreeVibration(Omega_n=5.13)),
     "impedance": lambda point: impedance(point, Omega=[1.0]),
-    "FullContact": FullContact,
+    "TransientContact": TransientContact,
 }
 
 
@@ -116,7 +116,7 @@ def test_points_in_si(make, words):
         lambda: simulate(GOOD, RampLoad(1e4, 1.0, Omega_n=2.4)),
         lambda: simulate(GOOD, PrescribedLoad([0.0, 1.0, 2.0, 3.0], [1.0, 1.0, 1e4, 1.0])),
         lambda: simulate(GOOD, PrescribedApproach([0.0, 1.0, 2.0, 3.0], [1.0, 1.0, 1e3, 1.0])),
-        lambda: FullContact(GOOD, largest_load=1e4),
+        lambda: TransientContact(GOOD, largest_load=1e4),
         lambda: solve_steady(GOOD, approach=1e3),
     ],
 )

@@ -8,11 +8,11 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from ehlcontact import (
     FreeVibration,
-    FullContact,
     Grid,
     InputError,
     MoesPoint,
     TimeSteps,
+    TransientContact,
     impedance,
     simulate,
     solve_steady,
@@ -82,7 +82,7 @@ CALLS = {
     "newton": lambda: solve_steady(POINT, grid=Grid(n=32), method="newton"),
     "run": lambda: simulate(POINT, FreeVibration(Omega_n=5.13), grid=Grid(n=32), time=TimeSteps(until=0.1)),
     "response": lambda: impedance(POINT, Omega=[0.0], grid=Grid(n=32)),
-    "contact": lambda: FullContact(POINT, grid=Grid(n=32)).advance(0.1, 0.9),
+    "contact": lambda: TransientContact(POINT, grid=Grid(n=32)).advance(0.1, 0.9),
 }
 
 
@@ -101,7 +101,7 @@ def test_every_solve(call, monkeypatch):
 
 
 def test_solves_in_a_step_of_a_contact(monkeypatch):
-    contact, seen = FullContact(POINT, grid=Grid(n=32)), []
+    contact, seen = TransientContact(POINT, grid=Grid(n=32)), []
     advance = contact._film.advance
     monkeypatch.setattr(contact._film, "advance", lambda *args: seen.extend(limits()) or advance(*args))
     contact.advance(0.1, 0.9)

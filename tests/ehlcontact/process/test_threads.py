@@ -17,10 +17,10 @@ from argument_groups import grouped
 from threadpoolctl import threadpool_limits
 
 from ehlcontact import (
-    FullContact,
     Grid,
     HarmonicLoad,
     MoesPoint,
+    TransientContact,
     impedance,
     simulate,
     solve_steady,
@@ -249,6 +249,6 @@ def test_results_are_the_same_bit_for_bit(threads, monkeypatch):
 
 
 def test_full_contact_is_copied_with_its_team():
-    contact = FullContact(POINT, grid=Grid(n=32), threads=1)
+    contact = TransientContact(POINT, grid=Grid(n=32), threads=1)
     twin = copy.deepcopy(contact)
     assert twin.advance(0.1, 0.9) == contact.advance(0.1, 0.9)

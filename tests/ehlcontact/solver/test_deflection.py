@@ -11,11 +11,11 @@ import pytest
 from ehlcontact import (
     Domain,
     FreeVibration,
-    FullContact,
     Grid,
     InputError,
     MoesPoint,
     TimeSteps,
+    TransientContact,
     impedance,
     simulate,
     solve_steady,
@@ -354,7 +354,7 @@ def response(engine):
 
 
 def contact(engine):
-    full = FullContact(POINT, grid=Grid(n=32, deflection=engine), tol=1e-6)
+    full = TransientContact(POINT, grid=Grid(n=32, deflection=engine), tol=1e-6)
     return np.array([full.advance(0.1, 0.9), full.advance(0.1, 0.88)])
 
 

@@ -10,10 +10,10 @@ import pytest
 from ehlcontact import (
     Domain,
     FreeVibration,
-    FullContact,
     Grid,
     InputError,
     MoesPoint,
+    TransientContact,
     impedance,
     simulate,
     solve_steady,
@@ -115,7 +115,7 @@ CALLS = {
     "newton": lambda: solve_steady(POINT, grid=Grid(n=128), method="newton"),
     "run": lambda: simulate(POINT, FreeVibration(Omega_n=5.13), grid=Grid(n=256)),
     "response": lambda: impedance(POINT, Omega=[0.0], grid=Grid(n=128)),
-    "contact": lambda: FullContact(POINT, grid=Grid(n=256)),
+    "contact": lambda: TransientContact(POINT, grid=Grid(n=256)),
 }
 
 

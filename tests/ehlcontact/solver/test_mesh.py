@@ -10,13 +10,13 @@ from ehlcontact import (
     ConvergenceError,
     Domain,
     FreeVibration,
-    FullContact,
     Grid,
     InputError,
     KeepSettings,
     MoesPoint,
     RunSettings,
     TimeSteps,
+    TransientContact,
     impedance,
     simulate,
     solve_steady,
@@ -280,7 +280,7 @@ def test_every_solve_widens_its_region_alike():
     assert wide == widened(Domain.for_point(LIGHT))
     motion = FreeVibration(Omega_n=5.13)
     run = simulate(LIGHT, motion, grid=Grid(n=128), time=TimeSteps(until=0.05, dt=0.025))
-    contact = FullContact(LIGHT, grid=Grid(n=128))
+    contact = TransientContact(LIGHT, grid=Grid(n=128))
     response = impedance(LIGHT, Omega=1.0, grid=Grid(n=128))
     assert run.domain == contact.domain == response.domain == wide
     assert run.static_approach == pytest.approx(contact.static_approach, abs=1e-6)
@@ -292,7 +292,7 @@ def test_every_solve_widens_its_region_alike():
         is Status.OUT_OF_DOMAIN
     )
     with pytest.raises(ConvergenceError, match="out_of_domain"):
-        FullContact(LIGHT, grid=Grid(n=128, domain=given))
+        TransientContact(LIGHT, grid=Grid(n=128, domain=given))
 
 
 @pytest.mark.usefixtures("tight")

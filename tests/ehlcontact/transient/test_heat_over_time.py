@@ -6,7 +6,6 @@ import pytest
 from ehlcontact import (
     Domain,
     FreeVibration,
-    FullContact,
     Grid,
     Heat,
     InputError,
@@ -17,6 +16,7 @@ from ehlcontact import (
     PrescribedApproach,
     PrescribedLoad,
     TimeSteps,
+    TransientContact,
     impedance,
     load,
     save,
@@ -116,12 +116,12 @@ def test_without_a_slope_the_film_is_the_isothermal_one():
 
 
 def test_contact_goes_back_to_a_saved_state():
-    contact = FullContact(POINT, grid=GRID, thermal=Heat())
+    contact = TransientContact(POINT, grid=GRID, thermal=Heat())
     saved = contact.save_state()
     forces = [contact.advance(0.1, contact.static_approach + 0.01 * k) for k in (1, 2)]
     contact.restore_state(saved)
     assert [contact.advance(0.1, contact.static_approach + 0.01 * k) for k in (1, 2)] == forces
-    cold = FullContact(POINT, grid=GRID)
+    cold = TransientContact(POINT, grid=GRID)
     assert cold.h_central > 1.2 * contact.h_central
 
 
@@ -156,4 +156,4 @@ def test_what_heat_does_not_go_with():
     with pytest.raises(InputError, match="left out at a dimensionless point"):
         simulate(MoesPoint(200, 10, 0.5), motion, thermal=Heat())
     with pytest.raises(InputError, match="thermal = 'str': must be True or a Heat"):
-        FullContact(POINT, thermal="hot")
+        TransientContact(POINT, thermal="hot")

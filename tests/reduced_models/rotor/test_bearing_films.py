@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import Dent, FullContact, Grid, Lubricant, MoesPoint, PrescribedApproach, TimeSteps, simulate
+from ehlcontact import Dent, Grid, Lubricant, MoesPoint, PrescribedApproach, TimeSteps, TransientContact, simulate
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.solver.lowest_film import beside_lowest
 from ehlcontact.status import Status
@@ -147,9 +147,9 @@ def test_surface_is_what_the_height_tables_have(smooth, race, psi):
 
 
 def test_film_under_a_surface_is_that_of_simulate():
-    """`FullContact` and `simulate` with a dent that passes, at the same approach."""
+    """`TransientContact` and `simulate` with a dent that passes, at the same approach."""
     point, dent, grid = MoesPoint(200, 10, 0.5), Dent(depth=0.1, radius=1.0, kappa=0.5), Grid(n=32)
-    contact = FullContact(point, grid=grid, surface=dent)
+    contact = TransientContact(point, grid=grid, surface=dent)
     u, start = contact.static_approach, contact.save_state()
     held = PrescribedApproach([0.0, 1.0, 2.0, 3.0], [u] * 4)
     run = simulate(point, held, grid=grid, time=TimeSteps(until=3.0, dt=0.1, tol=3e-3), surface=dent)

@@ -8,7 +8,7 @@ import pytest
 from beam_rotor import NODES, beam, block
 from scipy.integrate import solve_ivp
 
-from ehlcontact import FullContact, Grid, Lubricant, MoesPoint, load, save
+from ehlcontact import Grid, Lubricant, MoesPoint, TransientContact, load, save
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Scales
 from ehlcontact.status import Status
@@ -263,10 +263,10 @@ STILL = np.array([0.0, -1e-6 * 0.5]), np.zeros(2)
 
 def test_films_that_are_solved_coarsely_are_balanced_as_coarsely():
     """Their force is good to their own tolerance; with an explicit one the error says which to change."""
-    films = {tol: FullContact(MoesPoint(20, 5, 0.5), grid=Grid(n=16), tol=tol) for tol in (3e-3, 0.3)}
+    films = {tol: TransientContact(MoesPoint(20, 5, 0.5), grid=Grid(n=16), tol=tol) for tol in (3e-3, 0.3)}
     for tol, film in films.items():
         scaled = ScaledContact(film, SCALES)
         rotor = JeffcottRotor.vertical(disc_mass=2.0, journal_mass=0.3, shaft_stiffness=1e8).on([scaled])
         assert default_tolerance(rotor) == pytest.approx(1e-6 * tol / 3e-3)
-    with pytest.raises(ConvergenceError, match="a smaller tol of FullContact, or a larger tolerance"):
+    with pytest.raises(ConvergenceError, match="a smaller tol of TransientContact, or a larger tolerance"):
         simulate_rotor(rotor, speed_rpm=0.0, dt=1e-5, until=1e-3, start=STILL, tolerance=1e-9, max_iterations=1)

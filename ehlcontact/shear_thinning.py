@@ -1,4 +1,4 @@
-"""`Sliding`: shear thinning of a film by sliding, as an input.
+"""`ShearThinning`: shear thinning of a film by sliding, as an input.
 
 How the solver uses it: `ehlcontact.solver.film_thinning`; equations and sources: docs/traction.md.
 """
@@ -18,8 +18,8 @@ from ehlcontact.point import OperatingPoint, Point, Scales
 
 
 @dataclass(frozen=True, slots=True)
-class Sliding:
-    """Sliding, whose shear lowers the effective viscosity of the pressure-driven flow.
+class ShearThinning:
+    """Sliding that shears the oil and so lowers its effective viscosity in the pressure-driven flow.
 
     Parameters
     ----------
@@ -55,14 +55,14 @@ class Sliding:
         return {"slide_roll": self.slide_roll, "law": self.law.to_dict()}
 
     @classmethod
-    def from_dict(cls, entries: Mapping[str, Any]) -> Sliding:
+    def from_dict(cls, entries: Mapping[str, Any]) -> ShearThinning:
         """Back from `to_dict`."""
         return cls(entries["slide_roll"], TractionLaw.from_dict(entries["law"]))
 
 
 def require_sliding(value: object, point: Point) -> None:
-    """Raise `InputError` unless this is a `Sliding`, at an operating point in SI."""
-    require_instance("sliding", value, Sliding, "a Sliding(slide_roll, law)")
+    """Raise `InputError` unless this is a `ShearThinning`, at an operating point in SI."""
+    require_instance("sliding", value, ShearThinning, "a ShearThinning(slide_roll, law)")
     if not isinstance(point, OperatingPoint):
         allowed = "left out at a dimensionless point: stresses of an oil are in pascals"
         raise InputError("sliding", type(value).__name__, allowed)

@@ -9,7 +9,6 @@ import pytest
 from ehlcontact import (
     ConvergenceError,
     Domain,
-    FullContact,
     Geometry,
     Grid,
     InputError,
@@ -18,6 +17,7 @@ from ehlcontact import (
     OperatingPoint,
     PrescribedApproach,
     TimeSteps,
+    TransientContact,
     simulate,
 )
 from ehlcontact.status import Status
@@ -28,7 +28,7 @@ NAN, INF = float("nan"), float("inf")
 
 @pytest.fixture
 def contact():
-    return FullContact(POINT, grid=Grid(n=32))
+    return TransientContact(POINT, grid=Grid(n=32))
 
 
 def test_starts_at_rest(contact, steady):
@@ -45,9 +45,9 @@ def test_the_error_of_its_grid_is_that_of_the_film_at_rest(contact, steady, monk
     )
     assert contact.reservation.startswith("the grid is too coarse: at rest the central film may be off by 75 %")
     assert contact.reservation in repr(contact)
-    assert FullContact(POINT, grid=Grid(n=128)).reservation == ""
+    assert TransientContact(POINT, grid=Grid(n=128)).reservation == ""
     monkeypatch.setattr("ehlcontact.transient.transient_film.estimate_error", lambda multigrid, balance: None)
-    silent = FullContact(POINT, grid=Grid(n=32))
+    silent = TransientContact(POINT, grid=Grid(n=32))
     assert silent.film_error is None and silent.reservation == ""
     assert [c.advance(0.1, 0.9) for c in (contact, contact)] == [silent.advance(0.1, 0.9) for _ in range(2)]
 
@@ -112,7 +112,7 @@ def test_failed_step_leaves_it_unchanged(contact, monkeypatch):
     for f in fields(state):
         assert same(getattr(after, f.name), getattr(state, f.name)), f.name
     # and it goes on as if nothing had happened
-    twin = FullContact(POINT, grid=Grid(n=32))
+    twin = TransientContact(POINT, grid=Grid(n=32))
     twin.advance(0.1, u + 0.01)
     assert contact.advance(0.1, u + 0.02) == twin.advance(0.1, u + 0.02)
 
@@ -131,7 +131,7 @@ def test_step_length_hardly_matters_where_motion_is_slow():
     """Implicit film: a load cycle of Omega = 0.05 in steps of 1 and of 0.5."""
     results = []
     for dt in (1.0, 0.5):
-        contact = FullContact(POINT, grid=Grid(n=32))
+        contact = TransientContact(POINT, grid=Grid(n=32))
         u = contact.static_approach
         for k in range(round(40 / dt)):
             contact.advance(dt, u + 0.05 * np.sin(0.05 * (k + 1) * dt))
@@ -144,7 +144,7 @@ def test_rotor_frequency_in_long_steps():
     """The 6205 at 3000 rpm, Omega = 0.0119: steps of 8.8 and of 1.1 agree to 0.1 % of the force amplitude."""
     force = {}
     for steps in (30, 240):
-        contact = FullContact(MoesPoint(2975, 18.86, 0.1071), grid=Grid(n=64))
+        contact = TransientContact(MoesPoint(2975, 18.86, 0.1071), grid=Grid(n=64))
         start, T = contact.static_approach, np.linspace(0.0, 264.0, steps + 1)[1:]
         force[steps] = np.array([contact.advance(T[0], start + 0.1 * np.sin(0.01188 * t)) for t in T])
     difference = force[30] - force[240][7::8]
@@ -152,9 +152,12 @@ def test_rotor_frequency_in_long_steps():
 
 
 def test_largest_load_widens_the_domain():
-    assert FullContact(POINT, grid=Grid(n=32)).domain == Domain()
-    assert FullContact(POINT, grid=Grid(n=32), largest_load=3.0).domain == Domain.for_load(3.0)
-    assert FullContact(POINT, grid=Grid(n=32, domain=Domain(-5.0, 2.0, 3.0)), largest_load=3.0).domain.x_out == 2.0
+    assert TransientContact(POINT, grid=Grid(n=32)).domain == Domain()
+    assert TransientContact(POINT, grid=Grid(n=32), largest_load=3.0).domain == Domain.for_load(3.0)
+    assert (
+        TransientContact(POINT, grid=Grid(n=32, domain=Domain(-5.0, 2.0, 3.0)), largest_load=3.0).domain.x_out
+        == 2.0
+    )
 
 
 def test_lift_off_and_return(contact):
@@ -177,7 +180,7 @@ def test_bad_step_is_named(contact, value):
 
 def test_metres_are_said_to_be_dry_approaches():
     ball = OperatingPoint(Geometry(0.01, 0.02), Lubricant(eta0=0.04, alpha=2.2e-8), load=50.0, u_sum=2.0)
-    contact = FullContact(ball, grid=Grid(n=64))
+    contact = TransientContact(ball, grid=Grid(n=64))
     with pytest.raises(
         ConvergenceError, match=r"were SI units meant\? .*1\.97e-06 m .*0\.000132 s .*ScaledContact"
     ):

@@ -1,4 +1,4 @@
-"""`FullContact`: the transient EHL film as a force element, with the interface of a fitted element."""
+"""`TransientContact`: the transient EHL film as a force element, with the interface of a fitted element."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class ContactState(FilmState):
     T: float = 0.0
 
 
-class FullContact(Summary):
+class TransientContact(Summary):
     """Transient EHL contact driven by its approach, for a rotor or any other time integrator.
 
     It starts at rest, steady under load 1. Everything is dimensionless: approach in dry approaches, force in

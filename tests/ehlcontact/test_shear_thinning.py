@@ -19,7 +19,7 @@ from ehlcontact import (
     MoesPoint,
     OilLayer,
     OperatingPoint,
-    Sliding,
+    ShearThinning,
     load,
     save,
     solve_steady,
@@ -39,7 +39,7 @@ def newtonian_film():
 
 @cache
 def thin():
-    return solve_steady(DISC, grid=SMALL, sliding=Sliding(1.5))
+    return solve_steady(DISC, grid=SMALL, sliding=ShearThinning(1.5))
 
 
 def rate(law, eta, stress):
@@ -123,13 +123,15 @@ def set_aside(level, ratio):
 
 def test_film_falls_with_sliding():
     """Not by little of it; slightly by much."""
-    shares = [solve_steady(DISC, grid=SMALL, sliding=Sliding(slide)).thinned_share for slide in (0.0, 0.02, 0.5)]
+    shares = [
+        solve_steady(DISC, grid=SMALL, sliding=ShearThinning(slide)).thinned_share for slide in (0.0, 0.02, 0.5)
+    ]
     assert shares[0] == pytest.approx(1.0, abs=2e-5)
     assert shares[1] == pytest.approx(1.0, abs=1e-3)
     assert 0.985 < shares[2] < 0.998
     assert 0.94 < thin().thinned_share < 0.985
     assert thin().thinned_share == pytest.approx(thin().h_central / newtonian_film().h_central, rel=1e-4)
-    newton = solve_steady(DISC, grid=SMALL, sliding=Sliding(0.5, Carreau(exponent=1.0)))
+    newton = solve_steady(DISC, grid=SMALL, sliding=ShearThinning(0.5, Carreau(exponent=1.0)))
     assert newton.thinned_share == pytest.approx(1.0, abs=2e-5)
 
 
@@ -152,16 +154,22 @@ def test_result(tmp_path):
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: Sliding(-0.1), "slide_roll = -0.1: must be between 0 and 2"),
-        (lambda: Sliding(5.0), "slide_roll = 5.0: must be between 0 and 2"),
-        (lambda: Sliding(math.nan), "slide_roll = nan"),
-        (lambda: Sliding(0.1, 5e6), "law = 'float': must be a traction law"),
-        (lambda: Sliding(0.1, LimitingShear()), "law = 'LimitingShear': must be Eyring or Carreau"),
-        (lambda: solve_steady(DISC, sliding=0.1), "sliding = 'float': must be a Sliding"),
-        (lambda: solve_steady(MoesPoint(20.0, 10.0, 1.0), sliding=Sliding(0.1)), "sliding = .*pascals"),
-        (lambda: solve_steady(DISC, sliding=Sliding(0.1), thermal=Heat()), "sliding = 'given': .*thermal"),
-        (lambda: solve_steady(DISC, sliding=Sliding(0.1), supply=OilLayer(1e-6)), "sliding = 'given': .*supply"),
-        (lambda: solve_steady(DISC, sliding=Sliding(0.1), asperities=Asperities(1e-7)), "sliding = .*asperities"),
+        (lambda: ShearThinning(-0.1), "slide_roll = -0.1: must be between 0 and 2"),
+        (lambda: ShearThinning(5.0), "slide_roll = 5.0: must be between 0 and 2"),
+        (lambda: ShearThinning(math.nan), "slide_roll = nan"),
+        (lambda: ShearThinning(0.1, 5e6), "law = 'float': must be a traction law"),
+        (lambda: ShearThinning(0.1, LimitingShear()), "law = 'LimitingShear': must be Eyring or Carreau"),
+        (lambda: solve_steady(DISC, sliding=0.1), "sliding = 'float': must be a ShearThinning"),
+        (lambda: solve_steady(MoesPoint(20.0, 10.0, 1.0), sliding=ShearThinning(0.1)), "sliding = .*pascals"),
+        (lambda: solve_steady(DISC, sliding=ShearThinning(0.1), thermal=Heat()), "sliding = 'given': .*thermal"),
+        (
+            lambda: solve_steady(DISC, sliding=ShearThinning(0.1), supply=OilLayer(1e-6)),
+            "sliding = 'given': .*supply",
+        ),
+        (
+            lambda: solve_steady(DISC, sliding=ShearThinning(0.1), asperities=Asperities(1e-7)),
+            "sliding = .*asperities",
+        ),
     ],
 )
 def test_bad_input(call, words):
