@@ -10,7 +10,7 @@ import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 
-from ehlcontact import SimulationResult, SteadyResult, load
+from ehlcontact import SimulationResult, SteadyResult, read
 from reduced_models import FilmMemoryContact
 
 RESULTS = Path("results/deep_groove_6205")
@@ -19,7 +19,7 @@ PICTURE = Path("docs/images/overview.png")
 
 def main() -> None:
     """Draw pressure, film wave, damping over frequency and rotor response side by side."""
-    steady, run = load(RESULTS / "steady.h5"), load(RESULTS / "harmonic.h5")
+    steady, run = read(RESULTS / "steady.h5"), read(RESULTS / "harmonic.h5")
     assert isinstance(steady, SteadyResult)
     assert isinstance(run, SimulationResult)
     assert steady.scales is not None
@@ -48,7 +48,7 @@ def main() -> None:
     panel = axes[1, 0]
     found = json.loads((RESULTS / "results.json").read_text(encoding="utf-8"))
     film, rotor = found["memory"]["impedance"], found["operating_point"]["rotor_omega"]
-    memory = load(RESULTS / "elements" / "memory.json", FilmMemoryContact)
+    memory = read(RESULTS / "elements" / "memory.json", FilmMemoryContact)
     omega = np.geomspace(0.5 * rotor, film["Omega"][-1], 300)
     panel.loglog(film["Omega"][1:], film["damping"][1:], "o", markersize=4, label="full film")
     panel.plot(omega, memory.impedance(Omega=omega).imag / omega, label="film memory, one element")

@@ -26,7 +26,7 @@ module            responsibility
 ``origin``        contact, mesh and version that a result or an element comes from
 ``version``       of the distribution
 ``film/``         films for display: maps, mid-planes, fringes, film waves; a namespace of its own
-``store``         `save` and `load`: one file header, one way back, for every class
+``store``         `save` and `read`: one file header, one way back, for every class
 ``content_store`` `ContentStore`: what is computed, found by the hash of its inputs
 ``files``         files written in one move; texts of any origin
 ``executors``     executors of `concurrent.futures`: worker processes, or a Dask cluster
@@ -62,7 +62,7 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.speed_response import speed_response
 from ehlcontact.steady import solve_steady
-from ehlcontact.store import load, save
+from ehlcontact.store import read, save
 from ehlcontact.supply import OilLayer
 from ehlcontact.traction import traction_curve
 from ehlcontact.transient.features import Dent, TransverseRidge, Waviness
@@ -113,8 +113,8 @@ __all__ = [
     "assumptions",
     "excitation",
     "impedance",
-    "load",
     "oil_passes",
+    "read",
     "save",
     "simulate",
     "solve_steady",

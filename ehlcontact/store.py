@@ -1,4 +1,4 @@
-"""`save` and `load`: files of results, elements and bearings. What was computed, by hash: `content_store`.
+"""`save` and `read`: files of results, elements and bearings. What was computed, by hash: `content_store`.
 
 Every file begins with the same header: class, format number, version of the library. Classes with ``from_dict``
 (elements and bearings, which people read and edit) become JSON of their ``to_dict``; all others become HDF5:
@@ -62,7 +62,7 @@ _classes: dict[str, _Stored] = {}
 
 
 def stored(what: str, number: int = 1) -> Callable[[type[T]], type[T]]:
-    """Register a class for `save` and `load`.
+    """Register a class for `save` and `read`.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def content_of(record: Any) -> bytes:
         return bytes(file.id.get_file_image())
 
 
-def load(path: str | os.PathLike[str], kind: type[T] = object, field: str = "file") -> T:  # type: ignore[assignment]
+def read(path: str | os.PathLike[str], kind: type[T] = object, field: str = "file") -> T:  # type: ignore[assignment]
     """Read what `save` wrote.
 
     Parameters
@@ -136,9 +136,9 @@ def load(path: str | os.PathLike[str], kind: type[T] = object, field: str = "fil
     """
     require_instance(field, path, str | os.PathLike, "the name of a file")
     name, wanted = str(path), _wanted(kind)
-    read = _read_hdf5 if _is_hdf5(path) else _read_json
+    reader = _read_hdf5 if _is_hdf5(path) else _read_json
     try:
-        header, content = read(path)
+        header, content = reader(path)
     except OSError as error:
         raise InputError(field, name, f"a readable {wanted} ({error.strerror or 'damaged'})") from None
     except (TypeError, ValueError) as error:  # no path; no JSON
@@ -190,7 +190,7 @@ def _is_hdf5(path: str | os.PathLike[str]) -> bool:
             return False
         with Path(path).open("rb") as stream:
             return stream.read(len(SIGNATURE)) == SIGNATURE
-    except (OSError, ValueError):  # not to be read, or no path: `load` reads it as JSON then, and says why not
+    except (OSError, ValueError):  # not to be read, or no path: `read` takes it as JSON then, and says why not
         return False
 
 

@@ -25,7 +25,7 @@ from ehlcontact.checks.admissible_range import INPUTS, Quantity
 from ehlcontact.lubricant import MineralOil, oil
 from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.lubricant.oil_laws import ROELANDS_LOG, ROELANDS_P0
-from ehlcontact.store import load
+from ehlcontact.store import read
 from reduced_models import BallBearing
 from reduced_models.atlas import frequency_curve, interpolation
 from reduced_models.atlas.atlas import SHIPPED
@@ -86,7 +86,7 @@ def page_data() -> dict[str, Any]:
     """Atlas, oils, bearings and ranges of inputs; arrays in base64."""
     return {
         "version": __version__,
-        "atlas": _atlas(load(SHIPPED, AtlasTable)),
+        "atlas": _atlas(read(SHIPPED, AtlasTable)),
         "oil": _oils(),
         "catalogue": {name: row._asdict() for name, row in DEEP_GROOVE.items()},
         "quantities": {name: _quantity(_in_units(name)) for name in OF_INPUTS},

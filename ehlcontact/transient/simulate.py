@@ -21,7 +21,7 @@ from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
-from ehlcontact.store import load
+from ehlcontact.store import read
 from ehlcontact.supply import OilLayer
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
@@ -145,7 +145,7 @@ def simulate(
 
     earlier = None
     if keep.restart is not None:
-        earlier = load(keep.restart, Checkpoint, "restart")
+        earlier = read(keep.restart, Checkpoint, "restart")
         mesh = next((other for other in meshes if other == earlier.inputs.mesh), mesh)
         film = film_on(mesh)
         given = time.step_of(motion, unit)

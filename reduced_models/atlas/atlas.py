@@ -21,7 +21,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
 from ehlcontact.lubricant.oil_laws import secant_over_slope
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
-from ehlcontact.store import load as read_file
+from ehlcontact.store import read as read_file
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
 from reduced_models.atlas.atlas_elements import (

@@ -24,7 +24,7 @@ from ehlcontact.point import MoesPoint, Point, moes_point
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.quantities import NUMBER
 from ehlcontact.results.table import Display, QuantityTable
-from ehlcontact.store import load, stored
+from ehlcontact.store import read, stored
 from ehlcontact.summary import contact_text, span
 from reduced_models.atlas.interpolation import Neighbours, Radial, error_factor, films, left_out_errors
 from reduced_models.atlas.table import Box, require_shapes
@@ -164,7 +164,7 @@ class FilterSurface:
 @lru_cache(maxsize=1)
 def shipped_filters() -> FilterSurface:
     """The table that comes with the library, read once."""
-    return FilterSurface(load(SHIPPED, FilterTable))
+    return FilterSurface(read(SHIPPED, FilterTable))
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat, heat_given
 from ehlcontact.point import OperatingPoint, Point
-from ehlcontact.store import load as read_file
+from ehlcontact.store import read as read_file
 from reduced_models.atlas.change import Change
 from reduced_models.atlas.frequency_curve import over_frequency
 from reduced_models.atlas.heat_table import KNOWN, NUMBERS, HeatSurface, HeatTable, unit_of

@@ -17,7 +17,7 @@ from ehlcontact.film_formulas import load_number
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density
 from ehlcontact.point import MoesPoint, Point, moes_point, scales_of
-from ehlcontact.store import load as read_file
+from ehlcontact.store import read as read_file
 from ehlcontact.supply import OilLayer, require_supply
 from reduced_models.atlas.change import Change
 from reduced_models.atlas.frequency_curve import over_frequency

@@ -30,7 +30,7 @@ from ehlcontact.executors import executor_for, results_of
 from ehlcontact.files import remove_leftovers
 from ehlcontact.quantities import ACCELERATION, HERTZ
 from ehlcontact.results.table import Display, QuantityTable
-from ehlcontact.store import load, save, stored
+from ehlcontact.store import read, save, stored
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.features import Indentation, Spall
@@ -313,7 +313,7 @@ def make_records(
 def _is_whole(path: Path) -> bool:
     """Whether a record is there that can be read: not where a full disc or a copy has cut it."""
     try:
-        return path.exists() and load(path, VibrationRecord) is not None
+        return path.exists() and read(path, VibrationRecord) is not None
     except InputError:
         return False
 

@@ -28,7 +28,7 @@ from ehlcontact import (
     TransverseRidge,
     Waviness,
     impedance,
-    load,
+    read,
     save,
     simulate,
     solve_steady,
@@ -81,7 +81,7 @@ def elements():
     return {kind: rm.Atlas().element(point(), kind).to_dict() for kind in ("memory", "wide")}
 
 
-def read(kind, section=None, **changes):
+def element_of(kind, section=None, **changes):
     """An element from the entries of a file, some of them changed."""
     entries = copy.deepcopy(elements()[kind])
     (entries if section is None else entries[section]).update(changes)
@@ -130,22 +130,25 @@ CALLS = {
     "approaches as text": (lambda: cubic().spring(["0.8"]), ("approach", "numbers")),
     "approaches masked": (lambda: cubic().spring(MASKED), ("approach", "without a masked one")),
     "inside as text": (lambda: cubic().is_valid("0.8"), ("approach", "numbers")),
-    "film as text": (lambda: read("memory").advance(0.1, "0.8", 0.0), ("approach = '0.8'", "a number")),
-    "step as text": (lambda: read("memory").advance("1", 0.8, 0.0), ("dt = '1'", "a number")),
-    "record of text": (lambda: read("memory").drive(["0", "1"], [0.8] * 2, [0.0] * 2), ("T", "numbers")),
-    "record masked, driven": (lambda: read("memory").drive(MASKED, MASKED, MASKED), ("T", "masked")),
+    "film as text": (lambda: element_of("memory").advance(0.1, "0.8", 0.0), ("approach = '0.8'", "a number")),
+    "step as text": (lambda: element_of("memory").advance("1", 0.8, 0.0), ("dt = '1'", "a number")),
+    "record of text": (lambda: element_of("memory").drive(["0", "1"], [0.8] * 2, [0.0] * 2), ("T", "numbers")),
+    "record masked, driven": (lambda: element_of("memory").drive(MASKED, MASKED, MASKED), ("T", "masked")),
     "band below 0": (lambda: cubic(omega_range=(-1.0, 5.0)), ("omega_range", "low <= high, both >= 0")),
-    "band below 0, read": (lambda: read("memory", "valid", omega=[-1, 5]), ("omega_range", ">= 0")),
-    "rate of others": (lambda: read("memory", "valid", rate=1e200), ("rate", "at most 1e+15 in magnitude")),
-    "unknown parameter": (lambda: read("memory", "parameters", fim=1), ("parameters.fim", "left out; known are")),
-    "unknown bound": (lambda: read("wide", "valid", fim=1), ("valid.fim", "left out; known are")),
-    "unknown entry": (lambda: read("wide", fim=1), ("fim", "left out; known are")),
-    "film 1e200": (lambda: read("memory", "parameters", film=1e200), ("film", "between 1e-09 and 1e+06")),
-    "film 1e-200": (lambda: read("memory", "parameters", film=1e-200), ("film", "between 1e-09 and 1e+06")),
-    "exponent 1e200": (lambda: read("memory", "parameters", exponent=1e200), ("exponent", "0.02 and 10")),
+    "band below 0, read": (lambda: element_of("memory", "valid", omega=[-1, 5]), ("omega_range", ">= 0")),
+    "rate of others": (lambda: element_of("memory", "valid", rate=1e200), ("rate", "at most 1e+15 in magnitude")),
+    "unknown parameter": (
+        lambda: element_of("memory", "parameters", fim=1),
+        ("parameters.fim", "left out; known are"),
+    ),
+    "unknown bound": (lambda: element_of("wide", "valid", fim=1), ("valid.fim", "left out; known are")),
+    "unknown entry": (lambda: element_of("wide", fim=1), ("fim", "left out; known are")),
+    "film 1e200": (lambda: element_of("memory", "parameters", film=1e200), ("film", "between 1e-09 and 1e+06")),
+    "film 1e-200": (lambda: element_of("memory", "parameters", film=1e-200), ("film", "between 1e-09 and 1e+06")),
+    "exponent 1e200": (lambda: element_of("memory", "parameters", exponent=1e200), ("exponent", "0.02 and 10")),
     **{
         f"{name} {value:g} of {kind}": (
-            lambda kind=kind, name=name, value=value: read(kind, "parameters", **{name: value}),
+            lambda kind=kind, name=name, value=value: element_of(kind, "parameters", **{name: value}),
             (name, "between 1e-06 and 1e+06"),
         )
         for kind in ("memory", "wide")
@@ -153,13 +156,13 @@ CALLS = {
         for value in (1e200, 1e-200)
     },
     "saturation 1e200": (
-        lambda: read("memory", "parameters", inlet_saturation=1e200),
+        lambda: element_of("memory", "parameters", inlet_saturation=1e200),
         ("inlet_saturation", "at most 1e+06 in magnitude"),
     ),
-    "gains 1e200": (lambda: read("memory", "parameters", gains=[1e200] * 17), ("gains", "at most 1e+06")),
-    "gains as text": (lambda: read("memory", "parameters", gains=["0.1"] * 17), ("gains", "numbers")),
+    "gains 1e200": (lambda: element_of("memory", "parameters", gains=[1e200] * 17), ("gains", "at most 1e+06")),
+    "gains as text": (lambda: element_of("memory", "parameters", gains=["0.1"] * 17), ("gains", "numbers")),
     "loads 1e200": (
-        lambda: read(
+        lambda: element_of(
             "wide", "parameters", gain_loads=[0.1, *np.geomspace(1.0, 1e200, rows_of_gains() - 1).tolist()]
         ),
         ("gain_loads[-1]", "between 1e-12 and 1e+12"),
@@ -351,12 +354,12 @@ CALLS = {
         ("dt", "a finite number > 0"),
     ),
     # files
-    "load a folder": (lambda: load(Path(__file__).parent), ("file", "a readable result, element or bearing")),
-    "load a script": (lambda: load(__file__), ("file", "a complete file of a result")),
-    "load a number": (lambda: load(5), ("file", "the name of a file")),
+    "load a folder": (lambda: read(Path(__file__).parent), ("file", "a readable result, element or bearing")),
+    "load a script": (lambda: read(__file__), ("file", "a complete file of a result")),
+    "load a number": (lambda: read(5), ("file", "the name of a file")),
     "save a number": (lambda: save(5, "none.h5"), ("object to save", "result, element or bearing")),
     "load an element of Python": (
-        lambda: load(__file__, rm.ContactElement),
+        lambda: read(__file__, rm.ContactElement),
         ("file", "a complete file of a contact element"),
     ),
     "an atlas of Python": (lambda: rm.Atlas(__file__), ("atlas", "a complete file of a table of an atlas")),

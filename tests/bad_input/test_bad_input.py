@@ -31,7 +31,7 @@ from ehlcontact import (
     OperatingPoint,
     RunSettings,
     TimeSteps,
-    load,
+    read,
     save,
     simulate,
     solve_steady,
@@ -172,7 +172,7 @@ def test_a_byte_order_mark(good, tmp_path):
     for name in (STUDY, ELEMENT):
         (tmp_path / name).write_bytes(b"\xef\xbb\xbf" + (good / name).read_bytes())
     assert load_study(tmp_path / STUDY) == load_study(good / STUDY)
-    assert load(tmp_path / ELEMENT) == load(good / ELEMENT)
+    assert read(tmp_path / ELEMENT) == read(good / ELEMENT)
 
 
 def test_the_element_of_another_contact(refused, tmp_path, good):

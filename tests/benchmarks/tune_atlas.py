@@ -23,7 +23,7 @@ from scipy.optimize import minimize
 
 from ehlcontact import MoesPoint
 from ehlcontact.lubricant.oil_laws import secant_over_slope
-from ehlcontact.store import load
+from ehlcontact.store import read
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.build import OIL
 from reduced_models.atlas.gain_fit import gain_equations, smooth_gains
@@ -169,7 +169,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         parser.add_argument(option, action="store_true")
     parser.add_argument("--atlas", type=Path, default=SHIPPED)
     asked = parser.parse_args(arguments)
-    table = load(asked.atlas, AtlasTable)
+    table = read(asked.atlas, AtlasTable)
     for name, search in (("weights", best_weights), ("lobes", best_lobe_weights), ("rates", best_rates)):
         if getattr(asked, name):
             found = search(table)

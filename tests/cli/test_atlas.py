@@ -6,7 +6,7 @@ import atlas_stub
 import pytest
 import supply_stub
 
-from ehlcontact import load
+from ehlcontact import read
 from reduced_models import Atlas
 
 AT = {"wide": (), "memory": (), "cubic": ("--Omega", "6.2832")}
@@ -21,7 +21,7 @@ def test_element_is_printed_saved_and_written(call, tmp_path, model):
     document = json.loads(result.out)
     assert document["kind"] == model and document["source"]["atlas"]
     assert document.pop("outside_assumptions") == ""
-    assert load(path).to_dict() == document
+    assert read(path).to_dict() == document
     table = call("element", *POINT, "--model", model, *AT[model])
     assert table.code == 0 and "approach" in table.out and "±" in table.out
     assert ("damper C1" in table.out) == (model == "cubic")
@@ -48,4 +48,4 @@ def test_table_of_oil_supply_from_points_that_are_solved(call, tmp_path):
     assert result.code == 0 and result.err == ""
     document = json.loads(result.out)
     assert document["command"] == "ehlcontact atlas supply --draws 48 --seed 31"
-    assert len(load(output).points) == document["points"] > 20
+    assert len(read(output).points) == document["points"] > 20

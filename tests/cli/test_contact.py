@@ -13,7 +13,7 @@ from ehlcontact import (
     SimulationResult,
     assumptions,
     impedance,
-    load,
+    read,
     solve_steady,
 )
 from ehlcontact.cli.contact import Contact
@@ -77,7 +77,7 @@ def test_steady_answers_in_si(call, tmp_path):
     about = found["contact"]
     assert about["bearing"] == "6205" and about["race"] == "inner" and about["radial_load"] == 100.0
     assert about["ball_load"] == ball().load and about["oil"]["name"] == "ISO VG 68 at 60 °C"
-    assert load(tmp_path / "r.h5").scales == ball().scales
+    assert read(tmp_path / "r.h5").scales == ball().scales
     table = call("steady", *options(), *COARSE, "--contact", "outer").out
     said = " ".join(table.split())  # a terminal of 80 columns folds
     for words in ("6205, outer race", "of 100 N: the most loaded ball", "ISO VG 68 at 60 °C", "GPa", "µm", "N mm"):
@@ -101,7 +101,7 @@ def test_impedance_is_at_the_shafts_frequency_unless_another_is_given(call):
 def test_element_is_in_si_and_its_damper_that_of_the_shaft(call, tmp_path):
     target = tmp_path / "e.json"
     assert call("element", *options(), "--model", "cubic", "--save", target).code == 0
-    saved, ours = load(target), Atlas().element(ball(), "cubic", rpm=3000)
+    saved, ours = read(target), Atlas().element(ball(), "cubic", rpm=3000)
     assert saved.units == "SI" and saved.C1 == ours.C1
     said = "6205, inner race, most loaded ball of 100 N at 3000 rpm, ISO VG 68 at 60 °C"
     assert saved.source["contact"] == said and contact_spec(saved).description.endswith(f"; {said}")
@@ -118,11 +118,11 @@ def test_simulation_in_hz_and_its_element_in_si(call, refused, tmp_path):
     motion = ("--harmonic-hz", "2e4", "--until", "1e-4", "--dt", str(0.3 * ball().scales.time))
     result = call("simulate", *options(), *COARSE, *motion, "--save", record)
     assert result.code == 0 and "20000 Hz" in result.out and "0.1 ms" in result.out
-    stored = load(record)
+    stored = read(record)
     assert isinstance(stored, SimulationResult)
     assert stored.si.hz == pytest.approx(2e4) and stored.si.t[-1] == pytest.approx(1e-4)
     assert call("fit", record, "--model", "linear", "--si", "--save", element).code == 0
-    assert load(element).units == "SI"
+    assert read(element).units == "SI"
 
 
 def test_si_of_a_fit_needs_a_record_in_si(call, refused, point, tmp_path):

@@ -8,7 +8,7 @@ import pytest
 from programs import program
 from tiny_study import STUDY
 
-from ehlcontact import InputError, load
+from ehlcontact import InputError, read
 from ehlcontact.transient import checkpoint
 from ehlcontact.transient.checkpoint import Checkpoint
 
@@ -78,4 +78,4 @@ def test_a_full_disk_at_a_checkpoint_keeps_the_run(call, point, tmp_path, monkey
     result = call("simulate", *point, *options, "--checkpoint", path)
     assert result.code == 2 and "converged" in result.out
     assert result.err.startswith("ehlcontact: --checkpoint = ") and len(result.err.splitlines()) == 1
-    assert load(saved).steps == 3 and load(path, Checkpoint).record.T == 0.0
+    assert read(saved).steps == 3 and read(path, Checkpoint).record.T == 0.0

@@ -18,7 +18,7 @@ from programs import dask_cluster
 from stub_tasks import StubTasks, Threads
 from tiny_study import STUDY
 
-from ehlcontact import Grid, InputError, load, solve_steady
+from ehlcontact import Grid, InputError, read, solve_steady
 from ehlcontact.cli.study import runner
 from ehlcontact.cli.study.points.folder import locked
 from ehlcontact.cli.study.points.lists import MOST, load_points, points_of
@@ -414,7 +414,7 @@ def test_stages_of_a_cluster_are_those_of_this_machine(run, stub, cluster, monke
     (run.folder / "s.toml").write_text(text)
     for point in load_points(run.folder / "s.toml", run.folder):
         ours = solve_steady(point.study.point, grid=Grid(n=32, domain=point.study.domain))
-        assert load(point.folder / "steady.h5").h_min == ours.h_min
+        assert read(point.folder / "steady.h5").h_min == ours.h_min
     assert run(text, "--scheduler", "tcp://somewhere").code == 0 and len(cluster) == 2
 
 
@@ -440,11 +440,11 @@ def test_a_dask_cluster(run, stub, monkeypatch, tmp_path):
         with ProcessExecutor(1, threads=1) as executor:
             content = executor.submit(solve_stage, "", point.study, "free").result().content
             (tmp_path / "free.h5").write_bytes(content)
-    ours = load(tmp_path / "free.h5")
+    ours = read(tmp_path / "free.h5")
     with dask_cluster(tmp_path) as (scheduler, _):
         assert run(with_lists("[3000.0, 4000]"), "--scheduler", scheduler).code == 0
     assert stub() == ["3000rpm_20N report", "4000rpm_20N report"]
-    theirs = load(run.folder / "points" / "3000rpm_20N" / "free.h5")
+    theirs = read(run.folder / "points" / "3000rpm_20N" / "free.h5")
     assert np.array_equal(ours.force, theirs.force)
 
 

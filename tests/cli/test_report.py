@@ -9,7 +9,7 @@ import pytest
 from page_numbers import blocks_of, is_shown, numbers_of, unknown_numbers
 from tiny_study import STUDY
 
-from ehlcontact import Lubricant, load, store
+from ehlcontact import Lubricant, read, store
 from reduced_models import BallBearing, ContactRecord, RotorResult, fit
 
 # Two balls, another grid for the steady film, and a swing so wild that the run has not settled.
@@ -66,7 +66,7 @@ def results(made):
 @pytest.fixture(scope="module")
 def films(made):
     """Stored results by the name of their stage."""
-    return {name: load(made[1] / f"{name}.h5") for name in ("steady", *RECORDS)}
+    return {name: read(made[1] / f"{name}.h5") for name in ("steady", *RECORDS)}
 
 
 def derived(folder, results):
@@ -184,7 +184,7 @@ def test_fits(films, results):
 def test_film_memory_and_work_of_a_cycle(made, films, results):
     """Errors of the element against impedance and records; loop areas of the last cycle in the rotor's band."""
     found, data, point = results["memory"], results["memory"]["impedance"], results["operating_point"]
-    element = load(made[1] / "elements" / "memory.json")
+    element = read(made[1] / "elements" / "memory.json")
     Z, Omega = element.impedance(Omega=data["Omega"]), np.array(data["Omega"])
     assert found["stiffness_error_max"] == pytest.approx(np.abs(Z.real / data["stiffness"] - 1.0).max(), rel=1e-4)
     damping = (Z.imag[1:] / Omega[1:]) / data["damping"][1:] - 1.0
@@ -197,7 +197,7 @@ def test_film_memory_and_work_of_a_cycle(made, films, results):
     last = run.T >= run.T[-1] - 2.0 * np.pi / run.motion.Omega * (1.0 + 1e-9)
     moved = {"full": run.force[last], "memory": forces["rotor_band"][last]}
     for name in set(results["cycle_work"]) - set(moved):
-        cubic = load(made[1] / "elements" / f"{name}_cubic.json")
+        cubic = read(made[1] / "elements" / f"{name}_cubic.json")
         moved[name] = cubic.force(run.approach[last], run.rate[last])
     for name, force in moved.items():
         work = float(0.5 * (force[1:] + force[:-1]) @ np.diff(run.approach[last]))
@@ -213,7 +213,7 @@ def test_whole_bearings(made, results):
     passage = 0.5 * bearing["balls"] * hz * (1.0 - ratio)
     assert found["ball_passage_hz"] == pytest.approx(passage, rel=1e-9) and found["failed"] == {}
     for name in ("memory", "dry"):
-        run, row = store.load(made[1] / f"on_bearings_{name}.h5", RotorResult), found["runs"][name]
+        run, row = store.read(made[1] / f"on_bearings_{name}.h5", RotorResult), found["runs"][name]
         first = asked["revolutions"] // 2 * asked["steps_per_revolution"]
         t, ring, disc = run.t[first:], run.ring[first:, 0], run.displacement[first:, 2:4]
         waves = np.exp(2j * np.pi * t[:, None] * np.array([hz, 2.0 * hz, passage, 2.0 * passage]))

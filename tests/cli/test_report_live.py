@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from browsers import dom
 
-from ehlcontact import load
+from ehlcontact import read
 
 LARGEST = 4e6  # bytes
 WIDTHS = (400, *(pytest.param(width, marks=pytest.mark.long) for width in (768, 1280)))
@@ -93,7 +93,7 @@ def close(shown, true):
 
 
 def test_lines_are_those_of_the_files(finished, figures, results):
-    free = load(finished[1] / "free.h5").si
+    free = read(finished[1] / "free.h5").si
     close(line(figures["free"], "film")["x"], free.t * 1e3)
     close(line(figures["free"], "film")["y"], free.approach * 1e6)
     close(line(figures["free"], "centre")["y"], free.h_central * 1e6)
@@ -108,7 +108,7 @@ def test_lines_are_those_of_the_files(finished, figures, results):
 
 
 def test_maps_are_those_of_the_files(finished, figures):
-    film = load(finished[1] / "steady.h5")
+    film = read(finished[1] / "steady.h5")
     pressure, thickness = (trace for trace in figures["film_maps"]["data"] if trace["type"] == "heatmap")
     scales = film.scales
     i, j = (int(np.argmin(np.abs(np.array(pressure[key])))) for key in ("y", "x"))
@@ -119,7 +119,7 @@ def test_maps_are_those_of_the_files(finished, figures):
 
 
 def test_frames_are_the_snapshots_of_the_last_period(finished, figures):
-    run = load(finished[1] / "harmonic.h5")
+    run = read(finished[1] / "harmonic.h5")
     figure, s = figures["instants"], run.scales
     frames, texts = figure["frames"], figure["layout"]["meta"]["slider"]["texts"]
     times = np.array([float(text.removesuffix(" ms")) for text in texts]) / (s.time * 1e3)

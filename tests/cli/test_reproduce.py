@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlcontact import InputError, load
+from ehlcontact import InputError, read
 from ehlcontact.cli.page import cell
 from ehlcontact.cli.paper import runs
 from ehlcontact.cli.paper.data import paper_fits, paper_sensitivity
@@ -74,7 +74,7 @@ def test_finished_simulations_are_not_computed_again(call, folder, monkeypatch):
     papers = [row for row in tables["1"]["rows"] if row["source"] == "paper"]
     whole = [row for row in tables["1"]["rows"] if row["source"] == "ours, whole record"]
     for case, paper, ours in zip(("1", "2", "3"), papers, whole, strict=True):
-        run = load(folder / f"case_{case}_n64.h5")
+        run = read(folder / f"case_{case}_n64.h5")
         fitted = ours["K1"] * run.approach + ours["C1"] * run.rate
         printed = np.sum(run.force - fitted) / np.sum(run.force)
         assert ours[EQUATION_13] == pytest.approx(printed, rel=1e-6)
@@ -113,7 +113,7 @@ def test_interrupt_keeps_what_is_finished(call, tmp_path, monkeypatch):
     result = call("reproduce", "--figure", "5", "-o", tmp_path, "--n", "32")
     assert result.code == 130 and "resumes" in result.err and len(result.err.splitlines()) == 1
     assert [path.name for path in tmp_path.iterdir()] == ["case_2_n32.h5"]
-    assert load(tmp_path / "case_2_n32.h5").status is Status.CONVERGED
+    assert read(tmp_path / "case_2_n32.h5").status is Status.CONVERGED
 
 
 def test_a_page_without_the_case_that_failed(call, tmp_path, monkeypatch):
@@ -149,7 +149,7 @@ def test_fit_and_export_of_the_new_models(call, folder, tmp_path):
         result = call("fit", folder / "case_2_n64.h5", "--model", model, "--save", element, "--json", "-")
         assert result.code == 0 and result.err == "", result
         document = json.loads(result.out)
-        assert load(element).parameters == document["parameters"]
+        assert read(element).parameters == document["parameters"]
         assert set(document["intervals"]) == set(document["parameters"])
         made = call("export", element, "-o", tmp_path / f"{model}.fmu", "--json", "-")
         assert made.code == 0 and json.loads(made.out)["passes"] is True, made

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.optimize import curve_fit
 
-from ehlcontact import load
+from ehlcontact import read
 from ehlcontact.cli.plots import rotor as pictures
 from ehlcontact.cli.study import headline
 from ehlcontact.cli.study.differences import compare_rotors
@@ -33,7 +33,7 @@ def found(finished, tmp_path_factory):
 
 
 def stored(folder, name):
-    run = load(folder / f"{name}.h5", RotorResult)
+    run = read(folder / f"{name}.h5", RotorResult)
     return {key: getattr(run, key) for key in ("t", "journal", "force", "disc")}
 
 
@@ -153,7 +153,7 @@ def test_damper_of_the_headline_is_the_impedances(finished, results):
     assert told["damping"] == pytest.approx(response.damping[at] * scales.damping, rel=1e-6)
     assert told["stiffness"] == pytest.approx(response.stiffness[at] * scales.stiffness, rel=1e-6)
 
-    si = load(finished[1] / "elements" / "rotor_band_cubic_si.json")
+    si = read(finished[1] / "elements" / "rotor_band_cubic_si.json")
     fit = next(row for row in results["fits"] if row["record"] == "rotor_band" and row["model"] == "cubic")
     assert results["damper_of_fit"]["damping"] == si.C1
     assert results["damper_of_fit"]["interval"] == pytest.approx(
@@ -276,7 +276,7 @@ def test_a_contact_that_the_rotor_does_not_run_on(finished, found, monkeypatch):
 
 def test_pictures_show_what_is_settled(finished, found):
     """The heavy part of an orbit is the settled one, or the last revolution where there is none."""
-    run = load(finished[1] / "rotor_full.h5", RotorResult)
+    run = read(finished[1] / "rotor_full.h5", RotorResult)
     settled, is_settled = pictures.settled_part(run, Settling((0.001,), 0.01))
     assert is_settled and settled.t.size == 41
     last, is_settled = pictures.settled_part(run, Settling((0.5,), 0.01))
@@ -297,4 +297,4 @@ def test_the_impedance_reaches_down_to_the_rotor(finished, results):
     omega = results["memory"]["impedance"]["Omega"]
     own = results["operating_point"]["rotor_omega"]
     assert omega[0] == 0.0 and omega[1] <= 0.5 * own * (1 + 1e-9) and any(np.isclose(omega, own))
-    assert load(finished[1] / "rotor_band.h5").motion.Omega == pytest.approx(own)
+    assert read(finished[1] / "rotor_band.h5").motion.Omega == pytest.approx(own)

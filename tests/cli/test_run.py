@@ -19,7 +19,7 @@ import pytest
 from programs import begin
 from tiny_study import STUDY
 
-from ehlcontact import assumptions, load
+from ehlcontact import assumptions, read
 from ehlcontact.cli.study import reduction, runner
 from ehlcontact.cli.study.points.folder import Log
 from ehlcontact.cli.study.points.kept import Kept, stage_key
@@ -49,21 +49,21 @@ def test_everything_is_there(finished, results):
     assert results["rotor"]["whole"]["rotor_band"]["displacement"] < 0.03
     assert results["steady"]["status"] == "converged" and results["versions"]["ehlcontact"]
     for name in ("steady", "free", "harmonic", "rotor_band"):
-        assert load(folder / f"{name}.h5").status.ok
+        assert read(folder / f"{name}.h5").status.ok
     assert results["rotor"]["whole"]["memory"]["force"] < 0.03
     assert max(results["memory"]["record_rms"]) < 0.05 and len(results["memory"]["impedance"]["Omega"]) > 20
-    dimensionless = load(folder / "elements" / "rotor_band_cubic.json")
-    si = load(folder / "elements" / "rotor_band_cubic_si.json")
-    memory = load(folder / "elements" / "memory_si.json")
+    dimensionless = read(folder / "elements" / "rotor_band_cubic.json")
+    si = read(folder / "elements" / "rotor_band_cubic_si.json")
+    memory = read(folder / "elements" / "memory_si.json")
     assert memory.units == "SI" and memory.parameters == results["memory"]["parameters"]
-    assert si.units == "SI" and dimensionless.to_si(load(folder / "rotor_band.h5").scales) == si
+    assert si.units == "SI" and dimensionless.to_si(read(folder / "rotor_band.h5").scales) == si
 
 
 def test_assumptions_in_every_output(finished, results):
     """In the results from the stored film and rotor run, in the element files, and in the page."""
     study_file, folder = finished
-    study, film = load_study(study_file), load(folder / "steady.h5")
-    runs = [load(folder / f"{name}.h5", RotorResult) for name in ("rotor_full", "decay")]
+    study, film = load_study(study_file), read(folder / "steady.h5")
+    runs = [read(folder / f"{name}.h5", RotorResult) for name in ("rotor_full", "decay")]
     found = results["assumptions"]
     rows = {row["name"]: row for row in found["table"]}
     shaken = max(np.hypot(*run.journal_velocity.T).max() for run in runs)
@@ -73,10 +73,10 @@ def test_assumptions_in_every_output(finished, results):
     assert found["out_of_range"] == ["smooth"] and "smooth" in found["headline"] and found["not_judged"] == []
     expected = assumptions(study.point, film=film, roughness=study.roughness).short()
     for name in ("rotor_band_cubic", "rotor_band_cubic_si", "memory_si"):
-        assert load(folder / "elements" / f"{name}.json").source["assumptions"] == expected
+        assert read(folder / "elements" / f"{name}.json").source["assumptions"] == expected
     said = reduction.contact_text(study)
     assert study.bearing.name in said and study.oil.label in said and "3000 rpm" in said
-    assert load(folder / "elements" / "memory_si.json").source["contact"] == said
+    assert read(folder / "elements" / "memory_si.json").source["contact"] == said
     for name in ("contact", "contact_film"):
         with zipfile.ZipFile(folder / f"{name}.fmu") as archive:
             description = ElementTree.fromstring(archive.read("modelDescription.xml")).attrib["description"]
@@ -109,7 +109,7 @@ def test_what_is_kept_and_damaged_is_made_again(finished, tmp_path, capsys, monk
     """One line says so; the rest is kept, and the file of the stage is the same."""
     folder = shutil.copytree(finished[1], tmp_path / "out")
     monkeypatch.setattr(runner, "STAGES", tuple(stage for stage in STAGES if stage.name in ("steady", "free")))
-    film = load(folder / "steady.h5").approach
+    film = read(folder / "steady.h5").approach
     file = folder / "store" / stage_key(stage_named("steady"), load_study(finished[0]))
     before = file.read_bytes()
     if damage == "cut":
@@ -121,7 +121,7 @@ def test_what_is_kept_and_damaged_is_made_again(finished, tmp_path, capsys, monk
     told = capsys.readouterr().err.splitlines()
     assert told[0] == "ehlcontact: steady film: what was kept is damaged: it is made again" and len(told) == 2
     assert ended["steady"]["status"] == "converged" and (folder / "free.h5").stat().st_mtime_ns == kept
-    assert load(folder / "steady.h5").approach == film
+    assert read(folder / "steady.h5").approach == film
     assert run_stages(folder) == ended
 
 
@@ -179,7 +179,7 @@ def test_ctrl_c_and_resume(finished, tmp_path):
     assert process.returncode == 130 and out == "" and "Traceback" not in err
     assert "resumes" in err.splitlines()[-1]
     assert "free vibration: interrupted" in (folder / "run.log").read_text()
-    assert load(folder / "free.partial.h5").steps > 10
+    assert read(folder / "free.partial.h5").steps > 10
 
 
 def children(pid):

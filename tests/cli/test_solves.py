@@ -7,7 +7,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from ehlcontact import SimulationResult, SteadyResult, load
+from ehlcontact import SimulationResult, SteadyResult, read
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.status import Status
 from ehlcontact.transient.transient_film import TransientFilm
@@ -31,7 +31,7 @@ def test_steady_json_on_stdout_is_alone_there(call, point, tmp_path):
         and document["n"] == 32
         and document["domain"] == [-4.5, 1.5, 3.0]
     )
-    stored = load(tmp_path / "r.h5")
+    stored = read(tmp_path / "r.h5")
     assert isinstance(stored, SteadyResult) and stored.approach == document["approach"]
     assert stored.pressure_error == document["pressure_error"]
 
@@ -75,7 +75,7 @@ def test_from_simulation_to_fmu(call, refused, point, tmp_path):
     assert result.code == 0, result.err
     document = json.loads(result.out)
     assert set(FIT_KEYS) <= set(document) and set(document["parameters"]) == {"K1", "K2", "K3", "C1"}
-    assert load(element).parameters == document["parameters"]
+    assert read(element).parameters == document["parameters"]
 
     result = call("fit", record, "--window", "2", "4")
     assert result.code == 0 and "tangent" in result.out
@@ -118,7 +118,7 @@ def test_film_memory_from_a_simulation_alone(call, point, tmp_path):
     assert result.code == 0 and "C(Ω)" in result.out and "root" in result.out, result
     document = json.loads(report.read_text())
     assert set(FIT_KEYS) <= set(document) and document["rms"] < 0.02 and document["condition"] is None
-    loaded = load(element)
+    loaded = read(element)
     assert loaded.parameters == document["parameters"] and loaded.source["n"] == 32
     assert loaded.approach_at(1.0) == document["root"]
 
@@ -131,7 +131,7 @@ def test_not_converged_is_saved_and_reported(call, point, tmp_path, monkeypatch,
     assert result.code == 1
     assert len(result.err.splitlines()) == 1 and "out_of_domain" in result.err and "wider domain" in result.err
     assert json.loads(result.out)["status"] == "out_of_domain"
-    assert load(tmp_path / "p.h5").status is Status.OUT_OF_DOMAIN
+    assert read(tmp_path / "p.h5").status is Status.OUT_OF_DOMAIN
 
 
 def interrupt_after(steps, patch):
@@ -151,7 +151,7 @@ def test_interrupted_simulation_is_saved(call, point, tmp_path, monkeypatch):
     interrupt_after(5, monkeypatch)
     result = call("simulate", *point, "--n", "16", "--free", "5", "--save", tmp_path / "p.h5")
     assert result.code == 130 and "interrupted" in result.err and len(result.err.splitlines()) == 1
-    stored = load(tmp_path / "p.h5")
+    stored = read(tmp_path / "p.h5")
     assert isinstance(stored, SimulationResult) and stored.steps == 5 and stored.status is Status.INTERRUPTED
 
 
@@ -205,5 +205,5 @@ def test_step_that_cannot_meet_its_error(call, point, tmp_path, monkeypatch):
     assert result.code == 1 and len(result.err.splitlines()) == 1
     for words in ("step_too_small at T = ", "a step of ", "tolerated error 0.001", "partial result in"):
         assert words in result.err
-    stored = load(tmp_path / "p.h5")
+    stored = read(tmp_path / "p.h5")
     assert stored.status is Status.STEP_TOO_SMALL and stored.steps == 2

@@ -13,7 +13,7 @@ from ehlcontact import (
     MoesPoint,
     OilLayer,
     OperatingPoint,
-    load,
+    read,
     save,
     solve_steady,
 )
@@ -148,7 +148,7 @@ def test_the_share_without_a_solve(mixed):
 
 
 def test_a_film_is_kept_with_its_asperities(mixed, tmp_path):
-    again = load(save(mixed, tmp_path / "film.h5"))
+    again = read(save(mixed, tmp_path / "film.h5"))
     assert np.array_equal(again.asperities.pressure, mixed.asperities.pressure)
     assert again.to_dict() == mixed.to_dict() and again.asperities.inputs == mixed.asperities.inputs
     assert f"asperities carry {100.0 * mixed.asperities.load_share:.3g} %" in repr(mixed)

@@ -16,7 +16,7 @@ from ehlcontact import (
     TimeSteps,
     excitation,
     impedance,
-    load,
+    read,
     save,
     simulate,
     solve_steady,
@@ -176,7 +176,7 @@ def test_in_si_and_in_files(tmp_path):
     np.testing.assert_allclose(si.wavelength, 0.5 * point.u_sum / si.hz)
     np.testing.assert_allclose(si.amplitude, np.abs(result.G) * s.stiffness)
     np.testing.assert_allclose(si.error_bars["amplitude"], result.amplitude_error * s.stiffness)
-    again = load(save(result, tmp_path / "waves.h5"))
+    again = read(save(result, tmp_path / "waves.h5"))
     assert again.to_dict() == result.to_dict() and again.scales == s
 
 

@@ -18,7 +18,7 @@ from ehlcontact import (
     MoesPoint,
     OperatingPoint,
     assumptions,
-    load,
+    read,
     save,
     solve_steady,
 )
@@ -273,7 +273,7 @@ def test_results_do_not_depend_on_threads():
 
 
 def test_kept_and_said(tmp_path):
-    again = load(save(warm(), tmp_path / "film.h5"))
+    again = read(save(warm(), tmp_path / "film.h5"))
     assert again.temperature.inputs == warm().temperature.inputs
     np.testing.assert_array_equal(again.temperature.surfaces, warm().temperature.surfaces)
     assert again.to_dict() == warm().to_dict()

@@ -19,7 +19,7 @@ from ehlcontact import (
     OilLayer,
     OperatingPoint,
     impedance,
-    load,
+    read,
     save,
     solve_steady,
 )
@@ -211,7 +211,7 @@ def test_without_a_slope_it_is_the_isothermal_one():
 def test_kept_and_said(tmp_path):
     """Film, K and C with heat: its damping falls by more than the film that stands still would have it."""
     found = impedance(POINT, Omega=[0.0, 1.0, 10.0], grid=Grid(64), thermal=Heat())
-    again = load(save(found, tmp_path / "heated.h5"))
+    again = read(save(found, tmp_path / "heated.h5"))
     assert again.temperature.inputs == found.temperature.inputs
     assert again.to_dict() == found.to_dict()
     assert found.to_dict()["temperature"]["film_share"] == pytest.approx(0.752, abs=0.005)

@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, Grid, InputError, Lubricant, MoesPoint, OperatingPoint, load, save
+from ehlcontact import Domain, Grid, InputError, Lubricant, MoesPoint, OperatingPoint, read, save
 from ehlcontact.impedance import LinearisedContact, held, impedance
 from ehlcontact.solver.error_estimate import NOISE, response_error
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
@@ -204,7 +204,7 @@ def test_in_si_and_in_files(tmp_path):
     s = result.scales
     np.testing.assert_allclose(result.si.error_bars["damping"], result.damping_error * s.damping)
     np.testing.assert_allclose(result.si.error_bars["stiffness"], result.stiffness_error * s.stiffness)
-    again = load(save(result, tmp_path / "k_and_c.h5"))
+    again = read(save(result, tmp_path / "k_and_c.h5"))
     assert again.to_dict() == result.to_dict() and again.scales == s
 
 

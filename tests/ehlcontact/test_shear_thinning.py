@@ -20,7 +20,7 @@ from ehlcontact import (
     OilLayer,
     OperatingPoint,
     ShearThinning,
-    load,
+    read,
     save,
     solve_steady,
 )
@@ -137,7 +137,7 @@ def test_film_falls_with_sliding():
 
 def test_result(tmp_path):
     """Stored and shown; its traction is that of its own sliding."""
-    again = load(save(thin(), tmp_path / "thin.h5"))
+    again = read(save(thin(), tmp_path / "thin.h5"))
     assert again.sliding == thin().sliding
     assert again.thinned_share == thin().thinned_share
     assert "% of the Newtonian one" in repr(thin())

@@ -28,7 +28,7 @@ from ehlcontact import (
     SimulationResult,
     SteadyResult,
     TimeSteps,
-    load,
+    read,
     save,
     simulate,
     solve_steady,
@@ -79,7 +79,7 @@ def assert_same(one, other):
 def test_steady_round_trip(steady_si, tmp_path):
     path = save(steady_si, tmp_path / "steady.h5")
     assert path == tmp_path / "steady.h5"
-    again = load(path)
+    again = read(path)
     assert isinstance(again, SteadyResult)
     assert_same(steady_si, again)
     assert again.to_dict() == steady_si.to_dict()
@@ -97,20 +97,20 @@ def test_steady_round_trip(steady_si, tmp_path):
 )
 def test_simulation_round_trip(motion, tmp_path):
     result = simulate(POINT, motion, grid=Grid(n=16), time=TimeSteps(until=0.2, dt=0.05))
-    again = load(save(result, tmp_path / "record.h5"))
+    again = read(save(result, tmp_path / "record.h5"))
     assert isinstance(again, SimulationResult)
     assert_same(result, again)
 
 
 def test_snapshots_survive(record, tmp_path):
-    again = load(save(record, str(tmp_path / "record.h5")))
+    again = read(save(record, str(tmp_path / "record.h5")))
     assert again.snapshot_H.shape[0] == 1
     assert_same(record, again)
 
 
 def test_unconverged_result_is_stored_with_its_status(tmp_path):
     result = solve_steady(POINT, grid=Grid(n=32), max_cycles=1, throw=False)
-    assert_same(result, load(save(result, tmp_path / "partial.h5")))
+    assert_same(result, read(save(result, tmp_path / "partial.h5")))
 
 
 def test_arrays_fit_each_other(steady_si, tmp_path):
@@ -119,11 +119,11 @@ def test_arrays_fit_each_other(steady_si, tmp_path):
         del file["pressure_changes"]
         file.create_dataset("pressure_changes", data=np.ones(steady_si.cycles + 1))
     with pytest.raises(InputError, match=r"pressure_changes has \d+ values along change, not"):
-        load(path)
+        read(path)
     with h5py.File(path, "a") as file:
         del file["pressure_changes"]
     with pytest.raises(InputError, match="a complete file of a result of solve_steady"):
-        load(path, SteadyResult)
+        read(path, SteadyResult)
 
 
 @pytest.mark.parametrize(("number", "words"), [(99, "newer"), (0, "anew"), ("2", "anew"), (True, "anew")])
@@ -131,14 +131,14 @@ def test_another_format(number, words, steady_si, tmp_path):
     path = save(steady_si, tmp_path / "steady.h5")
     edit_header(path, format=number)
     with pytest.raises(InputError, match=rf"^file = .*steady\.h5.* of format 4, not .*{words}"):
-        load(path)
+        read(path)
 
 
 def test_another_class_than_wanted(steady_si, record, tmp_path):
     path = save(steady_si, tmp_path / "steady.h5")
-    assert_same(load(path, SteadyResult), steady_si)
+    assert_same(read(path, SteadyResult), steady_si)
     with pytest.raises(InputError, match=r"^file = .*: must be a result of simulate; .*'SteadyResult'"):
-        load(path, SimulationResult)
+        read(path, SimulationResult)
 
 
 def test_missing_folder(steady_si, tmp_path):
@@ -193,7 +193,7 @@ def test_interrupted_write_keeps_the_old_file(steady_si, tmp_path, monkeypatch):
 def test_existing_file_is_replaced(steady_si, record, tmp_path):
     path = save(steady_si, tmp_path / "result.h5")
     save(record, path)
-    assert isinstance(load(path), SimulationResult)
+    assert isinstance(read(path), SimulationResult)
 
 
 def test_target_that_is_a_folder(steady_si, tmp_path):
@@ -307,7 +307,7 @@ def assert_equal(one, other):
 def test_everything_comes_back(tmp_path):
     others = outer(either=np.full((2, 2), 3.0), no_inner=outer().inner, past=(), nothing=2.0)
     for record in (outer(), others):
-        assert_equal(record, load(save(record, tmp_path / "record.h5"), Outer))
+        assert_equal(record, read(save(record, tmp_path / "record.h5"), Outer))
 
 
 def test_layout(tmp_path):
@@ -329,7 +329,7 @@ def test_spoilt_nested_class(value, tmp_path):
     with h5py.File(path, "a") as file:
         file.attrs["place"] = value
     with pytest.raises(InputError, match="a complete file of a record"):
-        load(path, Outer)
+        read(path, Outer)
 
 
 def test_lost_member(tmp_path):
@@ -337,4 +337,4 @@ def test_lost_member(tmp_path):
     with h5py.File(path, "a") as file:
         del file["inner/table"]
     with pytest.raises(InputError, match="a complete file of a record"):
-        load(path, Outer)
+        read(path, Outer)

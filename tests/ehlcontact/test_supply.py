@@ -20,7 +20,7 @@ from ehlcontact import (
     TimeSteps,
     TransientContact,
     impedance,
-    load,
+    read,
     save,
     simulate,
     solve_steady,
@@ -293,7 +293,7 @@ def test_simulation_under_a_supply(tmp_path):
     lines = np.r_[0.5, np.ones(squeezed.Y.size - 2), 0.0]
     assert lines @ squeezed.layer_behind[0] == pytest.approx(lines @ squeezed.layer, rel=1e-3)  # steady at first
     assert np.ptp(squeezed.layer_behind[:, 0]) > 0.01  # what leaves follows the film
-    kept = load(save(squeezed, tmp_path / "run.h5"))
+    kept = read(save(squeezed, tmp_path / "run.h5"))
     assert kept.supply == OilLayer(H=0.495)
     np.testing.assert_array_equal(kept.layer_behind, squeezed.layer_behind)
     following = solve_steady(CIRCLE, grid=SMALL, supply=kept.supply_behind)
@@ -437,7 +437,7 @@ def test_layer_in_metres_and_over_the_flooded_film(tmp_path):
     again = solve_steady(point, grid=SMALL, supply=OilLayer(h), tol=1e-8)
     assert again.h_central == pytest.approx(film.h_central, rel=1e-9)
     assert again.si.layer_behind.max() > h
-    kept = load(save(again, tmp_path / "film.h5"))
+    kept = read(save(again, tmp_path / "film.h5"))
     assert kept.supply == again.supply == OilLayer(h=h)
     np.testing.assert_array_equal(kept.content, again.content)
     again.plot(tmp_path / "film.png")

@@ -18,7 +18,7 @@ from ehlcontact import (
     Lubricant,
     MoesPoint,
     OperatingPoint,
-    load,
+    read,
     save,
     solve_steady,
     traction_curve,
@@ -157,7 +157,7 @@ def test_one_curve():
 def test_result(tmp_path):
     """It is stored, drawn, and listed."""
     found = isothermal_film().traction([0.01, 0.1], LimitingShear(0.04))
-    again = load(save(found, tmp_path / "traction.h5"))
+    again = read(save(found, tmp_path / "traction.h5"))
     assert again.law == found.law
     assert (again.force == found.force).all()
     assert (again.stress == found.stress).all()

@@ -48,7 +48,7 @@ from ehlcontact import (
     TransientContact,
     Waviness,
     impedance,
-    load,
+    read,
     save,
     simulate,
     solve_steady,
@@ -326,7 +326,7 @@ def element(name: str, contact: Any) -> Leaves:
         path = save(contact, Path(folder) / "element.json")
         content = json.loads(path.read_text())
         yield from leaves(f"{name}.file", {key: content[key] for key in content if key != "header"})
-        again = load(path)
+        again = read(path)
     yield f"{name}.again", again.spring(0.5 * (low + high))
 
 

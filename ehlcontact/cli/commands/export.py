@@ -15,7 +15,7 @@ from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row
 from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
-from ehlcontact.store import load
+from ehlcontact.store import read
 
 if TYPE_CHECKING:
     from fmu import SpeedController
@@ -176,7 +176,7 @@ def export(
     elif study:
         exported = _rotor_of(file, contact)
     else:
-        exported = _bearing_of(file) if bearing else load(file, ContactElement)
+        exported = _bearing_of(file) if bearing else read(file, ContactElement)
     system = output.suffix.lower() == ".ssp"
     try:
         names = {
@@ -292,7 +292,7 @@ def _rotor_of(file: Path, contact: Path | None) -> JeffcottModel:
         raise InputError("file", str(file), "a study with a rotor: it has no table [rotor]")
     rotor = build_rotor(study)
     if contact is not None:
-        element: Any = load(contact, ContactElement)
+        element: Any = read(contact, ContactElement)
         if element.units != "SI":
             with o.called(scales="--contact"):
                 element = element.to_si(study.point.scales)

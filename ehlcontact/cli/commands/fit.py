@@ -37,7 +37,7 @@ def fit(
     ] = False,
 ) -> None:
     """Fit a contact element to one or several simulations of the same contact."""
-    from ehlcontact.store import load
+    from ehlcontact.store import read
     from ehlcontact.transient.result import SimulationResult
     from reduced_models import ContactRecord, FitResult
     from reduced_models import fit as fit_records
@@ -50,7 +50,7 @@ def fit(
     out.check(*files)
     records = []
     for file in files:
-        result = load(file, SimulationResult)
+        result = read(file, SimulationResult)
         try:
             records.append(ContactRecord.from_result(result))
         except InputError as error:

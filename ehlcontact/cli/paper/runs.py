@@ -18,7 +18,7 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
-from ehlcontact.store import load, save
+from ehlcontact.store import read, save
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.result import SimulationResult
@@ -179,7 +179,7 @@ def _stored(path: Path, kind: type[Kind]) -> Kind | None:
     if not path.is_file():
         return None
     try:
-        return load(path, kind)
+        return read(path, kind)
     except InputError:
         complain(f"{path} is damaged: it is made again")
         return None

@@ -190,7 +190,7 @@ def events_dict(events: Events) -> dict[str, list[dict[str, Any]]]:
 
 def _unbalance(study: Study, ran: Mapping[str, _RunsOn], folder: Path) -> Unbalance:
     load = study.ball_load
-    full = store.load(folder / "rotor_full.h5", RotorResult)
+    full = store.read(folder / "rotor_full.h5", RotorResult)
     reduced = {name: one.turning for name, one in ran.items()}
     settled = settling(full)
     after: dict[str, Comparison] = {}
@@ -210,7 +210,7 @@ def _unbalance(study: Study, ran: Mapping[str, _RunsOn], folder: Path) -> Unbala
 
 
 def _half_step(study: Study, full: RotorResult, chosen: _RunsOn, folder: Path) -> HalfStep:
-    full_half = store.load(folder / "rotor_half_step.h5", RotorResult)
+    full_half = store.read(folder / "rotor_half_step.h5", RotorResult)
     reduced_half = run_reduced(study, chosen.element, 1)
     return HalfStep(
         full=full_half,
@@ -224,11 +224,11 @@ def _decay(
     study: Study, mode: RotorMode, ran: Mapping[str, _RunsOn], response: ImpedanceResult, folder: Path
 ) -> Decay:
     load = study.ball_load
-    full = store.load(folder / "decay.h5", RotorResult)
+    full = store.read(folder / "decay.h5", RotorResult)
     runs = {FULL: full} | {name: one.decaying for name, one in ran.items()}
     half: dict[str, RotorResult] = {}
     if study.check.half_step:
-        half[FULL] = store.load(folder / "decay_half_step.h5", RotorResult)
+        half[FULL] = store.read(folder / "decay_half_step.h5", RotorResult)
         half[ROTOR_BAND[0]] = run_decay_reduced(study, ran[ROTOR_BAND[0]].element, mode, response, 1)
     return Decay(
         mode=mode,

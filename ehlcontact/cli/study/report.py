@@ -28,7 +28,7 @@ FILES = {
     "study.toml": "the study itself; the same command with it resumes, or makes this page again",
     "contact.fmu": "FMU of the cubic element fitted in the rotor's band",
     "contact_film.fmu": "FMU of the element with a film memory",
-    "elements/*_si.json": "an element in SI units, for ehlcontact export and for ehlcontact.load",
+    "elements/*_si.json": "an element in SI units, for ehlcontact export and for ehlcontact.read",
     "elements/*.json": "the same, dimensionless",
     "on_bearings_*.h5": "motion of the rotor on whole bearings",
     "*.h5": "STAGE: fields or histories",

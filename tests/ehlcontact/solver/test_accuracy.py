@@ -6,7 +6,7 @@ from dataclasses import astuple, replace
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, Grid, MoesPoint, load, save, solve_steady
+from ehlcontact import Domain, Grid, MoesPoint, read, save, solve_steady
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import ALL, ErrorEstimate, regular_error
 from ehlcontact.solver.error_grids import estimate_error
@@ -158,10 +158,10 @@ def test_prescribed_approach_is_exact():
 
 def test_errors_are_kept_and_told(tmp_path):
     film = solve_steady(PAPER, grid=Grid(n=64))
-    assert load(save(film, tmp_path / "film.h5")).error_estimate == film.error_estimate
+    assert read(save(film, tmp_path / "film.h5")).error_estimate == film.error_estimate
     assert json.loads(json.dumps(film.to_dict()))["error_estimate"] == dict(
         zip(NUMBERS, astuple(film.error_estimate), strict=True)
     )
     failed = solve_steady(PAPER, grid=Grid(n=64), max_cycles=1, throw=False)
     assert failed.error_estimate is None and failed.to_dict()["error_estimate"] is None
-    assert load(save(failed, tmp_path / "film.h5")).error_estimate is None
+    assert read(save(failed, tmp_path / "film.h5")).error_estimate is None

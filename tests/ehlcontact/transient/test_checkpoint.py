@@ -27,7 +27,7 @@ from ehlcontact import (
     SimulationResult,
     TimeSteps,
     Waviness,
-    load,
+    read,
     simulate,
 )
 from ehlcontact.status import Status
@@ -125,7 +125,7 @@ def test_other_points_and_grids(point, n, tmp_path):
     )
     alone = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
     subprocess.run([sys.executable, "-c", script, tmp_path / "c.h5", tmp_path / "r.h5"], check=True, env=alone)
-    assert_same_bits(whole, load(tmp_path / "r.h5"))
+    assert_same_bits(whole, read(tmp_path / "r.h5"))
 
 
 def test_ctrl_c_within_a_step_leaves_a_current_checkpoint(tmp_path, monkeypatch):
@@ -269,13 +269,13 @@ def test_a_checkpoint_that_cannot_be_written_later_is_told_and_the_run_goes_on(t
     fails.add(0.35)
     with pytest.warns(RuntimeWarning, match="No space left.*the run goes on") as told:
         result = simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**options))
-    assert len(told) == 1 and result.status.ok and load(path, Checkpoint).record.T == result.T[-1]
+    assert len(told) == 1 and result.status.ok and read(path, Checkpoint).record.T == result.T[-1]
     path.unlink()
     fails.add(9.0)
     with pytest.warns(RuntimeWarning), pytest.raises(InputError, match=r"^checkpoint = .*No space left") as caught:
         simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**options))
     assert np.array_equal(caught.value.result.force, result.force)
-    assert load(path, Checkpoint).record.T == 0.1
+    assert read(path, Checkpoint).record.T == 0.1
 
 
 @pytest.fixture(scope="module")
@@ -333,7 +333,7 @@ def test_end_before_the_checkpoint(stopped):
 
 def test_a_checkpoint_is_no_result(stopped):
     with pytest.raises(InputError, match=r"^file = .*: must be a result of simulate; .*'Checkpoint'"):
-        load(stopped[0], SimulationResult)
+        read(stopped[0], SimulationResult)
 
 
 def test_checkpoint_in_no_folder(tmp_path):

@@ -17,7 +17,7 @@ from ehlcontact import (
     RampLoad,
     RunSettings,
     TimeSteps,
-    load,
+    read,
     save,
     simulate,
     solve_steady,
@@ -118,7 +118,7 @@ def test_it_is_kept_in_files_and_not_found_again_by_a_restart(tmp_path, monkeypa
     assert resumed.film_error == whole.film_error
     for field in HISTORY:
         np.testing.assert_array_equal(getattr(resumed, field), getattr(whole, field))
-    again = load(save(whole, tmp_path / "result.h5"))
+    again = read(save(whole, tmp_path / "result.h5"))
     assert (again.film_error, again.reservation) == (whole.film_error, whole.reservation)
 
 

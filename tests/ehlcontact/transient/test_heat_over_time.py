@@ -18,7 +18,7 @@ from ehlcontact import (
     TimeSteps,
     TransientContact,
     impedance,
-    load,
+    read,
     save,
     simulate,
     solve_steady,
@@ -144,7 +144,7 @@ def test_run_goes_on_from_a_checkpoint(tmp_path):
 def test_kept(tmp_path):
     motion = PrescribedApproach([0, 1, 2, 3], [0.91, 0.92, 0.93, 0.94])
     run = moved(motion, 1.0, 4)
-    again = load(save(run, tmp_path / "run.h5"))
+    again = read(save(run, tmp_path / "run.h5"))
     np.testing.assert_array_equal(again.warmest_oil, run.warmest_oil)
     assert again.temperature.inputs == run.temperature.inputs
     assert run.to_dict()["temperature"]["film_share"] < 0.9

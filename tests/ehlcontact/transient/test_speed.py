@@ -19,7 +19,7 @@ from ehlcontact import (
     PrescribedLoad,
     SpeedHistory,
     TimeSteps,
-    load,
+    read,
     save,
     simulate,
     solve_steady,
@@ -277,7 +277,7 @@ def test_restart_after_it_turned(tmp_path):
     np.testing.assert_array_equal(rest.h_midplane, whole.h_midplane)
     with pytest.raises(InputError, match="speed"):
         simulate(POINT, HELD, grid=AROUND, time=TimeSteps(until=1.2, dt=0.1), keep=KeepSettings(restart=path))
-    back = load(save(whole, tmp_path / "result.h5"))
+    back = read(save(whole, tmp_path / "result.h5"))
     assert back.speed(0.5) == pytest.approx(0.0, abs=1e-15) and back.speed.reverses
 
 

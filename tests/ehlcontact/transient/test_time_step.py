@@ -21,7 +21,7 @@ from ehlcontact import (
     TimeSteps,
     TransverseRidge,
     Waviness,
-    load,
+    read,
     save,
     simulate,
 )
@@ -224,6 +224,6 @@ def test_given_tolerance_is_kept_and_stored(tmp_path):
         for how in (dict(tol=2e-3), {}, dict(local_error=1e-5))
     )
     assert (given.tol, own.tol, controlled.tol) == (2e-3, pytest.approx(6e-4), pytest.approx(3e-5))
-    again = load(save(given, tmp_path / "run.h5"))
+    again = read(save(given, tmp_path / "run.h5"))
     assert (again.tol, again.reservation) == (given.tol, given.reservation)
     assert again.reservation

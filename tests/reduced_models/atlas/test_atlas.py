@@ -21,7 +21,7 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.hertz import most_loaded_ball
-from ehlcontact.store import load as load_file
+from ehlcontact.store import read as read_file
 from reduced_models import Atlas
 from reduced_models.atlas.atlas import MODELS, SHIPPED
 from reduced_models.atlas.atlas_elements import LEAST_APPROACH
@@ -289,7 +289,7 @@ def test_operating_points_get_elements_in_si(shipped, model):
 
 @pytest.mark.parametrize("model", MODELS)
 def test_source_of_elements(shipped, tmp_path, model):
-    read = load_file(save(shipped.element(CASE, model, **AT[model]), tmp_path / "e.json"))
+    read = read_file(save(shipped.element(CASE, model, **AT[model]), tmp_path / "e.json"))
     assert read.source["atlas"] == shipped.metadata["version"]
     assert read.source["point"]["M"] == CASE.M and 0.0 < read.source["error_bars"]["approach"] < 0.01
     assert read.load_range is not None and read.omega_range is not None
@@ -353,13 +353,13 @@ def test_what_is_shipped(shipped):
 
 def changed(source, target, **entries):
     """Copy of an atlas with other entries in its metadata."""
-    table = load_file(source, AtlasTable)
+    table = read_file(source, AtlasTable)
     return save(replace(table, metadata=table.metadata | entries), target)
 
 
 def test_numbers_of_the_interpolation_travel_with_the_file(shipped, tmp_path):
     """Each file answers by its own."""
-    header = load_file(SHIPPED, AtlasTable).metadata
+    header = read_file(SHIPPED, AtlasTable).metadata
     assert header["interpolation"] == json.loads(json.dumps(asdict(INTERPOLATION)))
     weights = header["interpolation"]["weights"]
     other = {**header["interpolation"], "weights": [*weights[:3], 0.5 * weights[3], *weights[4:]]}
@@ -376,7 +376,7 @@ def test_a_file_is_read_once_and_again_when_it_changes(shipped, tmp_path, monkey
     first = Atlas(changed(SHIPPED, target, version="first"))
     reads = []
     monkeypatch.setattr(
-        "reduced_models.atlas.atlas.read_file", lambda *args: reads.append(args) or load_file(*args)
+        "reduced_models.atlas.atlas.read_file", lambda *args: reads.append(args) or read_file(*args)
     )
     monkeypatch.chdir(tmp_path)
     assert [Atlas(path).metadata["version"] for path in (target, str(target), "own.h5")] == ["first"] * 3
@@ -401,7 +401,7 @@ def test_atlases_of_one_file_cannot_change_each_other(shipped):
     "entry", [{"kernel": "gaussian"}, {"degree": 2}, {"weights": "many"}, {"nearest": None}, {"colour": 3}]
 )
 def test_numbers_that_cannot_be_are_refused(tmp_path, entry):
-    header = load_file(SHIPPED, AtlasTable).metadata
+    header = read_file(SHIPPED, AtlasTable).metadata
     new = {k: v for k, v in {**header["interpolation"], **entry}.items() if v is not None}
     with pytest.raises(InputError, match=r"a\.h5.*(complete file of a table|of the atlas)"):
         Atlas(changed(SHIPPED, tmp_path / "a.h5", interpolation=new))

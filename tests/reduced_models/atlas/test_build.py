@@ -15,7 +15,7 @@ from programs import ROOT, dask_cluster, environment
 from ehlcontact import Domain, InputError, MoesPoint
 from ehlcontact.content_store import ContentStore
 from ehlcontact.solver.mesh import Mesh
-from ehlcontact.store import load, save
+from ehlcontact.store import read, save
 from reduced_models.atlas.build import BOX, RATES, assemble, build_atlas
 from reduced_models.atlas.gain_fit import smooth_gains
 from reduced_models.atlas.mesh import GRIDS, LIGHT_INTERVALS, impedance_grid
@@ -126,12 +126,12 @@ def test_too_few_converged_points_make_no_atlas(entries):
 def test_table_file_and_what_is_recorded_in_it(tmp_path, entries):
     table = assemble(entries, {"command": "c", "version": "v"})
     save(table, tmp_path / "a.h5")
-    read = load(tmp_path / "a.h5", AtlasTable)
-    assert np.array_equal(read.points, table.points)
-    np.testing.assert_allclose(read.damping, table.damping, rtol=1e-6)
+    built = read(tmp_path / "a.h5", AtlasTable)
+    assert np.array_equal(built.points, table.points)
+    np.testing.assert_allclose(built.damping, table.damping, rtol=1e-6)
     failed = sum(e["status"] != "converged" for e in entries)
-    assert read.metadata["left_out"] == {"stagnated": failed} and failed > 0
-    assert read.metadata["points"] == len(entries) - failed and read.box == BOX
+    assert built.metadata["left_out"] == {"stagnated": failed} and failed > 0
+    assert built.metadata["points"] == len(entries) - failed and built.box == BOX
 
 
 def test_effect_of_far_oil_from_points_solved_on_both_domains(entries):

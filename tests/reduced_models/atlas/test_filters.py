@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from ehlcontact import Grid, InputError, MoesPoint, excitation, load
+from ehlcontact import Grid, InputError, MoesPoint, excitation, read
 from ehlcontact.cli.app import execute
 from ehlcontact.content_store import ContentStore, key_of
 from ehlcontact.store import save
@@ -103,7 +103,7 @@ def test_build_from_solved_points(capsys, tmp_path):
     assert execute(["atlas", "waves", *given]) == 0
     document = json.loads(capsys.readouterr().out)
     assert document["command"] == "ehlcontact atlas waves --draws 40 --seed 7"
-    table = load(output, FilterTable)
+    table = read(output, FilterTable)
     assert len(table.points) == document["points"] > 30 and table.k.tolist() == list(WAVE_NUMBERS)
     np.testing.assert_allclose(table.real[3], stub(MoesPoint(*table.points[3].tolist()))["real"], atol=1e-6)
 
@@ -165,7 +165,7 @@ def test_a_damaged_table_is_refused(tmp_path):
             replace(table, **{name: getattr(table, name)[1:]}), tmp_path / "filters.h5", "table of contact filters"
         )
         with pytest.raises(InputError):
-            load(tmp_path / "filters.h5", FilterTable, "table of contact filters")
+            read(tmp_path / "filters.h5", FilterTable, "table of contact filters")
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 from ehlcontact import Heat, InputError, Lubricant, MoesPoint, OperatingPoint
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.hertz import most_loaded_ball
-from ehlcontact.store import load, save
+from ehlcontact.store import read, save
 from reduced_models.atlas import solved_points
 from reduced_models.atlas.build import BOX
 from reduced_models.atlas.gain_fit import heated_gains
@@ -192,7 +192,7 @@ def test_build_writes_what_it_can_read(tmp_path, monkeypatch):
         solved_points, "solve_points", lambda contacts, *_, **__: [made_up(c) for c in contacts.values()]
     )
     table = build_heat(tmp_path / "heat.h5", tmp_path / "work", 64, seed=3)
-    again = load(tmp_path / "heat.h5", HeatTable, "table of heat")
+    again = read(tmp_path / "heat.h5", HeatTable, "table of heat")
     np.testing.assert_array_equal(table.changes, again.changes)
     assert again.metadata["command"] == "ehlcontact atlas heat --draws 64 --seed 3"
     with pytest.raises(InputError, match="draws = 4 have too few"):
@@ -216,7 +216,7 @@ def test_a_damaged_table_is_refused(tmp_path):
     table = heat_surface().table
     save(replace(table, changes=table.changes[:, 1:]), tmp_path / "heat.h5", "table of heat")
     with pytest.raises(InputError):
-        load(tmp_path / "heat.h5", HeatTable, "table of heat")
+        read(tmp_path / "heat.h5", HeatTable, "table of heat")
 
 
 def test_shipped_file_is_small_and_says_how_it_was_made():

@@ -7,7 +7,7 @@ import pytest
 from programs import script
 
 from ehlcontact import MoesPoint
-from ehlcontact.store import load, save
+from ehlcontact.store import read, save
 from reduced_models.atlas.atlas import SHIPPED
 from reduced_models.atlas.sample import sample_points
 from reduced_models.atlas.table import AtlasTable
@@ -18,7 +18,7 @@ tune = script("tests/benchmarks/tune_atlas.py")
 
 @pytest.fixture(scope="module")
 def shipped():
-    return load(SHIPPED, AtlasTable)
+    return read(SHIPPED, AtlasTable)
 
 
 @pytest.fixture(scope="module")

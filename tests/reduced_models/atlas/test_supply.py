@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from supply_stub import made_up, prefill
 
-from ehlcontact import InputError, MoesPoint, OilLayer, load, save
+from ehlcontact import InputError, MoesPoint, OilLayer, read, save
 from ehlcontact.film_formulas import film_of_layer, layer_sharpness
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density
@@ -145,7 +145,7 @@ def test_too_few_points_and_damaged_tables_are_refused(tmp_path):
         assemble_supply([made_up(POINT)] * 3, {})
     table = supply_surface().table
     save(table, tmp_path / "t.h5", "table of oil supply")
-    again = load(tmp_path / "t.h5")
+    again = read(tmp_path / "t.h5")
     assert isinstance(again, SupplyTable)
     np.testing.assert_array_equal(again.changes, table.changes)
 
@@ -158,7 +158,7 @@ def test_built_from_solved_points(tmp_path):
         table.metadata["points"] == len(sample_supply(40, 3))
         and "--draws 40 --seed 3" in table.metadata["command"]
     )
-    again = load(tmp_path / "t.h5")
+    again = read(tmp_path / "t.h5")
     rows = changes_of(made_up(MoesPoint(*again.points[5])))
     np.testing.assert_allclose(again.changes[5], rows, rtol=1e-3, atol=1e-6)
     with pytest.raises(InputError, match="draws = 10 have too few"):

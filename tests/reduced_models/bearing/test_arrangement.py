@@ -9,7 +9,7 @@ import pytest
 from balls_in_balance import imbalance, races_by_hand, random_bearing
 from scipy.optimize import brentq
 
-from ehlcontact import Lubricant, load, save
+from ehlcontact import Lubricant, read, save
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet
 from reduced_models.bearing.set_result import SetState
@@ -337,11 +337,11 @@ def test_many_random_sets():
 
 def test_files_and_tables(tmp_path):
     pair = BearingSet.pair(replace(SPINDLE, oil=OIL), other=OTHER, spring=200.0, name="motor")
-    assert load(save(pair, tmp_path / "set.json"), BearingSet) == pair
+    assert read(save(pair, tmp_path / "set.json"), BearingSet) == pair
     state = BearingSet.pair(replace(SPINDLE, oil=OIL), preload=200.0).equilibrium(
         (0.0, -50.0, 30.0), speed_rpm=6000.0
     )
-    back = load(save(state, tmp_path / "state.h5"), SetState)
+    back = read(save(state, tmp_path / "state.h5"), SetState)
     assert back.to_dict() == state.to_dict()
     assert "facing +z, -z" in str(pair) and "spring of 200 N on those facing -z" in str(pair)
     assert "axial stiffness" in str(state) and "smallest film" in str(state)

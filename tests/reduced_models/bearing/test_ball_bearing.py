@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ehlcontact import Lubricant, load, save
+from ehlcontact import Lubricant, read, save
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMotion, BearingState
 from reduced_models.bearing.catalogue import ROWS
@@ -146,21 +146,21 @@ def test_lambda_ratio_is_film_over_roughness(oil):
 
 def test_files(tmp_path, oil):
     bearing = BallBearing.catalogue("6203", oil=oil, clearance=5e-6, rq_race=1e-7, cutoff_gap=1e-5)
-    again = load(save(bearing, tmp_path / "bearing.json"), BallBearing)
+    again = read(save(bearing, tmp_path / "bearing.json"), BallBearing)
     assert again == bearing
     state = bearing.equilibrium(DOWN, speed_rpm=2000.0)
-    back = load(save(state, tmp_path / "state.json"), BearingState)
+    back = read(save(state, tmp_path / "state.json"), BearingState)
     assert back.to_dict() == state.to_dict()
     assert again.equilibrium(DOWN, speed_rpm=2000.0).to_dict() == state.to_dict()
     dry = BallBearing.catalogue("209").equilibrium(DOWN)
-    assert load(save(dry, tmp_path / "dry.json"), BearingState).to_dict() == dry.to_dict()
+    assert read(save(dry, tmp_path / "dry.json"), BearingState).to_dict() == dry.to_dict()
 
 
 def test_files_that_are_none(tmp_path, oil):
     path = tmp_path / "bearing.json"
-    refused("file = .*readable", lambda: load(path, BallBearing))
+    refused("file = .*readable", lambda: read(path, BallBearing))
     path.write_text("{")
-    refused("file = .*complete", lambda: load(path, BallBearing))
+    refused("file = .*complete", lambda: read(path, BallBearing))
     document = json.loads(save(BallBearing.catalogue("6203", oil=oil), path).read_text())
     for changes, match in (
         ({"header": {"class": "BearingState", "format": 1}}, "class 'BearingState'"),
@@ -171,9 +171,9 @@ def test_files_that_are_none(tmp_path, oil):
         ({"oil": 5}, "oil = 'int'"),
     ):
         path.write_text(json.dumps(document | changes))
-        refused(match, lambda: load(path, BallBearing))
+        refused(match, lambda: read(path, BallBearing))
     path.write_text(json.dumps({key: value for key, value in document.items() if key != "balls"}))
-    refused("balls = None", lambda: load(path, BallBearing))
+    refused("balls = None", lambda: read(path, BallBearing))
 
 
 def test_the_snippet_of_the_readme(tmp_path):

@@ -349,11 +349,11 @@ def test_a_dent_of_a_film_is_no_feature_of_a_bearing():
 
 
 def test_features_are_written_and_read_with_the_bearing(tmp_path):
-    from ehlcontact import load, save
+    from ehlcontact import read, save
 
     bearing = replace(OILED, features=[*WAVES.values(), Spall(ball=1, angle=0.2, length=1e-3, depth=1e-5)])
     assert BallBearing.from_dict(bearing.to_dict()) == bearing
-    assert load(save(bearing, tmp_path / "bearing.json")) == bearing
+    assert read(save(bearing, tmp_path / "bearing.json")) == bearing
     assert "features" not in OILED.to_dict() and BallBearing.from_dict(OILED.to_dict()) == OILED
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from ehlcontact import Lubricant, load, save
+from ehlcontact import Lubricant, read, save
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet, BearingState
 from reduced_models.bearing.angular_balls import press_ring
@@ -351,9 +351,9 @@ def test_free_angle_and_files(tmp_path):
     assert loose.free_angle == pytest.approx(acos(1.0 - 5e-6 / (0.04 * loose.ball_diameter)))
     assert BallBearing.catalogue("6205", clearance=-1e-5).free_angle == 0.0
     bearing = BallBearing(**SPINDLE, race_control="shared")
-    assert load(save(bearing, tmp_path / "bearing.json"), BallBearing) == bearing
+    assert read(save(bearing, tmp_path / "bearing.json"), BallBearing) == bearing
     state = bearing.equilibrium((50.0, 20.0, 300.0), speed_rpm=5000.0)
-    back = load(save(state, tmp_path / "state.json"), BearingState)
+    back = read(save(state, tmp_path / "state.json"), BearingState)
     assert back.to_dict() == state.to_dict()
     assert "contact angle 25 degrees" in str(bearing)
     assert "300) N and (" in str(state) and "degrees" in str(state)

@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, Grid, load, save, solve_steady
+from ehlcontact import Domain, Grid, read, save, solve_steady
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import ellipse_ratio, hertz_contact
 from reduced_models import BallBearing, BearingState
@@ -133,7 +133,7 @@ def test_dry_bearings_and_files(film, dry, tmp_path):
     bare = dry.equilibrium(DOWN)
     assert bare.moment is None and bare.rolling_torque is None and bare.rolling_loss is None
     state = film.equilibrium(DOWN, speed_rpm=3000.0)
-    again = load(save(state, tmp_path / "state.json"), BearingState)
+    again = read(save(state, tmp_path / "state.json"), BearingState)
     assert again.rolling_torque == state.rolling_torque
     np.testing.assert_array_equal(again.moment, state.moment)
     assert "films resist rolling by 23.4 N mm" in state.plot().get_suptitle()

@@ -12,7 +12,7 @@ import reduced_models
 from ehlcontact import save
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from ehlcontact.store import load as load_file
+from ehlcontact.store import read as read_file
 from reduced_models import (
     ContactElement,
     CubicContact,
@@ -238,7 +238,7 @@ def test_si_is_the_same_element_in_other_units(element):
 
 def test_si_refuses_the_scales_of_another_contact(element, tmp_path):
     fitted = replace(element, source={"scales": asdict(SCALES)})
-    for one in (fitted, load_file(save(fitted, tmp_path / "element.json"))):
+    for one in (fitted, read_file(save(fitted, tmp_path / "element.json"))):
         for wrong in ("force", "length", "time"):
             with pytest.raises(InputError, match=r"^scales = .*the element was fitted at"):
                 one.to_si(replace(SCALES, **{wrong: 1.00001 * getattr(SCALES, wrong)}))
@@ -253,8 +253,8 @@ def test_si_refuses_the_scales_of_another_contact(element, tmp_path):
 def test_file_keeps_every_bit(asked, tmp_path):
     e = asked.element
     path = save(e, tmp_path / "e.json")
-    back = load_file(path)
-    assert back == e and type(back) is type(e) and load_file(path, type(e)) == e
+    back = read_file(path)
+    assert back == e and type(back) is type(e) and read_file(path, type(e)) == e
     assert (back.fit, back.source, back.validity) == (e.fit, e.source, e.validity)
     for u in (-0.5, 0.6, 0.9, 1.3):
         at = asked._inputs(0.1, u, 0.3)
@@ -265,7 +265,7 @@ def test_file_keeps_every_bit(asked, tmp_path):
     assert list(document["valid"]) == ["low", "high", "rate", "load", "omega"]
     other = CubicContact if e.kind != "cubic" else LinearContact
     with pytest.raises(InputError, match=rf"class '{type(e).__name__}'"):
-        load_file(path, other)
+        read_file(path, other)
 
 
 def test_files_without_a_coefficient_or_with_text_name_it(element, tmp_path):
@@ -275,7 +275,7 @@ def test_files_without_a_coefficient_or_with_text_name_it(element, tmp_path):
         for entries in ({name: "much"}, {name: None}, {name: True}):
             path.write_text(json.dumps(document | {"parameters": document["parameters"] | entries}))
             with pytest.raises(InputError, match=rf"wrong\.json: parameters\.{name}") as caught:
-                load_file(path)
+                read_file(path)
             assert "\n" not in str(caught.value)
 
 

@@ -6,7 +6,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from ehlcontact import InputError, Lubricant, OperatingPoint, load, save
+from ehlcontact import InputError, Lubricant, OperatingPoint, read, save
 from reduced_models import (
     ContactMount,
     JeffcottRotor,
@@ -39,7 +39,7 @@ def element(shipped, request):
 def test_speed_and_oil_in_si_without_dimensions_and_from_the_file(element, shipped, tmp_path):
     made = element.design_point
     assert made.u_sum == pytest.approx(POINT.u_sum) and (made.eta0, made.alpha) == (0.037, 2e-8)
-    assert load(save(element, tmp_path / "e.json")).design_point == made
+    assert read(save(element, tmp_path / "e.json")).design_point == made
     plain = shipped.element(POINT.moes, "memory")
     assert plain.design_point == replace(made, u_sum=None)
     assert plain.to_si(POINT.scales).design_point.u_sum == pytest.approx(POINT.u_sum)

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from ehlcontact import __version__, load, save
+from ehlcontact import __version__, read, save
 from ehlcontact.errors import InputError
 from reduced_models import ContactElement, CubicContact, fit
 
@@ -12,10 +12,10 @@ from reduced_models import ContactElement, CubicContact, fit
 def test_round_trip_is_exact(tmp_path, record):
     element = fit(record).element
     path = save(element, tmp_path / "e.json")
-    back = load(path)
+    back = read(path)
     assert back == element and type(back) is CubicContact
     assert back.fit == element.fit and back.source == element.source
-    assert load(path, CubicContact) == element
+    assert read(path, CubicContact) == element
     document = json.loads(path.read_text())
     assert document["header"] == {"class": "CubicContact", "format": 1, "version": __version__}
     assert set(document["parameters"]) == {"K1", "K2", "K3", "C1"}
@@ -28,7 +28,7 @@ def test_round_trip_is_exact(tmp_path, record):
 def test_unknown_bounds_may_be_left_out(tmp_path, cubic):
     path = save(cubic, tmp_path / "e.json")
     _edit(path, valid={"low": 0.75, "high": 1.0, "rate": None})
-    assert load(path) == cubic and load(path).load_range is None
+    assert read(path) == cubic and read(path).load_range is None
 
 
 def _edit(path, **changes):
@@ -67,7 +67,7 @@ def test_wrong_content_is_one_line_that_names_the_file(tmp_path, cubic, changes,
     path = save(cubic, tmp_path / "wrong.json")
     _edit(path, **changes)
     with pytest.raises(InputError, match=message) as caught:
-        load(path, ContactElement)
+        read(path, ContactElement)
     assert "wrong.json" in str(caught.value) and "\n" not in str(caught.value)
 
 
@@ -77,4 +77,4 @@ def test_truncation_anywhere_is_noticed(tmp_path, cubic):
     for length in range(0, len(text), 7):
         path.write_text(text[:length])
         with pytest.raises(InputError, match=r"cut\.json"):
-            load(path)
+            read(path)

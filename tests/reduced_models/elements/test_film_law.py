@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from ehlcontact import InputError, load, save
+from ehlcontact import InputError, read, save
 from reduced_models import ScaledContact
 from reduced_models.elements.film_response import FilterRates, fit_gains
 
@@ -178,7 +178,7 @@ def test_wrong_files_name_the_entry(memory, tmp_path, section, key, value, messa
     (document if section is None else document[section])[key] = value
     path.write_text(json.dumps(document))
     with pytest.raises(InputError, match=message) as caught:
-        load(path)
+        read(path)
     assert "wrong.json" in str(caught.value) and "\n" not in str(caught.value)
 
 

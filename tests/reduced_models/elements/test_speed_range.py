@@ -9,7 +9,7 @@ from programs import script
 from scipy.integrate import solve_ivp
 
 from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint, save
-from ehlcontact.store import load as load_file
+from ehlcontact.store import read as read_file
 from reduced_models import Atlas
 from reduced_models.elements.film_speed import FILM_GROWTH, film_speed, speed_step
 
@@ -204,7 +204,7 @@ def test_in_si_and_from_a_file(atlas, tmp_path):
     assert over.approach_at(20.0) == pytest.approx(atlas.element(slow).approach_at(20.0), rel=1e-9)
     assert over.copy().speed == over.speed == pytest.approx(0.2)
     np.testing.assert_allclose(over.impedance(hz=300.0), atlas.element(slow).impedance(hz=300.0), rtol=1e-9)
-    back = load_file(save(over, tmp_path / "over.json"))
+    back = read_file(save(over, tmp_path / "over.json"))
     assert back == over and back.speed == pytest.approx(1.0)
     assert "speeds 0.2 to 3 m/s" in str(over)
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlcontact import load, save
+from ehlcontact import read, save
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import SpeedProfile, campbell, linearise, simulate_rotor, unbalance_response
 from reduced_models.rotor.campbell import Campbell
@@ -126,14 +126,14 @@ def test_response_over_the_speed_is_that_at_each_speed(film, beam):
 
 
 def test_files(film, block, diagram, tmp_path):
-    again = load(save(diagram, tmp_path / "c.h5"), Campbell)
+    again = read(save(diagram, tmp_path / "c.h5"), Campbell)
     response = unbalance_response(block(film), [2000.0, 3000.0, 4000.0])
-    back = load(save(response, tmp_path / "u.h5"), UnbalanceResponse)
+    back = read(save(response, tmp_path / "u.h5"), UnbalanceResponse)
     for one, two in ((diagram, again), (response, back)):
         for name, values in vars(one).items():
             np.testing.assert_array_equal(getattr(two, name), values)
     with pytest.raises(InputError, match="Campbell diagram"):
-        load(tmp_path / "u.h5", Campbell)
+        read(tmp_path / "u.h5", Campbell)
 
 
 @pytest.mark.long

@@ -8,7 +8,7 @@ import pytest
 from beam_rotor import NODES, beam, block
 from scipy.integrate import solve_ivp
 
-from ehlcontact import Grid, Lubricant, MoesPoint, TransientContact, load, save
+from ehlcontact import Grid, Lubricant, MoesPoint, TransientContact, read, save
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Scales
 from ehlcontact.status import Status
@@ -104,12 +104,12 @@ def test_frequency_of_the_ball_passage(film):
 
 def test_files_of_runs(film, tmp_path):
     run = simulate_rotor(block(film), speed_rpm=RPM, dt=DT, until=0.002)
-    again = load(save(run, tmp_path / "run.h5"), RotorResult)
+    again = read(save(run, tmp_path / "run.h5"), RotorResult)
     for name, values in vars(run).items():
         np.testing.assert_array_equal(getattr(again, name), values)
     (tmp_path / "none.h5").write_text("nothing")
     with pytest.raises(InputError, match="run of a rotor"):
-        load(tmp_path / "none.h5", RotorResult)
+        read(tmp_path / "none.h5", RotorResult)
 
 
 def test_a_course_of_one_speed_is_that_speed(film):

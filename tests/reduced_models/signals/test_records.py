@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ehlcontact import ConvergenceError, InputError, Lubricant, load
+from ehlcontact import ConvergenceError, InputError, Lubricant, read
 from reduced_models import BallBearing, RaceWaviness, Spall, simulate_rotor
 from reduced_models.signals import (
     ModalPath,
@@ -47,7 +47,7 @@ def files(tmp_path_factory):
 
 
 def test_lines_are_where_the_label_says(files):
-    healthy, outer, inner = (load(path, VibrationRecord) for path in files[2])
+    healthy, outer, inner = (read(path, VibrationRecord) for path in files[2])
     for record, name in ((outer, "bpfo"), (inner, "bpfi")):
         at = record.columns[name] * record.columns["speed_rpm"] / 60.0
         found = envelope_spectrum(record.signal, record.rate, (2000.0, 5500.0))
@@ -63,12 +63,12 @@ def test_made_once_and_again_the_same(files):
     folder, cases, made, seen = files
     assert seen == [(1, 3), (2, 3), (3, 3)]
     before = [path.stat().st_mtime_ns for path in made[:2]]
-    kept = load(made[2]).signal
+    kept = read(made[2]).signal
     made[2].write_bytes(made[2].read_bytes()[:3000])  # cut short
     again = []
     assert make_records(cases, folder, progress=lambda *numbers: again.append(numbers)) == made
     assert again == [(3, 3)] and [path.stat().st_mtime_ns for path in made[:2]] == before
-    assert np.array_equal(load(made[2]).signal, kept)
+    assert np.array_equal(read(made[2]).signal, kept)
     (folder / "empty.h5").write_bytes(b"")
     assert not _is_whole(folder / "empty.h5") and _is_whole(made[2])
     assert len({one.recording_id for one in (*cases, case(seed=8), case(speed_rpm=1801.0))}) == 5
@@ -76,7 +76,7 @@ def test_made_once_and_again_the_same(files):
 
 def test_dataset_of_parquet(files, tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet")
-    records = [load(path) for path in files[2]]
+    records = [read(path) for path in files[2]]
     folder = write_dataset(records, tmp_path / "synthetic")
     rows = parquet.read_table(folder / "metadata.parquet").to_pylist()
     for record, row in zip(records, rows, strict=True):
@@ -93,7 +93,7 @@ def test_dataset_of_parquet(files, tmp_path):
 def test_without_pyarrow_one_line(files, tmp_path, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
     with pytest.raises(InputError, match=r"pip install 'ehlcontact\[records\]'"):
-        write_dataset([load(files[2][0])], tmp_path / "synthetic")
+        write_dataset([read(files[2][0])], tmp_path / "synthetic")
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import parse_json, read_text
 from ehlcontact.results import SteadyResult
 from ehlcontact.status import Status
-from ehlcontact.store import load
+from ehlcontact.store import read
 from ehlcontact.transient.result import SimulationResult
 
 RESULTS, REPORT = "results.json", "report.html"
@@ -79,8 +79,8 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
     `seconds` are the wall times of the stages.
     """
     started = time.perf_counter()
-    steady = load(folder / "steady.h5", SteadyResult)
-    simulations = {name: load(folder / f"{name}.h5", SimulationResult) for name in RECORDS}
+    steady = read(folder / "steady.h5", SteadyResult)
+    simulations = {name: read(folder / f"{name}.h5", SimulationResult) for name in RECORDS}
     if not isinstance(steady, SteadyResult):
         raise InputError("file", str(folder / "steady.h5"), "a steady film")
     histories = {name: run for name, run in simulations.items() if isinstance(run, SimulationResult)}
