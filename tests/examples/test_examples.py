@@ -216,13 +216,13 @@ def test_a_run_up_and_a_coast_down_enclose_the_critical_speeds(tmp_path):
 
 
 def test_ross_drop_in(tmp_path):
-    """The issue: ROSS's own element has 202.7 Hz and 0.0316, films 224.8 and 0.0073."""
+    """ROSS's own element has 202.7 Hz and 0.0316, films 224.5 and 0.00675 in both versions of ROSS."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         pytest.importorskip("ross", reason="ROSS is not installed: pip install 'ehlcontact[ross]'")
     drop_in = example("ross_drop_in")
     held = drop_in.bearing()
-    np.testing.assert_allclose(drop_in.first_mode(drop_in.on_films(held)), (224.8, 0.0068), rtol=0.01)
+    np.testing.assert_allclose(drop_in.first_mode(drop_in.on_films(held)), (224.48, 0.00675), rtol=5e-3)
     np.testing.assert_allclose(drop_in.first_mode(drop_in.on_theirs()), (202.7, 0.0316), rtol=1e-3)
     run = drop_in.over_time(held, 0.02)
     alone = held.equilibrium((0.0, -drop_in.LOAD), speed_rpm=drop_in.RPM)
