@@ -84,7 +84,6 @@ def assert_speeds_are_reached(slave, given):
         slave.set(speed=speed)
         slave.step(1e-4)
         turned.append(slave.get("angle")[0])
-    slave.free()
     means = 0.5 * (np.array([given[0], *given[:-1]]) + given)
     assert np.diff(turned) / 1e-4 == pytest.approx(means, rel=1e-9, abs=1e-9)
 

@@ -37,6 +37,13 @@ def begin(*arguments, **options):
     return subprocess.Popen(command(*arguments), text=True, env=environment(), **streams, **listen)
 
 
+def shell_script(file, text):
+    """Path of a shell script that was written to a file."""
+    file.write_text(f"#!/bin/sh\n{text}\n")
+    file.chmod(0o755)
+    return str(file)
+
+
 def script(path):
     """The module of a file outside of the packages, by its path from the root."""
     spec = importlib.util.spec_from_file_location(Path(path).stem, ROOT / path)

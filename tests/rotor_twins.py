@@ -1,19 +1,13 @@
 """Rotors and contacts that are known in closed form, one mass on a spring and a damper; constructed runs."""
 
 import numpy as np
+from balls import OF_6205
 
 from ehlcontact import Lubricant, OperatingPoint
 from ehlcontact.status import Status
 from reduced_models import JeffcottRotor, RotorResult
 
-POINT = OperatingPoint.ball_bearing(
-    Lubricant(0.0367, 2e-8),
-    ball_diameter=7.94e-3,
-    pitch_diameter=39.04e-3,
-    conformity=0.52,
-    speed_rpm=3000,
-    load=48.7,
-)
+POINT = OperatingPoint.ball_bearing(Lubricant(0.0367, 2e-8), **OF_6205, speed_rpm=3000, load=48.7)
 SCALES = POINT.scales
 K, C, MASS = 4e7, 120.0, 2.0  # of one contact [N/m], [N s/m]; of the rotor [kg]
 

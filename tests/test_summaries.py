@@ -10,6 +10,7 @@ from dataclasses import fields, is_dataclass, replace
 import control
 import numpy as np
 import pytest
+from balls import OF_6205
 
 import ehlcontact
 import fmu
@@ -152,8 +153,7 @@ WITHOUT_PLOT = {
 @pytest.fixture(scope="module")
 def point():
     oil = Lubricant.iso_vg(68, temperature=60.0)
-    sizes = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
-    return OperatingPoint.ball_bearing(oil, **sizes, speed_rpm=3000.0, load=49.0)
+    return OperatingPoint.ball_bearing(oil, **OF_6205, speed_rpm=3000.0, load=49.0)
 
 
 @pytest.fixture(scope="module")

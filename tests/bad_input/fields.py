@@ -4,6 +4,7 @@ from math import pi
 
 import numpy as np
 from argument_groups import grouped
+from balls import OF_6205
 
 from ehlcontact import (
     Domain,
@@ -59,7 +60,6 @@ def tabulated(**arguments):
     return simulate(POINT, PrescribedLoad(T, 1.0 + T), **grouped(n=32, **arguments))
 
 
-BALL = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
 RUN = {"point": POINT, "motion": HarmonicLoad(Omega=pi), "grid": Grid(n=32)}
 FIELDS = [  # function, good arguments, bad values of some
     (
@@ -90,7 +90,7 @@ FIELDS = [  # function, good arguments, bad values of some
     (operating_point(load=60.0, u_sum=1.3).Omega_n, {}, {"mass": NOT_POSITIVE}),
     (
         ball_bearing,
-        BALL | {"speed_rpm": 3000.0, "load": 100.0},
+        OF_6205 | {"speed_rpm": 3000.0, "load": 100.0},
         {
             "ball_diameter": [0.0, NAN, True],
             "pitch_diameter": [-0.04, 7.94e-3, None],
@@ -153,7 +153,7 @@ FIELDS = [  # function, good arguments, bad values of some
             "surface": [3],
         },
     ),
-    (Grid, {}, {"n": NO_GRID, "domain": [(-4.5, 1.5, 3.0)], "deflection": ["FFT", None]}),
+    (Grid, {}, {"n": NO_GRID, "domain": [(-4.5, 1.5, 3.0)], "deflection": ["", "FFT", None, 3]}),
     (
         TimeSteps,
         {},
@@ -172,7 +172,6 @@ FIELDS = [  # function, good arguments, bad values of some
     (solve_steady, {"point": POINT, "grid": Grid(n=64)}, {"threads": NO_THREADS}),
     (impedance, {"point": POINT, "Omega": [0.0]}, {"threads": NO_THREADS}),
     (TransientContact, {"point": POINT}, {"threads": NO_THREADS}),
-    (Grid, {}, {"deflection": ["", "FFT", None, 3]}),
     (run_until_1, {}, {"dt": [2.0, 1e-9], "snapshots": [(1.5,)]}),
     (tabulated, {}, {"periods": [2.0], "steps_per_period": [80]}),
     (FreeVibration, {}, {"Omega_n": NOT_POSITIVE}),

@@ -19,6 +19,7 @@ from bad_input.calls import CALLS, full_contact
 from bad_input.commands import COMMANDS, ELEMENT, FILM, OTHER, RECORD, STUDY, at, bearing, steady
 from bad_input.fields import FIELDS, NAMED
 from bad_input.studies import SLIPS, SMALL
+from balls import OF_6205
 from numba import njit
 from numba.core.caching import FunctionCache
 
@@ -176,10 +177,8 @@ def test_a_byte_order_mark(good, tmp_path):
 
 
 def test_the_element_of_another_contact(refused, tmp_path, good):
-    element = Atlas().element(OperatingPoint.ball_bearing(
-        Lubricant(0.02, 2e-8), ball_diameter=7.94e-3, pitch_diameter=39.04e-3, conformity=0.52, speed_rpm=3000.0,
-        load=34.0,
-    ))  # fmt: skip
+    point = OperatingPoint.ball_bearing(Lubricant(0.02, 2e-8), **OF_6205, speed_rpm=3000.0, load=34.0)
+    element = Atlas().element(point)
     file = save(element, tmp_path / "other.json")
     words = ("--contact", "an element of the study's contact: ", "eta0 = 0.0367 Pa s (made for 0.02 Pa s)")
     refused(("export", STUDY, "-o", "new.fmu", "--contact", file), words)

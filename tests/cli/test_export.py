@@ -11,7 +11,7 @@ from pathlib import Path
 
 import fmpy
 import pytest
-from programs import ROOT, command, environment
+from programs import ROOT, command, environment, shell_script
 
 from ehlcontact import save
 from ehlcontact.cli.study.reduction import export_fmu
@@ -32,13 +32,6 @@ def element(tmp_path):
 
 def beside(element):
     return sorted(path.name for path in element.parent.iterdir() if path != element)
-
-
-def script(folder, text):
-    program = folder / "cc"
-    program.write_text(f"#!/bin/sh\n{text}\n")
-    program.chmod(0o755)
-    return str(program)
 
 
 def test_a_file_that_is_there_needs_force(call, refused, element, monkeypatch):
@@ -94,7 +87,7 @@ def test_compilers_that_fail(refused, element, tmp_path, monkeypatch, tmp_path_f
     for line, words in {
         "gcc 'x": ("EHLCONTACT_CC = ", "command line (no closing quotation)"),
         "/none/cc": ("no FMU was written", "cannot start the C compiler /none/cc"),
-        script(folder, "exit 0"): ("no FMU was written", "made no library"),
+        shell_script(folder / "cc", "exit 0"): ("no FMU was written", "made no library"),
     }.items():
         monkeypatch.setenv("EHLCONTACT_CC", line)
         refused(words, "export", element, "-o", tmp_path / "x.fmu")
@@ -103,7 +96,7 @@ def test_compilers_that_fail(refused, element, tmp_path, monkeypatch, tmp_path_f
         "kill -9 $$": ("was killed (SIGKILL)",),
         "sleep 60": ("took more than 0.3 s",),
     }.items():
-        monkeypatch.setenv("EHLCONTACT_CC", script(folder, text))
+        monkeypatch.setenv("EHLCONTACT_CC", shell_script(folder / "cc", text))
         refused(("no FMU was written", *words), "export", element, "-o", tmp_path / "x.fmu")
     assert beside(element) == []
 
@@ -111,7 +104,7 @@ def test_compilers_that_fail(refused, element, tmp_path, monkeypatch, tmp_path_f
 def test_a_compiler_may_be_named_from_here(call, element, monkeypatch):
     if shutil.which("gcc") is None:
         pytest.skip("no gcc")
-    script(element.parent, 'exec gcc "$@"')
+    shell_script(element.parent / "cc", 'exec gcc "$@"')
     monkeypatch.chdir(element.parent)
     monkeypatch.setenv("EHLCONTACT_CC", "./cc -O1")
     assert call("export", element, "-o", "x.fmu").code == 0

@@ -1,5 +1,7 @@
 """Rows of tables: quantities with the units that people use, and their dimensionless values beside."""
 
+from balls import OF_6205
+
 from ehlcontact import Lubricant, MoesPoint, OperatingPoint
 from ehlcontact.cli.rows import in_unit, quantity_rows
 from reduced_models import Atlas
@@ -23,14 +25,8 @@ def test_a_dimensionless_point_has_its_scales_as_units():
 
 
 def test_a_point_in_si_has_both():
-    point = OperatingPoint.ball_bearing(
-        Lubricant.iso_vg(68, temperature=60.0),
-        ball_diameter=7.94e-3,
-        pitch_diameter=39.04e-3,
-        conformity=0.52,
-        speed_rpm=3000.0,
-        load=50.0,
-    )
+    oil = Lubricant.iso_vg(68, temperature=60.0)
+    point = OperatingPoint.ball_bearing(oil, **OF_6205, speed_rpm=3000.0, load=50.0)
     answer = Atlas().at(point)
     approach, film, moment = quantity_rows(answer, NAMES, answer.error_bars)
     assert approach[1].endswith(" µm") and moment[1].endswith(" N mm")

@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from programs import begin
+from programs import begin, shell_script
 from tiny_study import STUDY
 
 from ehlcontact import assumptions, read
@@ -225,10 +225,8 @@ def test_a_second_ctrl_c_waits_for_no_worker(monkeypatch, tmp_path):
     file = tmp_path / "study.toml"
     file.write_text(STUDY)
     monkeypatch.setattr(runner, "STAGES", (stage_named("steady"), stage_named("free")))
-    deaf = tmp_path / "python"
-    deaf.write_text(f"#!/bin/sh\ntrap '' INT\necho $$ >> {tmp_path}/pids\nexec sleep 100\n")
-    deaf.chmod(0o755)
-    monkeypatch.setattr(sys, "executable", str(deaf))
+    deaf = shell_script(tmp_path / "python", f"trap '' INT\necho $$ >> {tmp_path}/pids\nexec sleep 100")
+    monkeypatch.setattr(sys, "executable", deaf)
 
     def press_twice():
         while not (tmp_path / "pids").exists() or len((tmp_path / "pids").read_text().split()) < 2:
@@ -287,10 +285,8 @@ def test_a_stage_whose_process_dies(monkeypatch, tmp_path):
     file = tmp_path / "study.toml"
     file.write_text(STUDY)
     monkeypatch.setattr(runner, "STAGES", (stage_named("steady"),))
-    dying = tmp_path / "python"
-    dying.write_text("#!/bin/sh\necho first >&2; echo out of memory >&2; exit 3\n")
-    dying.chmod(0o755)
-    monkeypatch.setattr(sys, "executable", str(dying))
+    dying = shell_script(tmp_path / "python", "echo first >&2; echo out of memory >&2; exit 3")
+    monkeypatch.setattr(sys, "executable", dying)
     note = run_stages(tmp_path)["steady"]
     assert note["status"] == Status.FAILED and note["seconds"] == 0.0
     assert note["message"] == "its process died: out of memory"

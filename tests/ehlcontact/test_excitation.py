@@ -4,6 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from balls import OF_6205
 from programs import script
 
 from ehlcontact import (
@@ -26,7 +27,6 @@ from ehlcontact.impedance import LinearisedContact, held
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
 
 POINT = MoesPoint(200, 10, 0.5)
-BALL = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
 
 
 def dense_force(film, omega, k):
@@ -169,7 +169,7 @@ def test_bad_input_is_one_line(arguments, message):
 
 
 def test_in_si_and_in_files(tmp_path):
-    point = OperatingPoint.ball_bearing(Lubricant(0.04, 2.2e-8), **BALL, speed_rpm=3000.0, load=30.0)
+    point = OperatingPoint.ball_bearing(Lubricant(0.04, 2.2e-8), **OF_6205, speed_rpm=3000.0, load=30.0)
     result = excitation(point, hz=[500.0, 5000.0], grid=Grid(n=48))
     si, s = result.si, result.scales
     np.testing.assert_allclose(si.hz, [500.0, 5000.0])

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from balls import LARGE
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
@@ -34,9 +35,7 @@ SMALL = Grid(64)
 
 def bearing(rpm=10_000.0, oil=OIL):
     """Inner race of a 6305."""
-    return OperatingPoint.ball_bearing(
-        oil, ball_diameter=12.3e-3, pitch_diameter=43.5e-3, conformity=0.52, speed_rpm=rpm, load=800.0
-    )
+    return OperatingPoint.ball_bearing(oil, **LARGE, speed_rpm=rpm, load=800.0)
 
 
 POINT = bearing()

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from balls import FAST as POINT
 from scipy import linalg
 
 from ehlcontact import (
@@ -29,9 +30,6 @@ from ehlcontact.solver.film_heat import FilmHeat, HeatedCycles
 from ehlcontact.solver.linear_heat import LinearHeat
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
-POINT = OperatingPoint.ball_bearing(
-    OIL, ball_diameter=12.3e-3, pitch_diameter=43.5e-3, conformity=0.52, speed_rpm=10_000.0, load=800.0
-)
 GRID = Grid(48)
 WIDER = Grid(48, Domain(-6.0, 1.5, 3.0))  # for layers of oil
 PAIR = Heat(0.3, effusivity=(13_000.0, 1_500.0))  # sliding on glass

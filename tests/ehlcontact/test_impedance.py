@@ -5,6 +5,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from balls import OF_6205
 
 from ehlcontact import Domain, Grid, InputError, Lubricant, MoesPoint, OperatingPoint, read, save
 from ehlcontact.impedance import LinearisedContact, held, impedance
@@ -197,9 +198,7 @@ def test_errors_of_two_and_three_meshes():
 
 def test_in_si_and_in_files(tmp_path):
     oil = Lubricant(0.04, 2.2e-8)
-    point = OperatingPoint.ball_bearing(
-        oil, ball_diameter=7.94e-3, pitch_diameter=39.04e-3, conformity=0.52, speed_rpm=3000.0, load=30.0
-    )
+    point = OperatingPoint.ball_bearing(oil, **OF_6205, speed_rpm=3000.0, load=30.0)
     result = impedance(point, hz=[0.0, 50.0], grid=Grid(n=48))
     s = result.scales
     np.testing.assert_allclose(result.si.error_bars["damping"], result.damping_error * s.damping)

@@ -5,6 +5,7 @@ from math import pi
 
 import oracles
 import pytest
+from balls import OF_6205
 
 from ehlcontact import Geometry, InputError, Lubricant, MoesPoint, OperatingPoint
 from ehlcontact.film_formulas import nvm_central_film
@@ -134,23 +135,20 @@ def test_swapped_axes_scale_alike():
 
 
 # A 6205 deep-groove ball bearing.
-DATA_6205 = dict(ball_diameter=7.94e-3, pitch_diameter=39.04e-3, conformity=0.52)
-
-
 class TestBallBearing:
     def test_inner_radii(self):
-        g = Geometry.ball_bearing(**DATA_6205)
+        g = Geometry.ball_bearing(**OF_6205)
         assert g.radius_x == pytest.approx(1e-3 / (2 / 7.94 + 2 / 31.10), rel=1e-12)
         assert g.radius_y == pytest.approx(1e-3 / (2 / 7.94 - 1 / (0.52 * 7.94)), rel=1e-12)
 
     def test_outer_radii(self):
-        g = Geometry.ball_bearing(**DATA_6205, race="outer")
+        g = Geometry.ball_bearing(**OF_6205, race="outer")
         assert g.radius_x == pytest.approx(1e-3 / (2 / 7.94 - 2 / 46.98), rel=1e-12)
         assert g.radius_y == pytest.approx(1e-3 * 0.52 * 7.94 / 0.04, rel=1e-12)
 
     def test_inner_contact_under_load(self):
         """1 kN on the ball, 3000 rpm: kappa 0.107 and, by the oracle, pressure and approach."""
-        point = OperatingPoint.ball_bearing(Lubricant(0.037), speed_rpm=3000, load=1000.0, **DATA_6205)
+        point = OperatingPoint.ball_bearing(Lubricant(0.037), speed_rpm=3000, load=1000.0, **OF_6205)
         g = point.geometry
         a, b, pressure, approach = oracles.hertz_si(1000.0, g.radius_x, g.radius_y, 2.06e11 / 0.91)
         assert point.moes.kappa == pytest.approx(a / b, rel=1e-9)
@@ -163,14 +161,14 @@ class TestBallBearing:
     @pytest.mark.parametrize("race", ["inner", "outer"])
     def test_rolling_speed(self, race):
         """From the kinematics: cage at omega r_i/(r_i + r_o), both surfaces pass the contact alike."""
-        point = OperatingPoint.ball_bearing(Lubricant(), speed_rpm=3000, load=100.0, race=race, **DATA_6205)
+        point = OperatingPoint.ball_bearing(Lubricant(), speed_rpm=3000, load=100.0, race=race, **OF_6205)
         omega, ri, ro = 3000 * pi / 30, 0.5 * 31.10e-3, 0.5 * 46.98e-3
         cage = omega * ri / (ri + ro)
         surface = (omega - cage) * ri if race == "inner" else cage * ro
         assert point.u_sum == pytest.approx(2.0 * surface, rel=1e-12)
 
     def test_materials_reach_the_geometry(self):
-        g = Geometry.ball_bearing(**DATA_6205, e1=3.1e11, nu1=0.26)
+        g = Geometry.ball_bearing(**OF_6205, e1=3.1e11, nu1=0.26)
         assert (g.e1, g.nu1, g.e2, g.nu2) == (3.1e11, 0.26, 2.06e11, 0.3)
 
 

@@ -5,19 +5,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+from balls import FAST as POINT
 
-from ehlcontact import Domain, Grid, Heat, Lubricant, OilLayer, OperatingPoint, solve_steady
+from ehlcontact import Domain, Grid, Heat, OilLayer, solve_steady
 from ehlcontact.impedance import heat_of, held
 from ehlcontact.solver.film_heat import divergence
 
-POINT = OperatingPoint.ball_bearing(
-    Lubricant.iso_vg(68, temperature=50.0),
-    ball_diameter=12.3e-3,
-    pitch_diameter=43.5e-3,
-    conformity=0.52,
-    speed_rpm=10_000.0,
-    load=800.0,
-)
 GRID = Grid(64, Domain(-6.0, 1.5, 3.0))
 GIVEN = {"grid": GRID, "tol": 1e-8}
 

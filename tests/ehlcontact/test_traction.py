@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from balls import LARGE
 from programs import script
 
 from ehlcontact import (
@@ -134,9 +135,7 @@ def test_one_curve():
     points = (
         OperatingPoint.ball_bearing(
             Lubricant.iso_vg(100, temperature=40.0),
-            ball_diameter=12.3e-3,
-            pitch_diameter=43.5e-3,
-            conformity=0.53,
+            **LARGE | {"conformity": 0.53},
             speed_rpm=500.0,
             load=700.0,
             race="outer",

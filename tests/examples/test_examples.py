@@ -1,7 +1,6 @@
 """The examples: short, importable without work, and what each of them shows is so."""
 
 import ast
-import importlib.util
 import re
 import warnings
 from functools import partial
@@ -10,6 +9,7 @@ from pathlib import Path
 import atlas_stub
 import numpy as np
 import pytest
+from programs import script
 
 from reduced_models import OutsideValidityWarning, log_decrement
 from reduced_models.atlas.build import build_atlas
@@ -23,10 +23,7 @@ PNG = b"\x89PNG"
 
 def example(name):
     """The module, imported anew; no picture of pyplot is left open by that."""
-    spec = importlib.util.spec_from_file_location(name, next(FOLDER.rglob(f"{name}.py")))
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return script(next(FOLDER.rglob(f"{name}.py")))
 
 
 def documented(tree):

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import fmpy
 import pytest
+from programs import shell_script
 
 import fmu.spec
 from ehlcontact.errors import InputError
@@ -182,14 +183,12 @@ def test_compiler_that_is_missing_or_fails(elements, tmp_path, monkeypatch):
     monkeypatch.setenv("EHLCONTACT_CC", "/nonexistent/cc -m64")
     with pytest.raises(BuildError, match="cannot start the C compiler"):
         export_contact(elements["cubic"], tmp_path / "x.fmu")
-    script = tmp_path / "cc"
-    script.write_text("#!/bin/sh\necho 'model.h: error: no such thing' >&2\nexit 3\n")
-    script.chmod(0o755)
-    monkeypatch.setenv("EHLCONTACT_CC", str(script))
+    script = shell_script(tmp_path / "cc", "echo 'model.h: error: no such thing' >&2\nexit 3")
+    monkeypatch.setenv("EHLCONTACT_CC", script)
     with pytest.raises(BuildError, match=r"exit code 3.*model\.h: error: no such thing") as error:
         export_contact(elements["cubic"], tmp_path / "x.fmu")
     assert "\n" not in str(error.value)
-    script.write_text("#!/bin/sh\nexit 0\n")
+    shell_script(tmp_path / "cc", "exit 0")
     with pytest.raises(BuildError, match="made no library"):
         export_contact(elements["cubic"], tmp_path / "x.fmu")
     assert not (tmp_path / "x.fmu").exists()

@@ -3,15 +3,13 @@
 They are of the extra ``importers``; CI installs it where it can be had.
 """
 
-import ctypes
 import math
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import numpy as np
 import pytest
+from other_masters import ecos
 
 from fmu import export_contact
 from reduced_models import CubicContact
@@ -48,16 +46,10 @@ def libcosimpy(path, step, inputs=VALUES[:2], outputs=VALUES) -> Iterator[Callab
 
 @contextmanager
 def ecospy(path, step, inputs=VALUES[:2], outputs=VALUES) -> Iterator[Callable]:
-    """Ecos, on fmi4c; its library wants libtbb.so.12, of the system or of the package ``tbb``."""
-    for library in (Path(sys.prefix) / "lib").glob("libtbb.so.12"):
-        ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL)
-    try:
-        from ecospy import EcosSimulation, EcosSimulationStructure
-    except (ImportError, OSError) as error:
-        pytest.skip(f"no ecospy ({error})")
-    structure = EcosSimulationStructure()
+    program = ecos()
+    structure = program.EcosSimulationStructure()
     structure.add_model("unit", str(path))
-    with EcosSimulation(structure=structure, step_size=step) as simulation:
+    with program.EcosSimulation(structure=structure, step_size=step) as simulation:
         simulation.init()
 
         def advance(*values):

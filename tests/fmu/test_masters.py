@@ -3,18 +3,16 @@
 Needs the extra ``importers``. The table of masters and masses is in `examples/studies/masters.py`.
 """
 
-import subprocess
 import sys
-import zipfile
 from pathlib import Path
 from runpy import run_path
 
 import numpy as np
 import pytest
-from other_masters import ecospy, libcosimpy, ours
+from other_masters import archive, built_by_pythonfmu, ecospy, libcosimpy, ours
 
 from fmu import export_contact
-from fmu.system.structure import Component, Connector, Wire, system_structure
+from fmu.system.structure import Component, Connector, Wire
 
 STUDIES = Path(__file__).parents[2] / "examples" / "studies"
 MASS = """
@@ -60,8 +58,8 @@ def fmus(study, loop, tmp_path_factory):
     """The mass and the contact, and a system of both for each step."""
     pytest.importorskip("pythonfmu")
     folder = tmp_path_factory.mktemp("masters")
-    (folder / "mass.py").write_text(MASS.format(load=study["LOAD"], start=loop.start, mass=study["MASS"]))
-    subprocess.run([sys.executable, "-m", "pythonfmu", "build", "-f", "mass.py"], cwd=folder, check=True)
+    text = MASS.format(load=study["LOAD"], start=loop.start, mass=study["MASS"])
+    built_by_pythonfmu(folder, "mass", text)
     export_contact(loop.element, folder / "Contact.fmu")
     return folder
 
@@ -87,15 +85,7 @@ def system(folder, loop, h):
     ]  # fmt: skip
     motion = [Wire(("mass", name), ("contact", name)) for name in ("approach", "rate")]
     wires = [*motion, Wire(("contact", "force"), ("mass", "force"))]
-    path = folder / f"system {h:g}.ssp"
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr(
-            "SystemStructure.ssd",
-            system_structure("s", parts, wires, step=h, stop=1.0, description="mass on contact"),
-        )
-        for part in parts:
-            archive.write(folder / Path(part.source).name, part.source)
-    return path
+    return archive(folder / f"system {h:g}.ssp", parts, wires, h)
 
 
 @pytest.mark.parametrize("master", [ours, libcosimpy, ecospy])

@@ -4,14 +4,10 @@ Tighter than any discretisation error, looser than rounding across machines. If 
 ``python tests/golden/regenerate.py``, and a line under "Numerics" in CHANGELOG.md.
 """
 
-import importlib.util
-from pathlib import Path
-
 import pytest
+from programs import script
 
-SPEC = importlib.util.spec_from_file_location("regenerate", Path(__file__).with_name("regenerate.py"))
-golden = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(golden)
+golden = script("tests/golden/regenerate.py")
 STORED = golden.stored()
 # The seven terms are hardly identifiable: rounding of the record is seen through their condition.
 LOOSE = {("fit", "polynomial"): 1e-2, ("fit", "memory"): 1e-2}

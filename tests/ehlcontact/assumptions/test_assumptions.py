@@ -6,6 +6,7 @@ from math import e, pi, sqrt
 
 import numpy as np
 import pytest
+from balls import OF_6205
 from scipy.optimize import brentq
 
 from ehlcontact import (
@@ -36,9 +37,7 @@ NAMES = ["isothermal", "newtonian", "smooth", "fully flooded", "constant speed",
 
 def bearing(rpm=3000.0, oil=OIL, load=486.0):
     """A ball of a 6205 on its inner race."""
-    return OperatingPoint.ball_bearing(
-        oil, ball_diameter=7.94e-3, pitch_diameter=39.04e-3, conformity=0.52, speed_rpm=rpm, load=load
-    )
+    return OperatingPoint.ball_bearing(oil, **OF_6205, speed_rpm=rpm, load=load)
 
 
 # Each number a second time, from the SI inputs -------------------------------------------------------------------

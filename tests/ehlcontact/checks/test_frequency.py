@@ -4,6 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from balls import OF_6205
 
 from ehlcontact import (
     FreeVibration,
@@ -20,16 +21,8 @@ from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import OperatingPoint
 
 TIME = 2e-5
-RACE = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
 POINT = MoesPoint(200, 10, 0.5)
-BEARING = OperatingPoint.ball_bearing(
-    Lubricant(0.037, 2e-8),
-    ball_diameter=7.94e-3,
-    pitch_diameter=39.04e-3,
-    conformity=0.52,
-    speed_rpm=3000,
-    load=20,
-)
+BEARING = OperatingPoint.ball_bearing(Lubricant(0.037, 2e-8), **OF_6205, speed_rpm=3000, load=20)
 
 
 @pytest.mark.parametrize(

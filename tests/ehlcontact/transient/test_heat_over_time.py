@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from balls import FAST as POINT
 
 from ehlcontact import (
     Domain,
@@ -10,9 +11,7 @@ from ehlcontact import (
     Heat,
     InputError,
     KeepSettings,
-    Lubricant,
     MoesPoint,
-    OperatingPoint,
     PrescribedApproach,
     PrescribedLoad,
     TimeSteps,
@@ -24,14 +23,6 @@ from ehlcontact import (
     solve_steady,
 )
 
-POINT = OperatingPoint.ball_bearing(
-    Lubricant.iso_vg(68, temperature=50.0),
-    ball_diameter=12.3e-3,
-    pitch_diameter=43.5e-3,
-    conformity=0.52,
-    speed_rpm=10_000.0,
-    load=800.0,
-)
 GRID, UNIT = Grid(48), POINT.scales.time
 ROLLING = Heat()
 GLASS = Heat(0.3, effusivity=(13_000.0, 1_500.0))

@@ -3,20 +3,17 @@
 Needs the extra ``importers``.
 """
 
-import subprocess
-import sys
-import zipfile
 from pathlib import Path
 from runpy import run_path
 
 import pytest
 from mass_on_bearing import decay, in_one_run
-from other_masters import ecospy, libcosimpy, ours
+from other_masters import archive, built_by_pythonfmu, ecospy, libcosimpy, ours
 
 from ehlcontact import Lubricant
 from fmu import export_bearing
 from fmu.bearing.model import BearingModel
-from fmu.system.structure import Component, Connector, Wire, system_structure
+from fmu.system.structure import Component, Connector, Wire
 from reduced_models import BallBearing
 
 RPM, LOAD, MASS, UNTIL, KICK = 3000.0, 500.0, 5.0, 0.012, 1e-4  # rev/min, N, kg, s, m/s
@@ -57,8 +54,7 @@ def fmus(model, tmp_path_factory):
     folder = tmp_path_factory.mktemp("masters")
     x, y = model.place.tolist()
     for name, v in KICKS.items():
-        (folder / f"{name}.py").write_text(RING.format(name=name, load=LOAD, x=x, y=y, v=v, mass=MASS))
-        subprocess.run([sys.executable, "-m", "pythonfmu", "build", "-f", f"{name}.py"], cwd=folder, check=True)
+        built_by_pythonfmu(folder, name, RING.format(name=name, load=LOAD, x=x, y=y, v=v, mass=MASS))
     export_bearing(model.bearing, folder / "Bearing.fmu", speeds_rpm=RPM, load=LOAD)
     return folder
 
@@ -81,15 +77,7 @@ def system(folder, model, name, h):
     ]  # fmt: skip
     to_bearing = [Wire(("mass", k), ("bearing", k)) for k in MOTION]
     to_mass = [Wire(("bearing", k), ("mass", k)) for k in FORCES]
-    path = folder / f"{name} {h:g}.ssp"
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr(
-            "SystemStructure.ssd",
-            system_structure("s", parts, to_bearing + to_mass, step=h, stop=1.0, description="mass on bearing"),
-        )
-        for part in parts:
-            archive.write(folder / part.source.removeprefix("resources/"), part.source)
-    return path
+    return archive(folder / f"{name} {h:g}.ssp", parts, to_bearing + to_mass, h)
 
 
 @pytest.fixture(scope="module")

@@ -12,6 +12,7 @@ from pathlib import Path
 import fmpy
 import pytest
 from library_contents import contents
+from programs import shell_script
 
 from ehlcontact import InputError
 from fmu import export_contact
@@ -95,10 +96,8 @@ def test_a_compiler_that_makes_something_else(spec, sources, monkeypatch, tmp_pa
     monkeypatch.setenv("EHLCONTACT_CC", words)
     with pytest.raises(BuildError, match=f"made a library for {other}, not {OWN.name}"):
         build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
-    script = tmp_path / "cc"
-    script.write_text('#!/bin/sh\nwhile [ "$1" != -o ]; do shift; done\necho text > "$2"\n')
-    script.chmod(0o755)
-    monkeypatch.setenv("EHLCONTACT_CC", str(script))
+    text = 'while [ "$1" != -o ]; do shift; done\necho text > "$2"'
+    monkeypatch.setenv("EHLCONTACT_CC", shell_script(tmp_path / "cc", text))
     with pytest.raises(BuildError, match="made no ELF, PE or Mach-O library"):
         build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)
 
@@ -110,9 +109,7 @@ def test_a_compiler_that_makes_something_else(spec, sources, monkeypatch, tmp_pa
 )
 def test_a_system_compiler_that_fails_is_passed_over(spec, sources, monkeypatch, tmp_path, text):
     """A gcc without the headers of a C library, as slim images have it."""
-    script = tmp_path / "cc"
-    script.write_text(f"#!/bin/sh\n{text}\n")
-    script.chmod(0o755)
+    shell_script(tmp_path / "cc", text)
     monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
     monkeypatch.delenv("EHLCONTACT_CC", raising=False)
     _, (label,) = build_binaries(sources, compiled(spec, 2), spec.identifier, [OWN], fmi=3)

@@ -9,6 +9,7 @@ import fmpy
 import pytest
 from bearing_fmus import bearing
 from lxml import etree
+from programs import shell_script
 
 from ehlcontact import InputError
 from fmu import export_bearing
@@ -105,10 +106,7 @@ def undecided(monkeypatch):
 
 def put(folder, name, text="exit 0"):
     """A program for PATH."""
-    program = folder / name
-    program.write_text(f"#!/bin/sh\n{text}\n")
-    program.chmod(0o755)
-    return program
+    return shell_script(folder / name, text)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the system's compiler is not looked for on Windows")

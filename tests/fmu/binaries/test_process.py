@@ -7,6 +7,7 @@ import time
 from threading import Event, Timer
 
 import pytest
+from programs import shell_script
 
 from fmu.binaries import process
 from fmu.binaries.process import BuildError
@@ -18,13 +19,7 @@ posix = pytest.mark.skipif(os.name != "posix", reason="a shell script as the com
 def script(tmp_path):
     """``script(text)`` is the command of a shell script."""
 
-    def make(text):
-        program = tmp_path / "cc"
-        program.write_text(f"#!/bin/sh\n{text}\n")
-        program.chmod(0o755)
-        return (str(program), "-shared")
-
-    return make
+    return lambda text: (shell_script(tmp_path / "cc", text), "-shared")
 
 
 def fails(line, folder):

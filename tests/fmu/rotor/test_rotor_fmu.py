@@ -255,8 +255,9 @@ def test_says_where_a_bearing_is_outside_its_tables(made):
 
 @pytest.mark.parametrize("lead", [0.0, 0.5, 1.0])
 def test_the_speed_that_is_given_is_reached_whatever_the_lead(made, lead):
-    first = made("flexible").started(speed=700.0, force_lead=lead)
-    assert_speeds_are_reached(first, [700.0, 700.0, 650.0, 650.0, 100.0, 0.0, 0.0])
+    slave = made("flexible").started(speed=700.0, force_lead=lead)
+    assert_speeds_are_reached(slave, [700.0, 700.0, 650.0, 650.0, 100.0, 0.0, 0.0])
+    slave.free()
 
 
 def test_a_remainder_of_a_step_is_taken_with_the_next(made):

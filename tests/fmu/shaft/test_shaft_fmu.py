@@ -120,8 +120,9 @@ def test_motion_is_that_of_continuous_time(made, rotors):
 
 @pytest.mark.parametrize("lead", [0.0, 0.5, 1.0])
 def test_the_speed_that_is_given_is_reached_whatever_the_lead(made, lead):
-    first = made("flexible").started(speed=300.0, force_lead=lead)
-    assert_speeds_are_reached(first, [300.0, 250.0, 250.0, 100.0, 0.0, 0.0])
+    slave = made("flexible").started(speed=300.0, force_lead=lead)
+    assert_speeds_are_reached(slave, [300.0, 250.0, 250.0, 100.0, 0.0, 0.0])
+    slave.free()
 
 
 def test_scales_are_those_of_the_matrices(made, rotors, tmp_path):

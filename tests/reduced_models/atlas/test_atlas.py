@@ -7,6 +7,7 @@ from dataclasses import asdict, replace
 import atlas_stub
 import numpy as np
 import pytest
+from balls import OF_6205
 
 from ehlcontact import (
     Domain,
@@ -423,9 +424,7 @@ def test_the_6205_on_vg_68_from_idling_to_its_limit(shipped, race, conformity, s
     for load in loads:
         point = OperatingPoint.ball_bearing(
             oil,
-            ball_diameter=7.94e-3,
-            pitch_diameter=39.04e-3,
-            conformity=conformity,
+            **OF_6205 | {"conformity": conformity},
             speed_rpm=speed,
             load=load,
             race=race,
@@ -456,9 +455,7 @@ def test_rolling_resistance_of_a_6205_against_its_maker(shipped, speed, load):
         for angle in (0.0, 40.0, 40.0, 80.0, 80.0):
             point = OperatingPoint.ball_bearing(
                 oil,
-                ball_diameter=7.94e-3,
-                pitch_diameter=39.04e-3,
-                conformity=0.52,
+                **OF_6205,
                 speed_rpm=speed,
                 load=heaviest * math.cos(math.radians(angle)) ** 1.5,
                 race=race,

@@ -7,6 +7,7 @@ from math import atan, cos, pi, radians, sin
 import numpy as np
 import pytest
 from balls_in_balance import imbalance, races_by_hand, random_bearing
+from refusals import refused
 from scipy.optimize import brentq
 
 from ehlcontact import Lubricant, read, save
@@ -17,12 +18,6 @@ from reduced_models.bearing.set_result import SetState
 SPINDLE = BallBearing(balls=13, ball_diameter=7.938e-3, pitch_diameter=38.5e-3, contact_angle=radians(25.0))
 OTHER = BallBearing(balls=10, ball_diameter=9.5e-3, pitch_diameter=46e-3, contact_angle=radians(15.0))
 OIL = Lubricant.iso_vg(68, temperature=70.0)
-
-
-def refused(match, call):
-    with pytest.raises(InputError, match=match) as caught:
-        call()
-    assert "\n" not in str(caught.value)
 
 
 def axial_force(bearing, z):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusals import refused
 
 from ehlcontact import Lubricant, read, save
 from ehlcontact.errors import InputError
@@ -15,13 +16,6 @@ from reduced_models.bearing.catalogue import ROWS
 
 DOWN = (0.0, -1000.0)
 SIZES = {"balls": 9, "ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3}
-
-
-def refused(match, call):
-    with pytest.raises(InputError, match=match) as caught:
-        call()
-    assert "\n" not in str(caught.value)
-    return str(caught.value)
 
 
 def test_every_row_has_a_source():

@@ -4,6 +4,7 @@ from math import acos, atan2, cos, degrees, pi, radians, sin
 
 import numpy as np
 import pytest
+from refusals import refused
 from scipy.optimize import root
 
 from ehlcontact import Lubricant, read, save
@@ -42,12 +43,6 @@ GMN = [
     (125.0, 15.081, 22, 25, (630, 1880, 3750), (285, 430, 570), (277, 420, 555)),
 ]
 SPINDLE = {"balls": 13, "ball_diameter": 7.938e-3, "pitch_diameter": 38.5e-3, "contact_angle": radians(25.0)}
-
-
-def refused(match, call):
-    with pytest.raises(InputError, match=match) as caught:
-        call()
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from balls import OF_6205
 from scipy.special import ellipe
 
 from ehlcontact import Eyring, InputError, LimitingShear, Lubricant, OperatingPoint
@@ -11,9 +12,7 @@ from reduced_models import BallBearing, bearing_friction, cage_slip
 from reduced_models.bearing.sliding import SlidingContact, oiled_state, radius_across, sliding_contact
 
 OIL = Lubricant.iso_vg(68, temperature=60.0)
-POINT = OperatingPoint.ball_bearing(
-    OIL, ball_diameter=7.94e-3, pitch_diameter=39.04e-3, conformity=0.52, speed_rpm=3000.0, load=300.0
-)
+POINT = OperatingPoint.ball_bearing(OIL, **OF_6205, speed_rpm=3000.0, load=300.0)
 ACROSS = radius_across(0.52, 7.94e-3)
 LAW = LimitingShear(0.07)  # the one traction parameter of docs/traction.md
 STIFF = LimitingShear(0.001)  # reaches its limit at once: Coulomb's friction

@@ -5,6 +5,7 @@ from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
+from balls import OF_6205
 
 from ehlcontact import InputError, Lubricant, OperatingPoint, read, save
 from reduced_models import (
@@ -18,12 +19,11 @@ from reduced_models.atlas.atlas_elements import damper_band
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.elements.design_point import DesignPoint
 
-RACE = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
 OIL = Lubricant(0.037, 2e-8)
-POINT = OperatingPoint.ball_bearing(OIL, **RACE, speed_rpm=3000, load=486)
-FASTER = OperatingPoint.ball_bearing(OIL, **RACE, speed_rpm=6000, load=486)
-THINNER = OperatingPoint.ball_bearing(Lubricant(0.02, 2e-8), **RACE, speed_rpm=3000, load=486)
-HEAVIER = OperatingPoint.ball_bearing(OIL, **RACE, speed_rpm=3000, load=800)
+POINT = OperatingPoint.ball_bearing(OIL, **OF_6205, speed_rpm=3000, load=486)
+FASTER = OperatingPoint.ball_bearing(OIL, **OF_6205, speed_rpm=6000, load=486)
+THINNER = OperatingPoint.ball_bearing(Lubricant(0.02, 2e-8), **OF_6205, speed_rpm=3000, load=486)
+HEAVIER = OperatingPoint.ball_bearing(OIL, **OF_6205, speed_rpm=3000, load=800)
 BODY = {"disc_mass": 40.0, "journal_mass": 2.0, "shaft_stiffness": 2.5e7, "load": (0.0, -100.0)}
 
 

@@ -1,21 +1,17 @@
 """Stated errors of wide-range elements by kind of motion, against the stored full solves."""
 
-import importlib.util
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
+from programs import ROOT, script
 
 from ehlcontact import MoesPoint, PrescribedApproach, TimeSteps, simulate
 from reduced_models import Atlas
 from reduced_models.elements.motion_errors import ERRORS, UNLOADING, WITHIN
 
-GOLDEN = Path(__file__).parents[2] / "golden"
-SPEC = importlib.util.spec_from_file_location("motions", GOLDEN / "motions.py")
-motions = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(motions)
-STORED = json.loads((GOLDEN / "golden.json").read_text(encoding="utf-8"))["motions"]
+motions = script("tests/golden/motions.py")
+STORED = json.loads((ROOT / "tests/golden/golden.json").read_text(encoding="utf-8"))["motions"]
 
 
 @pytest.mark.filterwarnings("ignore:WideRangeContact used outside")

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from control_blocks import response, slopes
 
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, linearise, rotor_to_control, simulate_rotor
@@ -10,10 +11,6 @@ from reduced_models.bearing import ball_bearing
 control = pytest.importorskip("control")
 
 RPM, DISC = 3000.0, 12
-
-
-def response(block, w):
-    return block.C @ np.linalg.solve(1j * w * np.eye(block.nstates) - block.A, block.B)
 
 
 def test_states_have_the_frequency_response_of_the_impedances(film, beam):
@@ -76,20 +73,8 @@ def test_the_state_space_is_that_of_differences(film, block, cutoff_gap):
         linearise(rotor, RPM, passage=False).to_control(),
         rotor_to_control(rotor, RPM, cage_turns=False),
     )
-    n, m = exact.nstates, exact.ninputs
     system = np.hstack([exact.A, exact.B])
-    names = moving.state_labels
-
-    def rates(z):
-        return moving.dynamics(0.0, z[:n], z[n:])
-
-    found = np.zeros_like(system)
-    for k in range(n + m):
-        # um/s; um, N: so small that a knot of a tabulated law hardly ever lies between
-        size = 10.0 if k < n and names[k].startswith("v") else 1e-4
-        step = size * np.eye(n + m)[k]
-        near, far = (rates(j * step) - rates(-j * step) for j in (1.0, 2.0))
-        found[:, k] = (8.0 * near - far) / (12.0 * size)
+    found = slopes(moving, lambda name: 10.0 if name.startswith("v") else 1e-4)  # um/s; um
     assert np.all(np.abs(found - system) <= 1e-6 * np.abs(system).max(axis=1, keepdims=True))
 
 

@@ -1,0 +1,29 @@
+"""A film under steps at given speeds, and what is lost of oil and of energy on the way."""
+
+import numpy as np
+
+from ehlcontact.solver.balance import Balance
+
+
+def march(film, U, dT, layer=None):
+    """Largest loss of oil over the flow at U = 1, and of energy, in a step; the film starts steady at ``U[0]``.
+
+    The loss of oil is what enters under the layer less what leaves and what is stored by the rule of the step.
+    """
+    film.set_speed(U[0])
+    film.keeps_oil = bool(min(U) < 0.0)
+    assert film.start_steady(Balance.of_load()).status.ok
+    level = film.level
+    lines = np.r_[0.5, np.ones(level.ny - 1), 0.0]
+    oil, loss, energy = [lines @ level.oil[:, 1:-1].sum(axis=1) * level.hx] * 2, 0.0, 0.0
+    for k, speed in enumerate(U[1:]):
+        film.set_speed(speed)
+        assert film.advance(dT, Balance.of_load(), film.u).status.ok
+        oil.append(lines @ level.oil[:, 1:-1].sum(axis=1) * level.hx)
+        change = oil[-1] - oil[-2] if k == 0 else 1.5 * oil[-1] - 2.0 * oil[-2] + 0.5 * oil[-3]
+        if layer is not None:
+            entered, left = (float(lines @ level.carried[:, i]) * level.speed for i in (0, -2))
+            loss = max(loss, abs(entered - left - change / dT) / (layer * lines.sum()))
+        if film.heat is not None:
+            energy = max(energy, film.heat.balance())
+    return loss, energy

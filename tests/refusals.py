@@ -1,0 +1,14 @@
+"""Bad input that is refused in one line."""
+
+import pytest
+
+from ehlcontact.errors import InputError
+
+
+def refused(match, call):
+    """The one line of the error that a call ends in."""
+    with pytest.raises(InputError, match=match) as caught:
+        call()
+    line = str(caught.value)
+    assert "\n" not in line
+    return line
