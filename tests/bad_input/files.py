@@ -66,12 +66,12 @@ def of(kind):
     return kind
 
 
-def hdf5(edit):
-    """An HDF5 file edited by ``edit(file)``."""
+def hdf5(edit, mode="a"):
+    """The HDF5 file edited by ``edit(file)``; in mode "w" a new one."""
 
     def made(good):
-        stream = io.BytesIO(good)
-        with h5py.File(stream, "a") as file:
+        stream = io.BytesIO(good if mode == "a" else b"")
+        with h5py.File(stream, mode) as file:
             edit(file)
         return stream.getvalue()
 
@@ -99,18 +99,6 @@ def header_of(**changes):
         file.attrs["header"] = json.dumps({key: value for key, value in entries.items() if value is not None})
 
     return hdf5(edit)
-
-
-def foreign(edit):
-    """A new HDF5 file."""
-
-    def made(good):
-        stream = io.BytesIO()
-        with h5py.File(stream, "w") as file:
-            edit(file)
-        return stream.getvalue()
-
-    return made
 
 
 def promised(file):
@@ -189,9 +177,9 @@ HDF5 = {
     "signature": lambda good: good[:8],
     "byte in the structure": flipped(0.005),
     "byte of a number": flipped_number,
-    "foreign": foreign(lambda file: file.__setitem__("P", np.zeros(3))),
-    "class of others": foreign(lambda file: file.attrs.__setitem__("header", '{"class": "Sofa", "format": 1}')),
-    "header that is an array": foreign(lambda file: file.attrs.__setitem__("header", np.zeros(3))),
+    "foreign": hdf5(lambda file: file.__setitem__("P", np.zeros(3)), "w"),
+    "class of others": hdf5(lambda file: file.attrs.__setitem__("header", '{"class": "Sofa", "format": 1}'), "w"),
+    "header that is an array": hdf5(lambda file: file.attrs.__setitem__("header", np.zeros(3)), "w"),
     "no header": hdf5(lambda file: file.attrs.__delitem__("header")),
     "newer": header_of(format=99),
     "format in words": header_of(format="one"),
@@ -206,8 +194,8 @@ BAD = {
         "a steady film": of("steady"),
         "a checkpoint": of("checkpoint"),
         "an atlas": of("atlas"),
-        "no fields": foreign(
-            lambda file: file.attrs.__setitem__("header", '{"class": "SimulationResult", "format": 1}')
+        "no fields": hdf5(
+            lambda file: file.attrs.__setitem__("header", '{"class": "SimulationResult", "format": 1}'), "w"
         ),
         "times in words": array("T", lambda old: np.array([b"a"] * old.size)),
         "times in rows": array("T", lambda old: old[None, :]),

@@ -105,33 +105,6 @@ def test_any_element_by_tunable_parameters(slave):
             assert np.allclose(np.array(found)[:, k], function(u[::3], v[::3]), rtol=1e-12, atol=floor)
 
 
-def test_directional_derivatives_against_differences(slave, elements, kind):
-    element, unit = elements[kind], slave(kind)
-    length = element.high - element.low
-    static = element.force(element.high, 0.0)
-    fast = static / element.damping(element.high, 0.0)
-    lift_off = element.low - 1.5 * element.force(element.low, 0.0) / element.stiffness(element.low, 0.0)
-    references = [static, element.stiffness(element.high, 0.0), element.damping(element.high, 0.0)]
-    near_lift_off = lift_off + 0.3 * (element.low - lift_off)
-    for u in (near_lift_off, element.low + 0.4 * length, element.high + 2.0 * length):
-        for v in (-2.0 * fast, -0.01 * fast, 0.3 * fast):
-            steps = {"approach": 1e-6 * length, "rate": 1e-6 * fast}
-            for known, h in steps.items():
-                ends = []
-                for sign in (1.0, -1.0):
-                    shifted = {"approach": u, "rate": v} | {known: (u if known == "approach" else v) + sign * h}
-                    unit.set(**shifted)
-                    unit.step()
-                    ends.append(np.array(unit.get("force", "stiffness", "damping")))
-                unit.set(approach=u, rate=v)
-                unit.step()
-                size = np.add(unit.get("force", "stiffness", "damping"), references)
-                analytic = [unit.gradient(name, known) for name in ("force", "stiffness", "damping")]
-                difference = (ends[0] - ends[1]) / (2.0 * h)
-                scale = size / (length if known == "approach" else fast)
-                assert np.all(np.abs(analytic - difference) <= 1e-6 * scale)
-
-
 def test_derivative_along_a_direction(slave):
     unit = slave("cubic")
     unit.set(approach=0.5, rate=0.7)

@@ -1,5 +1,7 @@
 """Model exchange: derivatives against differences, loops against scipy, events."""
 
+from itertools import product
+
 import fmpy
 import numpy as np
 import pytest
@@ -65,14 +67,15 @@ def test_jacobian_of_a_film_against_differences(model, elements, kind):
             assert np.all(np.abs(exact - difference) <= 1e-6 * np.maximum(np.abs(exact), 10.0 * scale)), known
 
 
-@pytest.mark.parametrize("kind", ["cubic", "polynomial", "power", "power_si"])
+@pytest.mark.parametrize("kind", ["linear", "cubic", "cubic_si", "polynomial", "power", "power_si"])
 def test_jacobian_by_inputs_and_parameters_against_differences(slave, elements, kind):
     unit, element = slave(kind), elements[kind]
     length = element.high - element.low
     force, stiffness, damping = element.step_tangents(1.0, element.high, 0.0)
     scales = np.array([force, stiffness, damping])
-    for u in (element.low - 0.1 * length, element.low + 0.4 * length, element.high + 0.6 * length):
-        at = {"approach": u, "rate": 0.4 * (element.rate or 1.0)}
+    places = element.low - 0.1 * length, element.low + 0.4 * length, element.high + 0.6 * length
+    for u, share in product(places, (0.4, -2.0)):  # the latter is so fast that a damper would pull
+        at = {"approach": u, "rate": share * force / damping}
         unit.set(**at)
         tuned = [v for v in element.parameters if element.parameters[v] != 0.0] + ["low", "high"]
         for known in (*at, *tuned):

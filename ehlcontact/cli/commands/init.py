@@ -52,26 +52,14 @@ def init(
     force: Annotated[bool, typer.Option("--force", help="Replace the file if there is one.")] = False,
 ) -> None:
     """Write a study to begin with: every entry explained, defaults as comments, for `validate` and `run`."""
-    from ehlcontact.cli.starter import study_text
+    from ehlcontact.cli.starter import OPTIONS, study_text
 
     out.check(beside={"FILE.toml": (file, (".toml",))})
     check_new("FILE.toml", file, force)
     bearing, grade = wish.bearing.strip().upper(), oil_grade(wish.oil, "--oil")
-    entries = {
-        "bearing.catalogue": bearing,
-        "bearing.radial_load": _one_or_all(wish.load),
-        "bearing.speed_rpm": _one_or_all(wish.speed_rpm),
-        "oil.iso_vg": grade,
-        "oil.temperature": float(wish.temp),
-    }
-    if wish.axial is not None:
-        entries["whole_bearing.axial_load"] = float(wish.axial)
-    if wish.layer is not None:
-        entries["whole_bearing.layer_um"] = float(wish.layer)
-    if wish.layer_ratio is not None:
-        entries["whole_bearing.layer_ratio"] = float(wish.layer_ratio)
-    if wish.thermal:
-        entries["whole_bearing.thermal"] = True
+    given = wish.by_option() | {"--bearing": bearing, "--oil": grade}
+    given |= {"--load": _one_or_all(wish.load), "--speed-rpm": _one_or_all(wish.speed_rpm)}
+    entries = {entry: given[option] for entry, option in OPTIONS.items() if given.get(option)}
     text = study_text({"title": f"study of a {bearing}", **entries}, file.name)
     write_text(file, text, "FILE.toml")
     oil = f"ISO VG {grade}"

@@ -6,7 +6,7 @@ from math import pi
 import numba
 import numpy as np
 import pytest
-from beam_rotor import StillBearing, block, with_balls
+from beam_rotor import StillBearing, block
 
 from ehlcontact.errors import InputError
 from reduced_models import (
@@ -17,10 +17,6 @@ from reduced_models import (
     simulate_rotor,
 )
 from reduced_models.bearing import loss as loss_room
-from reduced_models.bearing.balls import speed_state
-from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
-from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.linear_balls import SmallBalls
 from reduced_models.bearing.loss import BAND, loss_of, loss_state_of, response
 
 RPM = 3000.0
@@ -55,25 +51,6 @@ def test_a_step_is_the_filters_over_a_straight_force():
             y += dt / fine * loss.rates[:, None] * (start + share * (end - start) - y)
         np.testing.assert_allclose(force, end + loss.gains @ (end - y), rtol=1e-4)
         np.testing.assert_allclose((K, C), (seat.lift[0] * np.eye(2), 2.0 * seat.lift[0] * np.eye(2)))
-
-
-@pytest.mark.parametrize("oiled", [True, False])
-def test_small_motions_in_time_have_the_impedance(oil, oiled):
-    bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, loss_factor=0.05)
-    kernel = bearing._kernel(RPM)._replace(cage=0.0, centrifugal_factor=0.0)
-    at_speed = speed_state(kernel, RPM * RPM_TO_RAD_S)
-    at = ring_equilibrium(StaticBalls(kernel, at_speed, 0.4), np.array([200.0, -1000.0]))
-    hz, size, periods, per_period = 400.0, 1e-10, 200, 200
-    omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
-    t = dt * np.arange(1, periods * per_period + 1)
-    Z = SmallBalls.of(kernel, at_speed, [at]).impedance(1j * omega)
-    run = BearingMotion(with_balls(bearing, kernel), RPM, dt, 0.4)
-    start = run.rest(at.displacement)
-    q = at.displacement + size * np.sin(omega * t)[:, None] * [0.0, 1.0]
-    force, _ = run.drive(q, size * omega * np.cos(omega * t)[:, None] * [0.0, 1.0])
-    last = slice(-per_period, None)
-    swing = 2.0 * np.mean((force[last] - start) * np.exp(-1j * omega * t[last])[:, None], axis=0) * 1j / size
-    np.testing.assert_allclose(swing, Z[:, 1], rtol=0.0, atol=3e-4 * abs(Z[1, 1]))
 
 
 def test_loss_factor_of_the_coefficients(dry, oil):
