@@ -14,7 +14,7 @@ import pytest
 from programs import ROOT, command, environment, shell_script
 
 from ehlcontact import save
-from ehlcontact.cli.study.reduction import export_fmu
+from ehlcontact.cli.study.points.finalise import export_fmu
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import load_study
 from fmu.binaries import this_machine

@@ -9,17 +9,15 @@ module                 responsibility
 ``stages``             the long computations, each a function of the study that leaves one file
 ``runner``             stages side by side, with progress, resume and Ctrl-C
 ``points``             its points, what is finished of each, and all of them together
-``reduction``          fits, element files, FMU
+``reduction``          fits and element files
 ``rotor``              the rotor on full films and on elements, turning with its unbalance and after a kick
 ``differences``        full films beside elements, and beside what there is without them
 ``bearing_rotor``      the rotor on two whole bearings, with film memory under every ball
 ``whole_bearing``      the bearing that it takes, from the file
-``oil_supply``         layer of oil and heat of a bearing: entries
 ``oil_and_heat``       the study's bearing with these: table and CSV
 ``bearing_at_angles``  the bearing under an axial load, and vibrations of the rotor between two of them
 ``defect``             a spall in the bearing: orders, and its force over time and as an envelope
-``ring_load``          moments and tilts of an inner ring, of studies and of bearing files
-``pair``               pairs of bearings, of studies and of bearing files
+``shared_entries``     pairs, moments and tilts, oil supply and heat: entries of studies and of bearing files
 ``headline``           what was found, in one paragraph
 ``results``            everything in numbers: ``results.json``
 ``report``             ``report.html``

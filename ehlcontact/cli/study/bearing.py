@@ -14,12 +14,10 @@ from pydantic import Field, StrictBool, ValidationError
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
 from ehlcontact.cli.spall import OPTION, require_fit
-from ehlcontact.cli.study.oil_supply import supply_and_heat
-from ehlcontact.cli.study.pair import pair_of
 from ehlcontact.cli.study.points.lists import require_apart
-from ehlcontact.cli.study.ring_load import moments_of, tilt_of
 from ehlcontact.cli.study.schema import Oil
 from ehlcontact.cli.study.schema_errors import first_error, in_other_kind
+from ehlcontact.cli.study.shared_entries import moments_of, pair_of, supply_and_heat, tilt_of
 from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlcontact.cli.study.ring_load import tilt_of
+from ehlcontact.cli.study.shared_entries import tilt_of
 from ehlcontact.cli.study.whole_bearing import bearing_or_pair, bearings_of, ring_load, whole_bearing
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import BallBearing, BearingSet, Disc, Shaft, Support, linearise, rotor_on_bearings

@@ -11,10 +11,10 @@ import numpy as np
 import scipy
 
 from ehlcontact.checks.admissible_range import MEASURED
-from ehlcontact.cli.study.oil_supply import supply_and_heat, supply_words
 from ehlcontact.cli.study.points.kept import STORE, Kept
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
+from ehlcontact.cli.study.shared_entries import supply_and_heat, supply_words
 from ehlcontact.cli.study.stages import Stage, stages_of
 from ehlcontact.cli.study.whole_bearing import ring_load, spall_in, whole_bearing
 from ehlcontact.solver.domain import Domain

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.study.oil_supply import supply_and_heat
-from ehlcontact.cli.study.ring_load import tilt_of
+from ehlcontact.cli.study.shared_entries import supply_and_heat, tilt_of
 from ehlcontact.cli.study.whole_bearing import bearing_or_pair, ring_load
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import oil_and_heat

@@ -1,4 +1,4 @@
-"""From the records of a study to elements: fits, element files, and the FMUs."""
+"""From the records of a study to elements: fits and element files."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ from ehlcontact.store import save
 from ehlcontact.transient.motion import HarmonicLoad
 from ehlcontact.transient.result import SimulationResult
 from reduced_models import ContactRecord, CubicContact, FitResult, dry_contact, fit, fit_memory
-from reduced_models.elements.validity import frequency_text
 from reduced_models.fitting.memory_fit import OMEGAS
 from reduced_models.fitting.result import MemoryFit
 from reduced_models.rotor.baselines import without_damper
@@ -166,30 +165,3 @@ def save_elements(reduction: Reduction, folder: Path) -> list[Path]:
         files.append(save(reduction.memory.element, target / f"{MEMORY}.json"))
         files.append(save(reduction.memory_si, target / f"{MEMORY}_si.json"))
     return files
-
-
-def export_fmu(element: Any, path: Path) -> dict[str, Any]:
-    """Export an SI element as ``path``, verified; what went wrong, whatever it is, stands under ``error``.
-
-    With the largest steps of each way of coupling under ``steps``, and the frequencies that it is for.
-    """
-    from fmu import VerificationError
-    from fmu.export import export_verified
-    from fmu.steps import step_advice
-
-    band = element.omega_range
-    entry: dict[str, Any] = {
-        "file": path.name,
-        "passes": False,
-        "kind": element.kind,
-        "element_states": element.state_count,
-        "frequencies": None if band is None else frequency_text(band, element.units),
-        "steps": {},
-    }
-    try:
-        entry["steps"] = {way: {"step": step, "why": why} for way, step, why in step_advice(element)}
-        _, found = export_verified(element, path, model_name=path.stem, overwrite=True)
-    except Exception as error:  # the rest of the study is worth having without an FMU
-        found = error.found if isinstance(error, VerificationError) else None
-        entry["error"] = " ".join(str(error).split()) or type(error).__name__
-    return entry | (found.to_dict() if found is not None else {})

@@ -13,9 +13,9 @@ from ehlcontact.cli.plots.instants import instants
 from ehlcontact.cli.study.bearing_rotor import NAMES
 from ehlcontact.cli.study.headline import findings, reservations, verdict
 from ehlcontact.cli.study.oil_and_heat import columns, skf_words
-from ehlcontact.cli.study.oil_supply import supply_and_heat, supply_words
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, RECORDS, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
+from ehlcontact.cli.study.shared_entries import supply_and_heat, supply_words
 from ehlcontact.cli.study.stages import STAGES
 from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING

@@ -11,9 +11,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.cli.spall import require_fit, spall_of
-from ehlcontact.cli.study.oil_supply import supply_and_heat
-from ehlcontact.cli.study.pair import pair_of
-from ehlcontact.cli.study.ring_load import moments_of, tilt_of
+from ehlcontact.cli.study.shared_entries import moments_of, pair_of, supply_and_heat, tilt_of
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import BallBearing, BearingSet, BearingState, Spall
 from reduced_models.bearing.ball_bearing import LARGEST_PLAY

@@ -15,7 +15,7 @@ from ehlcontact.cli.study.bearing_rotor import run_whole
 from ehlcontact.cli.study.defect import defect_of
 from ehlcontact.cli.study.differences import compare_rotors
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
-from ehlcontact.cli.study.reduction import RECORDS, contact_text, export_fmu, reduce_records, save_elements
+from ehlcontact.cli.study.reduction import RECORDS, contact_text, reduce_records, save_elements
 from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.rotor import film_response
 from ehlcontact.cli.study.schema import Study
@@ -27,6 +27,7 @@ from ehlcontact.results import SteadyResult
 from ehlcontact.status import Status
 from ehlcontact.store import read
 from ehlcontact.transient.result import SimulationResult
+from reduced_models.elements.validity import frequency_text
 
 RESULTS, REPORT = "results.json", "report.html"
 TITLE = "elements, FMUs, rotors, report"
@@ -81,14 +82,10 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
     started = time.perf_counter()
     steady = read(folder / "steady.h5", SteadyResult)
     simulations = {name: read(folder / f"{name}.h5", SimulationResult) for name in RECORDS}
-    if not isinstance(steady, SteadyResult):
-        raise InputError("file", str(folder / "steady.h5"), "a steady film")
-    histories = {name: run for name, run in simulations.items() if isinstance(run, SimulationResult)}
-    scales = study.point.scales
     assumed = assumptions(study.point, film=steady, roughness=study.roughness).short()
     response = film_response(study)
     known = {"assumptions": assumed, "contact": contact_text(study)}
-    reduction = reduce_records(histories, response, scales, known)
+    reduction = reduce_records(simulations, response, study.point.scales, known)
     save_elements(reduction, folder)
     exported = export_fmu(reduction.chosen, folder / "contact.fmu")
     film = reduction.memory_si
@@ -105,7 +102,34 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
         times["oil supply and heat"] = time.perf_counter() - started
     bearings = whole, at_angles, conditions
     rest = reduction, rotors, *bearings, exported, exported_film, times
-    return Findings(study, steady, histories, *rest, defect=defect_of(study))
+    return Findings(study, steady, simulations, *rest, defect=defect_of(study))
+
+
+def export_fmu(element: Any, path: Path) -> dict[str, Any]:
+    """Export an SI element as ``path``, verified; what went wrong, whatever it is, stands under ``error``.
+
+    With the largest steps of each way of coupling under ``steps``, and the frequencies that it is for.
+    """
+    from fmu import VerificationError
+    from fmu.export import export_verified
+    from fmu.steps import step_advice
+
+    band = element.omega_range
+    entry: dict[str, Any] = {
+        "file": path.name,
+        "passes": False,
+        "kind": element.kind,
+        "element_states": element.state_count,
+        "frequencies": None if band is None else frequency_text(band, element.units),
+        "steps": {},
+    }
+    try:
+        entry["steps"] = {way: {"step": step, "why": why} for way, step, why in step_advice(element)}
+        _, found = export_verified(element, path, model_name=path.stem, overwrite=True)
+    except Exception as error:  # the rest of the study is worth having without an FMU
+        found = error.found if isinstance(error, VerificationError) else None
+        entry["error"] = " ".join(str(error).split()) or type(error).__name__
+    return entry | (found.to_dict() if found is not None else {})
 
 
 def read_results(folder: Path) -> dict[str, Any]:
