@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
 from fmu.c_headers import c_double, c_table
-from fmu.contact_variables import ContactVariables, Element, Film, band_text
+from fmu.contact_variables import ContactVariables, Element, Film
 from fmu.lead import CONTACT, HELD_PARALLEL
 from fmu.spec import ModelSpec
 from fmu.steps import default_step, step_advice
@@ -184,7 +184,7 @@ def _spring_variables(
     # a seven-term damper may start below zero where its other terms make up for it
     positive = _POSITIVE if isinstance(element, PolynomialContact) else (*_POSITIVE, *_VISCOUS)
     for name, (unit, text) in (coefficients | _ENDS).items():
-        more = band_text(element) if name in _VISCOUS else ""
+        more = _band_text(element) if name in _VISCOUS else ""
         common.add(
             name, "parameter", "tunable", text + more,
             unit=None if unit is None and element.units == "SI" else common.unit(unit or "1"),
@@ -198,6 +198,12 @@ def _spring_variables(
     common.lead(CONTACT, lead)
     common.flags(depends, first=False)
     common.box(low_high=False, rate=not levels_off)
+
+
+def _band_text(element: Element) -> str:
+    """Frequency band of a damper without memory, as text."""
+    band = element.omega_range
+    return "" if band is None else f", for motion of {frequency_text(band, element.units)}"
 
 
 def _spring_macros(law: tuple[str, ...], element: Spring, levels_off: bool) -> dict[str, str]:

@@ -15,7 +15,7 @@ from reduced_models import (
     PowerLawContact,
     WideRangeContact,
 )
-from reduced_models.elements.validity import MARGIN, frequency_text
+from reduced_models.elements.validity import MARGIN
 
 Element = LinearContact | CubicContact | PolynomialContact | PowerLawContact | FilmMemoryContact | WideRangeContact
 Film = FilmMemoryContact | WideRangeContact
@@ -102,9 +102,3 @@ class ContactVariables(VariableList):
 def _nominal(value: float) -> float | None:
     size = abs(value)
     return size if math.isfinite(size) and size > 0.0 else None
-
-
-def band_text(element: Element) -> str:
-    """Frequency band of a damper without memory, as text."""
-    band = element.omega_range
-    return "" if band is None else f", for motion of {frequency_text(band, element.units)}"

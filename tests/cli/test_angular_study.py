@@ -13,10 +13,10 @@ from tiny_study import STUDY
 from ehlcontact import OilLayer
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.plots.bearing import drawings_at_angles
-from ehlcontact.cli.study.bearing_at_angles import rotor_between, run_at_angles
 from ehlcontact.cli.study.headline import at_angles as sentence
 from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
+from ehlcontact.cli.study.rotor_on_bearings import rotor_between, run_at_angles
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.whole_bearing import whole_bearing
 from reduced_models import BallBearing, BearingSet, linearise

@@ -8,10 +8,9 @@ import pytest
 from tiny_study import STUDY
 
 from ehlcontact.cli.plots.bearing import drawings_at_angles
-from ehlcontact.cli.study.bearing_at_angles import rotor_between, run_at_angles
-from ehlcontact.cli.study.bearing_rotor import run_whole
 from ehlcontact.cli.study.forecast import forecast
 from ehlcontact.cli.study.headline import at_angles as sentence
+from ehlcontact.cli.study.rotor_on_bearings import rotor_between, run_at_angles, run_whole
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.whole_bearing import whole_bearing
 from reduced_models import linearise

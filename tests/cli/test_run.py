@@ -157,7 +157,7 @@ def test_only_what_changed_is_computed_again(finished, tmp_path):
     changed = tmp_path / "changed.toml"
     changed.write_text(STUDY.replace("unbalance = 8e-6", "unbalance = 9e-6"))
     study, store = load_study(changed), Kept(folder)
-    kept = [stage.name for stage in STAGES if store.stage(stage, study) is not None]
+    kept = [stage.name for stage in STAGES if store.get(stage_key(stage, study)) is not None]
     assert kept == ["steady", "free", "harmonic"]
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from ehlcontact.cli.study.forecast import forecast
-from ehlcontact.cli.study.points.kept import Kept
+from ehlcontact.cli.study.points.kept import Kept, stage_key
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES, stage_named
 from ehlcontact.solver.mesh_choice import Purpose, mesh_for
@@ -100,7 +100,7 @@ def test_what_is_finished_is_kept(call, tmp_path):
     study, folder = load_study(SMALL), tmp_path / "out"
     folder.mkdir()
     entry = {"status": "converged", "message": "", "seconds": 1.0}
-    Kept(folder).put_stage(stage_named("steady"), study, entry, b"")
+    Kept(folder).put(stage_key(stage_named("steady"), study), entry)
     found = forecast(study, folder, 2)
     assert [plan.stage.name for plan in found.plans if plan.kept] == ["steady"]
     assert "kept" in call("validate", SMALL, "-o", folder).out

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from tiny_study import STUDY
 
-from ehlcontact.cli.study.bearing_rotor import run_whole, whole_rotor
 from ehlcontact.cli.study.forecast import WHOLE, WHOLE_STEP, forecast
 from ehlcontact.cli.study.headline import whole as sentence
+from ehlcontact.cli.study.rotor_on_bearings import run_whole, whole_rotor
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES
 from ehlcontact.cli.study.whole_bearing import whole_bearing

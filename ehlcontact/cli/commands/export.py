@@ -311,7 +311,7 @@ def _rotor_of(file: Path, contact: Path | None) -> JeffcottModel:
 
 def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftModel:
     """The rotor of a study between its whole bearings, at its speed, at rest under the load on them."""
-    from ehlcontact.cli.study.bearing_rotor import whole_rotor
+    from ehlcontact.cli.study.rotor_on_bearings import whole_rotor
     from ehlcontact.cli.study.schema import load_study
     from ehlcontact.cli.study.shared_entries import supply_and_heat
     from ehlcontact.cli.study.whole_bearing import whole_bearing

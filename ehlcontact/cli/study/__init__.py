@@ -12,10 +12,9 @@ module                 responsibility
 ``reduction``          fits and element files
 ``rotor``              the rotor on full films and on elements, turning with its unbalance and after a kick
 ``differences``        full films beside elements, and beside what there is without them
-``bearing_rotor``      the rotor on two whole bearings, with film memory under every ball
+``rotor_on_bearings``  the rotor on two whole bearings: planar in time, under an axial load linearised
 ``whole_bearing``      the bearing that it takes, from the file
 ``oil_and_heat``       the study's bearing with these: table and CSV
-``bearing_at_angles``  the bearing under an axial load, and vibrations of the rotor between two of them
 ``defect``             a spall in the bearing: orders, and its force over time and as an envelope
 ``shared_entries``     pairs, moments and tilts, oil supply and heat: entries of studies and of bearing files
 ``headline``           what was found, in one paragraph

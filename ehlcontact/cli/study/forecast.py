@@ -11,7 +11,7 @@ import numpy as np
 import scipy
 
 from ehlcontact.checks.admissible_range import MEASURED
-from ehlcontact.cli.study.points.kept import STORE, Kept
+from ehlcontact.cli.study.points.kept import STORE, Kept, stage_key
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.shared_entries import supply_and_heat, supply_words
@@ -146,7 +146,7 @@ def forecast(study: Study, folder: Path, jobs: int, root: Path | None = None) ->
     plans = []
     for stage in stages_of(study):
         estimate = conv * stage_cost(stage, study)
-        kept = store is not None and store.stage(stage, study) is not None
+        kept = store is not None and store.get(stage_key(stage, study)) is not None
         plans.append(Plan(stage, _mesh(stage, study), *_steps(stage, study), estimate, kept))
     closed = store is not None and all(p.kept for p in plans) and store.final(study, folder) is not None
     return Forecast(study, folder, jobs, conv, tuple(plans), closed, films_words(study), tuple(cautions(study)))

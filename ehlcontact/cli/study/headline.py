@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.cli.numerals import numeral, percent
-from ehlcontact.cli.study.bearing_rotor import NAMES
 from ehlcontact.cli.study.differences import Events
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
+from ehlcontact.cli.study.rotor_on_bearings import NAMES
 from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN, OilAndHeat
 from reduced_models.bearing.set_result import SetState
 

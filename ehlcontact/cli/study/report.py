@@ -10,11 +10,11 @@ from ehlcontact.cli.page import write_page
 from ehlcontact.cli.plots import bearing, defect, film, motion, oil_and_heat, rotor
 from ehlcontact.cli.plots.impedance import impedance
 from ehlcontact.cli.plots.instants import instants
-from ehlcontact.cli.study.bearing_rotor import NAMES
 from ehlcontact.cli.study.headline import findings, reservations, verdict
 from ehlcontact.cli.study.oil_and_heat import columns, skf_words
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, RECORDS, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import Findings
+from ehlcontact.cli.study.rotor_on_bearings import NAMES
 from ehlcontact.cli.study.shared_entries import supply_and_heat, supply_words
 from ehlcontact.cli.study.stages import STAGES
 from reduced_models.bearing.oil_and_heat import OilAndHeat

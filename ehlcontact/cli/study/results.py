@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.assumptions import Assumptions, assumptions
-from ehlcontact.cli.study.bearing_at_angles import BearingAtAngles
 from ehlcontact.cli.study.defect import StudyDefect
 from ehlcontact.cli.study.differences import RotorFindings
 from ehlcontact.cli.study.points.folder import versions
@@ -22,6 +21,7 @@ from ehlcontact.cli.study.reduction import (
     Reduction,
 )
 from ehlcontact.cli.study.rotor import stiffness_and_damping
+from ehlcontact.cli.study.rotor_on_bearings import BearingAtAngles
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult

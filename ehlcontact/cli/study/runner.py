@@ -19,7 +19,7 @@ from ehlcontact.cli.progress import Bars, Lines, progressing
 from ehlcontact.cli.study.forecast import closing_cost, stage_cost
 from ehlcontact.cli.study.points.finalise import TITLE, finalise_point
 from ehlcontact.cli.study.points.folder import Log
-from ehlcontact.cli.study.points.kept import FINALISE, Entry, Kept
+from ehlcontact.cli.study.points.kept import FINALISE, Entry, Kept, final_key, stage_key
 from ehlcontact.cli.study.points.lists import Point
 from ehlcontact.cli.study.points.summary import withdraw
 from ehlcontact.cli.study.stages import STAGES, Answer, Stage, solve_stage
@@ -53,6 +53,12 @@ class Task:
     def key(self) -> str:
         """Name among all tasks of the study."""
         return f"{self.point.name} {self.name}"
+
+    @property
+    def content_key(self) -> str:
+        """Key of what it computes: the hash of its inputs."""
+        study = self.point.study
+        return final_key(study) if self.stage is None else stage_key(self.stage, study)
 
     @property
     def title(self) -> str:
@@ -103,13 +109,14 @@ class Scheduler:
         """Enter the tasks that a point lacks, log those that it has, and write their files where they are not."""
         study, lacking = point.study, []
         for stage in (stage for stage in stages if stage.wanted(study)):
-            task, found = Task(point, stage), self._store.stage(stage, study)
+            task = Task(point, stage)
+            found = self._store.get(task.content_key)
             if found is not None:
                 entry, content = found
                 _write(stage.file(point.folder), content)
                 self._keep(task, entry)
                 continue
-            if self._store.is_damaged(stage, study):
+            if self._store.is_damaged(task.content_key):
                 self.log.warn(f"{task.title}: what was kept is damaged: it is made again")
             lacking.append(task)
         if final:
@@ -205,12 +212,12 @@ class Scheduler:
         done = entry["status"] == Status.CONVERGED
         if stage is None:
             if done and entry["whole"]:
-                self._store.put_final(point.study, entry)
+                self._store.put(task.content_key, entry)
         elif content is not None:
             _write((stage.file if done else stage.partial)(point.folder), content)
             if done:
                 stage.partial(point.folder).unlink(missing_ok=True)
-                self._store.put_stage(stage, point.study, entry, content)
+                self._store.put(task.content_key, entry, content)
 
     def _show_end(self, task: Task, entry: dict[str, Any], done: bool) -> None:
         self._shares[task] = 1.0

@@ -349,7 +349,7 @@ class Study(Section):
         """Computed region."""
         return Domain(*self.solver.domain)
 
-    @property
+    @cached_property
     def point(self) -> OperatingPoint:
         """Operating point of the most loaded ball's contact.
 

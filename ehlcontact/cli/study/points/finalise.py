@@ -10,14 +10,13 @@ from typing import Any
 
 from ehlcontact.assumptions import assumptions
 from ehlcontact.cli.output import one_line, write_json
-from ehlcontact.cli.study.bearing_at_angles import run_at_angles
-from ehlcontact.cli.study.bearing_rotor import run_whole
 from ehlcontact.cli.study.defect import defect_of
 from ehlcontact.cli.study.differences import compare_rotors
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
 from ehlcontact.cli.study.reduction import RECORDS, contact_text, reduce_records, save_elements
 from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.rotor import film_response
+from ehlcontact.cli.study.rotor_on_bearings import run_at_angles, run_whole
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Answer, reporting
 from ehlcontact.content_store import checksum

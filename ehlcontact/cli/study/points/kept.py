@@ -48,36 +48,25 @@ class Kept:
     def __init__(self, root: Path) -> None:
         self._store = ContentStore(root / STORE, "folder")
 
-    def stage(self, stage: Stage, study: Study) -> tuple[Entry, bytes] | None:
-        """Entry of a stage and content of its file; None where it is not computed, or damaged."""
-        return self._get(stage_key(stage, study))
-
-    def put_stage(self, stage: Stage, study: Study, entry: Entry, content: bytes) -> None:
-        """Keep a converged stage; raises `InputError` where there is no room."""
-        self._put(stage_key(stage, study), entry, content)
-
-    def final(self, study: Study, folder: Path) -> Entry | None:
-        """Entry of a finalised point whose results, report, elements and FMUs are all as they were written."""
-        found = self._get(final_key(study))
-        if found is None or any(checksum(folder / name) != kept for name, kept in found[0]["files"].items()):
-            return None
-        return found[0]
-
-    def put_final(self, study: Study, entry: Entry) -> None:
-        """Keep the entry of a finalised point; raises `InputError` where there is no room."""
-        self._put(final_key(study), entry, b"")
-
-    def is_damaged(self, stage: Stage, study: Study) -> bool:
-        """Whether a stage is there, but not as it was written."""
-        key = stage_key(stage, study)
-        return (self._store.folder / key).exists() and self._get(key) is None
-
-    def _put(self, key: str, entry: Entry, content: bytes) -> None:
-        self._store.put(key, json.dumps(entry).encode() + b"\n" + content)
-
-    def _get(self, key: str) -> tuple[Entry, bytes] | None:
+    def get(self, key: str) -> tuple[Entry, bytes] | None:
+        """Entry of a task and content of its file; None where it is not computed, or damaged."""
         found = self._store.get(key)
         if found is None:
             return None
         entry, _, content = found.partition(b"\n")
         return parse_json(entry.decode()), content
+
+    def put(self, key: str, entry: Entry, content: bytes = b"") -> None:
+        """Keep a converged task; raises `InputError` where there is no room."""
+        self._store.put(key, json.dumps(entry).encode() + b"\n" + content)
+
+    def final(self, study: Study, folder: Path) -> Entry | None:
+        """Entry of a finalised point whose results, report, elements and FMUs are all as they were written."""
+        found = self.get(final_key(study))
+        if found is None or any(checksum(folder / name) != kept for name, kept in found[0]["files"].items()):
+            return None
+        return found[0]
+
+    def is_damaged(self, key: str) -> bool:
+        """Whether a task is there, but not as it was written."""
+        return (self._store.folder / key).exists() and self.get(key) is None

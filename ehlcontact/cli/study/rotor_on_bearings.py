@@ -1,10 +1,15 @@
-"""The whole bearing of a study under axial load: balls at contact angles, K and C, vibrations of the rotor."""
+"""The rotor of a study on two whole bearings: planar ones in time, on several models; others linearised.
+
+Planar bearings have films with memory under all balls, are dry, or are constant K and C. With an axial load, balls
+are at contact angles: loads and films of all balls, K and C in five directions, vibrations of the rotor between.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from math import pi
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,21 +17,77 @@ import numpy as np
 from ehlcontact.cli.study.shared_entries import tilt_of
 from ehlcontact.cli.study.whole_bearing import bearing_or_pair, bearings_of, ring_load, whole_bearing
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import BallBearing, BearingSet, Disc, Shaft, Support, linearise, rotor_on_bearings
+from ehlcontact.store import save
+from reduced_models import (
+    BallBearing,
+    BearingSet,
+    Disc,
+    LinearBearing,
+    Rotor,
+    Shaft,
+    Support,
+    linearise,
+    rotor_on_bearings,
+)
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.rotor.campbell import Campbell
-from reduced_models.rotor.compare_bearing_models import BAND, FREQUENCIES, campbell_or_reason
+from reduced_models.rotor.compare_bearing_models import (
+    BAND,
+    CONSTANT,
+    DRY,
+    FILM,
+    FREQUENCIES,
+    USUAL,
+    USUAL_DAMPING,
+    BearingModels,
+    campbell_or_reason,
+    compare_bearing_models,
+)
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
-    from reduced_models import BearingState, Rotor
+    from reduced_models import BearingState
     from reduced_models.bearing.linear_balls import BearingCoefficients
     from reduced_models.bearing.set_result import SetState
     from reduced_models.rotor.modes import RotorMode
 
+NAMES = {
+    FILM: "film memory under every ball",
+    DRY: "dry Hertz contacts",
+    CONSTANT: "constant K and C, of the film at the speed",
+    USUAL: f"constant K, dry, and C = {USUAL_DAMPING:g} s K",
+}
 SPAN = 0.2  # m, of the bearings where none is given
 MODES = 6  # that are listed: two each across the shaft, along it, and of its tilts
 FOLLOWED = 3  # of them over the speed: of the rotor as a whole, across the shaft and along it
+
+
+def whole_rotor(study: Study, bearing: BallBearing | LinearBearing) -> Rotor:
+    """Rotor of the study on two such bearings, pressed down so that each carries the study's load."""
+    r = study.rotor
+    needed = 2.0 * study.bearing.radial_load - (r.disc_mass + r.journal_mass) * 9.81
+    disc = Disc(position=0.5, mass=r.disc_mass, damping=r.disc_damping, unbalance=r.unbalance, load=(0.0, -needed))
+    supports = [Support(position=at, bearing=bearing, journal_mass=0.5 * r.journal_mass) for at in (0.0, 1.0)]
+    # of any length: a disc that is a point, in the middle, feels the stiffness alone
+    shaft = Shaft.jeffcott(r.shaft_stiffness, 1.0, damping=r.shaft_damping)
+    return rotor_on_bearings(shaft, discs=[disc], supports=supports)
+
+
+def run_whole(study: Study, folder: Path) -> BearingModels | None:
+    """Run the rotor on planar bearings where the study has [whole_bearing]; runs are left in the folder."""
+    if "whole_bearing" not in study.model_fields_set or study.whole_bearing.axial_load is not None:
+        return None
+    return compare_bearing_models(
+        lambda bearing: whole_rotor(study, bearing),
+        whole_bearing(study, oil=True),
+        whole_bearing(study, oil=False),
+        load=study.bearing.radial_load,
+        speed_rpm=study.bearing.speed_rpm,
+        eccentricity=study.rotor.unbalance / study.rotor.disc_mass,
+        steps=study.whole_bearing.steps_per_revolution,
+        revolutions=study.whole_bearing.revolutions,
+        keep=lambda name, run: save(run, folder / f"on_bearings_{name}.h5"),
+    )
 
 
 @dataclass(frozen=True)
