@@ -55,7 +55,7 @@ def damped(plant: Any) -> Any:
 def first_mode(system: Any) -> tuple[float, float]:
     """Frequency [Hz] and logarithmic decrement of the slowest vibration of a linear system."""
     poles = system.poles()
-    poles = poles[(poles.imag > 1.0) & (-poles.real < poles.imag)]  # of those that swing at all
+    poles = poles[(poles.imag > 1.0) & (-poles.real < poles.imag)]  # of those that vibrate at all
     slowest = poles[np.argmin(poles.imag)]
     return float(slowest.imag / (2.0 * np.pi)), float(-2.0 * np.pi * slowest.real / slowest.imag)
 

@@ -2,9 +2,9 @@
 
     python examples/run_up.py [run_up.png]     # under a minute
 
-What one learns: a Campbell diagram tells where modes cross the speed; a rotor that speeds up swings most some time
-after the crossing, one that slows down likewise, so at a lower speed. There are two crossings, close together:
-bearings are not as stiff across their load as along it.
+What one learns: a Campbell diagram tells where modes cross the speed; a rotor that speeds up vibrates most some
+time after the crossing, one that slows down likewise, so at a lower speed. There are two crossings, close
+together: bearings are not as stiff across their load as along it.
 """
 
 import sys

@@ -9,9 +9,9 @@ what it does with time:
 - explicit: set, doStep, get, while the mass goes through the same step with the force that it has, held. The force
   that does the right work is the one of the middle of that step, a step and a half after the inputs: the default
   `lead` of 1.5. With a force of the end of the FMU's step, a lead of 1, half the step times the stiffness is
-  missing in the damping, and the swing grows without bound at either step. With the default the amplitude is kept
-  at a hundredth of the period; at a twentieth it is less than half of it after 40 periods, as the extrapolated
-  motion adds to the damping.
+  missing in the damping, and the vibration grows without bound at either step. With the default the amplitude is
+  kept at a hundredth of the period; at a twentieth it is less than half of it after 40 periods, as the
+  extrapolated motion adds to the damping.
 - linearly implicit: a step to where the last force leads, then on the FMU's tangents to where mass and contact
   agree. No rollback, one doStep a step, and stable at both.
 - implicit: doStep, look at force and tangents, take it back, until mass and FMU agree; and shorter steps where a
@@ -215,7 +215,7 @@ class Bench:
         self.rest = float(element.approach_at(LOAD))
         self.omega = math.sqrt(float(element.spring_tangent(self.rest)) / MASS)
         self.period = 2.0 * math.pi / self.omega
-        self.start, self.swing = START * self.rest, (1.0 - START) * self.rest
+        self.start, self.first_amplitude = START * self.rest, (1.0 - START) * self.rest
         self._references: dict[bytes, Run] = {}
 
     def run(self, way: Callable[..., Run], lead: float, *arguments: float) -> Run:
@@ -229,7 +229,7 @@ class Bench:
     def ways(self, part: int) -> dict[str, Run]:
         """All ways at steps of one part of a period."""
         h, count = self.period / part, PERIODS * part
-        lost = LOST * self.swing
+        lost = LOST * self.first_amplitude
         return {
             "explicit, lead 1": self.run(explicit, LATE, h, count, lost),
             "explicit, lead 1.5": self.run(explicit, HELD_PARALLEL, h, count, lost),
@@ -239,7 +239,7 @@ class Bench:
 
     def controlled(self, tolerance: float = TOLERANCE) -> Run:
         """The implicit way with steps of its own choice."""
-        return self.run(controlled, END, PERIODS * self.period, tolerance * self.swing, self.omega)
+        return self.run(controlled, END, PERIODS * self.period, tolerance * self.first_amplitude, self.omega)
 
     def reference(self, t: np.ndarray) -> Run:
         """The Python element in continuous time."""
@@ -251,7 +251,7 @@ class Bench:
 
     def amplitude(self, run: Run) -> np.ndarray:
         """Over that of the start, at every time: of approach and rate, which a sine has in turn."""
-        return np.hypot(run.approach - self.rest, run.rate / self.omega) / self.swing
+        return np.hypot(run.approach - self.rest, run.rate / self.omega) / self.first_amplitude
 
     def left(self, run: Run) -> float:
         """Amplitude over the last two periods of a run, over that of the reference."""
@@ -298,7 +298,7 @@ def main() -> None:
                     f"1/{part:<4} {name:<24}{bench.left(run):10.4g}{run.t[-1] / bench.period:8.1f}{run.steps:8d}"
                 )
         print(f"own   {'implicit':<24}{bench.left(own):10.4g}{own.t[-1] / bench.period:8.1f}{own.steps:8d}")
-        off = np.abs(own.approach - bench.reference(own.t).approach).max() / bench.swing
+        off = np.abs(own.approach - bench.reference(own.t).approach).max() / bench.first_amplitude
         print(f"with steps of its own the mass is at most {off:.1e} of the first amplitude off the Python element")
         picture(arguments.out / "coupling.png", bench, runs, own)
 

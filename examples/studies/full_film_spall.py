@@ -71,7 +71,7 @@ def differences(full, reduced) -> dict[str, float]:
     for name, (one, other) in off.items():
         largest = np.abs(other - one).max()
         found[f"{name} over its static value"] = 100.0 * largest / abs(one[0])
-        found[f"{name} over its swing"] = 100.0 * largest / np.ptp(one)
+        found[f"{name} over its range"] = 100.0 * largest / np.ptp(one)
     return found
 
 

@@ -60,16 +60,16 @@ def test_spall_on_a_full_film_in_a_rotor(tmp_path, monkeypatch, capsys):
     printed = dict(line.split(": ") for line in capsys.readouterr().out.splitlines() if line.endswith("%"))
     wanted = {
         "contact force over its static value": 0.65,
-        "contact force over its swing": 1.65,
+        "contact force over its range": 1.65,
         "force of the bearing over its static value": 0.33,
-        "force of the bearing over its swing": 1.3,
+        "force of the bearing over its range": 1.3,
         "displacement over its static value": 0.07,
-        "displacement over its swing": 0.6,
+        "displacement over its range": 0.6,
         "with the dry filter, contact force over its static value": 2.3,
-        "with the dry filter, contact force over its swing": 5.9,
+        "with the dry filter, contact force over its range": 5.9,
         "with the dry filter, force of the bearing over its static value": 1.25,
-        "with the dry filter, force of the bearing over its swing": 4.9,
+        "with the dry filter, force of the bearing over its range": 4.9,
         "with the dry filter, displacement over its static value": 0.08,
-        "with the dry filter, displacement over its swing": 0.75,
+        "with the dry filter, displacement over its range": 0.75,
     }
     assert {name: float(value.split()[0]) for name, value in printed.items()} == pytest.approx(wanted, abs=0.1)

@@ -63,7 +63,7 @@ def test_implicit_ways_keep_the_amplitude(bench, runs, part, way):
 def test_the_rollback_master_equals_the_python_oscillator(example, bench, own):
     """Within twice the tolerance of its steps, tightened or loosened."""
     for tolerance, run in ((example["TOLERANCE"], own), (1e-3, bench.controlled(1e-3))):
-        off = np.abs(run.approach - bench.reference(run.t).approach).max() / bench.swing
+        off = np.abs(run.approach - bench.reference(run.t).approach).max() / bench.first_amplitude
         assert off < 10.0 * tolerance, tolerance
     assert bench.left(own) == pytest.approx(1.0, abs=1e-4)
 

@@ -206,9 +206,7 @@ class Rotor(Section):
         Field(ge=2, le=100, description="revolutions computed on full films, from near the settled motion on"),
     ] = 3
     steps_per_revolution: e.Steps = 60
-    kick: Annotated[e.Share, e.meaning("swing of the contacts' load after the kick, over their load at rest")] = (
-        0.05
-    )
+    kick: Annotated[e.Share, e.meaning("amplitude of the contacts' load after the kick, over that at rest")] = 0.05
     decay_periods: Annotated[
         e.Finite, Field(ge=4.0, le=100.0, description="periods of the vibration after the kick")
     ] = 8.0
