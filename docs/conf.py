@@ -19,8 +19,10 @@ from docutils.utils.math.latex2mathml import tex2mathml
 from sphinx.util import logging
 
 import ehlcontact
+import ehlcontact.film
 import fmu
 import reduced_models
+import reduced_models.signals
 from ehlcontact.cli.explorer import write_explorer
 
 LOG = logging.getLogger(__name__)
@@ -29,6 +31,10 @@ PUBLIC = {
     for package in (ehlcontact, ehlcontact.film, reduced_models, reduced_models.signals, fmu)
     for name, value in vars(package).items()
     if name[0] != "_" and not inspect.ismodule(value)
+} | {
+    name: f"{module}.{name}"  # in the reference with its module
+    for page in (Path(__file__).parent / "api").glob("*.rst")
+    for module, name in re.findall(r"^.. auto(?:class|function):: ([\w.]+)\.(\w+)$", page.read_text(), flags=re.M)
 }
 
 project = "ehlcontact"
