@@ -11,13 +11,15 @@ import shlex
 import subprocess
 import sys
 import time
+import tomllib
+from datetime import date
 from pathlib import Path
 
 import pytest
 from bad_input import files
 from bad_input.calls import CALLS, full_contact
 from bad_input.commands import COMMANDS, ELEMENT, FILM, OTHER, RECORD, STUDY, at, bearing, steady
-from bad_input.fields import FIELDS, NAMED
+from bad_input.fields import FIELDS, INF, NAMED, NAN
 from bad_input.studies import SLIPS, SMALL
 from balls import OF_6205
 from numba import njit
@@ -38,9 +40,10 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.cli import main
+from ehlcontact.cli.entries import keys_of
 from ehlcontact.cli.page import _drawn
 from ehlcontact.cli.plots.finish import finished
-from ehlcontact.cli.study.schema import load_study
+from ehlcontact.cli.study.schema import Study, load_study, study_of
 from ehlcontact.jit import plain
 from reduced_models import Atlas, BallBearing, CubicContact
 
@@ -145,6 +148,23 @@ def test_studies(refused, good, old):
         (good / "slip.toml").write_text(SMALL.replace(old, new, 1))
         refused(("run", "slip.toml", "-o", "results"), ("slip.toml", *words))
         refused(("validate", "slip.toml", "-o", "results"), ("slip.toml", *words))
+
+
+NUMBERS = [
+    f"{section}.{key}"
+    for section, field in Study.model_fields.items()
+    for key, entry in keys_of(field.annotation).items()
+    if re.search(r"\b(int|float)\b", str(entry.annotation))
+]
+
+
+@pytest.mark.parametrize("entry", NUMBERS)
+def test_entries_that_are_no_numbers(entry):
+    section, _, key = entry.partition(".")
+    document = tomllib.loads(SMALL)
+    for value in (True, "7.94", [7.94], {"mm": 7.94}, date(2020, 1, 1), NAN, INF):
+        document.setdefault(section, {})[key] = value
+        assert_named(entry, lambda _: study_of(document), value)
 
 
 def test_whole_numbers_are_numbers(good, monkeypatch):

@@ -80,6 +80,14 @@ def test_blocks_of_python_control_in_the_readme(readme):
     assert readme["static_stiffness"] == pytest.approx(tangent, rel=1e-9)
 
 
+def test_the_bearing_of_the_readme(readme):
+    """Its numbers are those that the change log and the issue speak of."""
+    K, C = readme["at_50_hz"].stiffness[0], readme["at_50_hz"].damping[0]
+    assert K[1, 1] == pytest.approx(1.06e8, rel=0.01) and C[1, 1] == pytest.approx(171.0, rel=0.02)
+    state = readme["bearing"].equilibrium((0, -1000), speed_rpm=3000)
+    assert state.lambda_ratio[0].min() > 1.0 and (readme["folder"] / "load_zone.png").exists()
+
+
 def test_the_readme_goes_from_a_bearing_to_an_fmu(readme):
     """Its damper is that of the film at the rotor's speed; the FMU tells band, speed and oil."""
     point, si, text = readme["point"], readme["si"], (ROOT / "README.md").read_text(encoding="utf-8")

@@ -1,6 +1,6 @@
 """One compiled FMU per kind for the whole session, and a way to run it by hand."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from math import cos, radians
@@ -145,14 +145,27 @@ class Slave:
         return self.raw.getDirectionalDerivative([self.reference[unknown]], [self.reference[known]], [1.0])[0]
 
 
+def exported(made_once: Callable, names: Iterable[str], fmi: int) -> dict[str, Path]:
+    """FMUs of elements by their names."""
+
+    def export(folder):
+        for name in names:
+            export_contact((SPRINGS | FILMS)[name], folder / f"{name}.fmu", fmi=fmi)
+
+    folder = made_once(f"fmus {fmi}", export)
+    return {name: folder / f"{name}.fmu" for name in names}
+
+
 @pytest.fixture(scope="session")
 def fmus(made_once) -> dict[str, Path]:
-    def export(folder):
-        for name, element in (SPRINGS | FILMS).items():
-            export_contact(element, folder / f"{name}.fmu")
+    """Of all elements, in FMI 2."""
+    return exported(made_once, SPRINGS | FILMS, 2)
 
-    folder = made_once("fmus", export)
-    return {name: folder / f"{name}.fmu" for name in SPRINGS | FILMS}
+
+@pytest.fixture(scope="session")
+def fmus3(made_once) -> dict[str, Path]:
+    """Of some, in FMI 3."""
+    return exported(made_once, ("cubic", "polynomial", "power_si", "wide", "wide_si"), 3)
 
 
 @pytest.fixture(scope="session")

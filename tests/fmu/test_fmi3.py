@@ -9,17 +9,10 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
-from fmu import export_contact, verify
+from fmu import verify
 from fmu.driver import Exchange, Slave
 
 EXTRAPOLATED, END, MIDDLE = 1.0, 0.0, 0.5  # values of lead
-
-
-@pytest.fixture(scope="module")
-def fmus3(elements, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("fmi3")
-    names = ("cubic", "polynomial", "power_si", "wide", "wide_si")
-    return {name: export_contact(elements[name], folder / f"{name}.fmu", fmi=3) for name in names}
 
 
 @pytest.fixture(scope="module")

@@ -36,12 +36,6 @@ def resealed(files):
     return files | {f"{FOLDER}/{MANIFEST}": _manifest(inner)}
 
 
-@pytest.fixture(scope="module")
-def fmus3(elements, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("references3")
-    return {name: export_contact(elements[name], folder / f"{name}.fmu", fmi=3) for name in ("power_si", "wide")}
-
-
 def test_every_kind_is_what_its_references_say(fmus, any_kind):
     found = verify_references(fmus[any_kind])
     assert found.passes and found.findings == () and found.fmi == "2.0" and found.tolerance == 1e-12

@@ -16,3 +16,9 @@ def beam():
 def block():
     """Maker of a rigid mass on one bearing with an unbalance."""
     return partial(beam_rotor.block, unbalance=1e-4)
+
+
+@pytest.fixture
+def contact(cubic, scales):
+    """A cubic contact in SI."""
+    return cubic.to_si(scales)

@@ -10,11 +10,6 @@ from reduced_models.rotor.modes import RotorMode
 BODY = {"disc_mass": 20.0, "journal_mass": 1.0, "shaft_stiffness": 2e7}
 
 
-@pytest.fixture
-def contact(cubic, scales):
-    return cubic.to_si(scales)
-
-
 def test_matrices_are_the_equations_at_the_head_of_the_module():
     rotor = JeffcottRotor.vee(half_angle=0.5, **BODY, shaft_damping=30.0, disc_damping=4.0)
     M, C, K = rotor.matrices()

@@ -17,11 +17,6 @@ TURNING = BODY | {"unbalance": 1e-4, "speed_rpm": 6000.0}
 
 
 @pytest.fixture
-def contact(cubic, scales):
-    return cubic.to_si(scales)
-
-
-@pytest.fixture
 def rotor():
     return JeffcottRotor.vertical(**TURNING, load=(0.0, -800.0))
 
