@@ -344,10 +344,6 @@ COMMANDS = [
     (("reproduce", "--n", "48.5"), ("--n = '48.5'", "whole number")),
     (("reproduce", "--n", "0"), ("--n = 0", "between 16 and 2048")),
     (("reproduce", "-o", RECORD), ("--output = 'record.h5'", "folder")),
-    # atlas heat
-    (("atlas", "heat", "-o", "a.txt"), ("--output = 'a.txt'", ".h5")),
-    (("atlas", "heat", "-o", "new.h5", "--draws", "3"), ("contacts", "at least 20", "draws = 3")),
-    (("atlas", "heat", "-o", "new.h5", "--processes", "0"), ("--processes = 0", "> 0")),
     # atlas build
     (("atlas", "build", "-o", "a.txt"), ("--output = 'a.txt'", ".h5")),
     (("atlas", "build", "-o", "none/a.h5"), ("--output", "folder that exists")),
@@ -360,16 +356,17 @@ COMMANDS = [
     ((*ATLAS, "--work", STUDY), ("work folder = 'study.toml'", "a folder that can be written to", "File exists")),
     ((*ATLAS, "--scheduler", "nowhere"), ("--scheduler = 'nowhere'", "address of a Dask scheduler")),
     ((*ATLAS, "--scheduler", "tcp://127.0.0.1:1"), ("--scheduler", "refused")),
-    # atlas supply
-    (("atlas", "supply", "-o", "a.txt"), ("--output = 'a.txt'", ".h5")),
-    (("atlas", "supply", "--draws", "-1"), ("--draws = -1", "whole number >= 0")),
-    (("atlas", "supply", "--draws", "5"), ("points", "at least 20", "draws = 5")),
-    (("atlas", "supply", "--processes", "0"), ("--processes = 0", "> 0")),
-    # atlas waves
-    (("atlas", "waves", "-o", "a.txt"), ("--output = 'a.txt'", ".h5")),
-    (("atlas", "waves", "--draws", "-1"), ("--draws = -1", "whole number >= 0")),
-    (("atlas", "waves", "--draws", "5"), ("points", "at least 20", "draws = 5")),
-    (("atlas", "waves", "--processes", "0"), ("--processes = 0", "> 0")),
+    # its other tables
+    *(
+        (("atlas", table, "-o", *options), words)
+        for table, things in (("heat", "contacts"), ("supply", "points"), ("waves", "points"))
+        for options, words in (
+            (("a.txt",), ("--output = 'a.txt'", ".h5")),
+            (("new.h5", "--draws", "-1"), ("--draws = -1", "whole number >= 0")),
+            (("new.h5", "--draws", "5"), (things, "at least 20", "draws = 5")),
+            (("new.h5", "--processes", "0"), ("--processes = 0", "> 0")),
+        )
+    ),
     # bearing
     (("bearing",), ("NAME|FILE.toml = None", "given")),
     (bearing("6025"), ("bearing = '6025'", "6205", "nearest", "examples/bearing_6205.toml")),
