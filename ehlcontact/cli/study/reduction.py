@@ -98,17 +98,18 @@ def reduce_records(
     """
     fits: dict[tuple[str, str], FitResult] = {}
     refused: dict[tuple[str, str], str] = {}
-    records = {name: ContactRecord.from_result(simulation) for name, simulation in simulations.items()}
+    records = []
     for record, simulation in simulations.items():
-        data = records[record]
+        window = _window(simulation)
+        records.append(ContactRecord.from_result(simulation))
         for model in MODELS:
             try:
-                fits[record, model] = _with_source(fit(data, model, _window(simulation)), known)
+                fits[record, model] = _with_source(fit(records[-1], model, window), known)
             except InputError as error:
                 refused[record, model] = str(error)
     memory: MemoryFit | str
     try:
-        memory = _with_source(fit_memory(_at_memory_frequencies(response), list(records.values())), known)
+        memory = _with_source(fit_memory(_at_memory_frequencies(response), records), known)
     except (InputError, ConvergenceError) as error:
         memory = str(error)
     return Reduction(fits, refused, memory, response, scales)
