@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from programs import script
 
 from ehlcontact import InputError, read
 from ehlcontact.cli.page import cell
@@ -167,22 +168,14 @@ def test_a_warning_is_one_line_on_stderr(call, monkeypatch, tmp_path):
     assert result.err.splitlines()[0] == "ehlcontact: warning: CubicContact used outside its validity box"
 
 
-@pytest.mark.slow
-@pytest.mark.literature
-def test_tables_3_5_6(call, tmp_path):
-    """On n = 128: tangent and C1 as asked; the root within 0.5 %, as tests/ehlcontact/test_literature.py.
-
-    0.2 % of the root is not met by cases 1 and 2, and finer grids do not bring it nearer.
-    """
-    result = call("reproduce", *(f"--table={k}" for k in (3, 5, 6)), "-o", tmp_path, "--json", "-")
-    assert result.code == 0, result.err
-    tables = json.loads(result.out)["tables"]
-    rows = [row for number in "356" for row in tables[number]["rows"]]
-    starts = [k for k, row in enumerate(rows) if row["source"] == "paper"]
-    assert len(starts) == 7
-    for first, last in zip(starts, [*starts[1:], len(rows)], strict=True):
-        case = {row["source"]: row for row in rows[first:last]}
-        paper, fine = case["paper"], case["ours"]
-        assert fine["root"] == pytest.approx(paper["root"], rel=0.005)
-        assert fine["tangent"] == pytest.approx(paper["tangent"], rel=0.01)
-        assert fine["C1"] == pytest.approx(paper["C1"], rel=0.1)
+def test_cases_are_those_of_the_published_numbers():
+    """Their elements on n = 128 are held against the paper's in `tests/ehlcontact/test_literature.py`."""
+    tests = script("tests/ehlcontact/test_literature.py")
+    for name, (motion, printed) in tests.CUBICS.items():
+        number, case = name.split(".")
+        assert (runs.CASES[case].motion.to_dict(), runs.CASES[case].point) == (motion.to_dict(), tests.POINT)
+        assert printed == tuple(getattr(paper_fits()[int(number), case], key) for key in ("K1", "K2", "K3", "C1"))
+    ramp, found = runs.CASES["validation"], paper_fits()[6, "validation"]
+    assert (ramp.point, ramp.motion.to_dict()) == (tests.RAMP_POINT, tests.RAMP.to_dict())
+    assert (ramp.domain, ramp.until) == (tests.RAMP_DOMAIN, tests.RAMP_END)
+    assert tests.RAMP_CUBIC == (found.K1, found.K2, found.K3, found.C1)

@@ -112,33 +112,34 @@ CUBICS = {
     "case", [pytest.param(name, marks=[] if name == "3.2" else pytest.mark.slow) for name in CUBICS]
 )
 def test_tables_3_and_5(case):
-    """n = 128, the record and window a user gets by default (the last two thirds of the record)."""
+    """n = 128, the record and window a user gets by default (the last two thirds of the record).
+
+    0.2 % of the root is not met by cases 1 and 2, and finer grids do not bring it nearer.
+    """
     motion, (k1, k2, k3, c1) = CUBICS[case]
     result = fit(ContactRecord.from_result(simulate(POINT, motion, grid=Grid(n=128))), model="cubic")
     root, tangent = oracles.spring_root_and_tangent(k1, k2, k3)
     assert result.root == pytest.approx(root, rel=0.005)
-    assert result.tangent == pytest.approx(tangent, rel=0.015)
+    assert result.tangent == pytest.approx(tangent, rel=0.01)
     assert result.parameters["C1"] == pytest.approx(c1, rel=0.08)
     assert result.rms < 0.01
 
 
+# The same of Table 6, of a ramp from 1 to 3.67 in T = 1.69.
+RAMP_POINT, RAMP = MoesPoint(58.07, 4.62, 1.0), RampLoad(3.67, 1.69, Omega_n=2.4)
+RAMP_DOMAIN, RAMP_END = Domain(-5.0, 3.0, 4.0), 5.6
+RAMP_CUBIC = (0.8674, 0.3823, -0.0185, 0.033)
+
+
 @pytest.mark.slow
 def test_table_6():
-    """Ramp from 1 to 3.67 in T = 1.69, n = 128, T <= 5.6 on [-5, 3] x [-4, 4].
-
-    The default window of a ramp is the whole record: only its beginning visits load 1, where root and
-    tangent are asked for.
-    """
-    record = simulate(
-        MoesPoint(58.07, 4.62, 1.0),
-        RampLoad(3.67, 1.69, Omega_n=2.4),
-        grid=Grid(n=128, domain=Domain(-5.0, 3.0, 4.0)),
-        time=TimeSteps(until=5.6),
-    )
+    """By default a ramp is fitted as a whole: only its beginning visits load 1, of root and tangent."""
+    grid, time = Grid(n=128, domain=RAMP_DOMAIN), TimeSteps(until=RAMP_END)
+    record = simulate(RAMP_POINT, RAMP, grid=grid, time=time)
     result = fit(ContactRecord.from_result(record), model="cubic")
-    assert result.window == (pytest.approx((0.0, 5.6)),)
-    root, tangent = oracles.spring_root_and_tangent(0.8674, 0.3823, -0.0185)
+    assert result.window == (pytest.approx((0.0, RAMP_END)),)
+    root, tangent = oracles.spring_root_and_tangent(*RAMP_CUBIC[:3])
     assert (root, tangent) == pytest.approx((0.8486, 1.476), abs=6e-4)
     assert result.root == pytest.approx(root, rel=0.005)
-    assert result.tangent == pytest.approx(tangent, rel=0.03)
-    assert result.parameters["C1"] == pytest.approx(0.033, rel=0.15)
+    assert result.tangent == pytest.approx(tangent, rel=0.01)
+    assert result.parameters["C1"] == pytest.approx(RAMP_CUBIC[3], rel=0.1)
