@@ -12,3 +12,13 @@ def refused(match, call):
     line = str(caught.value)
     assert "\n" not in line
     return line
+
+
+def refusals(*cases):
+    """A test that every call is refused in one line that matches words: cases are (call, words)."""
+
+    @pytest.mark.parametrize(("call", "words"), cases)
+    def test(call, words):
+        refused(words, call)
+
+    return test

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from refusals import refusals
 
-from ehlcontact import InputError, Lubricant
+from ehlcontact import Lubricant
 from reduced_models import BallBearing, angle_from_order, clearance_from_order
 from reduced_models.bearing.kinematics import DefectFrequencies
 
@@ -46,19 +47,13 @@ def test_slip_is_taken_out_of_a_measured_order():
     assert tuple(slipping) == pytest.approx(tuple(rolling), rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: DRY.orders_under(30.0, slip=1.0), "slip = 1.0: must be above -0.5 and below 1"),
-        (lambda: DRY.orders_under(30.0, slip=float("nan")), "slip = nan"),
-        (lambda: DRY.orders_under((0.0, -30.0, 5.0), axial=3.0), "axial = 3.0: must be left out"),
-        (lambda: DRY.orders_under(float("nan")), "load = nan"),
-        (lambda: angle_from_order(DRY, bpfo=3.6, slip=2.0), "slip = 2.0"),
-    ],
+test_bad_input_is_one_line = refusals(
+    (lambda: DRY.orders_under(30.0, slip=1.0), "slip = 1.0: must be above -0.5 and below 1"),
+    (lambda: DRY.orders_under(30.0, slip=float("nan")), "slip = nan"),
+    (lambda: DRY.orders_under((0.0, -30.0, 5.0), axial=3.0), "axial = 3.0: must be left out"),
+    (lambda: DRY.orders_under(float("nan")), "load = nan"),
+    (lambda: angle_from_order(DRY, bpfo=3.6, slip=2.0), "slip = 2.0"),
 )
-def test_bad_input_is_one_line(call, message):
-    with pytest.raises(InputError, match=message):
-        call()
 
 
 @pytest.mark.slow

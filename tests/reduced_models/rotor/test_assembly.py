@@ -5,6 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 from beam_rotor import StillBearing
+from refusals import refusals
 
 from ehlcontact.errors import InputError
 from reduced_models import (
@@ -286,18 +287,12 @@ def test_bad_input(dry, match, make):
         make(dry)
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (
-            lambda: Shaft(length=300, diameter=0.025),
-            r"length = 300.0: must be at most 100 m \(in mm\? then 0.3 m\)",
-        ),
-        (lambda: Shaft(length=[0.1, 0.2], diameter=[0.02, 25]), r"diameter\[1\] = 25.0: must be at most 10 m"),
-        (lambda: Disc.cylinder(position=0.1, diameter=200, width=0.03), r"diameter = 200: must be at most 10 m"),
-        (lambda: Disc.cylinder(position=0.1, diameter=0.2, width=30), r"width = 30: must be .* then 0.03 m\)"),
-    ],
+test_millimetres_are_no_metres = refusals(
+    (
+        lambda: Shaft(length=300, diameter=0.025),
+        r"length = 300.0: must be at most 100 m \(in mm\? then 0.3 m\)",
+    ),
+    (lambda: Shaft(length=[0.1, 0.2], diameter=[0.02, 25]), r"diameter\[1\] = 25.0: must be at most 10 m"),
+    (lambda: Disc.cylinder(position=0.1, diameter=200, width=0.03), r"diameter = 200: must be at most 10 m"),
+    (lambda: Disc.cylinder(position=0.1, diameter=0.2, width=30), r"width = 30: must be .* then 0.03 m\)"),
 )
-def test_millimetres_are_no_metres(call, message):
-    with pytest.raises(InputError, match=message):
-        call()
