@@ -67,12 +67,17 @@ class Attempt:
 
     @property
     def expected_time(self) -> float:
-        """Expected time of one core [s], by the status; before the attempt that of one that succeeds."""
+        """Expected time of one core [s], by the status.
+
+        Before the attempt it is that of one that succeeds, and of one that fails where there is a film already.
+        """
         if self.method.newton:
             return NEWTON_TIME * self.mesh.nodes
         if self.method.load_continuation:
             return CONTINUATION_TIME * self.mesh.nodes
-        return (FAILED_TIME if self.status in FAILED else CYCLES_TIME) * self.mesh.nodes
+        planned = self.status is Status.FAILED
+        fails = self.status in FAILED or (planned and self.earlier is not None)
+        return (FAILED_TIME if fails else CYCLES_TIME) * self.mesh.nodes
 
     @property
     def is_better(self) -> bool:
