@@ -26,6 +26,7 @@ from ehlcontact.supply import OilLayer
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
 from reduced_models.atlas.atlas_elements import (
     Loads,
+    approaches_in_one_region,
     cubic_element,
     damper_band,
     memory_element,
@@ -203,7 +204,9 @@ class Atlas:
         given = conditions_at(point, supply, thermal)
         if w is not None:
             return self._cubic(point, w, given)
-        return self._remembering(point, self._loads(moes) if model == "wide" else None, given)
+        if model == "memory":
+            return self._remembering(point, None, given)
+        return self._remembering(point, self._loads(moes), given, one_region=True)
 
     def wide(
         self,
@@ -213,9 +216,10 @@ class Atlas:
         supply: OilLayer | None = None,
         thermal: Heat | bool | None = None,
     ) -> WideRangeContact:
-        """Wide element through loads of one's own choice, in units of the point's, which is the reference load.
+        """Wide element through answers at loads of one's own choice, in units of the point's, the reference load.
 
-        As `element` gives it, but as fine as wanted and as far as the box goes.
+        As fine as wanted and as far as the box goes. The approach is that of `at` under each load, whose region
+        goes with its own contact. In `element` oil reaches as far ahead under all loads as under the reference.
 
         Parameters
         ----------
@@ -282,7 +286,7 @@ class Atlas:
         for U in places.tolist():
             at = replace(moes, M=moes.M * U**-0.75, L=moes.L * U**0.25)
             own = at if isinstance(point, MoesPoint) else replace(point, u_sum=point.u_sum * U)
-            row = self._remembering(at, self._loads(at), conditions_at(own, supply, thermal))
+            row = self._remembering(at, self._loads(at), conditions_at(own, supply, thermal), one_region=True)
             assert isinstance(row, WideRangeContact)
             assert row.omega_range is not None
             rows.append(row)
@@ -354,9 +358,12 @@ class Atlas:
         return cubic if scales is None else cubic.to_si(scales)
 
     def _remembering(
-        self, point: Point, over: _Floats | None, given: Given
+        self, point: Point, over: _Floats | None, given: Given, *, one_region: bool = False
     ) -> FilmMemoryContact | WideRangeContact:
-        """Wide-range element over the given loads, or film memory about the point's own load."""
+        """Wide-range element over the given loads, or film memory about the point's own load.
+
+        `one_region`: where oil floods the inlet, of all loads as far as under the point's own.
+        """
         moes, scales = self._inside(point), scales_of(point)
         loads = np.ones(1) if over is None else over
         flooded, shapes = self._surface.at(self._rows(moes, loads))
@@ -374,9 +381,12 @@ class Atlas:
             shapes = self._shapes(Omega[followed], values[:, _both(followed)], low, faint) + beside
         gains = np.maximum(shapes * low[:, None], 0.0)
         gains[:, 0] = np.maximum(gains[:, 0], LEAST_VISCOUS / DRY * low)  # as fitted: rates need it
+        approach = layers[0].approaches(loads, flooded, values) if supplied else values[:, 0]
+        if one_region and not supplied:
+            approach = approaches_in_one_region(loads, approach, values[:, HEAD])
         made_of = Loads(
             loads=loads,
-            approach=layers[0].approaches(loads, flooded, values) if supplied else values[:, 0],
+            approach=approach,
             tangent=values[:, HEAD],
             gains=gains,
             rates=self._table.rates,

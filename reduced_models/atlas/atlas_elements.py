@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
@@ -53,6 +54,18 @@ def passive_gains(rates: FilterRates, gains: _Floats) -> _Floats:
         if not rates.passive(row):
             row[0] -= PASSIVE_MARGIN * rates.least_dissipation(row)
     return rows
+
+
+def approaches_in_one_region(loads: _Floats, approach: _Floats, tangent: _Floats) -> _Floats:
+    """Approaches of one contact whose oil reaches as far under all `loads` as under load 1, each in its own unit.
+
+    The region of every answer is in semi-axes of its own load. Tangents depend less on it than approaches do, so
+    the film is integrated from them, from that of load 1 on.
+    """
+    x, unit = np.log(loads), loads ** (2.0 / 3.0)
+    film = scipy.interpolate.PchipInterpolator(x, unit * (2.0 / 3.0 - 1.0 / tangent)).antiderivative()
+    reference = 1.0 - approach[np.argmin(np.abs(x))]
+    return np.asarray(1.0 - (reference + film(x) - film(0.0)) / unit)
 
 
 def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:

@@ -28,8 +28,8 @@ def motion(case):
     """Point, approach over time, end and step of a case."""
     name, kind = case.split(", ")
     point = POINTS[name]
-    element = Atlas().element(point, "wide")
-    u1, least, most = (element.approach_at(load) for load in (1.0, 0.4, 1.8))
+    answers = Atlas().wide(point, Atlas().element(point, "wide").loads)  # each in the region of its own load
+    u1, least, most = (answers.approach_at(load) for load in (1.0, 0.4, 1.8))
 
     def away(low, high, leave, down, back, up):
         """Off to `low` from `leave` to `down`, and to `high` from `back` to `up`."""

@@ -188,18 +188,35 @@ def test_cubic_bends_like_a_dry_contact_on_its_film(shipped):
     assert [element.spring(end) for end in (element.low, element.high)] == pytest.approx([0.9, 1.1], abs=1e-4)
 
 
-def test_wide_range_follows_the_atlas_over_the_load(shipped):
+def test_wide_range_has_the_approach_of_the_reference_load_and_the_tangents_of_all(shipped):
     element = shipped.element(BEARING, "wide")
     assert element.load_range == (pytest.approx(0.01), pytest.approx(3.0))
+    assert element.approach_at(1.0) == pytest.approx(shipped.at(BEARING).approach, abs=1e-9)
     for load in element.loads:
         own = shipped.at(MoesPoint(BEARING.M * load, BEARING.L, BEARING.kappa))
-        assert element.approach_at(load) == pytest.approx(own.approach * load ** (2.0 / 3.0), abs=1e-9)
+        tangent = element.spring_tangent(element.approach_at(load)) / load ** (1.0 / 3.0)
+        assert tangent == pytest.approx(own.stiffness[0], rel=2e-3)
+
+
+def test_wide_range_is_flooded_alike_under_all_loads(shipped):
+    """As a solve of half the load with oil as far ahead as under the reference load has it."""
+    point, load = MoesPoint(20.0, 5.0, 0.3), 0.5
+    grow = load ** (-1.0 / 3.0)
+    region = Domain(-4.5 * grow, 1.5 * grow, 3.0 * grow)
+    film = solve_steady(replace(point, M=load * point.M), grid=Grid(n=64, domain=region))
+    element = shipped.element(point, "wide")
+    each = shipped.wide(point, element.loads)
+    off = [e.approach_at(load) - film.approach * load ** (2.0 / 3.0) for e in (element, each)]
+    assert abs(off[0]) < 0.015 and abs(off[1]) > 0.06
 
 
 def test_wide_through_loads_of_ones_own(shipped):
     usual = shipped.element(BEARING, "wide")
     same = shipped.wide(BEARING, usual.loads)
-    assert same.parameters == usual.parameters and same.source == usual.source
+    assert same.gains == usual.gains and same.source == usual.source
+    for load in usual.loads:
+        own = shipped.at(MoesPoint(BEARING.M * load, BEARING.L, BEARING.kappa))
+        assert same.approach_at(load) == pytest.approx(own.approach * load ** (2.0 / 3.0), abs=1e-9)
     fine = shipped.wide(BEARING, np.geomspace(1e-3, 6.0, 40))
     for load in (0.002, 0.4, 5.0):
         own = shipped.at(MoesPoint(BEARING.M * load, BEARING.L, BEARING.kappa))
