@@ -155,7 +155,7 @@ def _terms(element: Any, states: _Floats, approach: float, rate: float) -> _Floa
     x, g, _ = static(approach / length, law)
     theta = g**0.5
     moved = theta * rate / length * time
-    entering = film_made(x, law) * film_entering(states[0], law.inlet_saturation, law.closing)[0]
+    entering = film_made(x, law) * film_entering(states[0], law.inlet_saturation, law.rim)[0]
     fed = np.array([moved, moved, entering, *states[DIRECT - 1 : -1]])
     clock = np.full(states.size, law.lag_rate)
     clock[: DIRECT - 1] = law.inlet_rate, law.fast_rate

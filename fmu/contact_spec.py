@@ -295,7 +295,6 @@ def _film_macros(element: Film) -> dict[str, str]:
         "INLET_RATE": law.inlet_rate,
         "FAST_RATE": law.fast_rate,
         "INLET_SATURATION": law.inlet_saturation,
-        "CLOSING": law.closing,
         **dict(zip(("SCALE_FORCE", "SCALE_LENGTH", "SCALE_TIME"), element._units, strict=True)),
     }
     counts = {

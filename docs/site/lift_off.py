@@ -79,7 +79,7 @@ def run_of(case, snapshots=()):
 def without_rim(element):
     """Copy of the element whose film is made at the inlet alone."""
     other = element.copy()
-    object.__setattr__(other, "law", element.law._replace(rim=0.0, closing=1.0))
+    object.__setattr__(other, "law", element.law._replace(rim=0.0))
     return other
 
 

@@ -29,6 +29,9 @@ LOAD_BAND = (0.9, 1.1)  # of the elements that stand for one load
 LEAST_APPROACH = 0.2  # a cubic without a constant term needs some deformation
 PASSIVE_MARGIN = 1.001
 LEAST_SATURATION = 1e-6  # below, no motion that there is makes a film
+ADDED_UP = (
+    0.005  # film that errors of the tangents, up to .7 % by their bars, add up to over a decade or two of load
+)
 APART = 1.2  # ratio below which a load is left out beside the lightest or the heaviest
 
 
@@ -60,12 +63,14 @@ def approaches_in_one_region(loads: _Floats, approach: _Floats, tangent: _Floats
     """Approaches of one contact whose oil reaches as far under all `loads` as under load 1, each in its own unit.
 
     The region of every answer is in semi-axes of its own load. Tangents depend less on it than approaches do, so
-    the film is integrated from them, from that of load 1 on.
+    the film is integrated from them, from that of load 1 on. A film below what their errors add up to hardly
+    depends on the region, and stays that of the answers.
     """
     x, unit = np.log(loads), loads ** (2.0 / 3.0)
-    film = scipy.interpolate.PchipInterpolator(x, unit * (2.0 / 3.0 - 1.0 / tangent)).antiderivative()
-    reference = 1.0 - approach[np.argmin(np.abs(x))]
-    return np.asarray(1.0 - (reference + film(x) - film(0.0)) / unit)
+    own, reference = unit * (1.0 - approach), 1.0 - approach[np.argmin(np.abs(x))]
+    rise = scipy.interpolate.PchipInterpolator(x, unit * (2.0 / 3.0 - 1.0 / tangent)).antiderivative()
+    film = reference + rise(x) - rise(0.0)
+    return np.asarray(1.0 - (own + (film - own) / (1.0 + (ADDED_UP / reference) ** 2)) / unit)
 
 
 def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:

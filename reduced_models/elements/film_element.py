@@ -47,9 +47,6 @@ _Floats = NDArray[np.float64]
 RATES = (1e-6, 1e6)
 FILMS = (1e-9, 1e6)
 LARGEST_GAIN = 1e6
-# b of phi on closing, of elements with a rim: fitted to the fast return and the impact of `motion_errors` at
-# (M, L, kappa) = (200, 10, 0.5). The film of an edge that moves into oil goes like its speed to the power of 2/3.
-CLOSING = -0.4
 _SCALES = tuple(f.name for f in fields(Scales))
 
 
@@ -100,7 +97,6 @@ class FilmContact(ContactElement):
             inlet_rate=self.inlet_rate,
             fast_rate=self.fast_rate,
             inlet_saturation=inlet_saturation,
-            closing=CLOSING if rim else 1.0,
             rim=1.0 if rim else 0.0,
         )
         require_size("gains", float(np.abs(law.gains).max()), LARGEST_GAIN)

@@ -8,20 +8,21 @@ d sigma = dT/theta with theta = F_s^(1/3). With the rate i = du/d sigma in that 
 
     inlet   s' = p_i (i - s)
     fast    y' = p_f (i - y)
-    chain   q_k' = nu (q_(k-1) - q_k) + r (q_0 - q_k),   q_0 = G phi(s),   phi(s) = s + b beta s^2/(1 + |beta s|)
+    chain   q_k' = nu (q_(k-1) - q_k) + r (q_0 - q_k),   q_0 = G phi(s),   phi(s) = s + beta s^2/(1 + |beta s|)
     m = c i + g_i s + g_f y + sum_k (g_k/G) q_k,    G = sum_k |g_k|
 
 The chain carries the film made at the inlet through the contact, and the shares g_k/G weigh the film of each age.
 All gains depend on the load. G is that of the load at which the film is made: a film that closing surfaces trap
 under a light load keeps its thickness while the load rises, until it has crossed the contact. About one load, and
-so in all small motions, G cancels; with a single row of gains it is set to 1. phi is
-monotone and above -1/beta, the saturation of the inlet: opening cannot take away more film than there is. There
-b = 1; closing has a b of its own (`closing`). An element for every load has a rim: where its contact grows from
-theta_0 to theta, the share 1 - theta_0/theta of it is new, and has film that the whole rim makes now, r =
-max(theta', 0)/theta. So film trapped by a fast return fills the contact at once, and fades from then on. Between
-the ends of a step u is the cubic through both approaches and rates, and every filter is advanced exactly
-(`film_filters`), so a step of any length is stable and a long one ends on the static force plus damping. In
-continuous time (`film_rates`) the states are s, y and q_1 ...; at rest all are zero.
+so in all small motions, G cancels; with a single row of gains it is set to 1. phi is monotone and above -1/beta,
+the saturation of the inlet: opening cannot take away more film than there is. An element for every load has a rim,
+on closing an edge that moves into oil and makes film like its speed to the power of 2/3: phi = ((1 + 3/2 beta
+s)^(2/3) - 1)/beta. Where its contact grows from theta_0 to theta, the share 1 - theta_0/theta of it is new, and
+has film that the whole rim makes now, r = max(theta', 0)/theta; elsewhere r = 0. So film trapped by a fast return
+fills the contact at once, and fades from then on. Between the ends of a step u is the cubic through both
+approaches and rates, and every filter is advanced exactly (`film_filters`), so a step of any length is stable and
+a long one ends on the static force plus damping. In continuous time (`film_rates`) the states are s, y and q_1
+...; at rest all are zero.
 """
 
 from __future__ import annotations
@@ -66,7 +67,6 @@ class FilmLaw(NamedTuple):
     inlet_rate: float
     fast_rate: float
     inlet_saturation: float  # beta
-    closing: float  # b of phi where s > 0
     rim: float  # film that the rim of a growing contact makes, over that of the inlet; 0: it does not
 
 
@@ -163,12 +163,13 @@ def _one_lag(old, start, end, bump, rate, span):
 
 
 @jit_exact
-def film_entering(s, saturation, closing):
+def film_entering(s, saturation, rim):
     """phi(s), the film that enters the chain, and its derivative."""
     b = saturation * s
+    if rim > 0.0 and b > 0.0:
+        c = (1.0 + 1.5 * b) ** (1.0 / 3.0)
+        return 1.5 * s * (c + 1.0) / (c * c + c + 1.0), 1.0 / c  # (c^2 - 1)/beta without a difference
     d = 1.0 + abs(b)
-    if b > 0.0:
-        b *= closing
     return s + b * s / d, 1.0 + b * (1.0 + d) / (d * d)
 
 
@@ -176,7 +177,7 @@ def film_entering(s, saturation, closing):
 @jit_exact
 def _entering(s, law):
     """Film that enters the chain, of a jet."""
-    x, slope = film_entering(s.x, law.inlet_saturation, law.closing)
+    x, slope = film_entering(s.x, law.inlet_saturation, law.rim)
     return through(x, slope, s)
 
 
@@ -262,7 +263,7 @@ def film_step(law, old, new, dt, u, v):
     between, x_u = _between(x, law), 1.5 * g.u / g.x
     made0, (made_x, by_x) = _made(3.0 * log(old[THETA]), law)[0], _made(x, law)
     made = Jet(made_x, by_x * x_u, 0.0)
-    f0 = made0 * film_entering(old[INLET], law.inlet_saturation, law.closing)[0]
+    f0 = made0 * film_entering(old[INLET], law.inlet_saturation, law.rim)[0]
     f = times(made, _entering(s, law))
     hump = minus(times(half(made0, made), _entering(entered, law)), half(f0, f))
 
@@ -341,7 +342,7 @@ def film_rates(law, states, u, v, rates):
     x, g, g_u = static(u, law)
     theta = sqrt(g)
     made, between = _made(x, law)[0], _between(x, law)
-    fed = made * film_entering(states[0], law.inlet_saturation, law.closing)[0]
+    fed = made * film_entering(states[0], law.inlet_saturation, law.rim)[0]
     filter_rates(law, fed, theta, v, states, rates)
     if law.rim > 0.0 and v > 0.0:
         for k in range(DIRECT - 1, states.size):

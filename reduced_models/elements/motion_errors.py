@@ -26,13 +26,13 @@ import numpy as np
 FILMS = (0.053, 0.367, 0.795)  # of the points (M, L, kappa) = (2900, 19, 0.11), (37, 12, 0.8), (20, 5, 0.3)
 WITHIN, UNLOADING = "vibration within contact", "unloading"
 ERRORS = {  # rms at these films
-    "small vibration": (0.013, 0.029, 0.069),
-    WITHIN: (0.0035, 0.017, 0.078),
-    "slow return": (0.01, 0.073, 0.466),
-    "fast return": (0.02, 0.077, 0.242),
-    "impact": (0.038, 0.095, 0.145),
-    UNLOADING: (0.0032, 0.034, 0.147),
-    "repeated lift-off": (0.049, 0.205, 0.48),
+    "small vibration": (0.013, 0.025, 0.011),
+    WITHIN: (0.0034, 0.011, 0.029),
+    "slow return": (0.0084, 0.057, 0.436),
+    "fast return": (0.016, 0.069, 0.242),
+    "impact": (0.029, 0.099, 0.163),
+    UNLOADING: (0.0020, 0.012, 0.042),
+    "repeated lift-off": (0.043, 0.179, 0.445),
 }
 
 

@@ -253,7 +253,6 @@ def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
             inlet_rate=rates.inlet_rate,
             fast_rate=rates.fast_rate,
             inlet_saturation=inlet_saturation,
-            closing=1.0,
             rim=0.0,
         )
         for record in target.records:

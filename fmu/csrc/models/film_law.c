@@ -31,10 +31,11 @@ static Jet one_lag(double old, double start, Jet end, Jet bump, double rate, Jet
 /* phi(s), the film that enters the chain, and its slope. */
 static double film_entering(double s, double *slope)
 {
-    double b = INLET_SATURATION * s;
-    const double d = 1.0 + fabs(b);
-    if (b > 0.0) {
-        b *= CLOSING;
+    const double b = INLET_SATURATION * s, d = 1.0 + fabs(b);
+    if (RIM && b > 0.0) {
+        const double c = pow(1.0 + 1.5 * b, 1.0 / 3.0);
+        *slope = 1.0 / c;
+        return 1.5 * s * (c + 1.0) / (c * c + c + 1.0); /* (c^2 - 1)/beta without a difference */
     }
     *slope = 1.0 + b * (1.0 + d) / (d * d);
     return s + b * s / d;

@@ -59,7 +59,7 @@ CASES = {
         "_film": [(x, FILM) for x in (-9.0, -1.0, 0.3, 4.0)],
         "static": [(u, FILM) for u in (-1e9, -3.0, 0.0, 0.9, 5.0)],
         "_one_lag": [(0.1, 0.2, A, B, rate, C) for rate in (0.3, 3.0)],
-        "film_entering": [(s, 0.2, closing) for s in (0.3, -0.3) for closing in (1.0, -0.4)],
+        "film_entering": [(s, 0.2, rim) for s in (0.3, -0.3) for rim in (0.0, 1.0)],
         "_entering": [(A, FILM), (B, FILM)],
         "_with_rim": [(A, B, C, jet.Jet(0.8, 0.1, 0.0), B)],
         "_between": [(x, FILM) for x in (-9.0, 0.3, 4.0)],
