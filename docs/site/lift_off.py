@@ -2,9 +2,9 @@
 
 python docs/site/lift_off.py   # half an hour: runs of the full film, and tables from solves in their regions
 
-Elements of the atlas have films flooded as far as its solves are. Here tables are solved in the region of the run:
-what is left is the error of the law. Where films are thin (M of 60 and more) the region hardly matters, and the
-element is that of the atlas. In brackets: all film made at the inlet, none at the rim.
+Elements of the atlas have oil as far ahead as the contact at rest. Here tables are solved in the region of the
+run: what is left is the error of the law. Where films are thin (M of 60 and more) the region hardly matters, and
+the element is that of the atlas. In brackets: all film made at the inlet, none at the rim.
 """
 
 import sys
