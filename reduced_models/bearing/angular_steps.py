@@ -99,7 +99,7 @@ class AngularFilms(NamedTuple):
     omega: _Floats  # (2,) speed of the shaft [rad/s] in this step and at the end of the last
     steps: NDArray[np.int64]  # (1,) made
     maps: _Floats  # (balls, 2, 3, 5) of `ring_map`, and their derivative by the angle of the ball
-    tangents: _Floats  # (2, 5, 4) work, see `_balance_ball`
+    tangents: _Floats  # (3, 5, 4) work, see `_balance_ball`
     heights: _Floats  # (contacts, HEIGHTS) of features, see `contact_heights`
     turned: _Floats  # (1 + balls, 3) angles of the shaft and of all balls [rad], see there
     loss: Seat
@@ -129,7 +129,7 @@ def films_of_angular(balls: AngularBalls) -> AngularFilms:
         omega=np.zeros(2),
         steps=np.zeros(1, np.int64),
         maps=np.zeros((n, 2, 3, FREEDOMS)),
-        tangents=np.zeros((2, 5, 4)),
+        tangents=np.zeros((3, 5, 4)),
         heights=np.zeros((contacts, HEIGHTS)),
         turned=np.zeros((1 + n, 3)),
         loss=loss_state_of(balls.loss, FREEDOMS),
@@ -245,7 +245,8 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
     """Balance ball `k` with the groove centre at `c` = (c_r, c_z, c_r', c_z'); False where it finds no balance.
 
     Rows 2 to 4 of ``films.tangents`` get the force of the ring on the ball (r, z) and its moment: derivatives by c
-    and c' on the first page, the values in the last column of the second.
+    and c' on the first page, the values in the last column of the second. The third has the forces of inertia as
+    ``films.inertia``, where a long search renews them for itself.
     """
     g, place, tried, follow = balls.grooves, films.place[k], films.tried[k], films.follow[k]
     c_r, c_z, d_r, d_z = c
@@ -265,6 +266,7 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
     nearly = NEARLY_SHARED if g.control in (INNER, SHARED) else NEARLY
     for count in range(MOST_STEPS):
         if count % STALE == STALE - 1 and omega > 0.0:
+            inertia = films.tangents[2]
             _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, inertia)
         l_i, x_r, x_z = inner_span(b_r, b_z, c_r, c_z)
         l_o = sqrt(b_r * b_r + b_z * b_z)
@@ -342,6 +344,14 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
         films.force[k, 1] = f_o + m_r * step_r + m_z * step_z
         return True
     return False
+
+
+@jit_exact_node
+def _move_on(films, k):
+    """Put ball `k` where it would be if it moved on as in the last step: where the search begins, see `balls`."""
+    films.follow[k] = 0.0
+    for j in range(2):
+        films.place[k, j] = 2.0 * films.kept[k, 0, j] - films.kept[k, 1, j]
 
 
 @inner
@@ -479,6 +489,8 @@ def press_angular(balls, films, q, v, gain, out):
         c = _groove_centre(balls, films, k, q, v, cage)
         done = False
         for attempt in range(3):
+            if attempt == 0 and gain > 0.0:
+                _move_on(films, k)
             if attempt == 1 or not np.isfinite(films.place[k, 0]):
                 _place_ball(balls, k, c, films)
             if attempt == 2:

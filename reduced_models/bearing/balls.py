@@ -66,11 +66,10 @@ MOST_STEPS = 60  # of that search: a handful, but where a ball lands
 FIRST_STEP = 1e-7  # [m], to a ball that nothing touches; doubled until a race is met
 
 # Entries of a ball: its position w as tried last, what its rate follows from, w at the last two ends of steps;
-# delta and its rate where that was tried, and the slopes of w by both; what its acceleration follows from, and its
-# rates at the last two ends of steps.
-POSITION, POSITION_HISTORY, POSITION_NOW, POSITION_BEFORE = range(4)
-TRIED_DELTA, TRIED_RATE, BY_DELTA, BY_RATE = range(4, 8)
-RATE_HISTORY, RATE_NOW, RATE_BEFORE, BALL_ENTRIES = range(8, 12)
+# delta where that was tried, and the slope of w by it; what its acceleration follows from, and its rates at the
+# last two ends of steps.
+POSITION, POSITION_HISTORY, POSITION_NOW, POSITION_BEFORE, TRIED_DELTA, BY_DELTA = range(6)
+RATE_HISTORY, RATE_NOW, RATE_BEFORE, BALL_ENTRIES = range(6, 10)
 
 
 class Balls(NamedTuple):
@@ -213,12 +212,20 @@ def _full_film(given, u):
 
 @jit_exact_node
 def _ball(balls, at_speed, films, k, delta, rate, gain):
-    """Balance ball `k`; returns the force of the ring on it, its derivatives by delta and delta'."""
+    """Balance ball `k`; returns the force of the ring on it, its derivatives by delta and delta'.
+
+    In a step the search begins where the ball would be if it moved on as in the last one, however often it is
+    asked for: a film that lets go pulls and pushes, so a ball may have several balances, and which one is found
+    must not depend on where the ring was tried before.
+    """
     ball, heavy, row = films.balls[k], balls.inertia * gain, at_speed.speed_row
     h_i, up_i = films.heights[2 * k, HEIGHT], films.heights[2 * k, HEIGHT_RATE]
     h_o, up_o = films.heights[2 * k + 1, HEIGHT], films.heights[2 * k + 1, HEIGHT_RATE]
     history = ball[POSITION_HISTORY]
-    w = ball[POSITION] + ball[BY_DELTA] * (delta - ball[TRIED_DELTA]) + ball[BY_RATE] * (rate - ball[TRIED_RATE])
+    if gain > 0.0:
+        w = 2.0 * ball[POSITION_NOW] - ball[POSITION_BEFORE]
+    else:
+        w = ball[POSITION] + ball[BY_DELTA] * (delta - ball[TRIED_DELTA])
     low, high, reach = -inf, inf, FIRST_STEP
     for _ in range(MOST_STEPS):
         v = gain * (w - history)
@@ -236,9 +243,9 @@ def _ball(balls, at_speed, films, k, delta, rate, gain):
             if tangent > 0.0:
                 step = -balance / tangent
                 w, fi, fo = w + step, fi - inner * step, fo + held * step
-                ball[BY_DELTA], ball[BY_RATE] = ki / tangent, di / tangent
+                ball[BY_DELTA] = ki / tangent
                 ki, di = ki * outer / tangent, di * outer / tangent
-            ball[POSITION], ball[TRIED_DELTA], ball[TRIED_RATE] = w, delta, rate
+            ball[POSITION], ball[TRIED_DELTA] = w, delta
             films.force[k, 0], films.force[k, 1] = fi, fo
             return fi, ki, di
         if balance > 0.0:

@@ -41,3 +41,12 @@ Differences differences(double h, double h_before)
     d.before = ratio * ratio * per;
     return d;
 }
+
+void place_ahead(const Ball *old, double h, double h_before, double start[PLACES])
+{
+    const double ratio = h_before > 0.0 ? h / h_before : 0.0;
+    int j;
+    for (j = 0; j < PLACES; j++) {
+        start[j] = old->place[0][j] + ratio * (old->place[0][j] - old->place[1][j]);
+    }
+}

@@ -55,17 +55,21 @@ typedef struct {
 } Differences;
 Differences differences(double h, double h_before);
 
+/* Where the balance of a ball is looked for in a step, however often: it moves on as in the last one. A film that lets go pulls
+ * and pushes, and a ball may have several balances: which one is found must not depend on where the ring was tried before. */
+void place_ahead(const Ball *old, double h, double h_before, double start[PLACES]);
+
 /* All balls in a step. */
 typedef struct BallsStep BallsStep;
 
 #if FREEDOMS == 2
-/* A planar ball in a step: its contacts; its direction; what its rates follow from; what presses it outward. Where it was
- * balanced last, by delta and its rate, what its place and the force of the ring change by with both. */
+/* A planar ball in a step: its contacts; its direction; what its rates follow from; what presses it outward. Where it
+ * is looked for; where it was balanced last, by delta and its rate, and what the force of the ring changes by with both. */
 typedef struct {
     RaceStep contact[2];
     StepFilters filters[2];
     double x, y, gain, history, rate_history, centrifugal;
-    double place[PLACES], tried[2], follow[2], slope[2];
+    double start[PLACES], place[PLACES], tried[2], slope[2];
 } BallStep;
 
 struct BallsStep {

@@ -222,8 +222,8 @@ void balls_begin(const Setup *setup, const Bearing *before, Bearing *after, doub
         ball->omega = omega;
         for (j = 0; j < 2; j++) {
             ball->history[j] = d.now * old->place[0][j] - d.before * old->place[1][j];
-            ball->place[j] = old->place[0][j];
         }
+        place_ahead(old, h, before->h, ball->start);
         for (race = 0; race < 2; race++) {
             ready(before, k, race, h, at, film_speed(omega), ball);
         }
@@ -243,6 +243,7 @@ const char *balls_press(BallsStep *step, Bearing *after, const double q[], const
         BallStep *ball = &step->ball[k];
         int attempt, done = 0;
         ball->centre = groove_centre(ball->setup, place, velocity, number(after->angle), number(step->cage), k);
+        memcpy(ball->place, ball->start, sizeof ball->place);
         for (attempt = ball->place[0] == 0.0 ? 1 : 0; attempt < 2 && !done; attempt++) {
             if (attempt == 1) {
                 first_place(ball, ball->place);

@@ -16,7 +16,7 @@ static void press(const BallStep *step, double delta, double rate, double w, Rac
     *outer = race_force(&step->contact[OUTER_RACE], w, v);
 }
 
-/* A ball that has been balanced: its forces, and what they and its place change by with delta and its rate. */
+/* A ball that has been balanced: its forces, and what they change by with delta and its rate. */
 static void balanced(BallStep *step, double delta, double rate, double w, const RaceForce *inner, const RaceForce *outer,
                      Ball *ball)
 {
@@ -25,8 +25,6 @@ static void balanced(BallStep *step, double delta, double rate, double w, const 
     step->place[0] = w;
     step->tried[0] = delta;
     step->tried[1] = rate;
-    step->follow[0] = tangent > 0.0 ? inner->stiffness / tangent : 0.0;
-    step->follow[1] = tangent > 0.0 ? inner->damping / tangent : 0.0;
     step->slope[0] = share * inner->stiffness;
     step->slope[1] = share * inner->damping;
     ball->force[INNER_RACE] = inner->force;
@@ -40,7 +38,7 @@ static int balance_ball(BallStep *step, double delta, double rate, Ball *ball)
 {
     const double gain = step->gain, heavy = BALL_INERTIA * gain;
     double low = -HUGE_VAL, high = HUGE_VAL, reach = first_step;
-    double w = step->place[0] + step->follow[0] * (delta - step->tried[0]) + step->follow[1] * (rate - step->tried[1]);
+    double w = step->start[0];
     RaceForce inner, outer;
     int i;
     for (i = 0; i < MOST_BALL_STEPS; i++) {
@@ -95,8 +93,7 @@ static void begin_ball(const Setup *setup, const Bearing *before, int k, double 
             race_prepare(c, h);
         }
     }
-    step->place[0] = old->place[0][0];
-    step->tried[0] = step->tried[1] = step->follow[0] = step->follow[1] = 0.0;
+    place_ahead(old, h, before->h, step->start);
 }
 
 void balls_unmoved(Bearing *bearing)

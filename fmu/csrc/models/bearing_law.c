@@ -51,7 +51,6 @@ static void law_begin(const double numbers[], double work[], double h, double om
 {
     const Model *m = law_shown(numbers);
     LawStep *s = law_step_of(work);
-    int k, j;
     s->setup = setup_of(m->value);
 #if FREEDOMS == 5
     s->offset = m->value[VR_offset];
@@ -60,11 +59,6 @@ static void law_begin(const double numbers[], double work[], double h, double om
 #endif
     memcpy(&s->before, m->cache, sizeof s->before);
     balls_begin(&s->setup, &s->before, &s->after, h, omega, &s->step);
-    for (k = 0; k < BALLS && h > 0.0; k++) { /* where a ball is looked for first */
-        for (j = 0; j < PLACES; j++) {
-            s->step.ball[k].place[j] = 2.0 * s->before.ball[k].place[0][j] - s->before.ball[k].place[1][j];
-        }
-    }
 }
 
 /* Place of the ring against the balls. */

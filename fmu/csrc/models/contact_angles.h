@@ -51,7 +51,7 @@ typedef struct {
     double e[2], v[2], rate[2]; /* velocities along which the springs move; of both approaches */
 } Pressed;
 
-/* A ball in a step, and where it was balanced last. */
+/* A ball in a step, where it is looked for, and where it was balanced last. */
 typedef struct {
     const Setup *setup;
     RaceStep contact[2];
@@ -59,7 +59,7 @@ typedef struct {
     StepFilters filters[2];
     double gain, history[2], omega;
     GrooveCentre centre;
-    double place[PLACES];
+    double start[PLACES], place[PLACES];
     Pressed found;
 } BallStep;
 

@@ -7,6 +7,7 @@ import pytest
 from beam_rotor import with_balls
 from bearing_twins import SlowBearing, SlowContact, SlowElement
 
+from ehlcontact import Lubricant
 from reduced_models import BallBearing
 from reduced_models.bearing.balls import press_balls, rest_balls, speed_state
 from reduced_models.bearing.equilibrium import StaticBalls
@@ -169,3 +170,32 @@ def test_dry_balls_in_motion_are_hertzian(dry, shake):
     expected = (delta / sum(kn)) ** 1.5
     np.testing.assert_allclose(balls, np.repeat(expected[:, :, None], 2, axis=2), atol=1e-7)
     np.testing.assert_allclose(force[:, 1], expected @ np.sin(psi), rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "speed", "k"),
+    [("6305", None, 18), ("7205", 6.0, 6), ("7205", 12.0, 5)],  # the last one's search renews forces of inertia
+)
+def test_the_balance_of_a_ball_does_not_depend_on_where_the_ring_was_tried(name, speed, k):
+    """A ring that leaves balls at some m/s: their films hold and push, and they have several balances."""
+    bearing = BallBearing.catalogue(name, oil=Lubricant.iso_vg(46, temperature=80.0))
+    dt, n = 1e-5, 2 if speed is None else 5
+    start, t = np.zeros(n), np.arange(1, k + 2) * dt
+    start[1:3] = (-3e-5, 1e-5)[: n - 1]
+    q, v = np.tile(start, (k + 1, 1)), np.zeros((k + 1, n))
+    if speed is None:
+        w, size = 2.0 * pi / (20.0 * dt), 2e-4
+        q[:, 0], v[:, 0] = size * np.sin(w * t), size * w * np.cos(w * t)
+        q[:, 1], v[:, 1] = q[:, 1] + size * (np.cos(1.3 * w * t) - 1.0), -1.3 * size * w * np.sin(1.3 * w * t)
+    else:
+        since = np.maximum(t - 4.0 * dt, 0.0)
+        q[:, 1], v[:, 1] = q[:, 1] + speed * since**2 / (8.0 * dt), speed * since / (4.0 * dt)
+    found = []
+    for away in (0.0, 1e-5, 2e-5, -5e-5, 1e-4):
+        it = BearingMotion(bearing, 10000.0, dt, freedoms=n)
+        it.rest(start)
+        it.drive(q[:k], v[:k])
+        if away:
+            it.forces(q[k] + away * np.eye(n)[1], v[k])
+        found.append([*it.forces(q[k], v[k])[0], *it._motion.films.force.ravel()])
+    np.testing.assert_array_equal(found, [found[0]] * len(found))
