@@ -181,6 +181,40 @@ def put(typing_context: Any, a: Any, j: Any, i: Any, value: Any) -> Any:
 
 
 @intrinsic
+def put_transposed(typing_context: Any, a: Any, j: Any, i: Any, b: Any, k: Any, m: Any) -> Any:
+    """``a[j:j+8, i:i+8] = b[k:k+8, m:m+8].T``, without looking at either as numbers."""
+
+    def generate(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        def pointers(array: int) -> list[Any]:
+            numbers = (array + 1, array + 2)
+            line, column = (context.cast(builder, args[q], sig.args[q], types.intp) for q in numbers)
+            lines = [builder.add(line, ir.Constant(line.type, q)) for q in range(LANES)]
+            found = (_pointer(context, builder, sig.args[array], args[array], [q, column]) for q in lines)
+            return [builder.bitcast(pointer, _VECTOR.as_pointer()) for pointer in found]
+
+        square = [builder.load(pointer, align=8, typ=_VECTOR) for pointer in pointers(3)]
+        for side in (4, 2, 1):  # blocks of this side beside the diagonal change places
+            for q in (q for q in range(LANES) if not q & side):
+                above, below = square[q], square[q + side]
+                masks = _ahead(side), [c + side for c in _ahead(side)]
+                square[q], square[q + side] = (builder.shuffle_vector(above, below, _mask(c)) for c in masks)
+        for pointer, line in zip(pointers(0), square, strict=True):
+            builder.store(line, pointer, align=8)
+        return context.get_dummy_value()
+
+    return types.void(a, j, i, b, k, m), generate
+
+
+def _ahead(side: int) -> list[int]:
+    """Numbers that a line takes of itself, or from 8 on of the line `side` below."""
+    return [c if not c & side else LANES + c - side for c in range(LANES)]
+
+
+def _mask(numbers: list[int]) -> Any:
+    return ir.Constant(ir.VectorType(ir.IntType(32), LANES), numbers)
+
+
+@intrinsic
 def lane(typing_context: Any, x: Any, k: Any) -> Any:
     """Number `k` of eight."""
 

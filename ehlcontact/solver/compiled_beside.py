@@ -1,7 +1,8 @@
 """Kernels of a steady film that a second process compiles beside the first solve on a machine.
 
-The first process compiles the kernels of the flow and of whole lines, the second meanwhile those that are needed
-later, into numba's cache, where the first one finds them. Nothing happens once they are there.
+The first process compiles the kernels of the deflection, of the flow and of whole lines, the second meanwhile
+those that are needed later, into numba's cache, where the first one finds them. Nothing happens once they are
+there.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from ehlcontact.point import MoesPoint
 from ehlcontact.process.beside import start_beside
 from ehlcontact.process.threads import Kernel, Team
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.kernels import cavitation, flanks, relax, reynolds, transfer
+from ehlcontact.solver.kernels import cavitation, flanks, fourier, relax, transfer
 from ehlcontact.solver.kernels.linearise import dense_jacobian
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.lowest_film import lowest_of_cells
@@ -33,7 +34,7 @@ class _FirstKernel(event.Listener):
     """Starts the second process, once."""
 
     def __init__(self) -> None:
-        self._awaited: Any = plain(reynolds.update_lines)
+        self._awaited: Any = plain(fourier.across_lines)
 
     def on_start(self, event: Any) -> None:
         kernel = event.data["dispatcher"]

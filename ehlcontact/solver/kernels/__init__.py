@@ -12,6 +12,7 @@ module        responsibility
 ``cavitation``  passes along the cavitation boundary
 ``fronts``    passes along the fronts of full film behind partly filled nodes
 ``transfer``  from grid to grid
+``fourier``   the deflection by fast Fourier transforms
 ``mlmi``      the direct sum of the deflection, and one coarsening of multi-integration
 ============= ============================================================================================
 

@@ -15,7 +15,7 @@ from ehlcontact.jit import compilation_told, compile_for
 from ehlcontact.process import beside
 from ehlcontact.process.beside import COMPILE_BESIDE, start_beside
 from ehlcontact.solver import compiled_beside
-from ehlcontact.solver.kernels import reynolds
+from ehlcontact.solver.kernels import fourier, reynolds
 
 needs_jit = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
 
@@ -48,10 +48,10 @@ def test_it_starts_once_with_the_first_kernel(started):
             self.data = {"dispatcher": kernel}
 
     listener = compiled_beside._FirstKernel()
-    for kernel in (reynolds.residual_lines, reynolds.update_lines, reynolds.update_lines):
+    for kernel in (reynolds.residual_lines, fourier.across_lines, fourier.across_lines):
         listener.on_start(Told(kernel))
     assert started == [
-        ("ehlcontact.solver.compiled_beside", "compile_some", reynolds.update_lines._cache.cache_path)
+        ("ehlcontact.solver.compiled_beside", "compile_some", fourier.across_lines._cache.cache_path)
     ]
 
 

@@ -24,7 +24,7 @@ from ehlcontact.hertz import shape_factor
 from ehlcontact.solver.deflection import ENGINES, make_deflection
 from ehlcontact.solver.deflection.coefficients import influence_coefficients, injected_coefficients
 from ehlcontact.solver.deflection.direct import DirectSum
-from ehlcontact.solver.deflection.fft import FastFourier, FastTransforms, MatrixTransforms
+from ehlcontact.solver.deflection.fft import FastFourier
 from ehlcontact.solver.deflection.mlmi import Grid as CoarseGrid
 from ehlcontact.solver.deflection.mlmi import Mlmi, correction_kernel
 from ehlcontact.solver.kernels import mlmi as kernels
@@ -255,7 +255,7 @@ def test_calls_do_not_depend_on_earlier_ones(engine, kappa):
     W = make_deflection(32, 16, 0.2, 0.2, kappa, engine)
     first, kept = W(P), P.copy()
     copy = first.copy()
-    W(Q)
+    W(1e9 * Q)
     assert (W(P) == first).all()
     assert (first == copy).all()
     assert (P == kept).all()
@@ -307,13 +307,12 @@ def test_influence_is_the_integral_over_the_cell(i, k):
     assert value == pytest.approx(oracles.influence_by_quadrature(0.1 * i, 0.2 * k, 0.1, 0.2, 0.4), rel=1e-9)
 
 
-@pytest.mark.parametrize("transforms", [FastTransforms, MatrixTransforms])
-@pytest.mark.parametrize(("nx", "ny"), [(16, 4), (24, 10), (48, 5)])
-def test_both_kinds_of_transforms(transforms, nx, ny):
-    kernel = influence_coefficients(nx + 1, 2 * ny + 1, 0.1, 0.07, 0.3)
+@pytest.mark.parametrize(("nx", "ny"), [(12, 4), (16, 4), (24, 10), (48, 5), (33, 7), (44, 9)])
+def test_transforms_of_any_length(nx, ny):
     P = random_pressure(nx, ny, nx)
     expected = oracles.deflection(P, 0.1, 0.07, 0.3)
-    np.testing.assert_allclose(transforms(kernel)(P), expected, rtol=1e-12, atol=1e-12 * expected.max())
+    found = FastFourier(nx, ny, 0.1, 0.07, 0.3)(P)
+    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * expected.max())
 
 
 @pytest.mark.parametrize("nx", [16, 64])
