@@ -103,6 +103,7 @@ class Level:
         self.r = np.zeros(shape)  # residual of the Reynolds equation, zero on the border
         self.marks = np.zeros(shape, dtype=np.uint8)
         self.nodes = np.zeros(shape[0] * shape[1], dtype=np.int64)
+        self.couplings = np.zeros((self.nodes.size, cavitation.COUPLINGS))
         self.force_weights = np.full(shape, 2.0 * FORCE_FACTOR * self.hx * self.hy)
         self.force_weights[0] *= 0.5
 
@@ -337,8 +338,8 @@ class Level:
         if self.inflow.size:
             work = (f.theta, f.w)
             self._run_blocks(fronts.settle_fronts, f.P, f.flow, self.supply_arrays, numbers, self.c_t, own, *work)
-        given = (f.P, f.H, f.flow, self.supply_arrays, self.law, numbers, self.c_t, own, self.nodes, self.marks)
-        self._run_blocks(cavitation.relax_boundary_blocks, *given)
+        given = (f.P, f.H, f.flow, self.supply_arrays, self.law, numbers, self.c_t, own)
+        self._run_blocks(cavitation.relax_boundary_blocks, *given, (self.nodes, self.couplings, self.marks))
 
     @property
     def squeeze_dominates(self) -> bool:

@@ -7,8 +7,9 @@ frozen film makes these passes diverge.
 """
 
 from ehlcontact.jit import inner, jit_loop, jit_node
+from ehlcontact.lanes import at, larger, put
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
-from ehlcontact.solver.kernels.reynolds import operator_at, update_across, update_along, update_node
+from ehlcontact.solver.kernels.reynolds import operator_at, transport_at, update_across, update_along, update_node
 from ehlcontact.solver.kernels.supply import carry_line
 
 # Coarse corrections end some way before the boundary, not some nodes: what is left to passes grows with the grid.
@@ -19,6 +20,7 @@ UPDATED = 255  # mark: the largest byte, above every reach
 DOMINANCE = 10.0  # flow term over wedge term, in proportion more on meshes finer along X,
 NEAREST = 3.0  # up to this distance from the boundary; as its cube more beyond, where smoother changes are relaxed
 SQUEEZE_DOMINANCE = 300.0  # flow term over squeeze term: short steps fail by the passes where it is smaller
+COUPLINGS = 6  # numbers of a node in `couple`
 
 
 @inner
@@ -79,12 +81,43 @@ def update_marked(first, last, P, H, law, stencil, flow, marks):
                 update_across(j, i, flow)
 
 
+@jit_node
+def couple(j, i, s, flow, rhs, stencil, c_t, own, couplings):
+    """What the passes need of a node at frozen film and flow, a full film; ``couplings[s]`` written.
+
+    Its new pressure is a sum over the four neighbours, W, E, S, N, and itself, less a constant.
+    """
+    south, north = flow.across[j - 1 if j > 0 else 0, i], flow.across[j, i]
+    if j == 0:
+        south, north = 0.0, south + north  # the image of line 1
+    total = total_flow(j, i, flow, stencil)
+    share = 1.0 / (total + own)
+    couplings[s, 0] = share * stencil.cx * flow.along[j, i - 1]
+    couplings[s, 1] = share * stencil.cx * flow.along[j, i]
+    couplings[s, 2] = share * stencil.cy * south
+    couplings[s, 3] = share * stencil.cy * north
+    couplings[s, 4] = share * own
+    couplings[s, 5] = share * (rhs[j, i] + transport_at(j, i, flow.mass, stencil, c_t))
+
+
+@jit_node
+def relax_coupled(node, s, P, couplings):
+    """Relax the pressure of one node, by its flat number, with ``couplings[s]``."""
+    width = P.shape[1]
+    south = node - width if node >= width else node
+    p = at(couplings, s, 4) * at(P, 0, node) - at(couplings, s, 5)
+    p += at(couplings, s, 2) * at(P, 0, south) + at(couplings, s, 3) * at(P, 0, node + width)
+    # what was relaxed last comes last
+    p += at(couplings, s, 1) * at(P, 0, node + 1) + at(couplings, s, 0) * at(P, 0, node - 1)
+    put(P, 0, node, larger(p, 0.0))
+
+
 @jit_loop(inline="always")  # one caller: what it calls is optimised one time less
-def relax_boundary(first, last, P, H, flow, supply, law, stencil, c_t, self_deflection, nodes, marks):
+def relax_boundary(first, last, P, H, flow, supply, law, stencil, c_t, self_deflection, nodes, couplings, marks):
     """Relax P near the cavitation boundary on lines `first` to `last` - 1, at frozen film and flow.
 
     `P` and, there and on the next lines, `flow` are written, and what `supply` holds (for `carry_line`); `nodes`,
-    `marks` are work space.
+    `couplings` and `marks` are work space.
     """
     rhs, inflow, carried, stored, supplied = supply
     width = P.shape[1]
@@ -92,6 +125,7 @@ def relax_boundary(first, last, P, H, flow, supply, law, stencil, c_t, self_defl
     mark_boundary(first, last, P, reach, marks)
     update_marked(first, last, P, H, law, stencil, flow, marks)
     transport = DOMINANCE * stencil.crowding * 1.5 * stencil.inv_hx + SQUEEZE_DOMINANCE * c_t
+    film = (1.5 * stencil.inv_hx + c_t) * self_deflection
     begin = end = first * width
     for j in range(first, last):
         for i in range(1, width - 1):
@@ -99,27 +133,33 @@ def relax_boundary(first, last, P, H, flow, supply, law, stencil, c_t, self_defl
             least = transport * self_deflection * away * away * away
             if 0 < marks[j, i] < UPDATED and total_flow(j, i, flow, stencil) > least:
                 nodes[end] = j * width + i
+                couple(j, i, end, flow, rhs, stencil, c_t, film, couplings)
                 end += 1
     for sweep in range(PASSES_EACH * reach):
         line = -1
-        for s in range(end - begin):
-            node = nodes[begin + s] if sweep % 2 == 0 else nodes[end - 1 - s]
+        for step in range(end - begin):
+            s = begin + step if sweep % 2 == 0 else end - 1 - step
+            node = nodes[s]
+            if len(inflow) == 0:
+                relax_coupled(node, s, P, couplings)
+                continue
             j, i = node // width, node % width
-            if len(inflow) > 0 and j != line:
+            if j != line:
                 carry_line(j, width - 1, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied)
                 line = j
-            own = total_flow(j, i, flow, stencil) + (1.5 * stencil.inv_hx + c_t) * self_deflection
+            own = total_flow(j, i, flow, stencil) + film
             res = supplied[j, i] - operator_at(j, i, P, flow, stencil, c_t)
             P[j, i] = max(P[j, i] - res / own, 0.0)
 
 
 @jit_loop
-def relax_boundary_blocks(first, last, colour, lines, P, H, flow, supply, law, stencil, c_t, own, nodes, marks):
+def relax_boundary_blocks(first, last, colour, lines, P, H, flow, supply, law, stencil, c_t, own, work):
     """`relax_boundary` on the blocks of `lines` lines ``colour + 2 k``, k from `first` to `last` - 1.
 
     Blocks of one colour do not see each other.
     """
+    nodes, couplings, marks = work
     for k in range(first, last):
         start = (colour + 2 * k) * lines
         stop = min(start + lines, P.shape[0] - 1)
-        relax_boundary(start, stop, P, H, flow, supply, law, stencil, c_t, own, nodes, marks)
+        relax_boundary(start, stop, P, H, flow, supply, law, stencil, c_t, own, nodes, couplings, marks)

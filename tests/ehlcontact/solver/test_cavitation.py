@@ -47,7 +47,7 @@ def passes(level, kernel, self_deflection=None):
     f = level.fields
     own = level.near[0, 0] if self_deflection is None else self_deflection
     marks = np.zeros(f.P.shape, dtype=np.int64)  # of bytes, Python's differences would overflow
-    given = (level.supply_arrays, level.law, level.stencil, level.c_t, own, level.nodes, marks)
+    given = (level.supply_arrays, level.law, level.stencil, level.c_t, own, level.nodes, level.couplings, marks)
     kernel(0, level.ny, f.P, f.H, f.flow, *given)
 
 
@@ -132,3 +132,19 @@ def test_disturbed_boundary_is_restored(solved):
     assert left() < 0.3 * before
     assert (solved.P >= 0.0).all()
     solved.P[...] = P
+
+
+def test_coupled_nodes_take_the_step_of_the_operator(solved):
+    """Against ``P - (rhs - N)/own`` node by node, on the symmetry line too; not below zero."""
+    P, f, s = solved.P.copy(), solved.fields, solved.stencil
+    solved.rhs[...] = np.random.default_rng(4).uniform(-1.0, 1.0, P.shape)
+    solved.update_residual()
+    for j, i in [(0, 1), (0, 12), (1, 20), (7, 9), (solved.ny - 1, solved.nx - 1)]:
+        own = boundary.total_flow(j, i, f.flow, s) + 3.0
+        expected = P[j, i] - (solved.rhs[j, i] - operator_at(j, i, P, f.flow, s, 0.4)) / own
+        boundary.couple(j, i, 2, f.flow, solved.rhs, s, 0.4, 3.0, solved.couplings)
+        boundary.relax_coupled(j * (solved.nx + 1) + i, 2, solved.P, solved.couplings)
+        assert solved.P[j, i] == pytest.approx(max(expected, 0.0), rel=1e-11, abs=1e-14)
+        solved.P[...] = P
+    solved.rhs[...] = 0.0
+    solved.update_residual()
