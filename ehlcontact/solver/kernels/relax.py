@@ -22,7 +22,7 @@ nodes at a time.
 import numpy as np
 
 from ehlcontact.jit import inner, jit, jit_loop, jit_node
-from ehlcontact.lanes import LANES, at, eight, larger, put, smaller, where_positive
+from ehlcontact.lanes import LANES, at, eight, larger, put, put_transposed, smaller, where_positive
 from ehlcontact.solver.kernels.linearise import linearise_at
 from ehlcontact.solver.kernels.reynolds import operator_at
 
@@ -42,6 +42,7 @@ LARGEST_CHANGE = 0.3  # of P in one sweep, along one line; far from the solution
 FILM_CHANGE = 1.0  # of the film there by the near coefficient alone, over the film: more would turn it negative
 LEAST_OPENING = 0.003  # of a node's own term, from which the film of the next lines counts in its equation
 ROWS = 128  # of eight systems made one after the other: fewer, and their fields come from memory in pieces
+ROOM = ROWS + 3 * LANES  # in a line for them: before and behind, for eights that overlap
 FROM_SOUTH, FROM_NORTH, OPENING, RESIDUAL = BAND, BAND + 1, BAND + 2, BAND + 3  # behind the entries of a row
 
 
@@ -227,20 +228,19 @@ def add_film_of_next_lines(j, i, theta, near, rows, k):
 
 
 @jit_node
-def take_row(j, i, r, lane, P, theta, near, work, k):
-    """Row r of a system from ``rows[:, k]``, of node i; returns whether the node joins the solve.
+def joins(j, i, P, theta, near, rows, k):
+    """Whether node i joins the solve: ``rows[:, k]``, its row, is that of no change where it does not.
 
     A node is active if P > 0 or if its residual is negative (complementarity).
     """
-    _, band, b, rows = work
     if not (at(P, j, i) > 0.0 or at(rows, RESIDUAL, k) < 0.0):
-        set_idle(r, lane, band, b)
+        for o in range(BAND):
+            put(rows, o, k, 0.0)
+        put(rows, BAND_LOWER, k, 1.0)
+        put(rows, RESIDUAL, k, 0.0)
         return False
     if at(rows, OPENING, k) > 0.0:
         add_film_of_next_lines(j, i, theta, near, rows, k)
-    for o in range(BAND):
-        put(band, r, o * LANES + lane, at(rows, o, k))
-    put(b, r, lane, at(rows, RESIDUAL, k))
     return True
 
 
@@ -260,21 +260,30 @@ def assemble_rows(j, start, stop, first, lane, fields, rhs, stencil, c_t, near, 
     Returns the number of the last node of them that joins, from 1, or 0.
     """
     P, flow, theta = fields.P, fields.flow, fields.theta
-    films, _, _, rows = work
+    films, _, _, rows, _ = work
     nx, m = P.shape[1] - 1, 0
     begin, end = start + first, min(start + first + ROWS, stop)
+    column = lane * ROOM + LANES - begin  # of node 0
     responses(j, max(begin - PAD, start), min(end + PAD, stop), theta, near, films)
     for i in range(begin, min(end, 3)):  # beside the border
-        assemble_at(j, i, P, flow, theta, rhs, stencil, c_t, films, near, rows, i - begin)
-        if take_row(j, i, i - start, lane, P, theta, near, work, i - begin):
-            m = i - start + 1
+        assemble_at(j, i, P, flow, theta, rhs, stencil, c_t, films, near, rows, column + i)
     for k in range(max(begin, 3), end, LANES):
         i = min(k, nx - LANES)
-        assemble_at(j, eight(i), P, flow, theta, rhs, stencil, c_t, films, near, rows, eight(0))
-        for q in range(k - i, min(LANES, end - i)):
-            if take_row(j, i + q, i + q - start, lane, P, theta, near, work, q):
-                m = i + q - start + 1
+        assemble_at(j, eight(i), P, flow, theta, rhs, stencil, c_t, films, near, rows, eight(column + i))
+    for i in range(begin, end):
+        if joins(j, i, P, theta, near, rows, column + i):
+            m = i - start + 1
     return m
+
+
+@jit_node
+def turn_rows(first, count, work):
+    """Rows of all systems, made node by node, in the order of the solve; from row `first` on, `count` at least."""
+    _, band, b, _, lines = work
+    for r in range(0, count, LANES):
+        for o in range(BAND):
+            put_transposed(band, first + r, o * LANES, lines, o * LANES, LANES + r)
+        put_transposed(b, first + r, 0, lines, RESIDUAL * LANES, LANES + r)
 
 
 @inner
@@ -284,7 +293,7 @@ def relax_segments(found, fields, rhs, stencil, c_t, near, work):
 
     `found` has line, first node, and node after the last, of each; `work` is that of `line_work`.
     """
-    _, band, b, _ = work
+    _, band, b, _, _ = work
     m, longest = np.int64(0), 0  # m has one type from here on, for which `solve_bands` is compiled once
     for lane in range(len(found)):
         longest = max(longest, found[lane, 2] - found[lane, 1])
@@ -293,6 +302,7 @@ def relax_segments(found, fields, rhs, stencil, c_t, near, work):
             j, start, stop = found[lane]
             if start + first < stop:
                 m = max(m, assemble_rows(j, start, stop, first, lane, fields, rhs, stencil, c_t, near, work))
+        turn_rows(first, min(ROWS, longest - first), work)
     for lane in range(LANES):
         own = found[lane, 2] - found[lane, 1] if lane < len(found) else 0
         for r in range(own, m):
@@ -321,12 +331,18 @@ def take_change(j, start, stop, lane, m, fields, near, b):
 @inner
 @jit
 def line_work(nodes):
-    """Work arrays of `relax_segments` for lines of so many nodes: films, matrices, right-hand sides, rows."""
+    """Work arrays of `relax_segments` for lines of so many nodes: films, matrices, right-hand sides, rows.
+
+    Rows stand in lines of one entry each, first all of one system. The last array
+    is the same with a line for each system.
+    """
     columns = nodes + 2 * PAD
     lanes = np.int64(LANES)  # with its type `aligned` is compiled once, and not for this constant too
     films = aligned(2 * (ALONG + FILM_MARGIN) + 1, columns)
     films[...] = 0.0
-    return films, aligned(columns, BAND * lanes), aligned(columns, lanes), aligned(BAND + 4, lanes)
+    lines = aligned((BAND + 4) * lanes, ROOM)
+    rows = lines.reshape(BAND + 4, lanes * ROOM)
+    return films, aligned(columns, BAND * lanes), aligned(columns, lanes), rows, lines
 
 
 @jit
