@@ -10,7 +10,7 @@ near them.
 import numpy as np
 
 from ehlcontact.jit import inner, jit, jit_loop
-from ehlcontact.lanes import LANES
+from ehlcontact.lanes import LANES, eight
 from ehlcontact.solver.kernels.relax import (
     NEAR,
     change_at,
@@ -131,7 +131,8 @@ def spread_segments(solved, felt, colour, fields, law, stencil, near):
         j = felt[s, 0]
         for i in range(felt[s, 1], felt[s, 2]):
             P[j, i] = max(P[j, i] + change_at(j, i, colour, P, theta, w), 0.0)
-            update_node(j, i, P, H, law, stencil, flow)
+        for i in range(felt[s, 1], felt[s, 2], LANES):  # nodes beside the segment come out as they were
+            update_node(j, eight(min(i, P.shape[1] - LANES)), P, H, law, stencil, flow)
 
 
 @inner
