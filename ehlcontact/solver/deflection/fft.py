@@ -28,16 +28,20 @@ class FastFourier:
         self._along, self._across = fourier.new_plan(self._width, 2), fourier.new_plan(ny, 4)
         self._columns, self._lines = (-(-length // fourier.PAIR) for length in kernel.shape[::-1])
         self._rows = np.zeros((self._lines * fourier.PAIR, self._width + 1))
-        self._spectrum = self._factors(scipy.fft.dctn(kernel, type=1)[fourier.order(ny)] / (8 * self._width * ny))
+        self._spectrum = self._factors(kernel)
         self.team = CALLING_THREAD
 
-    def _factors(self, spectrum: Array) -> Array:
-        """Factors of the transforms of pairs of lines; `spectrum` by the frequency along Y."""
+    def _factors(self, kernel: Array) -> Array:
+        """Factors of the transforms of pairs of lines, as `fourier.along_lines` takes them."""
+        spectrum = scipy.fft.dctn(kernel, type=1)
+        spectrum *= 0.5 / (8 * self._width * self.ny)
         lines = np.zeros_like(self._rows)
-        lines[: len(spectrum)] = spectrum
+        np.take(spectrum, fourier.order(self.ny), axis=0, out=lines[: len(spectrum)], mode="clip")
         one, two = np.swapaxes(lines.reshape(self._lines, 2, LANES, -1), 0, 1)
-        both = 0.5 * np.concatenate([one + two, one - two], axis=1)
-        return np.ascontiguousarray(np.swapaxes(both, 1, 2)).reshape(-1, fourier.PAIR)
+        factors = np.empty((self._lines, self._width + 1, 2, LANES))
+        np.add(one, two, out=np.swapaxes(factors[:, :, 0], 1, 2))
+        np.subtract(one, two, out=np.swapaxes(factors[:, :, 1], 1, 2))
+        return factors.reshape(-1, fourier.PAIR)
 
     def __call__(self, P: Array) -> Array:
         """Deflection of the pressure `P`, shape (ny + 1, nx + 1), zero on the outer border nodes."""
