@@ -215,6 +215,18 @@ def _mask(numbers: list[int]) -> Any:
 
 
 @intrinsic
+def any_positive(typing_context: Any, x: Any) -> Any:
+    """Whether one of eight numbers is > 0."""
+
+    def generate(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        flags = builder.fcmp_ordered(">", args[0], ir.Constant(_VECTOR, None))
+        byte = ir.IntType(LANES)
+        return builder.icmp_unsigned("!=", builder.bitcast(flags, byte), ir.Constant(byte, 0))
+
+    return types.boolean(x), generate
+
+
+@intrinsic
 def lane(typing_context: Any, x: Any, k: Any) -> Any:
     """Number `k` of eight."""
 

@@ -7,7 +7,7 @@ frozen film makes these passes diverge.
 """
 
 from ehlcontact.jit import inner, jit_loop, jit_node
-from ehlcontact.lanes import at, larger, put
+from ehlcontact.lanes import LANES, any_positive, at, eight, larger, put, where_positive
 from ehlcontact.solver.kernels.linearise import NEIGHBOURS, neighbour
 from ehlcontact.solver.kernels.reynolds import operator_at, transport_at, update_across, update_along, update_node
 from ehlcontact.solver.kernels.supply import carry_line
@@ -30,6 +30,15 @@ def reach_of(nx):
     return min(max(nx // NODES_EACH, LEAST_REACH), MOST_REACH)
 
 
+@jit_node
+def boundary_among(j, i, P):
+    """Whether one of the nodes `i` to ``i + 7`` is not as its neighbour E or N, of P > 0 and P = 0."""
+    own = where_positive(at(P, j, eight(i)), 1.0, 0.0)
+    east = own - where_positive(at(P, j, eight(i + 1)), 1.0, 0.0)
+    north = own - where_positive(at(P, j + 1, eight(i)), 1.0, 0.0)
+    return any_positive(east * east + north * north)
+
+
 @inner
 @jit_loop
 def mark_boundary(first, last, P, reach, marks):
@@ -40,15 +49,18 @@ def mark_boundary(first, last, P, reach, marks):
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
     marks[max(first - 1, 0) : last + 1] = 0
     for j in range(max(first - reach - 1, 0), min(last + reach, ny)):
-        for i in range(1, nx):
-            wet = P[j, i] > 0.0
-            east = i + 1 < nx and (P[j, i + 1] > 0.0) != wet
-            north = j + 1 < ny and (P[j + 1, i] > 0.0) != wet
-            if east or north:
-                for jj in range(max(j - reach, first), min(j + reach + 2, last)):
-                    for ii in range(max(i - reach, 1), min(i + reach + 2, nx)):
-                        away = max(abs(jj - j), abs(ii - i))
-                        marks[jj, ii] = max(marks[jj, ii], reach + 1 - min(away, reach))
+        for k in range(1, nx, LANES):
+            if not boundary_among(j, min(k, nx - LANES), P):
+                continue
+            for i in range(k, min(k + LANES, nx)):
+                wet = P[j, i] > 0.0
+                east = i + 1 < nx and (P[j, i + 1] > 0.0) != wet
+                north = j + 1 < ny and (P[j + 1, i] > 0.0) != wet
+                if east or north:
+                    for jj in range(max(j - reach, first), min(j + reach + 2, last)):
+                        for ii in range(max(i - reach, 1), min(i + reach + 2, nx)):
+                            away = max(abs(jj - j), abs(ii - i))
+                            marks[jj, ii] = max(marks[jj, ii], reach + 1 - min(away, reach))
 
 
 @jit_node

@@ -9,8 +9,8 @@ near them.
 
 import numpy as np
 
-from ehlcontact.jit import inner, jit, jit_loop
-from ehlcontact.lanes import LANES, eight
+from ehlcontact.jit import inner, jit, jit_loop, jit_node
+from ehlcontact.lanes import LANES, any_positive, at, eight, larger, smaller
 from ehlcontact.solver.kernels.relax import (
     NEAR,
     change_at,
@@ -34,6 +34,14 @@ LEAST_ALONG_ROLLING = 6  # fewest in a long contact: with three, cycles diverge 
 SOLVED, FELT = np.uint8(2), np.uint8(1)
 
 
+@jit_node
+def front_among(j, i, eps):
+    """Whether one of the nodes `i` to ``i + 7`` may be at a front, wherever the film cavitates."""
+    own, east, north = at(eps, j, eight(i)), at(eps, j, eight(i + 1)), at(eps, j + 1, eight(i))
+    least, most = smaller(own, smaller(east, north)), larger(own, larger(east, north))
+    return any_positive(most - JUMP * least)
+
+
 @inner
 @jit_loop
 def mark_front(first, last, P, eps, marks):
@@ -46,7 +54,9 @@ def mark_front(first, last, P, eps, marks):
     for j in range(max(first - FRONT_REACH - 1, 0), min(last + FRONT_REACH, ny)):
         low, high = max(j - FRONT_REACH, first), min(j + FRONT_REACH + 2, last)
         for i in range(1, nx):
-            if P[j, i] > 0.0:
+            if (i - 1) % LANES == 0:
+                steep_ahead = front_among(j, min(i, nx - LANES), eps)
+            if steep_ahead and P[j, i] > 0.0:
                 e, east, north = eps[j, i], eps[j, i + 1], eps[j + 1, i]
                 steep = P[j, i + 1] > 0.0 and max(e, east) > JUMP * min(e, east)
                 if steep or (P[j + 1, i] > 0.0 and max(e, north) > JUMP * min(e, north)):
