@@ -10,7 +10,7 @@ from ehlcontact.summary import WIDTH, Summary
 
 TOLERANCE = 1e-12  # of forces, tangents and derivatives: rounding
 ORBIT = 1e-6  # of a rotor's motion: both balance their contacts to a billionth of the load in every step
-BALLS = 1e-8  # of the forces of a bearing: Python ends its search for the places of balls 1e-6 of the forces away
+BALLS = 1e-8  # of the forces of a bearing: the search for the places of balls ends 1e-8 of them away, in C 1e-7
 # Of rates of a bearing's states: tables of FMU and Python are within 1e-8 where surfaces have parted,
 # and the rate of a ball there is a small difference of what they say
 RATES = 1e-6

@@ -31,6 +31,11 @@ MODELS = {
     "starved five": lambda: BearingModel(
         bearing("7205", supply=OilLayer(over_flooded=0.8), thermal=True), 6000.0, (0.0, -300.0, 200.0)
     ),
+    "thin five": lambda: BearingModel(
+        bearing("7205", oil=Lubricant.iso_vg(46, temperature=80.0), supply=OilLayer(3e-7)),
+        (3000.0, 10000.0),
+        (0.0, -2000.0, 300.0),
+    ),
     "lossy": lambda: BearingModel(bearing(clearance=5e-6, loss_factor=0.05), RPM, 500.0),
     "dry": lambda: BearingModel(BallBearing.catalogue("6205", clearance=5e-6), RPM, 500.0),
     "angular": lambda: BearingModel(bearing("7205"), (10000.0, 12000.0), (0.0, -300.0, 200.0)),

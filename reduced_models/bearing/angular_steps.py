@@ -62,7 +62,7 @@ _Floats = NDArray[np.float64]
 
 # Imbalance of a ball, over its forces and 1 N, from which one more step of Newton's method to first order ends the
 # search
-NEARLY, NEARLY_SHARED = 1e-6, 1e-10  # the second where races share the moment by their forces
+NEARLY, NEARLY_SHARED = 1e-8, 1e-10  # the second where races share the moment by their forces
 MOST_STEPS = 60  # of that search: two, but where a ball lands
 OVERSHOOT = 2.0  # growth of the imbalance that halves the way to the last place
 DOUBLED, HALVED = 40, 48  # steps of a search by bisection: to a bracket, and in it

@@ -23,7 +23,11 @@ SUPPLY = OilLayer(over_flooded=1.0)
 # of the largest force, and of rates of a kind: at contact angles rounding is over the little that damps a ball
 @pytest.mark.parametrize(
     ("name", "forces", "rates"),
-    [("starved", 1e-12, 1e-9), pytest.param("starved five", 1e-9, 1e-7, marks=pytest.mark.long)],
+    [
+        ("starved", 1e-12, 1e-9),
+        pytest.param("starved five", 1e-9, 1e-7, marks=pytest.mark.long),
+        pytest.param("thin five", 1e-10, 1e-7, marks=pytest.mark.long),  # balls let go
+    ],
 )
 def test_forces_and_rates_are_those_of_python(made, name, forces, rates):
     """In steps and in continuous time, with vibrations and lift-off, at every speed of the tables."""
