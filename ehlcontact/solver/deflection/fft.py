@@ -26,7 +26,7 @@ class FastFourier:
         kernel = influence_coefficients(self._width + 1, 2 * ny + 1, hx, hy, kappa)
         self.kernel = kernel[:, : nx + 1]
         self._along, self._across = fourier.new_plan(self._width, 2), fourier.new_plan(ny, 4)
-        self._columns, self._lines = (-(-length // fourier.PAIR) for length in kernel.shape[::-1])
+        self._columns, self._lines = (self._width + 1) // fourier.PAIR, -(-len(kernel) // fourier.PAIR)
         self._rows = np.zeros((self._lines * fourier.PAIR, self._width + 1))
         self._spectrum = self._factors(kernel)
         self.team = CALLING_THREAD

@@ -217,16 +217,26 @@ def give_lines(z, rows, line, n):
         put_transposed(rows, line + LANES, j, z, 2 * n + j, LANES)
 
 
+@jit_node
+def blocks_to(last, columns):
+    """Blocks of columns up to `last`, and behind the last whole one what is left.
+
+    That block begins inside the one before, whose columns are the other parts of complex numbers then and round
+    otherwise: one thread does both, in this order.
+    """
+    return last + 1 if PAIR * last < columns < PAIR * (last + 1) else last
+
+
 @jit
 def across_lines(first, last, P, rows, plan):
     """Cosine transform of `P`, even about line 0 and zero from line n on, to the 2 n + 1 frequencies in `rows`.
 
     Their order is ``4 q``, ``4 q + 2``, ``4 q + 1``; frequency ``4 q + 3`` is ``-4 q - 3``. Sixteen columns at a
-    time, blocks `first` to `last` - 1.
+    time, whole blocks `first` to `last` - 1.
     """
     n, lines = plan.n, np.int64(PAIR)
     z = aligned(2 * n, lines)
-    for block in range(first, last):
+    for block in range(first, blocks_to(last, P.shape[1])):
         column = min(PAIR * block, P.shape[1] - PAIR)
         row = 0
         for m in (0, 2, 1):
@@ -261,7 +271,7 @@ def back_across_lines(first, last, rows, W, plan):
     """The inverse of `across_lines`, times 4 n, on lines 0 to n; `W` written."""
     n, lines = plan.n, np.int64(PAIR)
     z = aligned(3 * n + 1, lines)
-    for block in range(first, last):
+    for block in range(first, blocks_to(last, W.shape[1])):
         column = min(PAIR * block, W.shape[1] - PAIR)
         row = 0
         for m in (0, 2, 1):

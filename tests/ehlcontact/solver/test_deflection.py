@@ -315,6 +315,21 @@ def test_transforms_of_any_length(nx, ny):
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * expected.max())
 
 
+@pytest.mark.parametrize("nx", [48, 95, 96, 110])
+def test_the_order_of_blocks_changes_no_bit(nx):
+    """As with threads, of which any may be the last."""
+
+    class Backwards:
+        def run(self, kernel, count, *args, least):
+            for k in reversed(range(count)):
+                kernel(k, k + 1, *args)
+
+    engine, P = FastFourier(nx, 24, 0.1, 0.1, 0.5), random_pressure(nx, 24)
+    expected = engine(P)
+    engine.team = Backwards()
+    np.testing.assert_array_equal(engine(P), expected)
+
+
 @pytest.mark.parametrize("nx", [16, 64])
 def test_deflection_leaves_its_argument(nx):
     level = Level(MoesPoint(20, 5, 0.5), Domain(), nx, nx // 2)
