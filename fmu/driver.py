@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from ctypes import POINTER, c_double
 from typing import Any, ClassVar
 
@@ -21,7 +23,7 @@ class _Instance:
     def __init__(self, folder: str, description: Any, messages: list[str], **options: Any) -> None:
         from fmpy import fmi2, fmi3
 
-        self.description = description
+        self.description, self._messages = description, messages
         self.fmi = int(description.fmiVersion.partition(".")[0])
         self.types = {variable.name: variable.type for variable in description.modelVariables}
         self.reference = {variable.name: variable.valueReference for variable in description.modelVariables}
@@ -44,12 +46,23 @@ class _Instance:
         return getattr(self.raw, name2 if self.fmi == 2 else name3)
 
     def _initialize(self, **values: float) -> None:
-        if self.fmi == 2:
-            self.raw.setupExperiment(startTime=0.0)
-        self.set(**values)
-        self.raw.enterInitializationMode()
-        self.raw.exitInitializationMode()
+        with self._reasons():
+            if self.fmi == 2:
+                self.raw.setupExperiment(startTime=0.0)
+            self.set(**values)
+            self.raw.enterInitializationMode()
+            self.raw.exitInitializationMode()
         self.time = 0.0
+
+    @contextmanager
+    def _reasons(self) -> Iterator[None]:
+        """Add to the error of a call what the FMU has logged since: fmpy tells the status only."""
+        first = len(self._messages)
+        try:
+            yield
+        except Exception as error:
+            error.args = (" ".join([str(error), *self._messages[first:]]),)
+            raise
 
     def free(self) -> None:
         """Free the instance."""
@@ -93,14 +106,18 @@ class Slave(_Instance):
 
         In FMI 3.0 it returns whether it wants event handling, ends the run, returned early, and till when.
         """
-        found = self.raw.doStep(currentCommunicationPoint=self.time, communicationStepSize=h)
+        found = self._do_step(h)
         self.time = self.time + h if self.fmi == 2 else float(found[-1])
         return () if self.fmi == 2 else tuple(found)
 
     def step_to(self, time: float) -> None:
         """One communication step that ends at this very time."""
-        self.raw.doStep(currentCommunicationPoint=self.time, communicationStepSize=time - self.time)
+        self._do_step(time - self.time)
         self.time = time
+
+    def _do_step(self, h: float) -> Any:
+        with self._reasons():
+            return self.raw.doStep(currentCommunicationPoint=self.time, communicationStepSize=h)
 
 
 class Exchange(_Instance):

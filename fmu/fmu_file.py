@@ -44,7 +44,7 @@ class FmuFile:
             with chdir(Path.cwd()):  # fmpy leaves the process in another folder when a library does not load
                 for kind in (Slave, Exchange):
                     there = getattr(self.description, kind.section) is not None
-                    made.append(kind(self.folder, self.description, messages) if there else None)
+                    made.append(kind(self.folder, self.description, messages, loggingOn=True) if there else None)
         except Exception as error:  # fmpy raises bare Exception among others
             _free(made)
             reason = " ".join([str(error), *messages])

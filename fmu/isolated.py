@@ -91,11 +91,20 @@ def _answer(work: Callable[[Path], Any], path: Path, folder: str) -> None:
         # its text only: dask has pickle take tracebacks and contexts along, and those of lxml cannot be pickled
         error = raised.with_traceback(None)
         error.__context__ = error.__cause__ = None
-    content = pickle.dumps((found, error))
+    content = pickle.dumps((found, _portable(error)))
     whole = Path(folder, f"{ANSWER}.part")
     whole.write_bytes(content)
     whole.rename(whole.with_name(ANSWER))
     os._exit(0)  # without the end of Python, in which the library would have its say once more
+
+
+def _portable(error: Exception | None) -> Exception | None:
+    """The error, or one with its text where pickle cannot make it again: fmpy's of a call that the FMU refuses."""
+    try:
+        pickle.loads(pickle.dumps(error))
+    except Exception:
+        return RuntimeError(str(error))
+    return error
 
 
 def _limit() -> None:

@@ -57,6 +57,8 @@ def verify(path: str | os.PathLike[str], element: Source) -> Verification:
     InputError
         Not an FMU of such an element or rotor for this platform; a library that crashes, ends the process or does
         not end; an archive that unpacks to more than half a GiB.
+    RuntimeError
+        The FMU refuses a call; with its reason.
 
     See Also
     --------

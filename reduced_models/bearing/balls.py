@@ -63,7 +63,11 @@ _Floats = NDArray[np.float64]
 # search: what that leaves is of its square
 NEARLY = 1e-7
 MOST_STEPS = 60  # of that search: a handful, but where a ball lands
+HALVES_FROM = 20  # every other step from this one on halves the bracket: Newton's can go to and fro in it for ever
 FIRST_STEP = 1e-7  # [m], to a ball that nothing touches; doubled until a race is met
+# Newton's first step, at most, and twice as far in each that follows [m]. A film that has nearly let go has hardly
+# a slope, and would send a ball so deep into the other race, so fast, that its law has no force there any more.
+FARTHEST = 1e-5
 
 # Entries of a ball: its position w as tried last, what its rate follows from, w at the last two ends of steps;
 # delta where that was tried, and the slope of w by it; what its acceleration follows from, and its rates at the
@@ -226,8 +230,8 @@ def _ball(balls, at_speed, films, k, delta, rate, gain):
         w = 2.0 * ball[POSITION_NOW] - ball[POSITION_BEFORE]
     else:
         w = ball[POSITION] + ball[BY_DELTA] * (delta - ball[TRIED_DELTA])
-    low, high, reach = -inf, inf, FIRST_STEP
-    for _ in range(MOST_STEPS):
+    low, high, reach, most = -inf, inf, FIRST_STEP, FARTHEST
+    for count in range(MOST_STEPS):
         v = gain * (w - history)
         u_i, v_i, u_o, v_o = delta - w + h_i, rate - v + up_i, w + h_o, v + up_o
         fi, ki, di = contact_force(balls.inner, at_speed.inner, row, None, films, 2 * k, u_i, v_i)
@@ -253,11 +257,13 @@ def _ball(balls, at_speed, films, k, delta, rate, gain):
         else:
             low = w
         if tangent > 0.0:
-            w -= balance / tangent
+            w -= copysign(min(abs(balance) / tangent, most), balance)
         else:  # nothing touches it
             w -= copysign(reach, balance)
             reach *= 2.0
-        if low > -inf and high < inf and not low < w < high:
+        most *= 2.0
+        halves = count >= HALVES_FROM and count % 2 == 0
+        if low > -inf and high < inf and (halves or not low < w < high):
             w = 0.5 * (low + high)
     return nan, nan, nan
 

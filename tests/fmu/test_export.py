@@ -148,7 +148,9 @@ def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, f
     elif fault == "computes otherwise":  # and says nothing wrong of itself
         monkeypatch.setattr("fmu.export.pack", spoiled("model_contact.c", "times(3.0, K3)", "times(3.001, K3)"))
     elif fault == "does not run":
-        monkeypatch.setattr("fmu.export.pack", spoiled("core_step.c", "fault.severity != FINE", "1"))
+        step = "fault = model_step(&next, &motion, h, s->tolerance);"
+        refusal = 'fault = (Fault){DISCARD, "nothing holds the ball"};'
+        monkeypatch.setattr("fmu.export.pack", spoiled("core_step.c", step, refusal))
     else:
         monkeypatch.setattr("fmu.export.pack", lambda files: b"no zip")
     for name in ("new.fmu", "old.fmu"):
@@ -157,6 +159,8 @@ def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, f
         assert "\n" not in str(error.value)
         if fault == "computes otherwise":
             assert error.value.found.findings == () and error.value.found.tangents > 1e-6
+        if fault == "does not run":  # it says why
+            assert "nothing holds the ball" in str(error.value)
     assert os.listdir(tmp_path) == ["old.fmu"] and (tmp_path / "old.fmu").read_bytes() == b"old"
 
 

@@ -107,3 +107,15 @@ def test_an_error_whose_context_cannot_be_pickled(fmus):
     pickling.install()
     with pytest.raises(InputError, match="readable"):
         isolated.isolated(fails, fmus["cubic"])
+
+
+def test_an_error_that_pickle_does_not_take_is_told(tmp_path):
+    """As one of fmpy, of a call that the FMU refuses."""
+
+    def refused(path):
+        error = ValueError("a ball finds no balance")
+        error.held = lambda: None
+        raise error
+
+    with pytest.raises(RuntimeError, match="a ball finds no balance"):
+        isolated.isolated(refused, tmp_path)

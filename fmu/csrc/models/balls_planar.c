@@ -4,10 +4,11 @@
 
 #include "balls.h"
 
-enum { MOST_BALL_STEPS = 60 };
+enum { MOST_BALL_STEPS = 60, HALVES_FROM = 20 }; /* from the second on, every other step halves the bracket */
 static const double one_turn = 6.283185307179586;
 static const double nearly = 1e-7;     /* imbalance of a ball, over its forces and 1 N, that one more step ends */
 static const double first_step = 1e-7; /* m, to a ball that nothing touches; doubled until a race is met */
+static const double farthest = 1e-5;   /* m, of Newton's first step, twice as far in each that follows: see the Python file */
 
 static void press(const BallStep *step, double delta, double rate, double w, RaceForce *inner, RaceForce *outer)
 {
@@ -37,7 +38,7 @@ static void balanced(BallStep *step, double delta, double rate, double w, const 
 static int balance_ball(BallStep *step, double delta, double rate, Ball *ball)
 {
     const double gain = step->gain, heavy = BALL_INERTIA * gain;
-    double low = -HUGE_VAL, high = HUGE_VAL, reach = first_step;
+    double low = -HUGE_VAL, high = HUGE_VAL, reach = first_step, most = farthest;
     double w = step->start[0];
     RaceForce inner, outer;
     int i;
@@ -63,12 +64,13 @@ static int balance_ball(BallStep *step, double delta, double rate, Ball *ball)
             low = w;
         }
         if (tangent > 0.0) {
-            w -= off / tangent;
+            w -= copysign(fmin(fabs(off) / tangent, most), off);
         } else {
             w -= copysign(reach, off);
             reach *= 2.0;
         }
-        if (low > -HUGE_VAL && high < HUGE_VAL && !(low < w && w < high)) {
+        most *= 2.0;
+        if (low > -HUGE_VAL && high < HUGE_VAL && (!(low < w && w < high) || (i >= HALVES_FROM && i % 2 == 0))) {
             w = 0.5 * (low + high);
         }
     }

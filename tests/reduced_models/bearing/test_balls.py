@@ -7,11 +7,12 @@ import pytest
 from beam_rotor import with_balls
 from bearing_twins import SlowBearing, SlowContact, SlowElement
 
-from ehlcontact import Lubricant
+from ehlcontact import Lubricant, OilLayer
 from reduced_models import BallBearing
 from reduced_models.bearing.balls import press_balls, rest_balls, speed_state
 from reduced_models.bearing.equilibrium import StaticBalls
-from reduced_models.bearing.motion import BearingMotion
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.bearing.motion import BearingMotion, motion_of
 
 RPM = 3000.0
 POSITION = np.array([1e-6, -12e-6])
@@ -199,3 +200,24 @@ def test_the_balance_of_a_ball_does_not_depend_on_where_the_ring_was_tried(name,
             it.forces(q[k] + away * np.eye(n)[1], v[k])
         found.append([*it.forces(q[k], v[k])[0], *it._motion.films.force.ravel()])
     np.testing.assert_array_equal(found, [found[0]] * len(found))
+
+
+@pytest.mark.parametrize(
+    ("speeds", "dt"),
+    [([2000.0], 1e-5), pytest.param([2000.0, 3400.0, 5800.0, 10000.0], 1e-6, marks=pytest.mark.long)],
+)
+def test_balls_of_a_ring_that_is_thrown_find_their_balance(speeds, dt):
+    """Films that let go: Newton's method leaps where the law has no force, or goes to and fro."""
+    oil = Lubricant.iso_vg(46, temperature=80.0)
+    bearing = BallBearing.catalogue("6305", oil=oil, supply=OilLayer(3e-7))
+    balls, rng = motion_of(bearing, speeds, 2), np.random.default_rng(0)
+    omega, since = 1.2 * speeds[0] * RPM_TO_RAD_S, dt * np.arange(1, 9)
+    for _ in range(600):
+        start = np.array([0.0, -1e-5 * rng.uniform(0.2, 2.0)])
+        thrown = rng.normal(size=2) * rng.choice([1e3, 1e4, 1e5]) * 1e-5 / dt
+        balls.rest(omega, -pi / 2.0, start)
+        for t in since:
+            balls.begin(omega, 0.4 * omega * t - pi / 2.0, dt)
+            force, _, _ = balls.forces(start + 0.5 * thrown * t * t, thrown * t)
+            assert np.isfinite(force).all()
+            balls.accept()
