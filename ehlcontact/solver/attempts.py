@@ -69,14 +69,15 @@ class Attempt:
     def expected_time(self) -> float:
         """Expected time of one core [s], by the status.
 
-        Before the attempt it is that of one that succeeds, and of one that fails where there is a film already.
+        Before the attempt it is that of one that succeeds. Above kappa = 1 a finer grid than that of a converged film
+        may fail, and its expected time is that of a failure.
         """
         if self.method.newton:
             return NEWTON_TIME * self.mesh.nodes
         if self.method.load_continuation:
             return CONTINUATION_TIME * self.mesh.nodes
-        planned = self.status is Status.FAILED
-        fails = self.status in FAILED or (planned and self.earlier is not None)
+        in_doubt = self.status is Status.FAILED and self.earlier is not None and self.mesh.kappa > 1.0
+        fails = self.status in FAILED or in_doubt
         return (FAILED_TIME if fails else CYCLES_TIME) * self.mesh.nodes
 
     @property

@@ -22,7 +22,7 @@ from ehlcontact import (
 from ehlcontact import steady as steady_module
 from ehlcontact.hertz import shape_factor
 from ehlcontact.solver import mesh_choice as mesh
-from ehlcontact.solver.attempts import CYCLES_TIME, FAILED_TIME
+from ehlcontact.solver.attempts import CYCLES_TIME, FAILED_TIME, Attempt, Method
 from ehlcontact.solver.grid_rules import coarsest_intervals
 from ehlcontact.solver.level import build_hierarchy
 from ehlcontact.solver.mesh import Mesh
@@ -339,6 +339,15 @@ def test_a_budget_ends_the_attempts_with_the_best_film(monkeypatch):
     assert runs == every[:2]
     runs.clear()
     assert solve_steady(point, budget=1e-3, grid=Grid(n=64), throw=False).n == 64
+
+
+def test_up_to_a_circle_a_finer_grid_is_expected_to_succeed():
+    mesh = Mesh(512, Domain(), 0.75)
+    first = Attempt(mesh, Method(False, 1), status=Status.CONVERGED)
+    finer = Attempt(replace(mesh, n=1024), first.method, first)
+    longer = Attempt(replace(finer.mesh, kappa=1.2), first.method, first)
+    assert finer.expected_time == CYCLES_TIME * finer.mesh.nodes
+    assert longer.expected_time == FAILED_TIME * longer.mesh.nodes
 
 
 def test_an_attempt_that_the_budget_forbids_is_named(monkeypatch):
