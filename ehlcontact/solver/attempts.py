@@ -69,8 +69,8 @@ class Attempt:
     def expected_time(self) -> float:
         """Expected time of one core [s], by the status.
 
-        Before the attempt it is that of one that succeeds. Above kappa = 1 a finer grid than that of a converged film
-        may fail, and its expected time is that of a failure.
+        Before the attempt it is that of one that succeeds. Above kappa = 1 a grid finer than that of a converged
+        film may fail, and its expected time is that of a failure.
         """
         if self.method.newton:
             return NEWTON_TIME * self.mesh.nodes
