@@ -2,6 +2,7 @@
 
 A race in Python has 128 cubics between two nodes of its static curve. Here one polynomial stands for them: within
 1e-13 of g a micrometre deep and beyond, and within 3e-10, about the error of the cubics, where the surfaces part.
+Where it is not within 1e-9, as where a layer of oil runs dry, there are more nodes.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ _Floats = NDArray[np.float64]
 DEGREE = 16  # of the polynomials at most; surfaces that press each other need 4 to 13
 POINTS = 4  # of every cubic, to which they are fitted
 NEGLIGIBLE, NEGLIGIBLE_IN_GAPS = 2e-14, 2e-11  # of g: last term of a polynomial; the cubics are 2e-10 off in gaps
+MISFIT = 1e-9  # of g: what a polynomial may leave before its interval is halved
+HALVINGS = 7  # down to one cubic
 ROUNDED = 2.0**-54  # of g: unit of the coefficients
 FILM_NODES = 48  # loads of the films, even in their logarithm
 
@@ -38,13 +41,13 @@ def race_tables(model: BearingModel) -> str:
             c_double(v)
             for v in (law.kn, law.log_kn, law.contact_length_factor, law.lag_rate, law.inlet_rate, law.fast_rate)
         ]
-        nodes = law.x.size
-        if nodes:
-            curve, first = _curve(law)
-            parts = {"x": law.x, "u": law.u, "curve": curve, "gains": law.gains, "made": law.film_made}
+        if law.x.size:
+            halved, place = _halved(law)
+            curve, first = _curve(halved, place)
+            parts = {"x": halved.x, "u": halved.u, "curve": curve, "gains": halved.gains, "made": halved.film_made}
             lines += [c_table(f"{name}_{part}", values.reshape(-1)) for part, values in parts.items()]
             lines += [f"static const int {name}_first[] = {{{', '.join(map(str, first.tolist()))}}};"]
-            fields += [str(nodes), f"{name}_first", *(f"{name}_{part}" for part in parts)]
+            fields += [str(halved.x.size), f"{name}_first", *(f"{name}_{part}" for part in parts)]
         else:
             fields += ["0", "0", "0", "0", "0", "0", "0"]
         races.append(f"    {{{', '.join(fields)}}}")
@@ -54,18 +57,60 @@ def race_tables(model: BearingModel) -> str:
     return "\n".join([*lines, f"static const Race races[2] = {{\n{both}}};", c_table("most_load", most), ""])
 
 
-def _curve(law: RaceForceTable) -> tuple[_Floats, NDArray[np.int64]]:
+def _halved(law: RaceForceTable) -> tuple[RaceForceTable, NDArray[np.int64]]:
+    """Law with more nodes where a polynomial does not follow the curve, as where a layer runs dry; its cubics.
+
+    It is the same law: the curve is looked up by u, gains by x, straight between their nodes. The cubics of each
+    interval, shape (n - 1, 2), are the first and the one behind the last of those of the row in `cells`.
+    """
+    place = CELLS * np.stack([np.arange(law.x.size - 1), np.arange(1, law.x.size)], axis=1)
+    for _ in range(HALVINGS):
+        g, terms = _fitted(law, place)
+        left = np.abs(chebyshev.chebval(_along(), terms.T) / g - 1.0).max(axis=1)
+        at = np.flatnonzero(left.reshape(len(law.u), -1).max(axis=0) > MISFIT)
+        if at.size == 0:
+            break
+        middle = place[at].mean(axis=1).astype(int)
+        place = np.insert(place, at + 1, np.stack([middle, place[at, 1]], axis=1), axis=0)
+        place[at + np.arange(at.size), 1] = middle
+        law = law._replace(
+            x=_between(law.x, at, 0),
+            u=_between(law.u, at, 1),
+            gains=_between(law.gains, at, 1),
+            film_made=_between(law.film_made, at, 1),
+        )
+    return law, place
+
+
+def _between(values: _Floats, at: NDArray[np.int64], axis: int) -> _Floats:
+    """Values at nodes, with the means over the intervals `at` between them."""
+    means = 0.5 * (values.take(at, axis) + values.take(at + 1, axis))
+    return np.insert(values, at + 1, means, axis=axis)
+
+
+def _along() -> _Floats:
+    """Points of an interval, -1 to 1."""
+    return 2.0 * np.linspace(0.0, CELLS, POINTS * CELLS + 1) / CELLS - 1.0
+
+
+def _fitted(law: RaceForceTable, place: NDArray[np.int64]) -> tuple[_Floats, _Floats]:
+    """Curve at points of all intervals, and terms of the polynomials fitted to it; rows of speeds first."""
+    cubics = law.cells.reshape(len(law.cells), -1, 4)
+    at = place[:, :1] + np.diff(place, axis=1) * np.linspace(0.0, 1.0, POINTS * CELLS + 1)
+    cell = np.minimum(at.astype(int), place[:, 1:] - 1)
+    t = at - cell
+    a, b, c, d = np.moveaxis(cubics[:, cell, :], -1, 0)
+    g = (a + t * (b + t * (c + t * d))).reshape(-1, at.shape[1])
+    return g, chebyshev.chebfit(_along(), g.T, DEGREE).T
+
+
+def _curve(law: RaceForceTable, place: NDArray[np.int64]) -> tuple[_Floats, NDArray[np.int64]]:
     """Powers of s = -1 to 1 over every interval of every speed, and where those of each begin; the last one ends.
 
     A least-squares fit, with as many terms as are needed, two at least. Coefficients are rounded to `ROUNDED` of
-    g: those of high powers then have few digits, and an FMU is smaller.
+    g: those of high powers then have few digits, and an FMU is smaller. `place` is that of `_halved`.
     """
-    place = np.linspace(0.0, CELLS, POINTS * CELLS + 1)
-    cell = np.minimum(place.astype(int), CELLS - 1)
-    t = place - cell
-    a, b, c, d = np.moveaxis(law.cells[:, :, cell, :], -1, 0)
-    g = (a + t * (b + t * (c + t * d))).reshape(-1, place.size)
-    terms = chebyshev.chebfit(2.0 * place / CELLS - 1.0, g.T, DEGREE).T
+    g, terms = _fitted(law, place)
     negligible = np.where(law.u[:, 1:] < 0.0, NEGLIGIBLE_IN_GAPS, NEGLIGIBLE).ravel() * g[:, 0]
     needed = np.abs(terms) > negligible[:, None]
     counts = np.maximum(DEGREE + 1 - np.argmax(needed[:, ::-1], axis=1), 2)

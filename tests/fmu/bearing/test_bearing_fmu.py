@@ -11,15 +11,16 @@ from bearing_fmus import RPM, ExportedBearing, bearing
 from fmpy.fmi1 import FMICallException
 from mass_on_bearing import decay, in_one_run
 
-from ehlcontact import InputError
+from ehlcontact import InputError, OilLayer
 from fmu import export_bearing, verify, verify_references
 from fmu.bearing.comparison import largest_difference
 from fmu.bearing.model import BearingModel
-from fmu.bearing.tables import _curve
+from fmu.bearing.tables import _curve, _halved
 from fmu.bearing.trial import START, bearing_trial
 from fmu.bearing.variables import FORCES, RATES
 from fmu.driver import Slave
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.bearing.race_contact import curve
 
 # Largest difference over the largest force. Planar balls are found by both to rounding; those at angles in Python
 # to first order from 1e-6 of the forces, which counts where centrifugal forces do.
@@ -365,11 +366,33 @@ def test_powers_of_a_curve_that_are_zero():
     law = bearing()._kernel([RPM]).inner
     cells = law.cells.copy()
     cells[:, 1, :, 0], cells[:, 1, :, 1:] = 0.5, 0.0  # the second interval is constant
-    powers, first = _curve(law._replace(cells=cells))
+    place = _halved(law)[1]
+    powers, first = _curve(law._replace(cells=cells), place)
     assert powers[first[1] : first[2]] == pytest.approx([0.5, 0.0], abs=1e-12)
-    as_it_is, ends = _curve(law)
+    as_it_is, ends = _curve(law, place)
     np.testing.assert_array_equal(powers[: first[1]], as_it_is[: ends[1]])
     np.testing.assert_array_equal(powers[first[2] :], as_it_is[ends[2] :])
+
+
+def test_the_curve_of_a_layer_that_runs_dry():
+    """Within an interval it bends: one polynomial is 9e-5 of it off, and there are more, with gains as before."""
+    law = bearing("6305", supply=OilLayer(3e-7))._kernel([2000.0, 5000.0]).inner
+    halved, place = _halved(law)
+    powers, first = _curve(halved, place)
+    assert halved.x.size > law.x.size
+    for row, (u, nodes) in enumerate(zip(halved.u, law.u, strict=True)):
+        np.testing.assert_array_equal(np.isin(nodes, u), True)
+        for at in np.random.default_rng(0).uniform(-1e-6, 2e-6, 3000):
+            k = np.searchsorted(u, at) - 1
+            first_of, end = first[row * (u.size - 1) + k : row * (u.size - 1) + k + 2]
+            s = 2.0 * (at - u[k]) / (u[k + 1] - u[k]) - 1.0
+            expected = curve(at, row, 0.0, law, 0)[0]
+            assert np.polyval(powers[first_of:end][::-1], s) == pytest.approx(expected, rel=2e-9)
+        for gains, before in zip(halved.gains[row].T, law.gains[row].T, strict=True):
+            np.testing.assert_allclose(gains, np.interp(halved.x, law.x, before), rtol=1e-10, atol=1e-14)
+        np.testing.assert_allclose(
+            halved.film_made[row], np.interp(halved.x, law.x, law.film_made[row]), rtol=1e-12
+        )
 
 
 def test_export_leaves_nothing_behind_where_it_fails(tmp_path):
