@@ -1,8 +1,8 @@
 """Kernels of a steady film that a second process compiles beside the first solve on a machine.
 
-The first process compiles the kernels of the deflection, of the flow and of whole lines, the second meanwhile
-those that are needed later, into numba's cache, where the first one finds them. Nothing happens once they are
-there.
+The first process compiles the first kernels of the deflection and of the flow, and those of whole lines, the
+second meanwhile those that are needed later, into numba's cache, where the first one finds them. Nothing happens
+once they are there.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ehlcontact.point import MoesPoint
 from ehlcontact.process.beside import start_beside
 from ehlcontact.process.threads import Kernel, Team
 from ehlcontact.solver.domain import Domain
-from ehlcontact.solver.kernels import cavitation, flanks, fourier, relax, transfer
+from ehlcontact.solver.kernels import cavitation, flanks, fourier, relax, reynolds, transfer
 from ehlcontact.solver.kernels.linearise import dense_jacobian
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.lowest_film import lowest_of_cells
@@ -55,18 +55,23 @@ def compile_some() -> None:
 def kernels_beside() -> list[tuple[Any, tuple[Any, ...]]]:
     """Kernels of the second process, with arguments of the types with which a film calls them.
 
-    All but the first are needed after those of whole lines, which take the first process longest. Those of flanks
-    are parts: the rest needs the kernel of a line.
+    They stand in the order in which the film needs them: four before those of whole lines, which take the first
+    process longest, the others after them. Those of flanks are parts: the rest needs the kernel of a line.
     """
     level = Level(MoesPoint(200, 10, 0.5), Domain(), 16, 8)  # types are the same for all
-    level.team = calls = _Calls()
+    level.team = level.deflection.team = calls = _Calls()
+    level.deflection(level.P)
+    level.update_residual()
     level.relax()
     f, law, numbers, c_t, near, marks = level.fields, level.law, level.stencil, level.c_t, level.near, level.marks
     places, square, found = np.zeros(1, np.int64), np.zeros((1, 1)), np.zeros((1, 3), np.int64)
     return [
+        calls.of(fourier.back_across_lines),
         (dense_jacobian, (places, f.p_coef, f.h_coef, level.deflection.kernel, places, square)),
-        calls.of(cavitation.relax_boundary_blocks),
+        calls.of(reynolds.residual_lines),
+        calls.of(relax.distribution_weights),
         calls.of(relax.apply_lines),
+        calls.of(cavitation.relax_boundary_blocks),
         (flanks.mark_front, (0, 1, f.P, f.flow.eps, marks)),
         (flanks.segments, (0, 1, marks, flanks.SOLVED)),
         (flanks.spread_segments, (found, found, 0, f, law, numbers, near)),
