@@ -30,10 +30,17 @@ from fmu.shaft.model import ShaftModel
 from fmu.shaft.variables import shaft_spec
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
-from reduced_models import JeffcottRotor
+from reduced_models import BallBearing, JeffcottRotor, Rotor
 
 # what an FMU is made from
 Source = Element | JeffcottModel | BearingModel | ShaftModel | SpeedController | RotorModel
+
+WANTED = {  # in place of what these functions take
+    JeffcottRotor: "JeffcottModel(rotor, contacts), of `fmu.jeffcott`: what export_jeffcott makes an FMU of",
+    Rotor: "RotorModel(rotor, speeds_rpm), of `fmu.rotor`: what export_rotor makes an FMU of; "
+    "or ShaftModel(rotor), of `fmu.shaft`, for export_shaft",
+    BallBearing: "BearingModel(bearing, speeds_rpm), of `fmu.bearing`: what export_bearing makes an FMU of",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +75,9 @@ def fmu_model(source: Source, model_name: str | None = None, lead: float | None 
     InputError
         Neither of them, a name that is empty, too long or not printable, or another lead.
     """
-    if isinstance(source, JeffcottRotor):
-        allowed = "JeffcottModel(rotor, contacts), of `fmu.jeffcott.model`: what export_jeffcott makes an FMU of"
-        raise InputError("element", type(source).__name__, allowed)
+    for kind, allowed in WANTED.items():
+        if isinstance(source, kind):
+            raise InputError("element", type(source).__name__, allowed)
     if isinstance(source, JeffcottModel):
         spec, elements = jeffcott_spec(source, model_name, lead), source.elements
         compare: Any = compare_jeffcott

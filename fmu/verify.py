@@ -50,7 +50,8 @@ def verify(path: str | os.PathLike[str], element: Source) -> Verification:
     element : ContactElement, JeffcottModel, BearingModel, ShaftModel or RotorModel
         What it should be; ``JeffcottModel(rotor, contacts)`` for what `export_jeffcott` makes of these,
         ``BearingModel(bearing, speeds_rpm, load)`` for `export_bearing`, ``ShaftModel(rotor, speed_rpm, inertia)``
-        for `export_shaft`, ``RotorModel(rotor, speeds_rpm, speed_rpm, inertia)`` for `export_rotor`.
+        for `export_shaft`, ``RotorModel(rotor, speeds_rpm, speed_rpm, inertia)`` for `export_rotor`; from
+        `fmu.jeffcott`, `fmu.bearing`, `fmu.shaft`, `fmu.rotor`.
 
     Raises
     ------
@@ -86,11 +87,9 @@ def _known_variables(file: FmuFile, spec: ModelSpec) -> dict[str, Any]:
     known = {variable.name: variable for variable in file.description.modelVariables}
     for variable in spec.variables:
         if variable.name not in known or known[variable.name].valueReference != variable.value_reference:
-            raise InputError(
-                "path",
-                str(file.path),
-                "an FMU of this kind, made by export_contact, export_jeffcott, export_bearing or export_shaft",
-            )
+            given, its = (str(one.description).split("; ")[0][:150] for one in (spec, file.description))
+            lacks = f"{variable.name} as variable {variable.value_reference}"
+            raise InputError("path", str(file.path), f"an FMU of {given!r}; it is one of {its!r}, without {lacks}")
     return known
 
 

@@ -74,7 +74,7 @@ def require_no_others(entries: Collection[str], known: Collection[str], before: 
     """Raise `InputError` for a name of `entries` that is not in `known`; messages have `before` in front."""
     for name in entries:
         if name not in known:
-            raise InputError(f"{before}{name}", "there", f"left out; known are {', '.join(known)}")
+            raise InputError(f"{before}{name}", "an unknown name", f"left out; known are {', '.join(known)}")
 
 
 def require_names(entries: Collection[str], known: Collection[str], before: str = "") -> None:

@@ -13,3 +13,10 @@ module          responsibility
 ``export``      `export_bearing`: bearing in, FMU file out
 ==============  ==============================================================================
 """
+
+from fmu.bearing.model import BearingModel as BearingModel
+
+
+def __dir__() -> list[str]:
+    """Public names."""
+    return ["BearingModel"]

@@ -86,8 +86,11 @@ class BearingModel:
         given = np.atleast_1d(as_numbers("speeds_rpm", self.speeds_rpm)).astype(float)
         if given.ndim != 1 or given.size not in (1, 2) or (given.size == 2 and not given[0] < given[1]):
             raise InputError("speeds_rpm", given.tolist(), "one speed, or the lowest and the highest one")
-        for speed in given.tolist():
-            self.bearing.speed(speed)
+        try:
+            for speed in given.tolist():
+                self.bearing.speed(speed)
+        except InputError as error:
+            raise InputError("speeds_rpm", error.value, error.allowed) from None
         if given[-1] == 0.0:
             raise InputError("speeds_rpm", 0.0, "> 0: the highest speed at which the bearing turns")
         found = law_speeds(given)

@@ -12,3 +12,10 @@ module               responsibility
 ``references``       reference inputs and results stored in the FMU
 ===================  ==========================================================================================
 """
+
+from fmu.jeffcott.model import JeffcottModel as JeffcottModel
+
+
+def __dir__() -> list[str]:
+    """Public names."""
+    return ["JeffcottModel"]

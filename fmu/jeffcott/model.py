@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact.checks import require_instance
 from ehlcontact.errors import ConvergenceError, InputError
 from fmu.contact_variables import Element
 from fmu.jeffcott.reference_rotor import Run, reference_run
@@ -48,8 +49,7 @@ class JeffcottModel:
     start: RotorState | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.rotor, JeffcottRotor):
-            raise InputError("rotor", type(self.rotor).__name__, "a JeffcottRotor")
+        require_instance("rotor", self.rotor, JeffcottRotor, "a JeffcottRotor (of a Rotor: export_rotor)")
         if len(self.rotor.mounts) > MOST_MOUNTS:
             raise InputError("rotor.mounts", len(self.rotor.mounts), f"at most {MOST_MOUNTS} in an FMU")
         if self.start is not None and not isinstance(self.start, RotorState):

@@ -10,3 +10,10 @@ module               responsibility
 ``export``           `export_rotor`: rotor in, FMU file out
 ===================  ==========================================================================================
 """
+
+from fmu.rotor.model import RotorModel as RotorModel
+
+
+def __dir__() -> list[str]:
+    """Public names."""
+    return ["RotorModel"]

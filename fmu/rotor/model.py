@@ -48,7 +48,7 @@ class RotorModel:
     inertia: float | None = None
 
     def __post_init__(self) -> None:
-        require_instance("rotor", self.rotor, Rotor, "a Rotor")
+        require_instance("rotor", self.rotor, Rotor, "a Rotor (of a JeffcottRotor: export_jeffcott)")
         shaft, stations = self.shaft, self.stations
         balls = sum(mount.ball_bearing.balls for mount in stations)
         if balls > MOST_BALLS or len(stations) > MOST_BEARINGS:

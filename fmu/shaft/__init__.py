@@ -10,3 +10,10 @@ module               responsibility
 ``export``           `export_shaft`: rotor in, FMU file out
 ===================  ==========================================================================================
 """
+
+from fmu.shaft.model import ShaftModel as ShaftModel
+
+
+def __dir__() -> list[str]:
+    """Public names."""
+    return ["ShaftModel"]

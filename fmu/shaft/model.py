@@ -69,7 +69,7 @@ class ShaftModel:
     start: Any = None
 
     def __post_init__(self) -> None:
-        require_instance("rotor", self.rotor, Rotor, "a Rotor")
+        require_instance("rotor", self.rotor, Rotor, "a Rotor (of a JeffcottRotor: export_jeffcott)")
         require_nonnegative("speed_rpm", self.speed_rpm)
         if self.inertia is not None:
             require_positive("inertia", self.inertia)

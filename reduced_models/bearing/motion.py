@@ -227,11 +227,13 @@ class BearingMotion:
 
         Raises
         ------
+        InputError
+            Not n finite numbers each.
         ConvergenceError
             A ball finds no balance.
         """
-        place = np.array(q, float)
-        force, stiffness, damping = self._motion.forces(place, np.array(v, float))
+        place, rate = (as_column(name, x, size=self._size).copy() for name, x in (("q", q), ("v", v)))
+        force, stiffness, damping = self._motion.forces(place, rate)
         return _finite(force, place), stiffness, damping
 
     def accept(self) -> None:

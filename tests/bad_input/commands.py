@@ -372,6 +372,7 @@ COMMANDS = [
     (bearing("6025"), ("bearing = '6025'", "6205", "nearest", "examples/bearing_6205.toml")),
     (("bearing", "6205", "--speed-rpm", "1000"), ("--load = None", "given")),
     (("bearing", "6205", "--load", "1000"), ("--speed-rpm = None", "given")),
+    (("bearing", "7205", "--pair", "back-to-back", "--preload", "300"), ("--speed-rpm = None", "given")),
     (bearing("6205", load="-5"), ("--load = -5.0", ">= 0")),
     (bearing("6205", load="1e6", **OIL), ("--load = 1000000.0", "a ball carries at most", "atlas")),
     (bearing("6205", load="0"), ("--load = 0.0", "preload the bearing")),

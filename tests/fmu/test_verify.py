@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from fmu import verify
+from fmu import export_jeffcott, export_rotor, verify
 from fmu.comparison import film_motion, state_grid
+from reduced_models import BallBearing, BearingMount, JeffcottRotor, Rotor
 
 
 def test_fmu_agrees_with_element(fmus, elements, any_kind):
@@ -128,11 +129,11 @@ def test_findings_of_fmpy_are_reported(fmus, elements, tmp_path):
     "case",
     [
         (".xml", lambda c: c.replace(b'guid="{', b'guid="{0'), "wrong GUID"),
-        (".xml", lambda c: c.replace(b'name="force"', b'name="power"'), "made by export_contact"),
+        (".xml", lambda c: c.replace(b'name="force"', b'name="power"'), "without force as variable"),
         (
             ".xml",
             lambda c: c.replace(b'valueReference="2"', b'valueReference="22"'),
-            "made by export_contact",
+            "an FMU of 'Rolling contact as a cubic spring with a viscous damper'; it is one of 'Rolling",
         ),
         (".xml", lambda c: c[: len(c) // 2], "readable"),
         (".so", lambda c: b"no library", "Failed to load shared library"),
@@ -161,3 +162,34 @@ def test_not_an_fmu(elements, tmp_path):
 def test_bad_element(fmus):
     with pytest.raises(InputError, match="element"):
         verify(fmus["cubic"], "cubic")
+
+
+JEFFCOTT = JeffcottRotor.vertical(
+    disc_mass=2.0, journal_mass=0.3, shaft_stiffness=2e8, load=(0.0, -850.0), unbalance=4e-5, speed_rpm=8000.0
+)
+BEARING = BallBearing.catalogue("6205")
+ROTOR = Rotor(mass=np.eye(2), stiffness=np.zeros((2, 2)), mounts=(BearingMount(bearing=BEARING, x=0, y=1),))
+
+
+def test_fmu_of_another_kind(fmus, elements):
+    words = (
+        r"must be an FMU of 'Rolling contact with a film memory.*'; it is one of 'Rolling contact as a cubic.*'"
+    )
+    with pytest.raises(InputError, match=words):
+        verify(fmus["cubic"], elements["memory"])
+
+
+def test_each_export_names_the_other_for_its_rotor(tmp_path, elements):
+    with pytest.raises(InputError, match=r"must be a Rotor .of a JeffcottRotor: export_jeffcott"):
+        export_rotor(JEFFCOTT, tmp_path / "x.fmu", speeds_rpm=3000.0)
+    with pytest.raises(InputError, match=r"must be a JeffcottRotor .of a Rotor: export_rotor"):
+        export_jeffcott(ROTOR, tmp_path / "x.fmu", [elements["cubic_si"]])
+
+
+@pytest.mark.parametrize("name", ["bearing.BearingModel", "jeffcott.JeffcottModel", "rotor.RotorModel"])
+def test_what_is_no_model_names_the_model(fmus, name):
+    package, _, model = name.partition(".")
+    assert hasattr(importlib.import_module(f"fmu.{package}"), model)
+    given = {"bearing": BEARING, "jeffcott": JEFFCOTT, "rotor": ROTOR}[package]
+    with pytest.raises(InputError, match=rf"must be {model}\(.*of `fmu.{package}`: what export_{package} makes"):
+        verify(fmus["cubic"], given)

@@ -186,6 +186,7 @@ def export(
             "lead": "--lead",
             "element": str(file),
             "speed_rpm": "--top-rpm",
+            "speeds_rpm": "--top-rpm",
         }
         with progress("compiling") as told, o.called(**names):
             built = [one.name for one in choose(platform or None, fmi)]

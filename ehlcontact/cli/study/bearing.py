@@ -266,7 +266,7 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
     """
     given = frozenset(option for option, value in options.items() if value is not None)
     is_file = source.lower().endswith(".toml") or Path(source).is_file()
-    document = read_toml(source, "file") if is_file else {"bearing": {"catalogue": source}}
+    document = read_toml(source, "file") if is_file else {"bearing": {"catalogue": source}, "operation": {}}
     for option in given:
         section, _, key = OPTIONS[option].partition(".")
         entries = document.setdefault(section, {})

@@ -247,9 +247,9 @@ def test_speed_and_loads_beyond_the_tables_are_flagged(made):
     ("arguments", "field"),
     [
         ((bearing(), (3000.0, 2000.0)), "speeds_rpm"),
-        ((bearing(), 0.0), "speed_rpm"),
-        ((bearing(), 1e6), "speed_rpm"),
-        ((bearing(), float("nan")), "speed_rpm"),
+        ((bearing(), 0.0), "speeds_rpm"),
+        ((bearing(), 1e6), "speeds_rpm"),
+        ((bearing(), float("nan")), "speeds_rpm"),
         ((bearing(), 3000.0, 1e7), "load"),
         ((bearing("7205"), 3000.0, (0.0, -100.0)), "load"),
         ((bearing(), 3000.0, None, 3), "freedoms"),

@@ -90,6 +90,12 @@ def test_speeds(film, dry):
     refused("speed_rpm = 30000.0: must be at most", lambda: BearingMotion(film, 30000.0, 1e-5))
 
 
+def test_motions_that_are_no_numbers(dry):
+    motion = BearingMotion(dry, 3000.0, 1e-5)
+    refused(r"q\[0\] = nan", lambda: motion.forces((float("nan"), 0.0), (0.0, 0.0)))
+    refused(r"v\[1\] = inf", lambda: motion.forces((0.0, 0.0), (0.0, float("inf"))))
+
+
 @pytest.mark.parametrize("load", [(-1000.0,), (0.0, -1000.0, 50.0, 1.0), 1000.0, "down", None])
 def test_loads_of_two_three_or_five_components(film, load):
     refused("load = .*must be .Fx, Fy., .Fx, Fy, Fz. or .Fx, Fy, Fz, Mx, My.", lambda: film.equilibrium(load))
@@ -157,7 +163,7 @@ def test_files_that_are_none(tmp_path, oil):
     for changes, match in (
         ({"header": {"class": "BearingState", "format": 1}}, "class 'BearingState'"),
         ({"header": {"class": "BallBearing", "format": 2}}, "of format 1, not 2"),
-        ({"blls": 9}, "blls = .*: must be left out"),
+        ({"blls": 9}, "blls = 'an unknown name': must be left out"),
         ({"balls": 90}, "balls = 90"),
         ({"oil": {"eta0": 0.04, "colour": 1}}, "oil.colour = .*: must be left out; known are eta0"),
         ({"oil": 5}, "oil = 'int'"),
