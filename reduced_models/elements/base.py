@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import (
+    as_numbers,
     require_choice,
     require_finite,
     require_instance,
@@ -138,9 +139,27 @@ class ContactElement(ElementSummary, _Common, ABC):
     def state_rates(
         self, states: NDArray[np.float64], approach: float, rate: float
     ) -> tuple[float, NDArray[np.float64]]:
-        """Force and d(states)/dt in continuous time; all zero at rest, the element's own is not touched."""
-        force, rates = self.continuous(states, approach, rate)
-        self._watch(approach, rate, force)
+        """Force and d(states)/dt in continuous time; all zero at rest, the element's own is not touched.
+
+        The warning outside the validity box counts the trial points of a solver too, and comes once: a later exit
+        of the solution is silent. Check the solution itself, with `is_valid` or `Validity.excess` of ``validity``.
+
+        Parameters
+        ----------
+        states : ndarray, shape (state_count,)
+        approach, rate : float
+
+        Raises
+        ------
+        InputError
+            Another number of states, or one of them, approach or rate not finite.
+        """
+        u, v = require_finite("approach", approach), require_finite("rate", rate)
+        given = as_numbers("states", states)
+        if given.shape != (self.state_count,) or not np.isfinite(given).all():
+            raise InputError("states", given.tolist(), f"{self.state_count} finite numbers")
+        force, rates = self.continuous(given, u, v)
+        self._watch(u, v, force)
         return force, rates
 
     @abstractmethod
@@ -423,3 +442,12 @@ class ContactElement(ElementSummary, _Common, ABC):
     def _read_coefficients(cls, entries: Mapping[str, Any]) -> dict[str, Any]:
         """Coefficients of the class, as arguments of its constructor, from `to_dict`."""
         return numbers("parameters", entries["parameters"], cls.parameter_names)
+
+
+def as_approaches(approach: ArrayLike) -> NDArray[np.float64]:
+    """Finite approaches of any shape, or `InputError`."""
+    u = as_numbers("approach", approach)
+    finite = np.isfinite(u)
+    if not finite.all():
+        raise InputError("approach", float(u[~finite][0]), "finite")
+    return u

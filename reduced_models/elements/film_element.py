@@ -14,8 +14,8 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import (
+    as_column,
     as_float,
-    as_numbers,
     require_between,
     require_finite,
     require_nonnegative,
@@ -23,7 +23,7 @@ from ehlcontact.checks import (
 )
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from reduced_models.elements.base import ContactElement
+from reduced_models.elements.base import ContactElement, as_approaches
 from reduced_models.elements.film_curve import require_rising
 from reduced_models.elements.film_filters import CHAIN, DIRECT
 from reduced_models.elements.film_law import (
@@ -198,11 +198,15 @@ class FilmContact(ContactElement):
         -------
         ndarray, shape (N,)
             Outside the validity box it warns, once per element.
+
+        Raises
+        ------
+        InputError
+            Times that do not increase, another number of approaches or rates, an entry that is not finite.
         """
         f, length, time = self._units
-        t, u, v = (as_numbers(name, values) for name, values in (("T", T), ("approach", approach), ("rate", rate)))
-        if t.ndim != 1 or u.shape != t.shape or v.shape != t.shape or np.any(np.diff(t) <= 0.0):
-            raise InputError("T", t.shape, "increasing times, as many as approaches and rates")
+        t = as_column("T", T, increasing=True)
+        u, v = as_column("approach", approach, size=t.size), as_column("rate", rate, size=t.size)
         force = np.empty(t.size)
         film_drive(self.law, t / time, u / length, v / length * time, force)
         self.warn_outside(u, v, force=force * f)
@@ -211,7 +215,7 @@ class FilmContact(ContactElement):
     def spring(self, approach: ArrayLike) -> float | _Floats:
         """Static force."""
         f, length, _ = self._units
-        u = as_numbers("approach", approach) / length
+        u = as_approaches(approach) / length
         force = np.empty(u.size)
         static_forces(self.law, u.ravel(), force)
         return force.reshape(u.shape) * f if u.ndim else float(force[0]) * f
@@ -219,7 +223,7 @@ class FilmContact(ContactElement):
     def spring_tangent(self, approach: float) -> float:
         """Slope of the static force."""
         f, length, _ = self._units
-        _, g, g_u = static(as_float("approach", approach) / length, self.law)
+        _, g, g_u = static(require_finite("approach", approach) / length, self.law)
         return 1.5 * math.sqrt(g) * g_u * f / length
 
     def approach_at(self, force: float) -> float:

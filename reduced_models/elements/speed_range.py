@@ -292,10 +292,9 @@ class SpeedRangeContact(FilmContact):
         """As of the other elements, at the present speed or at `u_sum`, shape (N,), from rest at its first."""
         if u_sum is None:
             return super().drive(T, approach, rate)
-        given = {"T": T, "approach": approach, "rate": rate, "u_sum": u_sum}
-        t, u, v, speed = (as_numbers(name, values) for name, values in given.items())
-        if t.ndim != 1 or not u.shape == v.shape == speed.shape == t.shape or np.any(np.diff(t) <= 0.0):
-            raise InputError("T", t.shape, "increasing times, as many as approaches, rates and speeds")
+        t = as_column("T", T, increasing=True)
+        given = {"approach": approach, "rate": rate, "u_sum": u_sum}
+        u, v, speed = (as_column(name, values, size=t.size) for name, values in given.items())
         other = replace(self)
         other.set_speed(float(speed[0]))
         force = np.empty(t.size)

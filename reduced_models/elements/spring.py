@@ -23,11 +23,11 @@ import numpy as np
 from numba import extending
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_float, as_numbers, require_positive
+from ehlcontact.checks import as_float, as_numbers, require_finite, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
-from reduced_models.elements.base import ContactElement
+from reduced_models.elements.base import ContactElement, as_approaches
 from reduced_models.elements.small_motion import StateSpace
 from reduced_models.elements.validity import LARGEST, require_size
 
@@ -257,7 +257,7 @@ class MemorylessContact(ContactElement):
 
     def spring_tangent(self, approach: float) -> float:
         """Slope of the force at zero rate."""
-        return contact(as_float("approach", approach), 0.0, self.law)[1]
+        return contact(require_finite("approach", approach), 0.0, self.law)[1]
 
     def damper(self, approach: ArrayLike) -> float | _Floats:
         """Damping coefficient c(u) at zero rate, before the force is clipped."""
@@ -318,6 +318,8 @@ class MemorylessContact(ContactElement):
     def advance(self, dt: float, approach: float, rate: float) -> float:
         """Force at the end of a step; `dt` is ignored, for the element has no memory."""
         approach, rate = as_float("approach", approach), as_float("rate", rate)
+        if not (math.isfinite(approach) and math.isfinite(rate)):
+            raise InputError("approach and rate", (approach, rate), "finite")
         force = contact(approach, rate, self.law)[0]
         self._watch(approach, rate, force)
         return force
@@ -328,7 +330,7 @@ class MemorylessContact(ContactElement):
 
     def rest(self, approach: float) -> float:
         """Force at rest; there is no state to set."""
-        return contact(as_float("approach", approach), 0.0, self.law)[0]
+        return contact(require_finite("approach", approach), 0.0, self.law)[0]
 
     def save_state(self) -> object:
         """Nothing to save."""
@@ -347,7 +349,7 @@ class MemorylessContact(ContactElement):
 
     def _parts(self, approach: ArrayLike) -> _Floats:
         """Spring force and damping coefficient at zero rate, stacked on axis 0."""
-        u = as_numbers("approach", approach)
+        u = as_approaches(approach)
         out = np.empty((2, u.size))
         fill_parts(u.ravel(), self.law, out)
         return out.reshape((2, *u.shape))

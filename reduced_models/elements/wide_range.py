@@ -108,6 +108,7 @@ class WideRangeContact(FilmContact):
         """RMS error of the force over its standard deviation, by kind of motion (`elements.motion_errors`).
 
         Estimated from full solves at three points, by the film under the reference load; typical, not bounds.
+        The error grows with the rate of the motion, and those are at one rate each (docs/elements.md).
         """
         f, length, _ = self._units
         return motion_errors(1.0 - self.approach_at(f) / length)
@@ -123,7 +124,7 @@ class WideRangeContact(FilmContact):
         errors = self.motion_errors
         worst = max(errors, key=lambda kind: errors[kind])
         said = ", ".join(f"{kind} {100.0 * errors[kind]:.2g} %" for kind in dict.fromkeys((WITHIN, worst)))
-        return [*super()._summary_lines(), f"typical rms error of the force: {said}; `motion_errors` has others"]
+        return [*super()._summary_lines(), f"typical rms error of the force: {said}; it grows with the rate"]
 
     def _tables(self) -> dict[str, _Floats]:
         gains = {"gain_x": np.log(np.array(self.gain_loads)), "gains": np.array(self.gains)}

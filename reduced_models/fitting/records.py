@@ -122,8 +122,11 @@ class ContactRecord(QuantityTable):
         Raises
         ------
         InputError
-            The run did not converge, or its histories cannot be used.
+            No simulation, one that did not converge, or histories that cannot be used.
         """
+        if not all(hasattr(simulation, name) for name in (*_HISTORIES, "status", "motion", "domain")):
+            allowed = "a SimulationResult, as of ehlcontact.simulate"
+            raise InputError("simulation", type(simulation).__name__, allowed)
         status = str(simulation.status)
         if status != Status.CONVERGED and not accept_unconverged:
             raise InputError(

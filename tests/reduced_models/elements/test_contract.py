@@ -331,6 +331,32 @@ def test_bad_boxes_are_named(element, changes, field):
     assert caught.value.field == field
 
 
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_motions_that_are_not_finite_are_named(element, bad):
+    """Else a rotor sees no force, as after lift-off."""
+    states = np.zeros(element.state_count)
+    calls = [
+        (lambda: element.advance(0.1, bad, 0.0), "approach"),
+        (lambda: element.state_rates(states, bad, 0.0), "approach"),
+        (lambda: element.state_rates(states, 0.9, bad), "rate"),
+        (lambda: element.state_rates(np.append(states[1:], bad), 0.9, 0.0), "states"),
+        (lambda: element.state_rates(np.zeros(states.size + 1), 0.9, 0.0), "states"),
+        (lambda: element.spring(bad), "approach"),
+        (lambda: element.spring([0.9, bad]), "approach"),
+        (lambda: element.spring_tangent(bad), "approach"),
+        (lambda: element.rest(bad), "approach"),
+    ]
+    if hasattr(element, "drive"):
+        for k, name in enumerate(("T", "approach", "rate")):
+            record = [[0.0, 0.1, 0.2], [0.9, 0.9, 0.9], [0.0, 0.0, 0.0]]
+            record[k][1] = bad
+            calls.append((lambda record=record: element.drive(*record), rf"{name}\[[12]\]"))
+    for call, name in calls:
+        with pytest.raises(InputError, match=rf"^{name}") as caught:
+            call()
+        assert "\n" not in str(caught.value)
+
+
 def test_bad_coefficients_and_forces_are_named(element):
     for name in element.parameter_names:
         for bad in (math.nan, math.inf, "x", None):

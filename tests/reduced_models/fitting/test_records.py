@@ -7,7 +7,7 @@ import pytest
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
-from reduced_models import ContactRecord
+from reduced_models import ContactRecord, LinearContact
 
 
 def plain(**changes):
@@ -83,6 +83,12 @@ def test_from_result_takes_what_the_fit_will_need(domain):
     record = ContactRecord.from_result(simulation(domain=domain))
     assert record.Omega_n == 5.13 and record.domain == (-4.5, 1.5, 3.0) and record.n == 64
     assert record.motion["kind"] == "free" and record.load is not None
+
+
+@pytest.mark.parametrize("other", [None, 3.0, "run.h5", LinearContact(1.15, 0.0124, low=0.75, high=1.0)])
+def test_from_result_names_what_is_no_simulation(other):
+    with pytest.raises(InputError, match=rf"^simulation = '{type(other).__name__}': must be a SimulationResult"):
+        ContactRecord.from_result(other)
 
 
 def test_from_result_refuses_an_unconverged_run_by_default():
