@@ -434,7 +434,7 @@ def bearings() -> Leaves:
             found = bearing.coefficients(
                 (200.0, -800.0), speed_rpm=3000.0, cage_angle=angle, hz=[0.0, 5.0, 90.0, 1e3, 2e4]
             )
-            yield from named(f"{name} small {angle}", found, "omega stiffness damping displacement swing")
+            yield from named(f"{name} small {angle}", found, "omega stiffness damping displacement peak_to_peak")
 
 
 def bearing_rotors() -> Leaves:
