@@ -124,8 +124,7 @@ class WideRangeContact(FilmContact):
         errors = self.motion_errors
         worst = max(errors, key=lambda kind: errors[kind])
         said = ", ".join(f"{kind} {100.0 * errors[kind]:.2g} %" for kind in dict.fromkeys((WITHIN, worst)))
-        more = "it grows with the rate; `motion_errors` has others"
-        return [*super()._summary_lines(), f"typical rms error of the force: {said}; {more}"]
+        return [*super()._summary_lines(), f"rms error of the force (faster motions more): {said}"]
 
     def _tables(self) -> dict[str, _Floats]:
         gains = {"gain_x": np.log(np.array(self.gain_loads)), "gains": np.array(self.gains)}
