@@ -434,7 +434,7 @@ def in_steps(one, rotor, start, until, dt):
 @pytest.mark.parametrize(
     ("name", "solve", "until", "within"),
     [
-        ("lossy", by_cvode, 4e-5, 1e-6),
+        pytest.param("lossy", by_cvode, 4e-5, 1e-6, marks=SECONDS),
         # of a motion that has hardly begun
         pytest.param("five", by_cvode, 1e-4, 2e-6, marks=SECONDS),
         *(
