@@ -74,6 +74,8 @@ class BearingModel:
         _ = self.speeds
         if self.freedoms == len(PLANAR) and len(self.names) != len(PLANAR):
             raise InputError("freedoms", 2, "5 under an axial load or a moment, and for angular contact bearings")
+        if self.bearing.ball_inertia and self.names == FIVE:
+            raise InputError("ball_inertia", True, "False in an FMU with axial motion and tilts")
         _ = self.place
         self.motion()
         if self.bearing.supply is not None:

@@ -57,6 +57,7 @@ class AngularBalls(NamedTuple):
     omega: float  # of the shaft [rad/s], at rest: the first of `speeds`
     speeds: _Floats  # (rows of the tables,) of the shaft, increasing [rad/s]
     loss: Loss  # of rings and fits
+    inertia: float  # of a ball towards the rings [kg]; 0: it has none
     heights: _Floats  # tables of features, see `contact_heights`
 
 

@@ -1,13 +1,13 @@
 """Balls at contact angles over time steps, compiled: force of the inner ring with five degrees of freedom.
 
 The counterpart of `balls` for the geometry of `angular_balls`: contacts have their film memory (`race_contact`),
-and each ball is where its forces balance at the end of every step. That leaves out the vibration of a ball on its
-two contacts (30 to 40 kHz for a 6205), as `balls` does without inertia of the balls. With the inner groove centre
-at c, moving at c', and the ball at b,
+and each ball is where its forces balance at the end of every step. Unless a ball has inertia m towards the rings,
+that leaves out its vibration on its two contacts (30 to 40 kHz for a 6205). With the inner groove centre at c,
+moving at c', and the ball at b,
 
     u_i = |c - b| - inner,    u_i' = n_i . (c' - b'),    u_o = |b| - outer,    u_o' = n_o . b',
 
-b' follows from the places of the last steps (BDF 2). Films follow the angles of their ball: their thickness over
+b' follows from the places of the last steps, and b'' of m b'' from its rates (BDF 2). Films follow the angles of their ball: their thickness over
 that of the table and their time scale change slowly and are extrapolated from the last two steps. Centrifugal
 force and gyroscopic moment are those of the place at the end of the step; their derivatives, of little weight in
 the tangents, are renewed after some steps.
@@ -72,6 +72,9 @@ BESIDE = (
 SINGULAR = 1e-14  # of the squared stiffness: determinant of the tangent of a ball that nothing touches
 STALE = 5  # steps of that search after which they are renewed
 RENEWED = 16  # time steps after which the derivatives of centrifugal force and gyroscopic moment are renewed
+# Rows of `AngularFilms.kept`: place and rate of a ball at the last two ends of steps, and what its rate and its
+# acceleration follow from
+PLACE_NOW, PLACE_BEFORE, PLACE_HISTORY, RATE_NOW, RATE_BEFORE, RATE_HISTORY, KEPT = range(7)
 SETTLED = 20  # times that films at rest are made to follow the angles of their balls: their effect is a thousandth
 
 
@@ -84,7 +87,7 @@ class AngularFilms(NamedTuple):
     poisson: _Floats  # room for `prepare_filters`
     share: _Floats
     place: _Floats  # (balls, 2) b as tried last [m]
-    kept: _Floats  # (balls, 3, 2) b at the last two ends of steps, and what its rate follows from
+    kept: _Floats  # (balls, KEPT, 2) places and rates of earlier steps; rows above
     tried: _Floats  # (balls, 4) c and c' where `place` was found
     follow: _Floats  # (balls, 2, 4) its slopes by both
     film: _Floats  # (contacts, 4) film over that of the table: in this step, at the last two ends; v - u of
@@ -116,7 +119,7 @@ def films_of_angular(balls: AngularBalls) -> AngularFilms:
         poisson=np.zeros(lags + 3),
         share=np.zeros(lags + 3),
         place=np.full((n, 2), nan),
-        kept=np.zeros((n, 3, 2)),
+        kept=np.zeros((n, KEPT, 2)),
         tried=np.zeros((n, 4)),
         follow=np.zeros((n, 2, 4)),
         film=np.ones((contacts, 4)),
@@ -153,7 +156,8 @@ def begin_angular_step(balls, omega, dt, films):
     for k in range(balls.number):
         kept = films.kept[k]
         for j in range(2):
-            kept[2, j] = (4.0 * kept[0, j] - kept[1, j]) / 3.0
+            kept[PLACE_HISTORY, j] = (4.0 * kept[PLACE_NOW, j] - kept[PLACE_BEFORE, j]) / 3.0
+            kept[RATE_HISTORY, j] = (4.0 * kept[RATE_NOW, j] - kept[RATE_BEFORE, j]) / 3.0
         for race in range(2):
             c = 2 * k + race
             law = balls.inner if race == 0 else balls.outer
@@ -250,7 +254,9 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
     """
     g, place, tried, follow = balls.grooves, films.place[k], films.tried[k], films.follow[k]
     c_r, c_z, d_r, d_z = c
-    history, inertia, w = films.kept[k, 2], films.inertia[k], films.tangents[0]
+    history, swing, inertia = films.kept[k, PLACE_HISTORY], films.kept[k, RATE_HISTORY], films.inertia[k]
+    w, mass = films.tangents[0], balls.inertia * gain
+    heavy = mass * gain
     film_i, film_o = _film(films, 2 * k), _film(films, 2 * k + 1)
     u_i, u_o, speed = films.speed_sum[2 * k, 0], films.speed_sum[2 * k + 1, 0], max(omega, balls.speeds[0])
     transit_i = balls.inner.contact_length_factor / (u_i * speed) if speed > 0.0 else 0.0
@@ -278,10 +284,12 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
         f_o, k_o, d_o = contact_force(balls.outer, transit_o, row, film_o, films, 2 * k + 1, l_o - free_o, rate_o)
         at = _rolls(balls, b_r, b_z, c_r, c_z)
         r_r, r_z, p_r, p_z, moment = ball_forces(g, omega, at, f_i, f_o)
+        r_r, r_z = r_r - mass * (v_r - swing[0]), r_z - mass * (v_z - swing[1])
         size = sqrt(r_r * r_r + r_z * r_z)
         if not size < np.inf:
             return False
-        if omega == 0.0 and f_i == 0.0 and f_o == 0.0 and d_i == 0.0 and d_o == 0.0:  # at rest between the races
+        free = f_i == 0.0 and f_o == 0.0 and d_i == 0.0 and d_o == 0.0 and heavy == 0.0
+        if omega == 0.0 and free:  # at rest between the races
             w[:] = 0.0
             films.tangents[1, :, 3] = 0.0
             films.force[k] = 0.0
@@ -300,11 +308,11 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
         h_r, h_z = a_r + d_i * gain * i_r, a_z + d_i * gain * i_z
         m_r, m_z = (k_o + d_o * gain) * o_r - d_o * t_o * o_z, (k_o + d_o * gain) * o_z + d_o * t_o * o_r
         turn_rr, turn_rz, turn_zz = s_i * i_z * i_z, -s_i * i_r * i_z, s_i * i_r * i_r
-        by_rr = -i_r * h_r - turn_rr - o_r * m_r - s_o * o_z * o_z + inertia[0, 0]
+        by_rr = -i_r * h_r - turn_rr - o_r * m_r - s_o * o_z * o_z + inertia[0, 0] - heavy
         by_rz = -i_r * h_z - turn_rz - o_r * m_z + s_o * o_r * o_z + inertia[0, 1]
         by_zr = -i_z * h_r - turn_rz - o_z * m_r + s_o * o_r * o_z + inertia[1, 0]
-        by_zz = -i_z * h_z - turn_zz - o_z * m_z - s_o * o_r * o_r + inertia[1, 1]
-        det, stiff = by_rr * by_zz - by_rz * by_zr, k_i + k_o + gain * (d_i + d_o)
+        by_zz = -i_z * h_z - turn_zz - o_z * m_z - s_o * o_r * o_r + inertia[1, 1] - heavy
+        det, stiff = by_rr * by_zz - by_rz * by_zr, k_i + k_o + gain * (d_i + d_o) + heavy
         if stiff <= 0.0 or abs(det) <= SINGULAR * stiff * stiff:  # nothing touches it
             b_r, b_z = b_r + reach * r_r / size, b_z + reach * r_z / size
             reach, previous = 2.0 * reach, np.inf
@@ -351,7 +359,7 @@ def _move_on(films, k):
     """Put ball `k` where it would be if it moved on as in the last step: where the search begins, see `balls`."""
     films.follow[k] = 0.0
     for j in range(2):
-        films.place[k, j] = 2.0 * films.kept[k, 0, j] - films.kept[k, 1, j]
+        films.place[k, j] = 2.0 * films.kept[k, PLACE_NOW, j] - films.kept[k, PLACE_BEFORE, j]
 
 
 @inner
@@ -377,7 +385,8 @@ def _place_ball(balls, k, c, films):
 @jit_exact_loop
 def _imbalance(balls, omega, row, films, k, c, gain, b_r, b_z):
     """Sum of the forces on ball `k` at a place, radial and axial [N]."""
-    g, history, heights = balls.grooves, films.kept[k, 2], films.heights
+    g, kept, heights = balls.grooves, films.kept[k], films.heights
+    mass = balls.inertia * gain
     speed, transit_i, transit_o = max(omega, balls.speeds[0]), 0.0, 0.0
     if speed > 0.0:
         transit_i = balls.inner.contact_length_factor / (films.speed_sum[2 * k, 0] * speed)
@@ -385,14 +394,14 @@ def _imbalance(balls, omega, row, films, k, c, gain, b_r, b_z):
     film_i, film_o = _film(films, 2 * k), _film(films, 2 * k + 1)
     l_i, x_r, x_z = inner_span(b_r, b_z, c[0], c[1])
     l_o = sqrt(b_r * b_r + b_z * b_z)
-    v_r, v_z = gain * (b_r - history[0]), gain * (b_z - history[1])
+    v_r, v_z = gain * (b_r - kept[PLACE_HISTORY, 0]), gain * (b_z - kept[PLACE_HISTORY, 1])
     rate_i = (x_r * (c[2] - v_r) + x_z * (c[3] - v_z)) / l_i + heights[2 * k, HEIGHT_RATE]
     rate_o = (b_r * v_r + b_z * v_z) / l_o + heights[2 * k + 1, HEIGHT_RATE]
     u_i, u_o = l_i - g.inner + heights[2 * k, HEIGHT], l_o - g.outer + heights[2 * k + 1, HEIGHT]
     f_i = contact_force(balls.inner, transit_i, row, film_i, films, 2 * k, u_i, rate_i)[0]
     f_o = contact_force(balls.outer, transit_o, row, film_o, films, 2 * k + 1, u_o, rate_o)[0]
     forces = ball_forces(g, omega, _rolls(balls, b_r, b_z, c[0], c[1]), f_i, f_o)
-    return forces[0], forces[1]
+    return forces[0] - mass * (v_r - kept[RATE_HISTORY, 0]), forces[1] - mass * (v_z - kept[RATE_HISTORY, 1])
 
 
 @inner
@@ -517,7 +526,7 @@ def accept_angular(balls, films, gain):
         c_r, c_z, d_r, d_z = films.tried[k, 0], films.tried[k, 1], films.tried[k, 2], films.tried[k, 3]
         at = _rolls(balls, b_r, b_z, c_r, c_z)
         kept = films.kept[k]
-        v_r, v_z = gain * (b_r - kept[2, 0]), gain * (b_z - kept[2, 1])
+        v_r, v_z = gain * (b_r - kept[PLACE_HISTORY, 0]), gain * (b_z - kept[PLACE_HISTORY, 1])
         i, o, heights = 2 * k, 2 * k + 1, films.heights
         rate_i = at.cos_i * (d_r - v_r) + at.sin_i * (d_z - v_z) + heights[i, HEIGHT_RATE]
         rate_o = at.cos_o * v_r + at.sin_o * v_z + heights[o, HEIGHT_RATE]
@@ -534,8 +543,10 @@ def accept_angular(balls, films, gain):
         u[i, 2], u[i, 1] = u[i, 1], at.u_i
         u[o, 2], u[o, 1] = u[o, 1], at.u_o
         for j in range(2):
-            kept[1, j], kept[0, j] = kept[0, j], films.place[k, j]
+            kept[PLACE_BEFORE, j], kept[PLACE_NOW, j] = kept[PLACE_NOW, j], films.place[k, j]
+            kept[RATE_BEFORE, j] = kept[RATE_NOW, j]
             films.largest[j] = max(films.largest[j], films.force[k, j])
+        kept[RATE_NOW, 0], kept[RATE_NOW, 1] = v_r, v_z
         films.orbit[k] = at.orbit
         own = films.turned[1 + k]
         own[ANGLE_LAST], own[ANGLE_RATE] = own[ANGLE_NOW], at.ball_rotation
@@ -583,7 +594,8 @@ def rest_angular(balls, films, q, out):
         films.state[2 * k, APPROACH] = inner_span(b_r, b_z, c_r, c_z)[0] - (g.inner - heights[2 * k, HEIGHT])
         films.state[2 * k + 1, APPROACH] = np.hypot(b_r, b_z) - (g.outer - heights[2 * k + 1, HEIGHT])
         for j in range(2):
-            films.kept[k, 0, j] = films.kept[k, 1, j] = films.place[k, j]
+            films.kept[k, PLACE_NOW, j] = films.kept[k, PLACE_BEFORE, j] = films.place[k, j]
+            films.kept[k, RATE_NOW, j] = films.kept[k, RATE_BEFORE, j] = 0.0
         carried += films.force[k, 0]
         turned += films.force[k, 0] * films.orbit[k]
         free += films.orbit[k] / balls.number

@@ -704,8 +704,7 @@ class BallBearing(Summary):
 
     def _small_angular(self, speed: float, places: list[AngularEquilibrium]) -> SmallAngularBalls:
         """What a small vibration finds in the bearing, over positions of the cage."""
-        inertia = ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0
-        return SmallAngularBalls.of(self._angular_balls(speed), places, loss_of(self.loss_factor), inertia)
+        return SmallAngularBalls.of(self._angular_balls(speed), places, loss_of(self.loss_factor), self._inertia)
 
     def _angular_state(self, at: AngularEquilibrium, speed: float, angle: float) -> BearingState:
         """State of the bearing with its ring where balls are in equilibrium, the first ball at `angle`."""
@@ -757,13 +756,25 @@ class BallBearing(Summary):
             laws = self._law("inner", speeds), self._law("outer", speeds)
             omega = speeds * RPM_TO_RAD_S
             self._cache[key] = AngularBalls(
-                *laws, self.balls, grooves, float(omega[0]), omega, loss_of(self.loss_factor), self._heights
+                *laws,
+                self.balls,
+                grooves,
+                float(omega[0]),
+                omega,
+                loss_of(self.loss_factor),
+                self._inertia,
+                self._heights,
             )
         return self._cache[key]
 
     @property
     def _groove_distance(self) -> float:
         return groove_distance(self.ball_diameter, self.conformity_inner, self.conformity_outer)
+
+    @property
+    def _inertia(self) -> float:
+        """Of a ball towards the rings [kg]; 0 where it has none."""
+        return ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0
 
     @property
     def _cosine(self) -> float:
@@ -800,7 +811,7 @@ class BallBearing(Summary):
                 speed_sum=speed_sum_per_omega(self.pitch_diameter, self.gamma),
                 speeds=speeds * RPM_TO_RAD_S,
                 loss=loss_of(self.loss_factor),
-                inertia=ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0,
+                inertia=self._inertia,
                 heights=self._heights,
             )
         return self._cache[key]

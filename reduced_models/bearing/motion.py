@@ -289,15 +289,12 @@ def motion_of(bearing: BallBearing, speeds_rpm: list[float], freedoms: int) -> B
     Raises
     ------
     InputError
-        A speed that the bearing does not take; five degrees of freedom and balls with inertia.
+        A speed that the bearing does not take.
     """
     speeds = [bearing.speed(speed) for speed in speeds_rpm]
     heights = heights_in_runs(bearing, speeds)
     if freedoms == len(PLANAR):
         return BallMotion(bearing._kernel(speeds)._replace(heights=heights))
-    if bearing.ball_inertia:
-        allowed = "False in time with axial motion and tilts: balls are in equilibrium in every step"
-        raise InputError("ball_inertia", True, allowed)
     return AngularMotion(bearing._angular_balls(speeds)._replace(heights=heights))
 
 

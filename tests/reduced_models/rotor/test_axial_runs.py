@@ -248,12 +248,6 @@ def test_a_shaft_that_unloads_a_bearing_on_a_spring_ends_the_run(speed, beside):
     assert lowest[-1] < -reach and (lowest[:-1] >= -reach).all()
 
 
-def test_balls_with_inertia_are_refused(spindle):
-    heavy = replace(spindle, ball_inertia=True)
-    with pytest.raises(InputError, match="ball_inertia"):
-        simulate_rotor(rigid(heavy, heavy), speed_rpm=RPM, dt=1e-5, until=1e-4)
-
-
 def test_a_driven_bearing(spindle):
     motion = BearingMotion(spindle, RPM, 1e-5)
     q = np.array([0.0, -2e-6, 8e-6, 0.0, 0.0])
