@@ -7,10 +7,10 @@ moving at c', and the ball at b,
 
     u_i = |c - b| - inner,    u_i' = n_i . (c' - b'),    u_o = |b| - outer,    u_o' = n_o . b',
 
-b' follows from the places of the last steps, and b'' of m b'' from its rates (BDF 2). Films follow the angles of their ball: their thickness over
-that of the table and their time scale change slowly and are extrapolated from the last two steps. Centrifugal
-force and gyroscopic moment are those of the place at the end of the step; their derivatives, of little weight in
-the tangents, are renewed after some steps.
+b' follows from the places of the last steps, and b'' from its rates (BDF 2). Films follow the angles of their
+ball: their thickness over that of the table and their time scale change slowly and are extrapolated from the last
+two steps. Centrifugal force and gyroscopic moment are those of the place at the end of the step; their
+derivatives, of little weight in the tangents, are renewed after some steps.
 
 All balls stand in one cage, which turns at the mean of the speeds at which they would roll alone, by their loads.
 """
@@ -31,10 +31,12 @@ from reduced_models.bearing.contact_heights import (
     ANGLE_LAST,
     ANGLE_NOW,
     ANGLE_RATE,
+    FILM_SLOPE,
     HEIGHT,
     HEIGHT_RATE,
     HEIGHTS,
     find_heights,
+    full_film,
     keep_heights,
     rest_heights,
 )
@@ -265,8 +267,9 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
     for j in range(4):
         moved = c[j] - tried[j]
         b_r, b_z = b_r + follow[0, j] * moved, b_z + follow[1, j] * moved
-    free_i, up_i = g.inner - films.heights[2 * k, HEIGHT], films.heights[2 * k, HEIGHT_RATE]
-    free_o, up_o = g.outer - films.heights[2 * k + 1, HEIGHT], films.heights[2 * k + 1, HEIGHT_RATE]
+    full_i, full_o = films.heights[2 * k], films.heights[2 * k + 1]
+    free_i, up_i = g.inner - full_i[HEIGHT], full_i[HEIGHT_RATE]
+    free_o, up_o = g.outer - full_o[HEIGHT], full_o[HEIGHT_RATE]
     reach, previous, last_r, last_z = FIRST_STEP, np.inf, b_r, b_z
     longest = FAR * (g.inner + g.outer)
     nearly = NEARLY_SHARED if g.control in (INNER, SHARED) else NEARLY
@@ -282,6 +285,10 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
         rate_i, rate_o = i_r * e_r + i_z * e_z + up_i, o_r * v_r + o_z * v_z + up_o
         f_i, k_i, d_i = contact_force(balls.inner, transit_i, row, film_i, films, 2 * k, l_i - free_i, rate_i)
         f_o, k_o, d_o = contact_force(balls.outer, transit_o, row, film_o, films, 2 * k + 1, l_o - free_o, rate_o)
+        if full_i[FILM_SLOPE] > 0.0:
+            f_i, k_i, d_i = full_film(full_i, l_i - g.inner)
+        if full_o[FILM_SLOPE] > 0.0:
+            f_o, k_o, d_o = full_film(full_o, l_o - g.outer)
         at = _rolls(balls, b_r, b_z, c_r, c_z)
         r_r, r_z, p_r, p_z, moment = ball_forces(g, omega, at, f_i, f_o)
         r_r, r_z = r_r - mass * (v_r - swing[0]), r_z - mass * (v_z - swing[1])
@@ -400,6 +407,10 @@ def _imbalance(balls, omega, row, films, k, c, gain, b_r, b_z):
     u_i, u_o = l_i - g.inner + heights[2 * k, HEIGHT], l_o - g.outer + heights[2 * k + 1, HEIGHT]
     f_i = contact_force(balls.inner, transit_i, row, film_i, films, 2 * k, u_i, rate_i)[0]
     f_o = contact_force(balls.outer, transit_o, row, film_o, films, 2 * k + 1, u_o, rate_o)[0]
+    if heights[2 * k, FILM_SLOPE] > 0.0:
+        f_i = full_film(heights[2 * k], l_i - g.inner)[0]
+    if heights[2 * k + 1, FILM_SLOPE] > 0.0:
+        f_o = full_film(heights[2 * k + 1], l_o - g.outer)[0]
     forces = ball_forces(g, omega, _rolls(balls, b_r, b_z, c[0], c[1]), f_i, f_o)
     return forces[0] - mass * (v_r - kept[RATE_HISTORY, 0]), forces[1] - mass * (v_z - kept[RATE_HISTORY, 1])
 

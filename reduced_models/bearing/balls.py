@@ -23,14 +23,13 @@ from ehlcontact.jit import inner, jit_exact_called_node, jit_exact_loop, jit_exa
 from reduced_models.bearing.contact_heights import (
     ANGLE_NOW,
     ANGLE_RATE,
-    FILM_APPROACH,
-    FILM_FORCE,
     FILM_SLOPE,
     HEIGHT,
     HEIGHT_RATE,
     HEIGHTS,
     ROTATION,
     find_heights,
+    full_film,
     keep_heights,
     rest_heights,
 )
@@ -209,12 +208,6 @@ def begin_rest(films):
 
 
 @jit_exact_node
-def _full_film(given, u):
-    """Force of a full film at the approach u, as it is given, and its slopes."""
-    return given[FILM_FORCE] + given[FILM_SLOPE] * (u - given[FILM_APPROACH]), given[FILM_SLOPE], 0.0
-
-
-@jit_exact_node
 def _ball(balls, at_speed, films, k, delta, rate, gain):
     """Balance ball `k`; returns the force of the ring on it, its derivatives by delta and delta'.
 
@@ -237,9 +230,9 @@ def _ball(balls, at_speed, films, k, delta, rate, gain):
         fi, ki, di = contact_force(balls.inner, at_speed.inner, row, None, films, 2 * k, u_i, v_i)
         fo, ko, do = contact_force(balls.outer, at_speed.outer, row, None, films, 2 * k + 1, u_o, v_o)
         if films.heights[2 * k, FILM_SLOPE] > 0.0:
-            fi, ki, di = _full_film(films.heights[2 * k], delta - w)
+            fi, ki, di = full_film(films.heights[2 * k], delta - w)
         if films.heights[2 * k + 1, FILM_SLOPE] > 0.0:
-            fo, ko, do = _full_film(films.heights[2 * k + 1], w)
+            fo, ko, do = full_film(films.heights[2 * k + 1], w)
         inner, held = ki + gain * di, ko + gain * do
         outer = held + heavy * gain
         balance, tangent = fo + heavy * (v - ball[RATE_HISTORY]) - fi - at_speed.centrifugal, inner + outer

@@ -6,7 +6,7 @@ from math import pi, sqrt
 
 import numpy as np
 
-from ehlcontact.jit import jit_exact_called_node, jit_exact_loop
+from ehlcontact.jit import jit_exact_called_node, jit_exact_loop, jit_exact_node
 from reduced_models.bearing.race_contact import APPROACH
 
 # Entries of the heights of a contact: height and rate of the step, heights at its last two ends; where a full film
@@ -67,6 +67,12 @@ def find_heights(balls, films, angle, gain):
             found[c, HEIGHT] = height_of(heights, k, race, psi, films.turned, pressed - found[c, HEIGHT_NOW])
             past = (4.0 * found[c, HEIGHT_NOW] - found[c, HEIGHT_BEFORE]) / 3.0
             found[c, HEIGHT_RATE] = gain * (found[c, HEIGHT] - past)
+
+
+@jit_exact_node
+def full_film(given, u):
+    """Force of a full film at approach `u`, heights left out, and its slopes, from the `given` entries."""
+    return given[FILM_FORCE] + given[FILM_SLOPE] * (u - given[FILM_APPROACH]), given[FILM_SLOPE], 0.0
 
 
 @jit_exact_loop

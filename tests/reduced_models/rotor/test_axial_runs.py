@@ -8,7 +8,7 @@ import pytest
 from axial_rotors import LIGHT, MASS, SPINDLE, motor, pair_force, rigid, ring_force
 from scipy.integrate import solve_ivp
 
-from ehlcontact import ConvergenceError, InputError, Lubricant
+from ehlcontact import ConvergenceError, Lubricant
 from reduced_models import (
     BallBearing,
     BearingMotion,
