@@ -18,7 +18,6 @@ from inspect import ismodule as _ismodule
 from reduced_models import signals as signals
 from reduced_models.atlas.atlas import Atlas as Atlas
 from reduced_models.atlas.filter_table import contact_filter as contact_filter
-from reduced_models.bearing.arrangement import BearingSet as BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
 from reduced_models.bearing.cage_slip import cage_slip as cage_slip
 from reduced_models.bearing.equilibrium_result import BearingState as BearingState
@@ -52,6 +51,7 @@ from reduced_models.rotor.assembly import rotor_on_bearings as rotor_on_bearings
 from reduced_models.rotor.baselines import dry_contact as dry_contact
 from reduced_models.rotor.bearing_films import FullFilm as FullFilm
 from reduced_models.rotor.bearing_films import simulate_full_films as simulate_full_films
+from reduced_models.rotor.bearing_set import BearingSet as BearingSet
 from reduced_models.rotor.campbell import campbell as campbell
 from reduced_models.rotor.compare import compare as compare
 from reduced_models.rotor.control import rotor_to_control as rotor_to_control

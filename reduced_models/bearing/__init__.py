@@ -14,8 +14,6 @@
 | five_degrees | a ring with five degrees of freedom in static equilibrium |
 | linear_angular | that ring about static equilibrium: impedance at complex frequencies |
 | shoulders | shoulders of the grooves, and contact ellipses that reach over them |
-| arrangement | `BearingSet`: pairs and other sets on one shaft, their preload and growth |
-| static_set | forces and impedances of the bearings of a `BearingSet`, in the frame of the shaft |
 | kinematics | cage, balls and defect frequencies |
 | measured_order | contact angle and clearance from a measured defect order |
 | race | one contact: geometry, oil, element at a speed; the only module that imports the atlas |

@@ -33,7 +33,6 @@ from ehlcontact.lubricant import TractionLaw
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary
 from ehlcontact.supply import THICKEST
-from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.kinematics import RPM_TO_HZ, rolling_torque
 from reduced_models.bearing.race import RACES, shared_atlas
@@ -384,7 +383,7 @@ def oil_and_heat(
 
 def _bearings(one: Any) -> tuple[Any, ...]:
     """The bearings of a set, or the one alone."""
-    return tuple(one.bearings) if isinstance(one, BearingSet) else (one,)
+    return tuple(getattr(one, "bearings", (one,)))
 
 
 def _states(at_rest: BearingState | SetState) -> tuple[BearingState, ...]:
@@ -398,7 +397,7 @@ def _heaviest_of(states: Sequence[BearingState]) -> int:
 
 def _with(one: Any, **given: Any) -> Any:
     """A bearing, or all of a set, with other arguments."""
-    if isinstance(one, BearingSet):
+    if hasattr(one, "bearings"):
         return replace(one, bearings=[replace(single, **given) for single in one.bearings])
     return replace(one, **given)
 

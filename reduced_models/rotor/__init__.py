@@ -9,6 +9,7 @@
 | jeffcott | `JeffcottRotor`: such a rotor by its parameters |
 | parts | `Shaft`, `Disc`, `Support`: what a rotor on bearings is made of |
 | beam | rotating shaft element: its matrices |
+| bearing_set | `BearingSet`: pairs and other sets of ball bearings on one rigid shaft, their preload and growth |
 | assembly | `rotor_on_bearings`: such a rotor by its parts |
 | nodes | degrees of freedom by node and direction |
 | equilibrium | static equilibrium of a rotor on its supports |

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column, require_instance
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.freedoms import facing_signs
 from reduced_models.rotor.beam import matrices
+from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.nodes import DIRECTIONS, LENGTHS, PLANE
 from reduced_models.rotor.parts import Disc, Shaft, Support
 from reduced_models.rotor.rotor import Rotor, Unbalance

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.five_degrees import grow_gyroscopic
+from reduced_models.bearing.angular_balls import APPROACH, AngularBalls
+from reduced_models.bearing.five_degrees import AngularEquilibrium, equilibrium_at, grow_gyroscopic
 from reduced_models.bearing.freedoms import FIVE
+from reduced_models.rotor.nodes import LENGTHS
 from reduced_models.rotor.scaled_contact import has_tangents
 from reduced_models.rotor.supports import (
     BearingMount,
@@ -27,13 +29,16 @@ _Floats = NDArray[np.float64]
 
 GUESS = 1e8  # N/m, springs in place of the supports from which the search starts
 OPEN = 1.0  # N/m, beside the slopes of a support that is open in some direction
-# Imbalance over the load that ends the search: with balls, which are balanced to first order in 1e-7, and without
-BALANCED_BALLS, BALANCED = 1e-10, 1e-12
-ROUGHLY = 0.1  # of the forces along a step, that are left at the end of a search along it
+BALANCED = 1e-12  # imbalance over the load that ends the search
 BY_ROUNDING = 1e-9  # imbalance over the load that is accepted where steps no longer help
+ROUGHLY = 0.1  # of the forces along a step, that are left at the end of a search along it
 NOT_HELD = "one that presses balls in all directions: more preload, or a bearing of the other facing, holds it"
 HELD = 1e-12  # smallest stiffness of a rotor over its largest, beam included: below is rounding
 MOST_STEPS, MOST_HALVINGS = 60, 30  # of the search
+_NOTHING: tuple[AngularBalls | None, _Floats] = (
+    None,
+    np.empty(0),
+)  # balls with their inertia, and motion of the ring
 
 
 class StaticSupport(Protocol):
@@ -71,16 +76,36 @@ class StaticAngularBalls:
         bearing, self._name = mount.ball_bearing, name
         self.bearing, self._shift, self.speed = bearing, mount.shift, bearing.speed(speed_rpm)
         self.ring = bearing._static_ring(self.speed, mount.cage_angle, len(mount.directions))
+        self._pressed = _NOTHING
+
+    def press(self, r: _Floats) -> None:
+        """Balance all balls under this motion of the ring."""
+        balls, motion = self._pressed
+        if balls is self.ring.balls and np.array_equal(motion, r):
+            return
+        self._pressed = _NOTHING  # should a ball find no balance
+        self.ring.press(r + self._shift)
+        self._pressed = self.ring.balls, r.copy()
 
     def force(self, r: _Floats) -> _Floats:
         """What it carries, shape (5,) [N], [N m]."""
-        self.ring.press(r + self._shift)
+        self.press(r)
         return self.ring.load.copy()
 
     def tangent(self, r: _Floats) -> _Floats:
         """Its derivative, shape (5, 5)."""
-        self.ring.press(r + self._shift)
+        self.press(r)
         return self.ring.stiffness.copy()
+
+    def at(self, r: _Floats) -> AngularEquilibrium:
+        """Its balls in equilibrium, in its own frame."""
+        self.press(r)
+        return equilibrium_at(self.ring, r + self._shift)
+
+    @property
+    def closest(self) -> float:
+        """Largest approach of a ball to the inner race where it was pressed last [m]."""
+        return float(self.ring.places.found[:, APPROACH].max())
 
     def require_bearable(self, r: _Floats) -> None:
         """Raise `InputError` where a ball leaves its groove or carries more than the atlas has."""
@@ -120,82 +145,122 @@ def static_supports(mounts: Sequence[Mount], speed_rpm: float) -> list[tuple[sli
 
 def equilibrium(mounts: Sequence[Mount], load: _Floats, stiffness: _Floats, speed_rpm: float) -> _Floats:
     """Displacements, shape (N,), at which supports and stiffness carry the load: see `Rotor.equilibrium`."""
-    supports, rows = static_supports(mounts, speed_rpm), support_rows(mounts, load.size)
-    balance = _Balance(mounts, supports, rows, stiffness, load)
-    angular = [(columns, one) for columns, one in supports if isinstance(one, StaticAngularBalls)]
-    if not angular:
-        return balance.solve(None)
+    static = StaticRotor(mounts, load, stiffness, speed_rpm)
     try:
-        q, share = grow_gyroscopic([one.ring for _, one in angular], balance.solve)
+        q, share = static.search()
     except ConvergenceError as error:
-        if unsupported := balance.unsupported(error.result):
+        if static.angular and (unsupported := static.unsupported(error.result)):
             raise InputError("load", f"not held by {unsupported}", NOT_HELD) from error
         raise
     if share < 1.0:
         allowed = "those at which friction holds the gyroscopic moment of all balls under this load"
         raise InputError("speed_rpm", speed_rpm, f"{allowed} (found to {share:.2g} of it)")
-    for columns, one in angular:
-        one.require_bearable(rows[columns] @ q)
+    for columns, support in static.angular:
+        support.require_bearable(static.rows[columns] @ q)
     return q
 
 
 def require_held(mounts: Sequence[Mount], q: _Floats, stiffness: _Floats, speed_rpm: float) -> None:
     """Raise `InputError` where nothing holds a rotor on bearings with five degrees of freedom at `q`."""
     if any(is_ball_bearing(mount) and len(mount.directions) == len(FIVE) for mount in mounts):
-        supports = static_supports(mounts, speed_rpm)
-        balance = _Balance(mounts, supports, support_rows(mounts, q.size), stiffness, np.zeros(q.size))
-        if unsupported := balance.unsupported(q):
+        static = StaticRotor(mounts, np.zeros(q.size), stiffness, speed_rpm)
+        if unsupported := static.unsupported(q):
             raise InputError("load", f"without hold at {unsupported}", NOT_HELD)
 
 
-class _Balance:
-    """Forces on a rotor in static equilibrium, and the search for their balance."""
+class StaticRotor:
+    """Forces on a rotor in static equilibrium, and the search for their balance.
+
+    Parameters
+    ----------
+    mounts : sequence of Mount
+    load : ndarray, shape (N,)
+        Constant forces [N], [N m].
+    stiffness : ndarray, shape (N, N)
+        Without the supports that are not linear.
+    speed_rpm : float
+        For films and the inertia of balls.
+    held : mapping of int to float, optional
+        Degrees of freedom that do not move, and their displacements [m], [rad].
+    """
 
     def __init__(
         self,
         mounts: Sequence[Mount],
-        supports: Sequence[tuple[slice, StaticSupport]],
-        rows: _Floats,
-        stiffness: _Floats,
         load: _Floats,
+        stiffness: _Floats,
+        speed_rpm: float,
+        held: Mapping[int, float] | None = None,
     ) -> None:
-        self._mounts, self._supports, self._rows = mounts, supports, rows
-        self._stiffness, self._load = stiffness, load
-        self._allowed = BALANCED_BALLS if any(isinstance(mount, BearingMount) for mount in mounts) else BALANCED
+        self.supports, self.rows = static_supports(mounts, speed_rpm), support_rows(mounts, load.size)
+        self.angular = [(at, one) for at, one in self.supports if isinstance(one, StaticAngularBalls)]
+        self._mounts, self._stiffness, self._load = mounts, stiffness, load
+        self._held = np.zeros(load.size)
+        for place, displacement in (held or {}).items():
+            self._held[place] = displacement
+        self.free = np.setdiff1d(np.arange(load.size), list(held or {}))
         self._both_ways = _across(mounts, load.size)  # springs in both directions where a rotor stands on contacts
-        self._rings = [(at, one.ring) for at, one in supports if isinstance(one, StaticAngularBalls)]
         self._carried = 0.0  # forces of preloaded bearings, beside which the load may be small
 
-    def solve(self, first: _Floats | None) -> _Floats:
-        """Displacements in equilibrium, searched from `first` or from springs in place of the supports.
+    def search(self) -> tuple[_Floats, float]:
+        """Displacements in equilibrium, shape (N,), and the share of the gyroscopic moments that they are for.
 
         Raises
         ------
         ConvergenceError
             None was found; ``result`` is the last displacement.
         """
+        if not self.angular:
+            return self._solve(None), 1.0
+        return grow_gyroscopic([support.ring for _, support in self.angular], self._solve)
+
+    def carried(self, q: _Floats) -> _Floats:
+        """Forces that supports and stiffness carry at `q`, shape (N,): the load, and reactions of what is held."""
+        return self._imbalance(q) + self._load
+
+    def slopes(self, q: _Floats) -> _Floats:
+        """Derivative of `carried`, shape (N, N)."""
+        return self._slopes(q, 0.0)
+
+    def bearings(self, q: _Floats) -> list[AngularEquilibrium]:
+        """Ball bearings with five degrees of freedom at `q`, each in its own frame."""
+        return [support.at(self.rows[columns] @ q) for columns, support in self.angular]
+
+    def _solve(self, first: _Floats | None) -> _Floats:
+        """Displacements in equilibrium, searched from `first` or from springs in place of the supports."""
         q = self._first() if first is None else first
-        residual, size = self._imbalance(q), float(np.linalg.norm(self._load))
+        residual, size = self._imbalance(q), float(np.linalg.norm(self._load[self.free]))
         for _ in range(MOST_STEPS):
-            scale = max(size, self._carried, 1.0)
-            if np.linalg.norm(residual) <= self._allowed * scale:
+            scale, error = max(size, self._carried, 1.0), self._error(residual)
+            if error <= BALANCED * scale:
                 return q
-            step: _Floats = np.asarray(np.linalg.solve(self._slopes(q, OPEN), -residual), np.float64)
-            if self._rings:
-                q, residual = self._along(q, residual, step)
-                continue
-            for _ in range(MOST_HALVINGS):
+            step = self._newton_step(q, residual)
+            if error <= BY_ROUNDING * scale:  # whole steps, while they help
                 new = self._imbalance(q + step)
-                if np.linalg.norm(new) < np.linalg.norm(residual):
-                    break
-                step *= 0.5
-            else:
-                if np.linalg.norm(residual) <= BY_ROUNDING * scale:
+                if not self._error(new) < 0.5 * error:
                     return q
-            q, residual = q + step, self._imbalance(q + step)
+                q, residual = q + step, new
+            elif self.angular:
+                q, residual = self._along(q, residual, step)
+            else:
+                for _ in range(MOST_HALVINGS):
+                    new = self._imbalance(q + step)
+                    if self._error(new) < error:
+                        break
+                    step *= 0.5
+                q, residual = q + step, new
         raise ConvergenceError(
-            f"no equilibrium: the supports do not hold {np.linalg.norm(residual):.3g} N of {size:.3g} N", q
+            f"no equilibrium: the supports do not hold {self._error(residual):.3g} N of {size:.3g} N", q
         )
+
+    def _error(self, imbalance: _Floats) -> float:
+        """Imbalance of what moves [N]."""
+        return float(np.linalg.norm(imbalance[self.free]))
+
+    def _newton_step(self, q: _Floats, residual: _Floats) -> _Floats:
+        step, free = np.zeros(q.size), self.free
+        step[free] = np.linalg.solve(self._slopes(q, OPEN)[np.ix_(free, free)], -residual[free])
+        return step
 
     def _along(self, q: _Floats, residual: _Floats, step: _Floats) -> tuple[_Floats, _Floats]:
         """Place on the way from `q` along a step, and the imbalance there: where forces along it balance, roughly.
@@ -204,18 +269,18 @@ class _Balance:
         minimum along the step the imbalance may be larger.
         """
         if step @ residual >= 0.0:  # inertia of balls makes slopes unsymmetric
-            step = -residual / np.diag(self._slopes(q, OPEN))
-        longest = [np.abs(self._rows[at] @ step)[:3].max() / ring.longest for at, ring in self._rings]
-        step = step / max(*longest, 1.0)
+            step = np.zeros(q.size)
+            step[self.free] = -(residual / np.diag(self._slopes(q, OPEN)))[self.free]
+        step = step / self._too_long(step)
         low, high, t = 0.0, math.inf, 1.0
-        error, slope = float(np.linalg.norm(residual)), abs(float(step @ residual))
+        error, slope = self._error(residual), abs(float(step @ residual))
         for _ in range(MOST_HALVINGS):
             try:
                 new = self._imbalance(q + t * step)
             except ConvergenceError:  # of a ball
                 new = np.full(q.size, math.nan)
             along = float(step @ new)
-            if np.linalg.norm(new) < 0.5 * error or abs(along) <= ROUGHLY * slope:
+            if self._error(new) < 0.5 * error or abs(along) <= ROUGHLY * slope:
                 break
             if along < 0.0:
                 low = t
@@ -232,7 +297,7 @@ class _Balance:
         values, vectors = np.linalg.eigh(0.5 * (slopes + slopes.T))
         if values[0] > HELD * values[-1]:
             return ""
-        moved = np.abs(self._rows @ vectors[:, 0])
+        moved = np.abs(self.rows @ vectors[:, 0])
         bearings = [mount for mount in self._mounts if isinstance(mount, BearingMount)]
         names = [
             f"{name} in {direction}"
@@ -242,25 +307,36 @@ class _Balance:
         return names[int(np.argmax(moved[-len(names) :]))]
 
     def _first(self) -> _Floats:
-        rows, mounts = self._rows, self._mounts
+        """Displacements on springs in place of the supports."""
+        rows, mounts, free = self.rows, self._mounts, self.free
         shifts = [mount.shift if isinstance(mount, BearingMount) else [mount.offset] for mount in mounts]
         springs = self._stiffness + GUESS * (rows.T @ rows) + GUESS * self._both_ways
-        right = self._load - GUESS * rows.T @ np.concatenate(shifts)
-        return np.asarray(np.linalg.solve(springs, right), np.float64)
+        right = self._load - GUESS * rows.T @ np.concatenate(shifts) - springs @ self._held
+        moved = np.zeros(right.size)
+        moved[free] = np.linalg.solve(springs[np.ix_(free, free)], right[free])
+        return np.asarray(self._held + moved / self._too_long(moved))
+
+    def _too_long(self, step: _Floats) -> float:
+        """At least 1: how many times further than balls follow a step moves a ring."""
+        lengths = [
+            float(np.abs(self.rows[columns] @ step)[: len(LENGTHS)].max()) / support.ring.longest
+            for columns, support in self.angular
+        ]
+        return max([*lengths, 1.0])
 
     def _imbalance(self, q: _Floats) -> _Floats:
-        r, forces = self._rows @ q, np.zeros(len(self._rows))
-        for columns, support in self._supports:
+        r, forces = self.rows @ q, np.zeros(len(self.rows))
+        for columns, support in self.supports:
             forces[columns] = support.force(r[columns])
-        if self._rings:
+        if self.angular:
             self._carried = float(np.linalg.norm(forces))
-        return np.asarray(self._stiffness @ q + self._rows.T @ forces - self._load)
+        return np.asarray(self._stiffness @ q + self.rows.T @ forces - self._load)
 
     def _slopes(self, q: _Floats, more: float) -> _Floats:
         """Derivative of the imbalance, `more` [N/m] added where supports may be open."""
-        rows = self._rows
+        rows = self.rows
         r, slopes = rows @ q, np.zeros((len(rows), len(rows)))
-        for columns, support in self._supports:
+        for columns, support in self.supports:
             slopes[columns, columns] = support.tangent(r[columns]) + more * np.eye(columns.stop - columns.start)
         return np.asarray(self._stiffness + rows.T @ slopes @ rows + more * self._both_ways)
 

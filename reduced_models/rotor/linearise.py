@@ -15,7 +15,8 @@ from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.summary import Summary
-from reduced_models.bearing.five_degrees import angular_equilibrium, equilibrium_at
+from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.five_degrees import AngularEquilibrium, angular_equilibrium, equilibrium_at
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.linear_balls import SmallBalls
@@ -430,6 +431,16 @@ def _linear_angular(
         places = [
             angular_equilibrium(one, force, first=ring) if loaded else equilibrium_at(one, ring) for one in rings
         ]
-    left_out = damping_left_out(bearing, rpm, np.array([at.force for at in places]))
-    small = bearing._small_angular(rpm, places)
-    return force, with_solved_contacts(bearing, rpm, small, places) if signed else small, left_out
+    return force, *linear_bearing(bearing, rpm, places, signed)
+
+
+def linear_bearing(
+    bearing: BallBearing, speed: float, places: Sequence[AngularEquilibrium], signed: bool
+) -> tuple[SmallAngularBalls, str]:
+    """A bearing about static equilibrium at positions of its cage, and the damping left out, in words.
+
+    With `signed` contacts under an oil supply have the impedance of the solved ones.
+    """
+    left_out = damping_left_out(bearing, speed, np.array([balls.force for balls in places]))
+    small = bearing._small_angular(speed, list(places))
+    return with_solved_contacts(bearing, speed, small, places) if signed else small, left_out

@@ -23,10 +23,10 @@ from ehlcontact.checks import (
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, span
-from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.freedoms import FACINGS, FIVE, facing_signs
 from reduced_models.rotor.beam import ShaftElement
+from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.rotor import Unbalance, require_unbalance
 from reduced_models.rotor.supports import BearingMount, require_bearing

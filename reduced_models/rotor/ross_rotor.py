@@ -19,12 +19,12 @@ from scipy.constants import g
 from ehlcontact.checks import as_column, require_instance, require_integer
 from ehlcontact.checks.frequency import is_given, one, radians_per_second
 from ehlcontact.errors import InputError
-from reduced_models.bearing.arrangement import BearingSet
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.freedoms import FACINGS, FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BearingMotion
 from reduced_models.bearing.ross_bearing import ELEMENT, WHIRL, has_whirl_axis, import_ross, name_of, ross_entries
+from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.linearise import linearise
 from reduced_models.rotor.nodes import DIRECTIONS, LENGTHS, PLANE
 from reduced_models.rotor.parts import Support

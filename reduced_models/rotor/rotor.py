@@ -168,11 +168,10 @@ class Rotor(Summary):
             for end in mount.ends:
                 self._require_there(f"mounts[{i}]", end)
             if isinstance(mount, BearingMount):
-                place = (*mount.ends[0], mount.arm)
+                place = (*mount.ends[0], mount.arm, mount.name)
                 if place in taken:
-                    raise InputError(
-                        f"mounts[{i}]", mount.ends[0], "at degrees of freedom that no other bearing has"
-                    )
+                    allowed = "at degrees of freedom that no other bearing has, or with a name of its own"
+                    raise InputError(f"mounts[{i}]", mount.ends[0], allowed)
                 taken.append(place)
         kinds = {len(mount.directions): mount for mount in self.ball_bearings}
         if len(kinds) > 1:

@@ -8,13 +8,16 @@ Seen with z to the right, the contact lines of a bearing that faces "+z" meet th
 | back to back (O) | "+z", "-z" | diverge towards the axis: stiff against tilting | by its inner rings |
 | face to face (X) | "-z", "+z" | converge towards the axis | by its outer rings |
 | tandem | "+z", "+z" | parallel: both carry axial load in +z | by the load, or another bearing |
+
+A set is a rigid `Rotor` of five degrees of freedom on its bearings. Outer rings on a spring have a sixth one,
+their displacement along the shaft, and the force of the spring is a load on it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from math import inf, sin
+from math import inf, pi, sin
 from typing import Any, Self
 
 import numpy as np
@@ -23,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions import Assumptions
 from ehlcontact.checks import (
+    as_column,
     require_choice,
     require_finite,
     require_instance,
@@ -36,16 +40,18 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
-from reduced_models.bearing.angular_balls import APPROACH
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.equilibrium import angle_of, direction_of
-from reduced_models.bearing.five_degrees import StaticRing, require_seated, search
-from reduced_models.bearing.freedoms import FACINGS, bearing_load, facing_signs, held_tilt, require_offset
-from reduced_models.bearing.linear_balls import BearingCoefficients
+from reduced_models.bearing.five_degrees import AngularEquilibrium, groove_distance, require_seated
+from reduced_models.bearing.freedoms import FACINGS, FIVE, bearing_load, facing_signs, held_tilt, require_offset
+from reduced_models.bearing.linear_balls import BearingCoefficients, stiffness_and_damping
 from reduced_models.bearing.race import assumptions_at_angles
 from reduced_models.bearing.set_result import SetState
-from reduced_models.bearing.solved_balls import damping_left_out, require_frequencies, with_solved_contacts
-from reduced_models.bearing.static_set import AXIAL, NAMES, SetEquilibrium, SmallSet, StaticSet, ring_rows
+from reduced_models.bearing.solved_balls import require_frequencies
+from reduced_models.rotor.equilibrium import StaticAngularBalls, StaticRotor
+from reduced_models.rotor.linearise import LinearRotor, linear_bearing
+from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.supports import BearingMount
 
 _Floats = NDArray[np.float64]
 
@@ -54,6 +60,9 @@ ARRANGEMENTS = {"back to back": FACINGS, "face to face": FACINGS[::-1], "tandem"
 SIDE_BY_SIDE = 1.8
 FADED = 0.01  # forces of a bearing with films over those of the most loaded one, below which it is unloaded
 FARTHEST = 10.0  # m, of a bearing from the origin: millimetres are meant beyond
+X, Y, Z, TILT_X, TILT_Y, OUTER_RING = range(len(FIVE) + 1)  # degrees of freedom of a set as a rotor
+NAMES = (*FIVE, "z of the outer rings on the spring")
+VERTICAL = -0.5 * pi  # rad, of the first ball where no load says where it stands
 
 
 @stored("set of ball bearings")
@@ -240,27 +249,26 @@ class BearingSet(Summary):
         if len(set(self.facings)) == 1:
             allowed = f"left out: all bearings face {self.facings[0]}, so that they do not press each other"
             raise InputError("preload", preload, allowed)
-        by_facing: dict[str, float] = {}
-        for facing in FACINGS:
-            dry = [
-                replace(one, oil=None, supply=None, thermal=None)
-                for one, own in zip(self.bearings, self.facings, strict=True)
-                if own == facing
-            ]
-            rows = [ring_rows(FACINGS[0], 0.0, False)] * len(dry)
-            rings = [bearing._static_ring(0.0, 0.0, 3) for bearing in dry]
-            body, load = (
-                StaticSet(rings, rows, np.zeros(len(dry)).tolist(), 3, np.zeros(2)),
-                np.array([0.0, 0.0, preload]),
-            )
-            q = search(body, rings, load, load)
-            try:
-                for bearing, at in zip(dry, body.at(q).bearings, strict=True):
-                    bearing._require_in_grooves(at.found, load, 0.0)
-            except InputError as error:
-                raise InputError("preload", preload, error.allowed) from None
-            by_facing[facing] = float(q[AXIAL])
-        return replace(self, offsets=tuple(by_facing[facing] for facing in self.facings))
+        offsets = {facing: self._pressed_by(preload, facing) for facing in FACINGS}
+        return replace(self, offsets=tuple(offsets[facing] for facing in self.facings))
+
+    def _pressed_by(self, preload: float, facing: str) -> float:
+        """Displacement [m] along their facing by which an axial force presses all bearings of one facing."""
+        dry = [
+            replace(bearing, oil=None, supply=None, thermal=None)
+            for bearing, own in zip(self.bearings, self.facings, strict=True)
+            if own == facing
+        ]
+        mounts = [BearingMount(bearing=one, x=X, y=Y, z=Z, tilt_x=TILT_X, tilt_y=TILT_Y) for one in dry]
+        load = np.eye(len(FIVE))[Z] * preload
+        static = StaticRotor(mounts, load, np.zeros((len(FIVE), len(FIVE))), 0.0, {TILT_X: 0.0, TILT_Y: 0.0})
+        q, _ = static.search()
+        try:
+            for bearing, balls in zip(dry, static.bearings(q), strict=True):
+                bearing._require_in_grooves(balls.found, load[: Z + 1], 0.0)
+        except InputError as error:
+            raise InputError("preload", preload, error.allowed) from None
+        return float(q[Z])
 
     @takes(growth="m")
     def grown(self, growth: float) -> Self:
@@ -283,7 +291,7 @@ class BearingSet(Summary):
         if length == 0.0:
             raise InputError("growth", growth, "left out: all bearings are at one place")
         share = (places - 0.5 * (places.min() + places.max())) / length  # of the growth, along z
-        share *= [0.0 if facing == self.sprung else facing_signs(facing)[AXIAL] for facing in self.facings]
+        share *= [0.0 if facing == self.sprung else facing_signs(facing)[Z] for facing in self.facings]
         longer = replace(self, offsets=tuple((np.array(self.offsets) + growth * share).tolist()))
         if self._interference > 0.0 >= longer._interference and not self.may_lift_off:
             most = self._interference * growth / (self._interference - longer._interference)
@@ -322,17 +330,17 @@ class BearingSet(Summary):
         """
         force, speed = bearing_load(load), self.speed(speed_rpm)
         angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
-        at = self._set_equilibrium(force, speed, [angle] * len(self.bearings), held_tilt(tilt, force.size))
-        rows = zip(self.bearings, at.bearings, strict=True)
+        rest = self._at_rest(force, speed, [angle] * len(self.bearings), held_tilt(tilt, force.size))
+        rows = zip(self.bearings, rest.bearings, strict=True)
         return SetState(
             name=self.name,
-            load=at.load,
+            load=rest.load,
             speed_rpm=speed,
-            displacement=at.displacement,
-            stiffness=at.stiffness,
-            axial_forces=np.array([one.load[AXIAL] for one in at.bearings]),
+            displacement=rest.displacement,
+            stiffness=rest.stiffness,
+            axial_forces=np.array([balls.load[Z] for balls in rest.bearings]),
             facings=tuple(self.facings),
-            bearings=tuple(bearing._angular_state(one, speed, angle) for bearing, one in rows),
+            bearings=tuple(bearing._angular_state(balls, speed, angle) for bearing, balls in rows),
         )
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad", tilt="rad")
@@ -371,33 +379,48 @@ class BearingSet(Summary):
         """
         force, speed = bearing_load(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
-        turns = [bearing._cage_angles(force, cage_angle) for bearing in self.bearings]
+        cages = list(zip(*(bearing._cage_angles(force, cage_angle) for bearing in self.bearings), strict=True))
         held = held_tilt(tilt, force.size)
-        places = [self._set_equilibrium(force, speed, angles, held) for angles in zip(*turns, strict=True)]
-        by_bearing = [[at.bearings[k] for at in places] for k in range(len(self.bearings))]
+        rests = [self._at_rest(force, speed, angles, held) for angles in cages]
+        full = np.mean([rest.load for rest in rests], axis=0)
+        by_bearing = list(zip(*(rest.bearings for rest in rests), strict=True))
         rows = list(zip(self.bearings, by_bearing, strict=True))
-        small = SmallSet([bearing._small_angular(speed, own) for bearing, own in rows], self._rows)
-        signed, left_out = self._starved(speed, small, by_bearing, w)
-        judged = [assumptions_at_angles(one, speed, own) for one, own in rows if one.oil is not None]
+        linear = self._linear(full, speed, cage_angle is None, rows, signed=False)
+        judged = [assumptions_at_angles(bearing, speed, own) for bearing, own in rows if bearing.oil is not None]
         outside = Assumptions.worst_of(judged).headline if judged else ""
-        full = np.mean([at.load for at in places], axis=0)
+        signed = None
+        if any(bearing.supply is not None for bearing in self.bearings):
+            solved = self._linear(full, speed, cage_angle is None, rows, signed=True)
+            for bearing, balls in zip(self.bearings, solved.balls, strict=True):
+                if bearing.supply is not None:
+                    require_frequencies(balls, w)
+            signed = _coefficients(solved, w)[1]
+        left_out = "; ".join(f"bearing {k}: {words}" for k, words in enumerate(linear.damping_left_out) if words)
         notes = outside, signed, left_out
-        return BearingCoefficients.of(full, speed, cage_angle, w, small.coefficients(w), places, *notes)
+        return BearingCoefficients.of(full, speed, cage_angle, w, _coefficients(linear, w), rests, *notes)
 
-    def _starved(
-        self, speed: float, small: SmallSet, places: Sequence[Sequence[Any]], omega: _Floats
-    ) -> tuple[_Floats | None, str]:
-        """Damping by the solved contacts of bearings under an oil supply, and what elements leave out of it."""
-        if all(bearing.supply is None for bearing in self.bearings):
-            return None, ""
-        rows = list(zip(self.bearings, small.bearings, places, strict=True))
-        solved = [with_solved_contacts(bearing, speed, one, at) for bearing, one, at in rows]
-        for bearing, one in zip(self.bearings, solved, strict=True):
-            if bearing.supply is not None:
-                require_frequencies(one, omega)
-        words = [damping_left_out(one, speed, np.array([k.force for k in at])) for one, _, at in rows]
-        said = "; ".join(f"bearing {k}: {one}" for k, one in enumerate(words) if one)
-        return SmallSet(solved, small.rows).coefficients(omega)[1], said
+    def _linear(
+        self,
+        load: _Floats,
+        speed: float,
+        passage: bool,
+        rows: Sequence[tuple[BallBearing, Sequence[AngularEquilibrium]]],
+        *,
+        signed: bool,
+    ) -> LinearRotor:
+        """The set as a rotor about equilibrium, from the balls of every bearing at all positions of the cage."""
+        parts = [linear_bearing(bearing, speed, places, signed) for bearing, places in rows]
+        return LinearRotor(
+            rotor=self.rotor(load),
+            speed_rpm=speed,
+            passage=passage,
+            rest=np.zeros(self._size),
+            loads=np.array([np.mean([balls.load for balls in places], axis=0) for _, places in rows]),
+            contacts=(),
+            balls=tuple(balls for balls, _ in parts),
+            damping_left_out=tuple(words for _, words in parts),
+            signed_damping=signed,
+        )
 
     @takes(speed_rpm="rev/min")
     def lift_off(self, direction: str, *, speed_rpm: float = 0.0) -> float:
@@ -408,29 +431,29 @@ class BearingSet(Summary):
         fades: a bearing counts as unloaded when its balls carry 1 % of those of the most loaded bearing.
         """
         require_choice("direction", direction, FACINGS)
-        speed, sign = self.speed(speed_rpm), facing_signs(direction)[AXIAL]
-        rings = self._rings(speed, [0.0] * len(self.bearings))
-        signs = [sign * facing_signs(facing)[AXIAL] for facing in self.facings]
+        speed, sign = self.speed(speed_rpm), facing_signs(direction)[Z]
+        balls = [support for _, support in self._static(np.zeros(len(FIVE)), speed).angular]
+        signs = [sign * facing_signs(facing)[Z] for facing in self.facings]
         held = [k for k, facing in enumerate(self.facings) if facing != self.sprung]
 
         def press(along: float) -> None:
             """Move the shaft in the direction [m]."""
             for k in held:
-                rings[k].press(np.eye(5)[AXIAL] * (signs[k] * along + self.offsets[k]))
+                balls[k].press(np.eye(len(FIVE))[Z] * signs[k] * along)
 
         def margin(along: float, k: int) -> float:
             press(along)
-            return _margin(rings, k)
+            return _margin(balls, k)
 
         def leaves(k: int) -> float:
-            first = 0.0 if self.sprung is None else self.offsets[k] - rings[k].longest
+            first = 0.0 if self.sprung is None else self.offsets[k] - balls[k].ring.longest
             if margin(first, k) <= 0.0:
                 return 0.0
             far = self.offsets[k]  # its ring at 0
             while margin(far, k) > 0.0:
-                if self.bearings[k].contact_angle is None or far > rings[k].balls.grooves.radial:
+                if self.bearings[k].contact_angle is None or far > balls[k].ring.balls.grooves.radial:
                     return inf  # radially preloaded, or pressed on the other side
-                far += rings[k].longest
+                far += balls[k].ring.longest
             return float(scipy.optimize.brentq(margin, first, far, args=(k,), xtol=1e-15))
 
         along = min((leaves(k) for k in held if signs[k] < 0.0), default=inf)
@@ -438,7 +461,32 @@ class BearingSet(Summary):
             return along
         press(along)
         spring = self.spring if self.sprung == direction else 0.0
-        return float(spring + sum(signs[k] * rings[k].load[AXIAL] for k in held))
+        return float(spring + sum(signs[k] * balls[k].ring.load[Z] for k in held))
+
+    @takes(load="N", cage_angle="rad")
+    def rotor(
+        self,
+        load: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0),
+        *,
+        mass: ArrayLike | None = None,
+        cage_angle: float = VERTICAL,
+    ) -> Rotor:
+        """The set as a rigid rotor, for runs and modes.
+
+        Its degrees of freedom are x, y, z, tilt_x and tilt_y of the shaft at 0 (node "shaft"), and z of outer
+        rings that slide under a spring (node "outer ring").
+
+        Parameters
+        ----------
+        load : tuple of 5 float
+            (Fx, Fy, Fz, Mx, My) on the shaft at 0 [N], [N m].
+        mass : array_like, shape (N, N), optional
+            Of the shaft, and of outer rings on the spring [kg], [kg m2]; by default 1 in every direction, which
+            changes neither statics nor impedances.
+        cage_angle : float
+            Of the first ball of each bearing at the start [rad].
+        """
+        return self._rotor(as_column("load", load, size=len(FIVE)), [cage_angle] * len(self.bearings), mass)
 
     @property
     def highest_speed(self) -> float:
@@ -461,41 +509,85 @@ class BearingSet(Summary):
             return inf if self.spring > 0.0 else -inf
         most = dict.fromkeys(FACINGS, -inf)
         for bearing, facing, offset in zip(self.bearings, self.facings, self.offsets, strict=True):
-            touches = (
-                0.0 if bearing.contact_angle is not None else bearing._groove_distance * sin(bearing.free_angle)
-            )
+            grooves = groove_distance(bearing.ball_diameter, bearing.conformity_inner, bearing.conformity_outer)
+            touches = 0.0 if bearing.contact_angle is not None else grooves * sin(bearing.free_angle)
             pressed = inf if bearing.contact_angle is None and bearing.clearance < 0.0 else offset - touches
             most[facing] = max(most[facing], pressed)
         return sum(most.values()) if -inf not in most.values() else -inf
 
     @property
-    def _rows(self) -> list[_Floats]:
-        places = zip(self.facings, self.positions, strict=True)
-        return [ring_rows(facing, position, facing == self.sprung) for facing, position in places]
+    def _size(self) -> int:
+        """Number of degrees of freedom of the rotor."""
+        return len(FIVE) + (self.sprung is not None)
 
-    def _rings(self, speed: float, angles: Sequence[float]) -> list[StaticRing]:
-        """Of all bearings, the first ball of each at its angle."""
-        return [one._static_ring(speed, angle, 5) for one, angle in zip(self.bearings, angles, strict=True)]
+    def _rotor(self, load: _Floats, angles: Sequence[float], mass: ArrayLike | None = None) -> Rotor:
+        """The rotor under a load on the shaft, shape (5,), the first ball of each bearing at its angle."""
+        rows = zip(self.bearings, self.facings, self.offsets, self.positions, angles, strict=True)
+        mounts = tuple(
+            BearingMount(
+                bearing=bearing,
+                x=X,
+                y=Y,
+                z=Z,
+                tilt_x=TILT_X,
+                tilt_y=TILT_Y,
+                housing=(None, None, OUTER_RING) if facing == self.sprung else None,
+                cage_angle=angle,
+                facing=facing,
+                offset=offset,
+                arm=position,
+                name=f"bearing {k}",
+            )
+            for k, (bearing, facing, offset, position, angle) in enumerate(rows)
+        )
+        nodes = {"shaft": {name: place for place, name in enumerate(FIVE)}}
+        full = np.zeros(self._size)
+        full[: load.size] = load
+        if self.sprung is not None:
+            full[OUTER_RING] = -facing_signs(self.sprung)[Z] * self.spring
+            nodes["outer ring"] = {"z": OUTER_RING}
+        return Rotor(
+            mass=np.eye(self._size) if mass is None else mass,  # type: ignore[arg-type]
+            stiffness=np.zeros((self._size, self._size)),
+            mounts=mounts,
+            load=full,
+            nodes=nodes,
+        )
 
-    def _set_equilibrium(
-        self, load: _Floats, speed: float, angles: Sequence[float], tilt: _Floats
-    ) -> SetEquilibrium:
+    def _static(
+        self,
+        load: _Floats,
+        speed: float,
+        angles: Sequence[float] | None = None,
+        held: Mapping[int, float] | None = None,
+    ) -> StaticRotor:
+        rotor = self._rotor(load, [VERTICAL] * len(self.bearings) if angles is None else angles)
+        return StaticRotor(rotor.mounts, rotor.load, rotor.stiffness, speed, held)
+
+    def _at_rest(self, load: _Floats, speed: float, angles: Sequence[float], tilt: _Floats) -> _SetAtRest:
         """Shaft in equilibrium; raises `InputError` for a load that the set does not take."""
-        if load.size > AXIAL:
+        if load.size > Z:
             self._require_carried(load)
-        rings = self._rings(speed, angles)
-        body = StaticSet(rings, self._rows, self.offsets, load.size, tilt)
-        given = np.append(load, self.spring) if self.sprung is not None else load
-        q = search(body, rings, given * body.unit, load)
-        require_seated(body.tangent(q), load, [NAMES[k] for k in body.moves])
-        at = body.at(q)
-        for k, (bearing, one) in enumerate(zip(self.bearings, at.bearings, strict=True)):
+        displacements = np.array([0.0, 0.0, 0.0, *tilt])
+        held = dict(enumerate(displacements.tolist()[load.size :], load.size))
+        static = self._static(load, speed, angles, held)
+        q, share = static.search()
+        if share < 1.0:
+            allowed = "one under which friction holds the gyroscopic moment of all balls at this speed"
+            raise InputError("load", load.tolist(), f"{allowed} (found to {share:.2g} of it)")
+        slopes, free = static.slopes(q), static.free
+        circle = float(np.mean([support.ring.balls.grooves.groove_circle for _, support in static.angular]))
+        unit = np.array([1.0, 1.0, 1.0, 1.0 / circle, 1.0 / circle, 1.0])[free]  # of lengths, over displacements
+        require_seated(slopes[np.ix_(free, free)] * np.outer(unit, unit), load, [NAMES[k] for k in free])
+        bearings = static.bearings(q)
+        for k, (bearing, balls) in enumerate(zip(self.bearings, bearings, strict=True)):
             try:
-                bearing._require_in_grooves(one.found, load, speed)
+                bearing._require_in_grooves(balls.found, load, speed)
             except InputError as error:
                 raise InputError(error.field, error.value, f"{error.allowed}, in bearing {k}") from None
-        self._require_loaded(rings, load, speed)
-        return replace(at, load=np.append(load, at.load[load.size :]))
+        self._require_loaded([support for _, support in static.angular], load, speed)
+        full = np.append(load, static.carried(q)[load.size : len(FIVE)])
+        return _SetAtRest(q[: len(FIVE)], full, _ring_following(slopes), bearings)
 
     def _require_carried(self, load: _Floats) -> None:
         """Raise `InputError` for an axial load that nothing carries."""
@@ -504,7 +596,7 @@ class BearingSet(Summary):
             if any(own != self.sprung and (one.contact_angle is None or own == facing) for one, own in rows):
                 continue
             most = self.spring if self.sprung == facing else 0.0
-            if sign * load[AXIAL] >= most:
+            if sign * load[Z] >= most:
                 carried = f"the spring carries {most:g} N" if most > 0.0 else "no bearing carries axial load"
                 side = "below" if sign > 0.0 else "above"
                 allowed = f"one with Fz {side} {sign * most + 0.0:g} N: {carried} in {facing}"
@@ -514,12 +606,12 @@ class BearingSet(Summary):
     def _preloads(self) -> bool:
         return self._interference > 0.0
 
-    def _require_loaded(self, rings: Sequence[StaticRing], load: _Floats, speed: float) -> None:
+    def _require_loaded(self, balls: Sequence[StaticAngularBalls], load: _Floats, speed: float) -> None:
         """Raise `InputError` where a load has unloaded a bearing of a set that offsets preload."""
         if self.may_lift_off or self.sprung is not None or not self._preloads:
             return
         for k, facing in enumerate(self.facings):
-            if _margin(rings, k) > 0.0:
+            if _margin(balls, k) > 0.0:
                 continue
             away = FACINGS[1 - FACINGS.index(facing)]
             begins = self.lift_off(away, speed_rpm=speed)
@@ -559,9 +651,36 @@ class BearingSet(Summary):
         return cls(**{**entries, "bearings": [BallBearing.from_dict(one) for one in entries["bearings"]]})
 
 
-def _margin(rings: Sequence[StaticRing], k: int) -> float:
+@dataclass(frozen=True, eq=False)
+class _SetAtRest:
+    """The shaft of a set in static equilibrium, and its bearings."""
+
+    displacement: _Floats  # (5,) of the shaft [m], [rad]
+    load: _Floats  # (5,) [N], [N m], reactions of what is held included
+    stiffness: _Floats  # (5, 5)
+    bearings: list[AngularEquilibrium]  # each in its own frame
+
+
+def _margin(balls: Sequence[StaticAngularBalls], k: int) -> float:
     """Above 0 while bearing k carries: approach of its most pressed ball [m], or force beyond a share [N]."""
-    ring = rings[k]
-    if ring.balls.inner.x.size == 0:
-        return float(ring.places.found[:, APPROACH].max())
-    return ring.carried() - FADED * max(one.carried() for one in rings)
+    if balls[k].bearing.oil is None:
+        return balls[k].closest
+    return balls[k].ring.carried() - FADED * max(bearing.ring.carried() for bearing in balls)
+
+
+def _ring_following(matrix: NDArray[Any]) -> NDArray[Any]:
+    """Matrices over the five degrees of freedom of the shaft, outer rings on a spring following without force."""
+    shaft = matrix[..., :OUTER_RING, :OUTER_RING]
+    if matrix.shape[-1] == len(FIVE) or not matrix[..., OUTER_RING, OUTER_RING].any():  # fixed, or not pressed
+        return shaft
+    columns, row = matrix[..., :OUTER_RING, OUTER_RING:], matrix[..., OUTER_RING:, :OUTER_RING]
+    return shaft - columns @ row / matrix[..., OUTER_RING:, OUTER_RING:]
+
+
+def _coefficients(linear: LinearRotor, omega: _Floats) -> tuple[_Floats, _Floats]:
+    """Stiffness and damping of the shaft, shape (k, 5, 5), at angular frequencies [rad/s], shape (k,)."""
+
+    def impedance(s: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        return _ring_following(np.array([linear.support_impedance(one) for one in s.tolist()]))
+
+    return stiffness_and_damping(impedance, omega)

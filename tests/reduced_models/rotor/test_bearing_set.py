@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from balls_in_balance import imbalance, races_by_hand, random_bearing
 from refusals import refused
-from scipy.optimize import brentq
+from scipy.optimize import brentq, root
 
 from ehlcontact import Lubricant, read, save
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingSet
+from reduced_models import BallBearing, BearingSet, linearise
 from reduced_models.bearing.set_result import SetState
 
 SPINDLE = BallBearing(balls=13, ball_diameter=7.938e-3, pitch_diameter=38.5e-3, contact_angle=radians(25.0))
@@ -153,6 +153,78 @@ def test_loads_of_all_bearings_balance_that_of_the_shaft():
         require_balance(found, tilted, given[:3])
 
 
+def moves_of_rings(found):
+    """Rows by which the shaft and outer rings on a spring move each ring in its own frame, shape (5, 6) each."""
+    rows = []
+    for facing, position in zip(found.facings, found.positions, strict=True):
+        sign = 1.0 if facing == "+z" else -1.0
+        move = np.zeros((5, 6))
+        move[:, :5] = np.diag([1.0, 1.0, sign, sign, sign])
+        move[0, 4], move[1, 3] = position, -position
+        move[2, 5] = float(facing == found.sprung)
+        rows.append(move)
+    return rows
+
+
+@pytest.mark.parametrize("rpm", [0.0, pytest.param(12000.0, marks=pytest.mark.long)])
+def test_three_unequal_bearings_on_a_spring_against_their_compliances(rpm):
+    """Loads of bearings and place of the shaft by scipy: each bearing is displaced by its load as it is alone."""
+    third = replace(SPINDLE, balls=11, contact_angle=radians(20.0))
+    found = BearingSet(
+        bearings=(SPINDLE, OTHER, third),
+        facings=("+z", "+z", "-z"),
+        positions=(-0.02, 0.01, 0.05),
+        offsets=(3e-6, -2e-6, 0.0),
+        spring=300.0,
+    )
+    given, under = np.array([80.0, -150.0, 60.0, 1.2, -0.6]), {"speed_rpm": rpm, "cage_angle": 0.4}
+    rows, loads = moves_of_rings(found), np.array([1.0, 1.0, 1.0, 0.02, 0.02])
+    lengths = np.array([1e-6, 1e-6, 1e-6, 5e-5, 5e-5])
+
+    def forces_of(unknowns):
+        """Of the bearings; logarithms of axial forces are unknown, for an angular contact bearing has them > 0."""
+        own = unknowns[:15].reshape(3, 5).copy()
+        own[:, 2] = np.exp(own[:, 2])
+        return 100.0 * own * loads
+
+    def left(unknowns):
+        """Imbalance of the shaft and of the spring, and displacements that do not fit, over their sizes."""
+        forces, q = forces_of(unknowns), unknowns[15:] * [*lengths, 1e-6]
+        balance, apart = -np.append(given, 300.0), []
+        for bearing, move, offset, force in zip(found.bearings, rows, found.offsets, forces, strict=True):
+            balance += move.T @ force
+            ring = move @ q + [0.0, 0.0, offset, 0.0, 0.0]
+            apart.append((bearing.equilibrium(force, **under).displacement - ring) / lengths)
+        return np.concatenate([balance / (100.0 * np.append(loads, 1.0)), *apart])
+
+    first = np.array([0.3, -0.5, 0.5, 0.0, 0.0] * 2 + [0.2, -0.5, 1.0, 0.0, 0.0] + [0.0, 0.0, 3.0, 0.0, 0.0, 1.0])
+    solved = root(left, first, tol=1e-12)
+    state = found.equilibrium(given, **under)
+    assert np.abs(left(solved.x)).max() < 1e-8
+    np.testing.assert_allclose(state.displacement / lengths, solved.x[15:20], atol=1e-7)
+    np.testing.assert_allclose([one.load for one in state.bearings], forces_of(solved.x), atol=1e-5)
+
+
+@pytest.mark.parametrize("kind", ["preload", "spring"])
+def test_a_set_is_a_rigid_rotor(kind):
+    """Statics and impedance of the rotor that a set gives are those of the set."""
+    wet, other = replace(SPINDLE, oil=OIL), replace(OTHER, oil=OIL)
+    pair = BearingSet.pair(wet, other=other, distance=30e-3, **{kind: 250.0})
+    given, rpm, w = (60.0, -200.0, 80.0, 1.0, -0.5), 9000.0, 2.0 * pi * np.array([50.0, 500.0])
+    rotor = pair.rotor(given, mass=2.0 * np.eye(5 + (kind == "spring")), cage_angle=0.3)
+    state = pair.equilibrium(given, speed_rpm=rpm, cage_angle=0.3)
+    shaft = list(rotor.nodes["shaft"].values())
+    np.testing.assert_allclose(rotor.equilibrium(rpm)[shaft], state.displacement, rtol=1e-9)
+    linear = linearise(rotor, rpm, passage=False)
+    Z = np.array([linear.support_impedance(1j * one) for one in w])
+    if kind == "spring":
+        Z = np.linalg.inv(np.linalg.inv(Z)[:, :5, :5])  # no force on the outer ring
+    small = pair.coefficients(given, speed_rpm=rpm, cage_angle=0.3, omega=w)
+    for wanted, part in ((small.stiffness, Z.real), (small.damping, Z.imag / w[:, None, None])):
+        np.testing.assert_allclose(part, wanted, atol=1e-9 * np.abs(wanted).max())
+    assert linear.stable
+
+
 def test_spring_keeps_its_force():
     rigid, sprung = BearingSet.pair(SPINDLE, preload=200.0), BearingSet.pair(SPINDLE, spring=200.0)
     still = sprung.equilibrium((0.0, 0.0, 0.0))
@@ -267,13 +339,8 @@ def test_coefficients_of_a_pair_are_those_of_its_bearings():
         state = found.equilibrium(given, **kwargs)
         K, C = np.zeros((6, 6)), np.zeros((6, 6))
         w = 2.0 * pi * 200.0
-        for one, facing, position in zip(state.bearings, found.facings, found.positions, strict=True):
+        for one, moves in zip(state.bearings, moves_of_rings(found), strict=True):
             own = wet.coefficients(one.load, **kwargs, hz=200.0)
-            moves = np.zeros((5, 6))
-            sign = 1.0 if facing == "+z" else -1.0
-            moves[:, :5] = np.diag([1.0, 1.0, sign, sign, sign])
-            moves[0, 4], moves[1, 3] = position, -position
-            moves[2, 5] = float(facing == found.sprung)
             K += moves.T @ own.stiffness[0] @ moves
             C += moves.T @ own.damping[0] @ moves
         Z = K + 1j * w * C
