@@ -3,11 +3,12 @@
 Every node has x, y, and the turns about x and y; a node's shaft bends in x-z with the turn about y.
 """
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 
-from reduced_models import BallBearing, BearingMount, Rotor, Unbalance
+from reduced_models import BearingMotion, BearingMount, Rotor, Unbalance
+from reduced_models.rotor.integrate_compiled import CompiledSteps
+from reduced_models.rotor.prepared_run import PreparedRun
+from reduced_models.rotor.simulate import steps_until
 
 RHO, E, G_S = 7810.0, 211e9, 81.2e9  # steel
 
@@ -106,16 +107,21 @@ def block(bearing, mass=2.0, load=(0.0, -300.0), unbalance=0.0, **changes):
     return Rotor(**(given | {"unbalances": heavy} | changes))
 
 
-@dataclass(frozen=True, kw_only=True)
-class StillBearing(BallBearing):
-    """Its balls do not go round."""
+def still_motion(bearing, speed_rpm, dt, cage_angle=-np.pi / 2.0):
+    """A motion with films as at a speed whose balls do not go round and have no centrifugal force."""
+    motion = BearingMotion(bearing, speed_rpm, dt, cage_angle)
+    motion._omega = 0.0
+    motion.rest(np.zeros(2))
+    return motion
 
-    def _kernel(self, speeds_rpm):
-        return super()._kernel(speeds_rpm)._replace(cage=0.0, centrifugal_factor=0.0)
 
-
-def with_balls(bearing, balls, speed_rpm=3000.0):
-    """A copy of a bearing with other parameters of its kernels at a speed."""
-    changed = replace(bearing)
-    changed._cache["kernel", speed_rpm] = balls
-    return changed
+def still_run(rotor, speed_rpm, dt, until, start="static", rho_inf=0.8):
+    """Times and displacements of a run with films and unbalances as at a speed, and balls that do not go round."""
+    run = PreparedRun(rotor, speed_rpm, dt, steps_until(dt, until), start, rho_inf)
+    run.omega = np.zeros_like(run.omega)
+    for mount, at, balls in zip(rotor.ball_bearings, run.ball_directions, run.balls, strict=True):
+        balls.rest(0.0, mount.cage_angle, run.histories.motion[0, at])
+    integrator = CompiledSteps(run, 1e-9)
+    for first, end, steps in run.blocks():
+        integrator.advance(steps, first, end, lambda made: None)
+    return run.t, run.histories.displacement

@@ -10,13 +10,12 @@ FINE = 4e-6  # s
 
 def trapezoidal(model, mass, load, dt, steps, v):
     """Heights of a mass on the bearing in Python, by the trapezoidal rule and Newton's method."""
-    motion, q, v, angle = model.motion(), model.place.copy(), np.array([0.0, v]), START
+    motion, q, v = model.motion(), model.place.copy(), np.array([0.0, v])
     omega, pull = float(model.speeds[-1]) * RPM_TO_RAD_S, np.array([0.0, -load])
-    a = (pull - motion.rest(omega, angle, q)) / mass
+    a = (pull - motion.rest(omega, START, q)) / mass
     kept = [q[1]]
     for _ in range(steps):
-        angle += dt * omega * motion.balls.cage
-        motion.begin(omega, angle, dt)
+        motion.begin(omega, dt)
         q1 = q + dt * (v + 0.5 * dt * a)
         for _ in range(20):
             v1 = 2.0 / dt * (q1 - q) - v

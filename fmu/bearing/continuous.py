@@ -11,11 +11,12 @@ from fmu.bearing.model import BearingModel
 from fmu.bearing.places import counted_from
 from fmu.bearing.trial import START
 from fmu.bearing.variables import BallStates
-from reduced_models.bearing.balls import POSITION, directions, speed_state
+from reduced_models.bearing.balls import directions, speed_state
 from reduced_models.bearing.continuous_time import RestingBalls, bearing_rates, rates_with_cage
 from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.motion import AngularMotion, BallMotion
+from reduced_models.bearing.motion import BallMotion
+from reduced_models.bearing.race import RACES
 
 _Floats = NDArray[np.float64]
 
@@ -73,23 +74,22 @@ def state_points(model: BearingModel, count: int = POINTS, seed: int = 2) -> Sta
         states[:, 1 + sizes.size :] *= SETTLING
     states[:, 0] = START + turned
     states[:, 1 : 1 + sizes.size] += np.where(kinds == "w", np.abs(moved), moved)
-    counted = counted_from(model) if isinstance(motion, AngularMotion) else None
+    counted = counted_from(model)
     found = [
-        rates_in_time(motion, *row, counted) for row in zip(states, place, velocity, speed.tolist(), strict=True)
+        rates_in_time(model, motion, *row, counted)
+        for row in zip(states, place, velocity, speed.tolist(), strict=True)
     ]
     rates, force = (np.array(part) for part in zip(*found, strict=True))
     return StatePoints(states, rates, place, velocity, speed, force)
 
 
-def _rest_states(
-    model: BearingModel, motion: BallMotion | AngularMotion, speed: float, angle: float, place: _Floats
-) -> _Floats:
+def _rest_states(model: BearingModel, motion: BallMotion, speed: float, angle: float, place: _Floats) -> _Floats:
     """States of the bearing at rest [rad], [m], [N], [N m]; those of films are 0."""
     made = BallStates.of(model)
     force = motion.rest(speed, angle, place)
     balls = np.zeros((motion.balls.number, len(made.balls[0])))
-    if isinstance(motion, BallMotion):
-        balls[:, :1] = motion.films.balls[:, POSITION : POSITION + min(1, balls.shape[1])]
+    if place.size == len(PLANAR):
+        balls[:, :1] = [[motion.approach(k, RACES[1])][: balls.shape[1]] for k in range(motion.balls.number)]
     elif balls.size:
         counted = counted_from(model)
         (r, z), (e_r, e_z) = (motion.films.place - counted.place).T, counted.place[0] / np.hypot(*counted.place[0])
@@ -98,12 +98,13 @@ def _rest_states(
 
 
 def rates_in_time(
-    motion: BallMotion | AngularMotion,
+    model: BearingModel,
+    motion: BallMotion,
     states: _Floats,
     place: _Floats,
     velocity: _Floats,
     speed: float,
-    counted: RestingBalls | None = None,
+    counted: RestingBalls,
 ) -> tuple[_Floats, _Floats]:
     """Rates of the states, and the force on the inner ring, shape (n,) [N], [N m].
 
@@ -115,18 +116,18 @@ def rates_in_time(
     force, of_balls = np.zeros(n), np.zeros(end - 1)
     if end == 1:  # dry balls are where they are at rest
         force = motion.rest(speed, angle, place)
-    if isinstance(motion, AngularMotion):
-        assert counted is not None
+    if n > len(PLANAR):
         balls = motion.balls._replace(omega=speed)
         given = states[1:end], place, velocity, of_balls, force
         rates[0] = rates_with_cage(balls, counted, angle, *given) if end > 1 else speed * motion.films.cage[2]
     else:
-        rates[0] = motion.balls.cage * speed
+        planar = model.bearing._kernel(model.speeds)
+        rates[0] = planar.cage * speed
         if end > 1:
-            normals = np.zeros((motion.balls.number, 2))
-            directions(motion.balls, angle, normals)
-            at_speed = speed_state(motion.balls, speed)
-            bearing_rates(motion.balls, at_speed, normals, states[1:end], place, velocity, of_balls, force)
+            normals = np.zeros((planar.number, 2))
+            directions(planar, angle, normals)
+            at_speed = speed_state(planar, speed)
+            bearing_rates(planar, at_speed, normals, states[1:end], place, velocity, of_balls, force)
     rates[1:end] = of_balls
     lost = force - states[end:].reshape(-1, n)
     rates[end:] = (poles[:, None] * lost).ravel()

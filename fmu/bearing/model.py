@@ -14,7 +14,7 @@ from ehlcontact.errors import InputError
 from reduced_models import BallBearing
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import FIVE, PLANAR
-from reduced_models.bearing.motion import AngularMotion, BallMotion, motion_of
+from reduced_models.bearing.motion import BallMotion, motion_of
 from reduced_models.bearing.race import RACES
 from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out
 from reduced_models.rotor.speed_profile import law_speeds
@@ -147,6 +147,6 @@ class BearingModel:
                 return f"where a ball carries {load:.3g} N, {words}"
         return ""
 
-    def motion(self) -> BallMotion | AngularMotion:
+    def motion(self) -> BallMotion:
         """Balls and films of the bearing in time, in Python."""
-        return motion_of(self.bearing, self.speeds.tolist(), len(self.names))
+        return motion_of(self.bearing, self.speeds.tolist(), self.names)

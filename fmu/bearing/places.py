@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 
 from fmu.bearing.model import BearingModel
-from reduced_models.bearing.angular_balls import AngularBalls
 from reduced_models.bearing.ball_states import ACROSS
 from reduced_models.bearing.continuous_time import RestingBalls
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -27,7 +26,6 @@ def rolling_speed_sum(model: BearingModel) -> float:
 def counted_from(model: BearingModel) -> RestingBalls:
     """Of all balls alike."""
     balls = model.motion().balls
-    assert isinstance(balls, AngularBalls)
     g, bearing = balls.grooves, model.bearing
     radial = g.radial + (0.5 * bearing.clearance if bearing.contact_angle is None else 0.0)
     place = g.outer * np.array([radial, g.axial]) / np.hypot(radial, g.axial)

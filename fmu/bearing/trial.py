@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from fmu.bearing.model import BearingModel
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.motion import AngularMotion
 
 _Floats = NDArray[np.float64]
 
@@ -72,15 +71,13 @@ def bearing_trial(model: BearingModel, steps: int = STEPS, dt: float = DT, seed:
 
 
 def _forces(model: BearingModel, time: _Floats, place: _Floats, velocity: _Floats, speed: _Floats) -> BearingTrial:
-    motion, angle = model.motion(), START
+    motion = model.motion()
     force, balls = np.zeros_like(place), np.zeros((time.size, model.bearing.balls, 2))
-    force[0] = -motion.rest(float(speed[0]), angle, place[0])
+    force[0] = -motion.rest(float(speed[0]), START, place[0])
     balls[0] = motion.films.force
     for k in range(1, time.size):
         dt = float(time[k] - time[k - 1])
-        if not isinstance(motion, AngularMotion):
-            angle += 0.5 * dt * float(speed[k - 1] + speed[k]) * motion.balls.cage
-        motion.begin(float(speed[k]), angle, dt)
+        motion.begin(float(speed[k]), dt)
         force[k] = -motion.forces(place[k], velocity[k])[0]
         motion.accept()
         balls[k] = motion.films.force

@@ -18,7 +18,6 @@ from fmu.contact_variables import ALLOWED_ERROR
 from fmu.lead import CONTACT, HELD_PARALLEL
 from fmu.spec import ModelSpec, VariableList
 from reduced_models import BallBearing
-from reduced_models.bearing.angular_balls import AngularBalls
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.loss import FILTERS
@@ -371,7 +370,7 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
         "DEFAULT_TOLERANCE": ALLOWED_ERROR,
         "ROLLING_RADIUS": rolling_speed_sum(model),
     }
-    if isinstance(balls, AngularBalls):
+    if five:
         g, at = balls.grooves, counted_from(model)
         counts["RACE_CONTROL"] = g.control
         numbers |= {
@@ -393,10 +392,11 @@ def _macros(model: BearingModel, made: _Variables) -> dict[str, str]:
             "ACROSS": at.across[0],
         }
     else:
+        planar = bearing._kernel(model.speeds)
         numbers |= {
-            "CAGE_RATIO": balls.cage,
-            "CENTRIFUGAL_FACTOR": balls.centrifugal_factor,
-            "BALL_INERTIA": balls.inertia,
+            "CAGE_RATIO": planar.cage,
+            "CENTRIFUGAL_FACTOR": planar.centrifugal_factor,
+            "BALL_INERTIA": planar.inertia,
         }
     return (
         {k: str(v) for k, v in counts.items()}

@@ -13,7 +13,6 @@ from fmu.bearing.model import BearingModel
 from fmu.bearing.tables import film_logarithms
 from fmu.rotor.model import RotorModel
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.motion import AngularMotion
 from reduced_models.bearing.race import RACES
 from reduced_models.rotor.integrate_python import PythonSteps
 from reduced_models.rotor.prepared_run import PreparedRun
@@ -133,12 +132,7 @@ def _slowed(model: RotorModel, run: _Run, given: _Floats, k: int) -> float:
 
 def _rolls(run: _Run) -> list[_Floats]:
     """Sums of both surface speeds at all contacts over the speed of the shaft [m], shape (balls, 2) each."""
-    return [
-        one.films.speed_sum[:, NOW].reshape(-1, 2).copy()
-        if isinstance(one, AngularMotion)
-        else np.full((one.balls.number, 2), one.balls.speed_sum)
-        for one in run.balls
-    ]
+    return [one.films.speed_sum[:, NOW].reshape(-1, 2).copy() for one in run.balls]
 
 
 def _torque(

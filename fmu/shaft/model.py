@@ -129,7 +129,7 @@ class ShaftModel:
         q, _ = self.motion
         found = []
         for mount in self.stations:
-            balls = motion_of(mount.ball_bearing, [self.speed_rpm], len(mount.directions))
+            balls = motion_of(mount.ball_bearing, [self.speed_rpm], mount.directions)
             ring = mount.rows(self.rotor.size) @ q + mount.shift
             found.append(-balls.rest(self.speed_rpm * RPM_TO_RAD_S, mount.cage_angle, ring))
         return tuple(found)

@@ -167,7 +167,7 @@ def default_drive_step(model: ShaftModel) -> float:
     size = model.rotor.size
     borne = np.zeros((size, size))
     for mount in model.stations:
-        balls = motion_of(mount.ball_bearing, [model.speed_rpm], len(mount.directions))
+        balls = motion_of(mount.ball_bearing, [model.speed_rpm], mount.directions)
         rows = mount.rows(size)
         ring = rows @ model.motion[0] + mount.shift
         balls.rest(model.speed_rpm * RPM_TO_RAD_S, mount.cage_angle, ring)

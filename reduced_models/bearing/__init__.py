@@ -9,7 +9,6 @@
 | contact_angles | compiled: groove centres, contact angles, rolling and race control of a ball |
 | angular_balls | compiled: balls at contact angles in static equilibrium, the force on a ring with five degrees |
 | angular_steps | compiled: balls at contact angles over time steps, with their films |
-| ball_steps | time steps of balls, planar or at contact angles, by one interface |
 | compiled_list | `CompiledList`: bearings of any number in kernels that are compiled once |
 | five_degrees | a ring with five degrees of freedom in static equilibrium |
 | linear_angular | that ring about static equilibrium: impedance at complex frequencies |

@@ -457,14 +457,17 @@ def _search_ball(balls, omega, row, films, k, c, gain):
 @jit_exact_loop
 def _along(balls, omega, row, films, k, c, gain, length, far):
     """Force on ball `k` away from the outer groove centre, `length` from it, where none is across; its angle."""
-    low, high = min(far, 0.0) - BESIDE, max(far, 0.0) + BESIDE
+    low, high, angle = min(far, 0.0) - BESIDE, max(far, 0.0) + BESIDE, far
     for _ in range(HALVED):
-        angle = 0.5 * (low + high)
         r, z = _imbalance(balls, omega, row, films, k, c, gain, length * cos(angle), length * sin(angle))
-        if z * cos(angle) - r * sin(angle) > 0.0:
+        across = z * cos(angle) - r * sin(angle)
+        if across == 0.0:  # exactly, of balls between grooves in one plane, which stay in it
+            break
+        if across > 0.0:
             low = angle
         else:
             high = angle
+        angle = 0.5 * (low + high)
     return r * cos(angle) + z * sin(angle), angle
 
 

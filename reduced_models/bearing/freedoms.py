@@ -17,7 +17,7 @@ one. "-z" is the mirror image in the plane across the shaft; the sense of rotati
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -32,12 +32,29 @@ _Floats = NDArray[np.float64]
 
 PLANAR = ("x", "y")
 FIVE = ("x", "y", "z", "tilt_x", "tilt_y")
+MOVING = (PLANAR, FIVE[:3], FIVE)  # directions in which a ring moves; in the others it is held
 FACINGS = ("+z", "-z")
 # Units of matrices and columns over all five: of the first three entries, and with tilts
 MIXED = {"N": "N, N m", "m": "m, rad", "N/m": "N/m, N, N m", "N s/m": "N s/m, N s, N m s", "rad": "rad"}
 FARTHEST_OFFSET = 0.1  # of a ball diameter, of a ring along the shaft: grooves end before
 LARGEST_TILT = 0.1  # rad, of a ring: fifty times what a deep-groove bearing bears
 DECIMALS = 6  # decimal places beyond which N, N m, µm, nm, mrad and spin-to-roll ratios are rounding
+
+
+def directions_of(given: Sequence[str] | None, angular: bool) -> tuple[str, ...]:
+    """Directions in which a ring moves: those `given`, else all of an angular contact bearing, x and y of others.
+
+    Raises
+    ------
+    InputError
+        Others than the first 2, 3 or 5 of `FIVE`.
+    """
+    if given is None:
+        return FIVE if angular else PLANAR
+    found = tuple(given) if isinstance(given, tuple | list) else ()
+    if found not in MOVING:
+        raise InputError("directions", given, '("x", "y"), ("x", "y", "z") or ("x", "y", "z", "tilt_x", "tilt_y")')
+    return found
 
 
 def bearing_load(load: ArrayLike) -> _Floats:

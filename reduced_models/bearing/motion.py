@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, as_rows, require_instance, require_positive
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import jit_exact_loop
 from reduced_models.bearing.angular_balls import AngularBalls
 from reduced_models.bearing.angular_steps import (
@@ -20,24 +21,12 @@ from reduced_models.bearing.angular_steps import (
     rest_angular,
 )
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.ball_steps import accept, begin_balls, press
-from reduced_models.bearing.balls import (
-    Balls,
-    accept_balls,
-    begin_rest,
-    begin_step,
-    directions,
-    films_of,
-    press_balls,
-    rest_balls,
-    speed_state,
-    turn_planar,
-)
-from reduced_models.bearing.contact_heights import ANGLE_RATE, HEIGHT, find_heights
+from reduced_models.bearing.contact_heights import HEIGHT, find_heights
 from reduced_models.bearing.equilibrium import angle_of
 from reduced_models.bearing.film_heights import heights_in_runs
-from reduced_models.bearing.freedoms import FIVE, PLANAR
+from reduced_models.bearing.freedoms import FIVE, directions_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.bearing.race import RACES
 
 _Floats = NDArray[np.float64]
 
@@ -47,115 +36,85 @@ MOST_TIMES = 60  # that they are looked up for it: a handful
 
 
 class BallMotion:
-    """Balls and films of a bearing in steps, each with its own speed of the shaft and angle of the cage.
+    """Balls and films of a bearing in steps, each with its own speed of the shaft.
 
-    Parameters
-    ----------
-    balls : Balls
-    """
-
-    def __init__(self, balls: Balls) -> None:
-        self.balls, self.films = balls, films_of(balls)
-        self.at_speed, self.gain = speed_state(balls, 0.0), 0.0
-        self._normals = np.zeros((balls.number, 2))
-        self._tried = np.zeros(2), np.zeros(2)
-
-    # Places and velocities are copied: for arrays that may only be read, kernels would be compiled a second time.
-
-    def rest(self, omega: float, angle: float, q: _Floats) -> _Floats:
-        """Put balls and films at rest with the ring at `q` [m]; force of the ring on the balls, shape (2,) [N].
-
-        Films are those of the speed `omega` [rad/s]; the first ball is at `angle` [rad].
-        """
-        directions(self.balls, angle, self._normals)
-        self.gain = begin_rest(self.films)
-        self.at_speed = speed_state(self.balls, omega)._replace(cage=0.0)
-        self.films.turned[0, ANGLE_RATE] = angle
-        for _ in range(MOST_TIMES):
-            force, _, _ = self.forces(q, np.zeros(2))
-            rest_balls(self.balls, self.films, self._normals, np.array(q))
-            before = self.films.heights[:, HEIGHT].copy()
-            turn_planar(self.balls, angle, self.films, 0.0)
-            if _settled(before, self.films.heights[:, HEIGHT]):
-                break
-        return force
-
-    def begin(self, omega: float, angle: float, dt: float) -> None:
-        """Begin a step of `dt` [s], at whose end the shaft turns at `omega` and the first ball is at `angle`."""
-        self.at_speed = speed_state(self.balls, omega)
-        directions(self.balls, angle, self._normals)
-        turn_planar(self.balls, angle, self.films, 1.5 / dt)
-        self.gain = begin_step(self.balls, self.at_speed, dt, self.films)
-
-    def forces(self, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats, _Floats]:
-        """Force of the ring at `q`, moving at `v` at the end of the step, and its derivatives by both.
-
-        Not a number where a ball finds no balance.
-        """
-        self._tried = np.array(q), np.array(v)
-        out = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
-        press_balls(self.balls, self.at_speed, self.films, self._normals, *self._tried, self.gain, out)
-        return out
-
-    def ring_approach(self, k: int) -> float:
-        """Of both rings at ball `k`, where `forces` was called last [m]."""
-        return float(self._normals[k] @ self._tried[0]) - self.balls.half_clearance
-
-    def accept(self) -> None:
-        """Move balls and films to the end of the step, as `forces` was called last."""
-        accept_balls(self.balls, self.at_speed, self.films, self._normals, *self._tried, self.gain)
-
-
-class AngularMotion:
-    """Balls at contact angles and their films in steps, with the methods of `BallMotion`.
-
-    The angle of the cage, which turns as the balls roll, is `angle`.
+    The ring moves in the first n of its five directions (`freedoms.FIVE`); in the others it is held at 0.
 
     Parameters
     ----------
     balls : AngularBalls
+    directions : tuple of str
+        In which the ring moves, as of `BearingMotion`.
     """
 
-    def __init__(self, balls: AngularBalls) -> None:
-        self.balls, self.films, self.gain = balls, films_of_angular(balls), 0.0
+    def __init__(self, balls: AngularBalls, directions: tuple[str, ...]) -> None:
+        self.balls, self.films, self.directions = balls, films_of_angular(balls), directions
         n = len(FIVE)
+        self._gain, self._moving = 0.0, len(directions)
+        self._ring = np.zeros((2, n))
         self._out = np.zeros(n), np.zeros((n, n)), np.zeros((n, n))
 
     @property
     def angle(self) -> float:
-        """Of the first ball, at the end of the last step accepted [rad]."""
+        """Of the first ball, at the end of the last step accepted [rad]; the cage turns as the balls roll."""
         return float(self.films.cage[1])
 
+    @property
+    def cage(self) -> float:
+        """Speed of the cage over that of the shaft, there."""
+        return float(self.films.cage[2])
+
+    def approach(self, k: int, race: str) -> float:
+        """Of ball `k` and a race, features left out, where `forces` was called last [m]."""
+        place, grooves = self.films.place[k], self.balls.grooves
+        if race == RACES[0]:
+            return float(np.hypot(*(self.films.tried[k, :2] - place)) - grooves.inner)
+        return float(np.hypot(*place) - grooves.outer)
+
     def rest(self, omega: float, angle: float, q: _Floats) -> _Floats:
-        """Put balls and films at rest with the ring at `q`, shape (5,); force of the ring, shape (5,)."""
+        """Put balls and films at rest with the ring at `q`, shape (n,); force of the ring on them, shape (n,).
+
+        Films are those of the speed `omega` [rad/s]; the first ball is at `angle` [rad].
+        """
+        self._ring[0, : self._moving] = q
         begin_angular_rest(self.balls, omega, angle, self.films)
         for _ in range(MOST_TIMES):
-            rest_angular(self.balls, self.films, np.array(q), (*self._out, np.zeros(len(FIVE))))
+            rest_angular(self.balls, self.films, self._ring[0], (*self._out, np.zeros(len(FIVE))))
             before = self.films.heights[:, HEIGHT].copy()
             if self.balls.heights.shape[0] > 0:
                 find_heights(self.balls, self.films, angle, 0.0)
             if _settled(before, self.films.heights[:, HEIGHT]):
                 break
-        self.gain = 0.0
-        return self._out[0].copy()
+        self._gain = 0.0
+        return self._out[0][: self._moving].copy()
 
-    def begin(self, omega: float, angle: float, dt: float) -> None:
-        """Begin a step of `dt` [s], at whose end the shaft turns at `omega`; the cage's own angle counts."""
+    def begin(self, omega: float, dt: float) -> None:
+        """Begin a step of `dt` [s], at whose end the shaft turns at `omega` [rad/s]."""
         begin_angular_step(self.balls, omega, dt, self.films)
-        self.gain = 1.5 / dt
+        self._gain = 1.5 / dt
 
     def forces(self, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats, _Floats]:
         """Force of the ring at `q`, moving at `v` at the end of the step, and its derivatives by both.
 
         Not a number where a ball finds no balance.
         """
-        press_angular(self.balls, self.films, np.array(q), np.array(v), self.gain, self._out)
+        n = self._moving
+        self._ring[0, :n], self._ring[1, :n] = q, v
+        press_angular(self.balls, self.films, *self._ring, self._gain, self._out)
         force, stiffness, damping = self._out
-        return force.copy(), stiffness.copy(), damping.copy()
+        return force[:n].copy(), stiffness[:n, :n].copy(), damping[:n, :n].copy()
 
     def accept(self) -> None:
         """Move balls, films and cage to the end of the step, as `forces` was called last."""
-        accept_angular(self.balls, self.films, self.gain)
+        accept_angular(self.balls, self.films, self._gain)
+
+    def drive(self, omega: float, dt: float, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
+        """Forces (k, n) of the ring, and of all balls (k, balls, 2), over steps that end at `q` and `v` (k, n)."""
+        places, rates, force = np.zeros((3, len(q), len(FIVE)))
+        places[:, : self._moving], rates[:, : self._moving] = q, v
+        loads = np.zeros((len(q), self.balls.number, 2))
+        _drive(self.balls, self.films, (omega, dt, places, rates), self._out, (force, loads))
+        return force[:, : self._moving].copy(), loads
 
 
 class BearingMotion:
@@ -173,14 +132,15 @@ class BearingMotion:
         Length of all steps [s].
     cage_angle : float
         Of the first ball at the start [rad].
-    freedoms : {2, 5}, optional
-        Degrees of freedom n of the ring: x and y, or x, y, z, tilt_x, tilt_y. By default 5 of an angular contact
-        bearing, 2 of others.
+    directions : tuple of str, optional
+        The n directions in which the ring moves: ("x", "y"), ("x", "y", "z") or all five, with "tilt_x" and
+        "tilt_y". In the others it is held at 0. By default all five of an angular contact bearing, x and y of
+        others.
 
     Raises
     ------
     InputError
-        A speed that the bearing does not take, a step that is not > 0.
+        A speed that the bearing does not take, a step that is not > 0, other directions.
     """
 
     def __init__(
@@ -189,31 +149,23 @@ class BearingMotion:
         speed_rpm: float,
         dt: float,
         cage_angle: float = -pi / 2.0,
-        freedoms: int | None = None,
+        directions: Sequence[str] | None = None,
     ) -> None:
         require_instance("bearing", bearing, BallBearing, "a BallBearing")
-        usual = len(PLANAR) if bearing.contact_angle is None else len(FIVE)
-        self._size = usual if freedoms is None else freedoms
-        if self._size not in (len(PLANAR), len(FIVE)):
-            raise InputError("freedoms", freedoms, "2 or 5")
+        moving = directions_of(directions, bearing.contact_angle is not None)
         speed = bearing.speed(speed_rpm)
-        self._motion = motion_of(bearing, [speed], self._size)
+        self._motion, self._size = motion_of(bearing, [speed], moving), len(moving)
         self.dt, self._omega = require_positive("dt", dt), speed * RPM_TO_RAD_S
-        self._start, self._step = angle_of(cage_angle), 0
-        self.rest(np.zeros(self._size))
+        self._put(angle_of(cage_angle), np.zeros(self._size))
 
     @property
     def cage_angle(self) -> float:
         """Of the first ball, at the end of the last step accepted [rad]."""
-        return self._angle
+        return self._motion.angle
 
     def rest(self, q: ArrayLike) -> _Floats:
         """Put ring, balls and films at rest with the ring at `q`, shape (n,); returns the force on the balls."""
-        place = as_column("q", q, size=self._size)
-        force = _finite(self._motion.rest(self._omega, self._angle_at(self._step), place), place)
-        self._angle = self._angle_at(self._step)
-        self._begin()
-        return force
+        return self._put(self._motion.angle, as_column("q", q, size=self._size))
 
     def forces(self, q: ArrayLike, v: ArrayLike) -> tuple[_Floats, _Floats, _Floats]:
         """Force of the ring on the balls, the ring at `q` and moving at `v` at the end of the step; tangents.
@@ -232,16 +184,14 @@ class BearingMotion:
         ConvergenceError
             A ball finds no balance.
         """
-        place, rate = (as_column(name, x, size=self._size).copy() for name, x in (("q", q), ("v", v)))
+        place, rate = (as_column(name, x, size=self._size) for name, x in (("q", q), ("v", v)))
         force, stiffness, damping = self._motion.forces(place, rate)
         return _finite(force, place), stiffness, damping
 
     def accept(self) -> None:
         """Move on to the end of the step, as `forces` was called last."""
         self._motion.accept()
-        self._step += 1
-        self._angle = self._angle_at(self._step)
-        self._begin()
+        self._motion.begin(self._omega, self.dt)
 
     def drive(self, q: ArrayLike, v: ArrayLike) -> tuple[_Floats, _Floats]:
         """Forces along a motion whose rows are the ends of the steps from here, compiled.
@@ -258,32 +208,19 @@ class BearingMotion:
         balls : ndarray, shape (k, balls, 2)
             Force on every ball, at the inner and the outer race [N].
         """
-        n, moved = self._size, self._motion
-        places = as_rows("q", q, np.shape(q)[0], n).copy()  # arrays that are read-only would be compiled for again
-        rates = as_rows("v", v, places.shape[0], n).copy()
-        force, loads = np.zeros((len(places), n)), np.zeros((len(places), moved.balls.number, 2))
-        angles = np.array([self._angle_at(self._step + 1 + i) for i in range(len(places))])
-        out = np.zeros(n), np.zeros((n, n)), np.zeros((n, n))
-        normals = np.zeros((moved.balls.number, 2))
-        _drive(
-            moved.balls, moved.films, (self._omega, self.dt, angles, places, rates), normals, out, (force, loads)
-        )
-        self._step += len(places)
-        self._angle = self._angle_at(self._step)
-        self._begin()
-        return force, loads
+        places = as_rows("q", q, np.shape(q)[0], self._size)
+        found = self._motion.drive(self._omega, self.dt, places, as_rows("v", v, places.shape[0], self._size))
+        self._motion.begin(self._omega, self.dt)
+        return found
 
-    def _angle_at(self, step: int) -> float:
-        """Angle of the first ball at the end of a step [rad]; of a cage that rolls with its balls, the last."""
-        if isinstance(self._motion, AngularMotion):
-            return self._motion.angle if step else self._start
-        return self._start + speed_state(self._motion.balls, self._omega).cage * self.dt * step
-
-    def _begin(self) -> None:
-        self._motion.begin(self._omega, self._angle_at(self._step + 1), self.dt)
+    def _put(self, angle: float, q: _Floats) -> _Floats:
+        """Put all at rest with the ring at `q` and the first ball at `angle`, and begin a step."""
+        force = _finite(self._motion.rest(self._omega, angle, q), q)
+        self._motion.begin(self._omega, self.dt)
+        return force
 
 
-def motion_of(bearing: BallBearing, speeds_rpm: list[float], freedoms: int) -> BallMotion | AngularMotion:
+def motion_of(bearing: BallBearing, speeds_rpm: list[float], directions: tuple[str, ...]) -> BallMotion:
     """Balls and films of a bearing in time, tables of its races made at increasing speeds [rev/min].
 
     Raises
@@ -293,9 +230,7 @@ def motion_of(bearing: BallBearing, speeds_rpm: list[float], freedoms: int) -> B
     """
     speeds = [bearing.speed(speed) for speed in speeds_rpm]
     heights = heights_in_runs(bearing, speeds)
-    if freedoms == len(PLANAR):
-        return BallMotion(bearing._kernel(speeds)._replace(heights=heights))
-    return AngularMotion(bearing._angular_balls(speeds)._replace(heights=heights))
+    return BallMotion(bearing._angular_balls(speeds)._replace(heights=heights), directions)
 
 
 def _settled(before: _Floats, heights: _Floats) -> bool:
@@ -309,13 +244,13 @@ def _finite(force: _Floats, q: _Floats) -> _Floats:
 
 
 @jit_exact_loop
-def _drive(balls, films, motion, normals, pushed, out):
+def _drive(balls, films, motion, pushed, out):
     """Steps along a motion; the first has not begun, or is begun again."""
-    omega, dt, angles, q, v = motion
-    for i in range(angles.size):
-        begin_balls(balls, films, normals, omega, angles[i], dt)
-        press(balls, films, normals, omega, q[i], v[i], 1.5 / dt, pushed)
-        accept(balls, films, normals, omega, q[i], v[i], 1.5 / dt)
+    omega, dt, q, v = motion
+    for i in range(q.shape[0]):
+        begin_angular_step(balls, omega, dt, films)
+        press_angular(balls, films, q[i], v[i], 1.5 / dt, pushed)
+        accept_angular(balls, films, 1.5 / dt)
         for j in range(pushed[0].size):
             out[0][i, j] = pushed[0][j]
         for k in range(balls.number):

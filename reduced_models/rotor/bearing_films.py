@@ -24,10 +24,8 @@ from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
 from ehlcontact.summary import span
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.balls import POSITION
 from reduced_models.bearing.contact_heights import FILM_APPROACH, FILM_FORCE, FILM_SLOPE
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.motion import BallMotion
 from reduced_models.bearing.race import RACES
 from reduced_models.bearing.track_surface import TrackSurface, tracks_at
 from reduced_models.rotor.film_process import FilmAnswer, Submit, close_film, film_places, open_film, step_film
@@ -279,12 +277,12 @@ class FilmSteps(BallSteps):
         super().__init__(run.balls[b], run.dt, run.contacts.gain, run.shift[run.ball_directions[b]])
         self._films, self._step = films, 0
 
-    def begin(self, omega: float, angle: float) -> None:
-        """Begin a step at whose end the shaft turns at `omega` [rad/s] and the first ball is at `angle`."""
+    def begin(self, omega: float) -> None:
+        """Begin a step at whose end the shaft turns at `omega` [rad/s]."""
         for film in self._films:
             film.begin(self._step)
         self._step += 1
-        super().begin(omega, angle)
+        super().begin(omega)
 
     def at(self, r: _Floats, rate: _Floats) -> tuple[_Floats, _Floats]:
         """Forces at the end of the step, and their slopes, with films that belong to the places of their balls."""
@@ -315,7 +313,6 @@ class _RunningFilm:
 
     def __init__(self, run: PreparedRun, spec: FullFilm, submit: Submit) -> None:
         motion, mount = run.balls[spec.bearing], run.rotor.ball_bearings[spec.bearing]
-        assert isinstance(motion, BallMotion)
         self.spec, self._run, self._motion, self._submit = spec, run, motion, submit
         self._bearing: BallBearing = mount.ball_bearing
         self._first, self._last = spec.steps(run.dt)
@@ -407,9 +404,7 @@ class _RunningFilm:
 
     def _approach(self) -> float:
         """Of ball and race, features left out, where `forces` was called last [m]."""
-        k, outer = self.spec.ball, self.spec.race == RACES[1]
-        w = float(self._motion.films.balls[k, POSITION])
-        return w if outer else float(self._motion.ring_approach(k)) - w
+        return self._motion.approach(self.spec.ball, self.spec.race)
 
     def _open(self, step: int) -> None:
         """Start the film under the force that the contact has, at the end of a step."""
@@ -423,10 +418,8 @@ class _RunningFilm:
             raise InputError("between", spec.between, allowed)
         self._point, self._load = race.point(force, rpm), force
         self._scales = s = self._point.scales
-        cage = self._motion.balls.cage
-        start, angle = (float(run.cage_angles[i, spec.bearing]) for i in (0, step))
-        angles = angle + 2.0 * np.pi * k / bearing.balls, (angle - start) / cage
-        rates = cage * omega * s.time, omega * s.time
+        angles = self._motion.angle + 2.0 * np.pi * k / bearing.balls, float(run.angle[step])
+        rates = self._motion.cage * omega * s.time, omega * s.time
         surface = TrackSurface(tracks_at(bearing, k, spec.race, angles, rates), s.a, s.length)
         task = self._submit(open_film, id(self), self._point, spec.grid, surface, spec.largest_load)
         self._answer = task.result()

@@ -60,7 +60,7 @@ class ContactSteps:
         self._last = None
         return forces
 
-    def begin(self, omega: float, angle: float) -> None:
+    def begin(self, omega: float) -> None:
         """Begin a step where the contacts are; they do not depend on the speed of the shaft."""
         self._begin()
 

@@ -2,7 +2,8 @@
 
 The step is that of `time_step`, on the displacements r of the points at which bearings act; Newton's method works
 on r alone, with the exact tangents of the bearings. Rings follow r: where several are on a shaft that is rigid
-along itself, there are fewer points than motions of rings.
+along itself, there are fewer points than motions of rings. Every ring has five directions; those in which it is
+held follow no point.
 """
 
 from __future__ import annotations
@@ -16,8 +17,9 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import inner, jit_exact_loop
-from reduced_models.bearing.ball_steps import accept, begin_balls, press
+from reduced_models.bearing.angular_steps import accept_angular, begin_angular_step, press_angular
 from reduced_models.bearing.compiled_list import CompiledList
+from reduced_models.bearing.freedoms import FIVE
 from reduced_models.rotor.prepared_run import DISPLACEMENTS, PreparedRun
 from reduced_models.rotor.time_step import Steps, rounding_hint
 
@@ -31,19 +33,19 @@ DONE, NO_BALANCE, LOST = 0, 1, 2  # how a block of steps ends
 
 
 class RingState(NamedTuple):
-    """State and work of a run at its bearings: n points, m motions of rings in the order of the bearings."""
+    """State and work of a run at its bearings: n points, 5 directions of each of b rings."""
 
     r: _Floats  # (3, n) at the last three ends of steps, the newest first
     force: _Floats  # (n,) of the rings on the balls, at the last end
     tried: _Floats  # (6, n), see below
     system: _Floats  # (n, n + 1) slopes of the imbalance, and the step
     turned: _Floats  # (k,) turning forces at the last end
-    normals: _Floats  # (bearings, balls of the largest, 2)
     pushed: tuple[_Floats, _Floats, _Floats]  # of one bearing: force, stiffness, damping
-    ties: _Floats  # (m, n) motions of the rings from those of the points
-    ring: _Floats  # (3, m) place, rate and force of the rings
-    shift: _Floats  # (m,) of the rings beside what the points give
-    slopes: _Floats  # (d, n) work
+    moving: NDArray[np.int64]  # (b,) directions in which each ring moves: the first ones
+    ties: _Floats  # (5 b, n) motions of the rings from those of the points
+    ring: _Floats  # (3, 5 b) place, rate and force of the rings
+    shift: _Floats  # (5 b,) of the rings beside what the points give
+    slopes: _Floats  # (5, n) work
 
 
 POSITION, VELOCITY, RING_FORCE = range(3)  # rows of `ring`
@@ -66,18 +68,19 @@ class CompiledSteps:
         self._run, self._tolerance = run, tolerance
         load = max(float(np.linalg.norm(run.rotor.load)), float(np.abs(run.turning).max(initial=0.0)))
         self._limits = tolerance * max(load, 1.0), run.farthest
-        r, force = run.histories.motion[0], run.histories.force[0]
+        force = run.histories.force[0]
         self._balls = CompiledList(one.balls for one in run.balls)
         self._films = CompiledList(one.films for one in run.balls)
-        balls = max(one.number for one in self._balls)
-        points, ties, _ = run.rotor.geometry
-        d = r.size // len(run.balls)
+        points, self._ties, _ = run.rotor.geometry
+        moving, d = np.array([len(one.directions) for one in run.balls]), len(FIVE)
+        named = np.concatenate([d * b + np.arange(count) for b, count in enumerate(moving.tolist())])
         pushed = np.zeros(d), np.zeros((d, d)), np.zeros((d, d))
         r, n = points @ run.histories.displacement[0], len(points)
+        ties, shift = np.zeros((d * moving.size, n)), np.zeros(d * moving.size)
+        ties[named], shift[named] = self._ties, run.shift
         self._rings = RingState(
-            np.tile(r, (3, 1)), ties.T @ force, np.zeros((6, n)), np.zeros((n, n + 1)), run.turning[0].copy(),
-            np.zeros((len(run.balls), balls, 2)), pushed, np.ascontiguousarray(ties), np.zeros((3, len(ties))),
-            run.shift, np.zeros((d, n)),
+            np.tile(r, (3, 1)), self._ties.T @ force, np.zeros((6, n)), np.zeros((n, n + 1)),
+            run.turning[0].copy(), pushed, moving, ties, np.zeros((3, len(ties))), shift, np.zeros((d, n)),
         )  # fmt: skip
 
     def advance(self, steps: Steps, first: int, end: int, progress: Callable[[int], None]) -> None:
@@ -89,11 +92,11 @@ class CompiledSteps:
             A step found no balance, or a ring left its bearing.
         """
         run, here = self._run, slice(first + 1, end + 1)
-        course = run.omega[here], run.cage_angles[here], run.turning[here]
+        course = run.omega[here], run.turning[here]
         d, v, r, rate, force, iterations = (history[here] for history in run.histories)
         out = d, v, r, force, iterations
         made, how = run_block(steps, self._balls, self._films, self._rings, run.state, course, self._limits, out)
-        rate[:] = v @ steps.B.T @ self._rings.ties.T
+        rate[:] = v @ steps.B.T @ self._ties.T
         self.made = first + int(made)
         lost = run.lost(first, self.made)
         if lost is not None:
@@ -103,8 +106,9 @@ class CompiledSteps:
         if how == NO_BALANCE:
             found = run.histories.motion[self.made]
             hint = rounding_hint(steps, found, self._limits[0], self._limits[0] / self._tolerance)
-            for b, (at, name) in enumerate(zip(run.ball_directions, run.rotor.ball_bearing_names, strict=True)):
-                if np.isnan(self._rings.ring[RING_FORCE, at]).any():
+            forces = self._rings.ring[RING_FORCE].reshape(-1, len(FIVE))
+            for b, name in enumerate(run.rotor.ball_bearing_names):
+                if np.isnan(forces[b]).any():
                     turned = UNBALANCED if run.rotor.ball_bearings[b].z is not None else ""
                     hint = f": a ball of {name} finds none{turned}"
             raise ConvergenceError(f"no balance of the forces was found{hint}", None)
@@ -122,38 +126,40 @@ def run_block(steps, balls, films, rings, state, course, limits, out):
     ----------
     steps : Steps
     balls, films : CompiledList
-        `Balls` and `Films` of every bearing, or `AngularBalls` and `AngularFilms`.
+        `AngularBalls` and `AngularFilms` of every bearing.
     rings : RingState
     state : ndarray, shape (4, N)
         Displacement, velocity and acceleration; room.
     course : tuple of ndarray
-        At the end of every step: speed [rad/s], shape (k,); angle of the first ball of every bearing [rad], shape
-        (k, bearings); turning forces [N], shape (k, turning).
+        At the end of every step: speed [rad/s], shape (k,); turning forces [N], shape (k, turning).
     limits : (float, float)
         Imbalance allowed [N], and how far a ring may go [m].
     out : tuple of ndarray
-        Displacement and velocity (k, N), displacement and force of the rings (k, n), iterations (k,).
+        Displacement and velocity (k, N), displacement and force of the rings in the directions in which they move
+        (k, m), iterations (k,).
     """
-    speed, angles, forces = course
+    speed, forces = course
     d = rings.pushed[0].size
     for i in range(speed.size):
         _foresee(steps, rings, state, forces[i])
         for b in range(len(balls)):
-            begin_balls(balls[b], films[b], rings.normals[b], speed[i], angles[i, b], steps.dt)
-        count = _balance(steps, balls, films, rings, speed[i], limits[0])
+            begin_angular_step(balls[b], speed[i], steps.dt, films[b])
+        count = _balance(steps, balls, films, rings, limits[0])
         if count == 0:
             return i, NO_BALANCE
         _finish(steps, rings, state, forces[i])
-        farthest = 0.0
+        farthest, column = 0.0, 0
         for b in range(len(balls)):
-            q, v = rings.ring[POSITION, d * b : d * b + d], rings.ring[VELOCITY, d * b : d * b + d]
-            accept(balls[b], films[b], rings.normals[b], speed[i], q, v, 1.5 / steps.dt)
+            accept_angular(balls[b], films[b], 1.5 / steps.dt)
+            for j in range(rings.moving[b]):
+                k = d * b + j
+                moved = rings.ring[POSITION, k]
+                out[2][i, column], out[3][i, column] = moved - rings.shift[k], rings.ring[RING_FORCE, k]
+                column += 1
+                if j < DISPLACEMENTS:
+                    farthest = max(farthest, abs(moved))
         for k in range(state.shape[1]):
             out[0][i, k], out[1][i, k] = state[0, k], state[1, k]
-        for k in range(rings.shift.size):
-            out[2][i, k], out[3][i, k] = rings.ring[POSITION, k] - rings.shift[k], rings.ring[RING_FORCE, k]
-            if k % d < DISPLACEMENTS:
-                farthest = max(farthest, abs(rings.ring[POSITION, k]))
         out[4][i] = count
         if farthest > limits[1]:
             return i + 1, LOST
@@ -191,7 +197,7 @@ def _foresee(steps, rings, state, forces):
 
 
 @jit_exact_loop(inline="always")
-def _balance(steps, balls, films, rings, speed, allowed):
+def _balance(steps, balls, films, rings, allowed):
     """Newton's method for D (r - r_free) + weight F = 0; returns how often it asked, 0 where it does not end."""
     tried, system, n, ring, ties = rings.tried, rings.system, rings.force.size, rings.ring, rings.ties
     force, stiffness, damping = rings.pushed
@@ -204,24 +210,24 @@ def _balance(steps, balls, films, rings, speed, allowed):
             for k in range(n):
                 system[j, k] = steps.D[j, k]
         for b in range(len(balls)):
-            first = d * b
-            for i in range(first, first + d):
+            first, moving = d * b, rings.moving[b]
+            for i in range(first, first + moving):
                 ring[POSITION, i], ring[VELOCITY, i] = rings.shift[i], 0.0
                 for j in range(n):
                     ring[POSITION, i] += ties[i, j] * tried[R, j]
                     ring[VELOCITY, i] += ties[i, j] * tried[RATE, j]
             q, v = ring[POSITION, first : first + d], ring[VELOCITY, first : first + d]
-            press(balls[b], films[b], rings.normals[b], speed, q, v, 1.5 / steps.dt, rings.pushed)
-            for i in range(d):
+            press_angular(balls[b], films[b], q, v, 1.5 / steps.dt, rings.pushed)
+            for i in range(moving):
                 ring[RING_FORCE, first + i] = force[i]
                 for j in range(n):
                     tried[FORCE, j] += ties[first + i, j] * force[i]
                     rings.slopes[i, j] = 0.0
-                for k in range(d):
+                for k in range(moving):
                     slope = steps.weight * (stiffness[i, k] + steps.velocity[0] * damping[i, k])
                     for j in range(n):
                         rings.slopes[i, j] += slope * ties[first + k, j]
-            for i in range(d):
+            for i in range(moving):
                 for j in range(n):
                     tie = ties[first + i, j]
                     if tie != 0.0:

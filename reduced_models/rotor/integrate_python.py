@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
-from reduced_models.bearing.motion import AngularMotion, BallMotion
+from reduced_models.bearing.motion import BallMotion
 from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.scaled_contact import has_tangents
 from reduced_models.rotor.time_step import Steps, free_displacement, move_to, rounding_hint
@@ -31,8 +31,8 @@ OVERSHOOT = 2.0  # growth of the imbalance that halves the way to the last place
 class RunningSupport(Protocol):
     """Supports over the steps of a run: a group of contacts, or one ball bearing."""
 
-    def begin(self, omega: float, angle: float) -> None:
-        """Begin a step at whose end the shaft turns at `omega` [rad/s] and the first ball is at `angle`."""
+    def begin(self, omega: float) -> None:
+        """Begin a step at whose end the shaft turns at `omega` [rad/s]."""
 
     def at(self, r: _Floats, rate: _Floats) -> tuple[_Floats, _Floats]:
         """Forces at the end of the step, and their slopes along its line of motion and rate."""
@@ -53,12 +53,12 @@ class BallSteps:
     `shift` is the displacement of its ring beside that of the rotor.
     """
 
-    def __init__(self, motion: BallMotion | AngularMotion, dt: float, gain: float, shift: _Floats) -> None:
+    def __init__(self, motion: BallMotion, dt: float, gain: float, shift: _Floats) -> None:
         self._motion, self._dt, self._gain, self._shift = motion, dt, gain, shift
 
-    def begin(self, omega: float, angle: float) -> None:
-        """Begin a step at whose end the shaft turns at `omega` [rad/s] and the first ball is at `angle`."""
-        self._motion.begin(omega, angle, self._dt)
+    def begin(self, omega: float) -> None:
+        """Begin a step at whose end the shaft turns at `omega` [rad/s]."""
+        self._motion.begin(omega, self._dt)
 
     def at(self, r: _Floats, rate: _Floats) -> tuple[_Floats, _Floats]:
         """Forces at the end of the step, and their slopes, shape (directions, directions)."""
@@ -145,9 +145,8 @@ class PythonSteps:
         free -= (share * (force[i - 1] @ self._to_points)) @ steps.columns
         _, by_d, by_v, by_a = steps.velocity
         past_rate = by_d * run.state[0] + by_v * run.state[1] + by_a * run.state[2]
-        bearings = run.cage_angles.shape[1]
-        for k, (_, support) in enumerate(self._supports, start=bearings - len(self._supports)):
-            support.begin(run.omega[i], run.cage_angles[i, k] if k >= 0 else 0.0)  # contacts have no angle
+        for _, support in self._supports:
+            support.begin(run.omega[i])
         q_free, point_rate = self._points @ free, self._points @ past_rate
         q, r, r_rate, found, count = self._balance(steps, q_free, point_rate, self._predict(steps, i, q_free))
         new = free + (steps.D @ (q - q_free)) @ steps.columns

@@ -33,17 +33,15 @@ class PreparedRun:
 
     Attributes
     ----------
-    t, omega : ndarray, shape (steps + 1,)
-        Times [s], speeds of the shaft [rad/s].
-    cage_angles : ndarray, shape (steps + 1, ball bearings)
-        Of the first ball of every planar bearing [rad]; those of others turn as their balls roll, from the first.
+    t, omega, angle : ndarray, shape (steps + 1,)
+        Times [s], speeds of the shaft [rad/s], its angle [rad].
     shift : ndarray, shape (directions of contacts and ball bearings,)
         Displacement of rings beside that of the rotor [m]; 0 of contacts.
     turning : ndarray, shape (steps + 1, 2 unbalances)
         Forces of the unbalances [N]; `at`, shape (N, 2 unbalances), is where they act.
     contacts : ContactSteps
         All contacts; they come first among the motions of the supports.
-    balls : tuple of BallMotion or AngularMotion
+    balls : tuple of BallMotion
         Balls and films of every ball bearing.
     state : ndarray, shape (4, N)
         Displacement, velocity and acceleration; room.
@@ -57,17 +55,12 @@ class PreparedRun:
         self.rotor, self.dt, self.steps, self._rho_inf = rotor, dt, steps, rho_inf
         self.t: _Floats = np.asarray(dt * np.arange(steps + 1), np.float64)
         course = shaft_course(rotor, speed_rpm, self.t)
-        self.omega, self.turning, self.at = course.omega, course.turning, course.at
+        self.omega, self.angle, self.turning, self.at = course.omega, course.angle, course.turning, course.at
         self._require_short_steps()
         speeds = course.law_speeds.tolist()
-        self.balls = tuple(
-            motion_of(mount.ball_bearing, speeds, len(mount.directions)) for mount in rotor.ball_bearings
+        self.balls: tuple[BallMotion, ...] = tuple(
+            motion_of(mount.ball_bearing, speeds, mount.directions) for mount in rotor.ball_bearings
         )
-        cages = [
-            mount.cage_angle + (one.balls.cage * course.angle if isinstance(one, BallMotion) else 0.0 * self.t)
-            for mount, one in zip(rotor.ball_bearings, self.balls, strict=True)
-        ]
-        self.cage_angles = np.column_stack(cages) if cages else np.zeros((self.t.size, 0))
         shifts = [np.zeros(len(rotor.contacts)), *(mount.shift for mount in rotor.ball_bearings)]
         self.shift = np.concatenate(shifts)
         self.histories = Histories.empty(steps + 1, rotor.size, len(rotor.geometry.normals))
@@ -135,8 +128,8 @@ class PreparedRun:
             for mount, approach in zip(rotor.contacts, r.tolist(), strict=False):
                 mount.contact.rest(approach + mount.offset)
         force[:first] = self.contacts.start(r[:first], rate[:first])
-        for b, (at, balls) in enumerate(zip(self.ball_directions, self.balls, strict=True)):
-            force[at] = balls.rest(self.omega[0], self.cage_angles[0, b], r[at] + self.shift[at])
+        for mount, at, balls in zip(rotor.ball_bearings, self.ball_directions, self.balls, strict=True):
+            force[at] = balls.rest(self.omega[0], mount.cage_angle, r[at] + self.shift[at])
         M, C, K = rotor.matrices(self.omega[0])
         carried = geometry.points.T @ (geometry.normals.T @ (geometry.counts * force))
         net = rotor.load + self.at @ self.turning[0] - carried

@@ -307,7 +307,7 @@ class RossCallback:
     def _begin(self, step: int, dt: float) -> None:
         self._step, self._dt, self._forces = step, dt, [np.zeros(0)]
         self._motions = [
-            BearingMotion(m.ball_bearing, self._rpm, dt, m.cage_angle, len(m.directions))
+            BearingMotion(m.ball_bearing, self._rpm, dt, m.cage_angle, m.directions)
             for m in self._ours.ball_bearings
         ]
         held = zip(self._motions, self._ours.ball_columns, strict=True)

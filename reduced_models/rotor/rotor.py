@@ -173,10 +173,6 @@ class Rotor(Summary):
                     allowed = "at degrees of freedom that no other bearing has, or with a name of its own"
                     raise InputError(f"mounts[{i}]", mount.ends[0], allowed)
                 taken.append(place)
-        kinds = {len(mount.directions): mount for mount in self.ball_bearings}
-        if len(kinds) > 1:
-            allowed = "ball bearings that all have z, tilt_x and tilt_y, or none of them"
-            raise InputError("mounts", "some with z, some without", allowed)
 
     def _require_there(self, field: str, places: tuple[Any, ...]) -> None:
         """Raise `InputError` for degrees of freedom that do not exist, or of which two are one."""

@@ -202,8 +202,10 @@ def test_states_at_the_start_follow_from_the_inputs(made, name, states):
             assert np.array(exact)[part] == pytest.approx(difference[part], rel=1e-5, abs=1e-6 * size)
         model.raw.exitInitializationMode()
         values = np.array(model.get(*states_of(one)))
-        counted = counted_from(one.model) if "a" in states else None
-        _, force = rates_in_time(one.model.motion(), values, place, 0.0 * place, given["speed"], counted)
+        counted = counted_from(one.model)
+        _, force = rates_in_time(
+            one.model, one.model.motion(), values, place, 0.0 * place, given["speed"], counted
+        )
         assert model.get(*forces_of(one)) == pytest.approx(force, rel=1e-9, abs=1e-6)
         model.free()
 

@@ -4,13 +4,15 @@ from math import pi
 
 import numpy as np
 import pytest
-from beam_rotor import with_balls
+from beam_rotor import still_motion
 from bearing_twins import SlowBearing, SlowContact, SlowElement
 
 from ehlcontact import Lubricant, OilLayer
 from reduced_models import BallBearing
-from reduced_models.bearing.balls import press_balls, rest_balls, speed_state
+from reduced_models.bearing.angular_steps import press_angular, rest_angular
+from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.equilibrium import StaticBalls
+from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BearingMotion, motion_of
 
@@ -59,7 +61,7 @@ def test_a_place_that_may_only_be_read_compiles_nothing(film):
     kinds = []
     for place in (POSITION, held):
         fast.rest(place)
-        kinds.append([len(kernel.signatures) for kernel in (press_balls, rest_balls)])
+        kinds.append([len(kernel.signatures) for kernel in (press_angular, rest_angular)])
     assert kinds[0] == kinds[1]
 
 
@@ -82,8 +84,7 @@ def test_small_motions_are_those_of_two_elements(film):
     t = dt * np.arange(1, 9)
     q = POSITION + size * np.column_stack([np.sin(4e3 * t), np.cos(3e3 * t)])
     v = size * np.column_stack([4e3 * np.cos(4e3 * t), -3e3 * np.sin(3e3 * t)])
-    kernel = film._kernel(RPM)._replace(cage=0.0, centrifugal_factor=0.0)
-    fast, slow = BearingMotion(with_balls(film, kernel), RPM, dt), SlowBearing(film, RPM, SlowElement)
+    fast, slow = still_motion(film, RPM, dt), SlowBearing(film, RPM, SlowElement)
     slow.cage = slow.centrifugal = 0.0
     fast.rest(POSITION)
     slow.rest(POSITION)
@@ -112,9 +113,10 @@ def test_large_motions_are_nearly_those_of_two_elements(film, shake):
 def test_tangents_are_those_of_differences(oil, shake, dt, changes, speeds):
     bearing = BallBearing.catalogue("6205", oil=oil, clearance=3e-6, **changes)
     q, v = shake(dt, 6)
-    it = BearingMotion(with_balls(bearing, bearing._kernel(speeds)), RPM, dt, 0.2)
-    it.rest(POSITION)
-    it.drive(q[:5], v[:5])
+    it, omega = motion_of(bearing, np.atleast_1d(speeds).tolist(), PLANAR), RPM * RPM_TO_RAD_S
+    it.rest(omega, 0.2, POSITION)
+    it.drive(omega, dt, q[:5], v[:5])
+    it.begin(omega, dt)
     _, stiffness, damping = it.forces(q[5], v[5])
     for k in range(2):
         for matrix, size, moves in ((stiffness, 1e-9, (1.0, 0.0)), (damping, 1e-2 * np.abs(v).max(), (0.0, 1.0))):
@@ -193,7 +195,7 @@ def test_the_balance_of_a_ball_does_not_depend_on_where_the_ring_was_tried(name,
         q[:, 1], v[:, 1] = q[:, 1] + speed * since**2 / (8.0 * dt), speed * since / (4.0 * dt)
     found = []
     for away in (0.0, 1e-5, 2e-5, -5e-5, 1e-4):
-        it = BearingMotion(bearing, 10000.0, dt, freedoms=n)
+        it = BearingMotion(bearing, 10000.0, dt, directions=FIVE[:n])
         it.rest(start)
         it.drive(q[:k], v[:k])
         if away:
@@ -210,14 +212,14 @@ def test_balls_of_a_ring_that_is_thrown_find_their_balance(speeds, dt):
     """Films that let go: Newton's method leaps where the law has no force, or goes to and fro."""
     oil = Lubricant.iso_vg(46, temperature=80.0)
     bearing = BallBearing.catalogue("6305", oil=oil, supply=OilLayer(3e-7))
-    balls, rng = motion_of(bearing, speeds, 2), np.random.default_rng(0)
+    balls, rng = motion_of(bearing, speeds, PLANAR), np.random.default_rng(0)
     omega, since = 1.2 * speeds[0] * RPM_TO_RAD_S, dt * np.arange(1, 9)
     for _ in range(600):
         start = np.array([0.0, -1e-5 * rng.uniform(0.2, 2.0)])
         thrown = rng.normal(size=2) * rng.choice([1e3, 1e4, 1e5]) * 1e-5 / dt
         balls.rest(omega, -pi / 2.0, start)
         for t in since:
-            balls.begin(omega, 0.4 * omega * t - pi / 2.0, dt)
+            balls.begin(omega, dt)
             force, _, _ = balls.forces(start + 0.5 * thrown * t * t, thrown * t)
             assert np.isfinite(force).all()
             balls.accept()

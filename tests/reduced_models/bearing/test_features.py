@@ -24,6 +24,7 @@ from reduced_models import (
 from reduced_models.bearing.angular_steps import _search_ball
 from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_heights import looked_up
+from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.height_tables import filtered, track_radius
 from reduced_models.bearing.motion import BearingMotion
 
@@ -38,7 +39,7 @@ def held(bearing, load, rpm, steps_per_turn, turns, at=None):
     """Force on the balls and forces of all balls with the ring held where `load` puts the smooth bearing."""
     smooth = replace(bearing, features=())
     q = smooth.equilibrium(load, speed_rpm=rpm, cage_angle=CAGE).displacement
-    motion = BearingMotion(bearing, rpm, 60.0 / rpm / steps_per_turn, cage_angle=CAGE, freedoms=q.size)
+    motion = BearingMotion(bearing, rpm, 60.0 / rpm / steps_per_turn, cage_angle=CAGE, directions=FIVE[: q.size])
     motion.rest(q)
     count = round(steps_per_turn * turns)
     return motion.drive(np.tile(q, (count, 1)), np.zeros((count, q.size)))
@@ -255,7 +256,7 @@ def test_steps_from_python_are_those_of_the_loop(freedoms):
     q = OILED.equilibrium(load, speed_rpm=1500.0).displacement
     found = []
     for driven in (True, False):
-        motion = BearingMotion(bearing, 1500.0, 2e-5, freedoms=q.size)
+        motion = BearingMotion(bearing, 1500.0, 2e-5, directions=FIVE[: q.size])
         motion.rest(q)
         still = np.zeros((200, q.size))
         if driven:
@@ -323,7 +324,7 @@ def test_a_ball_that_a_pit_has_taken_from_both_races_is_found(load, length, dept
 @pytest.mark.parametrize("k", [0, 4])
 def test_the_search_for_a_ball_ends_where_newtons_method_does(k):
     """A ball with load, and one without."""
-    motion = BearingMotion(LOST, 1797.0, 1e-5, freedoms=5)
+    motion = BearingMotion(LOST, 1797.0, 1e-5, directions=FIVE)
     q, v = np.array([1e-6, -1.2e-5, 4e-5, 1e-4, -1e-4]), np.array([1e-3, -2e-3, 1e-3, 0.0, 0.0])
     motion.forces(q, v)
     balls, films = motion._motion.balls, motion._motion.films

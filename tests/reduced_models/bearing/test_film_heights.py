@@ -10,6 +10,7 @@ from ehlcontact import Lubricant
 from reduced_models import BallBearing, BallDiameter, BallWaviness, RaceWaviness, Spall, contact_filter
 from reduced_models.bearing.contact_heights import looked_up
 from reduced_models.bearing.film_heights import heights_in_runs, mean_film_speed
+from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.height_tables import track_radius
 from reduced_models.bearing.motion import motion_of
 
@@ -57,10 +58,10 @@ def test_films_keep_the_volume_of_a_spall_and_round_its_edges(race):
 
 def test_dry_bearings_smooth_ones_and_equilibria_have_the_tables_as_they_are():
     dry, oiled = replace(DRY, features=[PIT]), replace(OILED, features=[PIT])
-    for freedoms in (2, 5):
-        assert motion_of(dry, [RPM], freedoms).balls.heights is dry._heights
-        assert motion_of(OILED, [RPM], freedoms).balls.heights is OILED._heights
-        assert motion_of(oiled, [RPM], freedoms).balls.heights is heights_in_runs(oiled, [RPM])
+    for directions in (PLANAR, FIVE):
+        assert motion_of(dry, [RPM], directions).balls.heights is dry._heights
+        assert motion_of(OILED, [RPM], directions).balls.heights is OILED._heights
+        assert motion_of(oiled, [RPM], directions).balls.heights is heights_in_runs(oiled, [RPM])
     for kernel in (oiled._kernel(RPM), oiled._angular_balls(RPM)):
         np.testing.assert_array_equal(kernel.heights, dry._heights)
     assert np.abs(heights_in_runs(oiled, [RPM]) - dry._heights).max() > 0.1 * PIT.depth

@@ -4,7 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from beam_rotor import block, with_balls
+from beam_rotor import block, still_motion
 from scipy.integrate import solve_ivp
 
 from ehlcontact.errors import InputError
@@ -13,12 +13,13 @@ from reduced_models import (
     BearingMotion,
     simulate_rotor,
 )
-from reduced_models.bearing.balls import POSITION, speed_state
+from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
 from reduced_models.bearing.five_degrees import equilibrium_at
+from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import SmallBalls
-from reduced_models.bearing.motion import AngularMotion
+from reduced_models.bearing.motion import motion_of
 
 RPM = 3000.0
 
@@ -44,7 +45,7 @@ def test_against_scipy():
     start = np.array([2e-6, -8e-6]), np.array([0.0, 1e-3])
     it = BearingMotion(bearing, RPM, 1e-6)
     it.rest(start[0])
-    first = np.concatenate([*start, it._motion.films.balls[:, POSITION], np.zeros(9)])
+    first = np.concatenate([*start, [it._motion.approach(k, "outer") for k in range(9)], np.zeros(9)])
     exact = solve_ivp(rates, (0.0, 1e-3), first, method="DOP853", rtol=1e-9, atol=1e-15, t_eval=[5e-4, 1e-3])
     errors = []
     for dt in (1e-6, 5e-7):
@@ -67,7 +68,7 @@ def test_small_motions_in_time_have_the_impedance(oil, oiled):
     t = dt * np.arange(1, periods * per_period + 1)
     balls = SmallBalls.of(kernel, at_speed, [at])
     Z, massless = (b.impedance(1j * omega) for b in (balls, balls._replace(inertia=0.0)))
-    run = BearingMotion(with_balls(bearing, kernel), RPM, dt)
+    run = still_motion(bearing, RPM, dt)
     start = run.rest(at.displacement)
     rise = np.minimum(1.0, t * hz / 20.0)[:, None]  # free balls would swing on for ever
     swing = size * rise * np.array([[0.0, 1.0]])
@@ -89,12 +90,12 @@ def test_small_motions_at_contact_angles_have_the_impedance(oil, oiled):
     hz, size, periods, per_period = 15e3, 1e-11, 40, 100
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     Z, massless = (b.impedance(1j * omega) for b in (small, small._replace(inertia=0.0)))
-    motion = AngularMotion(bearing._angular_balls(RPM))
+    motion = motion_of(bearing, [RPM], FIVE)
     start, seen = motion.rest(RPM * RPM_TO_RAD_S, 0.3, place), np.zeros(5, complex)
     for i in range(1, periods * per_period + 1):
         phase, rise = i * dt * omega, min(1.0, i / (20.0 * per_period))
         motion.films.cage[2:] = 0.0  # balls do not go round
-        motion.begin(RPM * RPM_TO_RAD_S, 0.3, dt)
+        motion.begin(RPM * RPM_TO_RAD_S, dt)
         q, v = np.zeros(5), np.zeros(5)
         q[2], v[2] = size * rise * np.sin(phase), size * rise * omega * np.cos(phase)
         v[2] += size * (rise < 1.0) * hz / 20.0 * np.sin(phase)
@@ -104,22 +105,6 @@ def test_small_motions_at_contact_angles_have_the_impedance(oil, oiled):
             seen += 2.0j * (force - start) * np.exp(-1j * phase) / (per_period * size)
     assert abs(Z[2, 2] / massless[2, 2] - 1.0) > 0.03
     np.testing.assert_allclose(seen[:3], Z[:3, 2], rtol=0.0, atol=0.01 * abs(Z[2, 2]))
-
-
-@pytest.mark.parametrize(("changes", "dt"), [({"clearance": 1e-5}, 1e-6), ({"loss_factor": 0.05}, 2e-5)])
-def test_planar_motions_are_those_with_axial_motion_and_tilts_held(oil, changes, dt):
-    bearing = BallBearing.catalogue("6205", oil=oil, ball_inertia=True, **changes)
-    t, start = dt * np.arange(1, 501)[:, None], np.array([0.0, -8e-6, 0.0, 0.0, 0.0])
-    omega, both = 2e3 * pi * np.array([1.0, 1.3, 0.0, 0.0, 0.0]), []
-    for freedoms in (2, 5):
-        it = BearingMotion(bearing, RPM, dt, freedoms=freedoms)
-        it.rest(start[:freedoms])
-        q, v = start + 8e-6 * np.sin(omega * t), 8e-6 * omega * np.cos(omega * t)
-        force, balls = it.drive(q[:, :freedoms], v[:, :freedoms])
-        both.append((force[:, :2], balls))
-    assert both[0][1].min() == 0.0  # balls leave the inner ring
-    for one, other in zip(*both, strict=True):
-        np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-10 * one.max())
 
 
 def test_slow_motions_and_rest_are_those_without(film, oil):

@@ -4,10 +4,10 @@ from math import pi
 
 import numpy as np
 import pytest
-from beam_rotor import with_balls
+from beam_rotor import still_motion
 
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingMotion
+from reduced_models import BallBearing
 from reduced_models.bearing.balls import speed_state
 from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -48,7 +48,7 @@ def test_small_motions_in_time(oil, changes, ways, hz, periods, per_period, with
     Z = SmallBalls.of(kernel, at_speed, [at]).impedance(1j * omega)
     for k in ways:
         direction = np.eye(2)[k]
-        run = BearingMotion(with_balls(bearing, kernel), RPM, dt, 0.4)
+        run = still_motion(bearing, RPM, dt, 0.4)
         start = run.rest(at.displacement)
         q = at.displacement + size * np.sin(omega * t)[:, None] * direction
         force, _ = run.drive(q, size * omega * np.cos(omega * t)[:, None] * direction)

@@ -24,8 +24,9 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_rotor,
 )
+from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.motion import AngularMotion, BallMotion
+from reduced_models.bearing.motion import motion_of
 
 OIL = Lubricant.iso_vg(46, temperature=70.0)
 RPM = 12000.0
@@ -47,44 +48,17 @@ def test_a_ring_at_rest_stays_there(spindle, control):
     bearing = replace(spindle, race_control=control)
     load = np.array([50.0, -100.0, 300.0, 0.5, -0.3])
     state = bearing.equilibrium(load, speed_rpm=RPM, cage_angle=0.3)
-    motion = AngularMotion(bearing._angular_balls(RPM))
+    motion = motion_of(bearing, [RPM], FIVE)
     q, still = np.array(state.displacement), np.zeros(5)
     np.testing.assert_allclose(motion.rest(RPM * RPM_TO_RAD_S, 0.3, q), load, atol=1e-9)
     np.testing.assert_allclose(motion.films.force, state.force, rtol=1e-9)
     motion.films.cage[2:] = 0.0  # the cage held
     for _ in range(20):
-        motion.begin(RPM * RPM_TO_RAD_S, 0.3, 1e-5)
+        motion.begin(RPM * RPM_TO_RAD_S, 1e-5)
         force = motion.forces(q, still)[0]
         motion.accept()
         motion.films.cage[2:] = 0.0
         np.testing.assert_allclose(force, load, atol=1e-9)
-
-
-@pytest.mark.parametrize("oil", [None, OIL], ids=["dry", "oil"])
-def test_a_planar_motion_is_that_of_the_planar_bearing(oil):
-    bearing = BallBearing.catalogue("6205", oil=oil, clearance=4e-6)
-    planar = BallMotion(bearing._kernel(RPM))
-    # angles are 0 with the grooves in one plane
-    five = AngularMotion(bearing._angular_balls(RPM))
-    omega, dt, start = RPM * RPM_TO_RAD_S, 1e-5, np.array([2e-6, -9e-6])
-    np.testing.assert_allclose(
-        five.rest(omega, 0.1, np.append(start, [0, 0, 0]))[:2], planar.rest(omega, 0.1, start)
-    )
-    for i in range(1, 200):
-        t = i * dt
-        q = start + 3e-6 * np.array([np.sin(900.0 * t), 1.0 - np.cos(1400.0 * t)])
-        v = 3e-6 * np.array([900.0 * np.cos(900.0 * t), 1400.0 * np.sin(1400.0 * t)])
-        angle = 0.1 + planar.balls.cage * omega * t
-        planar.begin(omega, angle, dt)
-        five.begin(omega, angle, dt)
-        expected = planar.forces(q, v)
-        found = five.forces(np.append(q, [0, 0, 0]), np.append(v, [0, 0, 0]))
-        for one, other in zip(found, expected, strict=True):
-            cut = (slice(2),) * other.ndim
-            np.testing.assert_allclose(one[cut], other, atol=2e-6 * np.abs(other).max())
-        planar.accept()
-        five.accept()
-    assert five.angle == pytest.approx(angle, abs=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -94,12 +68,12 @@ def test_a_planar_motion_is_that_of_the_planar_bearing(oil):
 def test_tangents_against_differences(oil, density, close):
     """Light balls lift off in the motion."""
     bearing = BallBearing(**SPINDLE, oil=oil, density=density)
-    motion = AngularMotion(bearing._angular_balls(RPM))
+    motion = motion_of(bearing, [RPM], FIVE)
     q = np.array([4e-6, -6e-6, 9e-6, 4e-5, -2e-5])
     v = np.array([2e-3, 1e-3, -3e-3, 0.02, 0.03])
     motion.rest(RPM * RPM_TO_RAD_S, 0.0, q)
     for i in range(33):
-        motion.begin(RPM * RPM_TO_RAD_S, 0.0, 5e-6)
+        motion.begin(RPM * RPM_TO_RAD_S, 5e-6)
         at = q + 5e-6 * (i + 1) * v
         _, stiffness, damping = motion.forces(at, v)
         if i == 32:
@@ -199,10 +173,10 @@ def turned_force(mount, q, cage):
 def test_balls_pass_at_the_order_of_their_contact_angle(spindle):
     load = np.array([0.0, 0.0, 400.0, 0.0, 0.0])
     state = spindle.equilibrium(load, speed_rpm=RPM)
-    motion = AngularMotion(spindle._angular_balls(RPM))
+    motion = motion_of(spindle, [RPM], FIVE)
     motion.rest(RPM * RPM_TO_RAD_S, 0.0, np.array(state.displacement))
     for _ in range(100):
-        motion.begin(RPM * RPM_TO_RAD_S, 0.0, 1e-5)
+        motion.begin(RPM * RPM_TO_RAD_S, 1e-5)
         motion.forces(np.array(state.displacement), np.zeros(5))
         motion.accept()
     passes = spindle.balls * motion.angle / (RPM * RPM_TO_RAD_S * 1e-3)
