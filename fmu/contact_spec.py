@@ -15,8 +15,8 @@ from fmu.contact_variables import ContactVariables, Element, Film
 from fmu.lead import CONTACT, HELD_PARALLEL
 from fmu.spec import ModelSpec
 from fmu.steps import default_step, step_advice
-from reduced_models import CubicContact, LinearContact, PolynomialContact, PowerLawContact
 from reduced_models.elements.film_law import film_made
+from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import frequency_text, text_of
 
 LONGEST_NAME = 200  # characters of the name of a contact in the description of an FMU
@@ -41,16 +41,12 @@ _POWER = {
     "n": ("1", "Exponent of the spring force"),
     "u0": ("m", "Shift of the approach in the spring force"),
     "F0": ("N", "Offset of the spring force"),
-    "C": ("N.s/m", "Damping coefficient"),
+    "C1": ("N.s/m", "Damping coefficient"),
 }
 _ENDS = {
     "low": ("m", "Lower end of the validity interval of the approach"),
     "high": ("m", "Upper end of the validity interval of the approach"),
 }
-_POSITIVE = ("K", "n")
-_VISCOUS = ("C1", "C")
-
-Spring = LinearContact | CubicContact | PolynomialContact | PowerLawContact
 
 
 def contact_spec(element: Element, model_name: str | None = None, lead: float = HELD_PARALLEL) -> ModelSpec:
@@ -65,7 +61,7 @@ def contact_spec(element: Element, model_name: str | None = None, lead: float = 
     element : ContactElement
         Of any kind.
     model_name : str, optional
-        Name of the model; the class of the element by default.
+        Name of the model; the kind of the element, as CubicContact, by default.
     lead : float
         Start value of the parameter `lead`, 0 to 2 communication steps.
 
@@ -76,7 +72,7 @@ def contact_spec(element: Element, model_name: str | None = None, lead: float = 
     """
     if not isinstance(element, Element):
         raise InputError("element", type(element).__name__, "a contact element (linear, cubic, ..., wide)")
-    name = checked_name(type(element).__name__ if model_name is None else model_name)
+    name = checked_name(f"{element.kind.capitalize()}Contact" if model_name is None else model_name)
     parts = _film_parts(element, lead) if isinstance(element, Film) else _spring_parts(element, lead)
     system = "SI units" if element.units == "SI" else _DIMENSIONLESS
     return ModelSpec(
@@ -113,7 +109,7 @@ def checked_name(name: object) -> str:
 
 
 def _notes(element: Element) -> tuple[tuple[str, str], ...]:
-    lines = [("Element", f"{type(element).__name__}, units: {element.units}")]
+    lines = [("Element", f"{element.kind}, units: {element.units}")]
     if element.rate is not None:
         lines.append(("Largest rate of the data", repr(element.rate)))
     if element.omega_range is not None:
@@ -141,11 +137,11 @@ def _plain(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def _spring_parts(element: Spring, lead: float) -> dict[str, Any]:
+def _spring_parts(element: SpringContact, lead: float) -> dict[str, Any]:
     """Fields of the `ModelSpec` of an element without memory."""
     common = ContactVariables(element)
-    coefficients = dict(_POWER if isinstance(element, PowerLawContact) else _POLYNOMIAL)
-    seven = isinstance(element, PolynomialContact)
+    coefficients = dict(_POWER if element.kind == "power" else _POLYNOMIAL)
+    seven = element.kind == "polynomial"
     if not seven:
         for name in ("C2", "C3", "B4"):
             coefficients.pop(name, None)
@@ -163,7 +159,7 @@ def _spring_parts(element: Spring, lead: float) -> dict[str, Any]:
 
 
 def _spring_variables(
-    element: Spring,
+    element: SpringContact,
     common: ContactVariables,
     coefficients: dict[str, Any],
     law: tuple[str, ...],
@@ -182,9 +178,9 @@ def _spring_variables(
     common.output("damping", "N.s/m", damping, depends, "Tangent d(force)/d(rate)")
     common.flags(depends, first=True)
     # a seven-term damper may start below zero where its other terms make up for it
-    positive = _POSITIVE if isinstance(element, PolynomialContact) else (*_POSITIVE, *_VISCOUS)
+    positive = ("K", "n") if element.kind == "polynomial" else ("K", "n", "C1")
     for name, (unit, text) in (coefficients | _ENDS).items():
-        more = _band_text(element) if name in _VISCOUS else ""
+        more = _band_text(element) if name == "C1" else ""
         common.add(
             name, "parameter", "tunable", text + more,
             unit=None if unit is None and element.units == "SI" else common.unit(unit or "1"),
@@ -206,21 +202,16 @@ def _band_text(element: Element) -> str:
     return "" if band is None else f", for motion of {frequency_text(band, element.units)}"
 
 
-def _spring_macros(law: tuple[str, ...], element: Spring, levels_off: bool) -> dict[str, str]:
-    power, seven = isinstance(element, PowerLawContact), isinstance(element, PolynomialContact)
-    damper = "C" if power else "C1"
-    springs = ("K", "n", "u0", "F0") if power else ("K1", "K2", "K3")
-    entries = {name: f"spring[{k}]" for k, name in enumerate(springs)}
-    entries |= {damper: "C1", "rate_max": "rate"}
-    pairs = ", ".join(f"law->{entries.get(name, name)} = read(value, seed, VR_{name})" for name in law)
-    flags = {"LAW_POWER": "1"} if power else {}
-    flags |= {"LAW_SEVEN": "1", "LAW_LEVELS_OFF": str(int(levels_off))} if seven else {}
-    return flags | {
+def _spring_macros(law: tuple[str, ...], element: SpringContact, levels_off: bool) -> dict[str, str]:
+    pairs = ", ".join(f"law->{name.removesuffix('_max')} = read(value, seed, VR_{name})" for name in law)
+    return {
+        "LAW_POWER": str(int(element.kind == "power")),
+        "LAW_SEVEN": str(int(element.kind == "polynomial")),
+        "LAW_LEVELS_OFF": str(int(levels_off)),
         "N_CACHE": "4",
         "LAW_READ": pairs,
         "LAW_REFERENCES": ", ".join(f"VR_{name}" for name in law),
         "LAW_NAMES": f'"{", ".join(law[:-1])} and {law[-1]}"',
-        "LAW_DAMPER": f'"{damper}"',
     }
 
 

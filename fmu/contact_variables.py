@@ -8,16 +8,13 @@ from fmu.c_headers import c_double
 from fmu.lead import CONTACT
 from fmu.spec import VariableList
 from reduced_models import (
-    CubicContact,
     FilmMemoryContact,
-    LinearContact,
-    PolynomialContact,
-    PowerLawContact,
     WideRangeContact,
 )
+from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import MARGIN
 
-Element = LinearContact | CubicContact | PolynomialContact | PowerLawContact | FilmMemoryContact | WideRangeContact
+Element = SpringContact | FilmMemoryContact | WideRangeContact
 Film = FilmMemoryContact | WideRangeContact
 
 ALLOWED_ERROR = 1e-4  # of the force in a step that is cut inside, where the importer gives no tolerance

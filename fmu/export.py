@@ -48,7 +48,7 @@ def export_contact(
     fmi : int
         FMI version, 2 or 3.
     model_name : str, optional
-        Name of the model; the class of the element by default.
+        Name of the model; the kind of the element, as CubicContact, by default.
     lead : float, optional
         Start value of `lead`, 0 to 2 communication steps; 1.5 by default. What is right depends on what the force
         is given to: 1.5 for a mass that holds the force over its step while master and FMU step in parallel, which

@@ -34,11 +34,8 @@ from reduced_models.bearing.oil_balance import OilBalance as OilBalance
 from reduced_models.bearing.sliding import bearing_friction as bearing_friction
 from reduced_models.elements.base import ContactElement as ContactElement
 from reduced_models.elements.film_memory import FilmMemoryContact as FilmMemoryContact
-from reduced_models.elements.polynomial import CubicContact as CubicContact
-from reduced_models.elements.polynomial import LinearContact as LinearContact
-from reduced_models.elements.polynomial import PolynomialContact as PolynomialContact
-from reduced_models.elements.power import PowerLawContact as PowerLawContact
 from reduced_models.elements.speed_range import SpeedRangeContact as SpeedRangeContact
+from reduced_models.elements.spring import SpringContact as SpringContact
 from reduced_models.elements.validity import OutsideValidityWarning as OutsideValidityWarning
 from reduced_models.elements.wide_range import WideRangeContact as WideRangeContact
 from reduced_models.fitting.fit import fit as fit

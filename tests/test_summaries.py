@@ -330,7 +330,7 @@ def test_figures_are_drawn(results, tmp_path, in_files):
                 assert all(axes.get_xlabel() or axes.get_label() == "<colorbar>" for axes in figure.axes), thing
                 assert all(axes.get_ylabel() for axes in figure.axes), thing
     wanted = {kind for kind in public_classes().values() if hasattr(kind, "plot") and not inspect.isabstract(kind)}
-    alike = {"LinearContact", "PolynomialContact", "PowerLawContact", "MemoryFit", "ElementFit", "WaveTrack"}
+    alike = {"MemoryFit", "ElementFit", "WaveTrack"}
     assert {kind.__name__ for kind in wanted - drawn} == alike
 
 

@@ -43,8 +43,8 @@ from reduced_models.atlas.supply_condition import FAINT_GAIN, SLOWEST, SupplyCon
 from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
 from reduced_models.elements.film_memory import FilmMemoryContact
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
-from reduced_models.elements.polynomial import CubicContact
 from reduced_models.elements.speed_range import SpeedRangeContact
+from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.elements.wide_range import WideRangeContact
 
@@ -174,7 +174,7 @@ class Atlas:
         rpm: float | None = None,
         supply: OilLayer | None = None,
         thermal: Heat | bool | None = None,
-    ) -> FilmMemoryContact | WideRangeContact | CubicContact:
+    ) -> FilmMemoryContact | WideRangeContact | SpringContact:
         """Contact element at a point, in SI for an `OperatingPoint`.
 
         Parameters
@@ -342,7 +342,7 @@ class Atlas:
             Omega = nodes
         return Omega, values, bars
 
-    def _cubic(self, point: Point, w: float, given: Given) -> CubicContact:
+    def _cubic(self, point: Point, w: float, given: Given) -> SpringContact:
         moes, scales = self._inside(point), scales_of(point)
         load = np.ones(1)
         flooded, _ = self._surface.at(self._rows(moes, load))

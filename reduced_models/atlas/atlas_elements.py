@@ -18,8 +18,8 @@ from reduced_models.elements.film_element import units_of
 from reduced_models.elements.film_law import films
 from reduced_models.elements.film_memory import FilmMemoryContact, approach_under, film_and_exponent
 from reduced_models.elements.film_response import FilterRates
-from reduced_models.elements.polynomial import CubicContact
 from reduced_models.elements.speed_range import SpeedRangeContact
+from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import MARGIN, Band
 from reduced_models.elements.wide_range import WideRangeContact, inlet_saturation_of
 
@@ -167,7 +167,7 @@ def damper_band(Omega: _Floats, damping: FrequencyCurve, w: float) -> Band:
 
 def cubic_element(
     approach: float, stiffness: float, damping: float, band: Band, source: Mapping[str, Any]
-) -> CubicContact:
+) -> SpringContact:
     """The paper's viscous cubic, for vibrations of one band: load 1, tangent and curvature at its approach.
 
     The curvature is that of a dry contact on its film, F = (1 + 2/3 K (u - u_0))^(3/2), hence F'' = K^2/3.
@@ -183,7 +183,7 @@ def cubic_element(
     powers = np.array([[u, u**2, u**3], [1.0, 2.0 * u, 3.0 * u**2], [0.0, 2.0, 6.0 * u]])
     k1, k2, k3 = np.linalg.solve(powers, [1.0, stiffness, stiffness**2 / 3.0]).tolist()
     low, high = (u + 1.5 / stiffness * (load ** (2.0 / 3.0) - 1.0) for load in LOAD_BAND)
-    return CubicContact(
+    return SpringContact.cubic(
         K1=k1,
         K2=k2,
         K3=k3,

@@ -5,9 +5,8 @@
 | base | `ContactElement`: the interface of all elements; validity box, quality, source, units |
 | validity | approach, rate, load and frequency that the data covered; the warning outside them |
 | design_point | speed, oil and shape of the contact at which an element was fitted |
-| spring | elements without memory: spring, Hertz ends, damper and clipping in one law |
-| polynomial | `LinearContact`, `CubicContact`, `PolynomialContact` |
-| power | `PowerLawContact` |
+| spring | `SpringContact`: elements without memory: linear, cubic, polynomial, power |
+| spring_law | compiled: spring, Hertz ends, damper and clipping in one law |
 | jet | compiled: values with two partial derivatives |
 | film_filters | compiled: the filters of the film memory over a step and in continuous time |
 | film_law | compiled: a dry Hertz spring on a film with memory: a step, and the equations in continuous time |
@@ -25,9 +24,8 @@
 Heat and oil supply are in the tables from which elements are made: `reduced_models.atlas.heat_condition`,
 `reduced_models.atlas.supply_condition` and `reduced_models.atlas.gain_fit`.
 
-A new element is a frozen dataclass with its coefficients, ``low`` and ``high`` in a file of its own, registered
-by `ehlcontact.store.stored`; the contract tests then ask for an example of it. Without memory it derives from
-`spring.MemorylessContact`: a NamedTuple for its law and a kernel for its spring (`spring.kernel_of`); ends, damper
-and clipping follow. With another memory it derives from `base.ContactElement`, whose abstract methods say what
-rotors and oscillators need.
+A new spring is a term of `spring_law.inside` and a kind in ``SpringContact.kinds``; ends, damper and clipping
+follow, and the contract tests ask for an example of it. With another memory an element derives from
+`base.ContactElement`, whose abstract methods say what rotors and oscillators need; it is a frozen dataclass,
+registered by `ehlcontact.store.stored`.
 """

@@ -7,7 +7,7 @@ import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
-from typing import Any, ClassVar, Self, Unpack
+from typing import Any, ClassVar, Self, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -42,6 +42,7 @@ UNWATCHED = (-math.inf, math.inf, math.inf, -math.inf, math.inf)  # a reach that
 class _Common:
     """Fields that all elements have, behind the coefficients and the approach of their own."""
 
+    kind: str
     rate: float | None = None
     load_range: Band | None = None
     omega_range: Band | None = None
@@ -50,10 +51,22 @@ class _Common:
     source: Mapping[str, Any] | None = field(default=None, repr=False, compare=False)
 
 
+class Box(TypedDict, total=False):
+    """Fields that all elements have besides `low` and `high`, as keyword arguments."""
+
+    rate: float | None
+    load_range: Band | None
+    omega_range: Band | None
+    units: str
+    fit: Mapping[str, Any] | None
+    source: Mapping[str, Any] | None
+
+
 class ContactElement(ElementSummary, _Common, ABC):
     """Base of all elements, with or without memory.
 
-    A subclass is a frozen dataclass with its coefficients, named in ``parameter_names``, and `low` and `high`.
+    A subclass is a frozen dataclass with its coefficients, `low` and `high`, and a `kind`, whose coefficients are
+    named in ``kinds``.
     Approach in units of the dry Hertz approach or m, rate in its time derivative, force in units of the static
     load or N: see ``units``.
 
@@ -75,8 +88,7 @@ class ContactElement(ElementSummary, _Common, ABC):
         Quality of the fit and where the data came from, kept in the file.
     """
 
-    kind: ClassVar[str]
-    parameter_names: ClassVar[tuple[str, ...]]  # as in the constructor and in the file
+    kinds: ClassVar[Mapping[str, tuple[str, ...]]]  # names of the coefficients of each kind, as in the file
     low: float  # fields of the subclass, so that they follow its coefficients
     high: float
     validity: Validity
@@ -85,6 +97,7 @@ class ContactElement(ElementSummary, _Common, ABC):
     _reach: tuple[float, float, float, float, float]
 
     def __post_init__(self) -> None:
+        require_choice("kind", self.kind, tuple(self.kinds))
         require_choice("units", self.units, UNITS)
         self._check_coefficients()
         validity = Validity((self.low, self.high), self.rate, self.load_range, self.omega_range)
@@ -196,6 +209,11 @@ class ContactElement(ElementSummary, _Common, ABC):
     @abstractmethod
     def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
         """Fields of the element in SI, its validity box and units apart."""
+
+    @property
+    def parameter_names(self) -> tuple[str, ...]:
+        """Names of the coefficients that the kind has."""
+        return self.kinds[self.kind]
 
     @property
     def parameters(self) -> dict[str, float]:
@@ -315,7 +333,7 @@ class ContactElement(ElementSummary, _Common, ABC):
             self._note(set(new))
             left = ", ".join(word for words in new.values() for word in words)
             advice = "".join(f"; {self.beyond[reason]}" for reason in new if reason in self.beyond)
-            message = f"{type(self).__name__} used outside its validity box: {left}{advice}"
+            message = f"{self._summary_name()} used outside its validity box: {left}{advice}"
             warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel + 1)
 
     def check(self, point: Point | None = None, *, stacklevel: int = 2, **frequency: Unpack[Frequency]) -> None:
@@ -335,7 +353,7 @@ class ContactElement(ElementSummary, _Common, ABC):
             if others and "point" not in self._warned:
                 self._note({"point"})
                 words = ", ".join(others)
-                message = f"{type(self).__name__} used for another contact than it was made for: {words}"
+                message = f"{self._summary_name()} used for another contact than it was made for: {words}"
                 warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel)
             load, unit = self.design_point.load_of(point), self._known("force") if self.units == "SI" else 1.0
             if load is not None and unit is not None and not others:
@@ -423,15 +441,16 @@ class ContactElement(ElementSummary, _Common, ABC):
         InputError
             Another kind or unit, an entry that is missing or no number, coefficients that make no contact.
         """
-        if entries.get("kind") != cls.kind:
-            raise InputError("kind", entries.get("kind"), repr(cls.kind))
+        kind = require_choice("kind", entries.get("kind"), tuple(cls.kinds))
         require_choice("units", entries.get("units"), UNITS)
         for key in ("parameters", "valid"):
             require_instance(key, entries.get(key), dict, "an object of names and values")
         for key in ("fit", "source"):
             require_instance(key, entries.get(key), dict | None, "an object, or null")
-        values = cls._read_coefficients(entries) | Validity.from_dict(entries["valid"]).fields()
-        found = cls(**values, units=entries["units"], fit=entries.get("fit"), source=entries.get("source"))
+        values = cls._read_coefficients(kind, entries) | Validity.from_dict(entries["valid"]).fields()
+        found = cls(
+            kind=kind, **values, units=entries["units"], fit=entries.get("fit"), source=entries.get("source")
+        )
         known = found.to_dict()
         require_no_others(entries, known)
         for key in ("parameters", "valid"):
@@ -439,9 +458,9 @@ class ContactElement(ElementSummary, _Common, ABC):
         return found
 
     @classmethod
-    def _read_coefficients(cls, entries: Mapping[str, Any]) -> dict[str, Any]:
-        """Coefficients of the class, as arguments of its constructor, from `to_dict`."""
-        return numbers("parameters", entries["parameters"], cls.parameter_names)
+    def _read_coefficients(cls, kind: str, entries: Mapping[str, Any]) -> dict[str, Any]:
+        """Coefficients of that kind, as arguments of the class, from `to_dict`."""
+        return numbers("parameters", entries["parameters"], cls.kinds[kind])
 
 
 def as_approaches(approach: ArrayLike) -> NDArray[np.float64]:

@@ -25,6 +25,7 @@ BEYOND = 0.25  # of the interval of approach, that figures show on either side o
 class ElementSummary(Summary):
     """Base of the elements: summary and figure."""
 
+    kind: str
     units: str
     validity: Validity
     load_range: Band | None
@@ -37,6 +38,9 @@ class ElementSummary(Summary):
     time: Any
     spring: Any
     impedance: Any
+
+    def _summary_name(self) -> str:
+        return f"{type(self).__name__} ({self.kind})"
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Matplotlib figure of static force, and of K and C over frequency; into a file too where a path is given.
@@ -57,7 +61,7 @@ class ElementSummary(Summary):
             ("beyond", np.where(inside, np.nan, force), None),
         ]
         panels = [Panel((u, ("mutual approach", self._unit(LENGTH))), lines, ("static force", self._unit(FORCE)))]
-        return draw(f"{type(self).__name__}, {self.units}", [*panels, *self._over_frequency()], path)
+        return draw(f"{self._summary_name()}, {self.units}", [*panels, *self._over_frequency()], path)
 
     def _over_frequency(self) -> list[Panel]:
         """K and C about rest under the load that the element was made at, or at the middle of its interval."""

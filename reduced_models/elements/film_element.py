@@ -298,9 +298,9 @@ class FilmContact(ContactElement):
         return super().to_dict() | {"scales": None if self.scales is None else asdict(self.scales)}
 
     @classmethod
-    def _read_coefficients(cls, entries: Mapping[str, Any]) -> dict[str, Any]:
+    def _read_coefficients(cls, kind: str, entries: Mapping[str, Any]) -> dict[str, Any]:
         parameters, scales = entries["parameters"], entries.get("scales")
-        scalars = tuple(name for name in cls.parameter_names if name not in cls.tables)
+        scalars = tuple(name for name in cls.kinds[kind] if name not in cls.tables)
         values: dict[str, Any] = {**numbers("parameters", parameters, scalars)}
         for name in cls.tables:
             values[name] = parameters.get(name)

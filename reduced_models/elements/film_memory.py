@@ -99,10 +99,12 @@ class FilmMemoryContact(FilmContact):
     low: float
     high: float
     scales: Scales | None = field(default=None, kw_only=True)
+    kind: str = field(default="memory", kw_only=True)
 
-    kind = "memory"
     for_every_load = False
-    parameter_names = ("film", "exponent", "inlet_saturation", "lag_rate", "inlet_rate", "fast_rate", "gains")
+    kinds: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "memory": ("film", "exponent", "inlet_saturation", "lag_rate", "inlet_rate", "fast_rate", "gains")
+    }
     tables = ("gains",)
     beyond: ClassVar[Mapping[str, str]] = {
         "motion": "it is for motion about one load: a WideRangeContact (model 'wide') is made for every load"

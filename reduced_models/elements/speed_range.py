@@ -97,13 +97,22 @@ class SpeedRangeContact(FilmContact):
     low: float | None = None  # type: ignore[assignment]
     high: float | None = None  # type: ignore[assignment]
     scales: Scales | None = field(default=None, kw_only=True)
+    kind: str = field(default="speed", kw_only=True)
 
-    kind = "speed"
-    parameter_names = (
-        "speeds", "loads", "approach", "gain_loads", "gains", "inlet_saturation",
-        "lag_rate", "inlet_rate", "fast_rate",
-    )  # fmt: skip
-    tables = parameter_names[:6]
+    kinds: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "speed": (
+            "speeds",
+            "loads",
+            "approach",
+            "gain_loads",
+            "gains",
+            "inlet_saturation",
+            "lag_rate",
+            "inlet_rate",
+            "fast_rate",
+        )
+    }
+    tables = ("speeds", "loads", "approach", "gain_loads", "gains", "inlet_saturation")
     beyond: ClassVar[Mapping[str, str]] = {}
     _laws: tuple[FilmLaw, ...] = field(init=False, repr=False, compare=False)
     _speed: float = field(init=False, repr=False, compare=False)

@@ -1,219 +1,206 @@
-"""Elements without memory: a spring beside a damper, one law for all of them.
-
-    F = (f(u) + d(u, u'))_+
-
-On [low, high] f is the spring that was fitted, one kernel for each kind (`kernel_of`). Outside, a fitted spring
-is meaningless (tension, negative stiffness), so it goes on as a dry Hertz contact would: A (u - o)^(3/2), joined
-with equal value and slope. The damper
-
-    d = s(u) (C1 u' + C2 u'^2 + C3 u'^3 + B4 u u')
-
-fades out below `low` with the spring. Beyond the largest rate the powers of the rate, and outside [low, high] the
-mixed term, level off with a continuous slope, so that far away only a viscous damper C1 + B4 u is left.
-"""
+"""`SpringContact`: elements without memory, a spring beside a damper; equations in `spring_law`."""
 
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
-from collections.abc import Callable, Mapping
-from typing import Any, ClassVar, overload
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Self, Unpack, overload
 
 import numpy as np
-from numba import extending
+import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_float, as_numbers, require_finite, require_positive
+from ehlcontact.checks import as_float, as_numbers, require_finite, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
-from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
-from reduced_models.elements.base import ContactElement, as_approaches
+from ehlcontact.store import stored
+from reduced_models.elements.base import Box, ContactElement, as_approaches
 from reduced_models.elements.small_motion import StateSpace
-from reduced_models.elements.validity import LARGEST, require_size
+from reduced_models.elements.spring_law import (
+    A_HIGH,
+    A_LOW,
+    O_HIGH,
+    O_LOW,
+    RATE,
+    contact,
+    damper,
+    fill_contact,
+    fill_parts,
+    inside,
+    joined,
+    require_dissipation,
+    require_rising,
+    spring,
+    spring_law,
+)
+from reduced_models.elements.validity import require_size
 
 _Floats = NDArray[np.float64]
 
-ADVICE = "(fit again over a wider range of approach, or with the linear model)"
 
+@stored("contact element")
+@dataclass(frozen=True, kw_only=True)
+class SpringContact(ContactElement):
+    """Spring beside a viscous damper, never pulling: exact tangents, no memory; made by one of its constructors.
 
-# A law is a NamedTuple: coefficients of the spring, and what all laws have: low, high, C1, C2, C3, B4, the largest
-# rate (inf where it is not known), and origins and factors of the ends, which `joined` finds. It is flat, for one
-# of NamedTuples takes twice as long to hand to a kernel [measured: 2.5 us instead of 1.5].
-Law = Any
-_KERNELS: dict[type, Callable] = {}
+    F = K1 u + K2 u^2 + K3 u^3 + K (u + u0)^n + F0 + C1 u' + C2 u'^2 + C3 u'^3 + B4 u u' on [low, high], of which
+    each kind has some terms: `linear`, `cubic`, `polynomial` (Nonato and Cavalca 2010, eqs. 8, 11 and 12) and
+    `power`, of the literature after them. Outside the box see `reduced_models.elements.spring_law`.
 
-
-def kernel_of(kind: type) -> Callable[[Callable], Callable]:
-    """Enter a kernel (u, law) -> (force, tangent) as the spring between the ends of laws of class `kind`."""
-
-    def enter(kernel: Callable) -> Callable:
-        _KERNELS[kind] = kernel
-        return kernel
-
-    return enter
-
-
-def inside(u: float, law: Law) -> tuple[float, float]:
-    """Force and tangent of the spring between the ends, by the kernel of the law's class; kernels call it too."""
-    return _KERNELS[type(law)](u, law)
-
-
-@extending.overload(inside)
-def _inside(u, law):
-    kernel = _KERNELS[law.instance_class]
-
-    def call(u, law):
-        return kernel(u, law)
-
-    return call
-
-
-def joined(law: Law) -> Law:
-    """Return the law with its ends, which continue the spring beyond low and high.
+    Parameters
+    ----------
+    kind : {"linear", "cubic", "polynomial", "power"}
+    K1, K2, K3 : float
+        Coefficients of the powers of the approach; in SI N/m, N/m^2, N/m^3.
+    K, n, u0, F0 : float
+        Factor > 0 and exponent > 0 of the shifted approach, its shift with u0 + low > 0, and an offset of the
+        force; in SI N/m^n, 1, m and N.
+    C1, C2, C3, B4 : float
+        Coefficients of the damper; in SI N s/m, N s^2/m^2, N s^3/m^3 and N s/m^2.
+    low, high, rate, load_range, omega_range, units, fit, source
+        As for `ContactElement`.
 
     Raises
     ------
     InputError
-        A force or tangent that is not positive at an end, where no Hertz-like continuation exists, or one whose
-        coefficients are beyond floating-point numbers.
+        A value not finite, C1 < 0, low >= high, a spring that does not push and stiffen at both ends or falls in
+        between, or a damper that puts energy into a cycle, C1 + B4 u + C3 u'^2 < 0.
     """
-    ends: dict[str, float] = {}
-    for name in ("low", "high"):
-        u = getattr(law, name)
-        force, slope = inside(u, law)
-        if not force > 0.0:
-            raise InputError(f"spring force at {name}", force, f"> 0 {ADVICE}")
-        if not slope > 0.0:
-            raise InputError(f"spring tangent at {name}", slope, f"> 0 {ADVICE}")
-        reach = 1.5 * force / slope
-        try:
-            factor = force / reach**1.5
-        except ArithmeticError:  # overflow, or a division by what has become zero
-            factor = math.nan
-        fits = force <= LARGEST and slope <= LARGEST and math.isfinite(u - reach)
-        if not (fits and 0.0 < factor < math.inf):
-            values = f"force {force:g}, tangent {slope:g}"
-            raise InputError(f"spring at {name}", values, "smaller or larger (the units may be wrong)")
-        ends |= {f"o_{name}": u - reach, f"A_{name}": factor}
-    return law._replace(**ends)
 
+    K1: float = 0.0
+    K2: float = 0.0
+    K3: float = 0.0
+    K: float = 0.0
+    n: float = 1.5
+    u0: float = 0.0
+    F0: float = 0.0
+    C1: float = 0.0
+    C2: float = 0.0
+    C3: float = 0.0
+    B4: float = 0.0
+    low: float
+    high: float
 
-@jit_exact
-def hertz(reach, factor):
-    """Force and tangent of ``factor reach^(3/2)``, zero at and below reach 0."""
-    if reach <= 0.0:
-        return 0.0, 0.0
-    root = np.sqrt(reach)
-    return factor * reach * root, 1.5 * factor * root
-
-
-@jit_exact
-def fade(u, low, o_low):
-    """Share of the damper at approach `u` and its derivative: 1 from `low` upwards, 0 where the spring ends."""
-    if u >= low:
-        return 1.0, 0.0
-    width = low - o_low
-    s = (u - o_low) / width
-    if s <= 0.0:
-        return 0.0, 0.0
-    return s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / width
-
-
-@jit_exact
-def saturate(x, low, high, reach):
-    """`x` and slope 1 on [low, high]; beyond, it comes to rest within `reach` with a continuous slope."""
-    if x > high:
-        t = np.tanh((x - high) / reach)
-        return high + reach * t, 1.0 - t * t
-    if x < low:
-        t = np.tanh((low - x) / reach)
-        return low - reach * t, 1.0 - t * t
-    return x, 1.0
-
-
-@jit_exact
-def spring(u, law):
-    """Force and tangent of the spring at approach `u`."""
-    if u > law.high:
-        return hertz(u - law.o_high, law.A_high)
-    if u < law.low:
-        return hertz(u - law.o_low, law.A_low)
-    return inside(u, law)
-
-
-@jit_exact
-def damper(u, v, law):
-    """Force of the damper and its derivatives with respect to `u` and `v`."""
-    s, ds = fade(u, law.low, law.o_low)
-    if s == 0.0:
-        return 0.0, 0.0, 0.0
-    if law.C2 == 0.0 and law.C3 == 0.0 and law.B4 == 0.0:  # most are; and 0 inf is no force, however fast
-        return law.C1 * s * v, law.C1 * ds * v, law.C1 * s
-    at, du = saturate(u, law.low, law.high, 0.5 * (law.high - law.low))
-    w, dw = saturate(v, -law.rate, law.rate, law.rate)
-    c = law.C1 + law.B4 * at
-    # Beyond the largest rate the powers follow their tangent there, along the levelled rate.
-    edge = min(max(v, -law.rate), law.rate)
-    slope = 2.0 * law.C2 * edge + 3.0 * law.C3 * edge * edge
-    powers = edge * edge * (law.C2 + law.C3 * edge) + slope * (w - edge)
-    force = c * v + powers
-    return s * force, ds * force + s * law.B4 * du * v, s * (c + slope * dw)
-
-
-@jit_exact
-def contact(u, v, law):
-    """Force, dF/du and dF/dv at approach `u` and rate `v`; all zero where the force would pull."""
-    f, k = spring(u, law)
-    d, d_u, d_v = damper(u, v, law)
-    force = f + d
-    if force <= 0.0:
-        return 0.0, 0.0, 0.0
-    return force, k + d_u, d_v
-
-
-@jit_exact
-def fill_contact(u, v, law, out):
-    """Write force, dF/du and dF/dv at every point, shape (3, n)."""
-    for i in range(u.size):
-        out[0, i], out[1, i], out[2, i] = contact(u[i], v[i], law)
-
-
-@jit_exact
-def fill_parts(u, law, out):
-    """Write spring force and damping coefficient at zero rate, shape (2, n)."""
-    for i in range(u.size):
-        out[0, i] = spring(u[i], law)[0]
-        out[1, i] = damper(u[i], 0.0, law)[2]
-
-
-class MemorylessContact(ContactElement):
-    """Spring beside damper, never pulling: exact tangents, no state. A subclass gives its law and its units."""
-
-    law: Law
+    kinds: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "linear": ("K1", "C1"),
+        "cubic": ("K1", "K2", "K3", "C1"),
+        "polynomial": ("K1", "C1", "K2", "C2", "K3", "C3", "B4"),
+        "power": ("K", "n", "u0", "F0", "C1"),
+    }
     beyond: ClassVar[Mapping[str, str]] = {
         "frequency": "it is for the band it was made in: a film memory (model 'memory' or 'wide') is for all"
     }
+    law: _Floats = field(init=False, repr=False, compare=False)
+
+    @classmethod
+    def linear(cls, K1: float, C1: float, low: float, high: float, **box: Unpack[Box]) -> Self:
+        """Linear spring and viscous damper, F = K1 u + C1 u' (eq. 8).
+
+        Parameters
+        ----------
+        K1, C1 : float
+        low, high : float
+            Ends of the approach; `rate` and other bounds as for the class.
+        """
+        return cls(kind="linear", K1=K1, C1=C1, low=low, high=high, **box)
+
+    @classmethod
+    def cubic(
+        cls, K1: float, K2: float, K3: float, C1: float, low: float, high: float, **box: Unpack[Box]
+    ) -> Self:
+        """Cubic spring and viscous damper, F = K1 u + K2 u^2 + K3 u^3 + C1 u' (eq. 11 as Table 2 reduces it).
+
+        Only the root and the tangent of the spring are identifiable from a small vibration, not the single K.
+
+        Parameters
+        ----------
+        K1, K2, K3, C1 : float
+        low, high : float
+            Ends of the approach; `rate` and other bounds as for the class.
+        """
+        return cls(kind="cubic", K1=K1, K2=K2, K3=K3, C1=C1, low=low, high=high, **box)
+
+    @classmethod
+    def polynomial(
+        cls,
+        K1: float,
+        C1: float,
+        K2: float,
+        C2: float,
+        K3: float,
+        C3: float,
+        B4: float,
+        low: float,
+        high: float,
+        **box: Unpack[Box],
+    ) -> Self:
+        """F = K1 u + C1 u' + K2 u^2 + C2 u'^2 + K3 u^3 + C3 u'^3 + B4 u u' (eq. 11).
+
+        Use the cubic unless the seven terms are wanted: the three further dampers are hardly identifiable
+        (`reduced_models.sensitivity`).
+
+        Parameters
+        ----------
+        K1, C1, K2, C2, K3, C3, B4 : float
+            In the order of eq. 12.
+        low, high : float
+            Ends of the approach; `rate` and other bounds as for the class. Without a `rate` the powers of the
+            rate go on for ever.
+        """
+        terms = {"K1": K1, "C1": C1, "K2": K2, "C2": C2, "K3": K3, "C3": C3, "B4": B4}
+        return cls(kind="polynomial", **terms, low=low, high=high, **box)
+
+    @classmethod
+    def power(
+        cls, K: float, n: float, u0: float, F0: float, C1: float, low: float, high: float, **box: Unpack[Box]
+    ) -> Self:
+        """F = K (u + u0)^n + F0 + C1 u'; a dry point contact has n = 3/2, u0 = F0 = 0.
+
+        Outside [low, high] the spring goes on like a Hertz contact, as that of every kind, so that it lets go
+        where the surfaces part whatever F0 is.
+
+        Parameters
+        ----------
+        K, n, u0, F0, C1 : float
+        low, high : float
+            Ends of the approach; `rate` and other bounds as for the class.
+        """
+        return cls(kind="power", K=K, n=n, u0=u0, F0=F0, C1=C1, low=low, high=high, **box)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         object.__setattr__(self, "law", joined(self._law()))
+        require_rising(self.law)
         require_size("damping", float(np.abs(self._parts([self.low, self.high])[1]).max()))
 
-    @abstractmethod
-    def _law(self) -> Law:
+    def _check_coefficients(self) -> None:
+        super()._check_coefficients()
+        others = {name for names in self.kinds.values() for name in names} - set(self.parameter_names)
+        for name in sorted(others):
+            if getattr(self, name) != getattr(SpringContact, name):
+                raise InputError(name, getattr(self, name), f"left out of a {self.kind} element")
+
+    def _law(self) -> _Floats:
         """The law of the coefficients, checked, its ends not yet joined."""
-
-    @abstractmethod
-    def _approach_between(self, force: float) -> float:
-        """Approach on [low, high] at which the spring carries `force`, which lies between the forces there."""
-
-    @abstractmethod
-    def _si_factors(self, scales: Scales) -> dict[str, float]:
-        """SI value of the unit of every coefficient."""
+        law = spring_law(low=self.low, high=self.high, **self.parameters)
+        if self.kind == "polynomial":
+            if self.rate is not None:
+                law[RATE] = require_positive("rate", self.rate)
+            require_dissipation(law)
+        else:
+            require_nonnegative("C1", self.C1)
+        if self.kind == "power":
+            for name in ("K", "n"):
+                require_positive(name, getattr(self, name))
+            require_positive("low + u0", self.low + self.u0)
+        return law
 
     def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
-        factor = self._si_factors(scales)
-        return {name: value * factor[name] for name, value in self.parameters.items()}
+        f, u, v = scales.force, scales.length, scales.rate
+        factors = {f"K{i}": f / u**i for i in (1, 2, 3)} | {"K": f / u**self.n, "n": 1.0, "u0": u, "F0": f}
+        factors |= {"C1": scales.damping, "C2": f / v**2, "C3": f / v**3, "B4": f / (u * v)}
+        return {name: value * factors[name] for name, value in self.parameters.items()}
 
     @overload
     def force(self, approach: float, rate: float) -> float: ...
@@ -272,24 +259,42 @@ class MemorylessContact(ContactElement):
             Force not finite and > 0.
         """
         law, force = self.law, require_positive("force", force)
-        if force <= spring(law.low, law)[0]:
-            return float(law.o_low + (force / law.A_low) ** (2.0 / 3.0))
-        if force >= spring(law.high, law)[0]:
-            return float(law.o_high + (force / law.A_high) ** (2.0 / 3.0))
-        return self._approach_between(force)
+        if force <= spring(self.low, law)[0]:
+            return float(law[O_LOW] + (force / law[A_LOW]) ** (2.0 / 3.0))
+        if force >= spring(self.high, law)[0]:
+            return float(law[O_HIGH] + (force / law[A_HIGH]) ** (2.0 / 3.0))
+        if self.kind == "power":
+            return float(((force - self.F0) / self.K) ** (1.0 / self.n)) - self.u0
+        ends = {"xtol": 1e-300, "rtol": 1e-14}
+        return float(scipy.optimize.brentq(lambda u: inside(u, law)[0] - force, self.low, self.high, **ends))
 
     def rate_at(self, approach: float, force: float) -> float:
         """Rate at which the contact carries `force` > 0 at this approach: the motion without inertia.
 
+        Where a polynomial damper is not monotone there are several; the search goes outwards from that of
+        C1 + B4 u.
+
         Raises
         ------
         InputError
-            No damper acts there.
+            No damper acts there, or none of its rates makes up for the force.
         """
-        spring, damping = (float(part) for part in self._parts(approach))
+        static, damping = (float(part) for part in self._parts(approach))
         if damping <= 0.0:
             raise InputError(f"damping at approach {approach:g}", damping, "> 0 for a motion without inertia")
-        return (force - spring) / damping
+        v = (force - static) / damping
+        if self.kind != "polynomial":
+            return v
+
+        def excess(rate: float) -> float:
+            return static + damper(approach, rate, self.law)[0] - force
+
+        width = abs(v) if v != 0.0 else 1e-9
+        while excess(v - width) * excess(v + width) > 0.0:
+            width *= 2.0
+            if not math.isfinite(width):
+                raise InputError(f"force at approach {approach:g}", force, "one that some rate gives")
+        return float(scipy.optimize.brentq(excess, v - width, v + width, xtol=1e-300, rtol=1e-14))
 
     def state_space(self, load: float | None = None) -> StateSpace:
         """Linear law about rest under `load`, without states: F = K u + C u'."""

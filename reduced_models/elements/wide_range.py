@@ -76,11 +76,20 @@ class WideRangeContact(FilmContact):
     low: float | None = None  # type: ignore[assignment]
     high: float | None = None  # type: ignore[assignment]
     scales: Scales | None = field(default=None, kw_only=True)
+    kind: str = field(default="wide", kw_only=True)
 
-    kind = "wide"
-    parameter_names = (
-        "loads", "approach", "gain_loads", "gains", "inlet_saturation", "lag_rate", "inlet_rate", "fast_rate"
-    )  # fmt: skip
+    kinds: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "wide": (
+            "loads",
+            "approach",
+            "gain_loads",
+            "gains",
+            "inlet_saturation",
+            "lag_rate",
+            "inlet_rate",
+            "fast_rate",
+        )
+    }
     tables = ("loads", "approach", "gain_loads", "gains")
     beyond: ClassVar[Mapping[str, str]] = {
         "motion": "`motion_errors` has what fast closing of parted surfaces costs"

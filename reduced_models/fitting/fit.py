@@ -11,17 +11,17 @@ import numpy as np
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
-from reduced_models.elements.spring import MemorylessContact
+from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import Validity
 from reduced_models.fitting.memory_fit import fit_memory
-from reduced_models.fitting.models import ESTIMATORS, Estimate
+from reduced_models.fitting.models import Estimate, estimate
 from reduced_models.fitting.records import ContactRecord
 from reduced_models.fitting.result import ElementFit, FitResult, MemoryFit, rms_error, sum_error
 from reduced_models.fitting.samples import Samples, Window
 from reduced_models.fitting.uncertainty import Uncertainty
 
 MEMORY = "memory"
-MODELS = (*ESTIMATORS, MEMORY)
+MODELS = (*SpringContact.kinds, MEMORY)
 
 Records = ContactRecord | Sequence[ContactRecord]
 
@@ -45,7 +45,7 @@ def fit(records: Records, model: str = "cubic", window: Window | None = None) ->
         Several are fitted together, sample by sample.
     model : {"cubic", "linear", "polynomial", "power", "memory"}
         F = K1 u + K2 u^2 + K3 u^3 + C1 u' (eq. 11 as Table 2 reduces it), F = K1 u + C1 u' (eq. 8), the seven
-        terms of eq. 11, F = K (u + u0)_+^n + F0 + C u', or the film memory: `fit_memory`, which solves the
+        terms of eq. 11, F = K (u + u0)^n + F0 + C1 u', or the film memory: `fit_memory`, which solves the
         impedance of the contact too.
     window : (start, end), optional
         Part of T to fit, in every record. Left out, each record gives up its first third
@@ -80,30 +80,30 @@ def fit(records: Records, model: str = "cubic", window: Window | None = None) ->
 
 def _least_squares(records: Records, model: str, window: Window | None) -> FitResult:
     samples = Samples.of(records, window)
-    estimate = ESTIMATORS[model](samples)
+    fitted = estimate(samples, model)
     if np.std(samples.force) == 0.0:
         raise InputError("force", float(samples.force[0]), "a history that varies")
     samples.require_matching_rates()
     known = Uncertainty.of(
-        tuple(estimate.parameters), estimate.covariance, samples.split(samples.force - estimate.fitted)
+        tuple(fitted.parameters), fitted.covariance, samples.split(samples.force - fitted.fitted)
     )
-    estimate = estimate.without_negative_damping(samples, known.std_errors)
-    element = _element(samples, estimate)
+    fitted = fitted.without_negative_damping(samples, known.std_errors)
+    element = _element(samples, model, fitted)
     root, tangent = _static(element, samples.records[0].static_load)
     result = FitResult(
         element=element,
         model=model,
-        parameters=estimate.parameters,
+        parameters=fitted.parameters,
         std_errors=known.std_errors,
-        intervals=known.intervals(estimate.parameters),
+        intervals=known.intervals(fitted.parameters),
         covariance=known.covariance,
-        rms=rms_error(samples.force, estimate.fitted),
-        e_f=sum_error(samples.force, estimate.fitted),
-        e_acc=samples.acceleration_error(estimate.fitted),
+        rms=rms_error(samples.force, fitted.fitted),
+        e_f=sum_error(samples.force, fitted.fitted),
+        e_acc=samples.acceleration_error(fitted.fitted),
         root=root,
         tangent=tangent,
         valid=element.validity.to_dict(),
-        condition=estimate.condition,
+        condition=fitted.condition,
         window=samples.windows,
         samples=int(samples.force.size),
         independent_samples=known.independent_samples,
@@ -111,13 +111,14 @@ def _least_squares(records: Records, model: str, window: Window | None) -> FitRe
     return replace(result, element=replace(element, fit=result.quality()))
 
 
-def _element(samples: Samples, estimate: Estimate) -> MemorylessContact:
+def _element(samples: Samples, kind: str, fitted: Estimate) -> SpringContact:
     """Element of the estimate, with validity box and origin of the samples."""
     first = samples.records[0]
     frequencies = [cut.frequency for cut in samples.cuts]
-    return estimate.build(
-        **estimate.parameters,
-        **Validity.of(samples.approach, samples.rate, samples.force, frequencies).fields(),
+    box = Validity.of(samples.approach, samples.rate, samples.force, frequencies).fields()
+    return SpringContact(
+        kind=kind,
+        **(fitted.parameters | box),
         units=first.units,
         source=source_of(
             first.point, first.scales, samples.each("n"), samples.each("domain"), samples.each("motion")
@@ -125,7 +126,7 @@ def _element(samples: Samples, estimate: Estimate) -> MemorylessContact:
     )
 
 
-def _static(element: MemorylessContact, load: float | None) -> tuple[float | None, float | None]:
+def _static(element: SpringContact, load: float | None) -> tuple[float | None, float | None]:
     """Approach and tangent of the spring under the static load, where that is known."""
     if load is None:
         return None, None

@@ -1,4 +1,4 @@
-"""Models of `fit`: coefficients, fitted force and uncertainty from samples."""
+"""Least squares of each kind of spring: coefficients, fitted force and uncertainty from samples."""
 
 from __future__ import annotations
 
@@ -8,9 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from reduced_models.elements.polynomial import CubicContact, LinearContact, PolynomialContact
-from reduced_models.elements.power import PowerLawContact
-from reduced_models.elements.spring import MemorylessContact
+from reduced_models.elements.spring import SpringContact
 from reduced_models.fitting.least_squares import linear_fit
 from reduced_models.fitting.power_law_fit import fit_power_law
 from reduced_models.fitting.samples import Samples
@@ -40,47 +38,28 @@ class Estimate:
     fitted: _Floats  # force of all cuts
     covariance: _Floats  # as if the residuals were independent
     condition: float  # of the column-scaled (Jacobian) matrix
-    build: Callable[..., MemorylessContact]  # called with parameters, validity box and units
-    damping: str | None = None  # coefficient of u', where it is the whole damper
 
     def without_negative_damping(self, samples: Samples, errors: Mapping[str, float]) -> Estimate:
-        """Damping 0 where it is negative by rounding, or by no more than its standard error in `errors`."""
-        if self.damping is None:
+        """Viscous damper 0 where it is negative by rounding, or by no more than its standard error in `errors`."""
+        if not {"C2", "C3", "B4"}.isdisjoint(self.parameters):
             return self
-        damping = self.parameters[self.damping]
+        damping = self.parameters["C1"]
         smallest = ROUNDING_FORCE * float(np.abs(samples.force).max()) / float(np.abs(samples.rate).max())
-        if not -max(errors[self.damping], smallest) <= damping < 0.0:
+        if not -max(errors["C1"], smallest) <= damping < 0.0:
             return self
-        return replace(
-            self,
-            parameters=self.parameters | {self.damping: 0.0},
-            fitted=self.fitted - damping * samples.rate,
-        )
+        return replace(self, parameters=self.parameters | {"C1": 0.0}, fitted=self.fitted - damping * samples.rate)
 
 
-def linear_estimate(samples: Samples, names: Sequence[str], build: Callable[..., MemorylessContact]) -> Estimate:
+def estimate(samples: Samples, kind: str) -> Estimate:
+    """Coefficients of a kind of spring, one of ``SpringContact.kinds``."""
+    if kind == "power":
+        return Estimate(*fit_power_law(samples.approach, samples.rate, samples.force))
+    return linear_estimate(samples, SpringContact.kinds[kind])
+
+
+def linear_estimate(samples: Samples, names: Sequence[str]) -> Estimate:
     """Least squares of the columns of eq. 12 that belong to `names`."""
     columns = {COLUMNS[name][0]: COLUMNS[name][1](samples.approach, samples.rate) for name in names}
     solved = linear_fit(columns, samples.force)
     parameters = dict(zip(names, solved.values.tolist(), strict=True))
-    damping = "C1" if set(names).isdisjoint(("C2", "C3", "B4")) else None
-    return Estimate(parameters, solved.fitted, solved.covariance, solved.condition, build, damping)
-
-
-def _power_estimate(samples: Samples) -> Estimate:
-    return Estimate(
-        *fit_power_law(samples.approach, samples.rate, samples.force), build=PowerLawContact, damping="C"
-    )
-
-
-def _of_columns(element: type[MemorylessContact]) -> Callable[[Samples], Estimate]:
-    return lambda samples: linear_estimate(samples, element.parameter_names, element)
-
-
-# A new model is entered here, and nowhere else for `fit` and the command line to offer it.
-ESTIMATORS: dict[str, Callable[[Samples], Estimate]] = {
-    "linear": _of_columns(LinearContact),
-    "cubic": _of_columns(CubicContact),
-    "polynomial": _of_columns(PolynomialContact),
-    "power": _power_estimate,
-}
+    return Estimate(parameters, solved.fitted, solved.covariance, solved.condition)

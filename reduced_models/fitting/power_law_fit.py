@@ -1,4 +1,4 @@
-"""Variable projection for the power law: K, F0 and C are linear unknowns, n and u0 are searched."""
+"""Variable projection for the power law: K, F0 and C1 are linear unknowns, n and u0 are searched."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ SMALLEST_CURVATURE = 1e-4  # share of the largest one, below which the law is a 
 
 
 def fit_power_law(u: _Floats, v: _Floats, f: _Floats) -> tuple[dict[str, float], _Floats, _Floats, float]:
-    """Fit f = K (u + u0)^n + F0 + C u', all of shape (N,).
+    """Fit f = K (u + u0)^n + F0 + C1 u', all of shape (N,).
 
-    Golub and Pereyra's variable projection: for every (n, u0) the best K, F0 and C follow from linear least
+    Golub and Pereyra's variable projection: for every (n, u0) the best K, F0 and C1 follow from linear least
     squares, so that the search has two unknowns. Instead of u0 it uses q = spread/(centre + u0), the curvature
     that the record sees.
 
@@ -33,7 +33,7 @@ def fit_power_law(u: _Floats, v: _Floats, f: _Floats) -> tuple[dict[str, float],
     Returns
     -------
     parameters : dict
-        K, n, u0, F0, C.
+        K, n, u0, F0, C1.
     fitted : array, shape (N,)
     covariance : array, shape (5, 5)
         From the Jacobian at the solution, as if the residuals were independent.
@@ -53,13 +53,13 @@ def fit_power_law(u: _Floats, v: _Floats, f: _Floats) -> tuple[dict[str, float],
     K, n, u0 = (parameters[name] for name in ("K", "n", "u0"))
     reach = u + u0
     part = reach**n
-    fitted = K * part + parameters["F0"] + parameters["C"] * v
+    fitted = K * part + parameters["F0"] + parameters["C1"] * v
     jacobian = {
         "dF/dK": part,
         "dF/dn": K * part * np.log(reach),
         "dF/du0": K * n * part / reach,
         "dF/dF0": np.ones_like(u),
-        "dF/dC": v,
+        "dF/dC1": v,
     }
     # At the solution the Gauss-Newton step is zero; its matrix holds the covariance and the condition.
     step = linear_fit(jacobian, f - fitted)
@@ -68,7 +68,7 @@ def fit_power_law(u: _Floats, v: _Floats, f: _Floats) -> tuple[dict[str, float],
 
 @dataclass(frozen=True, eq=False)
 class _Projected:
-    """Residuals of a record as a function of n and q, with K, F0 and C projected out."""
+    """Residuals of a record as a function of n and q, with K, F0 and C1 projected out."""
 
     w: _Floats  # approach from its centre, in its spread
     v: _Floats  # rate over the fastest
@@ -89,7 +89,7 @@ class _Projected:
         return SMALLEST_CURVATURE * highest, highest
 
     def columns(self, x: _Floats) -> _Floats:
-        """Columns of K, F0 and C, up to factors, at (n, q)."""
+        """Columns of K, F0 and C1, up to factors, at (n, q)."""
         n, q = x
         return np.column_stack([((1.0 + q * self.w) ** n - 1.0) / (n * q), np.ones_like(self.w), self.v])
 
@@ -142,12 +142,12 @@ class _Projected:
         return n, q
 
     def parameters(self, n: float, q: float) -> dict[str, float]:
-        """K, n, u0, F0 and C in the units of the record."""
+        """K, n, u0, F0 and C1 in the units of the record."""
         a, b, c = np.linalg.lstsq(self.columns(np.array([n, q])), self.f, rcond=None)[0]
         return {
             "K": float(a) / (n * q) * (q / self.spread) ** n,
             "n": n,
             "u0": self.spread / q - self.centre,
             "F0": float(b) - float(a) / (n * q),
-            "C": float(c) / self.fastest,
+            "C1": float(c) / self.fastest,
         }

@@ -15,7 +15,7 @@ from ehlcontact.results.table import frame_of, plain
 from ehlcontact.summary import Summary
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.film_memory import FilmMemoryContact
-from reduced_models.elements.spring import MemorylessContact
+from reduced_models.elements.spring import SpringContact
 
 _Floats = NDArray[np.float64]
 
@@ -121,7 +121,7 @@ class FitResult(ElementFit):
         As in `ElementFit`, none of them None but `root` and `tangent` of a spring that carries no such load.
     """
 
-    element: MemorylessContact
+    element: SpringContact
     parameters: Mapping[str, float]
     rms: float
     e_f: float

@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from ehlcontact.results.picture import Panel, draw
 from ehlcontact.results.table import frame_of
 from ehlcontact.summary import Summary
-from reduced_models.elements.polynomial import PolynomialContact
+from reduced_models.elements.spring import SpringContact
 from reduced_models.fitting.models import COLUMNS, linear_estimate
 from reduced_models.fitting.records import ContactRecord
 from reduced_models.fitting.result import rms_error, sum_error
 from reduced_models.fitting.samples import Samples, Window
 from reduced_models.fitting.uncertainty import autocorrelation, independent_samples
 
-TERMS = PolynomialContact.parameter_names
+TERMS = SpringContact.kinds["polynomial"]
 # Autocorrelation of neighbouring residuals above which AIC and BIC of all samples mislead: `warning`.
 CORRELATED_FROM = 0.5
 
@@ -152,14 +152,14 @@ def sensitivity(records: ContactRecord | Sequence[ContactRecord], window: Window
     """
     samples = Samples.of(records, window)
     samples.require_matching_rates()
-    full = linear_estimate(samples, TERMS, PolynomialContact)
+    full = linear_estimate(samples, TERMS)
     parts = samples.split(samples.force - full.fitted)
     independent = independent_samples(parts)
     scale = float(np.mean((samples.force - full.fitted) ** 2))
     rows = []
     for removed in (None, *TERMS):
         kept = [name for name in TERMS if name != removed]
-        fitted = linear_estimate(samples, kept, PolynomialContact).fitted
+        fitted = linear_estimate(samples, kept).fitted
         # Of normal residuals -2 ln(likelihood) = N ln(mean square): here of the samples that are independent.
         gain = independent * float(np.log(np.mean((samples.force - fitted) ** 2) / scale))
         fewer = len(TERMS) - len(kept)

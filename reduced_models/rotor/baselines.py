@@ -12,15 +12,15 @@ from ehlcontact.checks import require_instance, require_nonnegative, require_pos
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.base import ContactElement
-from reduced_models.elements.power import PowerLawContact
+from reduced_models.elements.spring import SpringContact
 
 # Approaches, over that of the static load, between which a Hertz law is written down. Beyond, elements go on as
 # the same law, so that the ends decide nothing.
 SPAN = (1e-3, 10.0)
-DAMPERS = ("C", "C1", "C2", "C3", "B4")  # coefficients that act on the rate, of all elements without memory
+DAMPERS = ("C1", "C2", "C3", "B4")  # coefficients that act on the rate, of all elements without memory
 
 
-def dry_contact(scales: Scales) -> PowerLawContact:
+def dry_contact(scales: Scales) -> SpringContact:
     """Hertz contact of the same bodies without oil, f = K u^(3/2) in SI: no film, no damper.
 
     Parameters
@@ -31,7 +31,7 @@ def dry_contact(scales: Scales) -> PowerLawContact:
     require_instance("scales", scales, Scales, "the Scales of an operating point")
     low, high = (share * scales.length for share in SPAN)
     factor = scales.force / scales.length**1.5
-    return PowerLawContact(K=factor, n=1.5, u0=0.0, F0=0.0, C=0.0, low=low, high=high, units="SI")
+    return SpringContact.power(K=factor, n=1.5, u0=0.0, F0=0.0, C1=0.0, low=low, high=high, units="SI")
 
 
 def without_damper(element: ContactElement) -> ContactElement:
@@ -49,7 +49,7 @@ def without_damper(element: ContactElement) -> ContactElement:
     return replace(element, **lost, fit=None)  # type: ignore[arg-type]
 
 
-def local_contact(load: float, approach: float, stiffness: float, damping: float) -> PowerLawContact:
+def local_contact(load: float, approach: float, stiffness: float, damping: float) -> SpringContact:
     """Contact with a given load, stiffness and damping at one approach, and the curvature of a Hertz contact.
 
     For a first motion, before there is an element: from a steady film and its impedance.
@@ -70,12 +70,12 @@ def local_contact(load: float, approach: float, stiffness: float, damping: float
     reach = 1.5 * load / stiffness
     low, high = (share * reach for share in SPAN)
     shift = reach - approach
-    return PowerLawContact(
+    return SpringContact.power(
         K=load / reach**1.5,
         n=1.5,
         u0=shift,
         F0=0.0,
-        C=require_nonnegative("damping", damping),
+        C1=require_nonnegative("damping", damping),
         low=low - shift,
         high=high - shift,
         units="SI",

@@ -64,7 +64,7 @@ def record(**changes):
 
 
 def cubic(**changes):
-    return rm.CubicContact(**({"K1": 1.0, "K2": 0.1, "K3": 0.1, "C1": 0.01, **BOX} | changes))
+    return rm.SpringContact.cubic(**({"K1": 1.0, "K2": 0.1, "K3": 0.1, "C1": 0.01, **BOX} | changes))
 
 
 @cache
@@ -85,8 +85,8 @@ def rows_of_gains():
 
 
 def power(**changes):
-    good = {"K": 1.0, "n": 1.5, "u0": 0.0, "F0": 0.0, "C": 0.01}
-    return rm.PowerLawContact(**(good | BOX | changes))
+    good = {"K": 1.0, "n": 1.5, "u0": 0.0, "F0": 0.0, "C1": 0.01}
+    return rm.SpringContact.power(**(good | BOX | changes))
 
 
 def jeffcott(**changes):

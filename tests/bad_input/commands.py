@@ -245,7 +245,10 @@ COMMANDS = [
     # fit
     (("fit",), ("R.h5", "given", "simulate")),
     (("fit", "none.h5"), ("file = 'none.h5'", "a readable result of simulate")),
-    (("fit", ELEMENT), ("file = 'element.json'", "result of simulate; its header names the class 'CubicContact'")),
+    (
+        ("fit", ELEMENT),
+        ("file = 'element.json'", "result of simulate; its header names the class 'SpringContact'"),
+    ),
     (("fit", FILM), ("file = 'film.h5'", "result of simulate; its header names the class 'SteadyResult'")),
     (("fit", RECORD, RECORD), ("file = 'record.h5'", "given once")),
     (("fit", RECORD, f"./{RECORD}"), ("given once", "record.h5")),
@@ -278,7 +281,7 @@ COMMANDS = [
     (at("element", "--atlas", "none.h5"), ("atlas = 'none.h5'", "readable table of an atlas")),
     (
         at("element", "--atlas", ELEMENT),
-        ("atlas = 'element.json'", "table of an atlas; its header names the class 'CubicContact'"),
+        ("atlas = 'element.json'", "table of an atlas; its header names the class 'SpringContact'"),
     ),
     (at("element", "--save", "e.txt"), ("--save = 'e.txt'", ".json")),
     (at("element", "--atlas", ELEMENT, "--json", ELEMENT), ("--json = 'element.json'", "which is read")),

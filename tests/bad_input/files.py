@@ -11,7 +11,7 @@ import numpy as np
 from argument_groups import grouped
 
 from ehlcontact import Grid, HarmonicLoad, MoesPoint, save, simulate, solve_steady
-from reduced_models import CubicContact
+from reduced_models import SpringContact
 from reduced_models.atlas.atlas import SHIPPED
 
 POINT = ("--M", "20", "--L", "5", "--kappa", "0.5")
@@ -46,7 +46,7 @@ def make_good(folder):
         folder / "result",
     )
     save(solve_steady(point, grid=Grid(n=16), throw=False), folder / "steady")
-    save(CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / "element")
+    save(SpringContact.cubic(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / "element")
     (folder / "study").write_text(STUDY)
     (folder / "atlas").write_bytes(SHIPPED.read_bytes())
     return {path.name: path.read_bytes() for path in folder.iterdir()}
@@ -267,7 +267,7 @@ BAD = {
         "rate of no contact": element(valid={"rate": 1e200}),
         "no header": element(header=None),
         "a bearing": element(header={"class": "BallBearing"}),
-        "another class": element(header={"class": "LinearContact"}),
+        "another class": element(header={"class": "FilmMemoryContact"}),
         "class of others": element(header={"class": "Sofa"}),
         "newer": element(header={"format": 99}),
         "format in words": element(header={"format": "1"}),

@@ -45,7 +45,7 @@ from ehlcontact.cli.page import _drawn
 from ehlcontact.cli.plots.finish import finished
 from ehlcontact.cli.study.schema import Study, load_study, study_of
 from ehlcontact.jit import plain
-from reduced_models import Atlas, BallBearing, CubicContact
+from reduced_models import Atlas, BallBearing, SpringContact
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.usefixtures("quiet")
@@ -87,7 +87,7 @@ def good(tmp_path_factory):
             folder / name,
         )
     save(solve_steady(MoesPoint(20, 5, 0.5), grid=Grid(n=16), throw=False), folder / FILM)
-    save(CubicContact(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / ELEMENT)
+    save(SpringContact.cubic(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / ELEMENT)
     (folder / STUDY).write_text(SMALL)
     for name in ("x.fmu", "new.h5", "k.json", "slip.toml"):
         (folder / name).write_text("kept")

@@ -19,7 +19,7 @@ from fmu.binaries.compiler import compilers
 from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element
 from fmu.sources import standard_folder
-from reduced_models import Atlas, CubicContact
+from reduced_models import Atlas, SpringContact
 
 # Motion about the place of the static load, over 2a/u_sum: u = 0.87 + 0.2 sin 2.5 T in steps of 0.02.
 STEP, MEAN, AMPLITUDE, STEPS_PER_PERIOD = 0.02, 0.87, 0.2, 126
@@ -32,7 +32,7 @@ MILLION = 10**6
 def subject(kind: str) -> Element:
     """The element: the cubic one of Nonato and Cavalca (2010), table 3; one with a film memory of 14 lags."""
     if kind == "cubic":
-        return CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
+        return SpringContact.cubic(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
     return Atlas().element(MoesPoint(200, 10, 0.5), model="wide")
 
 

@@ -18,7 +18,7 @@ from ehlcontact.cli.study.points.finalise import export_fmu
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import load_study
 from fmu.binaries import this_machine
-from reduced_models import Atlas, CubicContact
+from reduced_models import Atlas, SpringContact
 
 STUDY = ROOT / "examples" / "small_study.toml"
 CUBIC = {"K1": 0.624, "K2": 0.750, "K3": -0.174, "C1": 0.0130, "low": 0.75, "high": 1.0}
@@ -27,7 +27,7 @@ CUBIC = {"K1": 0.624, "K2": 0.750, "K3": -0.174, "C1": 0.0130, "low": 0.75, "hig
 @pytest.fixture
 def element(tmp_path):
     """An element file; nothing beside it may stay when a command is refused."""
-    return save(CubicContact(**CUBIC), tmp_path / "e.json")
+    return save(SpringContact.cubic(**CUBIC), tmp_path / "e.json")
 
 
 def beside(element):
@@ -152,7 +152,7 @@ def test_error_of_an_fmu_in_the_results_of_a_study(tmp_path, monkeypatch, what):
         target = tmp_path / "none" / "contact.fmu"
     else:
         monkeypatch.setattr("fmu.export.fmu_files", lambda *_: {}[what])
-    found = export_fmu(CubicContact(**CUBIC), target)
+    found = export_fmu(SpringContact.cubic(**CUBIC), target)
     assert found["file"] == "contact.fmu" and found["passes"] is False
     assert what in found["error"] and "\n" not in found["error"]
     json.dumps(found, allow_nan=False)
@@ -204,7 +204,10 @@ def test_a_rotor_on_an_element_of_ones_own(call, tmp_path):
     """Dimensionless or in SI it is the same contact."""
     scales = load_study(STUDY).point.scales
     found = []
-    for name, element in (("one", CubicContact(**CUBIC)), ("si", CubicContact(**CUBIC).to_si(scales))):
+    for name, element in (
+        ("one", SpringContact.cubic(**CUBIC)),
+        ("si", SpringContact.cubic(**CUBIC).to_si(scales)),
+    ):
         file, target = save(element, tmp_path / f"{name}.json"), tmp_path / f"{name}.fmu"
         done = call("export", STUDY, "-o", target, "--contact", file, "--fmi", "3")
         assert done.code == 0 and "cubic" in done.out and "inner step" in done.out, done
@@ -219,7 +222,7 @@ def test_rotors_that_cannot_be_exported(refused, tmp_path):
     bare = tmp_path / "bare.toml"
     bare.write_text(text[:start] + text[end:])
     refused(("bare.toml", "no table [rotor]"), "export", bare, "-o", target)
-    element = save(CubicContact(**CUBIC), tmp_path / "e.json")
+    element = save(SpringContact.cubic(**CUBIC), tmp_path / "e.json")
     refused(("--contact", "left out"), "export", element, "-o", target, "--contact", element)
     refused(("nothing.json",), "export", STUDY, "-o", target, "--contact", tmp_path / "nothing.json")
     broken = tmp_path / "broken.toml"

@@ -158,14 +158,14 @@ def test_fit_and_export_of_the_new_models(call, folder, tmp_path):
 
 def test_a_warning_is_one_line_on_stderr(call, monkeypatch, tmp_path):
     def warn(*arguments):
-        warnings.warn("CubicContact used outside its validity box", OutsideValidityWarning, stacklevel=1)
+        warnings.warn("SpringContact (cubic) used outside its validity box", OutsideValidityWarning, stacklevel=1)
         raise KeyboardInterrupt
 
     monkeypatch.setattr("ehlcontact.cli.paper.page.compute", warn)
     with warnings.catch_warnings():
         warnings.simplefilter("default")
         result = call("reproduce", "--table", "3", "-o", tmp_path)
-    assert result.err.splitlines()[0] == "ehlcontact: warning: CubicContact used outside its validity box"
+    assert result.err.splitlines()[0] == "ehlcontact: warning: SpringContact (cubic) used outside its validity box"
 
 
 def test_cases_are_those_of_the_published_numbers():

@@ -188,7 +188,7 @@ def test_warnings_are_shown(finished, results):
     """The cubic of the rotor's band is kicked outside its frequency: told in headline, results and page."""
     page = html.unescape((finished[1] / "report.html").read_text())
     told = results["warnings"]
-    assert any(line.startswith("kick, cubic of the rotor's band: CubicContact used") for line in told)
+    assert any(line.startswith("kick, cubic of the rotor's band: SpringContact (cubic) used") for line in told)
     assert all(line in page for line in told)
 
     outside = results["rotor"]["decay"]["events"]["rotor_band"][0]["outside_omega"]

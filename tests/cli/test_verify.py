@@ -6,9 +6,9 @@ import zipfile
 import pytest
 
 from fmu import export_contact
-from reduced_models import CubicContact
+from reduced_models import SpringContact
 
-CUBIC = CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
+CUBIC = SpringContact.cubic(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
 
 
 @pytest.fixture(scope="module")

@@ -18,23 +18,20 @@ from fmu.driver import Exchange
 from fmu.driver import Slave as DriverSlave
 from fmu.jeffcott.model import JeffcottModel
 from reduced_models import (
-    CubicContact,
     FilmMemoryContact,
     JeffcottRotor,
-    LinearContact,
-    PolynomialContact,
-    PowerLawContact,
+    SpringContact,
     WideRangeContact,
 )
 
 # Table 3, case 2 of Nonato and Cavalca (2010) in round numbers; the interval is that of a free vibration.
-CUBIC = CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
-LINEAR = LinearContact(K1=1.148, C1=0.0122, low=0.75, high=1.0)
+CUBIC = SpringContact.cubic(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
+LINEAR = SpringContact.linear(K1=1.148, C1=0.0122, low=0.75, high=1.0)
 SCALES = Scales(force=850.0, length=1.31e-5, time=2.1e-5, a=1.1e-4, b=9e-4, pressure=1.6e9)
 ELEMENTS = {"cubic": CUBIC, "linear": LINEAR, "cubic_si": CUBIC.to_si(SCALES)}
 BOX = {"low": 0.75, "high": 1.0, "rate": 1.2, "load_range": (0.8, 1.2), "omega_range": (3.0, 6.0)}
-POLYNOMIAL = PolynomialContact(0.806, 0.004, 0.346, 0.002, 0.054, -0.001, 0.010, **BOX)
-POWER = PowerLawContact(0.95, 1.7, 0.15, -0.05, 0.013, **BOX)
+POLYNOMIAL = SpringContact.polynomial(0.806, 0.004, 0.346, 0.002, 0.054, -0.001, 0.010, **BOX)
+POWER = SpringContact.power(0.95, 1.7, 0.15, -0.05, 0.013, **BOX)
 # As they come out of the atlas at M = 200, L = 10, kappa = 0.5, in round numbers.
 FILTERS = {"inlet_saturation": 0.25, "lag_rate": 5.4, "inlet_rate": 33.0, "fast_rate": 60.0}
 GAINS = (0.001, 0.002, 0.005, 0.013, 0.0, 0.009, 0.011, 0.0, 0.0, 0.0, 0.021)
@@ -44,7 +41,7 @@ ROWS = tuple(tuple(scale * g for g in GAINS) for scale in (2.0, 1.0, 0.6))
 MEMORY = FilmMemoryContact(film=0.129, exponent=0.13, gains=GAINS, **FILTERS, **BOX)
 WIDE = WideRangeContact(LOADS, CURVE, (0.03, 0.3, 2.0), ROWS, **FILTERS, **BOX)
 SPRINGS = ELEMENTS | {"polynomial": POLYNOMIAL, "power": POWER, "power_si": POWER.to_si(SCALES)}
-SPRINGS["polynomial without rate"] = PolynomialContact(0.62, 0.02, 0.75, 0.0, -0.17, 0.0, 0.01, 0.75, 1.0)
+SPRINGS["polynomial without rate"] = SpringContact.polynomial(0.62, 0.02, 0.75, 0.0, -0.17, 0.0, 0.01, 0.75, 1.0)
 FILMS = {"memory": MEMORY, "wide": WIDE, "wide_si": WIDE.to_si(SCALES)}
 EXTRAPOLATED, END = 1.0, 0.0  # values of lead
 

@@ -9,7 +9,7 @@ import pytest
 
 from ehlcontact.errors import InputError
 from fmu.comparison import outside, state_grid
-from reduced_models.elements.polynomial import CubicContact
+from reduced_models import SpringContact
 from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.oscillator import simulate_oscillator
 
@@ -85,7 +85,7 @@ def random_element(random):
         K1, K2, K3 = random.normal(size=3) * stiffness / length ** np.arange(3)
         ends = low * length, (low + random.uniform(0.05, 1.0)) * length
         try:
-            return CubicContact(abs(K1), K2, K3, random.uniform(0.0, 1.0) * stiffness, *ends)
+            return SpringContact.cubic(abs(K1), K2, K3, random.uniform(0.0, 1.0) * stiffness, *ends)
         except InputError:
             continue
 

@@ -146,7 +146,9 @@ def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, f
         model = dataclasses.replace(fmu_model(elements["cubic"]), spec=contact_spec(wrong))
         monkeypatch.setattr("fmu.export.fmu_model", lambda *_: model)
     elif fault == "computes otherwise":  # and says nothing wrong of itself
-        monkeypatch.setattr("fmu.export.pack", spoiled("model_contact.c", "times(3.0, K3)", "times(3.001, K3)"))
+        monkeypatch.setattr(
+            "fmu.export.pack", spoiled("model_contact.c", "times(3.0, law->K3)", "times(3.001, law->K3)")
+        )
     elif fault == "does not run":
         step = "fault = model_step(&next, &motion, h, s->tolerance);"
         refusal = 'fault = (Fault){DISCARD, "nothing holds the ball"};'

@@ -12,7 +12,7 @@ import pytest
 from other_masters import ecos
 
 from fmu import export_contact
-from reduced_models import CubicContact
+from reduced_models import SpringContact
 
 DEFAULT = 1.5  # lead
 STEP = 0.01  # in units of 2a/u_sum
@@ -94,7 +94,7 @@ def test_the_same_motion_as_by_fmpy(fmus, slave, importer):
 
 
 # A 6305 at 1 kN: the damping of C1 is what a loop must not lose
-BALL = CubicContact(1.29e8, 0.0, 0.0, 44.0, 5e-6, 9e-6, units="SI")
+BALL = SpringContact.cubic(1.29e8, 0.0, 0.0, 44.0, 5e-6, 9e-6, units="SI")
 MASS, LOAD = 10.0, 900.0  # kg, N
 
 

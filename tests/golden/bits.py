@@ -59,15 +59,12 @@ from reduced_models import (
     Atlas,
     BallBearing,
     ContactRecord,
-    CubicContact,
     Disc,
     JeffcottRotor,
-    LinearContact,
-    PolynomialContact,
-    PowerLawContact,
     ScaledContact,
     Shaft,
     SpeedProfile,
+    SpringContact,
     Support,
     campbell,
     compare,
@@ -334,11 +331,11 @@ def elements() -> Leaves:
     """Elements by hand, from the atlas, and in SI."""
     box = {"low": 0.75, "high": 1.0, "rate": 0.6}
     by_hand = {
-        "linear": LinearContact(1.14, 0.013, **box),
-        "cubic": CubicContact(0.624, 0.75, -0.174, 0.013, **box),
-        "polynomial": PolynomialContact(0.62, 0.02, 0.75, 0.004, -0.17, 0.002, 0.01, **box),
-        "polynomial without rate": PolynomialContact(0.62, 0.02, 0.75, 0.0, -0.17, 0.0, 0.01, 0.75, 1.0),
-        "power": PowerLawContact(0.9, 1.6, 0.12, 0.03, 0.014, **box),
+        "linear": SpringContact.linear(1.14, 0.013, **box),
+        "cubic": SpringContact.cubic(0.624, 0.75, -0.174, 0.013, **box),
+        "polynomial": SpringContact.polynomial(0.62, 0.02, 0.75, 0.004, -0.17, 0.002, 0.01, **box),
+        "polynomial without rate": SpringContact.polynomial(0.62, 0.02, 0.75, 0.0, -0.17, 0.0, 0.01, 0.75, 1.0),
+        "power": SpringContact.power(0.9, 1.6, 0.12, 0.03, 0.014, **box),
     }
     for name, contact in by_hand.items():
         yield from element(name, contact)
@@ -488,9 +485,11 @@ def fmus() -> Leaves:
     """Steps of FMUs in co-simulation and model exchange, and all texts inside, generated sources included."""
     atlas = Atlas()
     made = {
-        "linear": LinearContact(1.14, 0.013, low=0.75, high=1.0, rate=0.6),
-        "polynomial": PolynomialContact(0.62, 0.02, 0.75, 0.004, -0.17, 0.002, 0.01, low=0.75, high=1.0, rate=0.6),
-        "power": PowerLawContact(0.9, 1.6, 0.12, 0.03, 0.014, low=0.75, high=1.0, rate=0.6),
+        "linear": SpringContact.linear(1.14, 0.013, low=0.75, high=1.0, rate=0.6),
+        "polynomial": SpringContact.polynomial(
+            0.62, 0.02, 0.75, 0.004, -0.17, 0.002, 0.01, low=0.75, high=1.0, rate=0.6
+        ),
+        "power": SpringContact.power(0.9, 1.6, 0.12, 0.03, 0.014, low=0.75, high=1.0, rate=0.6),
         **{model: atlas.element(PAPER, model, **at(model)) for model in ("wide", "memory", "cubic")},
         "wide in SI": atlas.element(BEARING, "wide"),
     }

@@ -5,7 +5,7 @@ import pytest
 
 from ehlcontact import Lubricant
 from ehlcontact.point import Scales
-from reduced_models import Atlas, BallBearing, ContactRecord, CubicContact, FilmMemoryContact, LinearContact
+from reduced_models import Atlas, BallBearing, ContactRecord, FilmMemoryContact, SpringContact
 
 # Nonato and Cavalca (2010), Table 3 case 2 (free vibration, Omega_n = 5.13).
 PAPER = {"K1": 0.806, "K2": 0.346, "K3": 0.054, "C1": 0.013}
@@ -40,12 +40,12 @@ def scales():
 
 @pytest.fixture
 def cubic():
-    return CubicContact(**PAPER, low=0.75, high=1.0)
+    return SpringContact.cubic(**PAPER, low=0.75, high=1.0)
 
 
 @pytest.fixture
 def linear():
-    return LinearContact(K1=1.15, C1=0.0124, low=0.75, high=1.0)
+    return SpringContact.linear(K1=1.15, C1=0.0124, low=0.75, high=1.0)
 
 
 @pytest.fixture

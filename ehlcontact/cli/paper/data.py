@@ -12,9 +12,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from reduced_models import CubicContact, LinearContact
+from reduced_models import SpringContact
 
-ViscousElement = LinearContact | CubicContact
 CITATION = (
     "F. Nonato, K. L. Cavalca: On the non-linear dynamic behavior of elastohydrodynamic lubricated point contact. "
     "Journal of Sound and Vibration 329 (2010) 4656-4671."
@@ -39,17 +38,17 @@ class PaperFit:
     last_digit: float  # of K1, K2 and K3 as printed
 
     @property
-    def cubic(self) -> CubicContact:
+    def cubic(self) -> SpringContact:
         """The element of a row of Tables 3, 5 and 6, to read off root and tangent."""
         found = self.element(*AROUND_STATIC)
-        assert isinstance(found, CubicContact)
+        assert found.kind == "cubic"
         return found
 
-    def element(self, low: float, high: float) -> ViscousElement:
+    def element(self, low: float, high: float) -> SpringContact:
         """The element of the row, its polynomial as printed from `low` to `high`."""
         if self.K2 is None or self.K3 is None:
-            return LinearContact(self.K1, self.C1, low, high)
-        return CubicContact(self.K1, self.K2, self.K3, self.C1, low, high)
+            return SpringContact.linear(self.K1, self.C1, low, high)
+        return SpringContact.cubic(self.K1, self.K2, self.K3, self.C1, low, high)
 
     @property
     def root(self) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ehlcontact.cli.paper.data import ViscousElement, paper_fits
+from ehlcontact.cli.paper.data import paper_fits
 from ehlcontact.cli.paper.runs import Runs
 from ehlcontact.errors import InputError
 from reduced_models import (
@@ -15,6 +15,7 @@ from reduced_models import (
     ContactRecord,
     FitResult,
     OutsideValidityWarning,
+    SpringContact,
     fit,
     sensitivity,
     simulate_oscillator,
@@ -64,13 +65,13 @@ class Fits:
         except InputError as error:
             return str(error)
 
-    def theirs(self, table: int, case: str, motion: str | None = None) -> ViscousElement:
+    def theirs(self, table: int, case: str, motion: str | None = None) -> SpringContact:
         """The paper's element of a case, its polynomial as printed wherever a motion goes; by default its own."""
         seen = self.record(case if motion is None else motion).approach
         room = BEYOND * float(np.ptp(seen))
         return paper_fits()[table, case].element(float(seen.min()) - room, float(seen.max()) + room)
 
-    def rms(self, element: ViscousElement, case: str) -> float:
+    def rms(self, element: SpringContact, case: str) -> float:
         """RMS of the force error over the standard deviation of the force, where the case is fitted."""
         record = self.record(case)
         cut = record.window(*record.default_window)

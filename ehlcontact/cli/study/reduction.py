@@ -17,7 +17,7 @@ from ehlcontact.results import ImpedanceResult
 from ehlcontact.store import save
 from ehlcontact.transient.motion import HarmonicLoad
 from ehlcontact.transient.result import SimulationResult
-from reduced_models import ContactRecord, CubicContact, FitResult, dry_contact, fit, fit_memory
+from reduced_models import ContactRecord, FitResult, SpringContact, dry_contact, fit, fit_memory
 from reduced_models.fitting.memory_fit import OMEGAS
 from reduced_models.fitting.result import MemoryFit
 from reduced_models.rotor.baselines import without_damper
@@ -60,7 +60,7 @@ class Reduction:
         return None if isinstance(self.memory, str) else self.memory.element.to_si(self.scales)
 
     @property
-    def chosen(self) -> CubicContact:
+    def chosen(self) -> SpringContact:
         """SI element of the FMU and the rotor.
 
         Raises

@@ -1,5 +1,5 @@
-/* Contact elements without memory: a spring beside a damper, never pulling. The law of reduced_models.elements.spring
- * with the springs of polynomial.py and power.py; equations in README.md. */
+/* Contact elements without memory: a spring beside a damper, never pulling. The law of reduced_models.elements.spring_law;
+ * equations in README.md. Macros of config.h say which terms there are: LAW_POWER, LAW_SEVEN, LAW_LEVELS_OFF. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -10,8 +10,8 @@
 /* What of the law follows from the parameters alone. */
 typedef struct {
     Dual low, high, o_low, A_low, o_high, A_high;
+    Dual K1, K2, K3, K, n, u0, F0;
     Dual C1, C2, C3, B4, rate;
-    Dual spring[4]; /* K1, K2, K3, or K, n, u0, F0 */
 } Law;
 
 /* A force with its slope, both along the direction of the duals. */
@@ -28,56 +28,38 @@ static const Fault fine = {FINE, NULL};
 
 /* ---- the spring between the ends ---- */
 
-#ifdef LAW_POWER
-
-/* K (u + u0)^n + F0 */
+/* K1 u + K2 u^2 + K3 u^3, or K (u + u0)^n + F0 */
 static Curve inside(Dual u, const Law *law)
 {
-    const Dual reach = add(u, law->spring[2]);
-    const Dual part = mul(law->spring[0], power(reach, law->spring[1]));
     Curve c;
-    c.value = add(part, law->spring[3]);
-    c.slope = over(mul(law->spring[1], part), reach);
+    if (LAW_POWER) {
+        const Dual reach = add(u, law->u0), part = mul(law->K, power(reach, law->n));
+        c.value = add(part, law->F0);
+        c.slope = over(mul(law->n, part), reach);
+        return c;
+    }
+    c.value = mul(u, add(law->K1, mul(u, add(law->K2, mul(u, law->K3)))));
+    c.slope = add(law->K1, mul(u, add(times(2.0, law->K2), mul(u, times(3.0, law->K3)))));
     return c;
 }
 
+/* The slope of a cubic is a parabola: besides the ends, its vertex may be below zero. */
 static Fault check_spring(const Law *law)
 {
-    if (!(law->spring[0].x > 0.0 && law->spring[1].x > 0.0)) {
+    if (LAW_POWER && !(law->K.x > 0.0 && law->n.x > 0.0)) {
         return fault(REFUSE, "K and n must be > 0");
     }
-    if (!(law->low.x + law->spring[2].x > 0.0)) {
+    if (LAW_POWER && !(law->low.x + law->u0.x > 0.0)) {
         return fault(REFUSE, "low + u0 must be > 0");
     }
-    return fine;
-}
-
-#else
-
-/* K1 u + K2 u^2 + K3 u^3 */
-static Curve inside(Dual u, const Law *law)
-{
-    const Dual K1 = law->spring[0], K2 = law->spring[1], K3 = law->spring[2];
-    Curve c;
-    c.value = mul(u, add(K1, mul(u, add(K2, mul(u, K3)))));
-    c.slope = add(K1, mul(u, add(times(2.0, K2), mul(u, times(3.0, K3)))));
-    return c;
-}
-
-/* The slope is a parabola: besides the ends, its vertex may be below zero. */
-static Fault check_spring(const Law *law)
-{
-    const double K1 = law->spring[0].x, K2 = law->spring[1].x, K3 = law->spring[2].x;
-    if (K3 > 0.0) {
-        const double vertex = -K2 / (3.0 * K3);
-        if (law->low.x < vertex && vertex < law->high.x && !(K1 + K2 * vertex > 0.0)) {
+    if (law->K3.x > 0.0) {
+        const double vertex = -law->K2.x / (3.0 * law->K3.x);
+        if (law->low.x < vertex && vertex < law->high.x && !(law->K1.x + law->K2.x * vertex > 0.0)) {
             return fault(REFUSE, "the spring must rise everywhere between low and high");
         }
     }
     return fine;
 }
-
-#endif
 
 /* ---- the law ---- */
 
@@ -110,6 +92,7 @@ static Dual read(const double value[], const double *seed, int reference)
 
 static void read_law(const double value[], const double *seed, Law *law)
 {
+    memset(law, 0, sizeof *law);
     LAW_READ; /* of config.h: which variable is which */
 }
 
@@ -119,8 +102,6 @@ static Fault join_law(Law *law)
     return f.severity != FINE ? f : join(law->high, law, &law->o_high, &law->A_high);
 }
 
-#ifdef LAW_SEVEN
-
 /* Even powers of the rate cancel over a cycle; what is left must take energy out at every corner. */
 static Fault check_damper(const Law *law)
 {
@@ -129,6 +110,9 @@ static Fault check_damper(const Law *law)
     const double cubed = law->C3.x != 0.0 ? (law->C3.x * fastest) * fastest : 0.0;
     const double low = law->C1.x + law->B4.x * (law->low.x - reach);
     const double high = law->C1.x + law->B4.x * (law->high.x + reach);
+    if (!LAW_SEVEN) {
+        return law->C1.x >= 0.0 ? fine : fault(REFUSE, "C1 must be >= 0");
+    }
     if (!(fastest > 0.0)) {
         return fault(REFUSE, "rate_max must be > 0");
     }
@@ -137,15 +121,6 @@ static Fault check_damper(const Law *law)
     }
     return fine;
 }
-
-#else
-
-static Fault check_damper(const Law *law)
-{
-    return law->C1.x >= 0.0 ? fine : fault(REFUSE, LAW_DAMPER " must be >= 0");
-}
-
-#endif
 
 /* Force and tangent of A (u - o)_+^(3/2). */
 static Curve hertz(Dual reach, Dual factor)
@@ -186,8 +161,6 @@ static Curve fade(Dual u, const Law *law)
     return c;
 }
 
-#ifdef LAW_SEVEN
-
 /* x with slope 1 on [low, high]; beyond, it comes to rest within `reach`. */
 static Curve saturate(Dual x, Dual low, Dual high, Dual reach)
 {
@@ -206,8 +179,6 @@ static Curve saturate(Dual x, Dual low, Dual high, Dual reach)
     return c;
 }
 
-#endif
-
 /* s(u) (C1 v + C2 v^2 + C3 v^3 + B4 u v), levelled off outside the box, and its slopes. */
 static void damper(Dual u, Dual v, const Law *law, Dual *force, Dual *by_u, Dual *by_v)
 {
@@ -216,8 +187,7 @@ static void damper(Dual u, Dual v, const Law *law, Dual *force, Dual *by_u, Dual
     if (s.value.x == 0.0 && s.slope.x == 0.0) {
         return;
     }
-#ifdef LAW_SEVEN
-    {
+    if (LAW_SEVEN) {
         const Curve at = saturate(u, law->low, law->high, times(0.5, sub(law->high, law->low)));
         const Dual c = add(law->C1, mul(law->B4, at.value));
         Curve w;
@@ -234,12 +204,11 @@ static void damper(Dual u, Dual v, const Law *law, Dual *force, Dual *by_u, Dual
         *force = mul(s.value, all);
         *by_u = add(mul(s.slope, all), mul(s.value, mul(law->B4, mul(at.slope, v))));
         *by_v = mul(s.value, add(c, mul(slope, w.slope)));
+        return;
     }
-#else
     *force = mul(mul(law->C1, s.value), v);
     *by_u = mul(mul(law->C1, s.slope), v);
     *by_v = mul(law->C1, s.value);
-#endif
 }
 
 /* F = (f + d)_+ with its tangents; all zero where the force would pull. */

@@ -19,7 +19,7 @@ from ehlcontact import (
 from ehlcontact.checks import as_column
 from ehlcontact.checks.frequency import dimensionless, radians_per_second
 from ehlcontact.checks.quantity import in_unit, takes
-from reduced_models import BallBearing, CubicContact, Disc, JeffcottRotor, Shaft, SpeedProfile
+from reduced_models import BallBearing, Disc, JeffcottRotor, Shaft, SpeedProfile, SpringContact
 
 SIZES = {"N": (1.0, "load"), "kN": (1e3, "load"), "s": (1.0, "time"), "m": (1.0, "length"), "mm": (1e-3, "length")}
 TURNS = {"hertz": 2.0 * pi, "revolution / minute": pi / 30.0, "radian / second": 1.0, "1 / second": 1.0}
@@ -94,7 +94,7 @@ def test_what_has_no_unit_takes_no_quantity():
         as_column("T", [Own(1.0, "s"), Own(2.0, "s")])
     with pytest.raises(InputError, match=r"^M = "):
         MoesPoint(Own(200.0, "N"), 10, 0.5)
-    element = CubicContact(1.0, 0.1, 0.1, 0.01, 0.5, 1.0)
+    element = SpringContact.cubic(1.0, 0.1, 0.1, 0.01, 0.5, 1.0)
     with pytest.raises(InputError, match=r"^load = "):  # of a dimensionless element: over the static load
         element.impedance(Omega=1.0, load=Own(3.0, "N"))
 

@@ -8,7 +8,7 @@ from fmu.archive import content_guid
 from fmu.binaries import PLATFORMS, build_binaries
 from fmu.contact_spec import contact_spec
 from fmu.sources import compiled, source_files
-from reduced_models import CubicContact
+from reduced_models import SpringContact
 
 
 @pytest.fixture(autouse=True)
@@ -19,7 +19,7 @@ def compilers_of_users(monkeypatch):
 
 @pytest.fixture(scope="session")
 def spec():
-    return contact_spec(CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0))
+    return contact_spec(SpringContact.cubic(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0))
 
 
 @pytest.fixture(scope="session")

@@ -21,7 +21,7 @@ from fmu.binaries import PLATFORMS, BuildError, build_binaries, choose, librarie
 from fmu.binaries.compiler import Compiler, compilers
 from fmu.contact_spec import contact_spec
 from fmu.sources import FMI_FILES, compiled, source_files, standard_headers
-from reduced_models import CubicContact
+from reduced_models import SpringContact
 
 OWN = this_machine()
 STRICT = (
@@ -29,7 +29,7 @@ STRICT = (
     *("-Werror", "-c"),
 )
 KINDS = (("polynomial", 2), ("wide", 3))  # all sources once
-ELEMENT = CubicContact(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
+ELEMENT = SpringContact.cubic(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
 pytestmark = pytest.mark.filterwarnings("ignore:the first library for Windows")
 
 
@@ -75,7 +75,7 @@ def test_this_machines(spec, sources):
 @pytest.mark.parametrize("fmi", [2, 3])
 @pytest.mark.parametrize("name", PLATFORMS)
 def test_every_platforms(libraries, name, fmi):
-    identifier = {2: "CubicContact", 3: "WideRangeContact"}[fmi]
+    identifier = {2: "CubicContact", 3: "WideContact"}[fmi]
     assert_sound(libraries[fmi, name], PLATFORMS[name], identifier, fmi)
 
 

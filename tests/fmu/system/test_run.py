@@ -12,7 +12,7 @@ from other_masters import ecospy, libcosimpy, ours
 from fmu.jeffcott.model import JeffcottModel
 from fmu.system.export import export_verified_system
 from fmu.system.master import SystemRun
-from reduced_models import CubicContact, JeffcottRotor, simulate_rotor
+from reduced_models import JeffcottRotor, SpringContact, simulate_rotor
 
 STEP, UNTIL = 5e-6, 0.02  # s: one turn
 JOURNAL = ("journal_x", "journal_y")
@@ -83,7 +83,7 @@ def test_error_goes_down_with_the_step(system, python, master):
 @pytest.mark.long
 def test_default_step_leaves_the_damping(tmp_path):
     """A journal on one contact that hardly damps, its disc held by a soft shaft: the decay of its vibration."""
-    element = CubicContact(1e8, 0.0, 0.0, 5.0, 3e-6, 9e-6, units="SI")
+    element = SpringContact.cubic(1e8, 0.0, 0.0, 5.0, 3e-6, 9e-6, units="SI")
     rotor = JeffcottRotor.vertical(
         disc_mass=1e3, journal_mass=1.0, shaft_stiffness=1e4, gravity=(0.0, 0.0), load=(0.0, -500.0)
     )

@@ -17,7 +17,7 @@ from fmu.system.check import schema_findings, verify_system
 from fmu.system.export import export_verified_system
 from fmu.system.structure import SSC, SSD, SSV
 from fmu.verify import verify
-from reduced_models import CubicContact, JeffcottRotor
+from reduced_models import JeffcottRotor, SpringContact
 
 
 def description(path):
@@ -106,7 +106,7 @@ def test_units_are_explained(system):
 
 
 STEP = 5e-6  # s, the default of the system of the fixture
-ELEMENT = CubicContact(1e8, 0.0, 0.0, 100.0, 3e-6, 9e-6, units="SI")
+ELEMENT = SpringContact.cubic(1e8, 0.0, 0.0, 100.0, 3e-6, 9e-6, units="SI")
 ROTOR = JeffcottRotor.vertical(disc_mass=40.0, journal_mass=1.0, shaft_stiffness=2e7)
 
 
@@ -117,7 +117,7 @@ ROTOR = JeffcottRotor.vertical(disc_mass=40.0, journal_mass=1.0, shaft_stiffness
         ({"contacts": [ELEMENT, ELEMENT]}, "contacts"),
         ({"contacts": None}, "contacts"),
         ({"contacts": ["wide"]}, r"contacts\[0\]"),
-        ({"contacts": [CubicContact(1.0, 0.0, 0.0, 0.01, 0.7, 1.0)]}, "SI"),
+        ({"contacts": [SpringContact.cubic(1.0, 0.0, 0.0, 0.01, 0.7, 1.0)]}, "SI"),
         ({"path": "x.fmu"}, "ssp"),
         ({"path": "nowhere/x.ssp"}, "folder"),
         ({"model_name": " "}, "model_name"),

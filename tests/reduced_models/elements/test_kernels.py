@@ -6,13 +6,13 @@ import numba
 import numpy as np
 import pytest
 
-from reduced_models import PolynomialContact, PowerLawContact, WideRangeContact
-from reduced_models.elements import film_filters, film_law, jet, polynomial, power, spring
+from reduced_models import SpringContact, WideRangeContact
+from reduced_models.elements import film_filters, film_law, jet, spring_law
 
 BOX = {"low": 0.75, "high": 1.0}
-POLYNOMIAL = PolynomialContact(0.806, 0.004, 0.346, 0.002, 0.054, -0.001, 0.010, rate=1.2, **BOX).law
-VISCOUS = PolynomialContact(0.806, 0.004, 0.346, 0.0, 0.054, 0.0, 0.0, **BOX).law
-POWER = PowerLawContact(0.95, 1.7, 0.15, -0.05, 0.013, **BOX).law
+POLYNOMIAL = SpringContact.polynomial(0.806, 0.004, 0.346, 0.002, 0.054, -0.001, 0.010, rate=1.2, **BOX).law
+VISCOUS = SpringContact.polynomial(0.806, 0.004, 0.346, 0.0, 0.054, 0.0, 0.0, **BOX).law
+POWER = SpringContact.power(0.95, 1.7, 0.15, -0.05, 0.013, **BOX).law
 FILM = WideRangeContact(
     (0.1, 1.0, 3.0), (0.15, 0.95, 2.04), (0.3, 2.0), ((0.02, 0.01, 0.05, 0.2, 0.1), (0.01, 0.0, 0.03, 0.1, 0.05)),
     inlet_saturation=0.2, lag_rate=2.5, inlet_rate=20.0, fast_rate=60.0,
@@ -33,7 +33,8 @@ CASES = {
         "through": [(0.7, 1.3, A)],
         "through3": [(0.7, 1.3, A, 0.2, B, -0.4, C)],
     },
-    spring: {
+    spring_law: {
+        "inside": [(0.9, law) for law in (POLYNOMIAL, POWER)],
         "hertz": [(0.3, 1.2), (-0.1, 1.2)],
         "fade": [(u, 0.75, 0.2) for u in POINTS],
         "saturate": [(u, 0.75, 1.0, 0.1) for u in POINTS],
@@ -45,8 +46,6 @@ CASES = {
         "fill_contact": [(POINTS, POINTS[::-1].copy(), law, np.zeros((3, 6))) for law in (POLYNOMIAL, POWER)],
         "fill_parts": [(POINTS, law, np.zeros((2, 6))) for law in (POLYNOMIAL, POWER)],
     },
-    polynomial: {"cubic": [(0.9, POLYNOMIAL)]},
-    power: {"power": [(0.9, POWER)]},
     film_filters: {
         "lag_moments": [(mu, few) for mu in (0.1, 2.0) for few in (0.5, 3.0)],
         "poisson_shares": [(mu, 4, few, np.zeros(5), np.zeros(5)) for mu in (0.1, 2.0, 9.0) for few in (0.5, 4.0)],

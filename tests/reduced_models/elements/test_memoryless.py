@@ -8,12 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ehlcontact.errors import InputError
-from reduced_models import ContactRecord, CubicContact, PolynomialContact, PowerLawContact, fit
+from reduced_models import ContactRecord, SpringContact, fit
+from reduced_models.elements.spring_law import O_LOW
 
 U = np.concatenate([np.linspace(-2.0, 4.0, 241), [0.75, 1.0]])
 V = np.linspace(-60.0, 60.0, 7)
 TERMS = {"K1": 0.806, "C1": 0.004, "K2": 0.346, "C2": 0.002, "K3": 0.054, "C3": -0.001, "B4": 0.010}
-LAW = {"K": 0.95, "n": 1.7, "u0": 0.15, "F0": -0.05, "C": 0.013}
+ENDS = {"low": 0.75, "high": 1.0}
+LAW = {"K": 0.95, "n": 1.7, "u0": 0.15, "F0": -0.05, "C1": 0.013}
 
 
 def twin(e, u, v):
@@ -58,8 +60,8 @@ SPRING = st.tuples(st.floats(0.3, 1.2), st.floats(0.0, 1.0), st.floats(-0.05, 0.
 @pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 @given(spring=SPRING, C1=st.floats(0.0, 0.2), low=st.floats(0.2, 0.9), width=st.floats(0.05, 0.5))
 def test_law_is_c1_monotone_and_never_pulls(spring, C1, low, width):
-    e = CubicContact(*spring, C1, low, low + width)
-    for end in (e.low, e.high, e.law.o_low):
+    e = SpringContact.cubic(*spring, C1, low, low + width)
+    for end in (e.low, e.high, e.law[O_LOW]):
         left, right = end - 1e-9, end + 1e-9
         for v in (0.0, 0.3):
             assert e.force(left, v) == pytest.approx(e.force(right, v), abs=1e-7)
@@ -76,7 +78,12 @@ def test_extension_above_grows_like_hertz(cubic):
 
 BAD = [  # class, good numbers, changes, beginning of the field that is named
     *(
-        (CubicContact, {"K1": 0.8, "K2": 0.3, "K3": 0.05, "C1": 0.01, "low": 0.75, "high": 1.0}, changes, field)
+        (
+            SpringContact.cubic,
+            {"K1": 0.8, "K2": 0.3, "K3": 0.05, "C1": 0.01, "low": 0.75, "high": 1.0},
+            changes,
+            field,
+        )
         for changes, field in (
             ({"C1": -0.1}, "C1"),
             ({"low": -0.1}, "spring force at low"),
@@ -88,7 +95,7 @@ BAD = [  # class, good numbers, changes, beginning of the field that is named
         )
     ),
     *(
-        (PolynomialContact, TERMS | {"low": 0.75, "high": 1.0, "rate": 1.2}, changes, field)
+        (SpringContact.polynomial, TERMS | ENDS | {"rate": 1.2}, changes, field)
         for changes, field in (
             ({"B4": -0.02}, "cycle damping"),
             ({"C3": -0.05}, "cycle damping"),
@@ -98,11 +105,11 @@ BAD = [  # class, good numbers, changes, beginning of the field that is named
         )
     ),
     *(
-        (PowerLawContact, LAW | {"low": 0.4, "high": 1.6}, changes, field)
+        (SpringContact.power, LAW | {"low": 0.4, "high": 1.6}, changes, field)
         for changes, field in (
             ({"K": -1.0}, "K"),
             ({"n": 0.0}, "n"),
-            ({"C": -1.0}, "C"),
+            ({"C1": -1.0}, "C1"),
             ({"u0": -0.5}, "low + u0"),
             ({"F0": -3.0}, "spring"),
         )
@@ -125,25 +132,25 @@ def test_a_spring_rises_all_the_way(lowest, slope):
     K2 = -3.0 * K3 * lowest
     values = {"K1": slope + 3.0 * K3 * lowest**2, "K2": K2, "K3": K3, "C1": 0.01, "low": 0.75, "high": 1.0}
     if slope > 0.0:
-        element = CubicContact(**values)
+        element = SpringContact.cubic(**values)
         assert np.all(np.diff(element.spring(np.linspace(0.75, 1.0, 500))) > 0.0)
     else:
         with pytest.raises(InputError, match="must be > 0") as caught:
-            CubicContact(**values)
+            SpringContact.cubic(**values)
         assert caught.value.field == f"spring tangent at approach {lowest:g}"
         assert caught.value.value == pytest.approx(slope, rel=1e-6)
     outside = {**values, "low": 1.0, "high": 1.2}  # where it falls does not matter beyond the interval
-    assert CubicContact(**outside).stiffness(1.1, 0.0) > 0.0
+    assert SpringContact.cubic(**outside).stiffness(1.1, 0.0) > 0.0
 
 
 def test_negative_tangent_advises_a_way_out():
     with pytest.raises(InputError, match="wider range"):
-        CubicContact(3.0, 0.0, -1.2, 0.01, 0.75, 1.0)
+        SpringContact.cubic(3.0, 0.0, -1.2, 0.01, 0.75, 1.0)
 
 
 @pytest.fixture
 def polynomial():
-    return PolynomialContact(**TERMS, low=0.75, high=1.0, rate=1.2)
+    return SpringContact.polynomial(**TERMS, low=0.75, high=1.0, rate=1.2)
 
 
 def test_inside_the_box_it_is_eq_11(polynomial):
@@ -172,7 +179,7 @@ def test_beyond_the_largest_rate_only_a_viscous_damper_is_left(polynomial):
 
 
 def test_without_a_rate_the_powers_go_on():
-    element = PolynomialContact(**(TERMS | {"C3": 0.001}), low=0.75, high=1.0)
+    element = SpringContact.polynomial(**(TERMS | {"C3": 0.001}), low=0.75, high=1.0)
     v = 30.0
     expected = TERMS["C1"] * v + TERMS["C2"] * v**2 + 0.001 * v**3 + TERMS["B4"] * 0.9 * v
     assert element.force(0.9, v) - element.force(0.9, 0.0) == pytest.approx(expected, rel=1e-12)
@@ -180,7 +187,7 @@ def test_without_a_rate_the_powers_go_on():
 
 @pytest.fixture
 def power():
-    return PowerLawContact(**LAW, low=0.4, high=1.6)
+    return SpringContact.power(**LAW, low=0.4, high=1.6)
 
 
 @pytest.fixture
@@ -188,7 +195,7 @@ def swing():
     """A record of large motion that obeys LAW exactly."""
     T = np.linspace(0.0, 3.0, 301)
     u, v = 1.0 + 0.6 * np.sin(6.0 * T), 3.6 * np.cos(6.0 * T)
-    f = LAW["K"] * (u + LAW["u0"]) ** LAW["n"] + LAW["F0"] + LAW["C"] * v
+    f = LAW["K"] * (u + LAW["u0"]) ** LAW["n"] + LAW["F0"] + LAW["C1"] * v
     return ContactRecord(T, u, v, f)
 
 
@@ -210,9 +217,9 @@ def test_jacobian_covariance_is_the_scatter_over_many_records(swing):
         return fit(replace(swing, force=swing.force + noise), "power")
 
     results = [exponent(seed) for seed in range(40)]
-    scatter = np.std([r.parameters["C"] for r in results])
-    assert results[0].std_errors["C"] == pytest.approx(scatter, rel=0.35)
-    covered = [r.intervals["C"][0] <= LAW["C"] <= r.intervals["C"][1] for r in results]
+    scatter = np.std([r.parameters["C1"] for r in results])
+    assert results[0].std_errors["C1"] == pytest.approx(scatter, rel=0.35)
+    covered = [r.intervals["C1"][0] <= LAW["C1"] <= r.intervals["C1"][1] for r in results]
     assert np.mean(covered) >= 0.85
 
 

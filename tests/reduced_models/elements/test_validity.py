@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reduced_models import LinearContact, OutsideValidityWarning, simulate_oscillator
+from reduced_models import OutsideValidityWarning, SpringContact, simulate_oscillator
 from reduced_models.elements.validity import Validity
 
 
 @pytest.fixture
 def boxed():
-    return LinearContact(1.15, 0.012, 0.75, 1.0, rate=1.0, load_range=(0.8, 1.2), omega_range=(3.0, 6.0))
+    return SpringContact.linear(1.15, 0.012, 0.75, 1.0, rate=1.0, load_range=(0.8, 1.2), omega_range=(3.0, 6.0))
 
 
 def test_unknown_bounds_do_not_count(boxed, linear):
@@ -25,7 +25,7 @@ def test_unknown_bounds_do_not_count(boxed, linear):
 def test_box_round_samples_goes_to_elements_files_and_units(scales):
     box = Validity.of([0.9, 0.8, 1.1], [-3.0, 0.5, 2.0], [0.7, 1.2, 0.9], [4.0, 2.0])
     assert box == Validity((0.8, 1.1), 3.0, (0.7, 1.2), (2.0, 4.0))
-    assert LinearContact(1.0, 0.0, **box.fields()).validity == box
+    assert SpringContact.linear(1.0, 0.0, **box.fields()).validity == box
     for one in (box, Validity((0.8, 1.1)), box.to_si(scales)):
         assert Validity.from_dict(json.loads(json.dumps(one.to_dict()))) == one
     si = box.to_si(scales)
@@ -48,7 +48,7 @@ def test_control_block_warns(boxed):
 
 
 def test_oscillation_at_another_frequency_warns():
-    element = LinearContact(1.0, 0.01, 0.5, 1.5, omega_range=(3.0, 3.0))
+    element = SpringContact.linear(1.0, 0.01, 0.5, 1.5, omega_range=(3.0, 3.0))
     T = np.linspace(0.0, 3.0, 301)
     simulate_oscillator(element, T, Omega_n=4.0, u0=1.1)
     with pytest.warns(OutsideValidityWarning, match=r"Omega .* \(fitted Omega 3\)"):

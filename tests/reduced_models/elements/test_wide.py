@@ -265,7 +265,7 @@ def test_a_6205_from_lift_off_to_overload():
 
 def test_a_record_outside_the_box_warns_once(wide):
     t, still = np.array([0.0, 1.0, 2.0]), np.zeros(3)
-    words = r"^WideRangeContact used outside .*force 4\.\S+ \(fitted"
+    words = r"^WideRangeContact \(wide\) used outside .*force 4\.\S+ \(fitted"
     with pytest.warns(OutsideValidityWarning, match=words) as told:
         for _ in range(2):
             wide.drive(t, np.full(3, wide.approach_at(4.2)), still)

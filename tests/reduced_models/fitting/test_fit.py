@@ -10,7 +10,7 @@ import pytest
 from ehlcontact import Domain, assumptions
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
-from reduced_models import ContactRecord, CubicContact, fit
+from reduced_models import ContactRecord, SpringContact, fit
 
 # Nonato and Cavalca (2010): coefficients, and the root and tangent that follow from them.
 TABLES = [
@@ -42,7 +42,7 @@ def test_exact_record_gives_its_coefficients_back(record):
 @pytest.mark.literature
 @pytest.mark.parametrize(("coefficients", "root", "tangent"), TABLES)
 def test_roots_and_tangents_of_the_published_cubics(coefficients, root, tangent):
-    element = CubicContact(*coefficients, low=0.78, high=0.96)
+    element = SpringContact.cubic(*coefficients, low=0.78, high=0.96)
     u = element.approach_at(1.0)
     assert u == pytest.approx(root, abs=2e-4)
     assert element.stiffness(u, 0.0) == pytest.approx(tangent, abs=6e-3)
@@ -221,7 +221,7 @@ def test_negative_damping_is_refused_not_exported(record):
         fit(replace(record, force=record.force - 0.1 * record.rate))
 
 
-@pytest.mark.parametrize(("model", "name"), [("linear", "C1"), ("cubic", "C1"), ("power", "C")])
+@pytest.mark.parametrize(("model", "name"), [("linear", "C1"), ("cubic", "C1"), ("power", "C1")])
 def test_undamped_record_has_no_damping(record, model, name):
     spring = {"linear": record.approach, "cubic": record.approach**3, "power": (record.approach + 0.1) ** 1.5}[
         model

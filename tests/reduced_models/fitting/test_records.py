@@ -7,7 +7,7 @@ import pytest
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
-from reduced_models import ContactRecord, LinearContact
+from reduced_models import ContactRecord, SpringContact
 
 
 def plain(**changes):
@@ -85,7 +85,7 @@ def test_from_result_takes_what_the_fit_will_need(domain):
     assert record.motion["kind"] == "free" and record.load is not None
 
 
-@pytest.mark.parametrize("other", [None, 3.0, "run.h5", LinearContact(1.15, 0.0124, low=0.75, high=1.0)])
+@pytest.mark.parametrize("other", [None, 3.0, "run.h5", SpringContact.linear(1.15, 0.0124, low=0.75, high=1.0)])
 def test_from_result_names_what_is_no_simulation(other):
     with pytest.raises(InputError, match=rf"^simulation = '{type(other).__name__}': must be a SimulationResult"):
         ContactRecord.from_result(other)

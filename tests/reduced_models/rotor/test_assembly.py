@@ -13,9 +13,9 @@ from reduced_models import (
     ContactMount,
     Disc,
     JeffcottRotor,
-    PowerLawContact,
     Shaft,
     SpeedProfile,
+    SpringContact,
     Support,
     campbell,
     linearise,
@@ -65,7 +65,7 @@ def test_in_time_it_is_the_jeffcott_rotor_on_contacts():
     still = BallBearing.catalogue("6205", density=1e-6)
     rotor = jeffcott(still)
     kn = sum(still.race(race).kn ** (-2.0 / 3.0) for race in ("inner", "outer")) ** -1.5
-    ball = PowerLawContact(K=kn, n=1.5, u0=0.0, F0=0.0, C=0.0, low=1e-9, high=1e-4, units="SI")
+    ball = SpringContact.power(K=kn, n=1.5, u0=0.0, F0=0.0, C1=0.0, low=1e-9, high=1e-4, units="SI")
     angles = -pi / 2.0 + 2.0 * pi / 9.0 * np.arange(9)
     old = JeffcottRotor(
         mounts=tuple(ContactMount(float(angle)) for angle in angles), disc_mass=2.0, journal_mass=0.3,

@@ -14,9 +14,9 @@ from reduced_models import (
     BearingMotion,
     ContactMount,
     Disc,
-    LinearContact,
     Shaft,
     SpeedProfile,
+    SpringContact,
     Support,
     Unbalance,
     linearise,
@@ -203,7 +203,7 @@ def test_a_ring_that_is_pushed_out_ends_the_run():
 
 
 @pytest.mark.parametrize(
-    "beside", [(), (ContactMount(0.0, contact=LinearContact(1e3, 1.0, 1e-9, 1e-3, units="SI"), x=0),)]
+    "beside", [(), (ContactMount(0.0, contact=SpringContact.linear(1e3, 1.0, 1e-9, 1e-3, units="SI"), x=0),)]
 )
 @pytest.mark.parametrize("speed", [-0.3, 0.3])
 def test_a_shaft_that_unloads_a_bearing_on_a_spring_ends_the_run(speed, beside):

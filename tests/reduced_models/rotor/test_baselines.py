@@ -5,7 +5,7 @@ import pytest
 from rotor_twins import POINT, SCALES
 
 from ehlcontact import InputError
-from reduced_models import CubicContact, PowerLawContact, dry_contact
+from reduced_models import SpringContact, dry_contact
 from reduced_models.rotor.baselines import local_contact, without_damper
 
 
@@ -23,8 +23,8 @@ def test_dry_contact_is_hertz():
 @pytest.mark.parametrize(
     "element",
     [
-        CubicContact(2.2, -1.6, 1.1, 0.24, low=0.55, high=0.7),
-        PowerLawContact(K=1.0, n=1.5, u0=0.1, F0=0.0, C=0.3, low=0.5, high=0.8),
+        SpringContact.cubic(2.2, -1.6, 1.1, 0.24, low=0.55, high=0.7),
+        SpringContact.power(K=1.0, n=1.5, u0=0.1, F0=0.0, C1=0.3, low=0.5, high=0.8),
     ],
 )
 def test_without_damper(element):

@@ -7,8 +7,7 @@ import pytest
 from rotor_twins import C, K, one_mass, spring
 
 from ehlcontact import InputError
-from reduced_models import linearise, log_decrement, simulate_rotor
-from reduced_models.elements.polynomial import LinearContact
+from reduced_models import SpringContact, linearise, log_decrement, simulate_rotor
 from reduced_models.rotor.jeffcott import RotorState
 
 
@@ -49,7 +48,7 @@ def test_interval_covers_noise():
 
 def test_decay_of_a_rotor_is_that_of_its_mode():
     """One mass on a linear contact, kicked and integrated, against the eigenvalue."""
-    element = LinearContact(K, C, low=1e-8, high=1e-4, units="SI")
+    element = SpringContact.linear(K, C, low=1e-8, high=1e-4, units="SI")
     rotor = one_mass(unbalance=0.0)
     mode = linearise(rotor, contacts=[spring]).modes()[0]
     rest = rotor.static_equilibrium([element])

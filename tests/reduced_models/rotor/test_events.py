@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from rotor_twins import run_of
 
-from reduced_models import CubicContact
+from reduced_models import SpringContact
 from reduced_models.rotor.events import contact_events, lift_offs
 
-ELEMENT = CubicContact(
+ELEMENT = SpringContact.cubic(
     2e7,
     0.0,
     1e18,

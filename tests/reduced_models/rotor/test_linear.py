@@ -10,7 +10,7 @@ from ehlcontact import Grid, InputError, MoesPoint, impedance
 from reduced_models import (
     Atlas,
     JeffcottRotor,
-    LinearContact,
+    SpringContact,
     film_impedance,
     linearise,
     simulate_rotor,
@@ -87,7 +87,7 @@ def test_directions_of_a_vee():
 
 def test_orbit_state_is_on_the_periodic_motion():
     """A linear contact that starts there has the same revolution at once, about its rest."""
-    element = LinearContact(K, C, low=1e-8, high=1e-4, units="SI")
+    element = SpringContact.linear(K, C, low=1e-8, high=1e-4, units="SI")
     rotor = one_mass(disc_mass=1.5, journal_mass=0.5, shaft_stiffness=2e8)
     rest = rotor.static_equilibrium([element])
     load = float(rotor.static_forces()[0])

@@ -7,8 +7,7 @@ import pytest
 from rotor_twins import SCALES, C, K, one_mass, run_of
 
 from ehlcontact import InputError
-from reduced_models import dry_contact
-from reduced_models.elements.polynomial import LinearContact
+from reduced_models import SpringContact, dry_contact
 from reduced_models.rotor.settling import QUIET, run_until_settled, settling
 
 STEPS = 40
@@ -71,7 +70,7 @@ def test_part_of_a_run():
 @pytest.mark.parametrize("damping", [0.0, C])
 def test_elements_turn_until_they_have_settled(damping):
     """From rest, not from the orbit: the shaft's damping alone takes many revolutions, and gets them."""
-    element = LinearContact(K, damping, low=1e-8, high=1e-4, units="SI")
+    element = SpringContact.linear(K, damping, low=1e-8, high=1e-4, units="SI")
     rotor = replace(one_mass(), disc_mass=1.5, journal_mass=0.5, shaft_stiffness=2e8, shaft_damping=100.0)
     start = rotor.static_equilibrium([element])
     run = run_until_settled(rotor, [element], steps=STEPS, revolutions=2, start=start, tolerance=1e-10)

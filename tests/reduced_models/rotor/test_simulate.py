@@ -9,7 +9,7 @@ from scipy.linalg import expm
 
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
-from reduced_models import JeffcottRotor, LinearContact, OutsideValidityWarning, ScaledContact, simulate_rotor
+from reduced_models import JeffcottRotor, OutsideValidityWarning, ScaledContact, SpringContact, simulate_rotor
 from reduced_models.rotor.jeffcott import RotorState
 
 BODY = {"disc_mass": 20.0, "journal_mass": 1.0, "shaft_stiffness": 2e7, "shaft_damping": 200.0}
@@ -83,7 +83,7 @@ def test_motion_through_lift_off_is_followed(contact):
 
 
 def test_average_acceleration_keeps_the_energy_of_a_linear_rotor():
-    element = LinearContact(2e8, 0.0, 1e-9, 1e-3, units="SI")
+    element = SpringContact.linear(2e8, 0.0, 1e-9, 1e-3, units="SI")
     rotor = JeffcottRotor.vertical(disc_mass=20.0, journal_mass=1.0, shaft_stiffness=2e7)
     moving = np.array([0.0, 1e-4])
     kick = replace(rotor.static_equilibrium([element]), disc_velocity=moving, journal_velocity=moving)

@@ -12,7 +12,7 @@ from reduced_models import (
     ContactMount,
     JeffcottRotor,
     LinearBearing,
-    LinearContact,
+    SpringContact,
     linearise,
     simulate_rotor,
     unbalance_response,
@@ -66,7 +66,7 @@ def test_a_table_is_straight_between_its_speeds(block):
 
 def test_steps_in_python_are_those_of_the_compiled_loop(block, film):
     """A contact that pushes with a millionth of the load turns the run into Python."""
-    light = LinearContact(3e-4, 0.0, low=1e-6, high=1.0, units="SI")
+    light = SpringContact.linear(3e-4, 0.0, low=1e-6, high=1.0, units="SI")
     rotor = block(film)
     mixed = replace(rotor, mounts=(*rotor.mounts, ContactMount(-pi / 2.0, offset=1.0, contact=light, x=0, y=1)))
     compiled, python = simulate_rotor(rotor, **RUN), simulate_rotor(mixed, **RUN, tolerance=1e-9)
@@ -79,7 +79,7 @@ def test_steps_in_python_are_those_of_the_compiled_loop(block, film):
 
 def test_a_contact_and_a_bearing_carry_together(block):
     """Under one mass: the linear bearing and a contact in parallel."""
-    contact = LinearContact(2e7, 50.0, low=1e-9, high=1e-3, units="SI")
+    contact = SpringContact.linear(2e7, 50.0, low=1e-9, high=1e-3, units="SI")
     straight = LinearBearing(np.diag([4e7, 6e7]), np.diag([800.0, 900.0]))
     rotor = linear_block(block, straight)
     below = ContactMount(-pi / 2.0, offset=1e-4, contact=contact, x=0, y=1)
@@ -95,7 +95,7 @@ def test_a_contact_and_a_bearing_carry_together(block):
 
 
 def test_refused(block, film):
-    contact = LinearContact(2e7, 50.0, low=1e-9, high=1e-3, units="SI")
+    contact = SpringContact.linear(2e7, 50.0, low=1e-9, high=1e-3, units="SI")
     rotor = JeffcottRotor.vertical(disc_mass=1.0, journal_mass=0.1, shaft_stiffness=1e7)
     for call, match in (
         (lambda: simulate_rotor(block(film), [contact], **RUN), "contacts = 1: must be left out"),
