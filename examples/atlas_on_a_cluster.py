@@ -16,7 +16,7 @@ import numpy as np
 
 from ehlcontact import MoesPoint
 from reduced_models import Atlas
-from reduced_models.atlas.build import build_atlas
+from reduced_models.atlas.build import build as build_table
 
 DRAWS, LIGHT = 0, 20  # sample points over the whole box, and at light loads, where they are solved soon
 POINTS = [MoesPoint(M, 10.0, 0.3) for M in (2.0, 5.0, 10.0, 20.0)]
@@ -29,7 +29,8 @@ def build(folder: Path, draws: int = DRAWS, light: int = LIGHT, workers: int = 2
     with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as cluster:
         # a cluster of many machines: the address that `dask scheduler` prints
         address = cluster.scheduler_address
-        build_atlas(folder / "small.h5", folder / "work", draws, light, scheduler=address, **options)
+        sample = {"draws": draws, "light_draws": light}
+        build_table("film", folder / "small.h5", folder / "work", sample, scheduler=address, **options)
     return Atlas(folder / "small.h5")
 
 

@@ -17,7 +17,7 @@ from inspect import ismodule as _ismodule
 
 from reduced_models import signals as signals
 from reduced_models.atlas.atlas import Atlas as Atlas
-from reduced_models.atlas.filter_table import contact_filter as contact_filter
+from reduced_models.atlas.waves import contact_filter as contact_filter
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
 from reduced_models.bearing.cage_slip import cage_slip as cage_slip
 from reduced_models.bearing.equilibrium_result import BearingState as BearingState

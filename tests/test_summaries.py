@@ -84,7 +84,7 @@ from reduced_models import (
     unbalance_response,
 )
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
-from reduced_models.atlas.filter_table import FilterAnswer
+from reduced_models.atlas.waves import FilterAnswer
 from reduced_models.bearing.excitation import BearingExcitation
 from reduced_models.bearing.linear_balls import BearingCoefficients
 from reduced_models.bearing.oil_and_heat import OilAndHeat

@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 
 from ehlcontact import Heat, Lubricant
 from reduced_models import Atlas, BallBearing
-from reduced_models.atlas.build import BOX
-from reduced_models.atlas.heat_sample import sample_heated
+from reduced_models.atlas.heat import RECIPE
 
 IMAGES = Path(__file__).parents[1] / "images"
 OIL = Lubricant.iso_vg(68, temperature=50.0)
@@ -66,7 +65,7 @@ def compare():
                 whole = bearing.coefficients((0.0, -load), speed_rpm=rpm, hz=rpm / 60.0).damping[0, 1, 1]
                 own, found = carrying(bearing, load, rpm)
                 print(f"{name}, {word}, {rpm:g}: C {whole:.4g}, of carrying balls {own:.4g}, answers {found:.4g}")
-    hz, points = np.array([20.0, 200.0, 2000.0, 6000.0, 20_000.0]), sample_heated(512, 5, BOX).values()
+    hz, points = np.array([20.0, 200.0, 2000.0, 6000.0, 20_000.0]), RECIPE.sample(512, 5).values()
     strong, weak = ([one.point for one in points if low < heated(one.point) < high] for low, high in LOADS)
     for word, these in (("Q > 1", strong[:30]), ("Q < 1", weak[:20])):
         for thermal in (None, Heat()):

@@ -25,12 +25,10 @@ from ehlcontact.checks.admissible_range import INPUTS, Quantity
 from ehlcontact.lubricant import MineralOil, oil
 from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.lubricant.oil_laws import ROELANDS_LOG, ROELANDS_P0
-from ehlcontact.store import read
 from reduced_models import BallBearing
-from reduced_models.atlas import frequency_curve, interpolation
-from reduced_models.atlas.atlas import SHIPPED
-from reduced_models.atlas.interpolation import AtlasSurface
-from reduced_models.atlas.table import AtlasTable
+from reduced_models.atlas import film as atlas_film
+from reduced_models.atlas import frequency_curve
+from reduced_models.atlas.surface import Surface, shipped
 from reduced_models.bearing import ball_bearing, equilibrium, kinematics, linear_balls, race
 from reduced_models.bearing.catalogue import DEEP_GROOVE
 from reduced_models.elements import film_curve, film_response
@@ -43,7 +41,7 @@ UNITS = {"ball_diameter": "mm", "pitch_diameter": "mm", "eta0": "mPa s", "alpha"
 # Numbers of the library's own rules, by the modules that have them
 RULES: Mapping[Any, tuple[str, ...]] = {
     frequency_curve: ("SPLINE_SHARE",),
-    interpolation: ("THICKEST",),
+    atlas_film: ("THICKEST",),
     race: ("INSIDE", "PER_DECADE", "NEAR"),
     film_curve: ("DECADE", "RIGID_SLOPE"),
     film_response: ("DRY", "LEAST_VISCOUS", "SMALL_OMEGA"),
@@ -86,7 +84,7 @@ def page_data() -> dict[str, Any]:
     """Atlas, oils, bearings and ranges of inputs; arrays in base64."""
     return {
         "version": __version__,
-        "atlas": _atlas(read(SHIPPED, AtlasTable)),
+        "atlas": _atlas(shipped("film")),
         "oil": _oils(),
         "catalogue": {name: row._asdict() for name, row in DEEP_GROOVE.items()},
         "quantities": {name: _quantity(_in_units(name)) for name in OF_INPUTS},
@@ -95,20 +93,20 @@ def page_data() -> dict[str, Any]:
     }
 
 
-def _atlas(table: AtlasTable) -> dict[str, Any]:
-    surface, meta = AtlasSurface(table), table.metadata
+def _atlas(surface: Surface) -> dict[str, Any]:
+    table, meta = surface.table, surface.table.metadata
     coefficients, lobe = surface.coefficients
-    arrays = {"omega": table.omega, "points": table.points, "factor": table.factor, "lobe": lobe}
-    arrays |= {"coefficients": coefficients, "slopes": _spline_slopes(np.arcsinh(table.omega))}
+    arrays = {"omega": table["omega"], "points": table.points, "factor": table["factor"], "lobe": lobe}
+    arrays |= {"coefficients": coefficients, "slopes": _spline_slopes(np.arcsinh(table["omega"]))}
     steel = {f.name: f.default for f in fields(BallBearing)}
     return {
         **{name: _base64(array) for name, array in arrays.items()},
-        "left_out": _base64(table.left_out, np.float32),  # as in the file of the atlas
+        "left_out": _base64(table["left_out"], np.float32),  # as in the file of the atlas
         "usual_reach": surface.usual_reach,
         "box": table.box.to_dict(),
         "interpolation": asdict(table.interpolation),
-        "oil": asdict(table.oil),
-        "rates": asdict(table.rates),
+        "oil": meta["oil"],
+        "rates": meta["rates"],
         "alpha": meta["alpha"],
         "eta0": meta["eta0"],
         "highest_omega": meta["highest_omega"],

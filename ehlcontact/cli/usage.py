@@ -202,10 +202,11 @@ EXAMPLES = {
     ),
     "verify": ("ehlcontact verify ball.fmu",),
     "explore": ("ehlcontact explore -o page.html",),
-    "atlas heat": ("ehlcontact atlas heat -o heat.h5 --draws 256 --processes 4",),
-    "atlas build": ("ehlcontact atlas build -o atlas.h5 --draws 200 --processes 4",),
-    "atlas supply": ("ehlcontact atlas supply -o supply.h5 --draws 128 --processes 4",),
-    "atlas waves": ("ehlcontact atlas waves -o filters.h5 --processes 4",),
+    "atlas build": (
+        "ehlcontact atlas build -o atlas.h5 --draws 200 --processes 4",
+        "ehlcontact atlas build --recipe supply -o supply.h5 --draws 128",
+        "ehlcontact atlas build --recipe waves",
+    ),
 }
 
 

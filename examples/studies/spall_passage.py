@@ -18,7 +18,7 @@ from ehlcontact import Grid, MoesPoint, PrescribedApproach, TimeSteps, excitatio
 from ehlcontact.dry_contact import ElasticContact
 from ehlcontact.hertz import shape_factor
 from reduced_models import Atlas
-from reduced_models.atlas.filter_table import film_over_dry
+from reduced_models.atlas.waves import film_over_dry
 from reduced_models.bearing.elastic_heights import Track
 
 CASES = ((MoesPoint(200, 10, 0.5), 0.2), (MoesPoint(200, 10, 0.5), 0.5), (MoesPoint(30, 8, 0.5), 1.5))

@@ -17,7 +17,7 @@ from ehlcontact.results.table import Display, QuantityTable, ScaledTable, plain
 from ehlcontact.summary import contact_text, note_line, span
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.frequency_curve import FrequencyCurve
-from reduced_models.atlas.heat_condition import HeatedFilm
+from reduced_models.atlas.heat import HeatedFilm
 
 _Floats = NDArray[np.float64]
 

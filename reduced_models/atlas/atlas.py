@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import os
 import warnings
+from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import asdict, replace
-from pathlib import Path
+from functools import cached_property
 from typing import Any, Unpack
 
 import numpy as np
@@ -21,7 +22,6 @@ from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
 from ehlcontact.lubricant.oil_laws import secant_over_slope
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
-from ehlcontact.store import read as read_file
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
 from reduced_models.atlas.atlas_elements import (
@@ -34,15 +34,15 @@ from reduced_models.atlas.atlas_elements import (
     speed_element,
     wide_element,
 )
-from reduced_models.atlas.conditions import Given, changed, conditions_at
+from reduced_models.atlas.conditions import Condition, Rows, under
+from reduced_models.atlas.film import HEAD, LOW, OtherOil
 from reduced_models.atlas.frequency_curve import FrequencyCurve
-from reduced_models.atlas.gain_fit import FADED, FLOOR, heated_gains, smooth_gains
-from reduced_models.atlas.heat_condition import HeatCondition, rolling_heat
-from reduced_models.atlas.interpolation import AtlasSurface
-from reduced_models.atlas.supply_condition import FAINT_GAIN, SLOWEST, SupplyCondition, supplied_speeds
-from reduced_models.atlas.table import HEAD, LOW, AtlasTable, Box
+from reduced_models.atlas.heat import Heated, rolling_heat
+from reduced_models.atlas.supply import Supplied
+from reduced_models.atlas.surface import opened, shipped_file
+from reduced_models.atlas.table import Box
 from reduced_models.elements.film_memory import FilmMemoryContact
-from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
+from reduced_models.elements.film_response import DRY, LEAST_VISCOUS, FilterRates
 from reduced_models.elements.speed_range import SpeedRangeContact
 from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import OutsideValidityWarning
@@ -50,7 +50,6 @@ from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
 
-SHIPPED = Path(__file__).with_name("atlas.h5")
 MODELS = ("memory", "wide", "cubic")
 NUMBERS = ("approach", "h_central", "h_min", "film_share", "moment")  # beside what is over frequency
 # Loads of a wide-range element, as far as the box goes.
@@ -81,7 +80,23 @@ class Atlas:
     """
 
     def __init__(self, path: str | os.PathLike[str] | None = None) -> None:
-        self._table, self._surface = _opened(SHIPPED if path is None else path)
+        self._surface = opened(shipped_file("film") if path is None else path, "film")
+        self._table = self._surface.table
+
+    @cached_property
+    def _omega(self) -> _Floats:
+        """Frequencies of the table."""
+        return self._table["omega"]
+
+    @cached_property
+    def _rates(self) -> FilterRates:
+        """Rates of the film memory, equal at all points."""
+        return FilterRates(**self._table.metadata["rates"])
+
+    @cached_property
+    def _oil(self) -> OtherOil:
+        """Accepted other oils."""
+        return OtherOil(**self._table.metadata["oil"])
 
     @property
     def box(self) -> Box:
@@ -123,7 +138,7 @@ class Atlas:
         supply: OilLayer | None = None,
         thermal: Heat | bool | None = None,
     ) -> AtlasAnswers:
-        """The same as `at` for many points at once, in arrays: 10 to 30 us a point from a thousand up.
+        """Answers of `at` for many points at once, in arrays: 10 to 30 us a point from a thousand up.
 
         Parameters
         ----------
@@ -150,13 +165,16 @@ class Atlas:
         first = points[0].tolist()
         self._inside(MoesPoint(first[0], first[1], first[2], *oil))  # the oil, which is that of all
         self.box.require_all_inside(points, oil[0])
-        values, bars = self._surface.with_bars(points * self._oil_factors(*oil), self._oil_error(*oil))
-        Omega = self._table.omega
+        values, bars = self._surface.at(points * self._oil_factors(*oil), oil_error=self._oil_error(*oil))
+        Omega = self._omega
         if supply is not None:
-            given = [SupplyCondition(MoesPoint(m, ell, k, *oil), supply) for m, ell, k in points.tolist()]
-            rows = zip(given, values[:, None], bars[:, None], strict=True)
-            found = [self._under([one], np.ones(1), value, bar) for one, value, bar in rows]
-            Omega, values, bars = found[0][0], *(np.vstack([one[k] for one in found]) for k in (1, 2))
+            supplied = []
+            for (m, ell, k), value, bar in zip(points.tolist(), values[:, None], bars[:, None], strict=True):
+                layer = Supplied(MoesPoint(m, ell, k, *oil), supply)
+                supplied.append(under([layer], np.ones(1), Rows(Omega, value), bar))
+            Omega = supplied[0][0].Omega
+            values = np.vstack([rows.values for rows, _ in supplied])
+            bars = np.vstack([bar for _, bar in supplied])
         named, error = _named(values), _named(bars)
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         axes = dict(zip(("M", "L", "kappa"), points.T, strict=True))
@@ -201,12 +219,12 @@ class Atlas:
         require_choice("model", model, MODELS)
         moes, scales = self._inside(point), scales_of(point)
         w = self._frequency(model, scales, Omega=Omega, omega=omega, hz=hz, rpm=rpm)
-        given = conditions_at(point, supply, thermal)
+        conditions = conditions_at(point, supply, thermal)
         if w is not None:
-            return self._cubic(point, w, given)
+            return self._cubic(point, w, conditions)
         if model == "memory":
-            return self._remembering(point, None, given)
-        return self._remembering(point, self._loads(moes), given, one_region=True)
+            return self._remembering(point, None, conditions)
+        return self._remembering(point, self._loads(moes), conditions, one_region=True)
 
     def wide(
         self,
@@ -235,10 +253,10 @@ class Atlas:
             A point or a load outside the box: it names the axis and the box. What a table of supply or heat does
             not have.
         """
-        at, moes = as_column("loads", loads, least=2, increasing=True), self._inside(point)
-        require_positive("loads[0]", float(at[0]))
-        self.box.require_all_inside(_rows(moes, at), moes.alpha)
-        element = self._remembering(point, at, conditions_at(point, supply, thermal))
+        column, moes = as_column("loads", loads, least=2, increasing=True), self._inside(point)
+        require_positive("loads[0]", float(column[0]))
+        self.box.require_all_inside(_rows(moes, column), moes.alpha)
+        element = self._remembering(point, column, conditions_at(point, supply, thermal))
         assert isinstance(element, WideRangeContact)
         return element
 
@@ -300,100 +318,73 @@ class Atlas:
         if moes.L > 0.0:
             most = min(most, (self.box.L[1] / moes.L) ** 4)
         for condition in conditions_at(point, supply, thermal):
-            if isinstance(condition, SupplyCondition):
-                if (ratio := condition.supply.over_flooded) is not None:
-                    allowed = "left out: h in m, or H, is the same oil at every speed"
-                    raise InputError("over_flooded", ratio, allowed)
-                slow, fast = supplied_speeds(moes)
-                lowest, most = max(lowest, slow), min(most, fast)
-            elif isinstance(condition, HeatCondition):
-                most = min(most, condition.fastest)
+            slow, fast = condition.speeds
+            lowest, most = max(lowest, slow), min(most, fast)
         return lowest, most
 
-    def _answer(self, point: Point, given: Given) -> AtlasAnswer:
+    def _answer(self, point: Point, conditions: Sequence[Condition]) -> AtlasAnswer:
         """Answer under conditions."""
         moes, load = self._inside(point), np.ones(1)
-        flooded, bars = self._surface.with_bars(self._rows(moes, load), self._oil_error(moes.alpha, moes.eta0))
-        Omega, values, bars = self._under(given, load, flooded, bars)
-        named, error = ({n: v[0] for n, v in _named(part).items()} for part in (values, bars))
-        error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
-        for numbers in (named, error):
+        error = self._oil_error(moes.alpha, moes.eta0)
+        flooded, flooded_bars = self._surface.at(self._rows(moes, load), oil_error=error)
+        (Omega, values), rows_bars = under(conditions, load, Rows(self._omega, flooded), flooded_bars)
+        named, bars = ({n: v[0] for n, v in _named(part).items()} for part in (values, rows_bars))
+        bars["film_share"], named["film_share"] = bars["approach"], 1.0 - named["approach"]
+        for numbers in (named, bars):
             numbers |= {name: float(numbers[name]) for name in NUMBERS}
-        for condition in given:
+        for condition in conditions:
             named |= condition.noted(float(flooded[0, 1]), named["h_central"])
-        return AtlasAnswer(moes, Omega=Omega, **named, error_bars=error, scales=scales_of(point))
+        return AtlasAnswer(moes, Omega=Omega, **named, error_bars=bars, scales=scales_of(point))
 
-    def _under(
-        self, given: Given, loads: _Floats, values: _Floats, bars: _Floats
-    ) -> tuple[_Floats, _Floats, _Floats]:
-        """Answers under conditions and their error bars, and the frequencies of their K and C.
-
-        A supply comes last: its table is read at the layer over the film that heat leaves, and has frequencies
-        below those of the atlas.
-        """
-        isothermal = values[:, 1]
-        Omega, supply = self._table.omega, [one for one in given if isinstance(one, SupplyCondition)]
-        others = [one for one in given if not isinstance(one, SupplyCondition)]
-        values, bars = changed(others, loads, values, bars, Omega)
-        for layer in supply:
-            nodes = np.unique(np.concatenate([Omega, layer.omega[layer.omega < Omega[1]]]))
-            values, bars = (_refined(part, Omega, nodes) for part in (values, bars))
-            values, bars = layer.change(loads, values, nodes, isothermal).of(values, bars)
-            Omega = nodes
-        return Omega, values, bars
-
-    def _cubic(self, point: Point, w: float, given: Given) -> SpringContact:
+    def _cubic(self, point: Point, w: float, conditions: Sequence[Condition]) -> SpringContact:
         moes, scales = self._inside(point), scales_of(point)
         load = np.ones(1)
-        flooded, _ = self._surface.at(self._rows(moes, load))
-        nodes, values, _ = self._under(given, load, flooded, np.zeros_like(flooded))
-        at, k = np.array([w]), nodes.size
-        K, C = FrequencyCurve(nodes, values[0, HEAD : HEAD + k]), FrequencyCurve(nodes, values[0, HEAD + k :])
-        tangent, damper, band = float(K.at(at)[0]), float(C.at(at)[0]), damper_band(nodes, C, w)
+        flooded, _ = self._surface.beside(self._rows(moes, load))
+        rows, _ = under(conditions, load, Rows(self._omega, flooded), np.zeros_like(flooded))
+        K, C = (FrequencyCurve(rows.Omega, part[0]) for part in (rows.stiffness, rows.damping))
+        place = np.array([w])
+        tangent, damper, band = float(K.at(place)[0]), float(C.at(place)[0]), damper_band(rows.Omega, C, w)
         if damper < 0.0:
-            found = f"{damper:.3g}" if scales is None else f"{damper * scales.damping:.3g} N s/m"
-            message = f"under this layer the solver finds damping below zero at this frequency ({found})"
+            size = f"{damper:.3g}" if scales is None else f"{damper * scales.damping:.3g} N s/m"
+            message = f"under this layer the solver finds damping below zero at this frequency ({size})"
             warnings.warn(f"{message}; the cubic element leaves it out, its C1 is 0", OutsideValidityWarning, 4)
-        cubic = cubic_element(float(values[0, 0]), tangent, damper, band, self._whence(point, given))
+        approach, source = float(rows.values[0, 0]), self._whence(point, conditions)
+        cubic = cubic_element(approach, tangent, damper, band, source)
         return cubic if scales is None else cubic.to_si(scales)
 
     def _remembering(
-        self, point: Point, over: _Floats | None, given: Given, *, one_region: bool = False
+        self, point: Point, over: _Floats | None, conditions: Sequence[Condition], *, one_region: bool = False
     ) -> FilmMemoryContact | WideRangeContact:
-        """Wide-range element over the given loads, or film memory about the point's own load.
+        """Wide-range element over these loads, or film memory about the point's own load.
 
         `one_region`: where oil floods the inlet, of all loads as far as under the point's own.
         """
         moes, scales = self._inside(point), scales_of(point)
         loads = np.ones(1) if over is None else over
-        flooded, shapes = self._surface.at(self._rows(moes, loads))
-        Omega, values, _ = self._under(given, loads, flooded, np.zeros_like(flooded))
-        low, at_rest = flooded[:, LOW], flooded[:, HEAD + self._table.omega.size]
-        layers = [one for one in given if isinstance(one, SupplyCondition)]
-        supplied, heats = bool(layers), [one for one in given if one not in layers]
-        followed, faint = Omega >= (SLOWEST if supplied else 0.0), FAINT_GAIN if supplied else 0.0
-        if heats:
-            _, hot, _ = self._under(heats, loads, flooded, np.zeros_like(flooded))
-            shapes, flooded = self._heated(flooded, hot, shapes, low), hot
-        if supplied:
-            fit = self._shapes(self._table.omega, flooded, low, faint)
-            beside = (shapes - fit) * _left(Omega, values, flooded)
-            shapes = self._shapes(Omega[followed], values[:, _both(followed)], low, faint) + beside
+        flooded, shapes = self._surface.beside(self._rows(moes, loads))
+        rows, low, isothermal = Rows(self._omega, flooded), flooded[:, LOW], flooded[:, 1]
+        at_rest, approach, slowest = rows.damping[:, 0], flooded[:, 0], 0.0
+        for condition in conditions:
+            before = rows
+            rows, _ = condition.apply(loads, before, np.zeros_like(before.values), isothermal)
+            shapes = condition.gains(shapes, low, self._rates, before, rows)
+            approach = condition.approaches(loads, before, rows)
+            slowest, one_region = max(slowest, condition.slowest), one_region and condition.one_region
         gains = np.maximum(shapes * low[:, None], 0.0)
         gains[:, 0] = np.maximum(gains[:, 0], LEAST_VISCOUS / DRY * low)  # as fitted: rates need it
-        approach = layers[0].approaches(loads, flooded, values) if supplied else values[:, 0]
-        if one_region and not supplied:
-            approach = approaches_in_one_region(loads, approach, values[:, HEAD])
+        if one_region:
+            approach = approaches_in_one_region(loads, approach, rows.stiffness[:, 0])
+        followed = rows.Omega >= slowest
         made_of = Loads(
             loads=loads,
             approach=approach,
-            tangent=values[:, HEAD],
+            tangent=rows.stiffness[:, 0],
             gains=gains,
-            rates=self._table.rates,
-            lowest_omega=_negative_below(Omega, values, low) if supplied else 0.0,
+            rates=self._rates,
+            lowest_omega=_negative_below(rows, low) if slowest else 0.0,
             highest_omega=float(self._table.metadata["highest_omega"]),
-            fit=self._fit(Omega[followed], gains, values[:, HEAD + Omega.size :][:, followed], at_rest),
-            source=self._whence(point, given),
+            fit=self._fit(rows.Omega[followed], gains, rows.damping[:, followed], at_rest),
+            source=self._whence(point, conditions),
         )
         make = memory_element if over is None else wide_element
         try:
@@ -401,30 +392,10 @@ class Atlas:
         except InputError:  # rarely: interpolated gains that would feed energy back
             return make(replace(made_of, gains=passive_gains(made_of.rates, gains)), scales)
 
-    def _shapes(self, omega: _Floats, rows: _Floats, low: _Floats, faint: float) -> _Floats:
-        """Gains fitted to answers, over the low-frequency damping `low` of a flooded isothermal film.
-
-        Errors of C below `faint` times its largest, or a small share of `low`, count absolutely.
-        """
-        rates, k = self._table.rates, omega.size
-        fits = [
-            smooth_gains(omega, row[HEAD : HEAD + k], C, rates, one, max(FLOOR, faint * float(C.max()) / one))
-            for row, C, one in zip(rows, rows[:, HEAD + k :], low.tolist(), strict=True)
-        ]
-        return np.array(fits)
-
-    def _heated(self, cold: _Floats, hot: _Floats, gains: _Floats, low: _Floats) -> _Floats:
-        """Gains with heat, from those of isothermal elements and the answers of both, over `low`."""
-        Omega, k = self._table.omega, self._table.omega.size
-        Z = [rows[:, HEAD : HEAD + k] + 1j * rows[:, HEAD + k :] for rows in (cold, hot)]
-        rows = zip(*Z, np.maximum(gains, 0.0), low.tolist(), strict=True)
-        fits = [heated_gains(Omega, one, other, g, self._table.rates, unit) for one, other, g, unit in rows]
-        return np.array(fits)
-
-    def _whence(self, point: Point, given: Given) -> dict[str, Any]:
+    def _whence(self, point: Point, conditions: Sequence[Condition]) -> dict[str, Any]:
         """Origin of an element: point, atlas and conditions."""
-        scales, answer = scales_of(point), self._answer(point, given)
-        source = self._source(answer) | {one.name: one.to_dict() for one in given}
+        scales, answer = scales_of(point), self._answer(point, conditions)
+        source = self._source(answer) | {condition.name: condition.to_dict() for condition in conditions}
         source["scales"] = None if scales is None else asdict(scales)
         if answer.over_flooded is not None:
             source["least_damping"] = float(answer.damping.min())  # elements leave out what is below 0
@@ -433,14 +404,15 @@ class Atlas:
     def _fit(self, omega: _Floats, gains: _Floats, damping: _Floats, low: _Floats) -> dict[str, Any]:
         """Misfit between the damping of the filters and of the atlas, over `low`, the flooded one at rest."""
         used = omega <= self._table.metadata["highest_omega"]
-        found = gains @ (self._table.rates.basis(omega[used]).real * DRY).T
-        return {"rms": None, "damping_error_max": float(np.max(np.abs(found - damping[:, used]) / low[:, None]))}
+        filtered = gains @ (self._rates.basis(omega[used]).real * DRY).T
+        error = np.abs(filtered - damping[:, used]) / low[:, None]
+        return {"rms": None, "damping_error_max": float(np.max(error))}
 
     def _frequency(self, model: str, scales: Scales | None, **given: Unpack[Frequency]) -> float | None:
         """Omega of the cubic element; None for the other models, which are valid at all frequencies."""
         if model == "cubic":
             time = None if scales is None else scales.time
-            return one("frequency", dimensionless(time, **given, most=float(self._table.omega[-1])))
+            return one("frequency", dimensionless(time, **given, most=float(self._omega[-1])))
         for name, value in given.items():
             if value is not None:
                 highest = float(self._table.metadata["highest_omega"])
@@ -455,7 +427,7 @@ class Atlas:
             if getattr(moes, name) != self._table.metadata[name]:
                 raise InputError(name, getattr(moes, name), f"{self._table.metadata[name]}, the law of the atlas")
         for name in ("alpha", "eta0"):
-            low, high = getattr(self._table.oil, name)
+            low, high = getattr(self._oil, name)
             if not low <= getattr(moes, name) <= high:
                 guess = INPUTS[name].slip(getattr(moes, name))
                 allowed = f"between {low:g} and {high:g} {INPUTS[name].unit}, the range of the atlas"
@@ -479,12 +451,12 @@ class Atlas:
     def _oil_factors(self, alpha: float, eta0: float) -> _Floats:
         """Factors on M, L and kappa for an oil, see `OtherOil`."""
         meta = self._table.metadata
-        own = secant_over_slope(meta["alpha"], meta["eta0"], self._table.oil.secant)
-        return np.array([1.0, secant_over_slope(alpha, eta0, self._table.oil.secant) / own, 1.0])
+        own = secant_over_slope(meta["alpha"], meta["eta0"], self._oil.secant)
+        return np.array([1.0, secant_over_slope(alpha, eta0, self._oil.secant) / own, 1.0])
 
     def _oil_error(self, alpha: float, eta0: float) -> _Floats:
         """Error bars of the smooth variables for an oil whose alpha and eta0 are not those of the atlas."""
-        meta, oil, k = self._table.metadata, self._table.oil, self._table.omega.size
+        meta, oil, k = self._table.metadata, self._oil, self._omega.size
         away = abs(math.log(alpha / meta["alpha"])), abs(math.log(eta0 / meta["eta0"]))
         film, K, C, m = (float(np.dot(s, away)) for s in (oil.film, oil.stiffness, oil.damping, oil.moment))
         return np.concatenate([[film, film, film, C, m], np.full(k, K), np.full(k, C)])
@@ -503,6 +475,24 @@ class Atlas:
         }
 
 
+def conditions_at(point: Point, supply: OilLayer | None, thermal: Heat | bool | None) -> list[Condition]:
+    """Conditions at a point in the order in which they are applied; True stands for ``Heat()``.
+
+    A supply comes last: its table is read at the layer over the film that heat leaves.
+
+    Raises
+    ------
+    InputError
+        A supply or heat that its table does not have.
+    """
+    conditions: list[Condition] = []
+    if (heat := rolling_heat(thermal)) is not None:
+        conditions.append(Heated(point, heat))
+    if supply is not None:
+        conditions.append(Supplied(point, supply))
+    return conditions
+
+
 def _named(rows: _Floats) -> dict[str, Any]:
     k = (rows.shape[1] - HEAD) // 2
     u, central, least, _, moment = rows[:, :HEAD].T
@@ -510,58 +500,10 @@ def _named(rows: _Floats) -> dict[str, Any]:
     return named | {"stiffness": rows[:, HEAD : HEAD + k], "damping": rows[:, HEAD + k :]}
 
 
-def _both(which: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Columns of answers whose K and C are at these frequencies, the first five among them."""
-    return np.concatenate([np.ones(HEAD, bool), which, which])
-
-
-def _negative_below(Omega: _Floats, values: _Floats, low: _Floats) -> float:
+def _negative_below(rows: Rows, low: _Floats) -> float:
     """Frequency from 0 up to which C is below zero under some load, by more than a small share of `low`."""
-    negative = values[:, HEAD + Omega.size :] < -NEGATIVE * low[:, None]
-    reach = np.cumprod(negative, axis=1).any(axis=0)
-    return float(Omega[reach].max(initial=0.0))
-
-
-def _left(Omega: _Floats, values: _Floats, flooded: _Floats) -> _Floats:
-    """How little a supply has changed damping where elements follow it: 1 flooded, soon 0, shape (n, 1).
-
-    So much of what the gains of a flooded film are beside a fit is left: all of it would be more than a starved
-    film has.
-    """
-    C, whole = values[:, HEAD + Omega.size :], flooded[:, (HEAD + flooded.shape[1]) // 2 :]
-    share = C[:, Omega >= SLOWEST].sum(axis=1) / whole[:, -np.count_nonzero(Omega >= SLOWEST) :].sum(axis=1)
-    return np.asarray(np.clip(share, 0.0, 1.0)[:, None] ** FADED)
-
-
-def _refined(rows: _Floats, Omega: _Floats, nodes: _Floats) -> _Floats:
-    """Rows of answers, or of their error bars, at nodes between and beside the frequencies that they have."""
-    k = Omega.size
-    parts = (rows[:, HEAD : HEAD + k], rows[:, HEAD + k :])
-    return np.hstack([rows[:, :HEAD], *([FrequencyCurve(Omega, row).at(nodes) for row in part] for part in parts)])
-
-
-MOST_OPEN = 4  # atlases that a process keeps
-_OPEN: dict[tuple[int, ...], tuple[AtlasTable, AtlasSurface]] = {}  # by device, inode, size and time of the file
-
-
-def _opened(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
-    """Table and interpolation of a file; read once, and again when the file has been changed or replaced."""
-    try:
-        found = os.stat(os.fspath(path))
-    except (OSError, TypeError, ValueError):
-        return _read(path)  # which says what is wrong with it
-    version = found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns
-    if version not in _OPEN:
-        table = _read(path)
-        while len(_OPEN) >= MOST_OPEN:
-            del _OPEN[next(iter(_OPEN))]
-        _OPEN[version] = table
-    return _OPEN[version]
-
-
-def _read(path: str | os.PathLike[str]) -> tuple[AtlasTable, AtlasSurface]:
-    table = read_file(path, AtlasTable, "atlas")
-    return table, AtlasSurface(table)
+    reach = np.cumprod(rows.damping < -NEGATIVE * low[:, None], axis=1).any(axis=0)
+    return float(rows.Omega[reach].max(initial=0.0))
 
 
 def _two_ends(speeds: ArrayLike, allowed: str) -> tuple[float, float]:

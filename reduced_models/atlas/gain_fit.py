@@ -29,6 +29,18 @@ def smooth_gains(
     return np.asarray(scipy.optimize.nnls(rows, target, maxiter=1000)[0])
 
 
+def fitted_gains(
+    omega: _Floats, K: _Floats, C: _Floats, rates: FilterRates, low: _Floats, faint: float
+) -> _Floats:
+    """Gains of many answers, K and C of shape (n, k), over their `low`, shape (n,).
+
+    Errors of C below `faint` times its largest, or a small share of `low`, count absolutely.
+    """
+    floors = [max(FLOOR, faint * float(c.max()) / unit) for c, unit in zip(C, low.tolist(), strict=True)]
+    rows = zip(K, C, low.tolist(), floors, strict=True)
+    return np.array([smooth_gains(omega, k, c, rates, unit, floor) for k, c, unit, floor in rows])
+
+
 def heated_gains(
     omega: _Floats, cold: _Complex, hot: _Complex, gains: _Floats, rates: FilterRates, low: float
 ) -> _Floats:

@@ -1,10 +1,12 @@
-"""Table of the atlas: solved points, their answers, settings of the interpolation."""
+"""`Table`: contacts solved for the atlas, by any recipe: points, named columns, metadata; their file."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, replace
-from typing import Any, Self
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +16,22 @@ from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import moes_pressure
 from ehlcontact.point import MoesPoint
 from ehlcontact.store import stored
-from reduced_models.elements.film_response import FilterRates
+
+if TYPE_CHECKING:
+    from reduced_models.atlas.recipe import Recipe
 
 _Floats = NDArray[np.float64]
 
-# Answers at a point stand in one row: approach, films, low-frequency C, moment; then K and C over frequency.
-LOW, HEAD = 3, 5
+RECIPES = ("film", "supply", "heat", "waves")  # modules of this package
 KERNELS = {"cubic": 1}  # radial functions with the degree of the polynomial beside them
+
+
+def recipe_named(name: str) -> Recipe[Any]:
+    """Recipe of a table; raises `ValueError` for a name that there is not."""
+    if name not in RECIPES:
+        raise ValueError(f"no recipe {name!r}")
+    recipe: Recipe[Any] = import_module(f"{__package__}.{name}").RECIPE
+    return recipe
 
 
 @dataclass(frozen=True)
@@ -45,12 +56,17 @@ class Box:
 
     def require_all_inside(self, points: _Floats, alpha: float) -> None:
         """Raise `InputError` for the first of many rows (M, L, kappa) that lies outside."""
-        low, high = np.transpose([self.M, self.L, self.kappa])
+        low, high = self.ends
         inside = np.all((low <= points) & (points <= high), axis=1)
         inside[inside] = [moes_pressure(*row) <= self.p_hertz * alpha for row in points[inside].tolist()]
         if not inside.all():
             M, L, kappa = points[int(np.argmin(inside))].tolist()
             self.require_inside(MoesPoint(M, L, kappa, alpha))
+
+    @property
+    def ends(self) -> _Floats:
+        """Smallest and largest M, L and kappa, shape (2, 3)."""
+        return np.transpose([self.M, self.L, self.kappa])
 
     def __str__(self) -> str:
         M, L, kappa = (f"{low:g}..{high:g}" for low, high in (self.M, self.L, self.kappa))
@@ -69,114 +85,83 @@ class Box:
 
 @dataclass(frozen=True)
 class Interpolation:
-    """Settings of the interpolation; error bars of an atlas are valid for the settings of its build only.
+    """Settings of the interpolation; error bars of a table are valid for the settings of its build only.
 
     Raises
     ------
     InputError
-        A kernel, or a degree, that this library does not know.
+        A kernel, or a degree, that this library does not have.
     """
 
-    weights: tuple[float, ...]  # of the coordinates, in the order of `surface.coordinates`
-    lobe_weights: tuple[float, ...]  # of the first four of them, for Hm/Hc
-    light_load: float  # load number about which the default domain began to grow at the time of the build
-    light_blend: float  # and the factor on it over which
-    thick: float  # film, in dry approaches, beyond which the published one no longer leads
-    asinh: float  # of the low-frequency damping: where asinh turns from ln to linear
-    reference: int  # index of the frequency of the low-frequency damping
+    weights: tuple[float, ...]  # of the coordinates, in the order of the recipe
     nearest: int  # points whose errors make the error bar
     covered: float  # share of points that the error bar covers when each is left out
     kernel: str = "cubic"
     degree: int = 1
 
     def __post_init__(self) -> None:
-        for name in ("weights", "lobe_weights"):
-            object.__setattr__(self, name, tuple(float(weight) for weight in getattr(self, name)))
+        object.__setattr__(self, "weights", tuple(float(weight) for weight in self.weights))
         require_choice("kernel of the atlas", self.kernel, tuple(KERNELS))
         if self.degree != KERNELS[self.kernel]:
             raise InputError("degree of the atlas", self.degree, f"{KERNELS[self.kernel]} beside {self.kernel!r}")
 
 
-@dataclass(frozen=True)
-class OtherOil:
-    """Range of alpha and eta0 around those of the atlas; correction and wider error bars for another oil.
+@stored("table of an atlas", 5)
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Solved points of a recipe; ``table[name]`` is an axis or a column in double precision.
 
-    At given M, L and kappa, alpha and eta0 enter through the curvature of Roelands' law and the compressibility.
-    Pressures up to about 2/alpha form the film, so the atlas is read at an L with the secant of ln(eta) up to
-    there in place of its slope at ambient pressure, each over that of the oil of the atlas. Error bars widen by
-    what is left: the largest change of ln of films, K, C and moment per unit of ln alpha and of ln eta0.
+    Attributes
+    ----------
+    recipe : str
+        Name of the recipe.
+    points : ndarray, shape (n, d)
+        Coordinates of the solved points.
+    axes : dict of ndarray
+        What columns are over beside the points: frequencies, layers, wave numbers.
+    columns : dict of ndarray
+        Answers, in single precision once they are `rounded`. Where the recipe keeps them, ``left_out``: errors at
+        each point of an interpolation without it, and ``factor``: from the errors of the nearest points to the
+        error bar.
+    metadata : dict
+        Box and settings; command, version, sample, meshes, failures.
     """
 
-    alpha: tuple[float, float]  # range [1/Pa]
-    eta0: tuple[float, float]  # range [Pa s]
-    secant: float  # alpha p at the end of the secant
-    film: tuple[float, float]
-    stiffness: tuple[float, float]  # K changes the less the thinner the film
-    damping: tuple[float, float]
-    moment: tuple[float, float]
+    recipe: str
+    points: _Floats
+    axes: dict[str, _Floats]
+    columns: dict[str, _Floats]
+    metadata: dict[str, Any]
 
     def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            object.__setattr__(self, name, float(value) if name == "secant" else tuple(map(float, value)))
+        for array in (self.points, *self.axes.values(), *self.columns.values()):
+            array.setflags(write=False)
 
+    def __getitem__(self, name: str) -> _Floats:
+        return np.asarray(self.axes[name] if name in self.axes else self.columns[name], float)
 
-def require_shapes(table: object, shapes: Mapping[str, tuple[int, ...]]) -> None:
-    """Raise `ValueError` unless arrays of a table have these shapes, and finite numbers."""
-    for name, shape in shapes.items():
-        array = getattr(table, name)
-        if array.shape != shape or not np.isfinite(array).all():
-            raise ValueError(f"{name} of shape {array.shape} in place of finite numbers of shape {shape}")
-
-
-@stored("table of an atlas", 4)
-@dataclass(frozen=True, eq=False)
-class AtlasTable:
-    """Arrays over the n solved points, in the units of each point's own load."""
-
-    points: _Floats  # (n, 3) M, L, kappa
-    omega: _Floats  # (k,)
-    approach: _Floats  # (n,)
-    h_central: _Floats  # (n,)
-    h_min: _Floats  # (n,)
-    moment: _Floats  # (n,)
-    stiffness: _Floats  # (n, k) K(Omega)
-    damping: _Floats  # (n, k) C(Omega)
-    gains: _Floats  # (n, 3 + lags) of the film memory, over the damping at the lowest frequency > 0
-    left_out: _Floats  # (n, 5 + 2 k) error at each point of an interpolation without it, see `surface`
-    factor: _Floats  # (5 + 2 k,) from the errors of the nearest points to the error bar
-    metadata: dict[str, Any]  # box, rates, interpolation, oil; command, version, sample, meshes, failures
-
-    def __post_init__(self) -> None:
-        for value in vars(self).values():
-            if isinstance(value, np.ndarray):
-                value.setflags(write=False)
-
-    @property
+    @cached_property
     def box(self) -> Box:
         """Ranges of M, L, kappa and Hertz pressure."""
         return Box.from_dict(self.metadata["box"])
 
-    @property
-    def rates(self) -> FilterRates:
-        """Of the film memory, the same at all points."""
-        return FilterRates(**self.metadata["rates"])
+    @cached_property
+    def ends(self) -> _Floats:
+        """Smallest and largest coordinates of its points, shape (2, d)."""
+        return np.array([self.points.min(axis=0), self.points.max(axis=0)])
 
-    @property
-    def interpolation(self) -> Interpolation:
-        """Settings of the interpolation."""
-        return Interpolation(**self.metadata["interpolation"])
+    @cached_property
+    def interpolation(self) -> Any:
+        """Settings of the interpolation: `Interpolation`, or what the recipe makes of it."""
+        return recipe_named(self.recipe).settings(**self.metadata["interpolation"])
 
-    @property
-    def oil(self) -> OtherOil:
-        """Accepted other oils."""
-        return OtherOil(**self.metadata["oil"])
-
-    @property
-    def answers(self) -> _Floats:
-        """Interpolated quantities, shape (n, 5 + 2 k)."""
-        low = self.damping[:, self.interpolation.reference]
-        head = self.approach, self.h_central, self.h_min, low, self.moment
-        return np.column_stack([*head, self.stiffness, self.damping])
+    def rounded(self) -> Self:
+        """Table with columns in the precision of the recipe, stored as single; points and axes stay."""
+        precision = recipe_named(self.recipe).precision
+        columns: dict[str, Any] = {
+            name: array.astype(precision).astype(np.float32) for name, array in self.columns.items()
+        }
+        return replace(self, columns=columns)
 
     def require_complete(self) -> None:
         """Raise `ValueError` or another error of damaged metadata unless all arrays are there and fit.
@@ -184,19 +169,12 @@ class AtlasTable:
         Raises
         ------
         ValueError
-            An array of another shape, or with numbers that are not finite.
+            An array of another shape, or with numbers that are not finite; a recipe that there is not.
         """
-        n, k = self.approach.size, self.omega.size
-        gains = 3 + self.rates.lags
-        shapes = {"points": (n, 3), "omega": (k,), "left_out": (n, HEAD + 2 * k), "factor": (HEAD + 2 * k,)}
-        shapes |= dict.fromkeys(("approach", "h_central", "h_min", "moment"), (n,)) | {"gains": (n, gains)}
-        shapes |= dict.fromkeys(("stiffness", "damping"), (n, k))
-        require_shapes(self, shapes)
-        _ = self.box, self.oil, float(self.metadata["highest_omega"]), str(self.metadata["version"])
-        if not 0 <= self.interpolation.reference < k:
-            raise ValueError(f"reference {self.interpolation.reference} is no frequency of {k}")
-
-    def rounded(self) -> Self:
-        """Table in single precision but for the points, as in the file that comes with the library."""
-        names = [f.name for f in fields(self) if f.name not in ("points", "omega", "metadata")]
-        return replace(self, **{name: getattr(self, name).astype(np.float32).astype(float) for name in names})
+        recipe = recipe_named(self.recipe)
+        for name, shape in {"points": (len(self.points), recipe.width), **recipe.shapes(self)}.items():
+            array = self.points if name == "points" else self[name]
+            if array.shape != shape or not np.isfinite(array).all():
+                raise ValueError(f"{name} of shape {array.shape} in place of finite numbers of shape {shape}")
+        _ = self.interpolation
+        recipe.require_metadata(self)

@@ -30,8 +30,8 @@ from ehlcontact.heat import Heat
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
 from ehlcontact.supply import OilLayer
-from reduced_models.atlas.heat_condition import rolling_heat
-from reduced_models.atlas.supply_condition import require_uniform
+from reduced_models.atlas.heat import rolling_heat
+from reduced_models.atlas.supply import require_uniform
 from reduced_models.bearing.angular_balls import ANGLE, LOAD, AngularBalls
 from reduced_models.bearing.balls import Balls, SpeedState, speed_state
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row

@@ -1,7 +1,7 @@
 """Forces by which features of balls and races excite a bearing whose ring is held: lines over the shaft's turns.
 
 A height h, positive out of the surface, presses its contact by Z W h, with the impedance Z of the film and the
-contact filter W over the wave number k per semi-axis: of a film G/Z by `reduced_models.atlas.filter_table`, of
+contact filter W over the wave number k per semi-axis: of a film G/Z by `reduced_models.atlas.waves`, of
 a dry contact sin(k)/k. The ball follows as in `linear_balls` and `linear_angular`: with the balance R of a ball
 over its place b and the force P of the ring on it,
 
@@ -39,7 +39,7 @@ from ehlcontact.hertz import hertz_contact
 from ehlcontact.quantities import FORCE, HERTZ, LENGTH, NUMBER, RADIAN, SPEED, Quantity
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.summary import span
-from reduced_models.atlas.filter_table import SHORTER, ContactFilters, dry_filter, shipped_filters
+from reduced_models.atlas.waves import SHORTER, ContactFilters, dry_filter, filters_of, last_wave_number
 from reduced_models.bearing.features import (
     FEATURES,
     BallDiameter,
@@ -254,7 +254,7 @@ class FeaturedBalls:
         for j, name in enumerate(RACES):
             unit, M = self.bearing.race(name).point(1.0, self.speed_rpm).moes, self.force[..., j].ravel()
             rows = np.column_stack([unit.M * M, np.full(M.size, unit.L), np.full(M.size, unit.kappa)])
-            found.append(shipped_filters().contacts(rows))
+            found.append(filters_of(rows))
         return found
 
     def lines(self, feature: Feature, cage_angle: float) -> list[tuple[float, _Complex]]:
@@ -282,7 +282,7 @@ class FeaturedBalls:
             for j, name in enumerate(RACES)
             if name == getattr(feature, "race", name)
         ]
-        return feature.waves if max(k) > shipped_filters().table.k[-1] else 0
+        return feature.waves if max(k) > last_wave_number() else 0
 
     def waves_of(self, feature: Waves | Defect) -> list[tuple[int, complex]]:
         """Waves n around a race or a ball and their complex amplitudes: heights ``Re sum A exp(i n theta)``."""

@@ -2,7 +2,7 @@
 
 A table has the heights that dry contacts meet, over the angle on a track, in columns of one semi-axis a, so of one
 load. Each column is a sum of waves around the track. A wave with k radians per semi-axis is multiplied by what the
-film leaves of it, the filter G/Z of the film over that of the dry contact (`atlas.filter_table.films_over_dry`),
+film leaves of it, the filter G/Z of the film over that of the dry contact (`atlas.waves.films_over_dry`),
 at the load of the column. G/Z is for waves met as exp(i Omega T), so for contacts that move towards larger angles,
 as on the outer race and on balls. On the inner race they move towards smaller ones, where its complex conjugate
 holds.
@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from reduced_models.atlas.filter_table import films_over_dry, shipped_filters
+from reduced_models.atlas.waves import films_over_dry, filter_box
 from reduced_models.bearing.contact_heights import TABLE
 from reduced_models.bearing.height_tables import LOADS, track_radius
 from reduced_models.bearing.race import RACES, Race
@@ -70,7 +70,7 @@ def _with_films(bearing: BallBearing, speed_rpm: float) -> _Floats:
 def _filters(race: Race, speed_rpm: float, columns: float, waves: _Floats) -> _Complex:
     """Of waves [rad/m] under the loads of all columns, which are numbered `columns` per root of compression."""
     unit = race.point(1.0, speed_rpm)
-    lightest = shipped_filters().table.box.M[0] / unit.moes.M
+    lightest = filter_box().M[0] / unit.moes.M
     load = np.maximum(race.kn * (np.arange(LOADS) / columns) ** 3, lightest)
     rows = np.column_stack([unit.moes.M * load, np.full((LOADS, 2), (unit.moes.L, unit.moes.kappa))])
     return films_over_dry(rows, waves[:, None] * unit.scales.a * np.cbrt(load))

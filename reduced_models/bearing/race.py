@@ -27,8 +27,8 @@ from ehlcontact.hertz import hertz_contact, radius_ratio
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.answer import AtlasAnswer
 from reduced_models.atlas.atlas import Atlas
-from reduced_models.atlas.heat_condition import ellipses, fastest
-from reduced_models.atlas.supply_condition import heaviest_load, supply_box
+from reduced_models.atlas.heat import ellipses, fastest
+from reduced_models.atlas.supply import heaviest_load, supply_box
 from reduced_models.bearing.five_degrees import AngularEquilibrium
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, rolling_torque, speed_sum_per_omega
 from reduced_models.bearing.race_contact import film_cutoff

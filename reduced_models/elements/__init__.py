@@ -21,8 +21,8 @@
 | motion_errors | error of wide-range elements by kind of motion, from full solves |
 | element_summary | summary and figure of an element |
 
-Heat and oil supply are in the tables from which elements are made: `reduced_models.atlas.heat_condition`,
-`reduced_models.atlas.supply_condition` and `reduced_models.atlas.gain_fit`.
+Heat and oil supply are in the tables from which elements are made: `reduced_models.atlas.heat`,
+`reduced_models.atlas.supply` and `reduced_models.atlas.gain_fit`.
 
 A new spring is a term of `spring_law.inside` and a kind in ``SpringContact.kinds``; ends, damper and clipping
 follow, and the contract tests ask for an example of it. With another memory an element derives from

@@ -359,13 +359,15 @@ COMMANDS = [
     ((*ATLAS, "--work", STUDY), ("work folder = 'study.toml'", "a folder that can be written to", "File exists")),
     ((*ATLAS, "--scheduler", "nowhere"), ("--scheduler = 'nowhere'", "address of a Dask scheduler")),
     ((*ATLAS, "--scheduler", "tcp://127.0.0.1:1"), ("--scheduler", "refused")),
-    # its other tables
+    ((*ATLAS, "--recipe", "fim"), ("--recipe = 'fim'", "film, supply, heat, waves")),
+    # its other recipes
     *(
-        (("atlas", table, "-o", *options), words)
-        for table, things in (("heat", "contacts"), ("supply", "points"), ("waves", "points"))
+        ((*ATLAS[:2], "--recipe", recipe, "-o", *options), words)
+        for recipe, things in (("heat", "contacts"), ("supply", "points"), ("waves", "points"))
         for options, words in (
             (("a.txt",), ("--output = 'a.txt'", ".h5")),
             (("new.h5", "--draws", "-1"), ("--draws = -1", "whole number >= 0")),
+            (("new.h5", "--light-draws", "5"), ("--light-draws = 5", "left out", "draws, seed")),
             (("new.h5", "--draws", "5"), (things, "at least 20", "draws = 5")),
             (("new.h5", "--processes", "0"), ("--processes = 0", "> 0")),
         )

@@ -12,7 +12,7 @@ from argument_groups import grouped
 
 from ehlcontact import Grid, HarmonicLoad, MoesPoint, save, simulate, solve_steady
 from reduced_models import SpringContact
-from reduced_models.atlas.atlas import SHIPPED
+from reduced_models.atlas.surface import shipped_file
 
 POINT = ("--M", "20", "--L", "5", "--kappa", "0.5")
 RUN = {"n": 32, "until": 0.2, "dt": 0.05}
@@ -48,7 +48,7 @@ def make_good(folder):
     save(solve_steady(point, grid=Grid(n=16), throw=False), folder / "steady")
     save(SpringContact.cubic(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0), folder / "element")
     (folder / "study").write_text(STUDY)
-    (folder / "atlas").write_bytes(SHIPPED.read_bytes())
+    (folder / "atlas").write_bytes(shipped_file("film").read_bytes())
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
@@ -302,10 +302,10 @@ BAD = {
         "metadata in a list": attribute("metadata", "[]"),
         "no box": metadata(box=5),
         "no metadata": hdf5(lambda file: file.attrs.__delitem__("metadata")),
-        "no damping": hdf5(lambda file: file.__delitem__("damping")),
+        "no damping": hdf5(lambda file: file.__delitem__("columns/damping")),
         "too few points": array("points", lambda old: old[:-1]),
-        "no numbers": array("damping", lambda old: old * np.nan),
-        "words": array("damping", lambda old: old.astype("S8")),
+        "no numbers": array("columns/damping", lambda old: old * np.nan),
+        "words": array("columns/damping", lambda old: old.astype("S8")),
     },
 }
 for kind, table in BAD.items():

@@ -22,9 +22,9 @@ from scipy.stats import qmc
 
 from ehlcontact import Domain, Grid, MoesPoint, impedance
 from reduced_models import Atlas
-from reduced_models.atlas.atlas import SHIPPED
-from reduced_models.atlas.solve import OMEGAS, solve_point
-from reduced_models.atlas.solved_points import solve_points
+from reduced_models.atlas.build import solve_points
+from reduced_models.atlas.film import OMEGAS, solve_point
+from reduced_models.atlas.surface import shipped_file
 
 NAMES = ("approach", "h_central", "h_min", "moment")
 
@@ -107,7 +107,7 @@ def main():
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--work", type=Path, required=True)
-    parser.add_argument("--atlas", type=Path, default=SHIPPED)
+    parser.add_argument("--atlas", type=Path, default=shipped_file("film"))
     for name, value in (("points", 100), ("seed", 11), ("processes", 2)):
         parser.add_argument(f"--{name}", type=int, default=value)
     parser.add_argument("--json", type=Path)

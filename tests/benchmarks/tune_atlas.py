@@ -4,7 +4,7 @@
 
 Weights of the coordinates and rates of the filters are varied from those of the atlas to where its own points are
 interpolated best, each from the others, and fitted best. What another oil changes is solved for anew. It prints
-and changes nothing: what a build uses stands in `reduced_models.atlas.build` and goes into the file it makes.
+and changes nothing: what a build uses stands in `reduced_models.atlas.film` and goes into the file it makes.
 """
 
 from __future__ import annotations
@@ -24,13 +24,11 @@ from scipy.optimize import minimize
 from ehlcontact import MoesPoint
 from ehlcontact.lubricant.oil_laws import secant_over_slope
 from ehlcontact.store import read
-from reduced_models.atlas.atlas import SHIPPED
-from reduced_models.atlas.build import OIL
+from reduced_models.atlas.film import HEAD, LOBE, OIL, RECIPE, THICKEST, respond
 from reduced_models.atlas.gain_fit import gain_equations, smooth_gains
-from reduced_models.atlas.interpolation import LOBE, THICKEST, coordinates, films, left_out_errors, to_smooth
 from reduced_models.atlas.mesh import impedance_grid
-from reduced_models.atlas.solve import respond
-from reduced_models.atlas.table import HEAD, AtlasTable
+from reduced_models.atlas.surface import left_out_errors, shipped_file
+from reduced_models.atlas.table import Table
 from reduced_models.elements.film_response import FilterRates
 
 _Floats = NDArray[np.float64]
@@ -51,52 +49,66 @@ class Found(NamedTuple):
     least: float
 
 
-def weights_error(table: AtlasTable, weights: Sequence[float]) -> float:
+def weights_error(table: Table, weights: Sequence[float]) -> float:
     """Error of points that are left out: its rms for each smooth variable, and of these the geometric mean.
 
     So every answer counts alike, whatever its scale: else the asinh of a damping near 0 would outweigh all.
     """
-    by, film = replace(table.interpolation, weights=tuple(weights)), films(table.points)
-    smooth = to_smooth(film, table.answers, by)
-    squares = np.mean(left_out_errors(coordinates(table.points, film, by)[0], smooth) ** 2, axis=0)
+    table = _with(table, weights=weights)
+    unit = RECIPE.unit(table, table.points)
+    x, _ = RECIPE.coordinates(table, table.points, unit)
+    squares = np.mean(left_out_errors(x, RECIPE.smooth(table, unit)) ** 2, axis=0)
     # C at the reference frequency is its own measure: no error but rounding; Hm/Hc has its own weights
-    squares = np.delete(squares, [LOBE, HEAD + table.omega.size + by.reference])
+    own = HEAD + table["omega"].size + table.interpolation.reference
+    squares = np.delete(squares, [LOBE, own])
     return float(np.exp(0.5 * np.mean(np.log(squares))))
 
 
-def best_weights(table: AtlasTable, most: int = 300) -> Found:
+def best_weights(table: Table, most: int = 300) -> Found:
     """Weights of least error; the first is held, since only their ratios count."""
     first, *others = table.interpolation.weights
     return _least(lambda rest: weights_error(table, (first, *rest)), others, most, (first,))
 
 
-def lobe_error(table: AtlasTable, weights: Sequence[float]) -> float:
+def lobe_error(table: Table, weights: Sequence[float]) -> float:
     """Error of points that are left out: rms of ln(Hm/Hc)."""
-    by, film = replace(table.interpolation, lobe_weights=tuple(weights)), films(table.points)
-    ratio = to_smooth(film, table.answers, by)[:, [LOBE]]
-    return float(np.sqrt(np.mean(left_out_errors(coordinates(table.points, film, by)[1], ratio) ** 2)))
+    table = _with(table, lobe_weights=weights)
+    unit = RECIPE.unit(table, table.points)
+    _, x = RECIPE.coordinates(table, table.points, unit)
+    return float(np.sqrt(np.mean(left_out_errors(x, RECIPE.smooth(table, unit)[:, [LOBE]]) ** 2)))
 
 
-def best_lobe_weights(table: AtlasTable, most: int = 300) -> Found:
+def _with(table: Table, **settings: Sequence[float]) -> Table:
+    """The table with other settings of its interpolation."""
+    interpolation = table.metadata["interpolation"] | settings
+    return replace(table, metadata=table.metadata | {"interpolation": interpolation})
+
+
+def rates_of(table: Table) -> FilterRates:
+    """Rates of the filters of a table."""
+    return FilterRates(**table.metadata["rates"])
+
+
+def best_lobe_weights(table: Table, most: int = 300) -> Found:
     """Weights for Hm/Hc of least error; the first is held, since only their ratios count."""
     first, *others = table.interpolation.lobe_weights
     return _least(lambda rest: lobe_error(table, (first, *rest)), others, most, (first,))
 
 
-def rates_error(table: AtlasTable, rates: FilterRates) -> float:
+def rates_error(table: Table, rates: FilterRates) -> float:
     """Rms misfit of the gains at each point, 5 % of C or 1 % of K counting as 1; the mean over the points."""
     misfits = []
-    for K, C in zip(table.stiffness, table.damping, strict=True):
+    for K, C in zip(table["stiffness"], table["damping"], strict=True):
         low = C[table.interpolation.reference]
-        rows, target = gain_equations(table.omega, K, C, rates, low)
-        gains = smooth_gains(table.omega, K, C, rates, low)
+        rows, target = gain_equations(table["omega"], K, C, rates, low)
+        gains = smooth_gains(table["omega"], K, C, rates, low)
         misfits.append(np.sqrt(np.mean((rows @ gains - target)[: -gains.size] ** 2)))
     return float(np.mean(misfits))
 
 
-def best_rates(table: AtlasTable, most: int = 300) -> Found:
+def best_rates(table: Table, most: int = 300) -> Found:
     """Rates of lags, inlet and fast filter of least misfit, for the lags of the atlas."""
-    rates = table.rates
+    rates = rates_of(table)
     start = rates.lag_rate, rates.inlet_rate, rates.fast_rate
     return _least(lambda found: rates_error(table, FilterRates(rates.lags, *found)), start, most)
 
@@ -167,9 +179,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description="Settings of an atlas.")
     for option in ("--weights", "--lobes", "--rates", "--oil"):
         parser.add_argument(option, action="store_true")
-    parser.add_argument("--atlas", type=Path, default=SHIPPED)
+    parser.add_argument("--atlas", type=Path, default=shipped_file("film"))
     asked = parser.parse_args(arguments)
-    table = read(asked.atlas, AtlasTable)
+    table = read(asked.atlas, Table)
     for name, search in (("weights", best_weights), ("lobes", best_lobe_weights), ("rates", best_rates)):
         if getattr(asked, name):
             found = search(table)
@@ -177,7 +189,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
             sys.stdout.write(f"{'best':>{len(name)}}: {_row(found.best)} error {found.least:.4g}\n")
     if asked.oil:
         for kind, slopes in oil_slopes().items():
-            sys.stdout.write(f"{kind}: {_row(slopes)} (in the atlas {_row(getattr(table.oil, kind))})\n")
+            sys.stdout.write(f"{kind}: {_row(slopes)} (in the atlas {_row(table.metadata['oil'][kind])})\n")
 
 
 def _row(values: Sequence[float]) -> str:

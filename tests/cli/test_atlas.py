@@ -1,10 +1,9 @@
-"""``ehlcontact element``, ``ehlcontact atlas build`` and ``ehlcontact atlas supply``."""
+"""``ehlcontact element``, and ``ehlcontact atlas build`` for films; other recipes are in `test_tables`."""
 
 import json
 
 import atlas_stub
 import pytest
-import supply_stub
 
 from ehlcontact import read
 from reduced_models import Atlas
@@ -30,22 +29,12 @@ def test_element_is_printed_saved_and_written(call, tmp_path, model):
 def test_build_from_points_that_are_solved(call, tmp_path):
     """Nothing is left to solve, so the atlas comes at once; its own command is inside."""
     work, output = tmp_path / "work", tmp_path / "a.h5"
-    atlas_stub.prefill(work, 24, 24)
+    atlas_stub.prefill("film", work, 24, 24, 4)
     size = ("--draws", "24", "--light-draws", "24")
     result = call("atlas", "build", "-o", output, "--work", work, *size, "--json", "-")
     assert result.code == 0 and result.err == ""
     document = json.loads(result.out)
-    assert document["command"] == "ehlcontact atlas build --draws 24 --light-draws 24 --seed 4"
+    assert document["command"] == "ehlcontact atlas build --recipe film --draws 24 --light-draws 24 --seed 4"
     assert Atlas(output).metadata["points"] == document["points"] > 20
     made = call("element", *POINT, "--atlas", output, "--json", "-")
     assert made.code == 0 and json.loads(made.out)["kind"] == "wide"
-
-
-def test_table_of_oil_supply_from_points_that_are_solved(call, tmp_path):
-    work, output = tmp_path / "work", tmp_path / "s.h5"
-    supply_stub.prefill(work, 48, 31)
-    result = call("atlas", "supply", "-o", output, "--work", work, "--draws", "48", "--json", "-")
-    assert result.code == 0 and result.err == ""
-    document = json.loads(result.out)
-    assert document["command"] == "ehlcontact atlas supply --draws 48 --seed 31"
-    assert len(read(output).points) == document["points"] > 20

@@ -12,7 +12,7 @@ import pytest
 from programs import script
 
 from reduced_models import OutsideValidityWarning, log_decrement
-from reduced_models.atlas.build import build_atlas
+from reduced_models.atlas.build import build
 
 FOLDER = Path(__file__).parents[2] / "examples"
 SHORT = sorted(path.stem for path in FOLDER.glob("*.py"))
@@ -177,7 +177,7 @@ def test_atlas_on_a_cluster(tmp_path, monkeypatch):
     kept = len(list((tmp_path / "work").iterdir()))
     (tmp_path / "alone").mkdir()
     files = [tmp_path / "alone" / name for name in ("small.h5", "work")]
-    build_atlas(*files, built.DRAWS, built.LIGHT, solve=atlas_stub.solve)
+    build("film", *files, {"draws": built.DRAWS, "light_draws": built.LIGHT}, solve=atlas_stub.solve)
     assert files[0].read_bytes() == (tmp_path / "small.h5").read_bytes()
     assert kept > 20
     films = built.films(mine)

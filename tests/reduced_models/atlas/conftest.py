@@ -6,12 +6,11 @@ import pytest
 from ehlcontact import save
 from reduced_models import Atlas
 from reduced_models.atlas.build import assemble
-from reduced_models.atlas.sample import sample_points
 
 
 @pytest.fixture(scope="package")
 def analytic(tmp_path_factory):
     """Atlas of the stand-in for the solver."""
     path = tmp_path_factory.mktemp("atlas") / "a.h5"
-    save(assemble([atlas_stub.solve(p) for p in sample_points(128, 128, 2).values()], {"version": "stub"}), path)
+    save(assemble("film", atlas_stub.entries("film", 128, 128, 2), {"version": "stub"}), path)
     return Atlas(path)

@@ -15,38 +15,29 @@ from programs import ROOT, dask_cluster, environment
 from ehlcontact import Domain, InputError, MoesPoint
 from ehlcontact.content_store import ContentStore
 from ehlcontact.solver.mesh import Mesh
-from ehlcontact.store import read, save
-from reduced_models.atlas.build import BOX, RATES, assemble, build_atlas
+from reduced_models.atlas.build import assemble, build, solve_points
+from reduced_models.atlas.film import BOX, OMEGAS, RATES, RECIPE, SAMPLED, solve_point
 from reduced_models.atlas.gain_fit import smooth_gains
 from reduced_models.atlas.mesh import GRIDS, LIGHT_INTERVALS, impedance_grid
-from reduced_models.atlas.sample import SAMPLED, sample_points
-from reduced_models.atlas.solve import OMEGAS, solve_point
-from reduced_models.atlas.solved_points import solve_points
-from reduced_models.atlas.table import AtlasTable
 from reduced_models.elements.film_response import DRY
 
 DRAWS, LIGHT = 24, 24
+NUMBERS = {"draws": DRAWS, "light_draws": LIGHT}
+sample_points = RECIPE.sample
 BUILD = f"""
 import sys
 from pathlib import Path
 from atlas_stub import solve_slowly
-from reduced_models.atlas.build import build_atlas
+from reduced_models.atlas.build import build
 if __name__ == "__main__":
     folder = Path(sys.argv[1])
-    build_atlas(folder / "a.h5", folder / "work", {DRAWS}, {LIGHT}, processes=2, solve=solve_slowly)
+    build("film", folder / "a.h5", folder / "work", {NUMBERS}, processes=2, solve=solve_slowly)
 """
 
 
 @pytest.fixture
 def entries():
     return [{"point": name, **atlas_stub.solve(p)} for name, p in sample_points(DRAWS, LIGHT, 1).items()]
-
-
-def test_more_draws_add_to_the_fewer():
-    few, many = sample_points(16, 8, 3), sample_points(64, 20, 3)
-    assert set(few) <= set(many) and len(many) > len(few)
-    assert all(many[name] == point for name, point in few.items())
-    assert sample_points(16, 8, 4).values() != few.values()
 
 
 def test_samples_fill_a_box_that_holds_the_promised_one():
@@ -118,35 +109,19 @@ def test_a_full_disk_keeps_what_was_solved(tmp_path, monkeypatch):
     assert len(list(tmp_path.iterdir())) == 3
 
 
-def test_too_few_converged_points_make_no_atlas(entries):
-    with pytest.raises(InputError, match="converged points"):
-        assemble([{**e, "status": "stagnated"} for e in entries], {})
-
-
-def test_table_file_and_what_is_recorded_in_it(tmp_path, entries):
-    table = assemble(entries, {"command": "c", "version": "v"})
-    save(table, tmp_path / "a.h5")
-    built = read(tmp_path / "a.h5", AtlasTable)
-    assert np.array_equal(built.points, table.points)
-    np.testing.assert_allclose(built.damping, table.damping, rtol=1e-6)
-    failed = sum(e["status"] != "converged" for e in entries)
-    assert built.metadata["left_out"] == {"stagnated": failed} and failed > 0
-    assert built.metadata["points"] == len(entries) - failed and built.box == BOX
-
-
 def test_effect_of_far_oil_from_points_solved_on_both_domains(entries):
     """With pairs that differ by lambda times a constant, the points solved near alone get just that."""
     shift, close = 0.4, list(Domain(-2.0, 1.35, 1.6).as_tuple())
     points = [MoesPoint(e["M"], e["L"], e["kappa"]) for e in entries]
-    changed, plain = [], assemble(entries, {})
+    changed, plain = [], assemble("film", entries, {})
     for i, (e, p) in enumerate(zip(entries, points, strict=True)):
         near = e | {"domain": close, "damping": [c - shift * p.lam for c in e["damping"]]}
         near |= {"approach": e["approach"] + 2.0 * p.lam, "moment": e["moment"] - 0.3 * p.lam}
         changed.append(near if i % 5 == 0 else e | {"close": near})
-    table = assemble(changed, {})
-    np.testing.assert_allclose(table.damping, plain.damping, rtol=1e-9)
-    np.testing.assert_allclose(table.approach, plain.approach, rtol=1e-9)
-    np.testing.assert_allclose(table.moment, plain.moment, rtol=1e-9)
+    table = assemble("film", changed, {})
+    np.testing.assert_allclose(table["damping"], plain["damping"], rtol=1e-9)
+    np.testing.assert_allclose(table["approach"], plain["approach"], rtol=1e-9)
+    np.testing.assert_allclose(table["moment"], plain["moment"], rtol=1e-9)
 
 
 def test_gains_reproduce_an_impedance_of_the_filters():
@@ -198,16 +173,16 @@ def test_dask_cluster_with_a_worker_killed_in_mid_run(tmp_path):
                 os.kill(processes[1].pid, signal.SIGKILL)
                 killed.append((done, total))
 
-        build_atlas(
+        build(
+            "film",
             tmp_path / "dask.h5",
             tmp_path / "dask",
-            DRAWS,
-            LIGHT,
+            NUMBERS,
             scheduler=scheduler,
             progress=kill_one,
             solve=atlas_stub.solve_slowly,
         )
         assert killed and killed[0][0] < killed[0][1]
         assert processes[1].wait(10) == -signal.SIGKILL and processes[2].poll() is None
-    build_atlas(tmp_path / "here.h5", tmp_path / "here", DRAWS, LIGHT, solve=atlas_stub.solve)
+    build("film", tmp_path / "here.h5", tmp_path / "here", NUMBERS, solve=atlas_stub.solve)
     assert (tmp_path / "dask.h5").read_bytes() == (tmp_path / "here.h5").read_bytes()

@@ -14,9 +14,9 @@ from ehlcontact import (
     OperatingPoint,
     impedance,
 )
+from reduced_models.atlas.film import OMEGAS
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.atlas.mesh import impedance_grid
-from reduced_models.atlas.solve import OMEGAS
 
 CASE = MoesPoint(200.0, 10.0, 0.5)
 POINT = OperatingPoint(Geometry(0.0016, 0.05), Lubricant(0.037, 2e-8), 60.0, 5.0)

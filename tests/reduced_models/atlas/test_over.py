@@ -7,7 +7,7 @@ import pytest
 
 from ehlcontact import InputError, MoesPoint
 from reduced_models.atlas.atlas import NUMBERS
-from reduced_models.atlas.interpolation import BLOCK
+from reduced_models.atlas.surface import BLOCK
 
 MANY = BLOCK + 44
 NAMES = (*NUMBERS, "stiffness", "damping")

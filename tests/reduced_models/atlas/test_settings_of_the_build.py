@@ -1,16 +1,15 @@
 """The numbers of a build against their neighbours, and the search for better ones."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from programs import script
 
 from ehlcontact import MoesPoint
-from ehlcontact.store import read, save
-from reduced_models.atlas.atlas import SHIPPED
-from reduced_models.atlas.sample import sample_points
-from reduced_models.atlas.table import AtlasTable
+from ehlcontact.store import save
+from reduced_models.atlas.film import RECIPE
+from reduced_models.atlas.surface import shipped as shipped_surface
 from reduced_models.elements.film_response import FilterRates
 
 tune = script("tests/benchmarks/tune_atlas.py")
@@ -18,14 +17,14 @@ tune = script("tests/benchmarks/tune_atlas.py")
 
 @pytest.fixture(scope="module")
 def shipped():
-    return read(SHIPPED, AtlasTable)
+    return shipped_surface("film").table
 
 
 @pytest.fixture(scope="module")
 def few(shipped):
     """Every eighth point of the shipped table."""
-    names = {f.name for f in fields(shipped)} - {"omega", "factor", "metadata"}
-    return replace(shipped, **{name: getattr(shipped, name)[::8] for name in names})
+    columns = {name: array if name == "factor" else array[::8] for name, array in shipped.columns.items()}
+    return replace(shipped, points=shipped.points[::8], columns=columns)
 
 
 KINDS = {  # name of the weights in the table, their error, the search for better ones
@@ -65,7 +64,7 @@ def test_only_ratios_of_weights_count(few):
 
 @pytest.mark.long
 def test_shipped_rates_fit_nearly_best(shipped):
-    rates, own = shipped.rates, tune.rates_error(shipped, shipped.rates)
+    rates, own = tune.rates_of(shipped), tune.rates_error(shipped, tune.rates_of(shipped))
     for factor in (0.5, 2.0):
         for name in ("lag_rate", "inlet_rate", "fast_rate"):
             assert tune.rates_error(shipped, replace(rates, **{name: factor * getattr(rates, name)})) > own
@@ -78,7 +77,7 @@ def test_shipped_rates_fit_nearly_best(shipped):
 def test_slopes_for_other_oils_cover_a_light_load(shipped):
     slopes = tune.oil_slopes([MoesPoint(8.0, 5.0, 0.5)])
     for kind, found in slopes.items():
-        allowed = np.array(getattr(shipped.oil, kind)) * (2.0**0.5 if kind == "damping" else 1.0)
+        allowed = np.array(getattr(tune.OIL, kind)) * (2.0**0.5 if kind == "damping" else 1.0)
         assert np.all(np.array(found) <= allowed) and min(found) > 0.0
 
 
@@ -86,7 +85,7 @@ def test_slopes_for_other_oils_cover_a_light_load(shipped):
 def test_what_widens_the_bars_covers_other_oils(shipped):
     """Random oils at random points, by which no setting was chosen: 95 % of films, K, C and moment."""
     rng, inside = np.random.default_rng(77), []
-    points = [p for p in sample_points(48, 24, seed=77).values() if p.inlet_width > 0.13 and p.L < 28.0]
+    points = [p for p in RECIPE.sample(48, 24, seed=77).values() if p.inlet_width > 0.13 and p.L < 28.0]
     for k in rng.permutation(len(points))[:14].tolist():
         point = points[k]
         alpha, eta0 = np.exp(rng.uniform(np.log([1e-8, 0.002]), np.log([4e-8, 1.0]))).tolist()
@@ -96,7 +95,7 @@ def test_what_widens_the_bars_covers_other_oils(shipped):
         away = np.abs(np.log([alpha / point.alpha, eta0 / point.eta0]))
         own, other = tune.answers(tune.read_at(oil, point)), tune.answers(oil)
         for kind, (value, weight) in own.items():
-            bar = weight * (getattr(shipped.oil, kind) @ away) * (2.0**0.5 if kind == "damping" else 1.0)
+            bar = weight * (getattr(tune.OIL, kind) @ away) * (2.0**0.5 if kind == "damping" else 1.0)
             inside += (np.abs(np.log(other[kind][0] / value)) <= bar)[weight > 0.0].tolist()
     assert len(inside) > 500 and np.mean(inside) >= 0.95
 

@@ -2,17 +2,16 @@
 
 import numpy as np
 import pytest
-from supply_stub import made_up, prefill
+from atlas_stub import supplied
 
-from ehlcontact import InputError, MoesPoint, OilLayer, read, save
+from ehlcontact import InputError, MoesPoint, OilLayer
 from ehlcontact.film_formulas import film_of_layer, layer_sharpness
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density
 from reduced_models import Atlas
-from reduced_models.atlas.supply_build import assemble_supply, build_supply, changes_of, sample_supply
-from reduced_models.atlas.supply_condition import SupplyCondition, heaviest_load, lightest_load, supply_surface
-from reduced_models.atlas.supply_solve import solve_layers
-from reduced_models.atlas.supply_table import SupplyTable
+from reduced_models.atlas.build import assemble
+from reduced_models.atlas.supply import RECIPE, Supplied, changes_of, heaviest_load, lightest_load, solve_layers
+from reduced_models.atlas.surface import shipped
 
 POINT = MoesPoint(1000.0, 15.0, 0.2)
 WIDE = MoesPoint(2933.0, 18.3, 0.107)  # inner contact of a 6205 under 1 kN at 3000 rev/min
@@ -23,25 +22,25 @@ def layer(r):
 
 
 def test_the_table_gives_back_its_points():
-    table, surface = supply_surface().table, supply_surface()
+    table, surface = shipped("supply").table, shipped("supply")
     for k in (0, len(table.points) // 2, -1):
-        for j in range(table.ratios.size):
-            found = surface.at(table.points[[k]], table.ratios[[j]]).rows[0]
-            np.testing.assert_allclose(found, table.changes[k, j], rtol=0, atol=1e-6)
+        for j in range(table["ratios"].size):
+            rows, _ = surface.at(np.append(table.points[k], table["ratios"][j])[None, :])
+            np.testing.assert_allclose(rows[0], table["changes"][k, j], rtol=0, atol=1e-6)
 
 
 def test_entries_become_changes_of_what_was_solved():
     """Film, K and C of a made-up entry come out of a condition as they went in, over the same flooded contact."""
-    points = list(sample_supply(64, 5).values())
-    table = assemble_supply([made_up(p) for p in points], {"command": "none", "version": "0"})
-    entry, j = made_up(points[3]), 4
+    points = list(RECIPE.sample(64, 5).values())
+    table = assemble("supply", [supplied(p) for p in points], {"command": "none", "version": "0"})
+    entry, j = supplied(points[3]), 4
     rows = changes_of(entry)
-    np.testing.assert_allclose(table.changes[3], rows, rtol=1e-14)
+    np.testing.assert_allclose(table["changes"][3], rows, rtol=1e-14)
     assert np.exp(rows[j, 4]) == pytest.approx(entry["starved"][j]["stiffness"][0] / 1.5, rel=1e-12)
 
 
 def test_thick_layers_whose_film_begins_ahead_of_the_region_fade():
-    entry = made_up(POINT)
+    entry = supplied(POINT)
     whole = changes_of(entry)
     entry["starved"][-2:] = [None, None]
     cut = changes_of(entry)
@@ -140,33 +139,8 @@ def test_bad_input_names_what_is_wrong():
         assert words in str(caught.value) and "\n" not in str(caught.value)
 
 
-def test_too_few_points_and_damaged_tables_are_refused(tmp_path):
-    with pytest.raises(InputError, match="at least 20"):
-        assemble_supply([made_up(POINT)] * 3, {})
-    table = supply_surface().table
-    save(table, tmp_path / "t.h5", "table of oil supply")
-    again = read(tmp_path / "t.h5")
-    assert isinstance(again, SupplyTable)
-    np.testing.assert_array_equal(again.changes, table.changes)
-
-
-def test_built_from_solved_points(tmp_path):
-    """Nothing is left to solve; the file has single points back within half precision."""
-    prefill(tmp_path / "work", 40, 3)
-    table = build_supply(tmp_path / "t.h5", tmp_path / "work", 40, seed=3)
-    assert (
-        table.metadata["points"] == len(sample_supply(40, 3))
-        and "--draws 40 --seed 3" in table.metadata["command"]
-    )
-    again = read(tmp_path / "t.h5")
-    rows = changes_of(made_up(MoesPoint(*again.points[5])))
-    np.testing.assert_allclose(again.changes[5], rows, rtol=1e-3, atol=1e-6)
-    with pytest.raises(InputError, match="draws = 10 have too few"):
-        build_supply(tmp_path / "t.h5", tmp_path / "work", 10)
-
-
 def test_a_condition_says_what_it_is():
-    condition = SupplyCondition(POINT, layer(1.5))
+    condition = Supplied(POINT, layer(1.5))
     assert condition.to_dict() == {"over_flooded": 1.5}
     assert Atlas().element(POINT, supply=layer(1.5)).source["supply"] == {"over_flooded": 1.5}
     assert Atlas().element(WIDE, supply=layer(1.0)).source["least_damping"] < -0.1
@@ -176,7 +150,7 @@ def test_a_condition_says_what_it_is():
 @pytest.mark.slow
 def test_points_that_the_table_has_not_seen():
     """Solved anew, off the nodes of r and Omega: changes within their bars but for one of twenty."""
-    surface, inside = supply_surface(), []
+    inside = []
     Omega = np.array([0.0, 0.05, 0.3, 1.1])
     for point, r in ((MoesPoint(150.0, 12.0, 0.4), 0.9), (MoesPoint(400.0, 18.0, 0.15), 1.25)):
         entry = solve_layers(point, (r,), tuple(Omega))
@@ -187,9 +161,9 @@ def test_points_that_the_table_has_not_seen():
             flooded["damping"][1],
             flooded["damping"],
         )
-        change = SupplyCondition(point, layer(r)).change(np.ones(1), values, Omega)
+        change = Supplied(point, layer(r)).change(np.ones(1), values, Omega, values[:, 1])
         exact = [solved["h_central"] / flooded["h_central"], solved["h_min"] / flooded["h_min"]]
         inside += [abs(change.rows[0, 1 + k] - exact[k]) < change.bars[0, 1 + k] for k in range(2)]
         d = np.subtract(solved["damping"], flooded["damping"]) / flooded["damping"][1]
         inside += (np.abs(change.rows[0, 5 + Omega.size :] - d) < change.bars[0, 5 + Omega.size :]).tolist()
-    assert surface.table.narrowest < 0.1 and np.mean(inside) > 0.8
+    assert shipped("supply").table.metadata["narrowest"] < 0.1 and np.mean(inside) > 0.8

@@ -19,7 +19,7 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_rotor,
 )
-from reduced_models.atlas.supply_condition import lightest_load
+from reduced_models.atlas.supply import lightest_load
 from reduced_models.bearing import ross_bearing
 from reduced_models.bearing.race import RACES
 from reduced_models.elements.validity import OutsideValidityWarning

@@ -1,49 +1,35 @@
 """Table of contact filters: its interpolation, points that it was not made of, and its build.
 
-``held_out_filters.json`` has points of the same Sobol sequence beyond those of the table, solved in the same way;
-``python tests/reduced_models/atlas/test_filters.py FOLDER`` writes it, from a work folder of 96 draws.
+``held_out_waves.json`` has points of the same Sobol sequence beyond those of the table, solved in the same way;
+``python tests/reduced_models/atlas/test_waves.py FOLDER`` writes it, from a work folder of 96 draws.
 """
 
 import json
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from ehlcontact import Grid, InputError, MoesPoint, excitation, read
-from ehlcontact.cli.app import execute
-from ehlcontact.content_store import ContentStore, key_of
-from ehlcontact.store import save
+from ehlcontact import Grid, InputError, MoesPoint, excitation
+from ehlcontact.content_store import ContentStore
 from reduced_models import contact_filter
-from reduced_models.atlas.filter_build import DRAWS, SEED
-from reduced_models.atlas.filter_points import FILTERED, WAVE_NUMBERS, filter_points, solve_filter
-from reduced_models.atlas.filter_table import (
-    FilterTable,
+from reduced_models.atlas.build import entry_key
+from reduced_models.atlas.surface import shipped
+from reduced_models.atlas.waves import (
+    BOX,
+    RECIPE,
+    WAVE_NUMBERS,
     dry_filter,
     film_over_dry,
     films_over_dry,
-    shipped_filters,
+    filters_of,
 )
 
-HELD_OUT = Path(__file__).with_name("held_out_filters.json")
+HELD_OUT = Path(__file__).with_name("held_out_waves.json")
 SOLVED = 96  # draws, of which the table has the first
 K = np.array(WAVE_NUMBERS)
-
-
-def key(point):
-    """Name of a point in a work folder."""
-    return key_of([solve_filter.__module__, solve_filter.__qualname__, point.to_dict()])
-
-
-def stub(point):
-    """Entry of a contact whose filter is that of a dry one that is longer by its inlet."""
-    longer = dry_filter(K * (1.0 + 0.2 * point.inlet_width)) * np.exp(0.05j * K * point.inlet_width)
-    entry = {"M": point.M, "L": point.L, "kappa": point.kappa, "version": "stub", "status": "converged"}
-    entry |= {"n": 64, "domain": [-4.5, 1.5, 3.0], "error": [0.01] * K.size}
-    return entry | {"real": longer.real.tolist(), "imag": longer.imag.tolist()}
 
 
 @pytest.fixture(scope="module")
@@ -56,28 +42,28 @@ def held_out():
 def test_points_that_were_held_out_lie_inside_their_bars(held_out):
     """95 of 100, and the errors are a tenth of those of the dry filter, or of one for all contacts."""
     points, G = held_out
-    table = shipped_filters().table
-    contacts = shipped_filters().contacts(points)
+    table = shipped("waves").table
+    contacts = filters_of(points)
     found, bars = (np.array(part).T for part in zip(*(contacts.at(k) for k in K), strict=True))
     error = np.abs(found - G)
     assert len(points) >= 20 and (error <= bars.real).mean() >= 0.95
     assert np.median(bars.real) < 0.02
-    for lazy in (dry_filter(K), (table.real + 1j * table.imag).mean(axis=0)):
+    for lazy in (dry_filter(K), (table["real"] + 1j * table["imag"]).mean(axis=0)):
         assert np.sqrt(np.mean(error**2)) < 0.1 * np.sqrt(np.mean(np.abs(lazy - G) ** 2))
 
 
 def test_the_table_at_its_own_points():
-    table = shipped_filters().table
+    table = shipped("waves").table
     for i in (0, 7, 31):
         M, L, kappa = table.points[i].tolist()
         found = contact_filter(MoesPoint(M, L, kappa), wavelength=2.0 * np.pi / K)
-        np.testing.assert_allclose(found.ratio, table.real[i] + 1j * table.imag[i], atol=2e-6)
+        np.testing.assert_allclose(found.ratio, table["real"][i] + 1j * table["imag"][i], atol=2e-6)
         np.testing.assert_array_equal(found.contact_filter, np.abs(found.ratio))
 
 
 def test_between_wave_numbers_and_beyond():
     """A spline through the nodes and 1; long waves are an approach, shorter ones than those of the table 0."""
-    contacts = shipped_filters().contacts(np.array([[300.0, 12.0, 0.11], [2000.0, 18.0, 0.4]]))
+    contacts = filters_of(np.array([[300.0, 12.0, 0.11], [2000.0, 18.0, 0.4]]))
     nodes = np.array([contacts.at(k)[0] for k in (0.0, *K)])
     spline = CubicSpline([0.0, *K], nodes)
     for k in ([0.03, 5.5], [1.1, 2.9]):
@@ -89,31 +75,16 @@ def test_between_wave_numbers_and_beyond():
 
 
 def test_contacts_outside_have_the_filter_of_the_nearest_inside():
-    light, least = (shipped_filters().contacts(np.array([[M, 12.0, 0.11]])).at(1.5) for M in (0.01, FILTERED.M[0]))
+    light, least = (filters_of(np.array([[M, 12.0, 0.11]])).at(1.5) for M in (0.01, BOX.M[0]))
     np.testing.assert_array_equal(light, least)
 
 
-def test_build_from_solved_points(capsys, tmp_path):
-    """Nothing is left to solve; the table has its command, and answers as the points were made."""
-    work, output = tmp_path / "work", tmp_path / "f.h5"
-    store = ContentStore(work, "work folder")
-    for point in filter_points(40, SEED).values():
-        store.put(key(point), json.dumps(stub(point)).encode())
-    given = ["-o", str(output), "--work", str(work), "--draws", "40", "--json", "-"]
-    assert execute(["atlas", "waves", *given]) == 0
-    document = json.loads(capsys.readouterr().out)
-    assert document["command"] == "ehlcontact atlas waves --draws 40 --seed 7"
-    table = read(output, FilterTable)
-    assert len(table.points) == document["points"] > 30 and table.k.tolist() == list(WAVE_NUMBERS)
-    np.testing.assert_allclose(table.real[3], stub(MoesPoint(*table.points[3].tolist()))["real"], atol=1e-6)
-
-
 def test_fewer_draws_are_among_more():
-    few, many = filter_points(20, SEED), filter_points(33, SEED)
+    few, many = RECIPE.sample(20, RECIPE.numbers["seed"]), RECIPE.sample(33, RECIPE.numbers["seed"])
     assert all(many[name] == point for name, point in few.items())
     assert set(few) <= set(many)
     for name in ("M", "L", "kappa"):
-        low, high = getattr(FILTERED, name)
+        low, high = getattr(BOX, name)
         assert all(low * (1 - 1e-9) <= getattr(point, name) <= high * (1 + 1e-9) for point in many.values())
 
 
@@ -157,17 +128,6 @@ def test_films_over_dry_of_many_contacts():
     assert np.abs(found[1] - found[1, 0]).max() > 0.1
 
 
-@pytest.mark.slow
-def test_a_damaged_table_is_refused(tmp_path):
-    table = shipped_filters().table
-    for name in ("real", "left_out", "factor"):
-        save(
-            replace(table, **{name: getattr(table, name)[1:]}), tmp_path / "filters.h5", "table of contact filters"
-        )
-        with pytest.raises(InputError):
-            read(tmp_path / "filters.h5", FilterTable, "table of contact filters")
-
-
 @pytest.mark.parametrize(
     "row",
     [
@@ -190,9 +150,9 @@ def test_against_finer_meshes(row):
 def hold_out(work):
     """Write the points beyond those of the table."""
     store, entries = ContentStore(work, "work folder"), []
-    for name, point in filter_points(SOLVED, SEED).items():
-        if int(name.partition("-")[2]) >= DRAWS:
-            entries.append(json.loads(store.get(key(point))))
+    for name, point in RECIPE.sample(SOLVED, RECIPE.numbers["seed"]).items():
+        if int(name.partition("-")[2]) >= RECIPE.numbers["draws"]:
+            entries.append(json.loads(store.get(entry_key(RECIPE.solve, point))))
     good = [one for one in entries if one["status"] == "converged"]
     found = {"points": [[one["M"], one["L"], one["kappa"]] for one in good]}
     found |= {name: [[round(v, 5) for v in one[name]] for one in good] for name in ("real", "imag")}

@@ -6,17 +6,21 @@ import numpy as np
 import pytest
 
 from ehlcontact import Heat, InputError, Lubricant, MoesPoint, OperatingPoint
-from ehlcontact.errors import ConvergenceError
 from ehlcontact.hertz import most_loaded_ball
-from ehlcontact.store import read, save
-from reduced_models.atlas import solved_points
-from reduced_models.atlas.build import BOX
 from reduced_models.atlas.gain_fit import heated_gains
-from reduced_models.atlas.heat_build import SETTINGS, assemble_heat, build_heat
-from reduced_models.atlas.heat_condition import SHIPPED, heat_surface
-from reduced_models.atlas.heat_sample import FASTEST, intervals_of, sample_heated
-from reduced_models.atlas.heat_solve import HEAT_OMEGAS, solve_heated
-from reduced_models.atlas.heat_table import KNOWN, NUMBERS, HeatSurface, HeatTable, changes_of, unit_of
+from reduced_models.atlas.heat import (
+    FASTEST,
+    HEAT_OMEGAS,
+    KNOWN,
+    NUMBERS,
+    RECIPE,
+    changes_of,
+    intervals_of,
+    solve_heated,
+    unit_of,
+)
+from reduced_models.atlas.surface import Surface
+from reduced_models.atlas.surface import shipped as shipped_surface
 from reduced_models.bearing.catalogue import deep_groove_row
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
@@ -42,16 +46,18 @@ def held_out():
 
     All contacts are left out, a tenth of them at a time.
     """
-    table = heat_surface().table
-    error, bars = np.zeros((2, *table.changes.shape))
+    table = shipped_surface("heat").table
+    g = RECIPE.unit(table, table.points)[:, None]
+    changes = g * table["changes"]
+    error, bars = np.zeros((2, *changes.shape))
     part = np.random.default_rng(1).permutation(len(table.points)) % 10
     for k in range(10):
         out = part == k
-        rest = HeatSurface(replace(table, points=table.points[~out], changes=table.changes[~out]))
+        columns = {"changes": table.columns["changes"][~out]}
+        rest = Surface(replace(table, points=table.points[~out], columns=columns))
         found, bars[out] = rest.at(table.points[out])
-        error[out] = found - table.changes[out]
-    g = np.array([unit_of(load) for load in table.points[:, KNOWN.index("thermal_load")].tolist()])[:, None]
-    return g * error, g * bars, g * table.changes
+        error[out] = found - changes[out]
+    return error, bars, changes
 
 
 def test_contacts_left_out_lie_in_their_bars(held_out):
@@ -111,7 +117,7 @@ def test_elements_damp_as_much_as_their_answers_where_heat_is_strong(shipped):
     leaves of C at rest 3.3 %.
     """
     hz = np.array([20.0, 200.0, 2000.0, 6000.0])
-    points = [one.point for one in sample_heated(256, 5, BOX).values()]
+    points = [one.point for one in RECIPE.sample(256, 5).values()]
     points = [point for point in points if Heat().at(point).load(point.moes, point.scales) > 1.0][:20]
     for heat, most in ((None, 0.04), (Heat(), 0.02)):
         ratios = []
@@ -128,9 +134,9 @@ def test_gains_stay_where_heat_changes_nothing(shipped):
     answer = shipped.at(point)
     low, Z = answer.damping[table.interpolation.reference], answer.stiffness + 1j * answer.damping
     gains = np.array(shipped.element(point, "memory").gains) / low
-    again = heated_gains(answer.Omega, Z, Z, gains, table.rates, low)
+    again = heated_gains(answer.Omega, Z, Z, gains, shipped._rates, low)
     np.testing.assert_allclose(again, gains, rtol=0, atol=1e-9 * gains.max())
-    hot = heated_gains(answer.Omega, Z, Z.real + 0.6j * Z.imag, gains, table.rates, low)
+    hot = heated_gains(answer.Omega, Z, Z.real + 0.6j * Z.imag, gains, shipped._rates, low)
     assert hot.min() >= 0.0
     assert hot.sum() == pytest.approx(0.6 * gains.sum(), rel=0.1)
 
@@ -179,7 +185,7 @@ def test_refused(shipped, field, given):
 
 
 def test_sample_is_of_bearings_and_grows():
-    few, more = sample_heated(32, 3, BOX), sample_heated(64, 3, BOX)
+    few, more = RECIPE.sample(32, 3), RECIPE.sample(64, 3)
     assert few.items() <= more.items()
     for one in more.values():
         assert one.point.u_sum <= 2.0 * FASTEST * (1.0 + 1e-12)
@@ -187,63 +193,15 @@ def test_sample_is_of_bearings_and_grows():
         assert 0.009 < one.heat.at(one.point).load(one.point.moes, one.point.scales) < 5.1
 
 
-def test_build_writes_what_it_can_read(tmp_path, monkeypatch):
-    monkeypatch.setattr(
-        solved_points, "solve_points", lambda contacts, *_, **__: [made_up(c) for c in contacts.values()]
-    )
-    table = build_heat(tmp_path / "heat.h5", tmp_path / "work", 64, seed=3)
-    again = read(tmp_path / "heat.h5", HeatTable, "table of heat")
-    np.testing.assert_array_equal(table.changes, again.changes)
-    assert again.metadata["command"] == "ehlcontact atlas heat --draws 64 --seed 3"
-    with pytest.raises(InputError, match="draws = 4 have too few"):
-        build_heat(tmp_path / "heat.h5", tmp_path / "work", 4)
-    with pytest.raises(InputError, match="converged contacts"):
-        assemble_heat([made_up(c) | {"status": "stagnated"} for c in sample_heated(64, 3, BOX).values()], {})
-
-
-def made_up(contact):
-    """Entry of a contact as if it had been solved: all factors are 0.9."""
-    point = contact.point
-    moes, heat = point.moes, contact.heat.at(point)
-    cold = dict.fromkeys(("approach", "h_central", "h_min", "moment"), 0.5)
-    cold |= {name: [2.0] * len(HEAT_OMEGAS) for name in ("stiffness", "damping")}
-    warm = {name: np.multiply(0.9, value).tolist() for name, value in cold.items()}
-    entry = {"M": moes.M, "L": moes.L, "kappa": moes.kappa, "slope": heat.temperature_slope, "status": "converged"}
-    return entry | {"thermal_load": heat.load(moes, point.scales), "cold": cold, "warm": warm, "n": 64}
-
-
-def test_a_damaged_table_is_refused(tmp_path):
-    table = heat_surface().table
-    save(replace(table, changes=table.changes[:, 1:]), tmp_path / "heat.h5", "table of heat")
-    with pytest.raises(InputError):
-        read(tmp_path / "heat.h5", HeatTable, "table of heat")
-
-
-def test_shipped_file_is_small_and_says_how_it_was_made():
-    assert SHIPPED.stat().st_size < 200_000
-    about = heat_surface().table.metadata
-    assert about["command"].startswith("ehlcontact atlas heat --draws")
-    assert about["points"] == len(heat_surface().table.points) > 140
-    assert tuple(about["interpolation"]["weights"]) == SETTINGS.weights
-
-
 @pytest.mark.slow
 def test_new_contacts_are_in_the_bars_of_the_shipped_table():
     """Eight contacts of another sample, solved here."""
-    surface, inside = heat_surface(), []
-    contacts = [c for c in sample_heated(64, 99, BOX).values() if intervals_of(c.point) == 64][:8]
+    surface, inside = shipped_surface("heat"), []
+    contacts = [c for c in RECIPE.sample(64, 99).values() if intervals_of(c.point) == 64][:8]
     for one in contacts:
         entry = solve_heated(one)
-        row = np.array([[entry[name] for name in ("M", "L", "kappa", "thermal_load", "slope")]])
+        row = np.array([[entry[name] for name in KNOWN]])
         found, bars = surface.at(row)
-        inside.append(np.abs(found[0] - changes_of(entry)) <= bars[0])
+        change = unit_of(entry["thermal_load"]) * changes_of(entry)
+        inside.append(np.abs(found[0] - change) <= bars[0])
     assert np.mean(inside) >= 0.9
-
-
-def test_a_film_that_does_not_converge_is_left_out(monkeypatch):
-    def fail(*_):
-        raise ConvergenceError("no", None)
-
-    monkeypatch.setattr("reduced_models.atlas.heat_solve.respond", fail)
-    (one, *_) = sample_heated(16, 3, BOX).values()
-    assert solve_heated(one)["status"] == "unknown"
