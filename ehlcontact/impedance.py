@@ -62,7 +62,7 @@ COARSE_CYCLES = 3  # of a coarser film with heat, after those at the viscosity o
 SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far
 
 
-@by_name(1, omegas="Omega (dimensionless), omega (rad/s), hz or rpm")
+@by_name(1)
 @one_blas_thread()
 def impedance(
     point: Point,

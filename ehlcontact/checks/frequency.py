@@ -122,9 +122,9 @@ def one(name: str, found: Array) -> float:
 
 
 def by_name(
-    positional: int | None, how: str = f"named with its unit: {_KEYWORDS}", **renamed: str
+    positional: int | None, how: str = f"named with its unit: {_KEYWORDS}", **mistaken: str
 ) -> Callable[[Callable[P, Result]], Callable[P, Result]]:
-    """Let a call tell in one line what its frequency is called now.
+    """Let a call say in one line how its frequency is given, where it has no name or that of another unit.
 
     Parameters
     ----------
@@ -132,8 +132,8 @@ def by_name(
         Arguments that it takes without a name: one more is taken for a frequency that lacks its own. None for any.
     how : str
         How a frequency is given.
-    **renamed : str
-        What an old name is called now, or several names with what they mean.
+    **mistaken : str
+        How a frequency is given, by a name that it does not have: ``omega_n`` of a dimensionless `Omega_n`.
     """
 
     def decorate(call: Callable[P, Result]) -> Callable[P, Result]:
@@ -141,8 +141,8 @@ def by_name(
         def checked(*args: P.args, **kwargs: P.kwargs) -> Result:
             if positional is not None and len(args) > positional:
                 raise InputError("frequency", args[positional], how)
-            for old in renamed.keys() & kwargs.keys():
-                raise InputError(old, kwargs[old], f"given as {renamed[old]}")
+            for name in mistaken.keys() & kwargs.keys():
+                raise InputError(name, kwargs[name], f"given as {mistaken[name]}")
             return call(*args, **kwargs)
 
         return checked
@@ -150,12 +150,12 @@ def by_name(
     return decorate
 
 
-def fields_by_name(positional: int, **renamed: str) -> Callable[[type[Result]], type[Result]]:
-    """`by_name` for the fields of a class, so many of which need no name; its frequency is the first `renamed`."""
+def fields_by_name(positional: int, **mistaken: str) -> Callable[[type[Result]], type[Result]]:
+    """`by_name` for the fields of a class, so many of which need no name; its frequency is the first one."""
 
     def decorate(cls: type[Result]) -> type[Result]:
-        how = f"given as {next(iter(renamed.values()))}"
-        named = by_name(positional + 1, how, **renamed)(cls.__init__)  # and self
+        how = f"given as {next(iter(mistaken.values()))}"
+        named = by_name(positional + 1, how, **mistaken)(cls.__init__)  # and self
         setattr(cls, "__init__", named)  # noqa: B010
         return cls
 

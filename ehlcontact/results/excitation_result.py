@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
-@stored("result of excitation", 1)
+@stored("result of excitation")
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ExcitationResult(ScaledTable, Origin):
     """Force of a contact at fixed approach by waves that pass on a surface; ``si`` has it in SI.

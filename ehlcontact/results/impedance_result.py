@@ -28,7 +28,7 @@ SLOW = 0.2  # Omega below which oil that heats and cools slowly may add to C
 COARSE = 1.1  # mesh over the one that damping needs, from which a result says so
 
 
-@stored("result of impedance", 3)
+@stored("result of impedance")
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ImpedanceResult(ScaledResponse, Origin):
     """Stiffness and damping of a contact over frequency, dimensionless; ``si`` has it in SI.

@@ -53,7 +53,7 @@ def film_bars(error: ErrorEstimate) -> tuple[str, str]:
     return central, least
 
 
-@stored("result of solve_steady", 4)
+@stored("result of solve_steady")
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SteadyResult(ScaledTable, Origin):
     """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.

@@ -36,7 +36,7 @@ from ehlcontact.version import __version__
 SAME = 1e-12  # of a time or a step: they differ by rounding only
 
 
-@stored("checkpoint of `simulate`", 4)
+@stored("checkpoint of `simulate`")
 @dataclass(frozen=True, slots=True, eq=False)
 class Checkpoint:
     """Content of the file: the run up to its last accepted state, and that state."""

@@ -73,7 +73,7 @@ class Instants(QuantityTable):
         ]
 
 
-@stored("result of simulate", 2)
+@stored("result of simulate")
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SimulationResult(ScaledTable, Origin):
     """History of a transient contact, dimensionless; entry 0 is the initial state at T = 0. ``si`` has it in SI.

@@ -844,32 +844,24 @@ class BallBearing(Summary):
 
     def to_dict(self) -> dict[str, Any]:
         """All arguments, ready for JSON."""
-        found = {f.name: getattr(self, f.name) for f in fields(self) if f.init and f.name != "features"}
-        found["oil"] = None if self.oil is None else asdict(self.oil)
-        if self.supply is None:
-            del found["supply"]  # so that files of flooded bearings stay as they were
-        else:
-            found["supply"] = self.supply.to_dict()
-        if self.thermal is None:
-            del found["thermal"]  # so that files of isothermal bearings stay as they were
-        else:
-            found["thermal"] = self.thermal.to_dict()
-        return found | ({"features": feature_entries(tuple(self.features))} if self.features else {})
+        return {f.name: getattr(self, f.name) for f in fields(self) if f.init} | {
+            "oil": None if self.oil is None else asdict(self.oil),
+            "supply": None if self.supply is None else self.supply.to_dict(),
+            "thermal": None if self.thermal is None else self.thermal.to_dict(),
+            "features": feature_entries(tuple(self.features)),
+        }
 
     @classmethod
     def from_dict(cls, entries: Mapping[str, Any]) -> Self:
         """Rebuild a bearing from `to_dict`; raises `InputError` for entries that are missing, unknown or wrong."""
-        oil = entries.get("oil")
-        require_instance("oil", oil, dict | None, "an object, or null")
-        features = features_from(entries.get("features", []))
-        supply, thermal = (entries.get(name) for name in ("supply", "thermal"))
-        for name, value in (("supply", supply), ("thermal", thermal)):
+        require_names(entries, [f.name for f in fields(cls) if f.init])
+        oil, supply, thermal = (entries[name] for name in ("oil", "supply", "thermal"))
+        for name, value in (("oil", oil), ("supply", supply), ("thermal", thermal)):
             require_instance(name, value, dict | None, "an object, or null")
-        left_out: dict[str, Any] = {"features": [], "supply": None, "thermal": None}
-        require_names({**left_out, **entries}, [f.name for f in fields(cls) if f.init])
+        given: dict[str, Any] = {"features": features_from(entries["features"])}
         if oil is not None:
             require_names(oil, [f.name for f in fields(Lubricant)], "oil.")
-        given: dict[str, Any] = {"oil": None if oil is None else Lubricant(**oil), "features": features}
+            given["oil"] = Lubricant(**oil)
         if supply is not None:
             require_names({**dict.fromkeys(SUPPLIES), **supply}, SUPPLIES, "supply.")
             given["supply"] = OilLayer.from_dict(supply)

@@ -90,7 +90,7 @@ def wide_range_contact(
     )
 
 
-@by_name(2, omegas="Omega, dimensionless")
+@by_name(2)
 def wide_range_from_solves(
     point: Point,
     loads: Sequence[float] = LOADS,

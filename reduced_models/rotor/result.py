@@ -26,7 +26,7 @@ ORDERS_SHOWN = 20.0  # multiples of the speed, to which spectra go
 MIXED = "m, or rad where it turns"
 
 
-@stored("run of a rotor", 2)
+@stored("run of a rotor")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RotorResult(QuantityTable, ByNode):
     """Histories of a rotor run in SI; entry 0 is the start.

@@ -130,7 +130,7 @@ def test_arrays_fit_each_other(steady_si, tmp_path):
 def test_another_format(number, words, steady_si, tmp_path):
     path = save(steady_si, tmp_path / "steady.h5")
     edit_header(path, format=number)
-    with pytest.raises(InputError, match=rf"^file = .*steady\.h5.* of format 4, not .*{words}"):
+    with pytest.raises(InputError, match=rf"^file = .*steady\.h5.* of format 1, not .*{words}"):
         read(path)
 
 

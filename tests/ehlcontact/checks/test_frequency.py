@@ -81,7 +81,6 @@ test_every_call_asks_for_a_name = refusals(
         lambda: impedance(POINT, [0.05]),
         r"^frequency = \[0.05\]: must be named with its unit: Omega \(",
     ),
-    (lambda: impedance(POINT, omegas=[0.05]), r"^omegas = \[0.05\]: must be given as Omega \(dimensionless\)"),
     (lambda: impedance(POINT, hz=50), r"^hz = 50: must be left out: a dimensionless contact .*give Omega$"),
     (lambda: impedance(BEARING), "^frequency = None"),
     (lambda: FreeVibration(omega_n=5.13), "^omega_n = 5.13: must be given as Omega_n, dimensionless"),

@@ -119,7 +119,7 @@ def test_slow_is_isothermal(cold, warm):
 
 
 def test_files(cold, warm):
-    assert "thermal" not in cold.to_dict()
+    assert cold.to_dict()["thermal"] is None
     again = BallBearing.from_dict(json.loads(json.dumps(warm.to_dict())))
     assert again == warm
     assert BallBearing.catalogue("6305", oil=OIL, thermal=False) == cold
