@@ -16,7 +16,7 @@ import fmpy
 import numpy as np
 
 from ehlcontact import Lubricant, OperatingPoint
-from fmu import export_contact
+from fmu import export
 from reduced_models import Atlas, WideRangeContact, log_decrement, simulate_oscillator
 
 MASS, LOAD = 1.0, 486.0  # kg, N
@@ -64,7 +64,7 @@ def runs(parts: int, periods: float = 12.0) -> tuple[float, np.ndarray, dict[str
     t = np.arange(round(periods * parts) + 1) * 2.0 * pi / omega / parts
     found = {"Python": simulate_oscillator(element, t, mass=MASS, load=LOAD, u0=start).approach}
     with tempfile.TemporaryDirectory() as folder:
-        path = export_contact(element, Path(folder) / "contact.fmu")
+        path = export(element, Path(folder) / "contact.fmu")
         for lead in (DEFAULT, LATE):
             found[f"FMU, lead {lead:g}"] = co_simulate(path, start, t[1], t.size - 1, lead)
     return omega, t, found

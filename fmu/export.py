@@ -1,60 +1,103 @@
-"""Export of a contact element or a rotor as an FMU file: model, files, verification, archive."""
+"""Export of a contact element, a ball bearing or a rotor as an FMU file: model, files, verification, archive."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 from ehlcontact.errors import InputError
 from ehlcontact.files import require_writable, write_bytes
 from fmu.archive import fmu_files, pack
 from fmu.binaries import choose, this_machine
 from fmu.binaries.libraries import Progress
-from fmu.contact_variables import Element
-from fmu.fmu_model import Source, fmu_model
+from fmu.models import Exported, FmuModel, fmu_model
 from fmu.sources import FMI_FILES
 from fmu.verification import Verification
 from fmu.verify import require_finite, require_verified
+from reduced_models import JeffcottRotor
 
 
-def export_contact(
-    element: Element,
+def export(
+    model: Exported,
     path: str | os.PathLike[str],
     *,
-    fmi: int = 2,
-    model_name: str | None = None,
+    speeds_rpm: Any = None,
+    outside: str | Iterable[str] = (),
+    contacts: Sequence[Any] | None = None,
+    speed_rpm: float | None = None,
+    inertia: float | None = None,
+    start: Any = None,
+    load: Any = None,
+    directions: Sequence[str] | None = None,
     lead: float | None = None,
+    model_name: str | None = None,
+    fmi: int = 2,
     platforms: str | Iterable[str] | None = None,
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> Path:
-    """Write a contact element as an FMU for co-simulation and model exchange, once it is verified against it.
+    """Write a contact, a ball bearing or a rotor as an FMU, once it is verified against it.
 
-    Inputs `approach` and `rate`, output `force` with its tangents `stiffness` and `damping`, and
-    `outside_validity` with the bound that is left. Coefficients of elements without memory, and their interval,
-    are tunable parameters that start at the element's values; those of a film memory are constants, for others
-    could put energy into a vibration. The fixed parameter `lead` is the time, in communication
-    steps, from the inputs of a step to that for which the force is given: see `lead` below. Units are the
-    element's: SI, or "1" for a dimensionless element. Reference inputs and results of the element are inside, for
-    `verify_references`. The same element, name, library version and compiler give the same bytes.
+    A contact has the inputs `approach` and `rate`, and the output `force` with its tangents `stiffness` and
+    `damping`. Coefficients of elements without memory, and their interval, are tunable parameters that start at
+    the element's values; those of a film memory are constants, for others could put energy into a vibration. Units
+    are the element's: SI, or "1" for a dimensionless element.
+
+    A ball bearing has the inputs displacement and velocity of the inner ring against the outer one, `x`, `y` and,
+    with five degrees of freedom, `z`, `tilt_x`, `tilt_y`; `velocity_x`, ..., `tilt_rate_y`; and the `speed` of the
+    shaft [rad/s]. Outputs are the forces on the inner ring, `force_x`, ..., `moment_y`, the largest loads of a
+    ball, the smallest film and lambda, the rolling torque and the angle of the cage. `clearance`, `offset` (axial
+    preload), `cage_angle_start` and `film` (0: dry) can be set before initialization.
+
+    A rotor has the inputs `unbalance`, `speed` (or, with `inertia`, the `torque` of its motor), and forces on its
+    nodes; outputs are the motions of these and of the supports. Supports are inside: the FMU then solves their
+    forces in every step, by the steps of `simulate_rotor` and Newton's method. The forces of those that are
+    `outside` are inputs, named and directed as in the FMU of a contact or a bearing, and the motions there
+    outputs. Masses, stiffness and dampers can be set before initialization.
+
+    Reference inputs and results of the model are inside, for `verify_references`. The same model, name, library
+    version and compiler give the same bytes. ``docs/coupling.md`` has all variables.
 
     Parameters
     ----------
-    element : ContactElement
-        Of any kind.
+    model : ContactElement, BallBearing, Rotor or JeffcottRotor
     path : path-like
         File to write, ending in ``.fmu``.
+    speeds_rpm : float or (float, float), optional
+        Of a bearing, and of a rotor with ball bearings inside: speed of the shaft [rev/min], or lowest and highest
+        one. Tables of the films are made for these and some between; below the lowest films are those of the
+        lowest, down to standstill.
+    outside : sequence of str or "all"
+        Of a rotor: names of the supports whose forces are inputs: "contact 1", ..., names of ball bearings
+        ("bearing 0", ... where they have none).
+    contacts : sequence of ContactElement, optional
+        Of a `JeffcottRotor`: one per mount, in SI or as `ScaledContact`, of any kind; their films start at rest.
+    speed_rpm : float, optional
+        Of a `Rotor`: speed at the start [rev/min]; by default the highest of `speeds_rpm`, or 0.
+    inertia : float, optional
+        Of a `Rotor`: polar moment of inertia [kg m2] of all that turns; the speed then follows from the torque of
+        the motor and those of the bearings. By default the speed is an input.
+    start : optional
+        Of a rotor: where it starts, a `RotorState` or displacements and velocities, shape (N,) each; by default in
+        static equilibrium (a `JeffcottRotor` without contacts inside: the journal at the origin, the shaft bent).
+    load : float or sequence of float, optional
+        Of a bearing: force on the inner ring [N], [N m], as of `BallBearing.equilibrium`, under which it starts at
+        rest; by default the ring starts in the middle.
+    directions : sequence of str, optional
+        Of a bearing: displacements of its ring, ``("x", "y")`` or all five; by default those that its load needs.
+    lead : float, optional
+        Start value of `lead` of a contact or bearing, 0 to 2 communication steps, by default 1.5; or of
+        `force_lead` of a rotor, 0 to 1, by default 1/2 with supports outside and 0 without. What is right depends
+        on what the force is given to: 1.5 for a mass that holds the force over its step while master and FMU step
+        in parallel, which is what most co-simulation tools do, 1 if it advances by symplectic Euler; 0.5 and 0 for
+        the same where the FMU is given the motion of the end of the step (serial masters). A wrong value costs the
+        damping C as much as stiffness times step times the difference: ``docs/coupling.md``.
+    model_name : str, optional
+        Name of the model; the kind of the model, as CubicContact, by default.
     fmi : int
         FMI version, 2 or 3.
-    model_name : str, optional
-        Name of the model; the kind of the element, as CubicContact, by default.
-    lead : float, optional
-        Start value of `lead`, 0 to 2 communication steps; 1.5 by default. What is right depends on what the force
-        is given to: 1.5 for a mass that holds the force over its step while master and FMU step in parallel, which
-        is what most co-simulation tools do, 1 if it advances by symplectic Euler; 0.5 and 0 for the same where the
-        FMU is given the motion of the end of the step (serial masters). A wrong value costs the damping C as much
-        as stiffness times step times the difference: ``docs/coupling.md``.
     platforms : str or iterable of str, optional
         For which the FMU has binaries: ``x86_64-linux``, ``x86_64-windows``, ``x86_64-darwin``,
         ``aarch64-darwin`` (in FMI 3 ``aarch64-linux`` as well), or ``all``; also by the names of FMI 2,
@@ -69,15 +112,21 @@ def export_contact(
     Path
         The file.
 
+    Elements warn here where the speed of a `JeffcottRotor` lies outside their band, or they were made for another
+    contact; bearings under an oil supply where their elements leave out damping below zero.
+
     Raises
     ------
     InputError
-        Another kind of element or FMI version, a name that is not printable, an unknown platform, a file that
-        is there already or cannot be written.
+        Another kind of model or FMI version, a keyword that the model does not take, supports neither inside nor
+        named in `outside`, a rotor that its supports do not hold, a name that is not printable, an unknown
+        platform, a file that is there already or cannot be written.
+    ConvergenceError
+        The bearings do not hold the load.
     BuildError
         No C compiler, or one that failed.
     VerificationError
-        The FMU differs from the element; nothing is written.
+        The FMU differs from the model; nothing is written.
 
     Notes
     -----
@@ -87,46 +136,55 @@ def export_contact(
     ``EHLCONTACT_CC`` names another compiler for this machine. Libraries are kept in the user's cache folder, or in
     ``EHLCONTACT_CACHE``, by their sources, flags and compiler.
     """
-    return export_verified(
-        element,
-        path,
-        fmi=fmi,
-        model_name=model_name,
+    require_version(fmi)
+    made = fmu_model(
+        model,
+        speeds_rpm=speeds_rpm,
+        outside=outside,
+        contacts=contacts,
+        speed_rpm=speed_rpm,
+        inertia=inertia,
+        start=start,
+        load=load,
+        directions=directions,
         lead=lead,
-        platforms=platforms,
-        overwrite=overwrite,
-        progress=progress,
-    )[0]
+        model_name=model_name,
+    )
+    if isinstance(model, JeffcottRotor):
+        model.check([element.copy() for element in made.elements], stacklevel=3)
+    return export_model(made, path, fmi=fmi, platforms=platforms, overwrite=overwrite, progress=progress)[0]
 
 
-def export_verified(
-    element: Source,
+def require_version(fmi: object) -> None:
+    """Raise `InputError` for another FMI version than 2 or 3."""
+    if isinstance(fmi, bool) or fmi not in FMI_FILES:
+        raise InputError("fmi", fmi, "2 or 3")
+
+
+def export_model(
+    model: FmuModel,
     path: str | os.PathLike[str],
     *,
     fmi: int = 2,
-    model_name: str | None = None,
-    lead: float | None = None,
     platforms: str | Iterable[str] | None = None,
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> tuple[Path, Verification | None]:
-    """Export an element or rotor; returns file and verification (None if this machine cannot run the FMU)."""
-    if isinstance(fmi, bool) or fmi not in FMI_FILES:
-        raise InputError("fmi", fmi, "2 or 3")
-    model = fmu_model(element, model_name, lead)
+    """Write a model as an FMU; returns file and verification (None if this machine cannot run the FMU)."""
+    require_version(fmi)
     require_finite(model)
     wanted = choose(platforms, fmi)
     target = free_target(path, overwrite)  # before compiling
     references = model.references()
     files = fmu_files(model.spec, wanted, fmi, progress, references)
-    found = None
+    verification = None
     own = this_machine()
     if own is not None and own.folder(fmi) is not None:
         # An FMU for other machines is verified by this one's binary of the same sources.
         runnable = files if own in wanted else fmu_files(model.spec, (own,), fmi, references=references)
-        found = require_verified(pack(runnable), model)
+        verification = require_verified(pack(runnable), model)
     free_target(path, overwrite)  # still
-    return write_bytes(target, pack(files)), found
+    return write_bytes(target, pack(files)), verification
 
 
 def free_target(path: str | os.PathLike[str], overwrite: bool, suffix: str = ".fmu") -> Path:

@@ -42,7 +42,7 @@ class Lead:
         """The value as a float; raises `InputError` outside [0, most]."""
         number = isinstance(value, int | float) and not isinstance(value, bool)
         if not number or not 0.0 <= value <= self.most:
-            raise InputError(self.name, value, f"0 to {self.most:g} communication steps")
+            raise InputError("lead", value, f"0 to {self.most:g} communication steps")
         return float(value)
 
 

@@ -6,16 +6,16 @@ import os
 import tempfile
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
 from ehlcontact.errors import InputError
 from fmu.description_rules import findings
 from fmu.fmu_file import FmuFile, opened
-from fmu.fmu_model import FmuModel, Source, fmu_model
 from fmu.isolated import isolated, require_path
 from fmu.lead import CONTACT, ROTOR
+from fmu.models import Exported, FmuModel, Keywords, fmu_model
 from fmu.references.check import check_references
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
@@ -24,8 +24,8 @@ EXPORT_OPTIONS = {CONTACT.name, ROTOR.name}  # whose start values are chosen at 
 REACH = 3.0  # validity intervals above `high` up to which `verify` compares the force
 
 
-def verify(path: str | os.PathLike[str], element: Source) -> Verification:
-    """Run the FMU through fmpy and compare it with the element.
+def verify(path: str | os.PathLike[str], model: Exported, **keywords: Unpack[Keywords]) -> Verification:
+    """Run the FMU through fmpy and compare it with its model.
 
     It runs the native code in the FMU, with the rights of whoever calls it: in a child process with limits of time
     and memory (not on Windows), but behind no other wall. Verify what you would run.
@@ -47,17 +47,16 @@ def verify(path: str | os.PathLike[str], element: Source) -> Verification:
     ----------
     path : path-like
         The FMU.
-    element : ContactElement, JeffcottModel, BearingModel, ShaftModel or RotorModel
-        What it should be; ``JeffcottModel(rotor, contacts)`` for what `export_jeffcott` makes of these,
-        ``BearingModel(bearing, speeds_rpm, load)`` for `export_bearing`, ``ShaftModel(rotor, speed_rpm, inertia)``
-        for `export_shaft`, ``RotorModel(rotor, speeds_rpm, speed_rpm, inertia)`` for `export_rotor`; from
-        `fmu.jeffcott`, `fmu.bearing`, `fmu.shaft`, `fmu.rotor`.
+    model : ContactElement, BallBearing, Rotor or JeffcottRotor
+        What it should be.
+    **keywords
+        Those of its `export`, the start values of `lead` and of other options of the export apart.
 
     Raises
     ------
     InputError
-        Not an FMU of such an element or rotor for this platform; a library that crashes, ends the process or does
-        not end; an archive that unpacks to more than half a GiB.
+        Not an FMU of such a model for this platform, or a keyword that the model does not take; a library that
+        crashes, ends the process or does not end; an archive that unpacks to more than half a GiB.
     RuntimeError
         The FMU refuses a call; with its reason.
 
@@ -65,11 +64,11 @@ def verify(path: str | os.PathLike[str], element: Source) -> Verification:
     --------
     fmu.verify_references : without an element, against the reference results inside the FMU.
     """
-    model = fmu_model(element)
+    made = fmu_model(model, **keywords)
 
     def compared(file: Path) -> Verification:
-        with opened(file) as one:
-            return verify_opened(one, model)
+        with opened(file) as opened_file:
+            return verify_opened(opened_file, made)
 
     return isolated(compared, require_path(path))
 

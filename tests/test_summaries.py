@@ -126,7 +126,7 @@ INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no r
 WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
     **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter", "Spall", "Indentation", "FullFilm"), INPUT),
-    **dict.fromkeys(("SpeedHistory", "SpeedController", "Heat", "Asperities"), INPUT),
+    **dict.fromkeys(("SpeedHistory", "Heat", "Asperities"), INPUT),
     **dict.fromkeys(("Eyring", "Carreau", "LimitingShear", "ShearThinning"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
@@ -433,4 +433,4 @@ def test_dir_lists_public_names_only():
 
 def test_the_three_packages_list_what_they_show():
     assert {len(dir(package)) > 9 for package in (ehlcontact, reduced_models, fmu)} == {True}
-    assert {"export_contact", "verify", "SpeedController"} <= set(dir(fmu))
+    assert {"export", "verify", "export_system"} <= set(dir(fmu))

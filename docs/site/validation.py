@@ -150,7 +150,7 @@ def fmus() -> list[Row]:
     relative to its magnitude.
     """
     from ehlcontact import MoesPoint
-    from fmu import export_contact, verify
+    from fmu import export, verify
     from reduced_models import Atlas
 
     rows = []
@@ -159,7 +159,7 @@ def fmus() -> list[Row]:
             options = {"Omega": 0.05} if model == "cubic" else {}
             element = Atlas().element(MoesPoint(200, 10, 0.5), model, **options)
             for fmi in (2, 3):
-                path = export_contact(element, Path(folder) / f"{model}{fmi}.fmu", fmi=fmi)
+                path = export(element, Path(folder) / f"{model}{fmi}.fmu", fmi=fmi)
                 found = verify(path, element)
                 worst = max(found.force, found.tangents, found.derivatives, found.exchange)
                 rows.append(row(f"{model}, FMI {fmi}", "largest difference", worst, 0.0))

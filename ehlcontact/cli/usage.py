@@ -184,8 +184,8 @@ EXAMPLES = {
         "ehlcontact export ball.json -o ball.fmu --fmi 3 --platform all --force",
         "ehlcontact export examples/small_study.toml -o rotor.fmu",
         "ehlcontact export examples/small_study.toml -o rotor.ssp",
-        "ehlcontact export examples/small_study.toml --shaft -o shaft.fmu",
-        "ehlcontact export examples/small_study.toml --drive --inertia 0.001 --top-rpm 6000 -o drive.ssp",
+        "ehlcontact export examples/small_study.toml --bearings outside -o shaft.fmu",
+        "ehlcontact export examples/small_study.toml --bearings wired --inertia 0.001 --top-rpm 6000 -o drive.ssp",
     ),
     "validate": ("ehlcontact validate examples/small_study.toml",),
     "run": (

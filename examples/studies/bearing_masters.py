@@ -21,7 +21,7 @@ import numpy as np
 from masters import ALLOWED, LEADS, picture
 
 from ehlcontact import Lubricant
-from fmu import export_bearing
+from fmu import export
 from reduced_models import BallBearing, BearingMount, Rotor, log_decrement, simulate_rotor
 
 RPM, OMEGA, LOAD, BLOW = 3000.0, 100.0 * pi, 500.0, 1e-4  # rev/min, rad/s, N on each bearing, m/s
@@ -56,7 +56,7 @@ class Loop:
         self.rotor = rotor()
         self.start = self.rotor.equilibrium(RPM)
         self.inverse = np.linalg.inv(self.rotor.mass)
-        path = export_bearing(self.rotor.bearings[0].ball_bearing, folder / "6305.fmu", speeds_rpm=RPM)
+        path = export(self.rotor.bearings[0].ball_bearing, folder / "6305.fmu", speeds_rpm=RPM)
         self._description = fmpy.read_model_description(path)
         self._folder = fmpy.extract(str(path), unzipdir=str(folder / "6305"))
         self._number = {v.name: v.valueReference for v in self._description.modelVariables}

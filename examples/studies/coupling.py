@@ -32,7 +32,7 @@ import fmpy
 import numpy as np
 
 from ehlcontact import Lubricant, OperatingPoint
-from fmu import export_contact
+from fmu import export
 from reduced_models import Atlas, simulate_oscillator
 
 RPM, LOAD = 6000.0, 1000.0  # rev/min, N
@@ -211,7 +211,7 @@ class Bench:
 
     def __init__(self, element: Any, folder: Path):
         self.element = element
-        self._fmu = fmpy.extract(str(export_contact(element, folder / "ball.fmu")), unzipdir=str(folder / "ball"))
+        self._fmu = fmpy.extract(str(export(element, folder / "ball.fmu")), unzipdir=str(folder / "ball"))
         self.rest = float(element.approach_at(LOAD))
         self.omega = math.sqrt(float(element.spring_tangent(self.rest)) / MASS)
         self.period = 2.0 * math.pi / self.omega

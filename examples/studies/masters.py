@@ -21,7 +21,7 @@ import fmpy
 import numpy as np
 from coupling import LOAD, contact
 
-from fmu import export_contact
+from fmu import export
 from reduced_models import log_decrement, simulate_oscillator
 
 MASS = 5.0  # kg
@@ -41,7 +41,7 @@ class Loop:
 
     def __init__(self, element: Any, folder: Path):
         self.element = element
-        path = export_contact(element, folder / "ball.fmu")
+        path = export(element, folder / "ball.fmu")
         self._description = fmpy.read_model_description(path)
         self._folder = fmpy.extract(str(path), unzipdir=str(folder / "ball"))
         self.rest = float(element.approach_at(LOAD))

@@ -18,8 +18,10 @@ import numpy as np
 from fmpy import extract, instantiate_fmu, read_model_description
 
 from ehlcontact import Lubricant
-from fmu import export_bearing
+from fmu import export
 from reduced_models import BallBearing, BearingMount, Rotor, simulate_rotor
+
+RING = "x", "y", "z", "tilt_x", "tilt_y"  # displacements of an inner ring
 
 RPM, OMEGA, ARM, PRELOAD = 6000.0, 200.0 * np.pi, 0.05, 8e-6  # rev/min, rad/s, m, m
 MASS, INERTIA, POLAR = 3.0, 0.01, 0.004  # kg, kg m2
@@ -131,7 +133,7 @@ def main(picture: str | None = None) -> dict[str, Any]:
 
     start, wanted = in_one()
     with tempfile.TemporaryDirectory() as folder:
-        path = str(export_bearing(bearing(), Path(folder) / "7205.fmu", speeds_rpm=RPM, freedoms=5))
+        path = str(export(bearing(), Path(folder) / "7205.fmu", speeds_rpm=RPM, directions=RING))
         run = coupled(path, start)
     t = STEP * np.arange(len(run))
     exact = np.array([np.interp(t, wanted.t, one) for one in wanted.displacement.T]).T

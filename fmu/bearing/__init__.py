@@ -10,13 +10,5 @@ module          responsibility
 ``continuous``  states of the bearing, and their rates in Python
 ``trial``       a run of the ring with lift-off, and its forces in Python
 ``comparison``  comparison of the FMU with that run; references stored in the FMU
-``export``      `export_bearing`: bearing in, FMU file out
 ==============  ==============================================================================
 """
-
-from fmu.bearing.model import BearingModel as BearingModel
-
-
-def __dir__() -> list[str]:
-    """Public names."""
-    return ["BearingModel"]

@@ -6,16 +6,8 @@ module               responsibility
 ``model``            `JeffcottModel`: what is exported, checked; where it starts
 ``variables``        its variables, constants and C text
 ``laws``             each contact law inside as one C file with names of its own
-``export``           `export_jeffcott`: rotor in, FMU file out
 ``reference_rotor``  the same in Python: a short run by the steps of `simulate_rotor`, its equations in a state
 ``comparison``       comparison of the FMU with the rotor in Python
 ``references``       reference inputs and results stored in the FMU
 ===================  ==========================================================================================
 """
-
-from fmu.jeffcott.model import JeffcottModel as JeffcottModel
-
-
-def __dir__() -> list[str]:
-    """Public names."""
-    return ["JeffcottModel"]

@@ -49,7 +49,7 @@ class JeffcottModel:
     start: RotorState | None = None
 
     def __post_init__(self) -> None:
-        require_instance("rotor", self.rotor, JeffcottRotor, "a JeffcottRotor (of a Rotor: export_rotor)")
+        require_instance("rotor", self.rotor, JeffcottRotor, "a JeffcottRotor")
         if len(self.rotor.mounts) > MOST_MOUNTS:
             raise InputError("rotor.mounts", len(self.rotor.mounts), f"at most {MOST_MOUNTS} in an FMU")
         if self.start is not None and not isinstance(self.start, RotorState):

@@ -7,13 +7,5 @@ module               responsibility
 ``variables``        its variables, constants and tables, and the bearings inside
 ``trial``            a run by the steps of `simulate_rotor`, with inputs as the FMU has them
 ``comparison``       comparison of the FMU with that; references stored in the FMU
-``export``           `export_rotor`: rotor in, FMU file out
 ===================  ==========================================================================================
 """
-
-from fmu.rotor.model import RotorModel as RotorModel
-
-
-def __dir__() -> list[str]:
-    """Public names."""
-    return ["RotorModel"]

@@ -1,4 +1,4 @@
-"""`RotorModel`: rotor, speeds and inertia of which `export_rotor` makes an FMU."""
+"""`RotorModel`: rotor, speeds and inertia of an FMU with the ball bearings inside."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class RotorModel:
     inertia: float | None = None
 
     def __post_init__(self) -> None:
-        require_instance("rotor", self.rotor, Rotor, "a Rotor (of a JeffcottRotor: export_jeffcott)")
+        require_instance("rotor", self.rotor, Rotor, "a Rotor")
         shaft, stations = self.shaft, self.stations
         balls = sum(mount.ball_bearing.balls for mount in stations)
         if balls > MOST_BALLS or len(stations) > MOST_BEARINGS:

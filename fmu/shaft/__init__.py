@@ -7,13 +7,5 @@ module               responsibility
 ``variables``        its variables, constants and tables
 ``reference_shaft``  the step of the FMU in Python, by matrix exponentials
 ``comparison``       comparison of the FMU with that; references stored in the FMU
-``export``           `export_shaft`: rotor in, FMU file out
 ===================  ==========================================================================================
 """
-
-from fmu.shaft.model import ShaftModel as ShaftModel
-
-
-def __dir__() -> list[str]:
-    """Public names."""
-    return ["ShaftModel"]

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, require_finite, require_instance, require_nonnegative, require_positive
+from ehlcontact.checks import as_column, require_instance, require_nonnegative, require_positive
 from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
@@ -50,8 +50,6 @@ class ShaftModel:
     inertia : float, optional
         Polar moment of inertia [kg m2] of all that turns: torques of the motor and of the bearings then decide on
         the speed. By default the speed is an input.
-    torque : float
-        Of the motor, at the start [N m]; with `inertia` only.
     start : (array_like, array_like), optional
         Displacements and velocities to start from, shape (N,) each.
 
@@ -65,18 +63,15 @@ class ShaftModel:
     rotor: Rotor
     speed_rpm: float = 0.0
     inertia: float | None = None
-    torque: float = 0.0
     start: Any = None
 
     def __post_init__(self) -> None:
-        require_instance("rotor", self.rotor, Rotor, "a Rotor (of a JeffcottRotor: export_jeffcott)")
+        require_instance("rotor", self.rotor, Rotor, "a Rotor")
         require_nonnegative("speed_rpm", self.speed_rpm)
         if self.inertia is not None:
             require_positive("inertia", self.inertia)
-        elif require_finite("torque", self.torque):
-            raise InputError("torque", self.torque, "left out without inertia: the speed is an input")
         if self.rotor.contacts:
-            raise InputError("rotor.mounts", "contacts", "bearings; of rotors on contacts see export_jeffcott")
+            raise InputError("rotor.mounts", "contacts", "ball bearings, and linear ones")
         if not self.stations:
             raise InputError("rotor.mounts", "no ball bearing", "one at least")
         for mount in self.rotor.bearings:

@@ -103,8 +103,8 @@ class _Variables(VariableList):
                 unit="rad/s", start=self.model.speed_rpm * RPM_TO_RAD_S, nominal=100.0,
             )  # fmt: skip
             return
-        text, first = "Torque of the motor about z", float(self.model.torque)
-        self.add("torque", "input", "continuous", text, unit="N.m", start=first, nominal=1.0)
+        text = "Torque of the motor about z"
+        self.add("torque", "input", "continuous", text, unit="N.m", start=0.0, nominal=1.0)
         for b in range(1, len(self.model.stations) + 1):
             self.add(
                 f"bearing[{b}].rolling_torque", "input", "continuous",

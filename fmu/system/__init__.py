@@ -1,14 +1,16 @@
-"""A rotor and its contacts, or a shaft and its bearings, as one archive.
+"""A rotor and its supports, each an FMU, as one archive.
 
 Of System Structure and Parameterization (SSP) 1.0:
 
-=============  =====================================================================================
-module         responsibility
-=============  =====================================================================================
-``structure``  components and wires to ``SystemStructure.ssd``
-``export``     `export_system`: rotor and contacts in, archive out
-``drive``      `export_drive`: a shaft, its bearings and the torque of its motor
-``check``      `verify_system`: the schema, and a load step against `simulate_rotor`
-``master``     a master for such archives, through fmpy
-=============  =====================================================================================
+===============  ===================================================================================
+module           responsibility
+===============  ===================================================================================
+``structure``    components and wires to ``SystemStructure.ssd``
+``export``       `export_system`: rotor in, archive out
+``part``         `Part`: a component, its FMU and its wires to the rotor
+``on_contacts``  a Jeffcott rotor and its contacts as parts; default step
+``on_bearings``  a rotor and its ball bearings as parts; default step; check against `simulate_rotor`
+``check``        `verify_system`: the schema, and a load step against `simulate_rotor`
+``master``       a master for such archives, through fmpy
+===============  ===================================================================================
 """

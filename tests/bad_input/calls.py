@@ -269,10 +269,10 @@ CALLS = {
     "atlas point": (lambda: rm.Atlas().at((200, 10, 0.5)), ("point", "a MoesPoint or an OperatingPoint")),
     # FMUs
     "export for no platform": (
-        lambda: fmu.export_contact(cubic(), "x.fmu", platforms=["linux64", "win32"]),
+        lambda: fmu.export(cubic(), "x.fmu", platforms=["linux64", "win32"]),
         ("platforms", "'win32'", "aarch64-darwin or all"),
     ),
-    "export nowhere": (lambda: fmu.export_contact(cubic(), "/none/x.fmu"), ("path", "in a folder that exists")),
+    "export nowhere": (lambda: fmu.export(cubic(), "/none/x.fmu"), ("path", "in a folder that exists")),
     "verify a file of text": (
         lambda: fmu.verify_references(__file__),
         ("path", "a readable FMU (File is not a zip file)"),

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import tempfile
 import zipfile
+from importlib import import_module
 from math import pi
 from pathlib import Path
 
@@ -38,7 +39,7 @@ def test_a_file_that_is_there_needs_force(call, refused, element, monkeypatch):
     target = element.with_name("mit Leerzeichen ä.fmu")
     target.write_text("kept")
     with monkeypatch.context() as patch:
-        patch.setattr("fmu.export.export_verified", None)  # never reached
+        patch.setattr(import_module("fmu.export"), "export_model", None)  # never reached
         refused(("--output", target.name, "a new file, or replaced with --force"), "export", element, "-o", target)
     assert target.read_text() == "kept"
     result = call("export", element, "-o", target, "--force")
@@ -151,7 +152,7 @@ def test_error_of_an_fmu_in_the_results_of_a_study(tmp_path, monkeypatch, what):
     elif what == "folder":
         target = tmp_path / "none" / "contact.fmu"
     else:
-        monkeypatch.setattr("fmu.export.fmu_files", lambda *_: {}[what])
+        monkeypatch.setattr(import_module("fmu.export"), "fmu_files", lambda *_: {}[what])
     found = export_fmu(SpringContact.cubic(**CUBIC), target)
     assert found["file"] == "contact.fmu" and found["passes"] is False
     assert what in found["error"] and "\n" not in found["error"]
@@ -280,7 +281,9 @@ def test_heat_and_a_layer_of_oil_in_fmus(call, tmp_path):
 def test_a_layer_of_oil_in_the_fmu_of_a_rotor(call, tmp_path):
     study = STUDY.read_text(encoding="utf-8").replace("[whole_bearing]", "[whole_bearing]\nlayer_ratio = 1.0")
     (tmp_path / "s.toml").write_text(study, "utf-8")
-    done = call("export", tmp_path / "s.toml", "-o", tmp_path / "r.fmu", "--rotor", "--inertia", "0.001")
+    done = call(
+        "export", tmp_path / "s.toml", "-o", tmp_path / "r.fmu", "--bearings", "inside", "--inertia", "0.001"
+    )
     assert done.code == 0 and "where a ball carries" in done.err, done
     about = fmpy.read_model_description(str(tmp_path / "r.fmu"))
     assert "; bearing 2: where a ball carries" in about.description
@@ -289,7 +292,7 @@ def test_a_layer_of_oil_in_the_fmu_of_a_rotor(call, tmp_path):
 @pytest.mark.long
 def test_a_study_becomes_a_rotor_with_its_bearings(call, tmp_path):
     fmu = tmp_path / "rotor.fmu"
-    done = call("export", STUDY, "--rotor", "--inertia", "0.001", "-o", fmu, "--json", "-")
+    done = call("export", STUDY, "--bearings", "inside", "--inertia", "0.001", "-o", fmu, "--json", "-")
     assert done.code == 0, done
     found = json.loads(done.out)
     assert found["passes"] is True and 0.0 < found["motion"] < 1e-9
@@ -298,19 +301,21 @@ def test_a_study_becomes_a_rotor_with_its_bearings(call, tmp_path):
 
 
 @pytest.mark.long
-def test_a_study_becomes_a_shaft_and_a_drive(call, refused, tmp_path):
+def test_a_study_becomes_a_shaft_and_a_system(call, refused, tmp_path):
     """Its rotor between its whole bearings, whose FMUs are outside or wired."""
     drive, shaft = tmp_path / "drive.ssp", tmp_path / "shaft.fmu"
-    more = "--drive", "--inertia", "0.001", "--top-rpm", "6000", "--controller", "0.05", "0.2", "0.5"
+    more = "--bearings", "wired", "--inertia", "0.001", "--top-rpm", "6000"
     done = call("export", STUDY, *more, "-o", drive, "--json", "-")
     assert done.code == 0, done
     found = json.loads(done.out)
     assert found["passes"] is True and 0.0 < found["deviation"] < 0.02
     with zipfile.ZipFile(drive) as archive:
-        assert {"resources/shaft.fmu", "resources/bearing_1.fmu", "resources/controller.fmu"} < set(
-            archive.namelist()
-        )
-    done = call("export", STUDY, "--shaft", "-o", shaft)
+        assert set(archive.namelist()) == {
+            "SystemStructure.ssd",
+            "resources/rotor.fmu",
+            "resources/bearing_1.fmu",
+        }
+    done = call("export", STUDY, "--bearings", "outside", "-o", shaft)
     assert done.code == 0 and "co-simulation alone" in done.out and "forces are inputs" in done.out, done
     about = {v.name: v for v in fmpy.read_model_description(str(shaft)).modelVariables}
     study = load_study(STUDY)
@@ -318,37 +323,28 @@ def test_a_study_becomes_a_shaft_and_a_drive(call, refused, tmp_path):
     assert float(about["bearing[1].force_y"].start) == pytest.approx(study.bearing.radial_load, rel=1e-3)
 
 
-def test_shafts_and_drives_that_cannot_be_exported(refused, tmp_path):
+def test_rotors_on_bearings_that_cannot_be_exported(refused, tmp_path):
     fmu, ssp = tmp_path / "x.fmu", tmp_path / "x.ssp"
     text = STUDY.read_text(encoding="utf-8")
     bare, axial = tmp_path / "bare.toml", tmp_path / "axial.toml"
-    turning = "--drive", "--inertia", "0.001"
+    inside, outside, wired = (("--bearings", way) for way in ("inside", "outside", "wired"))
     bare.write_text(text[: text.index("[whole_bearing]")], "utf-8")
     axial.write_text(text.replace("[whole_bearing]", "[whole_bearing]\naxial_load = 50.0"), "utf-8")
     for words, arguments in (
-        (("--inertia", "given with --drive"), (STUDY, "--drive", "-o", ssp)),
-        (("--inertia", "> 0"), (STUDY, "--drive", "--inertia", "0", "-o", ssp)),
-        (("--top-rpm", "at least the speed"), (STUDY, "--drive", "--inertia", "1", "--top-rpm", "9", "-o", ssp)),
-        (("--output", ".fmu"), (STUDY, "--shaft", "-o", ssp)),
-        (("--shaft", "one of both"), (STUDY, "--shaft", "--drive", "-o", ssp)),
-        (("--torque", "without inertia"), (STUDY, "--shaft", "--torque", "3", "-o", fmu)),
-        (("--torque", "--drive"), (STUDY, "--torque", "3", "-o", fmu)),
-        (("--controller", "--drive"), (STUDY, "--shaft", "--controller", "1", "1", "1", "-o", fmu)),
-        (("--controller", "> 0"), (STUDY, *turning, "--controller", "1", "1", "0", "-o", ssp)),
-        (("--controller", "nan"), (STUDY, *turning, "--controller", "nan", "1", "1", "-o", ssp)),
-        (("--shaft", "one of both"), (STUDY, "--shaft", "--rotor", "-o", fmu)),
-        (
-            ("--torque", "input torque of the FMU"),
-            (STUDY, "--rotor", "--torque", "3", "--inertia", "1", "-o", fmu),
-        ),
-        (("--top-rpm", "at least the speed"), (STUDY, "--rotor", "--top-rpm", "9", "-o", fmu)),
-        (("--output", ".fmu"), (STUDY, "--rotor", "-o", ssp)),
-        (("--top-rpm", "no part of a shaft"), (STUDY, "--shaft", "--top-rpm", "6000", "-o", fmu)),
-        (("--lead", "left out"), (STUDY, "--shaft", "--lead", "1", "-o", fmu)),
-        (("--contact", "left out"), (STUDY, "--shaft", "--contact", "e.json", "-o", fmu)),
-        (("--shaft", "[whole_bearing]"), (BEARING, "--shaft", "-o", fmu)),
-        (("bare.toml", "[whole_bearing]"), (bare, "--shaft", "-o", fmu)),
-        (("whole_bearing.axial_load", "planar"), (axial, "--shaft", "-o", fmu)),
+        (("--bearings = 'away'", "inside, outside or wired"), (STUDY, "--bearings", "away", "-o", fmu)),
+        (("--inertia", "> 0"), (STUDY, *wired, "--inertia", "0", "-o", ssp)),
+        (("--inertia", "--bearings"), (STUDY, "--inertia", "1", "-o", fmu)),
+        (("--top-rpm", "at least the speed"), (STUDY, *wired, "--inertia", "1", "--top-rpm", "9", "-o", ssp)),
+        (("--output", ".fmu"), (STUDY, *outside, "-o", ssp)),
+        (("--output", ".ssp"), (STUDY, *wired, "-o", fmu)),
+        (("--top-rpm", "at least the speed"), (STUDY, *inside, "--top-rpm", "9", "-o", fmu)),
+        (("--output", ".fmu"), (STUDY, *inside, "-o", ssp)),
+        (("--top-rpm", "no part of the FMU"), (STUDY, *outside, "--top-rpm", "6000", "-o", fmu)),
+        (("--lead", "left out"), (STUDY, *outside, "--lead", "1", "-o", fmu)),
+        (("--contact", "left out"), (STUDY, *outside, "--contact", "e.json", "-o", fmu)),
+        (("--bearings", "[whole_bearing]"), (BEARING, *outside, "-o", fmu)),
+        (("bare.toml", "[whole_bearing]"), (bare, *outside, "-o", fmu)),
+        (("whole_bearing.axial_load", "planar"), (axial, *outside, "-o", fmu)),
     ):
         refused(words, "export", *arguments)
     assert not fmu.exists() and not ssp.exists()

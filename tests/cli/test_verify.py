@@ -5,7 +5,7 @@ import zipfile
 
 import pytest
 
-from fmu import export_contact
+from fmu import export
 from reduced_models import SpringContact
 
 CUBIC = SpringContact.cubic(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, high=1.0)
@@ -13,7 +13,7 @@ CUBIC = SpringContact.cubic(K1=0.624, K2=0.750, K3=-0.174, C1=0.0130, low=0.75, 
 
 @pytest.fixture(scope="module")
 def good(tmp_path_factory):
-    return export_contact(CUBIC, tmp_path_factory.mktemp("good") / "mit Leerzeichen ä.fmu")
+    return export(CUBIC, tmp_path_factory.mktemp("good") / "mit Leerzeichen ä.fmu")
 
 
 def without(source, target, part, change=lambda name, content: content):

@@ -68,7 +68,7 @@ def readme(tmp_path_factory):
         patch.chdir(folder)
         for block in blocks("README.md"):
             exec(compile("\n" * (block.line - 1) + block.code, "README.md", "exec"), found)
-            if "export_contact(" in block.code and not exported:
+            if "export(" in block.code and not exported:
                 exported = {name: found[name] for name in ("point", "si")}
     return found | exported | {"folder": folder}
 

@@ -292,31 +292,6 @@ def test_a_rotor_in_exudyn(tmp_path):
     assert np.ptp(found["wanted"].displacement[:, 4]) > 1e-6
 
 
-@pytest.mark.slow  # 18 000 steps of three FMUs
-def test_a_gear_free_drive(tmp_path):
-    """Through the critical speed of disc and shaft, 3370 rev/min; torque is lost to bearings and unbalance."""
-    found = example("gear_free_drive").main(str(tmp_path / "drive.png"))
-    assert (tmp_path / "drive.png").read_bytes().startswith(PNG)
-    assert found["gap"] < 2e-3
-    assert found["speed"][0] < 3370.0 and found["speed"][-1] > 5500.0
-    assert np.ptp(found["disc"][:, 0]) > 10.0 * 12.5e-6
-    half = slice(found["speed"].size // 2, -2)
-    assert 0.01 < found["drag"][half].mean() == pytest.approx(found["lost"][half].mean(), rel=0.1)
-
-
-@pytest.mark.slow  # 30 000 steps of four FMUs
-def test_a_speed_controlled_drive(tmp_path, monkeypatch):
-    """As `simulate_rotor` at its speed, which is that of the law of torque; the speed hardly overshoots."""
-    monkeypatch.syspath_prepend(FOLDER)
-    module = example("speed_controlled_drive")
-    found = module.main(str(tmp_path / "drive.png"))
-    assert (tmp_path / "drive.png").read_bytes().startswith(PNG)
-    assert found["gap"] < 2e-3 and found["off"] < 1e-3
-    assert found["torque"].max() == module.TORQUE and abs(found["torque"][-1]) < 1.0
-    assert module.LAST < found["speed"].max() < 1.01 * module.LAST
-    assert found["speed"][-1] == pytest.approx(module.LAST, rel=1e-3)
-
-
 @pytest.mark.long
 def test_orders_of_defects(tmp_path):
     """Clearances of the issue for 9.6 degrees; damping of films falls with preload (Mitsuya et al., 1998)."""

@@ -10,10 +10,11 @@ from typing import Any
 import fmpy
 import numpy as np
 import pytest
+from exported import given
 from fmpy import fmi2
 
 from ehlcontact.point import Scales
-from fmu import export_contact, export_jeffcott
+from fmu import export
 from fmu.driver import Exchange
 from fmu.driver import Slave as DriverSlave
 from fmu.jeffcott.model import JeffcottModel
@@ -145,11 +146,11 @@ class Slave:
 def exported(made_once: Callable, names: Iterable[str], fmi: int) -> dict[str, Path]:
     """FMUs of elements by their names."""
 
-    def export(folder):
+    def write(folder):
         for name in names:
-            export_contact((SPRINGS | FILMS)[name], folder / f"{name}.fmu", fmi=fmi)
+            export((SPRINGS | FILMS)[name], folder / f"{name}.fmu", fmi=fmi)
 
-    folder = made_once(f"fmus {fmi}", export)
+    folder = made_once(f"fmus {fmi}", write)
     return {name: folder / f"{name}.fmu" for name in names}
 
 
@@ -235,7 +236,8 @@ def unit(rotors, tmp_path_factory) -> Callable[..., Unit]:
     def make(name: str, fmi: int = 2) -> Unit:
         if (name, fmi) not in made:
             folder, model = tmp_path_factory.mktemp("rotor"), rotors[name]
-            path = export_jeffcott(model.rotor, folder / "x.fmu", model.contacts, fmi=fmi)
+            source, keywords = given(model)
+            path = export(source, folder / "x.fmu", fmi=fmi, **keywords)
             made[name, fmi] = Unit(path, fmpy.extract(str(path), unzipdir=str(folder / "x")), model, fmi)
         return made[name, fmi]
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from fmu import export_contact
+from fmu import export
 
 casadi = pytest.importorskip("casadi")
 OMEGA_N, END = 2.56, 4.0  # of a mass whose vibration parts the film, in units of 2a/u_sum
@@ -20,7 +20,7 @@ def block(request, elements, tmp_path):
     """``block("wide")``: (x, u) -> (ode, y) of an FMU, of either version."""
 
     def make(kind):
-        path = export_contact(elements[kind], tmp_path / "x.fmu", fmi=request.param)
+        path = export(elements[kind], tmp_path / "x.fmu", fmi=request.param)
         model = casadi.DaeBuilder(kind, str(fmpy.extract(str(path), unzipdir=str(tmp_path / "x"))))
         model.set_y(OUTPUTS)  # CasADi asks for all outputs as real numbers, and the others are Boolean
         assert model.u() == ["approach", "rate"]

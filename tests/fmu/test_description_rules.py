@@ -6,11 +6,11 @@ from zipfile import ZipFile
 
 import pytest
 from bearing_fmus import MODELS
+from exported import model_of
 from fmpy.model_description import ModelDescription
 from fmpy.validation import validate_fmu, validate_model_description
 
 from fmu.description_rules import findings, is_structured
-from fmu.fmu_model import fmu_model
 
 GOOD = "a _ a1 a.b a[1] a[1,2].b[3] der(a) der(a[1].b,2) der der.a".split()
 GOOD += ["'a'", "'a'.b", "'a b'", r"'it\'s'", r"'\\'", "'a;b'", "'/'", "'{|}~'", "'?'"]
@@ -36,7 +36,7 @@ def test_names_are_judged_as_by_fmpy(names, allowed):
 def test_names_of_bearings_are_allowed_by_fmpy():
     """One of those that differ in their numbers alone: fmpy takes seconds for all."""
     for kind in ("planar", "five"):
-        names = [variable.name for variable in fmu_model(MODELS[kind]()).spec.variables]
+        names = [variable.name for variable in model_of(MODELS[kind]()).spec.variables]
         assert all(map(is_structured, names))
         assert allowed_by_fmpy({re.sub(r"\d+", "1", name) for name in names})
 

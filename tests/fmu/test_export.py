@@ -1,4 +1,5 @@
 import dataclasses
+import importlib
 import os
 import stat
 import zipfile
@@ -10,18 +11,20 @@ from programs import shell_script
 
 import fmu.spec
 from ehlcontact.errors import InputError
-from fmu import BuildError, VerificationError, archive, binaries, export_contact, verify
+from fmu import BuildError, VerificationError, archive, binaries, export, verify
 from fmu.binaries.compiler import compilers
 from fmu.contact_spec import contact_spec
-from fmu.export import export_verified
-from fmu.fmu_model import fmu_model
+from fmu.export import export_model
+from fmu.models import fmu_model
 from fmu.sources import CSRC
+
+EXPORT = importlib.import_module("fmu.export")  # the function is `fmu.export`
 
 
 @pytest.mark.parametrize("kind", [pytest.param("cubic_si", marks=pytest.mark.slow), "wide_si"])
 def test_bytes_are_reproducible(fmus, elements, kind, tmp_path, monkeypatch):
     monkeypatch.setenv("EHLCONTACT_CACHE", str(tmp_path / "empty"))
-    again = export_contact(elements[kind], tmp_path / "again.fmu")
+    again = export(elements[kind], tmp_path / "again.fmu")
     assert again.read_bytes() == fmus[kind].read_bytes()
 
 
@@ -46,7 +49,7 @@ def test_guid_follows_content(fmus, elements, tmp_path):
     def guid(path):
         return fmpy.read_model_description(str(path)).guid
 
-    renamed = export_contact(elements["cubic"], tmp_path / "renamed.fmu", model_name="Other")
+    renamed = export(elements["cubic"], tmp_path / "renamed.fmu", model_name="Other")
     assert len({guid(fmus["cubic"]), guid(fmus["cubic_si"]), guid(fmus["linear"]), guid(renamed)}) == 4
 
 
@@ -77,7 +80,7 @@ def test_shipped_licence_is_the_projects():
 def test_any_file_name(elements, tmp_path, name):
     folder = tmp_path / "Prüf stand"
     folder.mkdir()
-    path = export_contact(elements["cubic_si"], folder / name, model_name="Lager 1: Wälzkontakt <&>")
+    path = export(elements["cubic_si"], folder / name, model_name="Lager 1: Wälzkontakt <&>")
     assert path == folder / name
     assert verify(path, elements["cubic_si"]).passes
     assert fmpy.read_model_description(str(path)).modelName == "Lager 1: Wälzkontakt <&>"
@@ -87,9 +90,9 @@ def test_a_file_that_is_there_is_kept_unless_it_may_go(fmus, elements, tmp_path)
     target = tmp_path / "x.fmu"
     target.write_bytes(b"old")
     with pytest.raises(InputError, match=r"a new file, or replaced with overwrite=True") as error:
-        export_contact(elements["cubic"], target)
+        export(elements["cubic"], target)
     assert "\n" not in str(error.value) and target.read_bytes() == b"old"
-    export_contact(elements["cubic"], str(target), overwrite=True)
+    export(elements["cubic"], str(target), overwrite=True)
     assert os.listdir(tmp_path) == ["x.fmu"]
     assert target.read_bytes() == fmus["cubic"].read_bytes()
     mask = os.umask(0)
@@ -101,14 +104,14 @@ def test_one_that_turns_up_meanwhile_is_kept(elements, tmp_path, monkeypatch):
     def meanwhile(*_):
         (tmp_path / "x.fmu").write_bytes(b"another's")
 
-    monkeypatch.setattr("fmu.export.require_verified", meanwhile)
+    monkeypatch.setattr(EXPORT, "require_verified", meanwhile)
     with pytest.raises(InputError, match="a new file"):
-        export_contact(elements["cubic"], tmp_path / "x.fmu")
+        export(elements["cubic"], tmp_path / "x.fmu")
     assert (tmp_path / "x.fmu").read_bytes() == b"another's"
 
 
 def test_unwritable_target_is_one_line(elements, tmp_path, monkeypatch):
-    monkeypatch.setattr("fmu.export.fmu_files", None)  # never reached: it is told before anything is compiled
+    monkeypatch.setattr(EXPORT, "fmu_files", None)  # never reached: it is told before anything is compiled
     (tmp_path / "x.fmu").mkdir()
     cases = {
         "folder that exists": tmp_path / "no" / "x.fmu",
@@ -118,7 +121,7 @@ def test_unwritable_target_is_one_line(elements, tmp_path, monkeypatch):
     }
     for words, path in cases.items():
         with pytest.raises(InputError, match=words) as error:
-            export_contact(elements["cubic"], path, overwrite=True)
+            export(elements["cubic"], path, overwrite=True)
         assert "\n" not in str(error.value)
     assert os.listdir(tmp_path) == ["x.fmu"]
 
@@ -127,12 +130,12 @@ def test_the_longest_file_name_there_is(elements, tmp_path):
     """255 bytes; a temporary name that is made of it would be longer."""
     for name in ("x" * 251 + ".fmu", "ä" * 125 + "x.fmu"):
         assert len(os.fsencode(name)) == 255
-        assert export_contact(elements["cubic"], tmp_path / name).is_file()
+        assert export(elements["cubic"], tmp_path / name).is_file()
     assert len(os.listdir(tmp_path)) == 2
 
 
 def test_what_is_verified_is_what_is_written(fmus, elements, tmp_path):
-    path, found = export_verified(elements["cubic"], tmp_path / "x.fmu")
+    path, found = export_model(fmu_model(elements["cubic"]), tmp_path / "x.fmu")
     assert found.passes and found == verify(path, elements["cubic"])
 
 
@@ -140,24 +143,24 @@ def test_what_is_verified_is_what_is_written(fmus, elements, tmp_path):
 def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, fault):
     """Neither a new file nor in place of an old one."""
     (tmp_path / "old.fmu").write_bytes(b"old")
-    monkeypatch.setattr("fmu.export.require_finite", lambda model: None)
+    monkeypatch.setattr(EXPORT, "require_finite", lambda model: None)
     if fault == "differs":
         wrong = dataclasses.replace(elements["cubic"], C1=0.02)
         model = dataclasses.replace(fmu_model(elements["cubic"]), spec=contact_spec(wrong))
-        monkeypatch.setattr("fmu.export.fmu_model", lambda *_: model)
+        monkeypatch.setattr(EXPORT, "fmu_model", lambda *_, **__: model)
     elif fault == "computes otherwise":  # and says nothing wrong of itself
         monkeypatch.setattr(
-            "fmu.export.pack", spoiled("model_contact.c", "times(3.0, law->K3)", "times(3.001, law->K3)")
+            EXPORT, "pack", spoiled("model_contact.c", "times(3.0, law->K3)", "times(3.001, law->K3)")
         )
     elif fault == "does not run":
         step = "fault = model_step(&next, &motion, h, s->tolerance);"
         refusal = 'fault = (Fault){DISCARD, "nothing holds the ball"};'
-        monkeypatch.setattr("fmu.export.pack", spoiled("core_step.c", step, refusal))
+        monkeypatch.setattr(EXPORT, "pack", spoiled("core_step.c", step, refusal))
     else:
-        monkeypatch.setattr("fmu.export.pack", lambda files: b"no zip")
+        monkeypatch.setattr(EXPORT, "pack", lambda files: b"no zip")
     for name in ("new.fmu", "old.fmu"):
         with pytest.raises(VerificationError) as error:
-            export_contact(elements["cubic"], tmp_path / name, overwrite=True)
+            export(elements["cubic"], tmp_path / name, overwrite=True)
         assert "\n" not in str(error.value)
         if fault == "computes otherwise":
             assert error.value.found.findings == () and error.value.found.tangents > 1e-6
@@ -169,34 +172,34 @@ def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, f
 @pytest.mark.parametrize("fmi", [4, 1, "2", True])
 def test_only_fmi_2_and_3(elements, tmp_path, fmi):
     with pytest.raises(InputError, match="2 or 3"):
-        export_contact(elements["cubic"], tmp_path / "x.fmu", fmi=fmi)
+        export(elements["cubic"], tmp_path / "x.fmu", fmi=fmi)
 
 
 @pytest.mark.parametrize("name", ["", "   ", "a\nb", "a\x00b", "x" * 101, 3])
 def test_bad_model_name(elements, tmp_path, name):
     with pytest.raises(InputError, match="model_name"):
-        export_contact(elements["cubic"], tmp_path / "x.fmu", model_name=name)
+        export(elements["cubic"], tmp_path / "x.fmu", model_name=name)
 
 
 def test_bad_element_and_suffix(elements, tmp_path):
     with pytest.raises(InputError, match="a contact element"):
-        export_contact(object(), tmp_path / "x.fmu")
+        export(object(), tmp_path / "x.fmu")
     with pytest.raises(InputError, match=r"ending in \.fmu"):
-        export_contact(elements["cubic"], tmp_path / "x.zip")
+        export(elements["cubic"], tmp_path / "x.zip")
 
 
 def test_compiler_that_is_missing_or_fails(elements, tmp_path, monkeypatch):
     monkeypatch.setenv("EHLCONTACT_CC", "/nonexistent/cc -m64")
     with pytest.raises(BuildError, match="cannot start the C compiler"):
-        export_contact(elements["cubic"], tmp_path / "x.fmu")
+        export(elements["cubic"], tmp_path / "x.fmu")
     script = shell_script(tmp_path / "cc", "echo 'model.h: error: no such thing' >&2\nexit 3")
     monkeypatch.setenv("EHLCONTACT_CC", script)
     with pytest.raises(BuildError, match=r"exit code 3.*model\.h: error: no such thing") as error:
-        export_contact(elements["cubic"], tmp_path / "x.fmu")
+        export(elements["cubic"], tmp_path / "x.fmu")
     assert "\n" not in str(error.value)
     shell_script(tmp_path / "cc", "exit 0")
     with pytest.raises(BuildError, match="made no library"):
-        export_contact(elements["cubic"], tmp_path / "x.fmu")
+        export(elements["cubic"], tmp_path / "x.fmu")
     assert not (tmp_path / "x.fmu").exists()
 
 
@@ -208,7 +211,7 @@ def test_either_compiler_gives_the_same_model(elements, tmp_path, monkeypatch, c
     if not found:
         pytest.skip("no system C compiler")
     monkeypatch.setattr("fmu.binaries.libraries.compilers", lambda target: found)
-    path = export_contact(elements["cubic"], tmp_path / "x.fmu")
+    path = export(elements["cubic"], tmp_path / "x.fmu")
     assert verify(path, elements["cubic"]).passes
     with zipfile.ZipFile(path) as archive:
         assert found[0].label in archive.read("documentation/index.html").decode()
@@ -217,12 +220,12 @@ def test_either_compiler_gives_the_same_model(elements, tmp_path, monkeypatch, c
 def test_other_machines_are_told_what_to_ask_for(elements, tmp_path, monkeypatch):
     monkeypatch.setattr("platform.machine", lambda: "riscv64")
     with pytest.raises(InputError, match=r"not built for this machine, .* riscv64"):
-        export_contact(elements["cubic"], tmp_path / "x.fmu")
+        export(elements["cubic"], tmp_path / "x.fmu")
 
 
 def test_no_library_is_called_like_a_device_of_windows(elements, tmp_path):
     assert contact_spec(elements["cubic"], "Com1").identifier == "mCom1"
-    path = export_contact(elements["cubic"], tmp_path / "x.fmu", model_name="NUL")
+    path = export(elements["cubic"], tmp_path / "x.fmu", model_name="NUL")
     with zipfile.ZipFile(path) as archive:
         (library,) = [Path(entry).stem for entry in archive.namelist() if entry.startswith("binaries/")]
     assert library == "mNUL" and fmpy.read_model_description(str(path)).modelName == "NUL"

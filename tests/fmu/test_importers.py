@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from other_masters import ecos
 
-from fmu import export_contact
+from fmu import export
 from reduced_models import SpringContact
 
 DEFAULT = 1.5  # lead
@@ -119,7 +119,7 @@ def damping_of_loop(advance, h, periods=40):
 @pytest.mark.parametrize(("importer", "fmi"), [(libcosimpy, 2), (ecospy, 2), (ecospy, 3)])  # OSP knows no FMI 3
 def test_the_loop_of_every_tutorial(tmp_path, importer, fmi):
     """Set, step, get, symplectic Euler: lead 1, set at export, keeps the damping at 1e-5 s; stable at 1e-4 s."""
-    path = export_contact(BALL, tmp_path / "ball.fmu", fmi=fmi, lead=1.0)
+    path = export(BALL, tmp_path / "ball.fmu", fmi=fmi, lead=1.0)
     with importer(path, 1e-5) as advance:
         damping, _ = damping_of_loop(advance, 1e-5)
     assert damping == pytest.approx(BALL.C1, rel=0.05)

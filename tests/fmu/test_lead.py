@@ -89,10 +89,10 @@ BALL = SpringContact.cubic(1.29e8, 0.0, 0.0, 44.0, 5e-6, 9e-6, units="SI")
 def ball(tmp_path_factory):
     import fmpy
 
-    from fmu import export_contact
+    from fmu import export
 
     folder = tmp_path_factory.mktemp("ball")
-    return fmpy.extract(str(export_contact(BALL, folder / "ball.fmu")), unzipdir=str(folder / "x"))
+    return fmpy.extract(str(export(BALL, folder / "ball.fmu")), unzipdir=str(folder / "x"))
 
 
 @pytest.fixture

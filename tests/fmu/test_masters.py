@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from other_masters import archive, built_by_pythonfmu, ecospy, libcosimpy, ours
 
-from fmu import export_contact
+from fmu import export
 from fmu.system.structure import Component, Connector, Wire
 
 STUDIES = Path(__file__).parents[2] / "examples" / "studies"
@@ -60,7 +60,7 @@ def fmus(study, loop, tmp_path_factory):
     folder = tmp_path_factory.mktemp("masters")
     text = MASS.format(load=study["LOAD"], start=loop.start, mass=study["MASS"])
     built_by_pythonfmu(folder, "mass", text)
-    export_contact(loop.element, folder / "Contact.fmu")
+    export(loop.element, folder / "Contact.fmu")
     return folder
 
 

@@ -11,7 +11,7 @@ import pytest
 from fmpy.util import read_csv, read_ref_opt_file
 
 from ehlcontact.errors import InputError
-from fmu import VerificationError, export_contact, verify, verify_references
+from fmu import VerificationError, export, verify, verify_references
 from fmu.archive import pack
 from fmu.binaries import build_binaries, this_machine
 from fmu.comparison import difference
@@ -246,9 +246,9 @@ def test_what_is_missing_or_does_not_run_is_a_finding(fmus, tmp_path):
 def test_export_does_not_write_what_its_references_contradict(elements, tmp_path, monkeypatch):
     """Made of another element than what the FMU was verified against."""
     other = dataclasses.replace(elements["cubic"], C1=0.0131)
-    monkeypatch.setattr("fmu.fmu_model.contact_references", lambda element, spec: contact_references(other, spec))
+    monkeypatch.setattr("fmu.models.contact_references", lambda element, spec: contact_references(other, spec))
     with pytest.raises(VerificationError, match=r"differs from its reference results: .*damping"):
-        export_contact(elements["cubic"], tmp_path / "x.fmu")
+        export(elements["cubic"], tmp_path / "x.fmu")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -262,7 +262,7 @@ def test_references_of_other_models(elements, tmp_path):
         MANIFEST, "experiments.exp", "CubicContact.ssv",
         *(f"CubicContact_{ending}" for ending in ("in.csv", "ref.csv", "ref.opt")),
     }  # fmt: skip
-    path = export_contact(elements["cubic"], tmp_path / "x.fmu")
+    path = export(elements["cubic"], tmp_path / "x.fmu")
     with zipfile.ZipFile(path) as archive:
         old = {n: archive.read(n) for n in archive.namelist() if not n.startswith("extra")}
     (tmp_path / "y.fmu").write_bytes(pack(old | files))

@@ -15,16 +15,16 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from exported import model_of
 from fmpy.build import build_platform_binary
 from fmpy.validation import validate_fmu
 
 from ehlcontact import Lubricant
-from fmu import SpeedController, export_contact, verify
+from fmu import export, verify
 from fmu.archive import content_guid
 from fmu.bearing.model import BearingModel
 from fmu.comparison import film_motion, state_grid
 from fmu.contact_spec import contact_spec
-from fmu.fmu_model import fmu_model
 from fmu.jeffcott.laws import distinct, law_source
 from fmu.rotor.model import RotorModel
 from fmu.shaft.model import ShaftModel
@@ -40,7 +40,6 @@ CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]
 ROTORS = ["rotor alone", "rotor mixed", "rotor wide in y"]
 BEARINGS = ["bearing planar", "bearing five"]
 SHAFTS = ["shaft", "whole rotor"]
-CONTROLLERS = ["controller"]
 FUZZ = {2: "fuzz.c", 3: "fuzz3.c"}
 MANY = 1_250_000  # calls of each version of FMI, over all kinds
 FEW = 20_000  # of each kind, in the default suite
@@ -88,7 +87,6 @@ def models(elements, rotors):
     shafts = {
         "shaft": ShaftModel(shaft, 3e3, inertia=0.02),
         "whole rotor": RotorModel(whole, 3e3, inertia=0.02),
-        "controller": SpeedController(3e3, proportional_gain=1.0, integral_gain=1e4, torque_limit=50.0),
     }
     return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings | shafts
 
@@ -114,7 +112,7 @@ def compiled(compiler, models, tmp_path_factory):
         include = ["-I", standard_folder()] if fmi == 3 else []
         folder = folders.get((name, fmi, *how))
         if folder is None:
-            folder, spec = tmp_path_factory.mktemp(f"{name}{fmi}".replace(" ", "_")), fmu_model(models[name]).spec
+            folder, spec = tmp_path_factory.mktemp(f"{name}{fmi}".replace(" ", "_")), model_of(models[name]).spec
             for file, content in source_files(spec, content_guid(spec, fmi), fmi).items():
                 (folder / file).write_bytes(content)
             for unit in folder.glob("*.c"):
@@ -137,9 +135,6 @@ def random_calls_of(name):
         # the first of them must not be negative, as motions may be
         given = {"INPUTS": "0,FIRST_DRIVE", "OUTPUTS": "VR_mass_scale,VR_angle,FIRST_VELOCITY"}
         return [f"-DFUZZ_{macro}={text}" for macro, text in (given | {"USUAL": "1e2", "STEP": "1e-5"}).items()]
-    if name in CONTROLLERS:
-        given = {"INPUTS": "0,1", "OUTPUTS": "VR_torque_limit,VR_torque,VR_lead", "USUAL": "1e2", "STEP": "1e-5"}
-        return [f"-DFUZZ_{macro}={text}" for macro, text in given.items()]
     if name not in ROTORS:
         return []
     first = "FIRST_STATE+4*AXES" if "alone" in name else "FIRST_FORCE"  # the angle, or a force
@@ -156,7 +151,7 @@ def but(few, *others, long=()):
 @pytest.mark.parametrize(
     "name",
     but(
-        ["shaft", *CONTROLLERS],
+        ["shaft"],
         *(("rotor alone",), ("rotor alone in y",), ("bearing planar",), ("bearing dry",)),
         long=(("rotor mixed",), ("bearing five",), ("whole rotor",)),
     ),
@@ -193,7 +188,7 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
         *((2, name) for name in ("polynomial", "power_si", "memory", "rotor alone", "rotor wide in y")),
         *((2, "bearing planar"), (3, "cubic")),
         long=(
-            *((2, name) for name in ("wide_si", "rotor mixed", "bearing five", "whole rotor", *CONTROLLERS)),
+            *((2, name) for name in ("wide_si", "rotor mixed", "bearing five", "whole rotor")),
             (3, "rotor mixed"),
         ),
     ),
@@ -207,7 +202,7 @@ def test_random_calls_under_sanitizers(compiled, fmi, name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CONTACTS + BEARINGS + SHAFTS + CONTROLLERS)
+@pytest.mark.parametrize("name", CONTACTS + BEARINGS + SHAFTS)
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_million_random_calls_under_sanitizers(compiled, fmi, name):
     program = compiled(name, fmi, SANITIZED, FUZZ[fmi], random_calls_of(name))
@@ -303,7 +298,7 @@ def test_other_checkers_find_nothing(elements, unit, name, fmi, tmp_path):
     if name in ROTORS:
         path = unit(name.removeprefix("rotor "), fmi).path
     else:
-        path = export_contact(elements[name], tmp_path / "x.fmu", fmi=fmi)
+        path = export(elements[name], tmp_path / "x.fmu", fmi=fmi)
     assert validate_fmu(str(path)) == []
     done = run([Path(sys.executable).with_name("fmutool"), "-input", path, "-check"])
     said = done.stdout + done.stderr

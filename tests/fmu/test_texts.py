@@ -12,7 +12,7 @@ from fmpy.validation import validate_fmu
 from PIL import Image
 
 from ehlcontact.errors import InputError
-from fmu import export_contact
+from fmu import export
 from fmu.archive import ICON
 from fmu.c_headers import c_double
 from fmu.contact_spec import contact_spec
@@ -174,7 +174,7 @@ def test_page_names_the_largest_step_of_each_coupling(elements):
 
 @pytest.mark.parametrize(("fmi", "place"), [(2, "model.png"), (3, "terminalsAndIcons/icon.png")])
 def test_icon_is_in_the_fmu(elements, tmp_path, fmi, place):
-    path = export_contact(elements["cubic"], tmp_path / "x.fmu", fmi=fmi)
+    path = export(elements["cubic"], tmp_path / "x.fmu", fmi=fmi)
     with zipfile.ZipFile(path) as archive:
         assert archive.read(place) == ICON.read_bytes()
         assert sum(name.endswith(".png") for name in archive.namelist()) == 1

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from fmu import export_jeffcott, export_rotor, verify
+from fmu import export, verify
 from fmu.comparison import film_motion, state_grid
 from reduced_models import BallBearing, BearingMount, JeffcottRotor, Rotor
 
@@ -51,10 +51,10 @@ def test_grid_reaches_every_branch(elements, spring_kind):
 
 
 def test_element_without_damper(elements, tmp_path):
-    from fmu import export_contact
+    from fmu import export
 
     element = dataclasses.replace(elements["cubic"], C1=0.0)
-    found = verify(export_contact(element, tmp_path / "x.fmu"), element)
+    found = verify(export(element, tmp_path / "x.fmu"), element)
     assert found.passes
 
 
@@ -179,17 +179,41 @@ def test_fmu_of_another_kind(fmus, elements):
         verify(fmus["cubic"], elements["memory"])
 
 
-def test_each_export_names_the_other_for_its_rotor(tmp_path, elements):
-    with pytest.raises(InputError, match=r"must be a Rotor .of a JeffcottRotor: export_jeffcott"):
-        export_rotor(JEFFCOTT, tmp_path / "x.fmu", speeds_rpm=3000.0)
-    with pytest.raises(InputError, match=r"must be a JeffcottRotor .of a Rotor: export_rotor"):
-        export_jeffcott(ROTOR, tmp_path / "x.fmu", [elements["cubic_si"]])
-
-
-@pytest.mark.parametrize("name", ["bearing.BearingModel", "jeffcott.JeffcottModel", "rotor.RotorModel"])
-def test_what_is_no_model_names_the_model(fmus, name):
-    package, _, model = name.partition(".")
-    assert hasattr(importlib.import_module(f"fmu.{package}"), model)
-    given = {"bearing": BEARING, "jeffcott": JEFFCOTT, "rotor": ROTOR}[package]
-    with pytest.raises(InputError, match=rf"must be {model}\(.*of `fmu.{package}`: what export_{package} makes"):
-        verify(fmus["cubic"], given)
+@pytest.mark.parametrize(
+    ("model", "keywords", "words"),
+    [
+        (JEFFCOTT, {}, r"^contacts = None: must be one per mount, 1, or outside=\('contact 1',\)"),
+        (
+            JEFFCOTT,
+            {"contacts": [], "outside": ["contact 2"]},
+            r"^outside = 'contact 2': must be of \('contact 1',\)",
+        ),
+        (JEFFCOTT, {"contacts": ["cubic"], "outside": "all"}, r"^contacts = 1: must be left out: outside="),
+        (JEFFCOTT, {"speeds_rpm": 3000.0}, r"^speeds_rpm = 3000.0: must be left out for a JeffcottRotor"),
+        (ROTOR, {"contacts": ["cubic"]}, r"^contacts = \['cubic'\]: must be left out for a Rotor"),
+        (ROTOR, {}, r"^speeds_rpm = None: must be those of the ball bearings inside, or outside=\('bearing 0',\)"),
+        (
+            ROTOR,
+            {"outside": "all", "speeds_rpm": 3000.0},
+            "^speeds_rpm = 3000.0: must be left out: no ball bearing",
+        ),
+        (ROTOR, {"outside": "bearing 0", "load": 3.0}, r"^load = 3.0: must be left out for a Rotor"),
+        (BEARING, {"outside": "all"}, r"^outside = 'all': must be left out for a ball bearing"),
+        (
+            BEARING,
+            {"speeds_rpm": 3000.0, "directions": ("x",)},
+            r"^directions = \['x'\]: must be \('x', 'y'\) or ",
+        ),
+        ("cubic", {}, r"^model = 'str': must be a contact element .*, a BallBearing, a Rotor or a JeffcottRotor"),
+    ],
+)
+def test_keywords_are_those_of_the_model(fmus, tmp_path, model, keywords, words):
+    """Of an export and of a verification alike."""
+    for call in (
+        lambda: export(model, tmp_path / "x.fmu", **keywords),
+        lambda: verify(fmus["cubic"], model, **keywords),
+    ):
+        with pytest.raises(InputError, match=words) as caught:
+            call()
+        assert "\n" not in str(caught.value)
+    assert not list(tmp_path.iterdir())

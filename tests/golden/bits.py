@@ -54,7 +54,7 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.film import film_of, film_wave, track_wave
-from fmu import export_contact, export_jeffcott, export_system
+from fmu import export, export_system
 from reduced_models import (
     Atlas,
     BallBearing,
@@ -497,20 +497,20 @@ def fmus() -> Leaves:
         warnings.simplefilter("ignore")
         for fmi in (2, 3):
             for name, contact in made.items():
-                path = export_contact(contact, Path(folder) / f"{name}{fmi}.fmu", fmi=fmi)
+                path = export(contact, Path(folder) / f"{name}{fmi}.fmu", fmi=fmi)
                 yield from texts(f"{name} {fmi}", path)
                 scale = (contact.high - contact.low) * (1.0 if contact.units == "dimensionless" else 2e4)
                 yield from fmu_steps(f"{name} {fmi}", path, contact, scale)
             closed = [made["wide in SI"], made["wide in SI"].copy()]
             for name, contacts in (("rotor alone", None), ("rotor", closed)):
-                path = export_jeffcott(VEE, Path(folder) / f"{name}{fmi}.fmu", contacts, fmi=fmi)
+                path = export(VEE, Path(folder) / f"{name}{fmi}.fmu", contacts=contacts, fmi=fmi)
                 yield from texts(f"{name} {fmi}", path)
                 for kind, dt in (("CoSimulation", 1e-5), ("ModelExchange", 1e-7)):
                     options = {"solver": "Euler", "stop_time": 200 * dt, "step_size": dt, "output_interval": dt}
                     found = simulate_fmu(str(path), fmi_type=kind, **options)
                     for column in found.dtype.names:
                         yield f"{name} {fmi} {kind}.{column}", np.asarray(found[column])
-            path = export_system(VEE, closed, Path(folder) / f"system{fmi}.ssp", fmi=fmi)
+            path = export_system(VEE, Path(folder) / f"system{fmi}.ssp", contacts=closed, fmi=fmi)
             yield from texts(f"system {fmi}", path)
 
 

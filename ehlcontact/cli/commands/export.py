@@ -1,4 +1,4 @@
-"""``ehlcontact export``: elements, bearings, rotors and shafts as FMUs; systems of these."""
+"""``ehlcontact export``: elements, bearings and rotors as FMUs; systems of these."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from ehlcontact.errors import InputError
 from ehlcontact.store import read
 
 if TYPE_CHECKING:
-    from fmu import SpeedController
-    from fmu.bearing.model import BearingModel
-    from fmu.jeffcott.model import JeffcottModel
-    from fmu.rotor.model import RotorModel
-    from fmu.shaft.model import ShaftModel
+    from fmu.models import FmuModel
     from fmu.system.check import SystemVerification
+    from fmu.system.export import SystemModel
     from fmu.verification import Verification
+    from reduced_models import JeffcottRotor, Rotor
+
+WAYS = {"inside": ".fmu", "outside": ".fmu", "wired": ".ssp"}  # of --bearings: ending of the file
 
 
 @o.grouped
@@ -65,41 +65,22 @@ def export(
             " docs/coupling.md.",
         ),
     ] = None,
-    shaft: Annotated[
-        bool,
+    bearings: Annotated[
+        str | None,
         typer.Option(
-            "--shaft", help="Of a study with whole_bearing: its rotor without these bearings, which are outside."
+            "--bearings",
+            metavar="inside|outside|wired",
+            help="Of a study with whole_bearing: its rotor on these bearings, which are inside its FMU, outside"
+            " (their forces are inputs), or each an FMU, wired in a system archive (SSP).",
         ),
-    ] = False,
-    drive: Annotated[
-        bool,
-        typer.Option(
-            "--drive",
-            help="Of a study with whole_bearing: that shaft, its bearings and the torque of a motor as a system"
-            " archive (SSP).",
-        ),
-    ] = False,
-    rotor: Annotated[
-        bool,
-        typer.Option(
-            "--rotor", help="Of a study with whole_bearing: that shaft with its bearings inside, as one FMU."
-        ),
-    ] = False,
+    ] = None,
     inertia: Annotated[
         float | None,
         typer.Option(
             "--inertia",
             metavar="KG_M2",
-            help="Polar moment of inertia of all that turns with the shaft; without it the speed of --shaft and"
-            " --rotor is an input.",
-        ),
-    ] = None,
-    torque: Annotated[
-        float | None,
-        typer.Option(
-            "--torque",
-            metavar="N_M",
-            help="Of the motor, at the start; with --inertia. The FMU of --rotor has it as an input.",
+            help="Polar moment of inertia of all that turns with the shaft: the torque of the motor is an input of"
+            " --bearings; without it the speed is.",
         ),
     ] = None,
     top_rpm: Annotated[
@@ -107,17 +88,7 @@ def export(
         typer.Option(
             "--top-rpm",
             metavar="REV/MIN",
-            help="Highest speed that the bearings of --drive and --rotor have tables for; by default the speed of"
-            " the study.",
-        ),
-    ] = None,
-    controller: Annotated[
-        tuple[float, float, float] | None,
-        typer.Option(
-            "--controller",
-            metavar="P I N_M",
-            help="Of --drive: keeps the speed, at first that of the study, by a proportional gain [N m s/rad] and"
-            " an integral gain [N m/rad], with a largest torque.",
+            help="Highest speed that bearings inside or wired have tables for; by default the speed of the study.",
         ),
     ] = None,
     fmi: Annotated[int, typer.Option("--fmi", help="FMI version, 2 or 3.")] = 2,
@@ -134,72 +105,62 @@ def export(
     force: Annotated[bool, typer.Option("--force", help="Replace the file if there is one.")] = False,
 ) -> None:
     """Export a contact, a bearing, or the rotor of a study as an FMU or a system of FMUs, once it is verified."""
-    turning = shaft or drive or rotor
     if fmi not in (2, 3):
         raise InputError("--fmi", fmi, "2 or 3")
     toml = file.suffix.lower() == ".toml"
     bearing = toml and "operation" in read_toml(str(file), "file")  # which no study has
     study = toml and not bearing
-    if contact is not None and (not study or turning):
+    if contact is not None and (not study or bearings is not None):
         raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor on contacts")
-    if controller is not None and not drive:
-        raise InputError("--controller", list(controller), "left out, but with --drive")
-    chosen = [option for option, on in (("--shaft", shaft), ("--drive", drive), ("--rotor", rotor)) if on]
-    _check_turning(output, study, chosen, inertia=inertia, torque=torque, top_rpm=top_rpm)
+    _check_bearings(output, study, bearings, inertia=inertia, top_rpm=top_rpm)
     if not study and output.suffix.lower() == ".ssp":
         allowed = "a file name ending in .fmu: a system (.ssp) is made of a study (.toml) with a rotor"
         raise InputError("--output", str(output), allowed)
     if lead is not None and study and output.suffix.lower() == ".fmu":
-        inside = "the bearings are no part of it" if shaft else "the contacts of this rotor are inside its FMU"
+        inside = (
+            "the bearings are no part of it"
+            if bearings == "outside"
+            else "the contacts of this rotor are inside its FMU"
+        )
         raise InputError("--lead", lead, f"left out: {inside}")
     out.check(file, contact, beside={"--output": (output, (".fmu", ".ssp") if study else (".fmu",))})
     check_new("--output", output, force)
     from fmu import BuildError, VerificationError
     from fmu.binaries import choose
-    from reduced_models import ContactElement
 
-    exported: Any
-    more: dict[str, Any] = {}
-    if turning:
-        exported = _shaft_of(file, inertia, torque)
-        if not shaft:
-            speed = exported.speed_rpm
-            top = speed if top_rpm is None else top_rpm
-            if top < speed:
-                raise InputError("--top-rpm", top, f"at least the speed of the study, {speed:g} rev/min")
-            if rotor:
-                exported = _with_bearings(exported, top)
-            else:
-                more = {"speeds_rpm": (speed, top)}
-                if controller is not None:
-                    more["controller"] = _controller_of(speed, controller)
-    elif study:
-        exported = _rotor_of(file, contact)
-    else:
-        exported = _bearing_of(file) if bearing else read(file, ContactElement)
     system = output.suffix.lower() == ".ssp"
+    named = {} if name is None else {"model_name": name}
+    given = {} if lead is None else {"lead": lead}
+    names = {
+        "model_name": "--name",
+        "platforms": "--platform",
+        "path": "--output",
+        "lead": "--lead",
+        "element": str(file),
+        "model": str(file),
+        "inertia": "--inertia",
+        "speed_rpm": "--top-rpm",
+        "speeds_rpm": "--top-rpm",
+    }
+    exported: Any
     try:
-        names = {
-            "model_name": "--name",
-            "platforms": "--platform",
-            "path": "--output",
-            "lead": "--lead",
-            "element": str(file),
-            "speed_rpm": "--top-rpm",
-            "speeds_rpm": "--top-rpm",
-        }
+        with o.called(**names):
+            if bearings is not None:
+                exported = _on_bearings(file, bearings, inertia, top_rpm, named)
+            elif study:
+                exported = _on_contacts(file, contact, system=system, named=named)
+            else:
+                exported = _bearing_of(file, named | given) if bearing else _element_of(file, named | given)
         with progress("compiling") as told, o.called(**names):
             built = [one.name for one in choose(platform or None, fmi)]
-            _, found = _exporter(system, drive=drive)(
+            _, found = _exporter(system)(
                 exported,
                 output,
                 fmi=fmi,
                 platforms=platform or None,
                 overwrite=force,
                 progress=told,
-                **({} if name is None else {"model_name": name}),
-                **({} if lead is None else {"lead": lead}),
-                **more,
+                **(named | given if system else {}),
             )
     except (BuildError, VerificationError) as error:
         complain(f"no {'system' if system else 'FMU'} was written: {error}")
@@ -208,11 +169,11 @@ def export(
     document = {
         "system" if system else "fmu": str(output),
         "fmi": f"{fmi}.0",
-        "units": "SI" if toml else exported.units,
+        "units": "SI" if toml else exported.source.units,
         "platforms": built,
         **verdict,
     }
-    uses = "co-simulation alone" if turning else "co-simulation and model exchange"
+    uses = "co-simulation and model exchange" if bearings is None else "co-simulation alone"
     version = "FMI", f"{fmi}.0", uses
     rows = [
         *_about(exported, system),
@@ -220,56 +181,57 @@ def export(
         ("binaries", str(len(built)), ", ".join(built)),
         *_advice(exported, found),
     ]
-    out.deliver(document, (str(output), [*rows, *_rows(found, rotor=study, shaft=shaft or rotor)]))
+    out.deliver(document, (str(output), [*rows, *_rows(found, rotor=study, shaft=bearings is not None)]))
 
 
-def _check_turning(output: Path, study: bool, chosen: list[str], **values: float | None) -> None:
-    """Options of shafts, drives and rotors: of a study alone, one of them, with a file of its kind."""
+def _check_bearings(output: Path, study: bool, bearings: str | None, **values: float | None) -> None:
+    """Options of rotors on whole bearings: of a study alone, with a file of its kind."""
     given = {f"--{name.replace('_', '-')}": value for name, value in values.items() if value is not None}
-    if len(chosen) > 1:
-        raise InputError(chosen[0], chosen[1], "one of both")
-    if not chosen:
+    if bearings is None:
         for option, value in given.items():
-            raise InputError(option, value, "left out, but with --shaft, --drive or --rotor")
+            raise InputError(option, value, "left out, but with --bearings")
         return
-    option, ending = chosen[0], ".ssp" if chosen == ["--drive"] else ".fmu"
+    if bearings not in WAYS:
+        raise InputError("--bearings", bearings, "inside, outside or wired")
     if not study:
-        raise InputError(option, "another file", "given with a study (.toml) that has [whole_bearing]")
-    if output.suffix.lower() != ending:
-        raise InputError("--output", str(output), f"a file name ending in {ending}, for {option}")
-    if option == "--shaft" and "--top-rpm" in given:
-        raise InputError("--top-rpm", given["--top-rpm"], "left out: the bearings are no part of a shaft")
-    if option == "--rotor" and "--torque" in given:
-        raise InputError("--torque", given["--torque"], "left out: it is the input torque of the FMU")
-    if option == "--drive" and "--inertia" not in given:
-        raise InputError("--inertia", None, "given with --drive")
-    for name in {"--inertia", "--top-rpm"} & given.keys():
-        require_positive(name, given[name])
+        raise InputError("--bearings", "another file", "given with a study (.toml) that has [whole_bearing]")
+    if output.suffix.lower() != WAYS[bearings]:
+        allowed = f"a file name ending in {WAYS[bearings]}, for --bearings {bearings}"
+        raise InputError("--output", str(output), allowed)
+    if bearings == "outside" and "--top-rpm" in given:
+        raise InputError("--top-rpm", given["--top-rpm"], "left out: the bearings are no part of the FMU")
+    for name, value in given.items():
+        require_positive(name, value)
 
 
-def _exporter(system: bool, *, drive: bool) -> Any:
+def _exporter(system: bool) -> Any:
     """What writes such a file."""
-    if drive:
-        from fmu.system.drive import export_verified_drive
-
-        return export_verified_drive
     if system:
         from fmu.system.export import export_verified_system
 
         return export_verified_system
-    from fmu.export import export_verified
+    from fmu.export import export_model
 
-    return export_verified
+    return export_model
 
 
-def _bearing_of(file: Path) -> BearingModel:
+def _element_of(file: Path, keywords: dict[str, Any]) -> FmuModel:
+    """A contact element from a file."""
+    from fmu.models import fmu_model
+    from reduced_models import ContactElement
+
+    element: Any = read(file, ContactElement)
+    return fmu_model(element, **keywords)
+
+
+def _bearing_of(file: Path, keywords: dict[str, Any]) -> FmuModel:
     """The bearing of a bearing file, from its lowest to its highest speed, at rest under its load."""
     from ehlcontact.cli.study.bearing import load_job
-    from fmu.bearing.model import BearingModel
+    from fmu.models import fmu_model
 
     job = load_job(str(file), {})
     if job.pair is not None:
-        allowed = "left out: the FMU is that of one bearing; a rotor with pairs is an FMU by export_rotor"
+        allowed = "left out: the FMU is that of one bearing; a rotor with pairs is an FMU by fmu.export"
         raise InputError(f"{file}: pair.arrangement", job.pair.name, allowed)
     if job.tilt is not None:
         allowed = "left out: tilts are inputs of the FMU"
@@ -277,14 +239,28 @@ def _bearing_of(file: Path) -> BearingModel:
     speeds = sorted({job.speeds[0], job.speeds[-1]})
     with job.called():
         bearing = replace(job.bearing, supply=job.supply, thermal=job.thermal)
-        return BearingModel(bearing, speeds, job.load)
+        return fmu_model(bearing, speeds_rpm=speeds, load=job.load, **keywords)
 
 
-def _rotor_of(file: Path, contact: Path | None) -> JeffcottModel:
+def _on_contacts(
+    file: Path, contact: Path | None, *, system: bool, named: dict[str, Any]
+) -> FmuModel | SystemModel:
     """The rotor of a study, closed with an element from a file, or from the atlas."""
+    from fmu.models import fmu_model
+    from fmu.system.export import system_model
+
+    rotor, element, place = _rotor_and_element(file, contact)
+    contacts = [element] * len(rotor.mounts)
+    with o.called(contacts=place):
+        made = system_model(rotor, contacts=contacts) if system else fmu_model(rotor, contacts=contacts, **named)
+    rotor.check([element.copy()] * len(contacts))
+    return made
+
+
+def _rotor_and_element(file: Path, contact: Path | None) -> tuple[JeffcottRotor, Any, str]:
+    """The rotor of a study, an element in SI, and where the latter is from."""
     from ehlcontact.cli.study.rotor import build_rotor
     from ehlcontact.cli.study.schema import load_study
-    from fmu.jeffcott.model import JeffcottModel
     from reduced_models import ContactElement
     from reduced_models.atlas.atlas import Atlas
 
@@ -292,70 +268,65 @@ def _rotor_of(file: Path, contact: Path | None) -> JeffcottModel:
     if "rotor" not in study.model_fields_set:
         raise InputError("file", str(file), "a study with a rotor: it has no table [rotor]")
     rotor = build_rotor(study)
-    if contact is not None:
-        element: Any = read(contact, ContactElement)
-        if element.units != "SI":
-            with o.called(scales="--contact"):
-                element = element.to_si(study.point.scales)
-        if others := element.design_point.differences(study.point):
-            raise InputError("--contact", str(contact), f"an element of the study's contact: {', '.join(others)}")
-        place = "--contact"
-    else:
+    if contact is None:
         with o.called(point=str(file)):
-            element = Atlas().element(study.point)
-        place = str(file)
-    with o.called(contacts=place):
-        model = JeffcottModel(rotor, [element] * len(rotor.mounts))
-    rotor.check([one.copy() for one in model.elements])
-    return model
+            return rotor, Atlas().element(study.point), str(file)
+    element: Any = read(contact, ContactElement)
+    if element.units != "SI":
+        with o.called(scales="--contact"):
+            element = element.to_si(study.point.scales)
+    if others := element.design_point.differences(study.point):
+        raise InputError("--contact", str(contact), f"an element of the study's contact: {', '.join(others)}")
+    return rotor, element, "--contact"
 
 
-def _shaft_of(file: Path, inertia: float | None, torque: float | None) -> ShaftModel:
-    """The rotor of a study between its whole bearings, at its speed, at rest under the load on them."""
+def _on_bearings(
+    file: Path, bearings: str, inertia: float | None, top_rpm: float | None, named: dict[str, Any]
+) -> FmuModel | SystemModel:
+    """The rotor of a study on its whole bearings, at its speed, at rest under the load on them."""
+    from fmu.models import ALL, fmu_model
+    from fmu.system.export import system_model
+
+    rotor, speed = _whole_rotor(file)
+    top = speed if top_rpm is None else top_rpm
+    if top < speed:
+        raise InputError("--top-rpm", top, f"at least the speed of the study, {speed:g} rev/min")
+    turning: dict[str, Any] = {"speed_rpm": speed, "inertia": inertia}
+    if bearings == "outside":
+        return fmu_model(rotor, outside=ALL, **turning, **named)
+    speeds = sorted({speed, top})
+    if bearings == "wired":
+        return system_model(rotor, speeds_rpm=speeds, **turning)
+    return fmu_model(rotor, speeds_rpm=speeds, **turning, **named)
+
+
+def _whole_rotor(file: Path) -> tuple[Rotor, float]:
+    """The rotor of a study between its whole bearings, and its speed [rev/min]."""
     from ehlcontact.cli.study.rotor_on_bearings import whole_rotor
     from ehlcontact.cli.study.schema import load_study
     from ehlcontact.cli.study.shared_entries import supply_and_heat
     from ehlcontact.cli.study.whole_bearing import whole_bearing
-    from fmu.shaft.model import ShaftModel
 
     study = load_study(file)
     if "whole_bearing" not in study.model_fields_set:
-        raise InputError(
-            "file", str(file), "a study with a table [whole_bearing], for --shaft, --drive and --rotor"
-        )
+        raise InputError("file", str(file), "a study with a table [whole_bearing], for --bearings")
     if (axial := study.whole_bearing.axial_load) is not None:
-        allowed = "left out: these options have planar bearings; others in Python, by export_drive, export_rotor"
+        allowed = "left out: --bearings has planar bearings; others in Python, by fmu.export"
         raise InputError("whole_bearing.axial_load", axial, allowed)
     whole = study.whole_bearing
     supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant)
     rotor = whole_rotor(study, replace(whole_bearing(study, oil=True), supply=supply, thermal=thermal))
-    with o.called(torque="--torque", inertia="--inertia"):
-        return ShaftModel(rotor, study.bearing.speed_rpm, inertia, torque or 0.0)
+    return rotor, float(study.bearing.speed_rpm)
 
 
-def _controller_of(speed_rpm: float, values: tuple[float, float, float]) -> SpeedController:
-    """Controller that keeps this speed; gains and largest torque are given."""
-    from fmu import SpeedController
-
-    with o.called(**dict.fromkeys(("proportional_gain", "integral_gain", "torque_limit"), "--controller")):
-        return SpeedController(speed_rpm, *values)
-
-
-def _with_bearings(shaft: ShaftModel, top_rpm: float) -> RotorModel:
-    """The rotor of a study with its bearings, from its speed to a higher one."""
-    from fmu.rotor.model import RotorModel
-
-    speeds = sorted({shaft.speed_rpm, top_rpm})
-    return RotorModel(shaft.rotor, speeds, shaft.speed_rpm, shaft.inertia)
-
-
-def _about(exported: Any, system: bool) -> list[Row]:
+def _about(model: FmuModel | SystemModel, system: bool) -> list[Row]:
     """What it is."""
     from fmu.bearing.model import BearingModel
     from fmu.jeffcott.model import JeffcottModel
     from fmu.rotor.model import RotorModel
     from fmu.shaft.model import ShaftModel
 
+    exported: Any = getattr(model, "made", None) or getattr(model, "source", None)
     if isinstance(exported, RotorModel):
         speeds = " to ".join(f"{speed:g}" for speed in sorted({*exported.bearings[0].speeds[[0, -1]].tolist()}))
         turns = "its speed is an input" if exported.inertia is None else f"{exported.inertia:g} kg m2 turn"
@@ -384,7 +355,7 @@ def _about(exported: Any, system: bool) -> list[Row]:
     ]
 
 
-def _advice(exported: Any, found: Any) -> list[Row]:
+def _advice(model: FmuModel | SystemModel, found: Any) -> list[Row]:
     """Steps of a co-simulation."""
     step = getattr(found, "step", None)
     if step is not None:
@@ -397,6 +368,7 @@ def _advice(exported: Any, found: Any) -> list[Row]:
     from fmu.shaft.model import ShaftModel
     from fmu.steps import step_advice
 
+    exported: Any = getattr(model, "made", None) or getattr(model, "source", None)
     if isinstance(exported, BearingModel | ShaftModel):
         return [("step", "1e-05 s", "of the default experiment; how long one may be: docs/coupling.md")]
     if isinstance(exported, JeffcottModel | RotorModel):

@@ -5,7 +5,7 @@ import warnings
 import pytest
 from bearing_fmus import MODELS, ExportedBearing
 
-from fmu import export_bearing
+from fmu import export
 from reduced_models.elements.validity import OutsideValidityWarning
 
 
@@ -21,7 +21,7 @@ def made(tmp_path_factory):
                 warnings.simplefilter("ignore", OutsideValidityWarning)
                 model = MODELS[name]()
                 own = {"speeds_rpm": model.speeds_rpm, "load": model.load, "freedoms": model.freedoms}
-                export_bearing(model.bearing, path, **own, fmi=fmi)
+                export(model.bearing, path, **own, fmi=fmi)
             known[name, fmi] = ExportedBearing(path, model, fmi)
         return known[name, fmi]
 

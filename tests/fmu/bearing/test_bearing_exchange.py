@@ -8,6 +8,7 @@ import fmpy
 import numpy as np
 import pytest
 from bearing_fmus import RPM
+from exported import model_of
 from fmpy.fmi1 import FMICallException
 from fmpy.sundials import CVodeSolver
 from scipy.integrate import solve_ivp
@@ -19,7 +20,6 @@ from fmu.bearing.trial import START
 from fmu.bearing.variables import FORCES, RATES, BallStates
 from fmu.description_rules import findings
 from fmu.driver import Exchange
-from fmu.fmu_model import fmu_model
 from reduced_models import BearingMount, Rotor, simulate_rotor
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
@@ -37,7 +37,7 @@ def forces_of(one):
 
 
 def states_of(one):
-    return [variable.name for variable in fmu_model(one.model).spec.states]
+    return [variable.name for variable in model_of(one.model).spec.states]
 
 
 def kind_of(name):
@@ -122,7 +122,7 @@ def test_partial_derivatives_are_those_of_differences(made, name, fmi):
     """At one point of three at least: tables have kinks, at which differences are of neither side."""
     one = made(name, fmi)
     spec, names, points, model = (
-        fmu_model(one.model).spec,
+        model_of(one.model).spec,
         states_of(one),
         state_points(one.model, 3),
         one.exchange(),
@@ -334,7 +334,7 @@ class Body:
         self.states, names, n = states_of(one), one.model.names, start.size
         self.n, self.inverse, self.load = n, np.linalg.inv(rotor.mass), rotor.load
         self.damping = rotor.gyroscopic * one.model.speeds[-1] * RPM_TO_RAD_S
-        sizes = [v.nominal for v in fmu_model(one.model).spec.states]
+        sizes = [v.nominal for v in model_of(one.model).spec.states]
         steep = np.where([name.startswith("tilt") for name in names], 100.0, 1.0)
         self.scale = np.concatenate([1e-6 * steep, 1e-3 * steep, sizes])
         self.inputs = [*names, *(RATES[name] for name in names)]

@@ -8,11 +8,12 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from bearing_fmus import RPM, ExportedBearing, bearing
+from exported import verified
 from fmpy.fmi1 import FMICallException
 from mass_on_bearing import decay, in_one_run
 
 from ehlcontact import InputError, OilLayer
-from fmu import export_bearing, verify, verify_references
+from fmu import export, verify_references
 from fmu.bearing.comparison import largest_difference
 from fmu.bearing.model import BearingModel
 from fmu.bearing.tables import _curve, _halved
@@ -71,7 +72,7 @@ def test_forces_are_those_of_python(made, name, fmi):
     assert largest_difference(found, trial) < ALLOWED[name]
     assert verify_references(one.path).passes
     if name in ("planar", "five"):
-        found = verify(one.path, one.model)
+        found = verified(one.path, one.model)
         assert found.passes and found.rates > 0.0
         page = (Path(one.folder) / "documentation" / "index.html").read_text(encoding="utf-8")
         assert "for co-simulation and model exchange;" in page
@@ -268,7 +269,7 @@ def test_a_mass_that_holds_the_force_keeps_the_damping(tmp_path, dt, within):
     """5 kg on a 6305, both stepping at once: decay of half the difference of two runs, kicked up and down."""
     model, mass, load, until, kick = BearingModel(bearing("6305"), RPM, 500.0), 5.0, 500.0, 0.012, 1e-4
     path = tmp_path / "6305.fmu"
-    export_bearing(model.bearing, path, speeds_rpm=RPM, load=load)
+    export(model.bearing, path, speeds_rpm=RPM, load=load)
     one = ExportedBearing(path, model)
     steps = round(until / dt)
 
@@ -397,5 +398,5 @@ def test_the_curve_of_a_layer_that_runs_dry():
 
 def test_export_leaves_nothing_behind_where_it_fails(tmp_path):
     with pytest.raises(InputError):
-        export_bearing(bearing(), tmp_path / "x.fmu", speeds_rpm=1e6)
+        export(bearing(), tmp_path / "x.fmu", speeds_rpm=1e6)
     assert not list(tmp_path.iterdir())

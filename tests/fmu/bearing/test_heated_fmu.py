@@ -4,7 +4,7 @@ import fmpy
 import pytest
 
 from ehlcontact import Lubricant
-from fmu import export_bearing
+from fmu import export
 from reduced_models import BallBearing
 
 RPM, LOAD = 10_000.0, 2000.0
@@ -14,7 +14,7 @@ RPM, LOAD = 10_000.0, 2000.0
 def test_films_and_torque_are_those_of_the_bearing(tmp_path):
     oil = Lubricant.iso_vg(68, temperature=50.0)
     bearing = BallBearing.catalogue("6305", oil=oil, thermal=True)
-    path = export_bearing(bearing, tmp_path / "hot.fmu", speeds_rpm=RPM, load=LOAD)
+    path = export(bearing, tmp_path / "hot.fmu", speeds_rpm=RPM, load=LOAD)
     end = fmpy.simulate_fmu(str(path), stop_time=1e-5)[-1]
     state = bearing.equilibrium((0.0, -LOAD), speed_rpm=RPM)
     cold = BallBearing.catalogue("6305", oil=oil).equilibrium((0.0, -LOAD), speed_rpm=RPM)

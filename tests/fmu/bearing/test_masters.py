@@ -11,7 +11,7 @@ from mass_on_bearing import decay, in_one_run
 from other_masters import archive, built_by_pythonfmu, ecospy, libcosimpy, ours
 
 from ehlcontact import Lubricant
-from fmu import export_bearing
+from fmu import export
 from fmu.bearing.model import BearingModel
 from fmu.system.structure import Component, Connector, Wire
 from reduced_models import BallBearing
@@ -55,7 +55,7 @@ def fmus(model, tmp_path_factory):
     x, y = model.place.tolist()
     for name, v in KICKS.items():
         built_by_pythonfmu(folder, name, RING.format(name=name, load=LOAD, x=x, y=y, v=v, mass=MASS))
-    export_bearing(model.bearing, folder / "Bearing.fmu", speeds_rpm=RPM, load=LOAD)
+    export(model.bearing, folder / "Bearing.fmu", speeds_rpm=RPM, load=LOAD)
     return folder
 
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from exported import verified
 
 from ehlcontact import Lubricant, OilLayer
-from fmu import verify
 from fmu.bearing.model import BearingModel
 from fmu.bearing.trial import START
 from fmu.rotor.model import RotorModel
@@ -32,7 +32,7 @@ SUPPLY = OilLayer(over_flooded=1.0)
 def test_forces_and_rates_are_those_of_python(made, name, forces, rates):
     """In steps and in continuous time, with vibrations and lift-off, at every speed of the tables."""
     one = made(name)
-    found = verify(one.path, one.model)
+    found = verified(one.path, one.model)
     assert found.passes and 0.0 < found.bearing < forces and found.rates < rates
 
 

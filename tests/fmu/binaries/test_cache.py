@@ -142,8 +142,8 @@ def test_many_at_once(kept):
 @pytest.mark.long
 def test_several_processes_export_at_once(kept, tmp_path):
     code = (
-        "import sys; from fmu import export_contact; from reduced_models import SpringContact;"
-        "export_contact(SpringContact.cubic(K1=.624, K2=.75, K3=-.174, C1=.013, low=.75, high=1.), sys.argv[1])"
+        "import sys; from fmu import export; from reduced_models import SpringContact;"
+        "export(SpringContact.cubic(K1=.624, K2=.75, K3=-.174, C1=.013, low=.75, high=1.), sys.argv[1])"
     )
     paths = [tmp_path / f"{n}.fmu" for n in range(2)]
     running = [subprocess.Popen([sys.executable, "-c", code, str(path)]) for path in paths]

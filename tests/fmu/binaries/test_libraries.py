@@ -15,7 +15,7 @@ from library_contents import contents
 from programs import shell_script
 
 from ehlcontact import InputError
-from fmu import export_contact
+from fmu import export
 from fmu.archive import content_guid
 from fmu.binaries import PLATFORMS, BuildError, build_binaries, choose, libraries, read_library, this_machine
 from fmu.binaries.compiler import Compiler, compilers
@@ -193,7 +193,7 @@ def test_no_room_to_compile(spec, sources, monkeypatch, tmp_path):
 def test_all_platforms_of_fmi_2(tmp_path):
     """It has one folder for both Macs, and none for Linux on arm."""
     told = []
-    path = export_contact(ELEMENT, tmp_path / "x.fmu", platforms="all", progress=lambda *step: told.append(step))
+    path = export(ELEMENT, tmp_path / "x.fmu", platforms="all", progress=lambda *step: told.append(step))
     assert told == [(k, 4) for k in range(5)] and path.stat().st_size < 300_000
     folder = Path(fmpy.extract(str(path), unzipdir=str(tmp_path / "x")))
     names = sorted(p.relative_to(folder / "binaries").as_posix() for p in (folder / "binaries").rglob("*.*"))
@@ -208,7 +208,7 @@ def test_all_platforms_of_fmi_2(tmp_path):
 @pytest.mark.parametrize("kind", ["cubic", "wide_si"])
 def test_all_platforms_of_fmi_3(elements, kind, tmp_path):
     """Five of them in less than 300 kB."""
-    path = export_contact(elements[kind], tmp_path / "x.fmu", fmi=3, platforms="all")
+    path = export(elements[kind], tmp_path / "x.fmu", fmi=3, platforms="all")
     with zipfile.ZipFile(path) as archive:
         folders = {name.split("/")[1] for name in archive.namelist() if name.startswith("binaries/")}
         assert "sources/buildDescription.xml" in archive.namelist()
@@ -218,7 +218,7 @@ def test_all_platforms_of_fmi_3(elements, kind, tmp_path):
 def test_an_fmu_for_other_machines_is_verified_on_this_one(tmp_path):
     """Its sources are, by this machine's binary of them, which is not in it."""
     other = "aarch64-darwin" if OWN.name != "aarch64-darwin" else "x86_64-darwin"
-    path = export_contact(ELEMENT, tmp_path / "x.fmu", platforms=other)
+    path = export(ELEMENT, tmp_path / "x.fmu", platforms=other)
     folder = Path(fmpy.extract(str(path), unzipdir=str(tmp_path / "x")))
     assert [p.name for p in (folder / "binaries").iterdir()] == ["darwin64"]
 
@@ -275,5 +275,5 @@ def assert_no_warning(element, fmi, folder, compiler):
 
 def test_unknown_platform(tmp_path):
     with pytest.raises(InputError, match="platforms = 'win32': must be x86_64-linux"):
-        export_contact(ELEMENT, tmp_path / "x.fmu", platforms="win32")
+        export(ELEMENT, tmp_path / "x.fmu", platforms="win32")
     assert list(tmp_path.iterdir()) == []

@@ -12,7 +12,7 @@ from lxml import etree
 from programs import shell_script
 
 from ehlcontact import InputError
-from fmu import export_bearing
+from fmu import export
 from fmu.binaries import PLATFORMS, BuildError, choose, this_machine
 from fmu.binaries.compiler import compilers
 from fmu.model_description import build_description
@@ -178,9 +178,7 @@ def test_it_is_valid_and_names_every_file(spec):
 @pytest.mark.filterwarnings("ignore:the first library for Windows")
 def test_bearing_with_tables_at_four_speeds_for_all_platforms_takes_less_than_a_megabyte(tmp_path):
     path = tmp_path / "x.fmu"
-    export_bearing(
-        bearing("7205"), path, speeds_rpm=(1000.0, 12000.0), load=(0.0, -300.0, 200.0), fmi=3, platforms="all"
-    )
+    export(bearing("7205"), path, speeds_rpm=(1000.0, 12000.0), load=(0.0, -300.0, 200.0), fmi=3, platforms="all")
     with ZipFile(path) as archive:
         assert sum(name.startswith("binaries/") for name in archive.namelist()) == 5
     assert path.stat().st_size < 1e6

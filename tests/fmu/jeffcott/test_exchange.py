@@ -8,7 +8,7 @@ import pytest
 from fmpy.validation import validate_fmu
 from scipy.integrate import solve_ivp
 
-from fmu import export_jeffcott
+from fmu import export
 from reduced_models import JeffcottRotor, simulate_rotor
 
 BALL, WEIGHT = 850.0, 2.3 * 9.81  # N
@@ -157,7 +157,7 @@ def test_one_event_indicator_for_each_contact(instance, rotors, fmi):
 def test_the_tolerance_that_it_proposes_keeps_the_orbit(elements, tmp_path):
     """An orbit of some 30 nm by fmpy, which takes the tolerance of the FMU; a hundred times that would not do."""
     rotor = JeffcottRotor.vertical(load=(0.0, WEIGHT - BALL), unbalance=2e-6, speed_rpm=8000.0, **BODIES)
-    path = export_jeffcott(rotor, tmp_path / "x.fmu", [elements["wide_si"]])
+    path = export(rotor, tmp_path / "x.fmu", contacts=[elements["wide_si"]])
     asked = {"stop_time": 0.005, "output": ["journal_y"], "output_interval": 2e-5}
 
     def journal(**more):

@@ -1,4 +1,4 @@
-"""`export_jeffcott`: what it refuses, what it does not write, and what it says of itself."""
+"""Export of Jeffcott rotors: what it refuses, what it does not write, and what it says of itself."""
 
 import zipfile
 from dataclasses import replace
@@ -7,10 +7,11 @@ from xml.etree import ElementTree
 import fmpy
 import numpy as np
 import pytest
+from exported import given, verified
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
-from fmu import VerificationError, export_jeffcott, sources, verify
+from fmu import VerificationError, export, sources, verify
 from fmu.jeffcott.model import JeffcottModel
 from fmu.jeffcott.variables import jeffcott_spec
 from reduced_models import OutsideValidityWarning, ScaledContact, simulate_rotor
@@ -32,21 +33,21 @@ SCALES = Scales(force=850.0, length=1.31e-5, time=2.1e-5, a=1.1e-4, b=9e-4, pres
 )
 def test_contacts_that_do_not_fit_are_refused(rotors, elements, contacts, words, tmp_path):
     with pytest.raises(InputError) as caught:
-        export_jeffcott(rotors["alone"].rotor, tmp_path / "x.fmu", contacts(elements))
+        export(rotors["alone"].rotor, tmp_path / "x.fmu", contacts=contacts(elements))
     assert all(word in str(caught.value) for word in words) and "\n" not in str(caught.value)
     assert not list(tmp_path.iterdir())
 
 
 def test_what_is_no_rotor_or_no_start_is_refused(rotors, elements, tmp_path):
     for rotor, start, word in (
-        (elements["cubic_si"], None, "JeffcottRotor"),
+        (3.0, None, "JeffcottRotor"),
         (rotors["alone"].rotor, 3.0, "RotorState"),
     ):
         with pytest.raises(InputError, match=word):
-            export_jeffcott(rotor, tmp_path / "x.fmu", start=start)
+            export(rotor, tmp_path / "x.fmu", outside="all", start=start)
     rotor = rotors["alone"].rotor
     with pytest.raises(InputError, match="at most 32"):
-        export_jeffcott(replace(rotor, mounts=rotor.mounts * 17), tmp_path / "x.fmu")
+        export(replace(rotor, mounts=rotor.mounts * 17), tmp_path / "x.fmu", outside="all")
 
 
 @pytest.mark.parametrize("load", [(0.0, 5000.0), (1e5, 0.0)])
@@ -54,7 +55,7 @@ def test_contacts_that_do_not_carry_the_load_are_refused(rotors, elements, load,
     """Pulled out of the vee upwards, or sideways beyond it."""
     rotor = replace(rotors["alone"].rotor, load=load)
     with pytest.raises(InputError, match="static load") as caught:
-        export_jeffcott(rotor, tmp_path / "x.fmu", [elements["cubic_si"]] * 2)
+        export(rotor, tmp_path / "x.fmu", contacts=[elements["cubic_si"]] * 2)
     assert "\n" not in str(caught.value) and not list(tmp_path.iterdir())
 
 
@@ -62,9 +63,9 @@ def test_a_file_that_is_there_is_kept(rotors, tmp_path):
     target = tmp_path / "x.fmu"
     target.write_text("kept")
     with pytest.raises(InputError, match="overwrite"):
-        export_jeffcott(rotors["alone"].rotor, target)
+        export(rotors["alone"].rotor, target, outside="all")
     assert target.read_text() == "kept"
-    export_jeffcott(rotors["alone"].rotor, target, overwrite=True)
+    export(rotors["alone"].rotor, target, outside="all", overwrite=True)
     assert zipfile.is_zipfile(target)
 
 
@@ -100,21 +101,24 @@ def altered(monkeypatch, tmp_path, file, old, new):
 def test_nothing_wrong_is_written(rotors, monkeypatch, tmp_path, name, file, old, new):
     altered(monkeypatch, tmp_path, file, old, new)
     model, target = rotors[name], tmp_path / "x.fmu"
+    source, keywords = given(model)
     with pytest.raises(VerificationError):
-        export_jeffcott(model.rotor, target, model.contacts)
+        export(source, target, **keywords)
     assert not target.exists()
 
 
 @SAYS_NOTHING
 def test_verification_tells_another_rotor(unit, rotors):
     one = unit("cubic")
-    assert verify(one.path, one.model).passes
+    assert verified(one.path, one.model).passes
     rotor = one.model.rotor
     for other in (replace(rotor, shaft_stiffness=1.001 * rotor.shaft_stiffness), replace(rotor, bearings=3)):
-        assert not verify(one.path, JeffcottModel(other, one.model.contacts, one.model.state)).passes
+        assert not verified(one.path, JeffcottModel(other, one.model.contacts, one.model.state)).passes
     with pytest.raises(InputError, match=r"must be an FMU of .*its contacts outside.; it is one of"):
-        verify(one.path, rotors["alone"])
-    with pytest.raises(InputError, match=r"^element = 'JeffcottRotor': must be JeffcottModel\(rotor, contacts\)"):
+        verified(one.path, rotors["alone"])
+    with pytest.raises(
+        InputError, match=r"^contacts = None: must be one per mount, 2, or outside=\('contact 1', "
+    ):
         verify(one.path, rotor)
 
 
@@ -134,14 +138,14 @@ def test_least_inner_step_is_declared(rotors):
 
 def test_elements_for_another_speed_say_so(rotors, elements, tmp_path):
     with pytest.warns(OutsideValidityWarning, match="133"):
-        export_jeffcott(rotors["alone"].rotor, tmp_path / "x.fmu", [elements["wide_si"]] * 2)
+        export(rotors["alone"].rotor, tmp_path / "x.fmu", contacts=[elements["wide_si"]] * 2)
 
 
 @SAYS_NOTHING
 def test_dimensionless_contacts_in_their_scales(unit, rotors, elements, tmp_path):
     """As `simulate_rotor` takes them; the same FMU comes out, to the byte."""
     scaled = [ScaledContact(elements["cubic"], SCALES) for _ in range(2)]
-    path = export_jeffcott(rotors["cubic"].rotor, tmp_path / "x.fmu", scaled)
+    path = export(rotors["cubic"].rotor, tmp_path / "x.fmu", contacts=scaled)
     assert path.read_bytes() == unit("cubic").path.read_bytes()
 
 
@@ -149,7 +153,7 @@ def test_dimensionless_contacts_in_their_scales(unit, rotors, elements, tmp_path
 def test_a_start_is_where_it_begins(rotors, tmp_path):
     rest = rotors["alone"].state
     start = RotorState(rest.disc + 1e-6, rest.journal - 2e-6, np.array([0.1, 0.2]), np.array([0.3, 0.4]))
-    path = export_jeffcott(rotors["alone"].rotor, tmp_path / "x.fmu", start=start)
+    path = export(rotors["alone"].rotor, tmp_path / "x.fmu", outside="all", start=start)
     starts = {v.name: v.start for v in fmpy.read_model_description(str(path)).modelVariables}
     found = [
         float(starts[f"{body}{what}_{axis}"])
@@ -194,11 +198,11 @@ def test_spec_of_one_axis_names_no_other(rotors):
 def test_without_a_load_nothing_stands(rotors, elements, tmp_path):
     """A rotor alone needs none."""
     rotor = replace(rotors["alone"].rotor, gravity=(0.0, 0.0), load=(0.0, 0.0), unbalance=0.0, speed_rpm=0.0)
-    assert export_jeffcott(rotor, tmp_path / "x.fmu").exists()
+    assert export(rotor, tmp_path / "x.fmu", outside="all").exists()
     with pytest.raises(InputError, match="static load"):
-        export_jeffcott(rotor, tmp_path / "y.fmu", [elements["cubic_si"]] * 2)
+        export(rotor, tmp_path / "y.fmu", contacts=[elements["cubic_si"]] * 2)
     state = rotors["cubic"].state
-    assert export_jeffcott(rotor, tmp_path / "z.fmu", [elements["cubic_si"]] * 2, start=state).exists()
+    assert export(rotor, tmp_path / "z.fmu", contacts=[elements["cubic_si"]] * 2, start=state).exists()
 
 
 @SAYS_NOTHING

@@ -10,7 +10,7 @@ from bearing_fmus import assert_speeds_are_reached
 from fmpy.fmi1 import FMICallException
 from scipy.linalg import expm
 
-from fmu import export_jeffcott
+from fmu import export
 from fmu.driver import Slave
 from fmu.jeffcott.model import JeffcottModel
 from reduced_models import SpeedProfile, simulate_rotor
@@ -296,7 +296,7 @@ def test_equilibrium_follows_until_a_start_is_set(instance, rotors, moving):
 def test_masses_that_the_contacts_do_not_carry(rotors, tmp_path):
     """Lifted from its contact by its load, once it is lighter."""
     model, messages = rotors["wide in y"], []
-    path = export_jeffcott(replace(model.rotor, load=(0.0, 15.0)), tmp_path / "x.fmu", model.contacts)
+    path = export(replace(model.rotor, load=(0.0, 15.0)), tmp_path / "x.fmu", contacts=model.contacts)
     folder = fmpy.extract(str(path), unzipdir=str(tmp_path / "x"))
     slave = Slave(folder, fmpy.read_model_description(str(path)), messages)
     slave.raw.fmi2SetDebugLogging(slave.raw.component, True, 0, None)

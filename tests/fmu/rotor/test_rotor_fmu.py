@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bearing_fmus import OIL, POLAR, Exported, assert_speeds_are_reached, pressed_pair
+from exported import given, verified
 from fmpy.fmi1 import FMICallException
 
 from ehlcontact import InputError, Lubricant, OilLayer
-from fmu import export_rotor, verify, verify_references
+from fmu import export, verify_references
 from fmu.rotor.model import RotorModel
 from fmu.rotor.variables import rotor_spec
 from fmu.sources import CSRC
@@ -114,8 +115,8 @@ def made(tmp_path_factory):
     def make(name, fmi=2):
         if (name, fmi) not in known:
             model, path = MODELS[name](), tmp_path_factory.mktemp("whole") / "x.fmu"
-            own = {"speeds_rpm": model.speeds_rpm, "speed_rpm": model.speed_rpm, "inertia": model.inertia}
-            export_rotor(model.rotor, path, **own, fmi=fmi)
+            source, keywords = given(model)
+            export(source, path, fmi=fmi, **keywords)
             known[name, fmi] = Exported(path, model, fmi)
         return known[name, fmi]
 
@@ -141,7 +142,7 @@ def made(tmp_path_factory):
 )
 def test_verifies(made, name, fmi):
     one = made(name, fmi)
-    found = verify(one.path, one.model)
+    found = verified(one.path, one.model)
     assert found.passes and found.motion < 1e-9
     # with oil all over, a ball always carries a little
     assert (found.parted > 100) == (name in ("rigid", "let go", "layered"))
@@ -159,7 +160,7 @@ def test_a_fault_of_a_millionth_is_found(made, name):
         replace(rotor, mounts=tuple(replace(mount, bearing=stiffer) for mount in rotor.mounts)),
         replace(rotor, mass=rotor.mass * (1.0 + 1e-6)),
     ):
-        found = verify(one.path, RotorModel(faulty, one.model.speeds_rpm, one.model.speed_rpm))
+        found = verified(one.path, RotorModel(faulty, one.model.speeds_rpm, one.model.speed_rpm))
         assert found.motion > 1e-6 and not found.passes and not found.findings
 
 

@@ -40,7 +40,7 @@ def parts() -> tuple[JeffcottRotor, list[Any]]:
 def system(parts, made_once) -> System:
     """In FMI 2."""
     name = "rotor on contacts.ssp"
-    folder = made_once("system", lambda folder: export_system(*parts, folder / name))
+    folder = made_once("system", lambda folder: export_system(parts[0], folder / name, contacts=parts[1]))
     return System(*parts, folder / name)
 
 
@@ -50,5 +50,5 @@ def system_3(parts, made_once) -> System:
     rotor, contacts = parts
     upright = dataclasses.replace(rotor, directions="y")
     name = "upright.ssp"
-    folder = made_once("system 3", lambda folder: export_system(upright, contacts, folder / name, fmi=3))
+    folder = made_once("system 3", lambda folder: export_system(upright, folder / name, contacts=contacts, fmi=3))
     return System(upright, contacts, folder / name)

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from other_masters import ecospy, libcosimpy, ours
 
-from fmu.jeffcott.model import JeffcottModel
-from fmu.system.export import export_verified_system
+from fmu.system.export import export_verified_system, system_model
 from fmu.system.master import SystemRun
 from reduced_models import JeffcottRotor, SpringContact, simulate_rotor
 
@@ -87,7 +86,7 @@ def test_default_step_leaves_the_damping(tmp_path):
     rotor = JeffcottRotor.vertical(
         disc_mass=1e3, journal_mass=1.0, shaft_stiffness=1e4, gravity=(0.0, 0.0), load=(0.0, -500.0)
     )
-    path, found = export_verified_system(JeffcottModel(rotor, [element]), tmp_path / "x.ssp")
+    path, found = export_verified_system(system_model(rotor, contacts=[element]), tmp_path / "x.ssp")
     y, w = rotor.static_equilibrium([element]).journal[1], 1e4  # rad/s
     with SystemRun(path.read_bytes(), {"rotor": {"journal_velocity_y": 1e-3 * abs(y) * w}}) as run:
         steps = round(20.0 * 2.0 * np.pi / w / found.step)
@@ -99,9 +98,7 @@ def test_default_step_leaves_the_damping(tmp_path):
 
 def test_default_step(system):
     """That of the archive, which the Open Simulation Platform takes."""
-    from fmu.system.export import default_system_step
-
-    assert default_system_step(JeffcottModel(system.rotor, system.contacts)) == STEP
+    assert system_model(system.rotor, contacts=system.contacts).default_step() == STEP
     pytest.importorskip("libcosimpy")
     from libcosimpy.CosimExecution import CosimExecution
 

@@ -14,7 +14,7 @@ from fmu import VerificationError, export_system, verify_references
 from fmu.archive import pack
 from fmu.jeffcott.model import JeffcottModel
 from fmu.system.check import schema_findings, verify_system
-from fmu.system.export import export_verified_system
+from fmu.system.export import export_verified_system, system_model
 from fmu.system.structure import SSC, SSD, SSV
 from fmu.verify import verify
 from reduced_models import JeffcottRotor, SpringContact
@@ -94,7 +94,10 @@ def test_same_input_same_bytes(parts, system, tmp_path):
     """Progress counts all libraries meanwhile."""
     told = []
     report = {"progress": lambda done, total: told.append((done, total))}
-    assert export_system(*parts, tmp_path / "again.ssp", **report).read_bytes() == system.path.read_bytes()
+    assert (
+        export_system(parts[0], tmp_path / "again.ssp", contacts=parts[1], **report).read_bytes()
+        == system.path.read_bytes()
+    )
     assert told[-1][0] == told[-1][1] == 3
     assert told == sorted(told)
 
@@ -131,7 +134,7 @@ def test_bad_input(change, told, tmp_path):
     given = {"rotor": ROTOR, "contacts": [ELEMENT], "path": "x.ssp"} | change
     given["path"] = tmp_path / given["path"]
     with pytest.raises(InputError, match=told) as caught:
-        export_system(given.pop("rotor"), given.pop("contacts"), given.pop("path"), **given)
+        export_system(given.pop("rotor"), given.pop("path"), **given)
     assert "\n" not in str(caught.value)
     assert list(tmp_path.iterdir()) == []
 
@@ -139,23 +142,23 @@ def test_bad_input(change, told, tmp_path):
 def test_a_load_that_nothing_carries(tmp_path):
     lifted = dataclasses.replace(ROTOR, gravity=(0.0, 9.81))
     with pytest.raises(InputError, match="carry"):
-        export_system(lifted, [ELEMENT], tmp_path / "x.ssp")
+        export_system(lifted, tmp_path / "x.ssp", contacts=[ELEMENT])
 
 
 def test_a_file_that_is_there_stays(tmp_path):
     path = tmp_path / "x.ssp"
     path.write_text("mine")
     with pytest.raises(InputError, match="overwrite"):
-        export_system(ROTOR, [ELEMENT], path)
+        export_system(ROTOR, path, contacts=[ELEMENT])
     assert path.read_text() == "mine"
-    export_system(ROTOR, [ELEMENT], path, overwrite=True)
+    export_system(ROTOR, path, contacts=[ELEMENT], overwrite=True)
     assert zipfile.is_zipfile(path)
 
 
 def test_a_step_too_long_for_the_system_is_refused(tmp_path):
     """1e-4 s at a journal of 1e4 rad/s: the loop of any importer would blow up."""
     with pytest.raises(VerificationError, match=r"steps of 0\.0001 s"):
-        export_system(ROTOR, [ELEMENT], tmp_path / "x.ssp", step=1e-4)
+        export_system(ROTOR, tmp_path / "x.ssp", contacts=[ELEMENT], step=1e-4)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -205,5 +208,5 @@ def test_default_step_runs_any_system(tmp_path, C1, journal_mass):
     """Contacts without damper, and with one that stops the journal at once; journals light and heavy."""
     rotor = dataclasses.replace(ROTOR, journal_mass=journal_mass)
     element = dataclasses.replace(ELEMENT, C1=C1)
-    _, found = export_verified_system(JeffcottModel(rotor, [element]), tmp_path / "x.ssp")
+    _, found = export_verified_system(system_model(rotor, contacts=[element]), tmp_path / "x.ssp")
     assert found.passes and found.deviation < 0.005

@@ -110,7 +110,8 @@ def export_fmu(element: Any, path: Path) -> dict[str, Any]:
     With the largest steps of each way of coupling under ``steps``, and the frequencies that it is for.
     """
     from fmu import VerificationError
-    from fmu.export import export_verified
+    from fmu.export import export_model
+    from fmu.models import fmu_model
     from fmu.steps import step_advice
 
     band = element.omega_range
@@ -124,7 +125,7 @@ def export_fmu(element: Any, path: Path) -> dict[str, Any]:
     }
     try:
         entry["steps"] = {way: {"step": step, "why": why} for way, step, why in step_advice(element)}
-        _, found = export_verified(element, path, model_name=path.stem, overwrite=True)
+        _, found = export_model(fmu_model(element, model_name=path.stem), path, overwrite=True)
     except Exception as error:  # the rest of the study is worth having without an FMU
         found = error.found if isinstance(error, VerificationError) else None
         entry["error"] = " ".join(str(error).split()) or type(error).__name__

@@ -1,0 +1,188 @@
+"""What can be exported, the keywords that each kind takes, and the `FmuModel` of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, TypedDict, Unpack
+
+from ehlcontact.errors import InputError
+from fmu.bearing.comparison import bearing_references, compare_bearing
+from fmu.bearing.model import BearingModel
+from fmu.bearing.variables import bearing_spec
+from fmu.comparison import compare_film, compare_spring
+from fmu.contact_spec import contact_spec
+from fmu.contact_variables import Element, Film
+from fmu.jeffcott.comparison import compare_jeffcott
+from fmu.jeffcott.model import JeffcottModel
+from fmu.jeffcott.references import jeffcott_references
+from fmu.jeffcott.variables import jeffcott_spec
+from fmu.lead import HELD_PARALLEL
+from fmu.references.contact_references import contact_references
+from fmu.references.series import References
+from fmu.rotor.comparison import compare_rotor, rotor_references
+from fmu.rotor.model import RotorModel
+from fmu.rotor.variables import rotor_spec
+from fmu.shaft.comparison import compare_shaft, shaft_references
+from fmu.shaft.model import ShaftModel
+from fmu.shaft.variables import shaft_spec
+from fmu.spec import ModelSpec
+from fmu.verification import Verification
+from reduced_models import BallBearing, JeffcottRotor, Rotor
+from reduced_models.bearing.freedoms import FIVE, PLANAR
+
+ALL = "all"  # in place of the names of all supports
+
+Exported = Element | BallBearing | Rotor | JeffcottRotor
+
+
+class Keywords(TypedDict, total=False):
+    """Keywords of `export` that decide what is exported; `verify` takes them too."""
+
+    model_name: str | None
+    lead: float | None
+    speeds_rpm: Any
+    outside: str | Iterable[str]
+    contacts: Sequence[Any] | None
+    speed_rpm: float | None
+    inertia: float | None
+    start: Any
+    load: Any
+    directions: Sequence[str] | None
+
+
+_EVERY = {"model_name", "lead"}
+_TAKEN: tuple[tuple[Any, str, set[str]], ...] = (
+    (Element, "a contact element", set()),
+    (BallBearing, "a ball bearing", {"speeds_rpm", "load", "directions"}),
+    (Rotor, "a Rotor", {"speeds_rpm", "outside", "speed_rpm", "inertia", "start"}),
+    (JeffcottRotor, "a JeffcottRotor", {"contacts", "outside", "start"}),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class FmuModel:
+    """One model of an FMU.
+
+    Attributes
+    ----------
+    source : object
+        What it is made from.
+    spec : ModelSpec
+        Variables, C sources and texts.
+    elements : tuple of ContactElement
+        Contacts that the FMU computes.
+    references : callable
+        Reference inputs and results, computed in Python.
+    compare : callable
+        Comparison of two instances, for co-simulation and for model exchange, with the Python model.
+    """
+
+    source: Any
+    spec: ModelSpec
+    elements: tuple[Element, ...]
+    references: Callable[[], References]
+    compare: Callable[[Any, Any], Verification]
+
+
+def fmu_model(model: Exported, **keywords: Unpack[Keywords]) -> FmuModel:
+    """Model of the FMU of a contact element, a ball bearing or a rotor, with the keywords of `export`.
+
+    Raises
+    ------
+    InputError
+        Another kind of model, a keyword that it does not take, or what its kind refuses.
+    """
+    given: dict[str, Any] = {name: value for name, value in keywords.items() if _is_given(value)}
+    _require_taken(model, given)
+    model_name, lead = given.pop("model_name", None), given.pop("lead", None)
+    if isinstance(model, Element):
+        spec = contact_spec(model, model_name, HELD_PARALLEL if lead is None else lead)
+        return _made(model, spec, compare_film if isinstance(model, Film) else compare_spring, contact_references)
+    if isinstance(model, BallBearing):
+        freedoms = _freedoms(given.pop("directions", None))
+        bearing = BearingModel(model, given.pop("speeds_rpm", None), freedoms=freedoms, **given)
+        return _made(bearing, bearing_spec(bearing, model_name, lead), compare_bearing, bearing_references)
+    outside = _outside(model, given.pop("outside", ()))
+    if isinstance(model, JeffcottRotor):
+        jeffcott = JeffcottModel(model, **_contacts_inside(model, outside, given))
+        spec = jeffcott_spec(jeffcott, model_name, lead)
+        return _made(jeffcott, spec, compare_jeffcott, jeffcott_references)
+    speeds = given.pop("speeds_rpm", None)
+    if outside:
+        if speeds is not None:
+            raise InputError("speeds_rpm", speeds, "left out: no ball bearing is inside")
+        shaft = ShaftModel(model, **given)
+        return _made(shaft, shaft_spec(shaft, model_name, lead), compare_shaft, shaft_references)
+    if speeds is None and model.ball_bearings:
+        raise InputError("speeds_rpm", None, f"those of the ball bearings inside, or outside={_names(model)}")
+    if "start" in given:
+        raise InputError("start", given["start"], "left out with bearings inside: the FMU starts in equilibrium")
+    rotor = RotorModel(model, speeds, **given)
+    return _made(rotor, rotor_spec(rotor, model_name, lead), compare_rotor, rotor_references)
+
+
+def supports_of(rotor: Rotor | JeffcottRotor) -> tuple[str, ...]:
+    """Names of the supports of a rotor that may be outside of its FMU: contacts, then ball bearings."""
+    if isinstance(rotor, JeffcottRotor):
+        return tuple(f"contact {i}" for i in range(1, len(rotor.mounts) + 1))
+    return (*(f"contact {i}" for i in range(1, len(rotor.contacts) + 1)), *rotor.ball_bearing_names)
+
+
+def _is_given(value: Any) -> bool:
+    return value is not None and not (isinstance(value, tuple | list) and len(value) == 0)
+
+
+def _require_taken(model: object, given: dict[str, Any]) -> None:
+    """Raise `InputError` for a model of another kind, or a keyword that it does not take."""
+    for kind, words, taken in _TAKEN:
+        if isinstance(model, kind):
+            for name in given.keys() - taken - _EVERY:
+                raise InputError(name, given[name], f"left out for {words}")
+            return
+    allowed = "a contact element (linear, cubic, ..., wide), a BallBearing, a Rotor or a JeffcottRotor"
+    raise InputError("model", type(model).__name__, allowed)
+
+
+def _names(rotor: Rotor | JeffcottRotor) -> str:
+    return repr(supports_of(rotor))
+
+
+def _outside(rotor: Rotor | JeffcottRotor, outside: str | Iterable[str]) -> tuple[str, ...]:
+    """Names of the supports outside, checked."""
+    known = supports_of(rotor)
+    names = (known if outside == ALL else (outside,)) if isinstance(outside, str) else tuple(outside)
+    for name in names:
+        if name not in known:
+            raise InputError("outside", name, f"of {_names(rotor)}, or 'all'")
+    if names and set(names) != set(known):
+        raise InputError("outside", list(names), f"all supports, {_names(rotor)}, or none of them")
+    return names
+
+
+def _contacts_inside(rotor: JeffcottRotor, outside: tuple[str, ...], given: dict[str, Any]) -> dict[str, Any]:
+    """Keywords of a Jeffcott rotor, whose contacts are inside or outside."""
+    contacts = given.get("contacts")
+    if outside and contacts is not None:
+        raise InputError("contacts", len(contacts), f"left out: outside={outside!r}")
+    if not outside and contacts is None:
+        allowed = f"one per mount, {len(rotor.mounts)}, or outside={_names(rotor)}"
+        raise InputError("contacts", None, allowed)
+    return given
+
+
+def _freedoms(directions: Sequence[str] | None) -> int | None:
+    """How many displacements the ring of a bearing has; None: as many as its load asks for."""
+    if directions is not None and tuple(directions) not in (PLANAR, FIVE):
+        raise InputError("directions", list(directions), f"{PLANAR} or {FIVE}")
+    return None if directions is None else len(directions)
+
+
+def _made(source: Any, spec: ModelSpec, compare: Any, references: Any) -> FmuModel:
+    return FmuModel(
+        source,
+        spec,
+        (source,) if isinstance(source, Element) else getattr(source, "elements", ()),
+        references=lambda: references(source, spec),
+        compare=lambda slave, exchange: compare(slave, exchange, source, spec),
+    )
