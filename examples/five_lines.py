@@ -12,7 +12,7 @@ import numpy as np
 
 from ehlcontact import Lubricant
 from reduced_models import BallBearing, BearingState
-from reduced_models.bearing.linear_balls import BearingCoefficients
+from reduced_models.bearing.coefficients import BearingCoefficients
 
 
 def five_lines() -> tuple[BearingState, BearingCoefficients]:

@@ -3,6 +3,8 @@
 Every node has x, y, and the turns about x and y; a node's shaft bends in x-z with the turn about y.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from reduced_models import BearingMotion, BearingMount, Rotor, Unbalance
@@ -125,3 +127,10 @@ def still_run(rotor, speed_rpm, dt, until, start="static", rho_inf=0.8):
     for first, end, steps in run.blocks():
         integrator.advance(steps, first, end, lambda made: None)
     return run.t, run.histories.displacement
+
+
+def with_light_balls(bearing, speed_rpm):
+    """A copy of a bearing whose balls have hardly any inertia about the shaft in static answers at a speed."""
+    balls, changed = bearing._balls(speed_rpm), replace(bearing)
+    changed._cache["balls", speed_rpm] = balls._replace(grooves=balls.grooves._replace(mass=1e-12))
+    return changed

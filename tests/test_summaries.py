@@ -85,8 +85,8 @@ from reduced_models import (
 )
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
 from reduced_models.atlas.waves import FilterAnswer
+from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.excitation import BearingExcitation
-from reduced_models.bearing.linear_balls import BearingCoefficients
 from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.bearing.oil_balance import OilHistory
 from reduced_models.bearing.set_result import SetState

@@ -29,7 +29,7 @@ from reduced_models import BallBearing
 from reduced_models.atlas import film as atlas_film
 from reduced_models.atlas import frequency_curve
 from reduced_models.atlas.surface import Surface, shipped
-from reduced_models.bearing import ball_bearing, equilibrium, kinematics, linear_balls, race
+from reduced_models.bearing import ball_bearing, coefficients, kinematics, race, ring
 from reduced_models.bearing.catalogue import DEEP_GROOVE
 from reduced_models.elements import film_curve, film_response
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
@@ -46,9 +46,9 @@ RULES: Mapping[Any, tuple[str, ...]] = {
     film_curve: ("DECADE", "RIGID_SLOPE"),
     film_response: ("DRY", "LEAST_VISCOUS", "SMALL_OMEGA"),
     ball_bearing: ("LARGEST_PLAY", "POSITIONS"),
-    equilibrium: ("SEATED",),
+    ring: ("SEATED",),
     kinematics: ("LEAST_SLIP",),
-    linear_balls: ("TINY_OMEGA",),
+    coefficients: ("TINY_OMEGA",),
     judge: ("CONDUCTIVITY",),
     film: ("LEAST_HEATING_FACTOR", "EYRING_STRESS", "LARGEST_STRESS"),
     oil: ("TYPICAL_SLOPE", "TYPICAL_DENSITY", "LEAST_SLOPE"),

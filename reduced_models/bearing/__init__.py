@@ -10,8 +10,7 @@
 | angular_balls | compiled: balls at contact angles in static equilibrium, the force on a ring with five degrees |
 | angular_steps | compiled: balls at contact angles over time steps, with their films |
 | compiled_list | `CompiledList`: bearings of any number in kernels that are compiled once |
-| five_degrees | a ring with five degrees of freedom in static equilibrium |
-| linear_angular | that ring about static equilibrium: impedance at complex frequencies |
+| ring | the inner ring on its balls in static equilibrium: `StaticRing`, `ring_equilibrium` |
 | shoulders | shoulders of the grooves, and contact ellipses that reach over them |
 | kinematics | cage, balls and defect frequencies |
 | measured_order | contact angle and clearance from a measured defect order |
@@ -20,8 +19,9 @@
 | race_contact | compiled: time step of one ball on one race: filters once, force and tangents per iteration |
 | balls | compiled: balls of a planar bearing, two contacts in series on each, as one force with tangents |
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
-| equilibrium | springs under a load; the ring of a planar bearing on its balls: `ring_equilibrium` |
-| linear_balls | a planar bearing about static equilibrium: impedance; `BearingCoefficients`, of both kinds |
+| equilibrium | springs under a load |
+| linear_balls | all balls about static equilibrium: impedance at complex frequencies |
+| coefficients | `BearingCoefficients`: stiffness and damping over frequency |
 | solved_balls | small motion with the impedance of solved contacts, under an oil supply |
 | features | inputs: waviness and defects of races and balls, balls of another diameter |
 | height_tables | heights of features, filtered by the contact, as tables over the angle and the load |

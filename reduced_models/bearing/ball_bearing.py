@@ -33,19 +33,12 @@ from ehlcontact.supply import OilLayer
 from reduced_models.atlas.heat import rolling_heat
 from reduced_models.atlas.supply import require_uniform
 from reduced_models.bearing.angular_balls import ANGLE, LOAD, AngularBalls
-from reduced_models.bearing.balls import Balls, SpeedState, speed_state
+from reduced_models.bearing.balls import Balls
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.clearance import clearance_of_class
+from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.contact_angles import CONTROLS, HARRIS, Grooves
-from reduced_models.bearing.contact_heights import HEIGHT
-from reduced_models.bearing.equilibrium import (
-    RingEquilibrium,
-    StaticBalls,
-    angle_of,
-    direction_of,
-    radial_load,
-    ring_equilibrium,
-)
+from reduced_models.bearing.equilibrium import angle_of, direction_of
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.excitation import (
     FILTERS,
@@ -57,15 +50,6 @@ from reduced_models.bearing.excitation import (
     with_cage_slip,
 )
 from reduced_models.bearing.features import Feature, feature_entries, features_from
-from reduced_models.bearing.five_degrees import (
-    AngularEquilibrium,
-    StaticRing,
-    angular_equilibrium,
-    free_clearance,
-    groove_distance,
-    require_in_groove,
-    spin_moment_factor,
-)
 from reduced_models.bearing.freedoms import FIVE, PLANAR, bearing_load, held_tilt
 from reduced_models.bearing.height_tables import heights_of, require_features_fit, settle
 from reduced_models.bearing.kinematics import (
@@ -77,20 +61,26 @@ from reduced_models.bearing.kinematics import (
     centrifugal_factor,
     speed_sum_per_omega,
 )
-from reduced_models.bearing.linear_angular import SmallAngularBalls
-from reduced_models.bearing.linear_balls import BearingCoefficients, SmallBalls
+from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.loss import loss_of, require_loss_factor
 from reduced_models.bearing.race import (
     RACES,
     Race,
-    assumptions_at_angles,
     assumptions_under,
-    films_at_angles,
     films_under,
     race_of,
     require_roughness,
 )
 from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
+from reduced_models.bearing.ring import (
+    RingEquilibrium,
+    StaticRing,
+    free_clearance,
+    groove_distance,
+    require_in_groove,
+    ring_equilibrium,
+    spin_moment_factor,
+)
 from reduced_models.bearing.shoulders import require_below_shoulders, shoulder_angle
 from reduced_models.bearing.skf_friction import friction_under
 from reduced_models.bearing.solved_balls import damping_left_out, signed_damping
@@ -442,22 +432,7 @@ class BallBearing(Summary):
         force, speed = self._bearing_load(load), self.speed(speed_rpm)
         angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
         held, turned = held_tilt(tilt, force.size), angle_of(shaft_angle, "shaft_angle") if self.features else None
-        if force.size > len(PLANAR):
-            return self._angular_state(self._angular_equilibrium(force, speed, angle, held, turned), speed, angle)
-        at = self._planar_equilibrium(force, speed, angle, turned)
-        return BearingState(
-            name=self.name,
-            load=force,
-            speed_rpm=speed,
-            cage_angle=angle,
-            displacement=at.displacement,
-            stiffness=at.stiffness,
-            angles=np.asarray(angle + 2.0 * pi / self.balls * np.arange(self.balls)),
-            force=at.force,
-            approach=at.approach,
-            **({} if self.oil is None else films_under(self, speed, at.force, at.approach)),
-            **friction_under(self, force, speed),
-        )
+        return self._state(self._equilibrium(force, speed, angle, held, turned), speed, angle)
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
     @by_name(2)
@@ -494,21 +469,13 @@ class BallBearing(Summary):
         """
         force, speed = self._bearing_load(load), self.speed(speed_rpm)
         w, held = radians_per_second(None, omega=omega, hz=hz, rpm=rpm), held_tilt(tilt, force.size)
-        if force.size > len(PLANAR):
-            cages = self._cage_angles(force, cage_angle)
-            places = [self._angular_equilibrium(force, speed, at, held) for at in cages]
-            small = self._small_angular(speed, places)
-            full = np.mean([at.load for at in places], axis=0)
-            outside = "" if self.oil is None else assumptions_at_angles(self, speed, places).headline
-            left_out = damping_left_out(self, speed, np.array([at.force for at in places]))
-            notes = outside, signed_damping(self, speed, small, places, w), left_out
-            return BearingCoefficients.of(full, speed, cage_angle, w, small.coefficients(w), places, *notes)
-        equilibria = self.ring_equilibria(force, speed, cage_angle)
-        balls = SmallBalls.of(self._kernel(speed), self._speed_state(speed), equilibria)
-        matrices, forces = balls.coefficients(w), np.array([at.force for at in equilibria])
-        outside = "" if self.oil is None else assumptions_under(self, speed, forces).headline
-        notes = outside, signed_damping(self, speed, balls, equilibria, w), damping_left_out(self, speed, forces)
-        return BearingCoefficients.of(force, speed, cage_angle, w, matrices, equilibria, *notes)
+        places = [self._equilibrium(force, speed, at, held) for at in self._cage_angles(force, cage_angle)]
+        balls = self._linear_balls(speed, places)
+        full = np.mean([at.load for at in places], axis=0)
+        outside = "" if self.oil is None else assumptions_under(self, speed, places).headline
+        left_out = damping_left_out(self, speed, np.array([at.force for at in places]))
+        notes = outside, signed_damping(self, speed, balls, places, w), left_out
+        return BearingCoefficients.of(full, speed, cage_angle, w, balls.coefficients(w), places, *notes)
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
     def excitation(
@@ -550,28 +517,16 @@ class BallBearing(Summary):
         require_choice("contact_filter", contact_filter, FILTERS)
         force, speed, cage_angle = self._bearing_load(load), self.speed(speed_rpm), angle_of(cage_angle)
         cages = self._cage_angles(force, None)
-        if force.size > len(PLANAR):
-            places = [self._angular_equilibrium(force, speed, at) for at in cages]
-            small: SmallBalls | SmallAngularBalls = self._small_angular(speed, places)
-            forces, approach = (np.array([getattr(at, name) for at in places]) for name in ("force", "approach"))
-            full, turns = np.mean([at.load for at in places], axis=0), turns_of(places)
-            rotations: _Floats | None = np.array([at.ball_rotation for at in places])
-        else:
-            rings = self.ring_equilibria(force, speed)
-            small = SmallBalls.of(self._kernel(speed), self._speed_state(speed), rings)
-            forces, approach = (np.array([getattr(at, name) for at in rings]) for name in ("force", "approach"))
-            full, turns, rotations = force, (self.orders.ftf, self.orders.bsf), None
-        slipping = with_cage_slip(self.balls, *turns, slip)
-        own_turns = None if rotations is None else rotations * slipping[1] / turns[1]
-        balls = FeaturedBalls(self, small, forces, cages[0], speed, *slipping, contact_filter, own_turns)
+        places = [self._equilibrium(force, speed, at) for at in cages]
+        small = self._linear_balls(speed, places)
+        forces, approach, rotations = (
+            np.array([getattr(at, name) for at in places]) for name in ("force", "approach", "ball_rotation")
+        )
+        full, turns = np.mean([at.load for at in places], axis=0), turns_of(places)
+        cage, rotation = with_cage_slip(self.balls, *turns, slip)
+        rotations = rotations * (rotation / turns[1])
+        balls = FeaturedBalls(self, small, forces, cages[0], speed, cage, rotations, contact_filter)
         return excitation_of(balls, full, float(approach.sum(axis=-1).max()), own, cage_angle)
-
-    def ring_equilibria(
-        self, load: ArrayLike, speed_rpm: float, cage_angle: float | None = None
-    ) -> list[RingEquilibrium]:
-        """Ring in equilibrium under a load [N], at positions of the cage over a ball passage or at one [rad]."""
-        force, speed = radial_load(load), self.speed(speed_rpm)
-        return [self._planar_equilibrium(force, speed, angle) for angle in self._cage_angles(force, cage_angle)]
 
     def _cage_angles(self, load: _Floats, cage_angle: float | None) -> list[float]:
         """Angles of the first ball [rad] over a ball passage, or the one that is given."""
@@ -623,26 +578,6 @@ class BallBearing(Summary):
         frequency = {"omega": omega, "hz": hz, "rpm": rpm}
         return bearing_element(self, node, speeds_rpm, load, frequency, **options)
 
-    def _planar_equilibrium(
-        self, load: _Floats, speed: float, angle: float, turned: float | None = None
-    ) -> RingEquilibrium:
-        """With axial motion and tilts held; raises `InputError` for a load that the bearing does not take.
-
-        With the shaft `turned` by an angle [rad] its features are there; else it is smooth.
-        """
-        still = self._static_balls(speed, angle)
-        try:
-            at = ring_equilibrium(still, load)
-            if turned is not None:
-                heights = still.films.heights[:, HEIGHT].reshape(-1, 2)
-                at = settle(self, heights, (angle, turned), lambda: ring_equilibrium(still, load))
-        except ConvergenceError:
-            self._require_bearable_by_all(load, speed)
-            raise
-        self._require_bearable(at.force, load, speed)
-        require_below_shoulders(self, np.zeros_like(at.force), at.force, load)
-        return at
-
     def _require_bearable(self, force: _Floats, load: _Floats, speed: float) -> None:
         """Raise `InputError` for forces on the balls, shape (balls, 2) [N], that a race does not bear."""
         given: tuple[str, Any] = "load", load.tolist()
@@ -672,21 +607,29 @@ class BallBearing(Summary):
             raise InputError("load", force.tolist(), f"{allowed} (a BearingSet has others that face -z)")
         return force
 
-    def _angular_equilibrium(
+    def _equilibrium(
         self,
         load: _Floats,
         speed: float,
         angle: float,
         tilt: _Floats | None = None,
         turned: float | None = None,
-    ) -> AngularEquilibrium:
-        """With five degrees of freedom; raises `InputError` for a load that the bearing does not take."""
-        self._require_bearable_by_all(load, speed)
+    ) -> RingEquilibrium:
+        """Ring in equilibrium, the first ball at `angle`; raises `InputError` for a load that it does not take.
+
+        With the shaft `turned` by an angle [rad] its features are there; else it is smooth.
+        """
         ring = self._static_ring(speed, angle, load.size, tilt)
-        at = angular_equilibrium(ring, load)
+        if load.size > len(PLANAR):
+            self._require_bearable_by_all(load, speed)
+        try:
+            at = ring_equilibrium(ring, load)
+        except ConvergenceError:
+            self._require_bearable_by_all(load, speed)
+            raise
         if turned is not None:
             first = at.displacement
-            at = settle(self, ring.places.height, (angle, turned), lambda: angular_equilibrium(ring, load, first))
+            at = settle(self, ring.places.height, (angle, turned), lambda: ring_equilibrium(ring, load, first))
         self._require_in_grooves(at.found, load, speed)
         return at
 
@@ -700,14 +643,20 @@ class BallBearing(Summary):
     def _static_ring(self, speed: float, angle: float, free: int, tilt: _Floats | None = None) -> StaticRing:
         """Inner ring of `free` degrees of freedom on balls at contact angles, the first ball at `angle`."""
         held = np.zeros(len(FIVE)) if tilt is None else np.concatenate([np.zeros(3), tilt])
-        return StaticRing(self._angular_balls(speed), angle, free, held)
+        return StaticRing(self._balls(speed), angle, free, held)
 
-    def _small_angular(self, speed: float, places: list[AngularEquilibrium]) -> SmallAngularBalls:
-        """What a small vibration finds in the bearing, over positions of the cage."""
-        return SmallAngularBalls.of(self._angular_balls(speed), places, loss_of(self.loss_factor), self._inertia)
+    def _linear_balls(self, speed: float, places: list[RingEquilibrium]) -> LinearBalls:
+        """All balls about equilibrium, over positions of the cage."""
+        return LinearBalls.of(self._balls(speed), places, loss_of(self.loss_factor), self._inertia)
 
-    def _angular_state(self, at: AngularEquilibrium, speed: float, angle: float) -> BearingState:
+    def _state(self, at: RingEquilibrium, speed: float, angle: float) -> BearingState:
         """State of the bearing with its ring where balls are in equilibrium, the first ball at `angle`."""
+        rolling: dict[str, Any] = {
+            "contact_angles": at.angles,
+            "spin_to_roll": at.spin_to_roll,
+            "orbit": at.orbit,
+            "ball_rotation": at.ball_rotation,
+        }
         return BearingState(
             name=self.name,
             load=at.load,
@@ -718,18 +667,15 @@ class BallBearing(Summary):
             angles=np.asarray(angle + 2.0 * pi / self.balls * np.arange(self.balls)),
             force=at.force,
             approach=at.approach,
-            contact_angles=at.angles,
-            spin_to_roll=at.spin_to_roll,
-            orbit=at.orbit,
-            ball_rotation=at.ball_rotation,
-            **({} if self.oil is None else films_at_angles(self, speed, at)),
+            **({} if at.load.size == len(PLANAR) else rolling),
+            **({} if self.oil is None else films_under(self, speed, at)),
             **friction_under(self, at.load, speed),
         )
 
-    def _angular_balls(self, speeds_rpm: ArrayLike) -> AngularBalls:
-        """Parameters of the kernels for balls at contact angles (`reduced_models.bearing.angular_balls`)."""
+    def _balls(self, speeds_rpm: ArrayLike) -> AngularBalls:
+        """Parameters of the compiled kernels (`reduced_models.bearing.angular_balls`) over increasing speeds."""
         speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
-        key = ("angular", *speeds.tolist())
+        key = ("balls", *speeds.tolist())
         if key not in self._cache:
             distance = self._groove_distance
             inner, outer = ((f - 0.5) * self.ball_diameter for f in (self.conformity_inner, self.conformity_outer))
@@ -780,14 +726,6 @@ class BallBearing(Summary):
     def _cosine(self) -> float:
         """Of the contact angle for which both races are tabulated."""
         return 1.0 if self.contact_angle is None else cos(self.contact_angle)
-
-    def _static_balls(self, speed: float, angle: float) -> StaticBalls:
-        """All balls in static equilibrium at a speed that the bearing takes, the first ball at `angle`."""
-        return StaticBalls(self._kernel(speed), self._speed_state(speed), angle)
-
-    def _speed_state(self, speed: float) -> SpeedState:
-        """Films, cage and centrifugal force at a speed that the bearing takes, as the kernels have them."""
-        return speed_state(self._kernel(speed), speed * RPM_TO_RAD_S)
 
     def _kernel(self, speeds_rpm: ArrayLike) -> Balls:
         """Parameters of the compiled kernels (`reduced_models.bearing.balls`) over increasing speeds [rev/min].

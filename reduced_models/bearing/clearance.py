@@ -1,7 +1,7 @@
 """Radial internal clearance of deep-groove ball bearings by class and bore.
 
 The contact angle that follows from a clearance: `BallBearing.free_angle`; the reverse:
-`five_degrees.free_clearance`.
+`ring.free_clearance`.
 
 Limits of ISO 5753-1 (DIN 620-4) for cylindrical bores, as makers' catalogues print them: of a bearing that is not
 mounted. Fits and a warm inner ring take some of it.

@@ -2,7 +2,7 @@
 
 A height h, positive out of the surface, presses its contact by Z W h, with the impedance Z of the film and the
 contact filter W over the wave number k per semi-axis: of a film G/Z by `reduced_models.atlas.waves`, of
-a dry contact sin(k)/k. The ball follows as in `linear_balls` and `linear_angular`: with the balance R of a ball
+a dry contact sin(k)/k. The ball follows as in `linear_balls`: with the balance R of a ball
 over its place b and the force P of the ring on it,
 
     R_b db + R_h = 0,    R_h = Z_i W_i h_i n_i - Z_o W_o h_o n_o,    dP = P_h + P_b db,    P_h = Z_i W_i h_i n_i,
@@ -49,14 +49,12 @@ from reduced_models.bearing.features import (
     RaceWaviness,
     Waves,
 )
-from reduced_models.bearing.five_degrees import AngularEquilibrium
 from reduced_models.bearing.freedoms import PLANAR, in_freedoms, labelled, load_words
 from reduced_models.bearing.height_tables import profile_of, track_radius
 from reduced_models.bearing.kinematics import RPM_TO_HZ, RPM_TO_RAD_S, DefectFrequencies
-from reduced_models.bearing.linear_angular import SmallAngularBalls
-from reduced_models.bearing.linear_balls import SmallBalls
-from reduced_models.bearing.loss import response
+from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.race import RACES
+from reduced_models.bearing.ring import RingEquilibrium
 
 if TYPE_CHECKING:
     from reduced_models.bearing.ball_bearing import BallBearing
@@ -181,30 +179,28 @@ class FeaturedBalls:
     Parameters
     ----------
     bearing : BallBearing
-    small : SmallBalls or SmallAngularBalls
+    small : LinearBalls
         At these positions.
     force : ndarray, shape (positions, balls, 2)
         Static forces at the inner and the outer race [N].
     first : float
         Angle of the first ball at the first position [rad].
-    speed_rpm, cage, rotation : float
-        Of the shaft [rev/min]; turns of the cage, and of a ball about its axis, per turn of the shaft.
+    speed_rpm, cage : float
+        Of the shaft [rev/min]; turns of the cage per turn of the shaft.
     contact_filter : {"film", "dry", "none"}
         As in `BallBearing.excitation`.
-    rotations : ndarray, shape (positions, balls), optional
-        Turns of every ball about its axis per turn of the shaft, which vary with the contact angles; the mean
-        around the orbit takes the place of `rotation` for waves of balls.
+    rotations : ndarray, shape (positions, balls)
+        Turns of every ball about its axis per turn of the shaft, which vary with the contact angles.
     """
 
     bearing: BallBearing
-    small: SmallBalls | SmallAngularBalls
+    small: LinearBalls
     force: _Floats
     first: float
     speed_rpm: float
     cage: float
-    rotation: float
+    rotations: _Floats
     contact_filter: str = FILTERS[0]
-    rotations: _Floats | None = None
 
     def harmonics(self, order: float, inner: _Complex, outer: _Complex) -> tuple[NDArray[np.int64], _Complex]:
         """Numbers m and force D_m on the ring, (k, n), by heights met `order` times per turn of the shaft.
@@ -212,7 +208,7 @@ class FeaturedBalls:
         `inner` and `outer`, (positions, balls), are the heights at both contacts of every ball, filtered.
         """
         s = 1j * abs(order) * self.speed_rpm * RPM_TO_RAD_S
-        forces = _force_on_ring(self.small, s, inner.ravel(), outer.ravel())
+        forces = self.small.force_of_heights(s, inner.ravel(), outer.ravel())
         forces = forces.conj() if order < 0.0 else forces
         positions, balls, _ = self.force.shape
         around = forces.reshape(positions, balls, -1).transpose(1, 0, 2).reshape(positions * balls, -1)
@@ -304,8 +300,6 @@ class FeaturedBalls:
 
         The harmonics r_m of its turns around the orbit lead by r_m/(i m cage) exp(i m psi).
         """
-        if self.rotations is None:
-            return self.rotation, np.zeros(1, complex)
         around = self.rotations.T.ravel()
         found = np.fft.rfft(around)[: (around.size + 1) // 2] / around.size
         m = np.arange(found.size)
@@ -407,7 +401,7 @@ def _require_low(feature: Feature, most: float) -> None:
             raise InputError(name, height, f"{low.format(-most, most)}, {where}")
 
 
-def turns_of(places: Sequence[AngularEquilibrium]) -> tuple[float, float]:
+def turns_of(places: Sequence[RingEquilibrium]) -> tuple[float, float]:
     """Turns of the cage and of a ball per turn of the shaft: the mean of the balls, by their loads."""
     weights = np.concatenate([at.force[:, 0] for at in places])
     cage, rotation = (
@@ -421,28 +415,3 @@ def with_cage_slip(balls: int, cage: float, rotation: float, slip: float) -> tup
     """Turns of the cage and of a ball where the cage turns slower by the share `slip`."""
     found = DefectFrequencies(cage, balls * cage, balls * (1.0 - cage), rotation).with_slip(slip)
     return found.ftf, found.bsf
-
-
-def _force_on_ring(
-    small: SmallBalls | SmallAngularBalls, s: complex, inner: _Complex, outer: _Complex
-) -> _Complex:
-    """Force of every ball on the ring (contacts, n), by heights at both of its contacts at exp(s t)."""
-    inner_z, outer_z = (np.asarray(race.impedance(np.asarray(s))) for race in (small.inner, small.outer))
-    scale, heavy = -response(small.loss, np.asarray(s)), small.inertia * s * s
-    touched = np.abs(inner_z + outer_z) > 0.0
-    if isinstance(small, SmallBalls):
-        both = inner_z + outer_z + heavy
-        pressed = inner_z * (inner * (outer_z + heavy) + outer * outer_z)
-        carried = np.divide(pressed, both, out=np.zeros_like(both), where=touched)
-        return np.asarray(scale * carried[:, None] * small.normals)
-    n_i, n_o = (np.stack([np.cos(angle), np.sin(angle)], axis=-1) for angle in small.angles.T)
-    spring_i, spring_o = (
-        Z[:, None, None] * n[:, :, None] * n[:, None, :] for Z, n in ((inner_z, n_i), (outer_z, n_o))
-    )
-    by_b = small.geometric[:, :2, :2] - spring_i - spring_o - heavy * np.eye(2)
-    by_b = by_b - ~touched[:, None, None] * np.eye(2)
-    by_height = (inner_z * inner)[:, None] * n_i
-    moved = -np.linalg.solve(by_b, (by_height - (outer_z * outer)[:, None] * n_o)[..., None])
-    P = (small.geometric[:, 2:, :2] @ moved)[..., 0].astype(complex)
-    P[:, :2] += by_height - (spring_i @ moved)[..., 0]
-    return np.asarray(scale * (small.maps.transpose(0, 2, 1) @ P[..., None])[..., 0])

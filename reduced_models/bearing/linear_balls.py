@@ -1,35 +1,35 @@
-"""A planar ball bearing about static equilibrium at a speed: impedance at complex frequencies.
+"""A ball bearing about static equilibrium: impedance at complex frequencies.
 
-`BearingCoefficients`, stiffness and damping over frequency, are those of bearings with five degrees of freedom too
-(`linear_angular`).
+Every contact has an impedance Z along its own normal, a `reduced_models.elements.small_motion.SmallMotion`: it
+takes the place of the stiffness in the tangents of its ball. With the balance R of the ball over its place b and
+the inner groove centre c, and the force P of the ring (`angular_balls`),
 
-The impedance is a rational function, for every gain is one of a filter. A ball has Z = Z_i Z_o/(Z_i + Z_o) of its
-two contacts in series (m s^2 beside Z_o if it has inertia), each of them a
-`reduced_models.elements.small_motion.SmallMotion`; those of all balls add along their directions, and rings and
-fits may lose more (`reduced_models.bearing.loss`). Balls stand still while the ring vibrates: what changes as they
-travel is no part of it. Over a ball passage Z is the mean of positions of the cage, each with the ring where the
-same load puts it.
+    R_b = G_b - Z_i n_i n_i^T - Z_o n_o n_o^T - m s^2,    R_c = G_c + Z_i n_i n_i^T,
+    dP = (P_c - P_b R_b^-1 R_c) dc.
+
+G has what follows the place of the ball without memory: the direction of both forces (Q/l), inertia of its orbit
+and spin, film over entrainment speed. m is the mass of a ball where it has inertia towards the rings. The states
+behind Z, as matrices of first order: `ball_states`.
+
+Rings and fits may lose more (`reduced_models.bearing.loss`). Balls stand still while the ring vibrates: what
+changes as they travel is no part of it. Over a ball passage Z is the mean of positions of the cage, each with the
+ring where one load puts it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple, Protocol
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, HERTZ, LENGTH, RADIAN, SPEED, STIFFNESS, Quantity
-from ehlcontact.results.frequency import FrequencyResponse
-from ehlcontact.results.table import Display
-from ehlcontact.summary import note_line, span
-from reduced_models.bearing.balls import Balls, SpeedState
-from reduced_models.bearing.equilibrium import RingEquilibrium
-from reduced_models.bearing.freedoms import FIVE, PLANAR, in_freedoms, labelled, load_words
+from reduced_models.bearing.angular_balls import SLOPE, AngularBalls
+from reduced_models.bearing.coefficients import stiffness_and_damping
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_contact import curve, film_cutoff, film_made
 from reduced_models.bearing.race_table import RaceForceTable
+from reduced_models.bearing.ring import RingEquilibrium
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.film_response import FilterRates
 from reduced_models.elements.small_motion import SmallMotion
@@ -37,18 +37,105 @@ from reduced_models.elements.small_motion import SmallMotion
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
-TINY_OMEGA = 1e-3  # rad/s, stands for 0: films forget in less than a second
+
+class LinearBalls(NamedTuple):
+    """All balls of a bearing about static equilibrium, at one position of the cage or at several."""
+
+    inner: SmallMotion  # of all contacts, (positions * balls,)
+    outer: SmallMotion
+    angles: _Floats  # (positions * balls, 2) contact angles [rad]
+    geometric: _Floats  # (positions * balls, 5, 4) G of the balance and of the force of the ring
+    maps: _Floats  # (positions * balls, 3, n) of `ring_map`, for the n directions of the ring
+    positions: int
+    loss: Loss
+    inertia: float  # of a ball [kg]
+
+    @classmethod
+    def of(
+        cls, balls: AngularBalls, equilibria: Sequence[RingEquilibrium], loss: Loss, inertia: float
+    ) -> LinearBalls:
+        """From where the ring stands at each position."""
+        force, approach, speed_sum, angles, geometric, maps = (
+            np.concatenate([getattr(at, name) for at in equilibria])
+            for name in ("force", "approach", "speed_sum", "angles", "geometric", "maps")
+        )
+        slope = np.concatenate([at.found[:, SLOPE : SLOPE + 2] for at in equilibria])
+        inner, outer = (
+            SmallMotion.stack(
+                [
+                    _about(law, balls.omega, *row)
+                    for row in zip(force[:, j], approach[:, j], slope[:, j], speed_sum[:, j], strict=True)
+                ]
+            )
+            for j, law in enumerate((balls.inner, balls.outer))
+        )
+        return cls(inner, outer, angles, geometric, maps, len(equilibria), loss, inertia)
+
+    def impedance(self, s: ArrayLike) -> _Complex:
+        """Of the ring at frequencies s [1/s] of exp(s t), shape of `s` + (n, n)."""
+        s = np.asarray(s, complex)[..., None]
+        inner, _, by_b = self._tangents(s)
+        G, n = self.geometric, self._normals[0]
+        condensed = np.empty((*s.shape[:-1], len(G), 3, 2), complex)
+        for j in range(2):
+            pressed = inner * (n[0] * n[j]), inner * (n[1] * n[j]), 0.0  # no moment by the normal force
+            moved = _solve(by_b, (G[:, 0, 2 + j] + pressed[0], G[:, 1, 2 + j] + pressed[1]))
+            for i in range(3):
+                own = G[:, 2 + i, 2 + j] + pressed[i]
+                condensed[..., i, j] = own - self._carried(inner, moved, i)
+        directions = self.maps.shape[-1]
+        weights = np.einsum("kmi,klj->kmlij", self.maps, self.maps[:, :2]).reshape(-1, directions * directions)
+        Z = condensed.reshape(*s.shape[:-1], -1) @ weights
+        share = response(self.loss, s[..., 0]) / self.positions
+        return np.asarray(Z.reshape(*s.shape[:-1], directions, directions) * share[..., None, None])
+
+    def force_of_heights(self, s: complex, inner: _Complex, outer: _Complex) -> _Complex:
+        """Force of every ball on the ring, shape (contacts, n), by heights at both of its contacts at exp(s t)."""
+        inner_z, outer_z, by_b = self._tangents(np.array([s]))
+        n = self._normals
+        pressed = [inner_z * inner * n[0][j] for j in range(2)]
+        moved = _solve(by_b, tuple(outer_z * outer * n[1][j] - pressed[j] for j in range(2)))
+        P = np.stack([self._carried(inner_z, moved, i) for i in range(3)], axis=-1)
+        P[:, :2] += np.stack(pressed, axis=-1)
+        return np.asarray(-response(self.loss, np.asarray(s)) * (P[:, None] @ self.maps)[:, 0])
+
+    @property
+    def _normals(self) -> _Floats:
+        """Of the inner and the outer contacts, shape (2, 2, contacts)."""
+        return np.stack([np.stack([np.cos(angle), np.sin(angle)]) for angle in self.angles.T])
+
+    def _tangents(self, s: _Complex) -> tuple[_Complex, _Complex, list[_Complex]]:
+        """Impedances of all contacts at s, shape (..., 1), and R_b by rows; all of shape (..., contacts)."""
+        inner, outer = (np.asarray(race.impedance(s)) for race in (self.inner, self.outer))
+        n_i, n_o = self._normals
+        lost = inner + outer == 0.0  # nothing touches the ball: it carries nothing
+        own = self.inertia * s * s + lost
+        by_b = [
+            self.geometric[:, i, j]
+            - inner * (n_i[i] * n_i[j])
+            - outer * (n_o[i] * n_o[j])
+            - (own if i == j else 0.0)
+            for i in range(2)
+            for j in range(2)
+        ]
+        return inner, outer, by_b
+
+    def _carried(self, inner: _Complex, moved: tuple[_Complex, _Complex], i: int) -> _Complex:
+        """Component `i` of P_b times a motion of the balls."""
+        G, n = self.geometric, self._normals[0]
+        found = G[:, 2 + i, 0] * moved[0] + G[:, 2 + i, 1] * moved[1]
+        return found - inner * n[i] * (n[0] * moved[0] + n[1] * moved[1]) if i < 2 else found
+
+    def coefficients(self, omega: _Floats) -> tuple[_Floats, _Floats]:
+        """Stiffness [N/m] and damping [N s/m], shape (k, n, n), at angular frequencies [rad/s], shape (k,)."""
+        return stiffness_and_damping(self.impedance, omega)
 
 
-def small_motion(law: RaceForceTable, transit: float, speed_row: tuple[int, float], u: float) -> SmallMotion:
-    """Linear law of one contact about approach `u` [m]; `transit` and `speed_row` as in `SpeedState`."""
-    g, by_u, _ = curve(u, speed_row[0], speed_row[1], law, 0)
-    root = np.sqrt(g)
-    if law.x.size == 0:
-        return SmallMotion(1.5 * law.kn * root * by_u, 0.0, 0.0, np.zeros(0), None)
-    share, share_u = film_cutoff(u, law.cutoff_gap)
-    slope = share * 1.5 * law.kn * root
-    return small_film(law, transit, speed_row, g, slope, slope * by_u + share_u * law.kn * g * root)
+def _solve(matrix: list[_Complex], right: tuple[_Complex, ...]) -> tuple[_Complex, _Complex]:
+    """Solve 2 x 2 equations, the matrix by rows."""
+    rr, rz, zr, zz = matrix
+    det = rr * zz - rz * zr
+    return (zz * right[0] - rz * right[1]) / det, (rr * right[1] - zr * right[0]) / det
 
 
 def small_film(
@@ -66,163 +153,13 @@ def small_film(
     return SmallMotion(stiffness, slope, transit * root, gains, rates, made)
 
 
-class SmallBalls(NamedTuple):
-    """All balls of a bearing about static equilibrium, at one position of the cage or at several."""
-
-    inner: SmallMotion  # of all contacts, (positions * balls,)
-    outer: SmallMotion
-    normals: _Floats  # (positions * balls, 2)
-    positions: int
-    loss: Loss
-    inertia: float  # of a ball along its normal [kg]
-
-    @classmethod
-    def of(cls, balls: Balls, at_speed: SpeedState, equilibria: Sequence[RingEquilibrium]) -> SmallBalls:
-        """From where the ring stands at each position."""
-        approach = np.concatenate([at.approach for at in equilibria])
-        races = (balls.inner, at_speed.inner, approach[:, 0]), (balls.outer, at_speed.outer, approach[:, 1])
-        inner, outer = (
-            SmallMotion.stack([small_motion(law, transit, at_speed.speed_row, u) for u in places.tolist()])
-            for law, transit, places in races
-        )
-        normals = np.concatenate([at.normals for at in equilibria])
-        return cls(inner, outer, normals, len(equilibria), balls.loss, balls.inertia)
-
-    def impedance(self, s: ArrayLike) -> _Complex:
-        """Of the ring [N/m] at frequencies s [1/s] of exp(s t), shape of `s` + (2, 2)."""
-        s = np.asarray(s, complex)[..., None]
-        inner, outer = self.inner.impedance(s), self.outer.impedance(s) + self.inertia * s * s
-        both = inner + outer
-        series = np.divide(inner * outer, both, out=np.zeros_like(both), where=both != 0.0)
-        scale = (response(self.loss, s) / self.positions)[..., None]
-        return np.asarray((self.normals.T * series[..., None, :]) @ self.normals * scale)
-
-    def coefficients(self, omega: _Floats) -> tuple[_Floats, _Floats]:
-        """Stiffness [N/m] and damping [N s/m], shape (k, 2, 2), at angular frequencies [rad/s], shape (k,)."""
-        return stiffness_and_damping(self.impedance, omega)
-
-
-def stiffness_and_damping(impedance: Callable[[_Complex], _Complex], omega: _Floats) -> tuple[_Floats, _Floats]:
-    """K and C, shape (k, n, n), of an impedance Z = K + i omega C at angular frequencies [rad/s], shape (k,)."""
-    w = np.maximum(omega, TINY_OMEGA)
-    Z = impedance(1j * w)
-    return Z.real.copy(), Z.imag / w[:, None, None]
-
-
-class RingAtRest(Protocol):
-    """A ring in equilibrium at a position of the cage."""
-
-    @property
-    def displacement(self) -> _Floats:
-        """Of its degrees of freedom [m], [rad]."""
-
-
-@dataclass(frozen=True, eq=False)
-class BearingCoefficients(FrequencyResponse):
-    """Matrices of a small vibration of the ring in n = 2 or 5 degrees of freedom: x, y (, z, tilt_x, tilt_y).
-
-    Tilts have rad for m and N m for N.
-
-    Attributes
-    ----------
-    load : ndarray, shape (n,)
-        Force on the ring [N], [N m].
-    speed_rpm : float
-        Of the shaft.
-    cage_angle : float or None
-        Of the first ball [rad]; None: means over a ball passage.
-    omega : ndarray, shape (k,)
-        Angular frequencies [rad/s]; ``hz`` has them in Hz.
-    stiffness, damping : ndarray, shape (k, n, n)
-        K [N/m] and C [N s/m].
-    displacement : ndarray, shape (n,)
-        Of the ring [m].
-    peak_to_peak : ndarray, shape (n,)
-        Peak-to-peak displacement of the ring while a ball passes slowly [m]; 0 at a given angle of the cage.
-    outside_assumptions : str
-        Assumptions of films that do not hold at the most loaded ball (`ehlcontact.assumptions`); empty where none.
-    signed_damping : ndarray, shape (k, n, n), or None
-        C [N s/m] of the solved contacts under an oil supply, which at low frequency may be below zero; `damping`
-        is that of the elements, which leave that out. None in flooded bearings.
-    damping_left_out : str
-        Below which frequency contacts under an oil supply have damping below zero, which `damping` leaves out, in
-        words; empty where there is none.
-    """
-
-    load: Annotated[_Floats, FORCE.over("axis")]
-    speed_rpm: Annotated[float, SPEED]
-    cage_angle: Annotated[float | None, RADIAN]
-    omega: Annotated[_Floats, FREQUENCY.over("hz")]
-    stiffness: Annotated[_Floats, STIFFNESS.over("hz axis by")]
-    damping: Annotated[_Floats, DAMPING.over("hz axis by")]
-    displacement: Annotated[_Floats, LENGTH.over("axis")]
-    peak_to_peak: Annotated[_Floats, LENGTH.over("axis")]
-    outside_assumptions: str = ""
-    signed_damping: Annotated[_Floats | None, DAMPING.over("hz axis by")] = None
-    damping_left_out: str = ""
-
-    DISPLAY: ClassVar[Display] = Display(
-        rows="hz", panels=("stiffness", "damping"), labels={"axis": ("x", "y"), "by": ("x", "y")}, logs="x"
-    )
-
-    def _quantities(self) -> Mapping[str, Quantity]:
-        return in_freedoms(super()._quantities(), self.load.size)
-
-    def _display(self) -> Display:
-        return labelled(super()._display(), self.load.size)
-
-    def _summary_lines(self) -> list[str]:
-        K, C = self.stiffness, self.damping
-        axial = []
-        if K.shape[1] > len(PLANAR):
-            axial = [
-                f"K_zz {span(K[:, 2, 2], 1e-6, 'N/µm')}, C_zz {span(C[:, 2, 2], 1.0, 'N s/m')}",
-                f"tilt about x {span(K[:, 3, 3], 1e-3, 'N m/mrad')}, about y {span(K[:, 4, 4], 1e-3, 'N m/mrad')}",
-            ]
-        return [
-            f"load {load_words(self.load)} at {self.speed_rpm:.5g} rev/min, {span(self.hz, 1.0, 'Hz')}",
-            f"K_xx {span(K[:, 0, 0], 1e-6, 'N/µm')}, K_yy {span(K[:, 1, 1], 1e-6, 'N/µm')}",
-            f"C_xx {span(C[:, 0, 0], 1.0, 'N s/m')}, C_yy {span(C[:, 1, 1], 1.0, 'N s/m')}",
-            *axial,
-            *self._signed_line(),
-            "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
-            *([self.damping_left_out] if self.damping_left_out else []),
-            *note_line(self.outside_assumptions),
-        ]
-
-    def _signed_line(self) -> list[str]:
-        if self.signed_damping is None:
-            return []
-        C = np.einsum("kii->ik", self.signed_damping)[:3]  # in x, y and z
-        said = ", ".join(f"C_{2 * way} {span(row, 1.0, 'N s/m')}" for way, row in zip(FIVE, C, strict=False))
-        return [f"of the solved contacts, below zero too: {said}"]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON."""
-        left_out = {"damping_left_out": self.damping_left_out} if self.damping_left_out else {}
-        return super().to_dict() | {"outside_assumptions": self.outside_assumptions} | left_out
-
-    @property
-    def hz(self) -> Annotated[_Floats, HERTZ.over("hz")]:
-        """The frequencies [Hz]."""
-        return np.asarray(self.omega / (2.0 * np.pi))
-
-    @classmethod
-    def of(
-        cls,
-        load: _Floats,
-        speed_rpm: float,
-        cage_angle: float | None,
-        omega: _Floats,
-        matrices: tuple[_Floats, _Floats],
-        equilibria: Sequence[RingAtRest],
-        outside_assumptions: str = "",
-        signed_damping: _Floats | None = None,
-        damping_left_out: str = "",
-    ) -> BearingCoefficients:
-        """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""
-        places = np.array([at.displacement for at in equilibria])
-        mean, peak_to_peak = places.mean(axis=0), np.ptp(places, axis=0)
-        K, C = matrices
-        notes = outside_assumptions, signed_damping, damping_left_out
-        return cls(load, speed_rpm, cage_angle, omega, K, C, mean, peak_to_peak, *notes)
+def _about(
+    law: RaceForceTable, omega: float, force: float, u: float, slope: float, speed_sum: float
+) -> SmallMotion:
+    """Linear law of one contact under its static force, whose derivative by the approach is `slope`."""
+    if law.x.size == 0:
+        return SmallMotion(slope, 0.0, 0.0, np.zeros(0), None)
+    share = film_cutoff(u, law.cutoff_gap)[0]
+    g = (force / (share * law.kn)) ** (2.0 / 3.0) if share > 0.0 else curve(u, 0, 0.0, law, 0)[0]
+    by_film = share * 1.5 * law.kn * np.sqrt(g)
+    return small_film(law, law.contact_length_factor / (speed_sum * omega), (0, 0.0), g, by_film, slope)

@@ -29,9 +29,9 @@ from reduced_models.atlas.answer import AtlasAnswer
 from reduced_models.atlas.atlas import Atlas
 from reduced_models.atlas.heat import ellipses, fastest
 from reduced_models.atlas.supply import heaviest_load, supply_box
-from reduced_models.bearing.five_degrees import AngularEquilibrium
-from reduced_models.bearing.kinematics import RPM_TO_RAD_S, rolling_torque, speed_sum_per_omega
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S, speed_sum_per_omega
 from reduced_models.bearing.race_contact import film_cutoff
+from reduced_models.bearing.ring import RingEquilibrium
 from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
@@ -248,24 +248,6 @@ def race_of(bearing: Any, name: str) -> Race:
     )
 
 
-def films_under(bearing: Any, speed_rpm: float, force: _Floats, approach: _Floats) -> dict[str, Any]:
-    """Films of all balls of a `BallBearing` at rest, and what they resist, by the names of `BearingState`.
-
-    `force` and `approach` have shape (balls, 2): columns for inner and outer race.
-    """
-    films = []
-    for column, name in enumerate(RACES):
-        race, load = bearing.race(name), force[:, column]
-        films.append(race.films(speed_rpm, load, (load / race.kn) ** (2.0 / 3.0) - approach[:, column]))
-    h_central, h_min, moment = (np.column_stack(parts) for parts in zip(*films, strict=True))
-    if bearing.cutoff_gap is not None:
-        moment *= np.array([[film_cutoff(u, bearing.cutoff_gap)[0] for u in row] for row in approach.tolist()])
-    torque = rolling_torque(moment[:, 0], moment[:, 1], bearing.ball_diameter, bearing.pitch_diameter)
-    found = {"h_central": h_central, "h_min": h_min, "moment": moment, "rolling_torque": torque}
-    found["outside_assumptions"] = assumptions_under(bearing, speed_rpm, force).headline
-    return found | rough_surfaces(bearing, force, h_central, h_min)
-
-
 def rough_surfaces(bearing: Any, force: _Floats, h_central: _Floats, h_min: _Floats) -> dict[str, Any]:
     """Lambda ratios of films of a `BallBearing`, and load shares of typical asperities; none without roughness."""
     if not bearing.roughness:
@@ -279,38 +261,38 @@ def rough_surfaces(bearing: Any, force: _Floats, h_central: _Floats, h_min: _Flo
     return {"lambda_ratio": h_min / bearing.roughness, "asperity_share": share}
 
 
-def assumptions_under(bearing: Any, speed_rpm: float, force: _Floats) -> Assumptions:
-    """Worst of the assumptions at both races of a `BallBearing` in oil, under its largest forces there [N].
+def races_at_angles(bearing: Any, name: str, angles: _Floats, speed_sums: _Floats) -> list[Race]:
+    """Contacts of balls of a `BallBearing` with one race, at their own angles [rad] and speed sums [m]."""
+    nominal, made = bearing.race(name), {}
+    if bearing.contact_angle is None:  # balls of a radial load all run at an angle of 0
+        made = {
+            (0.0, speed): nominal for speed in speed_sums.tolist() if abs(speed / nominal.speed_sum - 1.0) < INSIDE
+        }
+    keys = list(zip(angles.tolist(), speed_sums.tolist(), strict=True))
+    for key in keys:
+        if key not in made:
+            made[key] = nominal.at_angle(bearing.pitch_diameter, *key)
+    return [made[key] for key in keys]
 
-    `force` has shape (..., 2): columns for inner and outer race. Surfaces roll as fast at all balls.
-    """
-    rough = (bearing.roughness / sqrt(2.0),) * 2 if bearing.roughness else None
-    found = []
-    for name, load in zip(RACES, force.reshape(-1, 2).max(axis=0).tolist(), strict=True):
-        race = bearing.race(name)
-        most = max(load, race.loads(speed_rpm)[0])
-        point, film = race.point(most, speed_rpm), race.answer(most, speed_rpm)
-        found.append(assumptions(point, film=film, roughness=rough))
-    return Assumptions.worst_of(found)
 
-
-def assumptions_at_angles(bearing: Any, speed_rpm: float, places: Sequence[AngularEquilibrium]) -> Assumptions:
-    """The same for the heaviest contact with each race, at its own angle and entrainment speed."""
+def assumptions_under(bearing: Any, speed_rpm: float, places: Sequence[RingEquilibrium]) -> Assumptions:
+    """Worst of the assumptions at the heaviest contacts of a `BallBearing` in oil with each race."""
     rough = (bearing.roughness / sqrt(2.0),) * 2 if bearing.roughness else None
     found = []
     for column, name in enumerate(RACES):
         at = max(places, key=lambda one: float(one.force[:, column].max()))
         k = int(np.argmax(at.force[:, column]))
-        angle, speed_sum = float(at.angles[k, column]), float(at.speed_sum[k, column])
-        race = bearing.race(name).at_angle(bearing.pitch_diameter, angle, speed_sum)
+        race = races_at_angles(bearing, name, at.angles[k : k + 1, column], at.speed_sum[k : k + 1, column])[0]
         load = max(float(at.force[k, column]), race.loads(speed_rpm)[0])
         point, film = race.point(load, speed_rpm), race.answer(load, speed_rpm)
         found.append(assumptions(point, film=film, roughness=rough))
     return Assumptions.worst_of(found)
 
 
-def films_at_angles(bearing: Any, speed_rpm: float, at: AngularEquilibrium) -> dict[str, Any]:
-    """The same at the angles, curvatures and entrainment speeds of every contact.
+def films_under(bearing: Any, speed_rpm: float, at: RingEquilibrium) -> dict[str, Any]:
+    """Films of all balls of a `BallBearing` at rest, and what they resist, by the names of `BearingState`.
+
+    Each has the angle, curvature and entrainment speed of its contact.
 
     Raises
     ------
@@ -320,26 +302,27 @@ def films_at_angles(bearing: Any, speed_rpm: float, at: AngularEquilibrium) -> d
     shape = at.force.shape
     h_central, h_min, moment = np.zeros(shape), np.zeros(shape), np.zeros(shape)
     torque = 0.0
-    for (k, column), angle in np.ndenumerate(at.angles):
-        nominal, load = bearing.race(RACES[column]), at.force[k, column]
-        race = nominal.at_angle(bearing.pitch_diameter, float(angle), float(at.speed_sum[k, column]))
-        highest, table = race.end
-        if speed_rpm > highest:
-            allowed = f"at most {highest:.5g}, where {table} ends at a contact angle of {angle:.3g} rad"
-            raise InputError("speed_rpm", speed_rpm, allowed)
-        race.require_bearable(float(load), speed_rpm, "load", at.load.tolist())
-        gap = (load / nominal.kn) ** (2.0 / 3.0) - at.approach[k, column]
-        central, smallest, resists = race.films(speed_rpm, np.array([load]), np.array([gap]))
-        h_central[k, column], h_min[k, column] = central[0], smallest[0]
-        carries = 1.0
-        if bearing.cutoff_gap is not None:
-            carries = film_cutoff(float(at.approach[k, column]), bearing.cutoff_gap)[0]
-        moment[k, column] = carries * resists[0]
-        # power m u/Rx of every film over the speed of the shaft, u = u_sum/2
-        torque += 0.5 * at.speed_sum[k, column] * moment[k, column] / race.geometry.radius_x
-    found: dict[str, Any] = {"h_central": h_central, "h_min": h_min, "moment": moment}
-    found["rolling_torque"] = float(torque)
-    found["outside_assumptions"] = assumptions_at_angles(bearing, speed_rpm, [at]).headline
+    for column, name in enumerate(RACES):
+        nominal = bearing.race(name)
+        races = races_at_angles(bearing, name, at.angles[:, column], at.speed_sum[:, column])
+        for race in {id(race): race for race in races}.values():
+            own = np.array([k for k, other in enumerate(races) if other is race])
+            load, (highest, table) = at.force[own, column], race.end
+            if race is not nominal and speed_rpm > highest:
+                angle = at.angles[own[0], column]
+                allowed = f"at most {highest:.5g}, where {table} ends at a contact angle of {angle:.3g} rad"
+                raise InputError("speed_rpm", speed_rpm, allowed)
+            race.require_bearable(float(load.max()), speed_rpm, "load", at.load.tolist())
+            gap = (load / nominal.kn) ** (2.0 / 3.0) - at.approach[own, column]
+            h_central[own, column], h_min[own, column], moment[own, column] = race.films(speed_rpm, load, gap)
+            if bearing.cutoff_gap is not None:
+                carries = [film_cutoff(u, bearing.cutoff_gap)[0] for u in at.approach[own, column].tolist()]
+                moment[own, column] *= carries
+            # power m u/Rx of every film over the speed of the shaft, u = u_sum/2
+            power = 0.5 * at.speed_sum[own, column] * moment[own, column]
+            torque += float(power.sum()) / race.geometry.radius_x
+    found: dict[str, Any] = {"h_central": h_central, "h_min": h_min, "moment": moment, "rolling_torque": torque}
+    found["outside_assumptions"] = assumptions_under(bearing, speed_rpm, [at]).headline
     return found | rough_surfaces(bearing, at.force, h_central, h_min)
 
 

@@ -1,15 +1,14 @@
 """Small motion of a bearing under an oil supply with the impedance of its solved contacts, of either sign.
 
 Elements are passive, so they do not have the negative damping of starved contacts at low frequencies. The atlas
-has the impedance of each contact; that of the bearing follows with both races of a ball in series, as in
-`reduced_models.bearing.linear_balls`.
+has the impedance of each contact; that of the bearing follows as in `reduced_models.bearing.linear_balls`.
 """
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,14 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 from reduced_models.atlas.answer import AtlasAnswer
 from reduced_models.atlas.atlas import NEGATIVE
 from reduced_models.atlas.frequency_curve import FrequencyCurve
-from reduced_models.bearing.linear_angular import SmallAngularBalls
-from reduced_models.bearing.linear_balls import SmallBalls
-from reduced_models.bearing.race import INSIDE, RACES, Race
+from reduced_models.bearing.linear_balls import LinearBalls
+from reduced_models.bearing.race import INSIDE, RACES, Race, races_at_angles
 from reduced_models.elements.validity import OutsideValidityWarning
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
-Small = TypeVar("Small", SmallBalls, SmallAngularBalls)
 
 ALIKE = 9  # digits to which the loads, angles and speeds of two contacts are the same
 WARNED = "warned of damping left out"  # where a bearing keeps that
@@ -92,7 +89,9 @@ class _Curves:
         return K, C
 
 
-def with_solved_contacts(bearing: Any, speed_rpm: float, small: Small, equilibria: Sequence[Any]) -> Small:
+def with_solved_contacts(
+    bearing: Any, speed_rpm: float, small: LinearBalls, equilibria: Sequence[Any]
+) -> LinearBalls:
     """A `BallBearing` about equilibrium with impedances of its solved contacts in place of its elements'.
 
     Flooded bearings stay as they are: their elements leave out nothing. `small` is the bearing about the
@@ -108,19 +107,18 @@ def with_solved_contacts(bearing: Any, speed_rpm: float, small: Small, equilibri
     force = np.concatenate([at.force for at in equilibria])
     columns = []
     for column, name in enumerate(RACES):
-        races = [bearing.race(name)] * len(force)
-        if isinstance(small, SmallAngularBalls):
-            angles, speeds = (
-                np.concatenate([getattr(at, what)[:, column] for at in equilibria]).tolist()
-                for what in ("angles", "speed_sum")
-            )
-            races = [races[0].at_angle(bearing.pitch_diameter, *one) for one in zip(angles, speeds, strict=True)]
+        angles, speeds = (
+            np.concatenate([getattr(at, what)[:, column] for at in equilibria]) for what in ("angles", "speed_sum")
+        )
+        races = races_at_angles(bearing, name, angles, speeds)
         loads = force[:, column].tolist()
         columns.append(SolvedContacts(list(zip(races, loads, strict=True)), speed_rpm))
     return small._replace(inner=columns[0], outer=columns[1])  # type: ignore[arg-type]
 
 
-def signed_damping(bearing: Any, speed_rpm: float, small: Small, equilibria: Sequence[Any], omega: _Floats) -> Any:
+def signed_damping(
+    bearing: Any, speed_rpm: float, small: LinearBalls, equilibria: Sequence[Any], omega: _Floats
+) -> Any:
     """C [N s/m] of a `BallBearing` by its solved contacts, shape (k, n, n), at angular frequencies [rad/s], (k,).
 
     None of a flooded bearing. Raises `InputError` above the highest frequency of the atlas.

@@ -41,11 +41,11 @@ from ehlcontact.errors import InputError
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.coefficients import BearingCoefficients, stiffness_and_damping
 from reduced_models.bearing.equilibrium import angle_of, direction_of
-from reduced_models.bearing.five_degrees import AngularEquilibrium, groove_distance, require_seated
 from reduced_models.bearing.freedoms import FACINGS, FIVE, bearing_load, facing_signs, held_tilt, require_offset
-from reduced_models.bearing.linear_balls import BearingCoefficients, stiffness_and_damping
-from reduced_models.bearing.race import assumptions_at_angles
+from reduced_models.bearing.race import assumptions_under
+from reduced_models.bearing.ring import RingEquilibrium, groove_distance, require_seated
 from reduced_models.bearing.set_result import SetState
 from reduced_models.bearing.solved_balls import require_frequencies
 from reduced_models.rotor.equilibrium import StaticAngularBalls, StaticRotor
@@ -340,7 +340,7 @@ class BearingSet(Summary):
             stiffness=rest.stiffness,
             axial_forces=np.array([balls.load[Z] for balls in rest.bearings]),
             facings=tuple(self.facings),
-            bearings=tuple(bearing._angular_state(balls, speed, angle) for bearing, balls in rows),
+            bearings=tuple(bearing._state(balls, speed, angle) for bearing, balls in rows),
         )
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad", tilt="rad")
@@ -386,7 +386,7 @@ class BearingSet(Summary):
         by_bearing = list(zip(*(rest.bearings for rest in rests), strict=True))
         rows = list(zip(self.bearings, by_bearing, strict=True))
         linear = self._linear(full, speed, cage_angle is None, rows, signed=False)
-        judged = [assumptions_at_angles(bearing, speed, own) for bearing, own in rows if bearing.oil is not None]
+        judged = [assumptions_under(bearing, speed, own) for bearing, own in rows if bearing.oil is not None]
         outside = Assumptions.worst_of(judged).headline if judged else ""
         signed = None
         if any(bearing.supply is not None for bearing in self.bearings):
@@ -404,7 +404,7 @@ class BearingSet(Summary):
         load: _Floats,
         speed: float,
         passage: bool,
-        rows: Sequence[tuple[BallBearing, Sequence[AngularEquilibrium]]],
+        rows: Sequence[tuple[BallBearing, Sequence[RingEquilibrium]]],
         *,
         signed: bool,
     ) -> LinearRotor:
@@ -658,7 +658,7 @@ class _SetAtRest:
     displacement: _Floats  # (5,) of the shaft [m], [rad]
     load: _Floats  # (5,) [N], [N m], reactions of what is held included
     stiffness: _Floats  # (5, 5)
-    bearings: list[AngularEquilibrium]  # each in its own frame
+    bearings: list[RingEquilibrium]  # each in its own frame
 
 
 def _margin(balls: Sequence[StaticAngularBalls], k: int) -> float:

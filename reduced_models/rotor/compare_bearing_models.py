@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.equilibrium_result import BearingState
-from reduced_models.bearing.linear_balls import BearingCoefficients
 from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.campbell import Campbell, campbell

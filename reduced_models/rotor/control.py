@@ -24,13 +24,9 @@ from ehlcontact.errors import InputError
 from reduced_models.bearing.angular_balls import LOAD, ORBIT, AngularBalls
 from reduced_models.bearing.ball_states import PER_METRE, across_damping, bearing_system
 from reduced_models.bearing.balls import (
-    POSITION,
     Balls,
     SpeedState,
-    begin_rest,
     directions,
-    films_of,
-    press_balls,
     speed_state,
 )
 from reduced_models.bearing.continuous_time import (
@@ -39,11 +35,10 @@ from reduced_models.bearing.continuous_time import (
     bearing_rates,
     rates_with_cage,
 )
-from reduced_models.bearing.five_degrees import equilibrium_at
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.linear_angular import SmallAngularBalls
 from reduced_models.bearing.loss import Loss
+from reduced_models.bearing.ring import equilibrium_at
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.small_motion import FILTERS
 from reduced_models.rotor.linear_system import rotor_system
@@ -78,9 +73,8 @@ def linear_block(
     shapes = []
     for b in about:
         inner, outer = (0 if film.rates is None else film.rates.lags for film in (b.inner, b.outer))
-        angular = isinstance(b, SmallAngularBalls)
-        count = len(b.maps if angular else b.normals)
-        shapes.append(_Shape(angular, count, inner, outer, b.loss.gains.size, b.inertia))
+        angular = b.maps.shape[-1] == len(FIVE)
+        shapes.append(_Shape(angular, len(b.maps), inner, outer, b.loss.gains.size, b.inertia))
     return control.ss(
         A,
         driven[:, list(ins.values())] / UNIT,
@@ -234,27 +228,27 @@ class _PlanarRing(_Ring):
     """On balls that move along their radius."""
 
     def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
-        bearing, angle = mount.ball_bearing, mount.cage_angle
-        held = bearing._static_balls(bearing.speed(speed), angle)
-        self.balls: Balls = held.balls
+        bearing, angle, rpm = mount.ball_bearing, mount.cage_angle, mount.ball_bearing.speed(speed)
+        self._static = bearing._static_ring(rpm, angle, r.size)
+        held = equilibrium_at(self._static, r)
+        self.balls: Balls = bearing._kernel(rpm)
         laws: SpeedState = speed_state(self.balls, speed * RPM_TO_RAD_S)
         self._at_speed = laws if cage_turns else laws._replace(cage=0.0)
         self._angle, self._normals = angle, np.zeros((self.balls.number, 2))
-        force = held.force(r)
-        super().__init__(_shape_of(self.balls, False, self.balls.inertia), self.balls.loss, force)
+        super().__init__(_shape_of(self.balls, False, self.balls.inertia), self.balls.loss, held.load)
         films = self.shape.of_balls
         if films:
-            self.rest[: films : films // self.balls.number] = held.films.balls[:, POSITION]
-        self._films = films_of(self.balls)
-        begin_rest(self._films)
+            self.rest[: films : films // self.balls.number] = held.approach[:, 1]
 
     def _press(self, t: float, states: _Floats, r: _Floats, v: _Floats, rates: _Floats) -> None:
-        directions(self.balls, self._angle + self._at_speed.cage * t, self._normals)
+        angle = self._angle + self._at_speed.cage * t
         if self.shape.of_balls:
+            directions(self.balls, angle, self._normals)
             bearing_rates(self.balls, self._at_speed, self._normals, states, r, v, rates, self._pressed)
         else:
-            out = self._pressed, np.zeros((2, 2)), np.zeros((2, 2))
-            press_balls(self.balls, self._at_speed, self._films, self._normals, r, v, 0.0, out)
+            self._static.angle = angle
+            self._static.press(r)
+            self._pressed[:] = self._static.load
 
 
 class _AngularRing(_Ring):
@@ -264,7 +258,7 @@ class _AngularRing(_Ring):
         bearing, rpm = mount.ball_bearing, mount.ball_bearing.speed(speed)
         self._static = bearing._static_ring(rpm, mount.cage_angle, r.size)
         held = equilibrium_at(self._static, r)
-        small = bearing._small_angular(rpm, [held])
+        small = bearing._linear_balls(rpm, [held])
         self.balls: AngularBalls = self._static.balls
         shape = _shape_of(self.balls, True, small.inertia)._replace(cage=cage_turns)
         super().__init__(shape, self.balls.loss, held.load)

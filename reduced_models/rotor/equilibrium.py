@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.angular_balls import APPROACH, AngularBalls
-from reduced_models.bearing.five_degrees import AngularEquilibrium, equilibrium_at, grow_gyroscopic
 from reduced_models.bearing.freedoms import FIVE
+from reduced_models.bearing.ring import RingEquilibrium, equilibrium_at, grow_gyroscopic
 from reduced_models.rotor.nodes import LENGTHS
 from reduced_models.rotor.scaled_contact import has_tangents
 from reduced_models.rotor.supports import (
@@ -70,7 +70,7 @@ class StaticContact:
 
 
 class StaticAngularBalls:
-    """A ball bearing with five degrees of freedom in static equilibrium."""
+    """A ball bearing of n directions in static equilibrium."""
 
     def __init__(self, mount: BearingMount, speed_rpm: float, name: str) -> None:
         bearing, self._name = mount.ball_bearing, name
@@ -88,16 +88,16 @@ class StaticAngularBalls:
         self._pressed = self.ring.balls, r.copy()
 
     def force(self, r: _Floats) -> _Floats:
-        """What it carries, shape (5,) [N], [N m]."""
+        """What it carries, shape (n,) [N], [N m]."""
         self.press(r)
         return self.ring.load.copy()
 
     def tangent(self, r: _Floats) -> _Floats:
-        """Its derivative, shape (5, 5)."""
+        """Its derivative, shape (n, n)."""
         self.press(r)
         return self.ring.stiffness.copy()
 
-    def at(self, r: _Floats) -> AngularEquilibrium:
+    def at(self, r: _Floats) -> RingEquilibrium:
         """Its balls in equilibrium, in its own frame."""
         self.press(r)
         return equilibrium_at(self.ring, r + self._shift)
@@ -133,13 +133,8 @@ def static_supports(mounts: Sequence[Mount], speed_rpm: float) -> list[tuple[sli
             found.append((columns, StaticContact(mount)))
             continue
         name = next(names)
-        if not is_ball_bearing(mount):
-            continue
-        elif mount.z is not None:
+        if is_ball_bearing(mount):
             found.append((columns, StaticAngularBalls(mount, speed_rpm, name)))
-        else:
-            bearing = mount.ball_bearing
-            found.append((columns, bearing._static_balls(bearing.speed(speed_rpm), mount.cage_angle)))
     return found
 
 
@@ -222,8 +217,8 @@ class StaticRotor:
         """Derivative of `carried`, shape (N, N)."""
         return self._slopes(q, 0.0)
 
-    def bearings(self, q: _Floats) -> list[AngularEquilibrium]:
-        """Ball bearings with five degrees of freedom at `q`, each in its own frame."""
+    def bearings(self, q: _Floats) -> list[RingEquilibrium]:
+        """Ball bearings at `q`, each in its own frame."""
         return [support.at(self.rows[columns] @ q) for columns, support in self.angular]
 
     def _solve(self, first: _Floats | None) -> _Floats:

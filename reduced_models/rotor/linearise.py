@@ -16,10 +16,9 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.five_degrees import AngularEquilibrium, angular_equilibrium, equilibrium_at
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.linear_angular import SmallAngularBalls
-from reduced_models.bearing.linear_balls import SmallBalls
+from reduced_models.bearing.linear_balls import LinearBalls
+from reduced_models.bearing.ring import RingEquilibrium, equilibrium_at, ring_equilibrium
 from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out, with_solved_contacts
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
@@ -104,7 +103,7 @@ class LinearRotor(Summary):
     rest: _Floats
     loads: _Floats
     contacts: tuple[LinearElement | ContactImpedance, ...]
-    balls: tuple[SmallBalls | SmallAngularBalls, ...]
+    balls: tuple[LinearBalls, ...]
     damping_left_out: tuple[str, ...] = ()
     signed_damping: bool = False
 
@@ -403,44 +402,27 @@ def _linear_contact(mount: ContactMount, approach: float) -> LinearElement | Con
 
 def _linear_bearing(
     mount: BearingMount, speed: float, ring: _Floats, passage: bool, signed: bool
-) -> tuple[_Floats, SmallBalls | SmallAngularBalls, str]:
+) -> tuple[_Floats, LinearBalls, str]:
     """Static force on the inner ring, linear bearing about it, and the damping left out, in words."""
-    if mount.z is not None:
-        return _linear_angular(mount, speed, ring + mount.shift, passage, signed)
-    bearing = mount.ball_bearing
-    held = bearing._static_balls(bearing.speed(speed), mount.cage_angle)
-    force = held.force(ring)
-    if np.linalg.norm(force) < UNLOADED * held.films.force.max():
-        force = np.zeros(2)
-    at_angles = bearing.ring_equilibria(force, speed, None if passage else mount.cage_angle)
-    left_out = damping_left_out(bearing, speed, np.array([at.force for at in at_angles]))
-    small = SmallBalls.of(held.balls, held.at_speed, at_angles)
-    return force, with_solved_contacts(bearing, speed, small, at_angles) if signed else small, left_out
-
-
-def _linear_angular(
-    mount: BearingMount, speed: float, ring: _Floats, passage: bool, signed: bool
-) -> tuple[_Floats, SmallAngularBalls, str]:
-    """Likewise of a bearing with five degrees of freedom."""
-    bearing, rpm = mount.ball_bearing, mount.ball_bearing.speed(speed)
+    bearing, rpm, ring = mount.ball_bearing, mount.ball_bearing.speed(speed), ring + mount.shift
     held = equilibrium_at(bearing._static_ring(rpm, mount.cage_angle, ring.size), ring)
     force, loaded = held.load, np.linalg.norm(held.load) >= UNLOADED * held.force.max()
     places = [held]
     if passage:
         rings = [bearing._static_ring(rpm, angle, ring.size) for angle in bearing._cage_angles(force[:2], None)]
         places = [
-            angular_equilibrium(one, force, first=ring) if loaded else equilibrium_at(one, ring) for one in rings
+            ring_equilibrium(one, force, first=ring) if loaded else equilibrium_at(one, ring) for one in rings
         ]
     return force, *linear_bearing(bearing, rpm, places, signed)
 
 
 def linear_bearing(
-    bearing: BallBearing, speed: float, places: Sequence[AngularEquilibrium], signed: bool
-) -> tuple[SmallAngularBalls, str]:
+    bearing: BallBearing, speed: float, places: Sequence[RingEquilibrium], signed: bool
+) -> tuple[LinearBalls, str]:
     """A bearing about static equilibrium at positions of its cage, and the damping left out, in words.
 
     With `signed` contacts under an oil supply have the impedance of the solved ones.
     """
     left_out = damping_left_out(bearing, speed, np.array([balls.force for balls in places]))
-    small = bearing._small_angular(speed, list(places))
+    small = bearing._linear_balls(speed, list(places))
     return with_solved_contacts(bearing, speed, small, places) if signed else small, left_out

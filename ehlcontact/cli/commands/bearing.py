@@ -36,9 +36,9 @@ if TYPE_CHECKING:
 
     from ehlcontact.cli.study.bearing import BearingJob
     from reduced_models import BallBearing, BearingSet, BearingState, Spall
+    from reduced_models.bearing.coefficients import BearingCoefficients
     from reduced_models.bearing.excitation import BearingExcitation
     from reduced_models.bearing.kinematics import DefectFrequencies
-    from reduced_models.bearing.linear_balls import BearingCoefficients
     from reduced_models.bearing.oil_and_heat import OilAndHeat
     from reduced_models.bearing.set_result import SetState
     from reduced_models.bearing.sliding import BearingFriction

@@ -10,8 +10,6 @@ from bearing_twins import SlowBearing, SlowContact, SlowElement
 from ehlcontact import Lubricant, OilLayer
 from reduced_models import BallBearing
 from reduced_models.bearing.angular_steps import press_angular, rest_angular
-from reduced_models.bearing.balls import speed_state
-from reduced_models.bearing.equilibrium import StaticBalls
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BearingMotion, motion_of
@@ -127,24 +125,6 @@ def test_tangents_are_those_of_differences(oil, shake, dt, changes, speeds):
 
             slope = (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * size)
             np.testing.assert_allclose(slope, matrix[:, k], rtol=0.0, atol=1e-6 * np.abs(matrix).max())
-
-
-@pytest.mark.parametrize("speeds", [RPM, (2000.0, 3700.0)])
-@pytest.mark.parametrize(
-    "changes", [{}, {"clearance": 6e-6, "cutoff_gap": 8e-6}, {"clearance": -5e-6}, {"oil": None}]
-)
-def test_tangents_at_rest_are_those_of_differences(oil, changes, speeds):
-    """Of all balls standing still, by which equilibria are found."""
-    bearing = BallBearing.catalogue("6205", **({"oil": oil} | changes))
-    kernel = bearing._kernel(speeds)
-    held = StaticBalls(kernel, speed_state(kernel, RPM * pi / 30.0), 0.2)
-    for place in (POSITION, np.array([9e-6, 4e-6])):
-        tangent, size = held.tangent(place), 1e-9
-        for k in range(2):
-            step = size * np.eye(2)[k]
-            near, far = ((held.force(place + n * step) - held.force(place - n * step)) for n in (1, 2))
-            slope = (8.0 * near - far) / (12.0 * size)
-            np.testing.assert_allclose(slope, tangent[:, k], rtol=0.0, atol=1e-6 * np.abs(tangent).max())
 
 
 def test_trying_does_not_move(film, shake):

@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from reduced_models import BallBearing
-from reduced_models.bearing.balls import Balls
-from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
-from reduced_models.bearing.linear_balls import SmallBalls
+from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.race import shared_atlas
 from reduced_models.bearing.race_table import tabulate_race
+from reduced_models.bearing.ring import StaticRing, ring_equilibrium
 
 DOWN = np.array([0.0, -1000.0])
 SPEEDS = (1000.0, 3000.0, 6000.0)
@@ -27,10 +26,11 @@ def as_the_prototype(bearing, rpm, load, omega):
         replace(shared_atlas(None).element(bearing.race(race).point(487.0, rpm), "wide"), inlet_saturation=0.0)
         for race in ("inner", "outer")
     ]
-    kernel = Balls(*(tabulate_race([element]) for element in elements), *bearing._kernel(rpm)[2:])
-    at_speed = bearing._speed_state(rpm)
-    at = [ring_equilibrium(StaticBalls(kernel, at_speed, ON + 2.0 * pi / 9.0 * k / 4.0), load) for k in range(4)]
-    K, C = SmallBalls.of(kernel, at_speed, at).coefficients(np.array([omega]))
+    inner, outer = (tabulate_race([element]) for element in elements)
+    balls = bearing._balls(rpm)._replace(inner=inner, outer=outer)
+    angles = [ON + 2.0 * pi / 9.0 * k / 4.0 for k in range(4)]
+    at = [ring_equilibrium(StaticRing(balls, angle, 2, np.zeros(5)), load) for angle in angles]
+    K, C = LinearBalls.of(balls, at, balls.loss, 0.0).coefficients(np.array([omega]))
     return K[0] + 1j * C[0]
 
 

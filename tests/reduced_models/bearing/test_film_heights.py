@@ -62,7 +62,7 @@ def test_dry_bearings_smooth_ones_and_equilibria_have_the_tables_as_they_are():
         assert motion_of(dry, [RPM], directions).balls.heights is dry._heights
         assert motion_of(OILED, [RPM], directions).balls.heights is OILED._heights
         assert motion_of(oiled, [RPM], directions).balls.heights is heights_in_runs(oiled, [RPM])
-    for kernel in (oiled._kernel(RPM), oiled._angular_balls(RPM)):
+    for kernel in (oiled._kernel(RPM), oiled._balls(RPM)):
         np.testing.assert_array_equal(kernel.heights, dry._heights)
     assert np.abs(heights_in_runs(oiled, [RPM]) - dry._heights).max() > 0.1 * PIT.depth
 

@@ -7,7 +7,7 @@ import pytest
 
 from ehlcontact import Domain, Grid, Lubricant, PrescribedApproach, TimeSteps, impedance, simulate, solve_steady
 from reduced_models import BallBearing
-from reduced_models.bearing.linear_angular import SmallAngularBalls
+from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.loss import loss_of
 
 DOWN = (0.0, -1000.0)
@@ -109,7 +109,7 @@ def test_contacts_at_angles_of_a_7205(ball, race):
     )
     load, rpm, column = np.array([500.0, -200.0, 1000.0]), 12000.0, ("inner", "outer").index(race)
     state = bearing.equilibrium(load, speed_rpm=rpm)
-    at = bearing._angular_equilibrium(load, rpm, state.cage_angle)
+    at = bearing._equilibrium(load, rpm, state.cage_angle)
     angle, speed_sum = float(at.angles[ball, column]), float(at.speed_sum[ball, column])
     own = bearing.race(race).at_angle(bearing.pitch_diameter, angle, speed_sum)
     point = own.point(float(state.force[ball, column]), rpm)
@@ -118,7 +118,7 @@ def test_contacts_at_angles_of_a_7205(ball, race):
     assert state.h_min[ball, column] == pytest.approx(steady.h_min, rel=0.01)
     Omega = np.array([0.05, 0.5, pi])
     solved, omega = impedance(point, Omega=Omega, grid=Grid(n=128)).si, Omega / point.scales.time
-    small = SmallAngularBalls.of(bearing._angular_balls(rpm), [at], loss_of(0.0), 0.0)
+    small = LinearBalls.of(bearing._balls(rpm), [at], loss_of(0.0), 0.0)
     Z = (small.inner, small.outer)[column].impedance(1j * omega[:, None])[:, ball]
     full = solved.stiffness + 1j * omega * solved.damping
     assert np.all(np.abs(Z - full) < 0.03 * np.abs(full))

@@ -4,14 +4,11 @@ from math import pi
 
 import numpy as np
 import pytest
-from beam_rotor import still_motion
+from beam_rotor import still_motion, with_light_balls
 
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
-from reduced_models.bearing.balls import speed_state
-from reduced_models.bearing.equilibrium import StaticBalls, ring_equilibrium
-from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.linear_balls import SmallBalls, small_motion
+from reduced_models.bearing.ball_states import bearing_system
 
 RPM = 3000.0
 
@@ -19,12 +16,28 @@ RPM = 3000.0
 @pytest.mark.parametrize("race", ["inner", "outer"])
 @pytest.mark.parametrize("load", [2.0, 60.0, 900.0])
 def test_a_contact_has_the_impedance_of_its_element(film, race, load):
-    element, kernel = film.element(race, RPM), film._kernel(RPM)
-    at_speed, omega = speed_state(kernel, RPM * RPM_TO_RAD_S), np.array([10.0, 1e3, 1e5])
-    law, transit = getattr(kernel, race), getattr(at_speed, race)
-    found = small_motion(law, transit, at_speed.speed_row, element.approach_at(load)).impedance(1j * omega)
-    expected = element.impedance(load=load, omega=omega)
+    """Of the heaviest ball."""
+    element, omega = film.element(race, RPM), np.array([10.0, 1e3, 1e5])
+    at = film._equilibrium(np.array([0.0, -5.0 * load]), RPM, -pi / 2.0)
+    column = ("inner", "outer").index(race)
+    k = int(np.argmax(at.force[:, column]))
+    found = getattr(film._linear_balls(RPM, [at]), race).impedance(1j * omega[:, None])[:, k]
+    expected = element.impedance(load=at.force[k, column], omega=omega)
     np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+@pytest.mark.parametrize("changes", [{}, {"ball_inertia": True}, {"oil": None}, {"loss_factor": 0.05}])
+@pytest.mark.parametrize(("name", "load"), [("6205", (0.0, -800.0)), ("7205", (0.0, -300.0, 400.0))])
+def test_the_impedance_is_the_transfer_function_of_the_state_space(oil, name, load, changes):
+    bearing = BallBearing.catalogue(name, **{"oil": oil} | changes)
+    places = [bearing._equilibrium(np.array(load), RPM, angle) for angle in (0.1, 0.3)]
+    balls = bearing._linear_balls(RPM, places)
+    A, B, C, D = bearing_system(balls)
+    n, unit = len(C), np.array([1.0, 1.0, 1.0, 1e-2, 1e-2])
+    for s in 2j * pi * np.array([0.5, 50.0, 500.0, 5000.0]):
+        G = C @ np.linalg.solve(s * np.eye(len(A)) - A, B) + D
+        Z, scale = balls.impedance(s), np.outer(unit, unit)[:n, :n]
+        assert np.abs((G[:, :n] + s * G[:, n:] - Z) * scale).max() < 1e-9 * np.abs(Z * scale).max()
 
 
 @pytest.mark.parametrize(
@@ -40,12 +53,11 @@ def test_a_contact_has_the_impedance_of_its_element(film, race, load):
 def test_small_motions_in_time(oil, changes, ways, hz, periods, per_period, within):
     """A ring that swings a little, its balls standing still: amplitude and phase of the force."""
     bearing = BallBearing.catalogue("6205", **{"oil": oil} | changes)
-    kernel = bearing._kernel(RPM)._replace(cage=0.0, centrifugal_factor=0.0)
-    at_speed = speed_state(kernel, RPM * RPM_TO_RAD_S)
-    at = ring_equilibrium(StaticBalls(kernel, at_speed, 0.4), np.array([200.0, -1000.0]))
+    still = with_light_balls(bearing, RPM)
+    at = still._equilibrium(np.array([200.0, -1000.0]), RPM, 0.4)
     size, omega, dt = 1e-10, 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)
-    Z = SmallBalls.of(kernel, at_speed, [at]).impedance(1j * omega)
+    Z = still._linear_balls(RPM, [at]).impedance(1j * omega)
     for k in ways:
         direction = np.eye(2)[k]
         run = still_motion(bearing, RPM, dt, 0.4)

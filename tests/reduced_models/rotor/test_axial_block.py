@@ -59,8 +59,8 @@ def coupled(diagonal):
 def test_states_have_the_coefficients_of_the_bearing(bearing, load):
     """Stiffness and damping, 5 x 5, from 20 Hz to 20 kHz: within 1e-10 and 1e-8."""
     rpm, angle = 3000.0, -np.pi / 2.0
-    at = bearing._angular_equilibrium(np.array(load), rpm, angle)
-    space = bearing_system(bearing._small_angular(rpm, [at]))
+    at = bearing._equilibrium(np.array(load), rpm, angle)
+    space = bearing_system(bearing._linear_balls(rpm, [at]))
     hz = np.geomspace(20.0, 20e3, 7)
     found = bearing.coefficients(load, speed_rpm=rpm, cage_angle=angle, hz=hz)
     n = len(space.A)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from reduced_models import linearise, simulate_rotor
-from reduced_models.bearing.linear_balls import SmallBalls
 
 RPM, DISC = 3000.0, 12
 POSITIONS, HARMONICS = 24, 2
@@ -18,12 +17,12 @@ def floquet(at, mode):
     Bearings at a position of the cage have Z(s) of that position; its harmonics over the passage couple all q_n.
     """
     bearing, size = at.rotor.mounts[0].bearing, at.rotor.size
-    kernel, at_speed, first = bearing._kernel(RPM), bearing._speed_state(RPM), at.rotor.mounts[0].cage_angle
+    first = at.rotor.mounts[0].cage_angle
     angles = first + 2.0 * pi / bearing.balls * np.arange(POSITIONS) / POSITIONS
     places = [
-        SmallBalls.of(kernel, at_speed, bearing.ring_equilibria(at.loads[0], RPM, a)) for a in angles.tolist()
+        bearing._linear_balls(RPM, [bearing._equilibrium(at.loads[0], RPM, angle)]) for angle in angles.tolist()
     ]
-    passing, rings, (M, C, K) = bearing.balls * at_speed.cage, at.rotor.support_rows, at.matrices
+    passing, rings, (M, C, K) = 2.0 * pi * bearing.frequencies(RPM).bpfo, at.rotor.support_rows, at.matrices
     count = 2 * HARMONICS + 1
 
     def matrix(s):

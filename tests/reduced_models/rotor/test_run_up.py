@@ -15,9 +15,9 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_rotor,
 )
-from reduced_models.bearing.balls import row_of_speed, speed_state
-from reduced_models.bearing.equilibrium import StaticBalls
+from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.bearing.motion import motion_of
 from reduced_models.rotor.speed_profile import law_speeds, turning_forces
 
 RANGE = np.array([500.0, 9000.0])
@@ -32,11 +32,9 @@ def test_the_highest_speed_of_the_tables_holds_above_it():
 def test_forces_at_rest_do_not_jump_where_laws_change(film):
     """Of a ring that stays: value and slope at every speed that laws are made at, and between them."""
     knots, place = law_speeds(RANGE), film.equilibrium((0.0, -500.0), speed_rpm=3000.0).displacement
-    kernel = film._kernel(knots)
 
-    def force(rpm, own=None):
-        held = kernel if own is None else own
-        return StaticBalls(held, speed_state(held, rpm * RPM_TO_RAD_S), -1.4).force(place)[1]
+    def force(rpm, speeds=knots):
+        return motion_of(film, speeds.tolist(), ("x", "y")).rest(rpm * RPM_TO_RAD_S, -1.4, place)[1]
 
     assert knots.size == 14
     for speed in knots[1:-1]:
@@ -45,7 +43,7 @@ def test_forces_at_rest_do_not_jump_where_laws_change(film):
         assert abs(steps[3] - steps[1] - 1e-9 * (left + right)) < 1e-10 * abs(steps[2])
         assert right == pytest.approx(left, rel=0.015)
     for speed in np.sqrt(knots[1:] * knots[:-1]):
-        assert force(speed) == pytest.approx(force(speed, film._kernel(speed)), rel=1e-4)
+        assert force(speed) == pytest.approx(force(speed, np.array([speed])), rel=1e-4)
 
 
 HOUSING = {"housing_mass": 2.0, "housing_stiffness": (8e7, 2e8), "housing_damping": 300.0}

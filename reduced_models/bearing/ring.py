@@ -1,4 +1,4 @@
-"""Inner ring with five degrees of freedom in static equilibrium on balls at contact angles.
+"""Inner ring in static equilibrium on its balls, with five degrees of freedom or some of them held.
 
 Displacements of the ring move groove centres linearly. Contacts act as springs between groove centres that only
 pull, because the distance of the centres grows as the ball is compressed. At rest, and with centrifugal forces,
@@ -35,11 +35,12 @@ from reduced_models.bearing.angular_balls import (
     ring_map,
 )
 from reduced_models.bearing.contact_angles import CONTROLS
-from reduced_models.bearing.equilibrium import SEATED, Springs, equilibrium
-from reduced_models.bearing.freedoms import FIVE
+from reduced_models.bearing.equilibrium import Springs, equilibrium
+from reduced_models.bearing.freedoms import FIVE, PLANAR
 
 _Floats = NDArray[np.float64]
 
+SEATED = 1e-9  # least stiffness of a ring over its largest: below is rounding
 SMALLEST_SHARE = 0.02  # of the gyroscopic moments by which a search that fails may grow
 CARRIES = 1e-3  # force of a ball over the largest, above which it counts as one that carries
 STEEPEST = pi / 3.0  # contact angle that the shoulder of no groove reaches
@@ -48,8 +49,8 @@ STEEPEST = pi / 3.0  # contact angle that the shoulder of no groove reaches
 class StaticRing:
     """All balls in equilibrium at one angle of the cage, as `equilibrium` wants contacts.
 
-    Its displacements are lengths and its loads forces: tilts are multiplied, moments divided by the radius of the
-    circle of inner groove centres.
+    There, displacements are lengths and loads forces: tilts are multiplied, moments divided by the radius of the
+    circle of inner groove centres. Elsewhere a ring has n = 2 directions where only x and y move, else 5.
 
     Parameters
     ----------
@@ -64,13 +65,16 @@ class StaticRing:
 
     def __init__(self, balls: AngularBalls, angle: float, free: int, held: _Floats) -> None:
         self.balls, self.angle, self.free, self.held = balls, angle, free, held
+        self.size = len(PLANAR) if free == len(PLANAR) else FREEDOMS
         radius = balls.grooves.groove_circle
         self.unit = np.array([1.0, 1.0, 1.0, 1.0 / radius, 1.0 / radius])[
             :free
         ]  # of a displacement, over a length
         self.places = places_of(balls)
         self.longest = FAR * (balls.grooves.inner + balls.grooves.outer)
-        self.load, self.stiffness = np.zeros(FREEDOMS), np.zeros((FREEDOMS, FREEDOMS))
+        self._whole = np.zeros(FREEDOMS), np.zeros((FREEDOMS, FREEDOMS))
+        self.load, self.stiffness = self._whole[0][: self.size], self._whole[1][: self.size, : self.size]
+        self._pressed_at: _Floats | None = None
 
     def with_inertia(self, whole: AngularBalls, centrifugal: float, gyroscopic: float) -> None:
         """Balls with a share of the centrifugal forces and of the gyroscopic moments of `whole`.
@@ -81,6 +85,7 @@ class StaticRing:
         control = g.control if gyroscopic > 0.0 else CONTROLS.index("outer")
         part = g._replace(mass=centrifugal * g.mass, control=control, gyroscopic=gyroscopic * g.gyroscopic)
         self.balls = whole if centrifugal == gyroscopic == 1.0 else whole._replace(grooves=part)
+        self._pressed_at = None
 
     def pressed(self) -> float:
         """Forces of the ring on all balls with what moves at the origin, added without their directions [N]."""
@@ -92,8 +97,8 @@ class StaticRing:
         return float(self.places.found[:, LOAD].sum())
 
     def displacement(self, q: _Floats) -> _Floats:
-        """All five [m], [rad] of a scaled displacement of those that move."""
-        full = self.held.copy()
+        """Displacement, shape (n,) [m], [rad], from a scaled one of the directions that move."""
+        full = self.held[: self.size].copy()
         full[: self.free] = q * self.unit
         return full
 
@@ -108,33 +113,39 @@ class StaticRing:
         return self.stiffness[: self.free, : self.free] * np.outer(self.unit, self.unit)
 
     def press(self, displacement: _Floats) -> None:
-        """Set `load` and `stiffness`, those of the ring at a displacement, shape (5,) [m], [rad].
+        """Set `load` and `stiffness`, those of the ring at a displacement, shape (n,) [m], [rad].
 
         Raises
         ------
         ConvergenceError
             A ball finds no balance.
         """
-        press_ring(self.balls, self.angle, np.array(displacement), self.places, self.load, self.stiffness)
+        whole = self.held.copy()
+        whole[: self.size] = displacement
+        press_ring(self.balls, self.angle, whole, self.places, *self._whole)
+        self._pressed_at = whole[: self.size]
         if not np.isfinite(self.load).all():
             ball = int(np.flatnonzero(~np.isfinite(self.places.force[:, 0]))[0])
             where = f"the ring at {displacement.tolist()} (m, rad)"
             raise ConvergenceError(f"ball {ball} finds no balance with {where}", displacement)
 
     def _press(self, q: _Floats) -> None:
-        self.press(self.displacement(q))
+        """Press it at a scaled displacement, unless it was there last."""
+        displacement = self.displacement(q)
+        if self._pressed_at is None or not np.array_equal(displacement, self._pressed_at):
+            self.press(displacement)
 
 
 @dataclass(frozen=True, eq=False)
-class AngularEquilibrium:
+class RingEquilibrium:
     """A ring in equilibrium, and its balls."""
 
-    displacement: _Floats  # (5,) [m], [rad]
-    load: _Floats  # (5,) [N], [N m], reactions of what is held included
-    stiffness: _Floats  # (5, 5)
+    displacement: _Floats  # (n,) [m], [rad]
+    load: _Floats  # (n,) [N], [N m], reactions of what is held included
+    stiffness: _Floats  # (n, n)
     found: _Floats  # (balls, ENTRIES), see `angular_balls`
     geometric: _Floats  # (balls, 5, 4)
-    maps: _Floats  # (balls, 3, 5) of `ring_map`
+    maps: _Floats  # (balls, 3, n) of `ring_map`
 
     @property
     def angles(self) -> _Floats:
@@ -178,12 +189,12 @@ class AngularEquilibrium:
         return np.column_stack([by_i / roll_i, by_o / roll_o])
 
 
-def angular_equilibrium(ring: StaticRing, load: _Floats, first: _Floats | None = None) -> AngularEquilibrium:
-    """Ring in equilibrium under `load`, shape (3,) or (5,) [N], [N m].
+def ring_equilibrium(ring: StaticRing, load: _Floats, first: _Floats | None = None) -> RingEquilibrium:
+    """Ring in equilibrium under `load`, shape (2,), (3,) or (5,) [N], [N m].
 
     Parameters
     ----------
-    first : ndarray, shape (5,), optional
+    first : ndarray, shape (n,), optional
         Displacement from which it is searched [m], [rad].
 
     Raises
@@ -195,25 +206,25 @@ def angular_equilibrium(ring: StaticRing, load: _Floats, first: _Floats | None =
     """
     near = None if first is None else first[: ring.free] / ring.unit
     q = search(ring, [ring], load * ring.unit, load, near)
-    require_seated(ring.tangent(q), load, FIVE)
+    require_seated(ring.tangent(q), load, FIVE[: ring.free])
     found = equilibrium_at(ring, ring.displacement(q))
     return replace(found, load=np.append(load, found.load[load.size :]))
 
 
-def equilibrium_at(ring: StaticRing, displacement: _Floats) -> AngularEquilibrium:
-    """Balls in equilibrium with the ring held at a displacement, shape (5,) [m], [rad]."""
+def equilibrium_at(ring: StaticRing, displacement: _Floats) -> RingEquilibrium:
+    """Balls in equilibrium with the ring held at a displacement, shape (n,) [m], [rad]."""
     ring.press(displacement)
     balls = ring.balls
     maps = np.zeros((balls.number, 3, FREEDOMS))
     for k in range(balls.number):
         ring_map(balls.grooves, ring.angle + 2.0 * pi * k / balls.number, maps[k])
-    return AngularEquilibrium(
+    return RingEquilibrium(
         displacement=displacement,
         load=ring.load.copy(),
         stiffness=ring.stiffness.copy(),
         found=ring.places.found.copy(),
         geometric=ring.places.geometric.copy(),
-        maps=maps,
+        maps=maps[..., : ring.size],
     )
 
 
@@ -223,6 +234,10 @@ def require_seated(stiffness: _Floats, load: _Floats, names: Sequence[str]) -> N
     if not values[0] > SEATED * values[-1]:
         free = names[int(np.argmax(np.abs(vectors[:, 0])))]
         allowed = f"one that seats the ring: nothing holds it in {free}; more axial load or preload would"
+        if len(names) == len(PLANAR):
+            allowed = (
+                "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)"
+            )
         raise InputError("load", load.tolist(), allowed)
 
 

@@ -1,0 +1,147 @@
+"""`BearingCoefficients`: stiffness and damping of a bearing over frequency."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, HERTZ, LENGTH, RADIAN, SPEED, STIFFNESS, Quantity
+from ehlcontact.results.frequency import FrequencyResponse
+from ehlcontact.results.table import Display
+from ehlcontact.summary import note_line, span
+from reduced_models.bearing.freedoms import FIVE, PLANAR, in_freedoms, labelled, load_words
+
+_Floats = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
+
+TINY_OMEGA = 1e-3  # rad/s, stands for 0: films forget in less than a second
+
+
+def stiffness_and_damping(impedance: Callable[[_Complex], _Complex], omega: _Floats) -> tuple[_Floats, _Floats]:
+    """K and C, shape (k, n, n), of an impedance Z = K + i omega C at angular frequencies [rad/s], shape (k,)."""
+    w = np.maximum(omega, TINY_OMEGA)
+    Z = impedance(1j * w)
+    return Z.real.copy(), Z.imag / w[:, None, None]
+
+
+class RingAtRest(Protocol):
+    """A ring in equilibrium at a position of the cage."""
+
+    @property
+    def displacement(self) -> _Floats:
+        """Of its degrees of freedom [m], [rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class BearingCoefficients(FrequencyResponse):
+    """Matrices of a small vibration of the ring in n = 2 or 5 degrees of freedom: x, y (, z, tilt_x, tilt_y).
+
+    Tilts have rad for m and N m for N.
+
+    Attributes
+    ----------
+    load : ndarray, shape (n,)
+        Force on the ring [N], [N m].
+    speed_rpm : float
+        Of the shaft.
+    cage_angle : float or None
+        Of the first ball [rad]; None: means over a ball passage.
+    omega : ndarray, shape (k,)
+        Angular frequencies [rad/s]; ``hz`` has them in Hz.
+    stiffness, damping : ndarray, shape (k, n, n)
+        K [N/m] and C [N s/m].
+    displacement : ndarray, shape (n,)
+        Of the ring [m].
+    peak_to_peak : ndarray, shape (n,)
+        Peak-to-peak displacement of the ring while a ball passes slowly [m]; 0 at a given angle of the cage.
+    outside_assumptions : str
+        Assumptions of films that do not hold at the most loaded ball (`ehlcontact.assumptions`); empty where none.
+    signed_damping : ndarray, shape (k, n, n), or None
+        C [N s/m] of the solved contacts under an oil supply, which at low frequency may be below zero; `damping`
+        is that of the elements, which leave that out. None in flooded bearings.
+    damping_left_out : str
+        Below which frequency contacts under an oil supply have damping below zero, which `damping` leaves out, in
+        words; empty where there is none.
+    """
+
+    load: Annotated[_Floats, FORCE.over("axis")]
+    speed_rpm: Annotated[float, SPEED]
+    cage_angle: Annotated[float | None, RADIAN]
+    omega: Annotated[_Floats, FREQUENCY.over("hz")]
+    stiffness: Annotated[_Floats, STIFFNESS.over("hz axis by")]
+    damping: Annotated[_Floats, DAMPING.over("hz axis by")]
+    displacement: Annotated[_Floats, LENGTH.over("axis")]
+    peak_to_peak: Annotated[_Floats, LENGTH.over("axis")]
+    outside_assumptions: str = ""
+    signed_damping: Annotated[_Floats | None, DAMPING.over("hz axis by")] = None
+    damping_left_out: str = ""
+
+    DISPLAY: ClassVar[Display] = Display(
+        rows="hz", panels=("stiffness", "damping"), labels={"axis": ("x", "y"), "by": ("x", "y")}, logs="x"
+    )
+
+    def _quantities(self) -> Mapping[str, Quantity]:
+        return in_freedoms(super()._quantities(), self.load.size)
+
+    def _display(self) -> Display:
+        return labelled(super()._display(), self.load.size)
+
+    def _summary_lines(self) -> list[str]:
+        K, C = self.stiffness, self.damping
+        axial = []
+        if K.shape[1] > len(PLANAR):
+            axial = [
+                f"K_zz {span(K[:, 2, 2], 1e-6, 'N/µm')}, C_zz {span(C[:, 2, 2], 1.0, 'N s/m')}",
+                f"tilt about x {span(K[:, 3, 3], 1e-3, 'N m/mrad')}, about y {span(K[:, 4, 4], 1e-3, 'N m/mrad')}",
+            ]
+        return [
+            f"load {load_words(self.load)} at {self.speed_rpm:.5g} rev/min, {span(self.hz, 1.0, 'Hz')}",
+            f"K_xx {span(K[:, 0, 0], 1e-6, 'N/µm')}, K_yy {span(K[:, 1, 1], 1e-6, 'N/µm')}",
+            f"C_xx {span(C[:, 0, 0], 1.0, 'N s/m')}, C_yy {span(C[:, 1, 1], 1.0, 'N s/m')}",
+            *axial,
+            *self._signed_line(),
+            "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
+            *([self.damping_left_out] if self.damping_left_out else []),
+            *note_line(self.outside_assumptions),
+        ]
+
+    def _signed_line(self) -> list[str]:
+        if self.signed_damping is None:
+            return []
+        C = np.einsum("kii->ik", self.signed_damping)[:3]  # in x, y and z
+        said = ", ".join(f"C_{2 * way} {span(row, 1.0, 'N s/m')}" for way, row in zip(FIVE, C, strict=False))
+        return [f"of the solved contacts, below zero too: {said}"]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        left_out = {"damping_left_out": self.damping_left_out} if self.damping_left_out else {}
+        return super().to_dict() | {"outside_assumptions": self.outside_assumptions} | left_out
+
+    @property
+    def hz(self) -> Annotated[_Floats, HERTZ.over("hz")]:
+        """The frequencies [Hz]."""
+        return np.asarray(self.omega / (2.0 * np.pi))
+
+    @classmethod
+    def of(
+        cls,
+        load: _Floats,
+        speed_rpm: float,
+        cage_angle: float | None,
+        omega: _Floats,
+        matrices: tuple[_Floats, _Floats],
+        equilibria: Sequence[RingAtRest],
+        outside_assumptions: str = "",
+        signed_damping: _Floats | None = None,
+        damping_left_out: str = "",
+    ) -> BearingCoefficients:
+        """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""
+        places = np.array([at.displacement for at in equilibria])
+        mean, peak_to_peak = places.mean(axis=0), np.ptp(places, axis=0)
+        K, C = matrices
+        notes = outside_assumptions, signed_damping, damping_left_out
+        return cls(load, speed_rpm, cage_angle, omega, K, C, mean, peak_to_peak, *notes)
