@@ -173,18 +173,18 @@ class _Assembly:
 
     def _nodes(self, new: dict[int, int]) -> dict[str, dict[str, int]]:
         """Degrees of freedom by name; a node without inertia against tilting has no tilts."""
-        places = {f"bearing {k}": self._at(one.position) for k, one in enumerate(self.supports)}
+        places = {f"bearing {k}": self._at(support.position) for k, support in enumerate(self.supports)}
         named = ["disc"] if len(self.discs) == 1 else [f"disc {k}" for k in range(len(self.discs))]
         discs = {name: self._at(disc.position) for name, disc in zip(named, self.discs, strict=True)}
 
         def on_shaft(at: int) -> dict[str, int]:
             return {name: new[at + k] for k, name in enumerate(DIRECTIONS) if at + k in new}
 
-        found = {name: on_shaft(at) for name, at in places.items()}
-        found |= {f"housing {k}": {name: new[at] for name, at in own.items()} for k, own in self.housings.items()}
-        found |= {f"outer ring {k}": {"z": new[at]} for k, at in self.outer_rings.items()}
-        found |= {name: on_shaft(at) for name, at in discs.items()}
-        return found if self.z is None else found | {"shaft": {"z": new[self.z]}}
+        nodes = {name: on_shaft(at) for name, at in places.items()}
+        nodes |= {f"housing {k}": {name: new[at] for name, at in own.items()} for k, own in self.housings.items()}
+        nodes |= {f"outer ring {k}": {"z": new[at]} for k, at in self.outer_rings.items()}
+        nodes |= {name: on_shaft(at) for name, at in discs.items()}
+        return nodes if self.z is None else nodes | {"shaft": {"z": new[self.z]}}
 
     def _mounts(self, k: int, support: Support, nodes: dict[str, dict[str, int]]) -> list[BearingMount]:
         node, housing = nodes[f"bearing {k}"], nodes.get(f"housing {k}")
@@ -213,21 +213,21 @@ class _Assembly:
         for k, element in enumerate(self.shaft.shaft_elements(self.stations)):
             if self.z is not None:
                 self.M[self.z, self.z] += element.mass
-            at = np.ix_(range(4 * k, 4 * k + 8), range(4 * k, 4 * k + 8))
+            places = np.ix_(range(4 * k, 4 * k + 8), range(4 * k, 4 * k + 8))
             for whole, part in zip((self.M, self.K, self.G), matrices(element), strict=True):
-                whole[at] += part
+                whole[places] += part
         self.C += self.shaft.damping_time * self.K
 
     def _add_support(self, k: int, support: Support) -> None:
-        at = self._at(support.position)
-        self.M[[at, at + 1], [at, at + 1]] += support.journal_mass
+        first = self._at(support.position)
+        self.M[[first, first + 1], [first, first + 1]] += support.journal_mass
         if self.z is not None:
             self.M[self.z, self.z] += support.journal_mass
         if k in self.housings:
             places = list(self.housings[k].values())
             self.M[places, places] = support.housing_mass
-            for whole, given in ((self.K, support.housing_stiffness), (self.C, support.housing_damping)):
-                whole[places, places] = np.append(given, given[0])[: len(places)]  # z of two: as x
+            for whole, values in ((self.K, support.housing_stiffness), (self.C, support.housing_damping)):
+                whole[places, places] = np.append(values, values[0])[: len(places)]  # z of two: as x
         if k in self.outer_rings:
             place = self.outer_rings[k]
             self.M[place, place], self.K[place, place] = support.ring_mass, support.preload_stiffness
@@ -235,13 +235,13 @@ class _Assembly:
             self.load[place] -= facing_signs(facing)[2] * support.spring
 
     def _add_disc(self, disc: Disc) -> None:
-        at = self._at(disc.position)
-        places = list(range(at, at + 4))
+        first = self._at(disc.position)
+        places = list(range(first, first + 4))
         self.M[places, places] += [disc.mass, disc.mass, disc.diametral_inertia, disc.diametral_inertia]
-        self.C[[at, at + 1], [at, at + 1]] += disc.damping
-        self.G[at + 2, at + 3] += disc.polar_inertia
-        self.G[at + 3, at + 2] -= disc.polar_inertia
-        self.load[[at, at + 1]] += disc.load[:2]
+        self.C[[first, first + 1], [first, first + 1]] += disc.damping
+        self.G[first + 2, first + 3] += disc.polar_inertia
+        self.G[first + 3, first + 2] -= disc.polar_inertia
+        self.load[[first, first + 1]] += disc.load[:2]
         if self.z is not None:
             self.M[self.z, self.z] += disc.mass
             self.load[self.z] += sum(disc.load[2:])
@@ -261,8 +261,8 @@ class _Assembly:
 
 def _stations(shaft: Shaft, positions: Sequence[float]) -> _Floats:
     """Nodes: ends of sections, discs and supports, and between them as many as make the shaft's elements."""
-    given = np.sort(np.concatenate([[0.0], np.cumsum(shaft.length), np.clip(positions, 0.0, shaft.end)]))
-    fixed = given[np.concatenate([[True], np.diff(given) > SAME * shaft.end])]
+    marks = np.sort(np.concatenate([[0.0], np.cumsum(shaft.length), np.clip(positions, 0.0, shaft.end)]))
+    fixed = marks[np.concatenate([[True], np.diff(marks) > SAME * shaft.end])]
     parts = [ceil(gap / shaft.end * shaft.elements - SAME) for gap in np.diff(fixed).tolist()]
     between = [np.linspace(a, b, n + 1)[:-1] for a, b, n in zip(fixed[:-1], fixed[1:], parts, strict=True)]
     return np.concatenate([*between, fixed[-1:]])

@@ -51,9 +51,9 @@ def matrices(element: ShaftElement) -> tuple[_Floats, _Floats, _Floats]:
     """Mass, stiffness and gyroscopic matrix, shape (8, 8): x, y and the rotations about x and y at either end."""
     mass, stiffness, rotary = _plane(element)
     M, K, G = np.zeros((3, 8, 8))
-    for found, one in ((M, mass), (K, stiffness)):
-        found[np.ix_(PLANE_X, PLANE_X)] = one
-        found[np.ix_(PLANE_Y, PLANE_Y)] = one * np.outer(SIGN, SIGN)
+    for matrix, plane in ((M, mass), (K, stiffness)):
+        matrix[np.ix_(PLANE_X, PLANE_X)] = plane
+        matrix[np.ix_(PLANE_Y, PLANE_Y)] = plane * np.outer(SIGN, SIGN)
     coupling = 2.0 * rotary * SIGN  # gyroscopic, of the rotations in one plane and in the other
     G[np.ix_(PLANE_X, PLANE_Y)], G[np.ix_(PLANE_Y, PLANE_X)] = coupling, -coupling.T
     return M, K, G

@@ -106,11 +106,11 @@ class Campbell(QuantityTable):
             f"{span(self.hz, 1.0, 'Hz')}, logarithmic decrements {span(self.decrement)}",
         ]
         if self.speed_rpm.size > 1:
-            found = self.critical_speeds()
-            speeds = ", ".join(f"{one.speed_rpm:.5g}" for one in found)
+            critical = self.critical_speeds()
+            speeds = ", ".join(f"{speed.speed_rpm:.5g}" for speed in critical)
             above, below = _sides(self.hz - self.speed_rpm[:, None] / 60.0)
             none = f"no critical speed among them: {above} modes stay above the speed, {below} below"
-            lines.append(f"critical speeds {speeds} rev/min" if found else none)
+            lines.append(f"critical speeds {speeds} rev/min" if critical else none)
         return lines
 
     @property
@@ -145,15 +145,15 @@ class Campbell(QuantityTable):
         off = self.hz - require_positive("order", order) * self.speed_rpm[:, None] / 60.0
         if len(self.speed_rpm) < 2:
             raise InputError("speeds_rpm", self.speed_rpm.tolist(), "at least two, between which modes are met")
-        found = []
+        critical = []
         for k, mode in zip(*np.nonzero((off[:-1] > 0.0) != (off[1:] > 0.0)), strict=True):
             share = off[k, mode] / (off[k, mode] - off[k + 1, mode])
             rpm, hz, decrement, whirl = (
                 float(values[k] + share * (values[k + 1] - values[k]))
                 for values in (self.speed_rpm, self.hz[:, mode], self.decrement[:, mode], self.whirl[:, mode])
             )
-            found.append(CriticalSpeed(rpm, hz, int(mode), decrement, whirl))
-        return CriticalSpeeds(sorted(found, key=lambda one: one.speed_rpm), self._searched(order, off))
+            critical.append(CriticalSpeed(rpm, hz, int(mode), decrement, whirl))
+        return CriticalSpeeds(sorted(critical, key=lambda speed: speed.speed_rpm), self._searched(order, off))
 
     def _searched(self, order: float, off: _Floats) -> str:
         """Speeds and modes in words, by how far [Hz] the modes lie above `order` times the speed."""
@@ -216,19 +216,19 @@ def campbell(
     count = require_integer("count", count, "a whole number >= 1", 1)
     rows: list[list[RotorMode]] = []
     for speed in speeds.tolist():
-        at = linearise(rotor, speed, passage=passage, signed_damping=signed_damping)
-        found = list(at.modes(count + BESIDE))
-        if rows and len(found) < len(rows[-1]):
-            what = f"{len(found)} of {len(rows[-1])} modes oscillate at {speed:g} rev/min: ask for fewer (count)"
+        linear = linearise(rotor, speed, passage=passage, signed_damping=signed_damping)
+        modes = list(linear.modes(count + BESIDE))
+        if rows and len(modes) < len(rows[-1]):
+            what = f"{len(modes)} of {len(rows[-1])} modes oscillate at {speed:g} rev/min: ask for fewer (count)"
             raise ConvergenceError(f"Campbell diagram: only {what}", None)
-        rows.append(_tracked(rows[-1], found) if rows else found[:count])
+        rows.append(_tracked(rows[-1], modes) if rows else modes[:count])
     columns = np.array([[(m.omega, m.eigenvalue.real, m.whirl, m.axial_share) for m in row] for row in rows])
     omega, growth, whirl, axial_share = np.moveaxis(columns, -1, 0)
     return Campbell(speed_rpm=speeds, omega=omega, growth=growth, whirl=whirl, axial_share=axial_share)
 
 
-def _tracked(before: list[RotorMode], found: list[RotorMode]) -> list[RotorMode]:
+def _tracked(before: list[RotorMode], modes: list[RotorMode]) -> list[RotorMode]:
     """Mode tracking: of the modes `found`, those nearest to the ones before (`mode_distance`), in their order."""
-    values, shapes = np.array([m.eigenvalue for m in found]), np.array([m.shape for m in found]).T
+    values, shapes = np.array([m.eigenvalue for m in modes]), np.array([m.shape for m in modes]).T
     cost = [mode_distance(old.eigenvalue, old.shape, values, shapes) for old in before]
-    return [found[column] for column in scipy.optimize.linear_sum_assignment(cost)[1].tolist()]
+    return [modes[column] for column in scipy.optimize.linear_sum_assignment(cost)[1].tolist()]

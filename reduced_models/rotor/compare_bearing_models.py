@@ -76,8 +76,8 @@ class ModelRun:
         """Amplitudes of the disc's height at some frequencies, all fitted at once with a mean."""
         angles = 2.0 * pi * self.t[:, None] * np.array(hz)
         columns = np.hstack([np.ones((self.t.size, 1)), np.cos(angles), np.sin(angles)])
-        found = np.linalg.lstsq(columns, self.disc[:, 1], rcond=None)[0][1:]
-        return np.hypot(found[: len(hz)], found[len(hz) :])
+        parts = np.linalg.lstsq(columns, self.disc[:, 1], rcond=None)[0][1:]
+        return np.hypot(parts[: len(hz)], parts[len(hz) :])
 
     def to_dict(self, speed_hz: float, passage_hz: float) -> dict[str, Any]:
         """All numbers, SI; swings from end to end, x and y."""
@@ -140,7 +140,7 @@ class BearingModels:
     @property
     def rows(self) -> dict[str, dict[str, Any]]:
         """Numbers of the runs."""
-        return {name: one.to_dict(self.speed_rpm / 60.0, self.passage_hz) for name, one in self.ran.items()}
+        return {name: run.to_dict(self.speed_rpm / 60.0, self.passage_hz) for name, run in self.ran.items()}
 
     @property
     def balls(self) -> list[dict[str, Any]]:
@@ -149,8 +149,8 @@ class BearingModels:
         films = np.full_like(state.force, np.nan) if state.h_min is None else state.h_min
         degrees = np.degrees(state.angles - state.cage_angle)
         return [
-            {"degrees": float(at), "force": force.tolist(), "h_min": film.tolist()}
-            for at, force, film in zip(degrees, state.force, films, strict=True)
+            {"degrees": float(angle), "force": force.tolist(), "h_min": film.tolist()}
+            for angle, force, film in zip(degrees, state.force, films, strict=True)
         ]
 
     def to_dict(self) -> dict[str, Any]:
@@ -267,8 +267,8 @@ def _run(
 ) -> ModelRun:
     """Time steps from the orbit of the linearised rotor on, so that little has to settle."""
     dt, until, begin = times
-    at = linearise(rotor, rpm)
-    run = simulate_rotor(rotor, speed_rpm=rpm, dt=dt, until=until, start=at.orbit())
+    linear = linearise(rotor, rpm)
+    run = simulate_rotor(rotor, speed_rpm=rpm, dt=dt, until=until, start=linear.orbit())
     if run.status is Status.INTERRUPTED:
         raise KeyboardInterrupt
     keep(run)
@@ -277,8 +277,8 @@ def _run(
         t=run.t[seen],
         ring=run.ring[seen, 0],
         disc=run.disc[seen],
-        **_slowest(at),
-        linear=at,
+        **_slowest(linear),
+        linear=linear,
         largest_load=float(run.largest_load.max()),
     )
 
@@ -286,23 +286,23 @@ def _run(
 def _linear(rotor: Rotor, rpm: float, times: tuple[float, float, float]) -> ModelRun:
     """The settled rotor on bearings of constant stiffness and damping."""
     dt, until, begin = times
-    at = linearise(rotor, rpm)
+    linear = linearise(rotor, rpm)
     t: _Floats = np.asarray(np.arange(round(begin / dt), round(until / dt) + 1) * dt, np.float64)
-    q = at.motion(t)
+    q = linear.motion(t)
     ring, disc = (q[:, list(rotor.nodes[node].values())] for node in ("bearing 0", "disc"))
-    return ModelRun(t, ring, disc, **_slowest(at), linear=at)
+    return ModelRun(t, ring, disc, **_slowest(linear), linear=linear)
 
 
-def _slowest(at: LinearRotor) -> dict[str, Any]:
+def _slowest(linear: LinearRotor) -> dict[str, Any]:
     """Frequency and decrement of the slowest mode of each direction."""
-    found = at.slowest()
-    ways = {"vertical": found.get("y"), "horizontal": found.get("x")}
+    modes = linear.slowest()
+    ways = {"vertical": modes.get("y"), "horizontal": modes.get("x")}
     return {way: None if mode is None else (mode.hz, mode.decrement) for way, mode in ways.items()}
 
 
 def _response_grid(speed_hz: float, ran: Mapping[str, ModelRun]) -> _Floats:
     """Frequencies [Hz] that show all modes of the table."""
-    modes = [mode[0] for one in ran.values() for mode in (one.vertical, one.horizontal) if mode is not None]
+    modes = [mode[0] for run in ran.values() for mode in (run.vertical, run.horizontal) if mode is not None]
     wide = np.geomspace(BEGIN * speed_hz, BEYOND * max([speed_hz, *modes]), COARSE)
     near = [hz * (1.0 + NARROW * np.linspace(-1.0, 1.0, CLOSE) ** 3) for hz in modes]
     return np.unique(np.concatenate([wide, *near]))
@@ -311,14 +311,14 @@ def _response_grid(speed_hz: float, ran: Mapping[str, ModelRun]) -> _Floats:
 def _over_speed(bearing: BallBearing, weight: tuple[float, float], rpm: float, hz: _Floats) -> tuple[AtSpeed, ...]:
     """At the speeds of the Campbell diagram and some between them, as far as the atlas has films."""
     sweep = np.linspace(SWEEP[0] * rpm, min(SWEEP[1] * rpm, bearing.highest_speed), OVER_SPEED)
-    found = []
+    answers = []
     for speed in np.unique(np.append(sweep[np.abs(sweep - rpm) > 1e-6 * rpm], rpm)).tolist():
         try:
             state = bearing.equilibrium(weight, speed_rpm=speed)
-            found.append(AtSpeed(state, bearing.coefficients(weight, speed_rpm=speed, hz=hz)))
+            answers.append(AtSpeed(state, bearing.coefficients(weight, speed_rpm=speed, hz=hz)))
         except (ConvergenceError, InputError):  # slower, the atlas has no films under such loads
             continue
-    return tuple(found)
+    return tuple(answers)
 
 
 def campbell_or_reason(

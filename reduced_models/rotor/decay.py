@@ -125,11 +125,11 @@ def log_decrement(t: ArrayLike, signal: ArrayLike, *, omega: float) -> Decrement
     )
 
 
-def _half_width(found: scipy.optimize.OptimizeResult, samples: int) -> float:
+def _half_width(solution: scipy.optimize.OptimizeResult, samples: int) -> float:
     """Of the decrement's interval: from the slope of the residuals, enlarged for those that hang together."""
-    residual = found.fun
+    residual = solution.fun
     freedom = samples - 5  # three linear unknowns and two others
-    covariance = np.linalg.pinv(found.jac.T @ found.jac)
+    covariance = np.linalg.pinv(solution.jac.T @ solution.jac)
     # An AR(1) of the residuals' own correlation: (1 + r)/(1 - r) times fewer of them are independent.
     energy = float(residual @ residual)
     r = float(residual[1:] @ residual[:-1]) / energy if energy > 0.0 else 0.0

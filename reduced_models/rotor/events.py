@@ -90,7 +90,7 @@ def contact_events(
         They are not changed. As in their warnings, a twentieth of the intervals of approach and load and of the
         largest rate, and an octave of frequency, go unmentioned.
     """
-    found = []
+    by_contact = []
     for i, force in enumerate(result.force.T):
         off, on, share = lift_offs(force, load)
         u, v = result.approach[:, i], result.rate[:, i]
@@ -102,8 +102,8 @@ def contact_events(
             said = _said(element, u, v, force)
         shares = {f"outside_{name}": value for name, value in outside.items()}
         loads = (float(force.min()), float(force.max()))
-        found.append(ContactEvents(off, on, share, loads, warnings=said, **shares))
-    return tuple(found)
+        by_contact.append(ContactEvents(off, on, share, loads, warnings=said, **shares))
+    return tuple(by_contact)
 
 
 def outside_shares(box: Validity, approach: _Floats, rate: _Floats, force: _Floats) -> dict[str, float | None]:

@@ -53,8 +53,8 @@ def film_impedance(response: ImpedanceResult) -> Impedance:
 
     def impedance(omega: _Floats) -> _Complex:
         w = np.asarray(omega, dtype=np.float64)
-        at = np.clip(w * scales.time, known[0], known[-1])
-        K, C = (part(at) for part in parts)
+        scaled = np.clip(w * scales.time, known[0], known[-1])
+        K, C = (part(scaled) for part in parts)
         return np.asarray(K * scales.stiffness + 1j * w * C * scales.damping, dtype=np.complex128)
 
     return impedance
@@ -78,8 +78,8 @@ class ContactImpedance:
         """Of all of them, shape (1, 1) [N/m]: K + s C with K and C at the frequency of `s` [1/s]."""
         omega = max(s.imag, TINY_OMEGA)
         Z = complex(self._impedance(np.array([omega]))[0])
-        found = Z if s == 1j * omega else Z.real + s * Z.imag / omega
-        return np.array([[self._count * found]])
+        impedance = Z if s == 1j * omega else Z.real + s * Z.imag / omega
+        return np.array([[self._count * impedance]])
 
 
 class LinearElement:

@@ -37,17 +37,17 @@ def rotor_system(matrices: Matrices, rows: _Floats, supports: Sequence[StateSpac
     A[:size, size : 2 * size] = np.eye(size)
     pull = np.zeros((size, total))  # forces that act on the masses
     pull[:, :size], pull[:, size : 2 * size] = -K, -damping
-    at, first = 2 * size, 0
+    first_state, first = 2 * size, 0
     for support in supports:
         count = len(support.C)
-        own, here = rows[first : first + count], slice(at, at + len(support.A))
+        own, here = rows[first : first + count], slice(first_state, first_state + len(support.A))
         both = np.zeros((2 * count, total))
         both[:count, :size], both[count:, size : 2 * size] = own, own
         A[here] += support.B @ both
         A[here, here] += support.A
         pull -= own.T @ support.D @ both
         pull[:, here] -= own.T @ support.C
-        at, first = here.stop, first + count
+        first_state, first = here.stop, first + count
     A[size : 2 * size] = np.linalg.solve(M, pull)
     driven[size : 2 * size] = np.linalg.inv(M)
     return A, driven

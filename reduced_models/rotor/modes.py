@@ -190,9 +190,9 @@ def mode_distance(s: complex, q: _Complex, others: _Complex, shapes: _Complex) -
     return np.asarray(1.0 - shared + np.abs(np.log(others.imag / s.imag)))
 
 
-def is_new(s: complex, q: _Complex, found: Sequence[tuple[complex, _Complex]]) -> bool:
+def is_new(s: complex, q: _Complex, roots: Sequence[tuple[complex, _Complex]]) -> bool:
     """Whether a root is none of those found: at another place, or a further direction at a multiple one."""
-    beside = [shape / np.linalg.norm(shape) for other, shape in found if abs(other - s) <= SAME * abs(s)]
+    beside = [shape / np.linalg.norm(shape) for other, shape in roots if abs(other - s) <= SAME * abs(s)]
     shapes = np.array([*beside, q / np.linalg.norm(q)])
     return bool(np.linalg.svd(shapes, compute_uv=False)[-1] > NEW) if len(shapes) <= q.size else False
 

@@ -34,11 +34,11 @@ class ByNode:
     @property
     def nodes(self) -> dict[str, dict[str, int]]:
         """Degrees of freedom by node and direction."""
-        found: dict[str, dict[str, int]] = {}
+        by_node: dict[str, dict[str, int]] = {}
         for name, place in zip(self.names, self.places.tolist(), strict=True):
             node, _, direction = name.rpartition(" ")
-            found.setdefault(node, {})[direction] = place
-        return found
+            by_node.setdefault(node, {})[direction] = place
+        return by_node
 
     def _node(self, values: NDArray[Any], name: str) -> NDArray[Any]:
         """Of `values`, whose last axis are the degrees of freedom, x and y of a node; 0 where it does not move."""
@@ -47,11 +47,11 @@ class ByNode:
             known = f"one of {', '.join(nodes)}" if nodes else "none: the rotor has no names"
             raise NodeError("node", name, known)
         if nodes[name].keys().isdisjoint(PLANE):
-            places = ", ".join(f"nodes[{name!r}][{one!r}] = {place}" for one, place in nodes[name].items())
+            places = ", ".join(f"nodes[{name!r}][{key!r}] = {place}" for key, place in nodes[name].items())
             raise InputError("node", name, f"one that moves across the shaft; its degrees of freedom are {places}")
-        found = np.zeros((*values.shape[:-1], len(PLANE)), values.dtype)
+        motion = np.zeros((*values.shape[:-1], len(PLANE)), values.dtype)
         for k, direction in enumerate(PLANE):
             if direction in nodes[name]:
-                found[..., k] = values[..., nodes[name][direction]]
-        found.setflags(write=False)
-        return found
+                motion[..., k] = values[..., nodes[name][direction]]
+        motion.setflags(write=False)
+        return motion

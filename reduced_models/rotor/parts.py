@@ -366,11 +366,12 @@ class Support(Summary):
     @property
     def seats(self) -> tuple[Seat, ...]:
         """Bearings that are on the shaft here."""
-        found = self.bearing
-        if not isinstance(found, BearingSet):
-            return (Seat(found, self.facing, self.offset, 0.0, self.preload is not None),)
-        rows = zip(found.bearings, found.facings, found.offsets, found.positions, strict=True)
-        return tuple(Seat(one, facing, offset, arm, facing == found.sprung) for one, facing, offset, arm in rows)
+        if not isinstance(self.bearing, BearingSet):
+            return (Seat(self.bearing, self.facing, self.offset, 0.0, self.preload is not None),)
+        rows = zip(
+            self.bearing.bearings, self.bearing.facings, self.bearing.offsets, self.bearing.positions, strict=True
+        )
+        return tuple(Seat(*row, row[1] == self.bearing.sprung) for row in rows)
 
     @property
     def spring(self) -> float | None:

@@ -142,8 +142,8 @@ def draw_campbell(campbell: Any, path: str | os.PathLike[str] | None) -> Any:
     above.plot(rpm, rpm / 60.0, color=GREY, linewidth=1.0, linestyle="-.", label="1x")
     critical = campbell.critical_speeds() if len(campbell.speed_rpm) > 1 else ()
     if critical:
-        at = [one.speed_rpm for one in critical], [one.hz for one in critical]
-        above.plot(*at, "o", color="black", markersize=5, fillstyle="none", label="critical speeds")
+        points = [one.speed_rpm for one in critical], [one.hz for one in critical]
+        above.plot(*points, "o", color="black", markersize=5, fillstyle="none", label="critical speeds")
     most = 1.08 * float(hz.max())
     above.set_ylim(0.0, most)
     _name_modes(above, campbell, most)

@@ -43,18 +43,22 @@ class Resonances:
     @property
     def spans(self) -> dict[str, tuple[float, float]]:
         """Frequencies worth showing of every direction [Hz]: round its resonances, or all where it has none."""
-        found = {}
+        bands = {}
         for direction in self.curves:
-            at = [peak.hz for peak in self.peaks[direction].values()]
-            around = (SHOWN[0] * min(at), SHOWN[1] * max(at)) if at else (float(self.hz[0]), float(self.hz[-1]))
-            found[direction] = around
-        return found
+            peaks = [peak.hz for peak in self.peaks[direction].values()]
+            around = (
+                (SHOWN[0] * min(peaks), SHOWN[1] * max(peaks))
+                if peaks
+                else (float(self.hz[0]), float(self.hz[-1]))
+            )
+            bands[direction] = around
+        return bands
 
     def to_dict(self) -> dict[str, Any]:
         """The resonances, ready for JSON."""
         return {
-            direction: {name: asdict(peak) for name, peak in found.items()}
-            for direction, found in self.peaks.items()
+            direction: {name: asdict(peak) for name, peak in peaks.items()}
+            for direction, peaks in self.peaks.items()
         }
 
 

@@ -105,9 +105,9 @@ def from_ross(
     five = _is_axial(rotor, supports, loads, axial)
     empty = {node: ross.BearingElement(n=node, kxx=0.0, cxx=0.0, n_link=linked) for node, linked in nodes.items()}
     bare = _rebuilt(ross, rotor, empty)  # with elements that hold nothing, so that all nodes stay
-    at = _operating_point(ross, bare, speed_rpm, {"omega": omega, "hz": hz, "rpm": rpm})
+    point = _operating_point(ross, bare, speed_rpm, {"omega": omega, "hz": hz, "rpm": rpm})
     dofs = without_torsion(bare, five)
-    M, C, G, K = _uncoupled((bare.M(*at), bare.C(*at), bare.G(), bare.K(*at)), dofs)
+    M, C, G, K = _uncoupled((bare.M(*point), bare.C(*point), bare.G(), bare.K(*point)), dofs)
     upward = np.searchsorted(dofs, [_first(bare, node) + 1 for node in range(_count(bare))])
     load = np.asarray(-g * M[:, upward].sum(axis=1) if gravity else np.zeros(dofs.size))
 
@@ -122,9 +122,9 @@ def from_ross(
         size = np.size(force)
         load[there[:size]] += as_column(f"loads[{node}]", force, size=size if size in sizes else sizes[-1])
     heavy = []
-    for node, given in (unbalances or {}).items():
+    for node, entry in (unbalances or {}).items():
         x, y = places("unbalances", node)[:2]
-        amount, phase = given if isinstance(given, tuple | list) and len(given) == 2 else (given, 0.0)
+        amount, phase = entry if isinstance(entry, tuple | list) and len(entry) == 2 else (entry, 0.0)
         heavy.append(Unbalance(x=x, y=y, amount=amount, phase=phase))
     mounts: list[BearingMount] = []
     for node, linked in nodes.items():
@@ -366,27 +366,27 @@ def _supports(
     """Bearings by node, with what `Support` checks of them; its position counts nothing here."""
     if not isinstance(bearings, Mapping) or not bearings:
         raise InputError("bearings", bearings, "{node: BallBearing}, at least one")
-    for name, given in (("facings", facings), ("offsets", offsets)):
-        for node in given or {}:
+    for name, entries in (("facings", facings), ("offsets", offsets)):
+        for node in entries or {}:
             if node not in bearings:
                 raise InputError(f"node of {name}", node, f"one with a bearing: {', '.join(map(str, bearings))}")
-    found = {}
+    supports = {}
     for node, bearing in bearings.items():
         if not isinstance(bearing, BearingSet):
             require_instance(f"bearings[{node}]", bearing, BallBearing, "a BallBearing or BearingSet")
         facing, offset = (facings or {}).get(node, FACINGS[0]), (offsets or {}).get(node, 0.0)
-        found[node] = Support(position=0.0, bearing=bearing, facing=facing, offset=offset)
-        if found[node].spring is not None:
+        supports[node] = Support(position=0.0, bearing=bearing, facing=facing, offset=offset)
+        if supports[node].spring is not None:
             allowed = "one of offsets; an outer ring on a spring is a point mass: a node with an element to it"
             raise InputError(f"bearings[{node}]", "a set on a spring", allowed)
-    return found
+    return supports
 
 
 def _is_axial(
     rotor: Any, supports: Mapping[int, Support], loads: Mapping[int, ArrayLike] | None, axial: bool | None
 ) -> bool:
     """Whether bearings have five degrees of freedom."""
-    needed = any(one.needs_axial for one in supports.values())
+    needed = any(support.needs_axial for support in supports.values())
     needed = needed or any(np.size(force) > len(PLANAR) for force in (loads or {}).values())
     if axial is not None:
         require_instance("axial", axial, bool, "True or False")
@@ -400,13 +400,13 @@ def _is_axial(
 
 def _by_node(ours: Rotor, linear: Sequence[tuple[_Floats, _Floats]]) -> list[tuple[_Floats, _Floats]]:
     """Stiffness and damping of all bearings of a node in its own degrees of freedom, shapes (k, n, n)."""
-    found: dict[Any, tuple[_Floats, _Floats]] = {}
+    by_place: dict[Any, tuple[_Floats, _Floats]] = {}
     for mount, (k, c) in zip(ours.ball_bearings, linear, strict=True):
         shaft = mount.ends[0]
         rows = mount.rows(ours.size)[:, np.array(shaft, np.int64)]
-        K, C = found.get(shaft, (np.zeros((1, len(shaft), len(shaft))),) * 2)
-        found[shaft] = K + rows.T @ k @ rows, C + rows.T @ c @ rows
-    return list(found.values())
+        K, C = by_place.get(shaft, (np.zeros((1, len(shaft), len(shaft))),) * 2)
+        by_place[shaft] = K + rows.T @ k @ rows, C + rows.T @ c @ rows
+    return list(by_place.values())
 
 
 def _add_couplings(rotor: Any, node: int, linked: int | None, K: _Floats, C: _Floats) -> None:
@@ -420,9 +420,9 @@ def _add_couplings(rotor: Any, node: int, linked: int | None, K: _Floats, C: _Fl
             rows[range(lengths), _first(rotor, linked) + np.arange(lengths)] = -1.0
         beyond = matrix.copy()
         for place in ELEMENT:
-            at = tuple(FIVE.index(axis) for axis in place)
-            if max(at) < n:
-                beyond[at] = 0.0
+            axes = tuple(FIVE.index(axis) for axis in place)
+            if max(axes) < n:
+                beyond[axes] = 0.0
         setattr(rotor, name, getattr(rotor, name) + rows.T @ beyond @ rows)
 
 
@@ -430,21 +430,21 @@ def _nodes(ross: Any, rotor: Any, supports: Mapping[int, Support], replace: bool
     """Nodes of the bearings, and what those that they replace were linked to."""
     if type(rotor) is not ross.Rotor:
         raise InputError("rotor", type(rotor).__name__, "a ross.Rotor, one shaft")
-    found: dict[int, int | None] = {}
+    linked_nodes: dict[int, int | None] = {}
     for node in supports:
         _require_node(rotor, "bearings", node)
         there = _at(rotor, node)
         if there and not replace:
             allowed = f"free: a {type(there[0]).__name__} is there; replace=True puts the bearing in its place"
             raise InputError("node of bearings", node, allowed)
-        found[int(node)] = next((e.n_link for e in there if e.n_link is not None), None)
-    return found
+        linked_nodes[int(node)] = next((e.n_link for e in there if e.n_link is not None), None)
+    return linked_nodes
 
 
 def _at(rotor: Any, node: int) -> list[Any]:
     """Bearing elements at a node; seals, which ROSS derives from them, are none."""
-    found = [e for e in rotor.bearing_elements if e.n == node]
-    return [e for e in found if "SealElement" not in [kind.__name__ for kind in type(e).__mro__]]
+    elements = [e for e in rotor.bearing_elements if e.n == node]
+    return [e for e in elements if "SealElement" not in [kind.__name__ for kind in type(e).__mro__]]
 
 
 def _rebuilt(ross: Any, rotor: Any, elements: Mapping[int, Any]) -> Any:
@@ -456,7 +456,7 @@ def _rebuilt(ross: Any, rotor: Any, elements: Mapping[int, Any]) -> Any:
     names = ("min_w", "max_w", "rated_w", "motor_element", "alpha", "beta")  # the last three from ROSS 3 on
     options = {name: getattr(rotor, name) for name in names if hasattr(rotor, name)}
     parts = rotor.shaft_elements, rotor.disk_elements, [*kept, *elements.values()], rotor.point_mass_elements
-    found = ross.Rotor(*parts, **options, tag=rotor.tag)
+    rebuilt = ross.Rotor(*parts, **options, tag=rotor.tag)
     # Damping of modes (ROSS 3, as a complex matrix) is of those with the bearings that the rotor has.
-    found.C0 = rotor.C0.real.copy()
-    return found
+    rebuilt.C0 = rotor.C0.real.copy()
+    return rebuilt

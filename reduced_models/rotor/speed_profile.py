@@ -107,12 +107,12 @@ def law_speeds(rpm: _Floats) -> _Floats:
 def turning_forces(rotor: Rotor, omega: _Floats, angle: _Floats, rise: _Floats) -> tuple[_Floats, _Floats]:
     """Forces of all unbalances over time, shape (k, 2 unbalances), and where they act, shape (N, 2 unbalances)."""
     forces = np.zeros((omega.size, 2 * len(rotor.unbalances)))
-    at = np.zeros((rotor.size, 2 * len(rotor.unbalances)))
+    unit = np.zeros((rotor.size, 2 * len(rotor.unbalances)))
     for i, u in enumerate(rotor.unbalances):
         c, s = np.cos(angle + u.phase), np.sin(angle + u.phase)
         forces[:, 2 * i] = u.amount * (omega**2 * c + rise * s)
         forces[:, 2 * i + 1] = u.amount * (omega**2 * s - rise * c)
         for k, place in enumerate((u.x, u.y)):
             if place is not None:
-                at[place, 2 * i + k] = 1.0
-    return forces, at
+                unit[place, 2 * i + k] = 1.0
+    return forces, unit

@@ -46,8 +46,8 @@ def unbalance_response(
         raise InputError("unbalances", (), "at least one Unbalance")
     if speeds[0] <= 0.0:
         raise InputError("speeds_rpm[0]", float(speeds[0]), "> 0")
-    found = [
+    amplitudes = [
         linearise(rotor, s, passage=passage, signed_damping=signed_damping)._unbalanced(s * RPM_TO_RAD_S)
         for s in speeds.tolist()
     ]
-    return UnbalanceResponse.of(rotor, speeds, np.array(found))
+    return UnbalanceResponse.of(rotor, speeds, np.array(amplitudes))

@@ -168,12 +168,12 @@ class RecordCase(Summary):
     def columns(self) -> dict[str, Any]:
         """Row of the metadata table, in the columns of bearing-datasets; additional ones at its end."""
         b, faults = self.bearing, list(self.bearing.features)
-        kinds = sorted({PARTS.get(str(getattr(one, "race", None)), BALL) for one in faults})
-        defects = [one for one in faults if isinstance(one, Spall | Indentation)]
-        length = max((one.length for one in defects), default=0.0)
+        kinds = sorted({PARTS.get(str(getattr(fault, "race", None)), BALL) for fault in faults})
+        defects = [fault for fault in faults if isinstance(fault, Spall | Indentation)]
+        length = max((fault.length for fault in defects), default=0.0)
         orders = b.equilibrium(self.load, speed_rpm=self.speed_rpm).orders or b.orders
         size = round(self.seconds * self.rate)
-        words = "; ".join(f"length {1e3 * one.length:g} mm, depth {1e6 * one.depth:g} um" for one in defects)
+        words = "; ".join(f"length {1e3 * fault.length:g} mm, depth {1e6 * fault.depth:g} um" for fault in defects)
         graded = "not graded" if kinds else "none"
         return {
             "signal_id": f"{self.recording_id}/y", "recording_id": self.recording_id, "native_label": self.label,
@@ -296,11 +296,11 @@ def make_records(
     failed, done = {}, len(wanted) - len(missing)
     if missing:
         with executor_for(processes, 1, scheduler=scheduler) as executor:
-            for name, found in results_of(executor, _tried, missing):
-                if isinstance(found, str):
-                    failed[name] = found
+            for name, outcome in results_of(executor, _tried, missing):
+                if isinstance(outcome, str):
+                    failed[name] = outcome
                     continue
-                save(found, folder / f"{name}{SUFFIX}", "folder")
+                save(outcome, folder / f"{name}{SUFFIX}", "folder")
                 done += 1
                 if progress is not None:
                     progress(done, len(wanted))

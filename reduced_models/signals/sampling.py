@@ -134,8 +134,8 @@ def housing_acceleration(
 
 def shaft_angle(t: ArrayLike, speed_rpm: ArrayLike) -> _Floats:
     """Angle of the shaft [rad] at times [s], 0 at the first; speeds [rev/min] are straight between them."""
-    at, speed = np.asarray(t, float), np.broadcast_to(np.asarray(speed_rpm, float), np.shape(t)) * pi / 30.0
-    turned = 0.5 * (speed[1:] + speed[:-1]) * np.diff(at)
+    times, speed = np.asarray(t, float), np.broadcast_to(np.asarray(speed_rpm, float), np.shape(t)) * pi / 30.0
+    turned = 0.5 * (speed[1:] + speed[:-1]) * np.diff(times)
     return np.concatenate([[0.0], np.cumsum(turned)])
 
 

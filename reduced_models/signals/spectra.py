@@ -214,8 +214,8 @@ def order_spectrum(
             "angle", speed.min(), f"of a shaft that makes at least {slowest:.3g} turns per s all the time"
         )
     dense = resampled(column, FINER, 1)[: FINER * (column.size - 1) + 1]
-    at = turned[0] + np.arange(int(whole * per_turn * finer) + 1) / (per_turn * finer)
-    place = FINER * np.interp(at, turned, np.arange(column.size, dtype=float))
+    angles = turned[0] + np.arange(int(whole * per_turn * finer) + 1) / (per_turn * finer)
+    place = FINER * np.interp(angles, turned, np.arange(column.size, dtype=float))
     even = make_interp_spline(np.arange(dense.size, dtype=float), dense)(place)
     over_angle = resampled(even, 1, finer)
     order, power = welch(

@@ -153,15 +153,15 @@ class MeasuredPath(TransferPath):
 
     def __post_init__(self) -> None:
         hz = as_column("hz", self.hz, least=2, increasing=True)
-        found = np.asarray(self.accelerance)
-        if found.shape != hz.shape or found.dtype.kind not in "fciu" or not np.isfinite(found).all():
+        values = np.asarray(self.accelerance)
+        if values.shape != hz.shape or values.dtype.kind not in "fciu" or not np.isfinite(values).all():
             raise InputError(
-                "accelerance", f"shape {found.shape}", f"{hz.size} finite complex numbers, as many as hz"
+                "accelerance", f"shape {values.shape}", f"{hz.size} finite complex numbers, as many as hz"
             )
         if hz[0] < 0.0:
             raise InputError("hz[0]", hz[0], ">= 0")
         object.__setattr__(self, "hz", hz)
-        object.__setattr__(self, "accelerance", found.astype(complex))
+        object.__setattr__(self, "accelerance", values.astype(complex))
         _require_decay("hz", hz.tolist(), self.decay_time)
 
     def _summary_lines(self) -> list[str]:
