@@ -240,7 +240,6 @@ def _film_parts(element: Film, lead: float) -> dict[str, Any]:
     nominal = max(rate * time / length, 1e-3)
     _film_states(common, states, nominal, float(film_made(0.0, element.law)), element.law.rim > 0.0)
     law = element.law
-    inverse = np.append(0.0, 1.0 / np.arange(1.0, lags + 4.0))
     return {
         "description": f"Rolling contact with a film memory ({element.kind} element, {lags} lags)",
         "sources": ("core.c", "core_step.c", "validity.c", "model_film.c", *(f"{name}.c" for name in LAW)),
@@ -256,7 +255,6 @@ def _film_parts(element: Film, lead: float) -> dict[str, Any]:
                 "ln F_s of the rows of gains; viscous, inlet and fast gain and those of the chain",
                 {"gain_x": law.gain_x, "gains": law.gains},
             ),
-            "film_inverse.h": _header("1/k, and 0 for k = 0", {"inverse": inverse}),
         },
     }
 

@@ -86,7 +86,8 @@ def export(
         Of a bearing: force on the inner ring [N], [N m], as of `BallBearing.equilibrium`, under which it starts at
         rest; by default the ring starts in the middle.
     directions : sequence of str, optional
-        Of a bearing: displacements of its ring, ``("x", "y")`` or all five; by default those that its load needs.
+        Of a bearing: displacements of its ring, the others are held, as of `BearingModel`; by default those that
+        its load needs.
     lead : float, optional
         Start value of `lead` of a contact or bearing, 0 to 2 communication steps, by default 1.5; or of
         `force_lead` of a rotor, 0 to 1, by default 1/2 with supports outside and 0 without. What is right depends

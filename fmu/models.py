@@ -29,7 +29,6 @@ from fmu.shaft.variables import shaft_spec
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
 from reduced_models import BallBearing, JeffcottRotor, Rotor
-from reduced_models.bearing.freedoms import FIVE, PLANAR
 
 ALL = "all"  # in place of the names of all supports
 
@@ -100,8 +99,7 @@ def fmu_model(model: Exported, **keywords: Unpack[Keywords]) -> FmuModel:
         spec = contact_spec(model, model_name, HELD_PARALLEL if lead is None else lead)
         return _made(model, spec, compare_film if isinstance(model, Film) else compare_spring, contact_references)
     if isinstance(model, BallBearing):
-        freedoms = _freedoms(given.pop("directions", None))
-        bearing = BearingModel(model, given.pop("speeds_rpm", None), freedoms=freedoms, **given)
+        bearing = BearingModel(model, given.pop("speeds_rpm", None), **given)
         return _made(bearing, bearing_spec(bearing, model_name, lead), compare_bearing, bearing_references)
     outside = _outside(model, given.pop("outside", ()))
     if isinstance(model, JeffcottRotor):
@@ -169,13 +167,6 @@ def _contacts_inside(rotor: JeffcottRotor, outside: tuple[str, ...], given: dict
         allowed = f"one per mount, {len(rotor.mounts)}, or outside={_names(rotor)}"
         raise InputError("contacts", None, allowed)
     return given
-
-
-def _freedoms(directions: Sequence[str] | None) -> int | None:
-    """How many displacements the ring of a bearing has; None: as many as its load asks for."""
-    if directions is not None and tuple(directions) not in (PLANAR, FIVE):
-        raise InputError("directions", list(directions), f"{PLANAR} or {FIVE}")
-    return None if directions is None else len(directions)
 
 
 def _made(source: Any, spec: ModelSpec, compare: Any, references: Any) -> FmuModel:

@@ -22,6 +22,10 @@ MODELS = {
     "planar": lambda: BearingModel(bearing(clearance=5e-6, loss_factor=0.05, ball_inertia=True), RPM, 500.0),
     "range": lambda: BearingModel(bearing(clearance=5e-6), (2000.0, RPM), 500.0),
     "five": lambda: BearingModel(bearing(clearance="CN", loss_factor=0.05), RPM, (0.0, -500.0, 200.0)),
+    "held": lambda: BearingModel(
+        bearing(clearance="CN", loss_factor=0.05), RPM, (0.0, -500.0, 200.0), ("x", "y", "z")
+    ),
+    "heavy five": lambda: BearingModel(bearing("7205", ball_inertia=True), RPM, (0.0, -300.0, 200.0)),
     "five dry": lambda: BearingModel(
         bearing(clearance="CN", oil=None, loss_factor=0.05), RPM, (0.0, -500.0, 200.0)
     ),

@@ -31,7 +31,7 @@ ABOUT = (
 
 def compare_bearing(slave: Any, exchange: Any, model: BearingModel, spec: ModelSpec) -> Verification:
     """Compare a bearing, in a run with lift-off and in model exchange at some states."""
-    trial, names = bearing_trial(model), [FORCES[name] for name in model.names]
+    trial, names = bearing_trial(model), [FORCES[name] for name in model.directions]
     rows = _rows(model, trial)
     slave.start(**{CONTACT.name: CONTACT.at_end, "cage_angle_start": START}, **rows[0])
     most = [model.bearing.race(race).heaviest(float(model.speeds[-1]))[0] for race in RACES]
@@ -65,13 +65,13 @@ def exchange_differences(exchange: Any, model: BearingModel, spec: ModelSpec) ->
     forces, rates = [], []
     for states, inputs in zip(points.states, _rows(model, points), strict=True):
         rates.append(exchange.place(states, **inputs))
-        forces.append(exchange.get(*(FORCES[name] for name in model.names)))
+        forces.append(exchange.get(*(FORCES[name] for name in model.directions)))
     kinds = [re.sub(r"\[\d+\]", "", state.name) for state in spec.states]
     found = []
     for kind in dict.fromkeys(kinds):
         these = [k for k, one in enumerate(kinds) if one == kind]
         found.append(_over_largest(np.array(rates)[:, these], points.rates[:, these]))
-    kinds_of_force = [slice(0, 3), slice(3, 5)] if len(model.names) > 3 else [slice(0, 2)]
+    kinds_of_force = [slice(0, 3), slice(3, 5)] if len(model.directions) > 3 else [slice(0, 2)]
     gaps = [_over_largest(np.array(forces)[:, at], points.force[:, at]) for at in kinds_of_force]
     return max(gaps), max(found)
 
@@ -89,7 +89,7 @@ def knowns_of(names: Sequence[str], place: _Floats, velocity: _Floats, speed: fl
 
 
 def _rows(model: BearingModel, of: StatePoints | BearingTrial) -> list[dict[str, float]]:
-    return [knowns_of(model.names, *row) for row in zip(of.place, of.velocity, of.speed, strict=True)]
+    return [knowns_of(model.directions, *row) for row in zip(of.place, of.velocity, of.speed, strict=True)]
 
 
 def _point_references(model: BearingModel, spec: ModelSpec) -> Trial:
@@ -98,7 +98,7 @@ def _point_references(model: BearingModel, spec: ModelSpec) -> Trial:
     rows = _rows(model, points)
     knowns = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     knowns |= {state.name: points.states[:, k] for k, state in enumerate(spec.states)}
-    unknowns = dict(zip((FORCES[name] for name in model.names), points.force.T, strict=True))
+    unknowns = dict(zip((FORCES[name] for name in model.directions), points.force.T, strict=True))
     unknowns |= {rate.name: points.rates[:, k] for k, rate in enumerate(spec.derivatives)}
     return Trial(np.arange(count, dtype=float), knowns, unknowns)
 
@@ -116,7 +116,7 @@ def bearing_references(model: BearingModel, spec: ModelSpec) -> References:
     trial = bearing_trial(model)
     rows = _rows(model, trial)
     inputs = {name: np.array([row[name] for row in rows]) for name in rows[0]}
-    results = {FORCES[name]: history for name, history in zip(model.names, trial.force.T, strict=True)}
+    results = {FORCES[name]: history for name, history in zip(model.directions, trial.force.T, strict=True)}
     parameters = {CONTACT.name: CONTACT.at_end, "cage_angle_start": START}
     points = _point_references(model, spec)
     return References(Trial(trial.time, inputs, results), points, parameters, TOLERANCE, ABOUT)

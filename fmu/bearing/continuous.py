@@ -11,12 +11,10 @@ from fmu.bearing.model import BearingModel
 from fmu.bearing.places import counted_from
 from fmu.bearing.trial import START
 from fmu.bearing.variables import BallStates
-from reduced_models.bearing.balls import directions, speed_state
-from reduced_models.bearing.continuous_time import RestingBalls, bearing_rates, rates_with_cage
-from reduced_models.bearing.freedoms import PLANAR
+from reduced_models.bearing.continuous_time import RestingBalls, rates_with_cage
+from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BallMotion
-from reduced_models.bearing.race import RACES
 
 _Floats = NDArray[np.float64]
 
@@ -54,7 +52,7 @@ class StatePoints:
 
 def state_points(model: BearingModel, count: int = POINTS, seed: int = 2) -> StatePoints:
     """States about rest under the start values of the inputs, moved at random; rates and forces there."""
-    rng, made, motion, n = np.random.default_rng(seed), BallStates.of(model), model.motion(), len(model.names)
+    rng, made, motion, n = np.random.default_rng(seed), BallStates.of(model), model.motion(), len(model.directions)
     kinds = np.array([one.kind for ball in made.balls for one in ball], str)
     sizes = np.array([CLOSER * one.nominal for ball in made.balls for one in ball])
     sizes[kinds == "a"] *= ASIDE
@@ -66,12 +64,14 @@ def state_points(model: BearingModel, count: int = POINTS, seed: int = 2) -> Sta
     place = model.place + DEEP * size * rng.normal(size=(count, n))
     velocity = FAST * size * rng.normal(size=(count, n))
     speed = fastest * np.linspace(1.0, 1.0 - SLOWER, count)
-    if n == len(PLANAR):
-        states = np.tile(_rest_states(model, motion, fastest, START, model.place), (count, 1))
-    else:  # a ball at contact angles is near its balance at the place of the ring
+    if (
+        model.angular
+    ):  # balls are near their balance at the place of the ring: little damps them across their contacts
         angles = (START + turned).tolist()
         states = np.array([_rest_states(model, motion, fastest, *at) for at in zip(angles, place, strict=True)])
         states[:, 1 + sizes.size :] *= SETTLING
+    else:
+        states = np.tile(_rest_states(model, motion, fastest, START, model.place), (count, 1))
     states[:, 0] = START + turned
     states[:, 1 : 1 + sizes.size] += np.where(kinds == "w", np.abs(moved), moved)
     counted = counted_from(model)
@@ -85,16 +85,14 @@ def state_points(model: BearingModel, count: int = POINTS, seed: int = 2) -> Sta
 
 def _rest_states(model: BearingModel, motion: BallMotion, speed: float, angle: float, place: _Floats) -> _Floats:
     """States of the bearing at rest [rad], [m], [N], [N m]; those of films are 0."""
-    made = BallStates.of(model)
+    made, counted = BallStates.of(model), counted_from(model)
     force = motion.rest(speed, angle, place)
-    balls = np.zeros((motion.balls.number, len(made.balls[0])))
-    if place.size == len(PLANAR):
-        balls[:, :1] = [[motion.approach(k, RACES[1])][: balls.shape[1]] for k in range(motion.balls.number)]
-    elif balls.size:
-        counted = counted_from(model)
-        (r, z), (e_r, e_z) = (motion.films.place - counted.place).T, counted.place[0] / np.hypot(*counted.place[0])
-        balls[:, 0], balls[:, 1] = e_r * r + e_z * z, e_r * z - e_z * r
-    return np.concatenate([[angle], balls.ravel(), np.tile(force, len(made.seat) // len(model.names))])
+    (r, z), (e_r, e_z) = (motion.films.place - counted.place).T, counted.place[0] / np.hypot(*counted.place[0])
+    own = {"w": e_r * r + e_z * z, "a": e_r * z - e_z * r}
+    balls = [
+        [own[state.kind][k] if state.kind in own else 0.0 for state in ball] for k, ball in enumerate(made.balls)
+    ]
+    return np.concatenate([[angle], np.ravel(balls), np.tile(force, len(made.seat) // len(model.directions))])
 
 
 def rates_in_time(
@@ -108,27 +106,28 @@ def rates_in_time(
 ) -> tuple[_Floats, _Floats]:
     """Rates of the states, and the force on the inner ring, shape (n,) [N], [N m].
 
-    Places of balls at contact angles are `counted` from theirs.
+    Places of balls are `counted` from theirs.
     """
-    rates, n = np.zeros(states.size), place.size
+    rates, n, count = np.zeros(states.size), place.size, motion.balls.number
     gains, poles = motion.balls.loss
     end, angle = states.size - n * gains.size, float(states[0])
-    force, of_balls = np.zeros(n), np.zeros(end - 1)
     if end == 1:  # dry balls are where they are at rest
         force = motion.rest(speed, angle, place)
-    if n > len(PLANAR):
+        rates[0] = speed * motion.films.cage[2]
+    else:  # directions, and places of balls, that the FMU does not have stay 0
+        all_own = ("w", "a", "v", "v_a") if counted.inertia else ("w", "a")
+        kinds = [state.kind for state in BallStates.of(model).balls[0]]
+        own = [all_own.index(kind) for kind in kinds if kind in all_own]
+        films = len(kinds) - len(own)
+        columns = [*own, *range(len(all_own), len(all_own) + films)]
+        of_balls, ball_rates = np.zeros((count, len(all_own) + films)), np.zeros(count * (len(all_own) + films))
+        of_balls[:, columns] = states[1:end].reshape(count, -1)
+        q, v, pushed = np.zeros((3, len(FIVE)))
+        q[:n], v[:n] = place, velocity
         balls = motion.balls._replace(omega=speed)
-        given = states[1:end], place, velocity, of_balls, force
-        rates[0] = rates_with_cage(balls, counted, angle, *given) if end > 1 else speed * motion.films.cage[2]
-    else:
-        planar = model.bearing._kernel(model.speeds)
-        rates[0] = planar.cage * speed
-        if end > 1:
-            normals = np.zeros((planar.number, 2))
-            directions(planar, angle, normals)
-            at_speed = speed_state(planar, speed)
-            bearing_rates(planar, at_speed, normals, states[1:end], place, velocity, of_balls, force)
-    rates[1:end] = of_balls
+        rates[0] = rates_with_cage(balls, counted, angle, of_balls.ravel(), q, v, ball_rates, pushed)
+        rates[1:end] = ball_rates.reshape(count, -1)[:, columns].ravel()
+        force = pushed[:n]
     lost = force - states[end:].reshape(-1, n)
     rates[end:] = (poles[:, None] * lost).ravel()
     return rates, -(force + gains @ lost)

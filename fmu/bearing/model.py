@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_numbers, require_instance
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
+from reduced_models.bearing.angular_balls import AngularBalls
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.motion import BallMotion, motion_of
@@ -21,6 +22,7 @@ from reduced_models.rotor.speed_profile import law_speeds
 
 _Floats = NDArray[np.float64]
 
+DIRECTIONS = PLANAR, FIVE[:3], FIVE  # in which the inner ring of an FMU may move
 MOST_BALLS = 64  # of what an instance remembers, some 100 numbers each
 MOST_CONTACTS = 64  # bits of a number in core.h: those that lift off, both of a ball with inertia, else the inner
 TRIED = 5  # loads of a ball, from the heaviest to the lightest
@@ -42,21 +44,21 @@ class BearingModel:
     load : float or sequence of float, optional
         Force on the inner ring [N], [N m], as of `BallBearing.equilibrium`, under which the FMU starts at rest; a
         number is a weight, in -y. By default the ring starts in the middle, with all displacements 0.
-    freedoms : {2, 5}, optional
-        Displacements of the inner ring: x and y, or x, y, z, tilt_x and tilt_y. By default 5 of an angular contact
-        bearing, and of others under an axial load or a moment; else 2.
+    directions : sequence of str, optional
+        In which the inner ring moves, the others are held: ``("x", "y")``, ``("x", "y", "z")``, or these and
+        "tilt_x", "tilt_y". By default all five of an angular contact bearing, and of others under an axial load or
+        a moment; else x and y.
 
     Raises
     ------
     InputError
-        No bearing, a speed or a load that it does not take, too many balls, a bearing whose balls have inertia
-        with five degrees of freedom.
+        No bearing, a speed, a load or directions that it does not take, too many balls.
     """
 
     bearing: BallBearing
     speeds_rpm: Any
     load: Any = None
-    freedoms: int | None = None
+    directions: Any = None
 
     def __post_init__(self) -> None:
         require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
@@ -66,16 +68,11 @@ class BearingModel:
             raise InputError(
                 "bearing.features", len(self.bearing.features), "none: an FMU has smooth races and balls"
             )
-        if self.freedoms not in (None, len(PLANAR), len(FIVE)):
-            raise InputError("freedoms", self.freedoms, "2 or 5")
+        object.__setattr__(self, "directions", self._directions())
         if self.bearing.ball_inertia and 2 * self.bearing.balls > MOST_CONTACTS:
             allowed = f"at most {MOST_CONTACTS // 2} in an FMU, of balls with inertia"
             raise InputError("bearing.balls", self.bearing.balls, allowed)
         _ = self.speeds
-        if self.freedoms == len(PLANAR) and len(self.names) != len(PLANAR):
-            raise InputError("freedoms", 2, "5 under an axial load or a moment, and for angular contact bearings")
-        if self.bearing.ball_inertia and self.names == FIVE:
-            raise InputError("ball_inertia", True, "False in an FMU with axial motion and tilts")
         _ = self.place
         self.motion()
         if self.bearing.supply is not None:
@@ -100,23 +97,32 @@ class BearingModel:
             found = np.geomspace(found[0], found[-1], MOST_SPEEDS)
         return np.asarray([self.bearing.speed(speed) for speed in found.tolist()])
 
-    @property
-    def _axial(self) -> bool:
+    def _directions(self) -> tuple[str, ...]:
         size = 1 if self.load is None else np.atleast_1d(as_numbers("load", self.load)).size
-        return self.bearing.contact_angle is not None or size > len(PLANAR)
+        axial = self.bearing.contact_angle is not None or size > len(PLANAR)
+        if self.directions is None:
+            return FIVE if axial else PLANAR
+        given = tuple(self.directions)
+        if given not in DIRECTIONS:
+            raise InputError("directions", self.directions, f"one of {', '.join(map(str, DIRECTIONS))}")
+        if axial and "z" not in given:
+            allowed = "with z under an axial load or a moment, and for angular contact bearings"
+            raise InputError("directions", self.directions, allowed)
+        if size > len(given):
+            raise InputError("directions", self.directions, "with tilts under a load with moments")
+        return given
 
     @property
-    def names(self) -> tuple[str, ...]:
-        """Displacements, in order."""
-        five = self._axial or self.freedoms == len(FIVE)
-        return FIVE if five else PLANAR
+    def angular(self) -> bool:
+        """Whether contact angles vary: balls are in the plane of the grooves where the ring has x and y alone."""
+        return "z" in self.directions
 
     @cached_property
     def place(self) -> _Floats:
         """Where the inner ring starts [m], [rad]."""
-        found = np.zeros(len(self.names))
+        found, n = np.zeros(len(self.directions)), len(self.directions)
         if self._at_rest is not None:
-            place = self._at_rest.displacement
+            place = self._at_rest.displacement[:n]  # a load without moments leaves tilts 0
             found[: place.size] = place
         return found
 
@@ -147,6 +153,11 @@ class BearingModel:
                 return f"where a ball carries {load:.3g} N, {words}"
         return ""
 
+    @cached_property
+    def balls(self) -> AngularBalls:
+        """Grooves, races and losses of the bearing, as the kernels in Python have them."""
+        return self.motion().balls
+
     def motion(self) -> BallMotion:
         """Balls and films of the bearing in time, in Python."""
-        return motion_of(self.bearing, self.speeds.tolist(), self.names)
+        return motion_of(self.bearing, self.speeds.tolist(), self.directions)

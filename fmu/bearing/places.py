@@ -25,7 +25,7 @@ def rolling_speed_sum(model: BearingModel) -> float:
 
 def counted_from(model: BearingModel) -> RestingBalls:
     """Of all balls alike."""
-    balls = model.motion().balls
+    balls = model.balls
     g, bearing = balls.grooves, model.bearing
     radial = g.radial + (0.5 * bearing.clearance if bearing.contact_angle is None else 0.0)
     place = g.outer * np.array([radial, g.axial]) / np.hypot(radial, g.axial)
@@ -38,4 +38,4 @@ def counted_from(model: BearingModel) -> RestingBalls:
             about = small_film(law, transit, (len(law.gains) - 1, 0.0), film, slope, slope)
             across += ACROSS * float(about.state_space().D[0, 1])
     n = balls.number
-    return RestingBalls(np.tile(place, (n, 1)), np.zeros((n, 2)), np.full(n, across), 0.0)
+    return RestingBalls(np.tile(place, (n, 1)), np.zeros((n, 2)), np.full(n, across), balls.inertia)

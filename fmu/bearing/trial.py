@@ -47,7 +47,7 @@ class BearingTrial:
 
 def bearing_trial(model: BearingModel, steps: int = STEPS, dt: float = DT, seed: int = 1) -> BearingTrial:
     """A run from rest: vibrations in all directions, a speed that falls, balls that part from the ring."""
-    rng, n = np.random.default_rng(seed), len(model.names)
+    rng, n = np.random.default_rng(seed), len(model.directions)
     time = np.asarray(dt * np.arange(steps + 1), np.float64)
     pressed = model.place.copy()
     if model.load is None:

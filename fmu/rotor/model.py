@@ -76,7 +76,7 @@ class RotorModel:
     def bearings(self) -> tuple[BearingModel, ...]:
         """Each ball bearing as its own FMU has it."""
         return tuple(
-            BearingModel(mount.ball_bearing, self.speeds_rpm, freedoms=len(mount.directions))
+            BearingModel(mount.ball_bearing, self.speeds_rpm, directions=mount.directions)
             for mount in self.stations
         )
 

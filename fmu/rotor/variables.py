@@ -6,16 +6,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fmu.bearing.variables import FORCES, RATES, bearing_spec
+from fmu.bearing.tables import bearing_table, state_size, work_size
+from fmu.bearing.variables import BEARING_HEADERS, BEARING_SOURCES, FORCES, RATES, bearing_spec
 from fmu.c_headers import c_double, c_table
 from fmu.contact_spec import checked_name
 from fmu.contact_variables import ALLOWED_ERROR
-from fmu.jeffcott.laws import law_file, law_size
 from fmu.lead import ROTOR
 from fmu.rotor.model import RotorModel
 from fmu.shaft.variables import SCALES, node_name
 from fmu.spec import ModelSpec, Variable, VariableList
-from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 LEAST_INNER_STEP = 1e-3  # of the default
@@ -27,7 +26,7 @@ SHOWN = (
     "rolling_",
     "outside_",
 )  # outputs of a bearing that the rotor has
-PARAMETERS = ("clearance", "offset", "cage_angle_start", "film")
+PARAMETERS = ("clearance", "offset", "cage_angle_start", "film")  # `BearingSettings`, in that order
 ALL = "outside_validity"
 
 
@@ -42,13 +41,13 @@ def rotor_spec(model: RotorModel, model_name: str | None = None, force_lead: flo
     specs = [bearing_spec(bearing) for bearing in model.bearings]
     made = _Variables(model, specs)
     made.fill(0.0 if force_lead is None else force_lead)
-    laws = _laws(specs, made)
+    laws = _laws(model, made)
     return ModelSpec(
         name=checked_name("Rotor" if model_name is None else model_name),
         description=f"Rotor of {model.rotor.size} degrees of freedom on {len(specs)} ball bearings; SI units"
         + _left_out(model),
-        sources=("core.c", "core_step.c", "model_whole_rotor.c", "linear_equations.c"),
-        headers=("core.h", "model.h", "bearing_law.h", "linear_equations.h"),
+        sources=("core.c", "core_step.c", "model_whole_rotor.c", "linear_equations.c", *BEARING_SOURCES),
+        headers=("core.h", "model.h", "linear_equations.h", *BEARING_HEADERS),
         variables=tuple(made.variables),
         notes=_notes(model, specs),
         macros=_macros(model, made, specs),
@@ -87,7 +86,7 @@ class _Variables(VariableList):
         self.first: dict[str, int] = {}
         self.shown_at: list[int] = []  # first output of each bearing
         self.outside_at: list[int] = []
-        self.parameters_at: list[int] = []
+        self.settings_at: list[tuple[int, ...]] = []  # of `PARAMETERS` of each bearing, -1 for none
         self.points = tuple(_points(model))
 
     def fill(self, lead: float) -> None:
@@ -173,14 +172,16 @@ class _Variables(VariableList):
                 unit="rad/s", start=model.shaft.speed_rpm * RPM_TO_RAD_S, minimum=0.0,
             )  # fmt: skip
         for b, (mount, spec) in enumerate(zip(model.stations, self.specs, strict=True), start=1):
-            self.parameters_at.append(len(self.variables))
+            at = dict.fromkeys(PARAMETERS, -1)
             for one in _parameters(spec):
                 name = one.name
+                at[name] = len(self.variables)
                 start = mount.cage_angle if name == "cage_angle_start" else one.start
                 self.add(
                     f"bearing[{b}].{name}", "parameter", "fixed", one.description,
                     unit=one.unit, start=start, minimum=one.minimum, maximum=one.maximum,
                 )  # fmt: skip
+            self.settings_at.append(tuple(at.values()))
 
 
 def _shown(spec: ModelSpec) -> list[Variable]:
@@ -191,48 +192,29 @@ def _parameters(spec: ModelSpec) -> list[Variable]:
     return [one for one in spec.variables if one.name in PARAMETERS]
 
 
-def _laws(specs: list[ModelSpec], made: _Variables) -> dict[str, str]:
-    """A C file for each bearing that differs; ``rotor_laws.h``: which is where, and where its numbers stand."""
+def _laws(model: RotorModel, made: _Variables) -> dict[str, str]:
+    """``rotor_laws.h``: the bearings that differ, which is where, and where its numbers stand."""
     texts: dict[str, str] = {}
     names = []
-    for spec in specs:
-        five = int(spec.macros["FREEDOMS"]) == len(FIVE)
-        macros = {"LAW_WORK": str(_work(spec)), "LAW_SETTLED": "SETTLED" if five else "0"}
-        references = {"law_parameters": _parameters(spec), "law_outputs": _shown(spec)}
-        lists = [
-            f"static const int {name}[] = {{{', '.join(str(one.value_reference) for one in of)}}};\n"
-            for name, of in references.items()
-        ]
-        text = law_file(
-            spec, "LAW_NAME", "bearing_law.c", spec.description, macros, {"law_references.h": "".join(lists)}
-        )
-        names.append(texts.setdefault(text, f"bearing_law_{len(texts) + 1}"))
-    numbers = np.cumsum([0, *(law_size(spec) for spec in specs)]).tolist()
-    work = np.cumsum([0, *(_work(spec) for spec in specs)]).tolist()
+    for bearing in model.bearings:
+        text = bearing_table(bearing, "NAME")
+        names.append(texts.setdefault(text, f"bearing_{len(texts) + 1}"))
     tables = {
-        "law_numbers": numbers[:-1],
-        "law_work": work[:-1],
+        "law_numbers": np.cumsum([0, *(state_size(bearing) for bearing in model.bearings)]).tolist()[:-1],
+        "law_work": np.cumsum([0, *(work_size(bearing) for bearing in model.bearings)]).tolist()[:-1],
         "law_shown_at": made.shown_at,
         "law_outside": made.outside_at,
-        "law_parameters_at": made.parameters_at,
     }
+    settings = ", ".join(f"{{{', '.join(map(str, row))}}}" for row in made.settings_at)
     lines = [
-        "/* Generated by ehlcontact: the law of each bearing, where its numbers and its outputs stand. */",
-        *(f"extern const BearingLaw {name};" for name in texts.values()),
-        f"static const BearingLaw *const law_of[BEARINGS] = {{{', '.join(f'&{name}' for name in names)}}};",
+        "/* Generated by ehlcontact: the bearings, where their numbers and their outputs stand. */",
+        *(text.replace("NAME", name) for text, name in texts.items()),
+        f"static const Bearing *const law_of[BEARINGS] = {{{', '.join(f'&{name}' for name in names)}}};",
         *(f"static const int {name}[BEARINGS] = {{{', '.join(map(str, at))}}};" for name, at in tables.items()),
+        f"static const int law_settings[BEARINGS][{len(PARAMETERS)}] = {{{settings}}};",
         "",
     ]
-    sources = {f"{name}.c": text.replace("LAW_NAME", name) for text, name in texts.items()}
-    return {"rotor_laws.h": "\n".join(lines), **sources}
-
-
-def _work(spec: ModelSpec) -> int:
-    """Numbers that a step of a bearing is kept in: `LawStep` of ``bearing_law.c``, or a few more."""
-    balls, lags = int(spec.macros["BALLS"]), int(spec.macros["LAGS"])
-    contact = 8 + 22 + 3 * lags  # `RaceStep` and `StepFilters`
-    own = 16 if int(spec.macros["FREEDOMS"]) == len(PLANAR) else 104  # of a ball, beside its contacts
-    return 48 + 2 * int(spec.macros["N_CACHE"]) + balls * (2 * contact + own)
+    return {"rotor_laws.h": "\n".join(lines)}
 
 
 def _data(model: RotorModel) -> str:
@@ -279,8 +261,9 @@ def _macros(model: RotorModel, made: _Variables, specs: list[ModelSpec]) -> dict
         "HAS_TORQUE": int(model.inertia is not None),
         "REACHED": made.first["DRIVE"] if model.inertia is None else "(-1)",
         "HAS_GYROSCOPIC": int(model.rotor.gyroscopic.any()),
-        "LAW_WORK": sum(_work(spec) for spec in specs),
-        "N_CACHE": 4 * size + 4 * len(points) + 8 + sum(law_size(spec) for spec in specs),
+        "LAW_WORK": sum(work_size(bearing) for bearing in model.bearings),
+        "MOST_BALLS": max(bearing.bearing.balls for bearing in model.bearings),
+        "N_CACHE": 4 * size + 4 * len(points) + 8 + sum(state_size(bearing) for bearing in model.bearings),
         **{f"FIRST_{name}": at for name, at in made.first.items()},
     }
     numbers = {"DEFAULT_TOLERANCE": ALLOWED_ERROR, "LEAST_INNER_STEP": LEAST_INNER_STEP * model.inner_step}

@@ -1,15 +1,15 @@
 /* One contact and the balance of a ball in continuous time; see contact_rates.h. */
 #include "contact_rates.h"
 
-#include <stddef.h>
+#include "rolling.h"
 
 enum { MOST_RATE_STEPS = 60 };
 static const double small_step = 1e-14; /* of the rates, that ends the search for w': rounding */
 
-LawSpeed law_speed(Dual omega)
+LawSpeed law_speed(const Bearing *b, Dual omega)
 {
-    const SpeedRow row = speed_row(omega.x);
-    const double rolling = film_speed(omega.x);
+    const SpeedRow row = speed_row(b, omega.x);
+    const double rolling = film_speed(b, omega.x);
     LawSpeed at;
     at.row = row.row;
     at.weight = chained(row.weight, row.slope, omega);
@@ -34,23 +34,19 @@ static Dual of_nodes(const double *entry, const LawSpeed *at, int rows, int stri
 }
 
 /* Dry compression at an approach; of a dry contact it says below zero how far the surfaces have parted. */
-static Dual curve_at(const Race *race, const LawSpeed *at, const Dual *factor, Dual u, int *k)
+static Dual curve_at(const Race *race, const LawSpeed *at, Dual f, Dual u, int *k)
 {
-    const Dual f = factor == NULL ? number(1.0) : *factor;
     const Thickness film = {f.x, 0.0};
-    StepFilters filters;
-    RaceStep contact = {race, {0, 0.0, 0.0}, 0.0, factor == NULL ? NULL : &film, NULL, &filters};
+    SpeedRow row = {0, 0.0, 0.0};
     double slope, lift;
     Dual g;
     if (race->nodes == 0) {
         return u;
     }
-    contact.at.row = at->row;
-    contact.at.weight = at->weight.x;
-    filters.interval = *k;
-    g.x = race_gap(&contact, u.x, &slope, &lift);
+    row.row = at->row;
+    row.weight = at->weight.x;
+    g.x = race_gap(race, row, &film, u.x, k, &slope, &lift);
     g.d = slope * (u.d + (g.x - (u.x + lift)) * f.d);
-    *k = filters.interval;
     if (at->weight.x > 0.0 && at->weight.d != 0.0) {
         double any;
         int next = *k, here = *k;
@@ -60,9 +56,9 @@ static Dual curve_at(const Race *race, const LawSpeed *at, const Dual *factor, D
     return g;
 }
 
-Held held(const Race *race, const LawSpeed *at, Dual transit, const Dual *factor, Dual u, const Dual states[])
+Held held(const Race *race, const LawSpeed *at, Dual transit, Dual factor, Dual u, const Dual states[])
 {
-    const int gain_rows = race->nodes * RACE_GAINS, last = race->nodes - 2;
+    const int gains = DIRECT_GAINS + race->lags, gain_rows = race->nodes * gains, last = race->nodes - 2;
     Held h;
     Dual g, x, weight, carried = number(0.0);
     int row = 0, j;
@@ -87,12 +83,12 @@ Held held(const Race *race, const LawSpeed *at, Dual transit, const Dual *factor
         weight = number(weight.x > 0.0 ? 1.0 : 0.0);
     }
     h.made = of_nodes(&race->made[at->row * race->nodes + row], at, race->nodes, 1, weight);
-    for (j = 0; j < RACE_GAINS; j++) {
-        const double *entry = &race->gains[at->row * gain_rows + row * RACE_GAINS + j];
-        const Dual here = of_nodes(entry, at, gain_rows, RACE_GAINS, weight);
+    for (j = 0; j < gains; j++) {
+        const double *entry = &race->gains[at->row * gain_rows + row * gains + j];
+        const Dual here = of_nodes(entry, at, gain_rows, gains, weight);
         if (j == 0) {
             h.dashpot = mul(here, h.tau);
-        } else if (j < 3) {
+        } else if (j < DIRECT_GAINS) {
             h.film = add(h.film, mul(here, states[j - 1]));
         } else {
             carried = add(carried, mul(here, states[j - 1]));
@@ -101,7 +97,7 @@ Held held(const Race *race, const LawSpeed *at, Dual transit, const Dual *factor
     h.film = add(h.film, over(carried, h.made));
     {
         double slope;
-        const double share = race_cutoff(u.x, &slope);
+        const double share = race_cutoff(race, u.x, &slope);
         h.kn = dual(race->kn * share, race->kn * slope * u.d);
     }
     return h;
@@ -129,17 +125,17 @@ void film_state_rates(const Race *race, const Held *h, Dual rate, const Dual sta
     int k;
     rates[0] = over(times(race->inlet_rate, sub(moved, states[0])), h->tau);
     rates[1] = over(times(race->fast_rate, sub(moved, states[1])), h->tau);
-    for (k = 2; k < FILM_STATES; k++) {
+    for (k = 2; k < 2 + race->lags; k++) {
         rates[k] = over(times(race->lag_rate, sub(fed, states[k])), h->tau);
         fed = states[k];
     }
 }
 
-Dual rest_force(const Race *race, const LawSpeed *at, const Dual *factor, Dual u)
+Dual rest_force(const Race *race, const LawSpeed *at, Dual factor, Dual u)
 {
     int k = 0;
     double slope;
-    const double share = race_cutoff(u.x, &slope);
+    const double share = race_cutoff(race, u.x, &slope);
     const Dual kn = race->nodes == 0 ? number(race->kn) : dual(race->kn * share, race->kn * slope * u.d);
     return pushed(kn, curve_at(race, at, factor, u, &k));
 }

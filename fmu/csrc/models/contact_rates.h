@@ -1,11 +1,9 @@
-/* One contact and the balance of a ball in continuous time, as both kinds of balls have them:
- * reduced_models.bearing.continuous_time. Names and order of the arithmetic are those of the Python file; every number has its
- * change along one direction with it. */
+/* One contact and the balance of a ball in continuous time: reduced_models.bearing.continuous_time. Names and order of the
+ * arithmetic are those of the Python file; every number has its change along one direction with it. */
 #ifndef CONTACT_RATES_H
 #define CONTACT_RATES_H
 
-#include "balls.h"
-#include "dual.h"
+#include "bearing.h"
 
 /* Row of the tables at a speed of the shaft, weight of the next, and the speed at which films are made. */
 typedef struct {
@@ -13,18 +11,18 @@ typedef struct {
     Dual weight, rolling;
 } LawSpeed;
 
-LawSpeed law_speed(Dual omega);
+LawSpeed law_speed(const Bearing *b, Dual omega);
 
 /* Film without its dashpot [m], dashpot c tau [s], k_n that the film carries, own time [s], film G made. */
 typedef struct {
     Dual film, dashpot, kn, tau, made;
 } Held;
 
-/* Of a contact at approach u with these states; `factor` is its film over that of the tables, or NULL. */
-Held held(const Race *race, const LawSpeed *at, Dual transit, const Dual *factor, Dual u, const Dual states[]);
+/* Of a contact at approach u with these states; `factor` is its film over that of the tables. */
+Held held(const Race *race, const LawSpeed *at, Dual transit, Dual factor, Dual u, const Dual states[]);
 
 /* Static force of a contact. */
-Dual rest_force(const Race *race, const LawSpeed *at, const Dual *factor, Dual u);
+Dual rest_force(const Race *race, const LawSpeed *at, Dual factor, Dual u);
 
 /* Film of a contact whose approach has a rate; the force of a film, and its slope by the film. */
 Dual squeezed(const Held *h, Dual rate);

@@ -2,18 +2,20 @@
 #ifndef FILM_FILTERS_H
 #define FILM_FILTERS_H
 
-#include "config.h"
+enum { MOST_LAGS = 64 }; /* of a chain; elements have at most 32 */
 
 /* Response of lags at the end of a step to (1 - t)^k, t from 0 to 1. */
 typedef struct {
     double r0, r1, r2;
 } Moments;
 
-/* Share of its state that one lag keeps over a step of length mu in its own time, and its moments. */
-double lag_moments(double mu, Moments *r);
+/* Share of its state that one lag keeps over a step of length mu in its own time, and its moments. Where mu is below `few` they
+ * are sums, or small differences would drown in rounding. */
+double lag_moments(double mu, double few, Moments *r);
 
-/* Poisson weights of mean `mu`, and the share of what entered that k lags have passed on, to k = n <= LAGS + 2. */
-void poisson_shares(double mu, int n, double poisson[], double share[]);
+/* Poisson weights of mean `mu`, and the share of what entered that k lags have passed on, to k = n <= MOST_LAGS + 2. Where mu is
+ * below `few` shares are sums; where these cost too much, a smaller `few` leaves differences that lose two digits. */
+void poisson_shares(double mu, int n, double few, double poisson[], double share[]);
 
 /* Moments of j equal lags in a row, from poisson_shares. */
 static inline Moments chain_moments(int j, double per_mu, const double share[])
@@ -26,6 +28,6 @@ static inline Moments chain_moments(int j, double per_mu, const double share[])
 }
 
 /* Adds to `held` what each lag now has of what the chain held at the start of the step. */
-void pass_on(const double chain[LAGS], const double poisson[], double held[LAGS]);
+void pass_on(int lags, const double chain[], const double poisson[], double held[]);
 
 #endif

@@ -9,6 +9,8 @@
 #include "film_gains.h"
 #include "jet.h"
 
+static const double few = 3.0; /* of lag_moments: full relative accuracy */
+
 #define LEAST_MADE 1e-9 /* added to G, so that shares of it exist where a row of gains has no chain */
 
 /* Rows of gains on both sides of x = ln F, weight of the second and its slope. */
@@ -21,7 +23,7 @@ typedef struct {
 static Jet one_lag(double old, double start, Jet end, Jet bump, double rate, Jet span)
 {
     Moments r;
-    const double mu = rate * span.x, kept = lag_moments(mu, &r);
+    const double mu = rate * span.x, kept = lag_moments(mu, few, &r);
     const double d1 = (kept * mu - r.r1) / mu, d2 = (kept * mu - 2.0 * r.r2) / mu;
     const double value = old * kept + start * r.r1 + end.x * (r.r0 - r.r1) + 6.0 * bump.x * (r.r1 - r.r2);
     const double slope = -old * kept + start * d1 + end.x * (kept - d1) + 6.0 * bump.x * (d1 - d2);
@@ -167,8 +169,8 @@ static Chain advance_chain(const double before[FILM_SIZE], double after[FILM_SIZ
     Chain sum = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     Lag rim = {0.0, 0.0, 0.0, 0.0, 0.0};
     int j;
-    poisson_shares(mu, LAGS + 2, poisson, share);
-    pass_on(&before[CHAIN], poisson, &held[1]);
+    poisson_shares(mu, LAGS + 2, LAGS + 2.0, poisson, share);
+    pass_on(LAGS, &before[CHAIN], poisson, &held[1]);
     for (j = 1; j <= LAGS; j++) {
         const Moments r = chain_moments(j, per_mu, share);
         const double low = row[DIRECT - 1 + j], high = next[DIRECT - 1 + j];

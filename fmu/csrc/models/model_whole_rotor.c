@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "bearing_law.h"
+#include "bearing.h"
 #include "linear_equations.h"
 #include "model.h"
 #include "rotor_data.h"
@@ -47,7 +47,7 @@ static const char *const no_number = "the motion is too large for a floating-poi
 /* Work of all bearings in a step, and their forces on the points with the slopes by their places. */
 typedef struct {
     double work[LAW_WORK];
-    double ring[MOTIONS], carried[POINTS], slopes[POINTS][POINTS];
+    double omega, ring[MOTIONS], carried[POINTS], slopes[POINTS][POINTS];
 } Carrying;
 
 /* ---- forces ---- */
@@ -108,7 +108,13 @@ static const char *start_bearings(Model *m)
     const char *reason = NULL;
     int b;
     for (b = 0; b < BEARINGS && reason == NULL; b++) {
-        reason = law_of[b]->start(&m->cache[LAWS + law_numbers[b]], &m->value[law_parameters_at[b]]);
+        const int *at = law_settings[b];
+        BearingSettings settings;
+        settings.clearance = at[0] < 0 ? 0.0 : m->value[at[0]];
+        settings.offset = at[1] < 0 ? 0.0 : m->value[at[1]];
+        settings.cage_angle = m->value[at[2]];
+        settings.film = m->value[at[3]];
+        reason = bearing_start(law_of[b], &settings, &m->cache[LAWS + law_numbers[b]]);
     }
     return reason;
 }
@@ -116,8 +122,9 @@ static const char *start_bearings(Model *m)
 static void begin_bearings(const Model *m, Carrying *c, double h, double omega)
 {
     int b;
+    c->omega = omega;
     for (b = 0; b < BEARINGS; b++) {
-        law_of[b]->begin(&m->cache[LAWS + law_numbers[b]], &c->work[law_work[b]], h, omega);
+        bearing_begin(law_of[b], &m->cache[LAWS + law_numbers[b]], &c->work[law_work[b]], h, omega);
     }
 }
 
@@ -127,7 +134,7 @@ static double ring_of(int motion, const double of_points[POINTS], const double s
 }
 
 /* Forces with the points at r, moving at v. */
-static const char *press(Carrying *c, const double r[POINTS], const double v[POINTS])
+static const char *press(const Model *m, Carrying *c, const double r[POINTS], const double v[POINTS])
 {
     double q[MOTIONS], rate[MOTIONS];
     int b, i, j;
@@ -138,7 +145,8 @@ static const char *press(Carrying *c, const double r[POINTS], const double v[POI
     }
     for (b = 0; b < BEARINGS; b++) {
         const int first = b * DIRECTIONS;
-        const char *reason = law_of[b]->press(&c->work[law_work[b]], &q[first], &rate[first], &c->ring[first]);
+        const double *state = &m->cache[LAWS + law_numbers[b]];
+        const char *reason = bearing_press(law_of[b], state, &c->work[law_work[b]], &q[first], &rate[first], &c->ring[first]);
         if (reason != NULL) {
             return reason;
         }
@@ -159,7 +167,7 @@ static void find_slopes(Carrying *c, double gain)
     memset(c->slopes, 0, sizeof c->slopes);
     for (b = 0; b < BEARINGS; b++) {
         const int first = b * DIRECTIONS;
-        law_of[b]->slopes(&c->work[law_work[b]], stiffness, damped);
+        bearing_slopes(law_of[b], &c->work[law_work[b]], stiffness, damped);
         for (i = 0; i < DIRECTIONS; i++) {
             for (j = 0; j < POINTS; j++) {
                 const double tie = ties[first + i][j];
@@ -186,12 +194,14 @@ static const char *accept(Model *m, Carrying *c, const double r[POINTS])
     m->cache[RESISTED] = 0.0;
     for (b = 0; b < BEARINGS; b++) {
         double *own = &m->cache[LAWS + law_numbers[b]];
-        const char *reason = law_of[b]->accept(own, &c->work[law_work[b]], &q[b * DIRECTIONS]);
+        const char *reason = bearing_check(law_of[b], &q[b * DIRECTIONS], c->omega);
+        BallOutputs balls[MOST_BALLS];
         if (reason != NULL) {
             return reason;
         }
-        law_of[b]->show(own, &m->value[law_shown_at[b]]);
-        m->cache[RESISTED] += law_of[b]->torque(own);
+        bearing_accept(law_of[b], own, &c->work[law_work[b]]);
+        bearing_outputs_of_step(law_of[b], own, balls, &m->value[law_shown_at[b]]);
+        m->cache[RESISTED] += bearing_torque(law_of[b], &m->value[law_shown_at[b]]);
     }
     memcpy(&m->cache[CARRIED], c->carried, sizeof c->carried);
     return NULL;
@@ -278,19 +288,23 @@ static const char *rest_at(Model *m, Carrying *c, const double q[], double off[]
     static const double still[POINTS] = {0.0};
     double r[POINTS];
     const char *reason = start_bearings(m);
-    int i, settled = 0;
-    for (i = 0; i < BEARINGS; i++) {
-        settled = law_of[i]->settled > settled ? law_of[i]->settled : settled;
-    }
+    int i, b;
     for (i = 0; i < POINTS; i++) {
         r[i] = product(points[i], q, FREEDOMS);
     }
-    for (i = 0; i <= settled && reason == NULL; i++) {
-        begin_bearings(m, c, 0.0, m->cache[SPEED]);
-        reason = press(c, r, still);
-        if (reason == NULL) {
-            reason = accept(m, c, r);
+    for (b = 0; b < BEARINGS && reason == NULL; b++) {
+        double ring[DIRECTIONS], force[DIRECTIONS];
+        for (i = 0; i < DIRECTIONS; i++) {
+            ring[i] = ring_of(b * DIRECTIONS + i, r, ring_shift);
         }
+        reason = bearing_rest(law_of[b], &m->cache[LAWS + law_numbers[b]], &c->work[law_work[b]], m->cache[SPEED], ring, force);
+    }
+    if (reason == NULL) { /* once more, for the forces on the points */
+        begin_bearings(m, c, 0.0, m->cache[SPEED]);
+        reason = press(m, c, r, still);
+    }
+    if (reason == NULL) {
+        reason = accept(m, c, r);
     }
     if (reason != NULL) {
         return reason;
@@ -532,7 +546,8 @@ static double size_of(const Model *m, const double p[])
 }
 
 /* Newton's method for D (r - free) + weight F = 0 from r; the points' rates are gain r + history. */
-static const char *balance(const Condensed *c, const double free[], const double history[], double size, Carrying *forces, double r[])
+static const char *balance(const Model *m, const Condensed *c, const double free[], const double history[], double size, Carrying *forces,
+                           double r[])
 {
     enum { MOST = 30 };
     double previous = HUGE_VAL, step[POINTS] = {0.0}, v[POINTS], off[POINTS], system[POINTS * POINTS];
@@ -543,7 +558,7 @@ static const char *balance(const Condensed *c, const double free[], const double
         for (i = 0; i < POINTS; i++) {
             v[i] = c->velocity[0] * r[i] + history[i];
         }
-        reason = press(forces, r, v);
+        reason = press(m, forces, r, v);
         if (reason != NULL) {
             return reason;
         }
@@ -606,7 +621,7 @@ static const char *advance(Model *m, const Condensed *c, double omega, const dou
         r[j] = 3.0 * (was[j] - was[POINTS + j]) + was[2 * POINTS + j];
     }
     begin_bearings(m, &forces, c->h, omega);
-    reason = balance(c, free, history, size_of(m, p), &forces, r);
+    reason = balance(m, c, free, history, size_of(m, p), &forces, r);
     if (reason == NULL) {
         reason = accept(m, &forces, r);
     }

@@ -20,7 +20,7 @@ def made(tmp_path_factory):
             with warnings.catch_warnings():  # of starved bearings, which `test_starved_fmu.py` tests
                 warnings.simplefilter("ignore", OutsideValidityWarning)
                 model = MODELS[name]()
-                own = {"speeds_rpm": model.speeds_rpm, "load": model.load, "freedoms": model.freedoms}
+                own = {"speeds_rpm": model.speeds_rpm, "load": model.load, "directions": model.directions}
                 export(model.bearing, path, **own, fmi=fmi)
             known[name, fmi] = ExportedBearing(path, model, fmi)
         return known[name, fmi]

@@ -29,11 +29,11 @@ DEEP = 2e-6  # m of both approaches of a ball, from which the tables of both are
 
 
 def at_point(one, points, k):
-    return knowns_of(one.model.names, points.place[k], points.velocity[k], points.speed[k])
+    return knowns_of(one.model.directions, points.place[k], points.velocity[k], points.speed[k])
 
 
 def forces_of(one):
-    return [FORCES[name] for name in one.model.names]
+    return [FORCES[name] for name in one.model.directions]
 
 
 def states_of(one):
@@ -102,7 +102,7 @@ def test_equations_are_those_of_python(made, name, fmi):
             if both.min() > DEEP:
                 pressed += 1
                 rounding = np.zeros(of_ball.sum())
-                if len(one.model.names) == 5:
+                if len(one.model.directions) == 5:
                     load = max(model.get(f"ball[{ball}].load_inner", f"ball[{ball}].load_outer"))
                     rounding[:2] = np.finfo(float).eps * load / counted_from(one.model).across[0]
                 assert np.all(error[of_ball] <= 1e-12 * largest[of_ball] + rounding)
@@ -130,14 +130,18 @@ def test_partial_derivatives_are_those_of_differences(made, name, fmi):
     outputs = [v.name for v in spec.outputs if v.type == "Real" and v.name != "cage_angle"]
     unknowns = [*outputs, *(f"der({n})" for n in names)]
     kinds, reference = np.array([kind_of(n) for n in unknowns]), [model.reference[n] for n in unknowns]
-    finer = 0.1 if len(one.model.names) == 5 else 1.0  # what is across the contacts of a ball is little damped
+    finer = (
+        0.1 if len(one.model.directions) == 5 else 1.0
+    )  # what is across the contacts of a ball is little damped
     share = {"cage_angle": 1e-5, "ball.w": finer * 2e-4, "ball.a": 1e-6}
-    sizes = {name: finer * (3e-8 if name.startswith("tilt") else 3e-10) for name in one.model.names}
-    sizes |= {RATES[name]: 1e-3 if name.startswith("tilt") else 1e-5 for name in one.model.names}
+    sizes = {name: finer * (3e-8 if name.startswith("tilt") else 3e-10) for name in one.model.directions}
+    sizes |= {RATES[name]: 1e-3 if name.startswith("tilt") else 1e-5 for name in one.model.directions}
     sizes |= {"speed": 1e-3 * points.speed[0]}
     of_ball = len(BallStates.of(one.model).balls[0])
     sizes |= {v.name: share.get(kind_of(v.name), 0.03) * v.nominal for v in spec.states}
-    asked = list(sizes)[: 2 * len(one.model.names) + 2 + of_ball]  # inputs, cage, a ball; and a ball or the seat:
+    asked = list(sizes)[
+        : 2 * len(one.model.directions) + 2 + of_ball
+    ]  # inputs, cage, a ball; and a ball or the seat:
     asked.append(names[-1])
     off = np.full((len(asked), len(unknowns)), np.inf)  # over what is allowed, where it is least
 
@@ -178,7 +182,7 @@ def test_states_at_the_start_follow_from_the_inputs(made, name, states):
     """Read, and differentiated, in initialization mode; a place set before is not one of rest."""
     one, h = made(name, 3), 1e-9
     place = one.model.place + (0.0 if "a" in states else np.array([0.0, -1e-6]))
-    given = knowns_of(one.model.names, place, 0.0 * place, 0.9 * one.model.speeds[-1] * RPM_TO_RAD_S)
+    given = knowns_of(one.model.directions, place, 0.0 * place, 0.9 * one.model.speeds[-1] * RPM_TO_RAD_S)
     unknowns = [*forces_of(one), *(f"ball[{k}].{state}" for k in (1, 2) for state in states), "cage_angle"]
 
     def begun(known, by):
@@ -187,7 +191,7 @@ def test_states_at_the_start_follow_from_the_inputs(made, name, states):
         model.raw.enterInitializationMode()
         return model
 
-    for known in one.model.names:
+    for known in one.model.directions:
         step, found = (100.0 * h if known.startswith("tilt") else h), []
         for by in (-step, step):
             model = begun(known, by)
@@ -308,7 +312,7 @@ def test_a_bearing_without_its_film_is_the_dry_one(made, name, dry):
 def test_states_in_steps_move_by_their_rates(made, name, own):
     """In co-simulation they are read, and their derivatives; steps have no partial derivatives."""
     one = made(name)
-    place = dict(zip(one.model.names, one.model.place.tolist(), strict=True))
+    place = dict(zip(one.model.directions, one.model.place.tolist(), strict=True))
     place["y"] = -1.3e-5 if name == "planar" else place["y"]
     slave, h = one.started(**place | {"x": 0.0}, speed=OMEGA), 1e-7
     names = ["cage_angle", "ball[1].w", own, "ball[1].s_inner", "ball[1].q_outer[1]", "seat_y[3]"]
@@ -331,7 +335,7 @@ class Body:
     """A rigid body on the bearing; its states, over nominal values: place, velocity, those of the FMU."""
 
     def __init__(self, one, rotor, start):
-        self.states, names, n = states_of(one), one.model.names, start.size
+        self.states, names, n = states_of(one), one.model.directions, start.size
         self.n, self.inverse, self.load = n, np.linalg.inv(rotor.mass), rotor.load
         self.damping = rotor.gyroscopic * one.model.speeds[-1] * RPM_TO_RAD_S
         sizes = [v.nominal for v in model_of(one.model).spec.states]
@@ -412,9 +416,9 @@ def by_cvode(loop, until):
 
 def rotor_on(one):
     """A body on the bearing under its load; with tilts it has gyroscopic moments."""
-    n, ends = len(one.model.names), dict(zip(("x", "y", "z", "tilt_x", "tilt_y"), range(5), strict=True))
+    n, ends = len(one.model.directions), dict(zip(("x", "y", "z", "tilt_x", "tilt_y"), range(5), strict=True))
     mount = BearingMount(
-        bearing=one.model.bearing, cage_angle=START, **{name: ends[name] for name in one.model.names}
+        bearing=one.model.bearing, cage_angle=START, **{name: ends[name] for name in one.model.directions}
     )
     gyroscopic, load = np.zeros((n, n)), np.zeros(n)
     if n == 2:
@@ -471,7 +475,7 @@ def test_fmpy_runs_model_exchange(made, name):
     """The ring stands still while balls go round, beside steps of co-simulation."""
     one, until, steps = made(name), 1e-3, 200
     outputs = [*forces_of(one), "cage_angle"]
-    given = dict(zip(one.model.names, one.model.place.tolist(), strict=True)) | {"speed": OMEGA}
+    given = dict(zip(one.model.directions, one.model.place.tolist(), strict=True)) | {"speed": OMEGA}
     result = fmpy.simulate_fmu(
         str(one.path), fmi_type="ModelExchange", stop_time=until, output_interval=until / 10,
         relative_tolerance=1e-7, output=outputs,

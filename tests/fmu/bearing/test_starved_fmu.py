@@ -41,7 +41,7 @@ def test_films_and_torque_are_those_of_the_layer(made):
     one = made("starved")
     bearing, rpm = one.model.bearing, float(one.model.speeds[-1])
     state = bearing.equilibrium((0.0, -500.0), speed_rpm=rpm, cage_angle=START)
-    place = dict(zip(one.model.names, state.displacement.tolist(), strict=True))
+    place = dict(zip(one.model.directions, state.displacement.tolist(), strict=True))
     slave = one.started(**place, speed=rpm * RPM_TO_RAD_S)
     smallest, torque = slave.get("smallest_film", "rolling_torque")
     slave.free()

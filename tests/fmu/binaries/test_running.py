@@ -163,9 +163,11 @@ def test_bearings_between_machines(name, bearing, tmp_path, tmp_path_factory):
     how = OTHERS[name](tmp_path_factory)
     model = MODELS[bearing]()
     spec, trial = bearing_spec(model), bearing_trial(model, seed=3)
-    rates = [RATES[axis] for axis in model.names]
+    rates = [RATES[axis] for axis in model.directions]
     moved = np.hstack([trial.place, trial.velocity]).T
-    knowns = {"time": trial.time, "speed": trial.speed} | dict(zip((*model.names, *rates), moved, strict=True))
+    knowns = {"time": trial.time, "speed": trial.speed} | dict(
+        zip((*model.directions, *rates), moved, strict=True)
+    )
     outputs = [one.name for one in spec.outputs if one.type == "Real"]
     outputs += [f"ball[{k}].{what}_{race}" for k in (1, 2) for what in ("load", "film") for race in RACES]
     assert (trial.balls[:, :, 0] == 0.0).any()  # balls part from the ring

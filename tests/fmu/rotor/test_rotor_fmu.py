@@ -1,9 +1,6 @@
 """FMUs of rotors with their ball bearings inside, beside `simulate_rotor`; parameters, torque, faults, masters."""
 
-import shutil
-import subprocess
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,8 +11,6 @@ from fmpy.fmi1 import FMICallException
 from ehlcontact import InputError, Lubricant, OilLayer
 from fmu import export, verify_references
 from fmu.rotor.model import RotorModel
-from fmu.rotor.variables import rotor_spec
-from fmu.sources import CSRC
 from reduced_models import (
     BallBearing,
     Disc,
@@ -203,25 +198,6 @@ def test_a_preload_that_is_set_is_that_of_the_mount(made):
     slave.free()
     assert found == pytest.approx(rest, rel=1e-6, abs=1e-15)
     assert abs(rest[2]) > 1e-6
-
-
-@pytest.mark.parametrize(
-    ("name", "ring", "parameters", "start"),
-    [("flexible", 2, "5e-6,-1.57,1.0", "1e-6,-6e-6"), ("five", 5, "0.0,-1.57,1.0", "1e-6,-2e-6,8e-6,0.0,0.0")],
-)
-def test_slopes_of_a_step(name, ring, parameters, start, tmp_path):
-    """Beside differences of the force, balls and films following: what Newton's method iterates with."""
-    compiler = next((one for one in ("gcc", "clang", "cc") if shutil.which(one)), None)
-    if compiler is None:
-        pytest.skip("no system C compiler")
-    law, program = tmp_path / "law.c", tmp_path / "slopes"
-    law.write_text(rotor_spec(MODELS[name]()).tables["bearing_law_1.c"])
-    given = {"TESTED": "bearing_law_1", "RING": ring, "PARAMETERS": parameters, "START": start}
-    line = [compiler, "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", "-I", CSRC / "models"]
-    line += [*(f"-D{macro}={text}" for macro, text in given.items()), Path(__file__).with_name("slopes.c"), law]
-    subprocess.run([*line, "-lm", "-o", program], check=True)
-    found = subprocess.run([program], check=True, capture_output=True, text=True).stdout.split()
-    assert len(found) == 2 and max(map(float, found)) < 1e-7
 
 
 def test_starts_in_equilibrium_with_the_parameters_that_are_set(made, tmp_path):

@@ -1,0 +1,194 @@
+/* Balls between two races under a given motion of the inner ring, the outer one at rest: in steps (ball_steps.c) and in continuous
+ * time (ball_rates.c). A bearing is constant, all that changes is in memory of the caller: nothing is allocated, and many bearings
+ * of different sizes stand side by side. Equations in README.md. */
+#ifndef BEARING_H
+#define BEARING_H
+
+#include <stddef.h>
+
+#include "dual.h"
+#include "race_contact.h"
+
+enum { INNER_RACE, OUTER_RACE };
+enum { IN_X, IN_Y, IN_Z, TILT_X, TILT_Y, MOST_DIRECTIONS }; /* of the ring; the most that a bearing has */
+enum { OUTER_CONTROL, INNER_CONTROL, SHARED_CONTROL, HARRIS_CONTROL };
+enum { TOO_FAST = 1, OVERLOADED = 2 };        /* bits of bearing_outside */
+
+/* Grooves and balls: reduced_models.bearing.contact_angles. Lengths in m. */
+typedef struct {
+    double radial, axial;           /* inner groove centre from the outer one, the ring in the middle, with this: */
+    double clearance;               /* 0 where the contact angle is given */
+    double free_length[2];          /* of either spring from a groove centre to that of the ball */
+    double circle, inner_radius;    /* of the inner groove centres; of the inner groove */
+    double ball, pitch, mass;       /* diameters; of a ball [kg] */
+    double gyroscopic;              /* factor of the gyroscopic moment: 1, or -1 of HARRIS_CONTROL */
+    double spin_moment[2];          /* of friction, over the dry compression squared */
+    double cosine;                  /* of the contact angle that the tables are for */
+    double place[2], across;        /* where a ball is counted from in continuous time; its damping there [N s/m] */
+} Grooves;
+
+/* Films over load, for outputs alone: logarithms of central and smallest film and of the moment, even in that of the load. */
+typedef struct {
+    int nodes; /* 0: dry */
+    double first[2], step[2], rolling_radius[2];
+    const double *table; /* [2][speeds][3][nodes] */
+    double roughness;    /* 0: not given */
+} FilmTables;
+
+typedef struct {
+    int directions, direction[MOST_DIRECTIONS]; /* of the ring that move, of IN_X ... TILT_Y; the others stay 0 */
+    int balls, lags, speeds, filters;      /* lags: of the chain of any film; filters: of the losses of rings and fits */
+    int control;
+    double inertia;                        /* of a ball towards the races [kg]; 0: it follows them */
+    const double *speed;                   /* [speeds] of the shaft, for which tables are made [rad/s], increasing */
+    const double *filter_gains, *filter_rates;
+    Grooves grooves;
+    Race race[2];
+    FilmTables films;
+    double most_speed, most_load[2];       /* of the tables */
+    double largest_place, largest_tilt;    /* of a ring in its bearing */
+} Bearing;
+
+typedef struct {
+    double clearance, offset; /* m: radial, 0 where the contact angle is given; added to z */
+    double cage_angle;        /* of the first ball at the start */
+    double film;              /* 1: with oil films, 0: dry */
+} BearingSettings;
+
+/* The state of a bearing in steps is this, balls, their films, filters of losses: doubles alone, bearing_state_size of them. */
+typedef struct {
+    BearingSettings settings;
+    double h;       /* length of the last step; 0: at rest so far */
+    double steps;   /* made */
+    double omega;   /* of the shaft, at its end [rad/s] */
+    double angle;   /* of the first ball */
+    double cage[2]; /* speed of the cage over that of the shaft, at the ends of the last two steps */
+} BearingHead;
+
+/* A ball at the end of a step and of the one before. */
+typedef struct {
+    double place[2][2];      /* of its centre from the outer groove centre, outward and along the shaft */
+    double rate[2][2];
+    double factor[2][2];     /* [race]: film over that of the tables */
+    double speed_sum[2][2];  /* [race]: sum of both surface speeds over the speed of the shaft [m] */
+    double lift[2];          /* [race]: see Thickness */
+    double force[2];         /* [race] N */
+    double film[2];          /* [race]: see RaceForce */
+    double cosine[2], sine[2]; /* [race] of the contact angle */
+    double inertia[5][4];    /* slopes of `BallForces` without contacts, by the place of the ball and of the inner groove centre */
+} Ball;
+
+enum {
+    HEAD_NUMBERS = sizeof(BearingHead) / sizeof(double),
+    BALL_NUMBERS = sizeof(Ball) / sizeof(double),
+    FILM_NUMBERS = sizeof(FilmState) / sizeof(double) /* and the chain */
+};
+
+size_t bearing_state_size(const Bearing *b); /* in doubles */
+size_t bearing_work_size(const Bearing *b);
+
+/* Where the films of a ball stand in a state, and rows [directions] of the seat: force of the ring on the balls with the losses of
+ * rings and fits, without them, and what the filters of the losses have of it. */
+static inline size_t film_place(const Bearing *b, int k, int race)
+{
+    const size_t balls = (size_t)b->balls, ahead = (size_t)(2 * k + race);
+    return HEAD_NUMBERS + balls * BALL_NUMBERS + ahead * (FILM_NUMBERS + (size_t)b->lags);
+}
+
+static inline size_t seat_place(const Bearing *b, int row)
+{
+    return film_place(b, b->balls, 0) + (size_t)row * (size_t)b->directions;
+}
+
+static inline const BearingHead *head_of(const double state[])
+{
+    return (const BearingHead *)(const void *)state;
+}
+
+static inline const Ball *ball_of(const double state[], int k)
+{
+    return (const Ball *)(const void *)(state + HEAD_NUMBERS) + k;
+}
+
+static inline const FilmState *film_of(const Bearing *b, const double state[], int k, int race)
+{
+    return (const FilmState *)(const void *)(state + film_place(b, k, race));
+}
+
+/* Whether a bearing has films, and these are not switched off. */
+static inline int is_wet(const Bearing *b, const double state[])
+{
+    return b->race[INNER_RACE].nodes > 0 && head_of(state)->settings.film != 0.0;
+}
+
+/* ---- steps ---- Functions return NULL, or why there is no such number. q, v and forces have the directions of the bearing, in their
+ * order: place of the ring (`offset` is added to it) and its velocity. */
+
+/* A bearing whose balls have not been placed; refused where settings make no sense. */
+const char *bearing_start(const Bearing *b, const BearingSettings *settings, double state[]);
+
+/* Whether a ring can be there, and a shaft turn so. */
+const char *bearing_check(const Bearing *b, const double q[], double omega);
+
+/* Begins a step of length h, or of rest where it is 0, at whose end the shaft turns at omega. Balances all balls with the ring at q,
+ * moving at v, as often as it takes to find the end of the step; gives the slopes of the force by both there, row by row; and moves
+ * the bearing to where it was pressed last. `work` holds the step from its begin to its accept. */
+void bearing_begin(const Bearing *b, const double state[], double work[], double h, double omega);
+const char *bearing_press(const Bearing *b, const double state[], double work[], const double q[], const double v[], double force[]);
+void bearing_slopes(const Bearing *b, const double work[], double stiffness[], double damping[]);
+void bearing_accept(const Bearing *b, double state[], double work[]);
+
+/* Puts the ring, balls and films at rest, the cage at the angle of the start or at another one; `work` has the slopes there. */
+const char *bearing_rest(const Bearing *b, double state[], double work[], double omega, const double q[], double force[]);
+const char *bearing_rest_at(const Bearing *b, double state[], double work[], double omega, double angle, const double q[],
+                            double force[]);
+
+/* ---- outputs ---- */
+
+/* A ball, along a direction of inputs and states too. */
+typedef struct {
+    Dual load[2], factor[2], speed_sum[2], angle[2]; /* [race] */
+    double film[2];                                  /* [race]: see RaceForce */
+} BallOutputs;
+
+/* What the balls have at the end of the last step. */
+void bearing_balls(const Bearing *b, const double state[], BallOutputs balls[]);
+
+enum { MOST_OUTPUTS = MOST_DIRECTIONS + 8, MOST_BALL_OUTPUTS = 8 };
+
+/* The outputs of the FMU of a bearing and how many they are: forces on the ring, largest load of a ball at either race; of a bearing
+ * with oil the smallest film, the rolling torque and, if the roughness is given, the smallest lambda; whether tables are left, by
+ * the speed, by a load. `force` is that on the balls. */
+int bearing_outputs(const Bearing *b, int wet, Dual omega, const Dual force[], const BallOutputs balls[], Dual outputs[]);
+int bearing_outputs_of_step(const Bearing *b, const double state[], BallOutputs balls[], double outputs[]);
+
+/* Those of a ball, its inner race first: load, with oil central and smallest film, under contact angles that vary the angle. */
+int ball_outputs(const Bearing *b, int wet, Dual omega, const BallOutputs *ball, Dual outputs[]);
+
+/* Torque that the films take from the shaft, in such outputs. */
+double bearing_torque(const Bearing *b, const double outputs[]);
+
+/* ---- continuous time: reduced_models.bearing.continuous_time ---- */
+
+typedef struct {
+    Dual q[MOST_DIRECTIONS], v[MOST_DIRECTIONS], omega; /* of the inner ring, in the order of the bearing's directions; of the shaft */
+} RingMotion;
+
+/* The states: angle of the cage; of every ball its place (along the line between the groove centres of a ring in the middle, and
+ * across it where the contact angle varies), with inertia its rate likewise, of a dry ball without inertia nothing, and the films of
+ * its inner and outer contact: inlet, fast, chain; the filters of the losses. */
+enum { CAGE_ANGLE, FIRST_OF_BALLS };
+int bearing_states(const Bearing *b); /* how many */
+int ball_states(const Bearing *b);    /* those of a ball */
+
+/* The states of a bearing at rest or at the end of a step. */
+void bearing_states_of_step(const Bearing *b, const double state[], double states[]);
+
+/* Rates of the states, force on the balls and what these carry. `starts`: states of places and filters follow from the inputs, and
+ * get their changes along the direction here. Dry balls without inertia are where they are at rest, and have no rates; `state` is moved
+ * there. After a step others move at its rates: the rate at which forces balance is that of continuous time alone, and errors
+ * of a step are many times as large in it. */
+const char *bearing_rates(const Bearing *b, double state[], double work[], const RingMotion *ring, int starts, Dual states[],
+                          Dual rates[], Dual force[], BallOutputs balls[]);
+
+#endif
