@@ -10,7 +10,9 @@ import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 
-from ehlcontact import SimulationResult, SteadyResult, read
+from ehlcontact import read
+from ehlcontact.results import SteadyResult
+from ehlcontact.transient.result import SimulationResult
 from reduced_models import FilmMemoryContact
 
 RESULTS = Path("results/deep_groove_6205")

@@ -17,18 +17,14 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from ehlcontact import Grid, ImpedanceResult, simulate
+from ehlcontact import Grid, simulate
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.rotor import film_response, linear_rotors
 from ehlcontact.cli.study.schema import Study, load_study
-from reduced_models import (
-    Atlas,
-    ContactElement,
-    ContactRecord,
-    dry_contact,
-    fit,
-)
-from reduced_models.rotor.baselines import local_contact
+from ehlcontact.results import ImpedanceResult
+from reduced_models import Atlas, ContactRecord, fit
+from reduced_models.elements.base import ContactElement
+from reduced_models.rotor.baselines import dry_contact, local_contact
 from reduced_models.rotor.linear_contact import impedance_about
 from reduced_models.rotor.resonance import Resonances, resonances
 

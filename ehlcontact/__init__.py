@@ -41,9 +41,8 @@ module            responsibility
 ``cli/``          the command line; stands above all packages
 ================= ==========================================================================================
 
-Public names are those that a user calls, constructs or catches, and the results `ImpedanceResult`,
-`SimulationResult` and `SteadyResult`; other classes that are only returned (`film.Film`, `point.Scales`) stay in
-their modules.
+Public names are those that a user calls, constructs or catches; classes that are only returned (`point.Scales`)
+and tools of a special field (`side_flow.oil_passes`) stay in their modules, by which the reference names them.
 """
 
 from ehlcontact import process as process  # first: from here on Ctrl-C ends the command line in one line
@@ -53,22 +52,17 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.excitation import excitation
 from ehlcontact.heat import Heat
 from ehlcontact.impedance import impedance
-from ehlcontact.lubricant import Carreau, Eyring, LimitingShear, Lubricant
+from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
-from ehlcontact.results import ImpedanceResult, SteadyResult
 from ehlcontact.shear_thinning import ShearThinning
-from ehlcontact.side_flow import oil_passes
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
-from ehlcontact.speed_response import speed_response
 from ehlcontact.steady import solve_steady
 from ehlcontact.store import read, save
 from ehlcontact.supply import OilLayer
-from ehlcontact.traction import traction_curve
 from ehlcontact.transient.features import Dent, TransverseRidge, Waviness
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
 from ehlcontact.transient.prescribed import PrescribedApproach, PrescribedLoad
-from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
 from ehlcontact.transient.settings import KeepSettings, RunSettings, TimeSteps
 from ehlcontact.transient.simulate import simulate
@@ -78,20 +72,16 @@ from ehlcontact.version import __version__
 
 __all__ = [
     "Asperities",
-    "Carreau",
     "ConvergenceError",
     "Dent",
     "Domain",
-    "Eyring",
     "FreeVibration",
     "Geometry",
     "Grid",
     "HarmonicLoad",
     "Heat",
-    "ImpedanceResult",
     "InputError",
     "KeepSettings",
-    "LimitingShear",
     "Lubricant",
     "MoesPoint",
     "OilLayer",
@@ -102,9 +92,7 @@ __all__ = [
     "Roughness",
     "RunSettings",
     "ShearThinning",
-    "SimulationResult",
     "SpeedHistory",
-    "SteadyResult",
     "TimeSteps",
     "TransientContact",
     "TransverseRidge",
@@ -113,13 +101,10 @@ __all__ = [
     "assumptions",
     "excitation",
     "impedance",
-    "oil_passes",
     "read",
     "save",
     "simulate",
     "solve_steady",
-    "speed_response",
-    "traction_curve",
 ]
 
 

@@ -17,7 +17,8 @@ import numpy as np
 
 from ehlcontact import Lubricant, OperatingPoint
 from fmu import export
-from reduced_models import Atlas, WideRangeContact, log_decrement, simulate_oscillator
+from reduced_models import Atlas, WideRangeContact, simulate_oscillator
+from reduced_models.rotor.decay import log_decrement
 
 MASS, LOAD = 1.0, 486.0  # kg, N
 DEFAULT, LATE = 1.5, 1.0  # values of lead

@@ -11,8 +11,9 @@ import sys
 import numpy as np
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, BearingState
+from reduced_models import BallBearing
 from reduced_models.bearing.coefficients import BearingCoefficients
+from reduced_models.bearing.equilibrium_result import BearingState
 
 
 def five_lines() -> tuple[BearingState, BearingCoefficients]:

@@ -13,15 +13,10 @@ from math import pi, sqrt
 from typing import Any
 
 from ehlcontact import Grid, Lubricant, OperatingPoint, TransientContact
-from reduced_models import (
-    Atlas,
-    JeffcottRotor,
-    RotorResult,
-    ScaledContact,
-    dry_contact,
-    log_decrement,
-    simulate_rotor,
-)
+from reduced_models import Atlas, JeffcottRotor, ScaledContact, simulate_rotor
+from reduced_models.rotor.baselines import dry_contact
+from reduced_models.rotor.decay import log_decrement
+from reduced_models.rotor.result import RotorResult
 
 BALL, MASS, KICK = 50.0, 2.0, 0.05  # N on the ball of either bearing; kg; of the approach at rest
 OIL = Lubricant(eta0=0.037, alpha=2e-8)

@@ -11,8 +11,11 @@ import sys
 
 import numpy as np
 
-from ehlcontact import FreeVibration, Grid, ImpedanceResult, MoesPoint, SimulationResult, impedance, simulate
-from reduced_models import ContactRecord, FitResult, fit
+from ehlcontact import FreeVibration, Grid, MoesPoint, impedance, simulate
+from ehlcontact.results import ImpedanceResult
+from ehlcontact.transient.result import SimulationResult
+from reduced_models import ContactRecord, fit
+from reduced_models.fitting.result import FitResult
 
 POINT = MoesPoint(M=200, L=10, kappa=0.5)
 TABLE_3 = {"K1": 0.806, "K2": 0.346, "K3": 0.054, "C1": 0.013}  # the paper's, of this vibration

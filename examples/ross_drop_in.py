@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, RotorResult, from_ross, simulate_rotor
+from reduced_models import BallBearing, from_ross, simulate_rotor
+from reduced_models.rotor.result import RotorResult
 
 RPM, NODES, DISC, LOAD = 3000.0, (1, 5), 3, 500.0  # rev/min; nodes of the bearings and of the disc; N on a bearing
 BESIDE, UNBALANCE = {DISC: (0.0, -648.0)}, 3.4e-4  # N beside the weight of 352 N, a belt, say; kg m

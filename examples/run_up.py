@@ -12,16 +12,8 @@ import sys
 import numpy as np
 
 from ehlcontact import Lubricant
-from reduced_models import (
-    BallBearing,
-    BearingMount,
-    Rotor,
-    RotorResult,
-    SpeedProfile,
-    Unbalance,
-    campbell,
-    simulate_rotor,
-)
+from reduced_models import BallBearing, BearingMount, Rotor, SpeedProfile, Unbalance, campbell, simulate_rotor
+from reduced_models.rotor.result import RotorResult
 
 MASSES = np.array([1.0, 40.0, 1.0])  # kg, of journal, disc, journal
 SHAFT = 1.5e7 * np.array([[1.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]])  # N/m

@@ -9,30 +9,22 @@
 | rotor | rotors on contacts, full films and ball bearings: equilibrium, motion over time, responses |
 | signals | acceleration of nodes and housings, its spectra and features; a namespace of its own |
 
-Public names are those that a user calls, constructs or catches, and the results `BearingState`, `FitResult` and
-`RotorResult`; other classes that are only returned stay in their modules. Symbols and units: `ehlcontact.point`.
+Public names are those that a user calls, constructs or catches; classes that are only returned and tools of a
+special field stay in their modules, by which the reference names them. Symbols and units: `ehlcontact.point`.
 """
 
 from inspect import ismodule as _ismodule
 
 from reduced_models import signals as signals
 from reduced_models.atlas.atlas import Atlas as Atlas
-from reduced_models.atlas.waves import contact_filter as contact_filter
 from reduced_models.bearing.ball_bearing import BallBearing as BallBearing
-from reduced_models.bearing.cage_slip import cage_slip as cage_slip
-from reduced_models.bearing.equilibrium_result import BearingState as BearingState
 from reduced_models.bearing.features import BallDiameter as BallDiameter
 from reduced_models.bearing.features import BallWaviness as BallWaviness
 from reduced_models.bearing.features import Indentation as Indentation
 from reduced_models.bearing.features import RaceWaviness as RaceWaviness
 from reduced_models.bearing.features import Spall as Spall
-from reduced_models.bearing.measured_order import angle_from_order as angle_from_order
-from reduced_models.bearing.measured_order import clearance_from_order as clearance_from_order
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
-from reduced_models.bearing.oil_and_heat import oil_and_heat as oil_and_heat
 from reduced_models.bearing.oil_balance import OilBalance as OilBalance
-from reduced_models.bearing.sliding import bearing_friction as bearing_friction
-from reduced_models.elements.base import ContactElement as ContactElement
 from reduced_models.elements.film_memory import FilmMemoryContact as FilmMemoryContact
 from reduced_models.elements.speed_range import SpeedRangeContact as SpeedRangeContact
 from reduced_models.elements.spring import SpringContact as SpringContact
@@ -41,28 +33,18 @@ from reduced_models.elements.wide_range import WideRangeContact as WideRangeCont
 from reduced_models.fitting.fit import fit as fit
 from reduced_models.fitting.memory_fit import fit_memory as fit_memory
 from reduced_models.fitting.records import ContactRecord as ContactRecord
-from reduced_models.fitting.result import FitResult as FitResult
-from reduced_models.fitting.sensitivity import sensitivity as sensitivity
-from reduced_models.fitting.wide_range_fit import wide_range_from_solves as wide_range_from_solves
 from reduced_models.rotor.assembly import rotor_on_bearings as rotor_on_bearings
-from reduced_models.rotor.baselines import dry_contact as dry_contact
-from reduced_models.rotor.bearing_films import FullFilm as FullFilm
-from reduced_models.rotor.bearing_films import simulate_full_films as simulate_full_films
 from reduced_models.rotor.bearing_set import BearingSet as BearingSet
 from reduced_models.rotor.campbell import campbell as campbell
 from reduced_models.rotor.compare import compare as compare
 from reduced_models.rotor.control import rotor_to_control as rotor_to_control
-from reduced_models.rotor.decay import log_decrement as log_decrement
 from reduced_models.rotor.jeffcott import JeffcottRotor as JeffcottRotor
 from reduced_models.rotor.linear_bearing import LinearBearing as LinearBearing
-from reduced_models.rotor.linear_contact import film_impedance as film_impedance
 from reduced_models.rotor.linearise import linearise as linearise
 from reduced_models.rotor.oscillator import simulate_oscillator as simulate_oscillator
 from reduced_models.rotor.parts import Disc as Disc
 from reduced_models.rotor.parts import Shaft as Shaft
 from reduced_models.rotor.parts import Support as Support
-from reduced_models.rotor.result import RotorResult as RotorResult
-from reduced_models.rotor.ross_rotor import RossCallback as RossCallback
 from reduced_models.rotor.ross_rotor import from_ross as from_ross
 from reduced_models.rotor.rotor import Rotor as Rotor
 from reduced_models.rotor.rotor import Unbalance as Unbalance

@@ -5,7 +5,8 @@ from balls import OF_6205
 
 from ehlcontact import Lubricant, OperatingPoint
 from ehlcontact.status import Status
-from reduced_models import JeffcottRotor, RotorResult
+from reduced_models import JeffcottRotor
+from reduced_models.rotor.result import RotorResult
 
 POINT = OperatingPoint.ball_bearing(Lubricant(0.0367, 2e-8), **OF_6205, speed_rpm=3000, load=48.7)
 SCALES = POINT.scales

@@ -16,7 +16,6 @@ import ehlcontact
 import fmu
 import reduced_models
 from ehlcontact import (
-    Eyring,
     Grid,
     HarmonicLoad,
     Lubricant,
@@ -30,26 +29,19 @@ from ehlcontact import (
     impedance,
     simulate,
     solve_steady,
-    speed_response,
 )
 from ehlcontact.assumptions.table import Assumption, Assumptions
-from ehlcontact.film import (
-    Film,
-    FilmHistory,
-    FilmWave,
-    Interferogram,
-    WaveTrack,
-    film_history,
-    film_of,
-    film_wave,
-    interferogram,
-)
+from ehlcontact.film import film_history, film_of, interferogram
+from ehlcontact.film.over_time import FilmHistory, FilmWave, WaveTrack, film_wave
+from ehlcontact.film.plane import Film, Interferogram
+from ehlcontact.lubricant import Carreau, Eyring, LimitingShear
 from ehlcontact.point import Scales
-from ehlcontact.results import ExcitationResult, SpeedResponseResult, Traction
+from ehlcontact.results import ExcitationResult, ImpedanceResult, SpeedResponseResult, SteadyResult, Traction
 from ehlcontact.results.table import QuantityTable, SIView
+from ehlcontact.speed_response import speed_response
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, span
-from ehlcontact.transient.result import Instants
+from ehlcontact.transient.result import Instants, SimulationResult
 from fmu.bearing.model import BearingModel
 from fmu.jeffcott.model import JeffcottModel
 from fmu.references.check import Interface, ReferenceCheck
@@ -74,30 +66,32 @@ from reduced_models import (
     Unbalance,
     campbell,
     compare,
-    contact_filter,
     fit,
     linearise,
     rotor_on_bearings,
-    sensitivity,
     simulate_oscillator,
     simulate_rotor,
     unbalance_response,
 )
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
-from reduced_models.atlas.waves import FilterAnswer
+from reduced_models.atlas.waves import FilterAnswer, contact_filter
 from reduced_models.bearing.coefficients import BearingCoefficients
+from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.excitation import BearingExcitation
 from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.bearing.oil_balance import OilHistory
 from reduced_models.bearing.set_result import SetState
 from reduced_models.bearing.sliding import BearingFriction
-from reduced_models.fitting.result import ElementFit, MemoryFit
-from reduced_models.fitting.sensitivity import Sensitivity
-from reduced_models.rotor.bearing_films import ContactHistory
+from reduced_models.elements.base import ContactElement
+from reduced_models.fitting.result import ElementFit, FitResult, MemoryFit
+from reduced_models.fitting.sensitivity import Sensitivity, sensitivity
+from reduced_models.rotor.bearing_films import ContactHistory, FullFilm
 from reduced_models.rotor.campbell import Campbell
 from reduced_models.rotor.jeffcott import RotorState
 from reduced_models.rotor.linear_contact import impedance_about
 from reduced_models.rotor.linearise import LinearRotor
+from reduced_models.rotor.result import RotorResult
+from reduced_models.rotor.ross_rotor import RossCallback
 from reduced_models.rotor.settling import Settling
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 from reduced_models.signals import (
@@ -105,18 +99,20 @@ from reduced_models.signals import (
     ModalPath,
     RecordCase,
     SystemPath,
-    VibrationRecord,
     envelope_spectrum,
     order_spectrum,
 )
+from reduced_models.signals.records import VibrationRecord
 from reduced_models.signals.spectra import EnvelopeSpectrum, OrderSpectrum
 
-# Classes that are only returned: no public names, but results like the others.
+# Classes that are only returned, or of a special field: they stay in their modules, and are like the others.
 RETURNED = (
     *(Assumption, Assumptions, Film, FilmHistory, FilmWave, Instants, Interferogram, Scales, WaveTrack),
     *(ExcitationResult, SpeedResponseResult, Traction, Status, AtlasAnswer, FilterAnswer, BearingExcitation),
     *(BearingFriction, SetState, OilAndHeat, OilHistory, ElementFit, MemoryFit, Sensitivity, Campbell),
     *(LinearRotor, RotorState, UnbalanceResponse, ContactHistory, EnvelopeSpectrum, OrderSpectrum),
+    *(SteadyResult, ImpedanceResult, SimulationResult, BearingState, FitResult, RotorResult, VibrationRecord),
+    *(Carreau, Eyring, LimitingShear, ContactElement, FullFilm, RossCallback),
     *(BearingModel, JeffcottModel, ShaftModel, RotorModel, Verification, ReferenceCheck),
 )
 # What a user gives, or a few numbers: shown as they are.
@@ -287,7 +283,7 @@ def test_they_say_what_is_there(point, results):
     assert f"{1e6 * film.si.h_central:.4g} (±" in repr(film) and "49 N" in repr(film) and "converged" in repr(film)
     assert "unresolved" in repr(replace(film, status=Status.UNRESOLVED))
     assert f"force {span(run.si.force, 1.0, 'N')}" in repr(run) and f"{run.steps} steps" in repr(run)
-    state = next(thing for thing in results if isinstance(thing, reduced_models.BearingState))
+    state = next(thing for thing in results if isinstance(thing, BearingState))
     assert f"heaviest {state.force[state.heaviest, 0]:.4g} N" in repr(state) and "lambda" in repr(state)
 
 
@@ -320,7 +316,7 @@ def test_figures_are_drawn(results, tmp_path, in_files):
     """Every axis says what it shows, and in which unit where it has one."""
     drawn = set()
     for thing in results:
-        long_enough = not isinstance(thing, reduced_models.RotorResult) or thing.t.size > 16
+        long_enough = not isinstance(thing, RotorResult) or thing.t.size > 16
         if hasattr(thing, "plot") and long_enough and type(thing) not in drawn:
             figure = thing.plot(tmp_path / "figure.png" if in_files else None)
             drawn.add(type(thing))
@@ -337,7 +333,7 @@ def test_figures_are_drawn(results, tmp_path, in_files):
 def test_a_figure_of_a_point_in_si_is_in_si(results):
     names = {axes.get_xlabel() for axes in results[0].plot().axes if axes.get_xlabel()}
     assert names == {"x along rolling [µm]", "y across [µm]"} and results[0].scales is not None
-    films = [thing for thing in results if isinstance(thing, ehlcontact.SteadyResult) and thing.scales is None]
+    films = [thing for thing in results if isinstance(thing, SteadyResult) and thing.scales is None]
     assert films[0].plot().axes[0].get_xlabel() == "x/a"
     answer = next(thing for thing in results if isinstance(thing, AtlasAnswer))
     assert [axes.get_xscale() for axes in answer.plot().axes] == ["symlog"] * 2  # it begins at rest
@@ -358,7 +354,7 @@ def test_tables_of_xarray(results):
     assert film.h.dims == ("x", "y") and film.h.attrs == {"units": "m", "long_name": "film"}
     assert float(film.h.sel(x=0.0, y=0.0, method="nearest")) == pytest.approx(float(film.h_central), rel=0.05)
     assert run.force.dims == ("T",) and run.h_midplane.dims == ("T", "X") and run.force.attrs["units"] == "f0"
-    state = next(thing for thing in results if isinstance(thing, reduced_models.BearingState)).to_xarray()
+    state = next(thing for thing in results if isinstance(thing, BearingState)).to_xarray()
     assert list(state.race.values) == ["inner", "outer"] and state.force.sel(race="outer").shape == (9,)
     answer = next(thing for thing in results if isinstance(thing, AtlasAnswer))
     data = answer.to_xarray()
@@ -380,15 +376,15 @@ def test_tables_of_pandas(results):
     assert np.array_equal(history["force [N]"], run.si.force) and history.index.name == "t [s]"
     assert np.array_equal(response.si.to_pandas()["damping [N s/m]"], response.si.damping)
     kind = {type(thing): thing for thing in results}
-    balls = kind[reduced_models.BearingState].to_pandas()
-    assert np.array_equal(balls["force_outer [N]"], kind[reduced_models.BearingState].force[:, 1])
+    balls = kind[BearingState].to_pandas()
+    assert np.array_equal(balls["force_outer [N]"], kind[BearingState].force[:, 1])
     K = kind[BearingCoefficients].to_pandas()
     assert np.array_equal(K["stiffness_xy [N/m]"], kind[BearingCoefficients].stiffness[:, 0, 1])
-    turned = next(thing for thing in results if isinstance(thing, reduced_models.RotorResult) and thing.names)
+    turned = next(thing for thing in results if isinstance(thing, RotorResult) and thing.names)
     assert np.array_equal(turned.to_pandas()["displacement_disc_y [m]"], turned.disc[:, 1])
     many = kind[AtlasAnswers].to_pandas()
     assert np.array_equal(many["h_min [delta_H]"], kind[AtlasAnswers].h_min) and len(many) == 2
-    found = kind[reduced_models.FitResult]
+    found = kind[FitResult]
     table = found.to_pandas()
     assert table.loc["K1", "value"] == found.parameters["K1"] and table.attrs["rms"] == found.rms
     assert (
@@ -432,5 +428,5 @@ def test_dir_lists_public_names_only():
 
 
 def test_the_three_packages_list_what_they_show():
-    assert {len(dir(package)) > 9 for package in (ehlcontact, reduced_models, fmu)} == {True}
+    assert {len(dir(package)) > 9 for package in (ehlcontact, reduced_models)} == {True}
     assert {"export", "verify", "export_system"} <= set(dir(fmu))

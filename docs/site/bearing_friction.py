@@ -8,8 +8,11 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from ehlcontact import InputError, LimitingShear, Lubricant
-from reduced_models import BallBearing, bearing_friction, cage_slip
+from ehlcontact import InputError, Lubricant
+from ehlcontact.lubricant import LimitingShear
+from reduced_models import BallBearing
+from reduced_models.bearing.cage_slip import cage_slip
+from reduced_models.bearing.sliding import bearing_friction
 
 IMAGES = Path(__file__).parents[1] / "images"
 LAW = LimitingShear(0.07)  # the one traction parameter

@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ehlcontact import Heat, Lubricant, OilLayer
-from reduced_models import BallBearing, oil_and_heat
-from reduced_models.bearing.oil_and_heat import BOTH, FLOODED, HEAT, LAYER
+from reduced_models import BallBearing
+from reduced_models.bearing.oil_and_heat import BOTH, FLOODED, HEAT, LAYER, oil_and_heat
 from reduced_models.bearing.picture import from_load
 
 IMAGES = Path(__file__).parents[1] / "images"

@@ -22,13 +22,12 @@ from ehlcontact import (
     OilLayer,
     OperatingPoint,
     TimeSteps,
-    oil_passes,
     simulate,
     solve_steady,
 )
 from ehlcontact.film_formulas import film_of_layer
 from ehlcontact.lubricant import density
-from ehlcontact.side_flow import layer_after_passes, side_flow
+from ehlcontact.side_flow import layer_after_passes, oil_passes, side_flow
 from reduced_models import BallBearing, OilBalance
 from reduced_models.bearing.oil_balance import lost_share
 

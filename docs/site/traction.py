@@ -9,20 +9,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
-from ehlcontact import (
-    Carreau,
-    Eyring,
-    Geometry,
-    Grid,
-    Heat,
-    LimitingShear,
-    Lubricant,
-    OperatingPoint,
-    solve_steady,
-    traction_curve,
-)
+from ehlcontact import Geometry, Grid, Heat, Lubricant, OperatingPoint, solve_steady
 from ehlcontact.film_formulas import load_number
+from ehlcontact.lubricant import Carreau, Eyring, LimitingShear
 from ehlcontact.lubricant.traction_laws import log_sinh_law
+from ehlcontact.traction import traction_curve
 
 IMAGES = Path(__file__).parents[1] / "images"
 BALL = {"ball_diameter": 7.938e-3, "pitch_diameter": 39.1e-3, "conformity": 0.52}  # 6205

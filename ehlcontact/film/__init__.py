@@ -8,18 +8,12 @@ module        responsibility
 ============= =====================================================================================
 """
 
-from ehlcontact.film.over_time import FilmHistory, FilmWave, WaveTrack, film_history, film_wave, track_wave
-from ehlcontact.film.plane import Film, Interferogram, film_of, interferogram
+from ehlcontact.film.over_time import film_history, track_wave
+from ehlcontact.film.plane import film_of, interferogram
 
 __all__ = [
-    "Film",
-    "FilmHistory",
-    "FilmWave",
-    "Interferogram",
-    "WaveTrack",
     "film_history",
     "film_of",
-    "film_wave",
     "interferogram",
     "track_wave",
 ]

@@ -23,7 +23,6 @@ from reduced_models import (
     BallBearing,
     Disc,
     Rotor,
-    RotorResult,
     Shaft,
     SpeedProfile,
     Support,
@@ -33,6 +32,7 @@ from reduced_models import (
     simulate_rotor,
 )
 from reduced_models.rotor.campbell import Campbell, CriticalSpeed
+from reduced_models.rotor.result import RotorResult
 
 STEEL = {"youngs_modulus": 211e9, "poisson_ratio": 0.2993, "density": 7810.0}
 RANGE, SECONDS, DT = (500.0, 9000.0), 5.0, 5e-5  # rev/min, s, s

@@ -22,7 +22,8 @@ from masters import ALLOWED, LEADS, picture
 
 from ehlcontact import Lubricant
 from fmu import export
-from reduced_models import BallBearing, BearingMount, Rotor, log_decrement, simulate_rotor
+from reduced_models import BallBearing, BearingMount, Rotor, simulate_rotor
+from reduced_models.rotor.decay import log_decrement
 
 RPM, OMEGA, LOAD, BLOW = 3000.0, 100.0 * pi, 500.0, 1e-4  # rev/min, rad/s, N on each bearing, m/s
 END, BETWEEN = 3.75, 1.25  # kg: inertia of an end by its own acceleration, and by that of the other one

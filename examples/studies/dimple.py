@@ -26,12 +26,12 @@ from ehlcontact import (
     OperatingPoint,
     PrescribedLoad,
     RunSettings,
-    SimulationResult,
     TimeSteps,
     simulate,
     solve_steady,
 )
 from ehlcontact.film import film_of, interferogram
+from ehlcontact.transient.result import SimulationResult
 
 DATA = Path(__file__).parent / "data" / "mourier_2006.csv"
 E_REDUCED = 110e9  # Pa, with 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2

@@ -29,12 +29,12 @@ from ehlcontact import (
     OperatingPoint,
     PrescribedLoad,
     Roughness,
-    SimulationResult,
     TimeSteps,
     simulate,
     solve_steady,
 )
 from ehlcontact.film import film_of
+from ehlcontact.transient.result import SimulationResult
 
 HALF = 110e9 * (1.0 - 0.3**2)  # two equal bodies of this modulus have E' = 110 GPa, steel on glass
 BALL_ON_DISC = OperatingPoint(

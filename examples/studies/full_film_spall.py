@@ -14,8 +14,9 @@ from math import pi
 import numpy as np
 
 from ehlcontact import Grid, Lubricant
-from reduced_models import BallBearing, BearingMount, FullFilm, Rotor, Spall, simulate_full_films
+from reduced_models import BallBearing, BearingMount, Rotor, Spall
 from reduced_models.bearing.height_tables import track_radius
+from reduced_models.rotor.bearing_films import FullFilm, simulate_full_films
 
 MASS, DAMPING, LOAD, SPEED = 5.0, 2000.0, 500.0, 1800.0  # kg, N s/m of what holds the mass, N, rev/min
 LENGTH, EDGE, AT = 0.5e-3, 1e-4, -pi / 2  # m, m, under the load

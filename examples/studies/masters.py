@@ -22,7 +22,8 @@ import numpy as np
 from coupling import LOAD, contact
 
 from fmu import export
-from reduced_models import log_decrement, simulate_oscillator
+from reduced_models import simulate_oscillator
+from reduced_models.rotor.decay import log_decrement
 
 MASS = 5.0  # kg
 PERIODS = 8.0

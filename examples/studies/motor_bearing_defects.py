@@ -22,7 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, Spall, clearance_from_order
+from reduced_models import BallBearing, Spall
+from reduced_models.bearing.measured_order import clearance_from_order
 from reduced_models.signals import ModalPath, envelope_spectrum
 
 SIZE = {"balls": 9, "ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3}

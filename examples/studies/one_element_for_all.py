@@ -19,13 +19,13 @@ from ehlcontact import (
     FreeVibration,
     Grid,
     HarmonicLoad,
-    ImpedanceResult,
     MoesPoint,
     PrescribedLoad,
     impedance,
     save,
     simulate,
 )
+from ehlcontact.results import ImpedanceResult
 from reduced_models import ContactRecord, fit_memory
 from reduced_models.fitting.least_squares import linear_fit
 from reduced_models.fitting.result import MemoryFit

@@ -16,8 +16,9 @@ from ehlcontact.errors import ConvergenceError, InputError
 from fmu.contact_variables import Element
 from fmu.jeffcott.reference_rotor import Run, reference_run
 from fmu.steps import default_step, round_down
-from reduced_models import JeffcottRotor, OutsideValidityWarning, ScaledContact
+from reduced_models import JeffcottRotor, OutsideValidityWarning
 from reduced_models.rotor.jeffcott import RotorState
+from reduced_models.rotor.scaled_contact import ScaledContact
 
 # An FMU counts its contacts, and all inputs that have derivatives, in the bits of one number.
 MOST_MOUNTS = 32

@@ -10,10 +10,11 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from ehlcontact import Domain, Grid, ImpedanceResult, impedance
+from ehlcontact import Domain, Grid, impedance
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from ehlcontact.process.blas import one_blas_thread
+from ehlcontact.results import ImpedanceResult
 from reduced_models.elements.film_law import FilmLaw, film_drive
 from reduced_models.elements.film_memory import FilmMemoryContact, approach_under, film_and_exponent, memory_curve
 from reduced_models.elements.film_response import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains

@@ -12,8 +12,8 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from ehlcontact import ImpedanceResult
 from ehlcontact.errors import InputError
+from ehlcontact.results import ImpedanceResult
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.small_motion import StateSpace
 

@@ -10,8 +10,8 @@
 """
 
 from reduced_models.signals.indicators import indicators
-from reduced_models.signals.records import RecordCase, VibrationRecord, make_record, make_records, write_dataset
-from reduced_models.signals.sampling import housing_acceleration, node_acceleration, sampled, shaft_angle
+from reduced_models.signals.records import RecordCase, make_records, write_dataset
+from reduced_models.signals.sampling import housing_acceleration, node_acceleration
 from reduced_models.signals.spectra import envelope_spectrum, order_spectrum
 from reduced_models.signals.transfer_path import MeasuredPath, ModalPath, SystemPath
 
@@ -20,16 +20,12 @@ __all__ = [
     "ModalPath",
     "RecordCase",
     "SystemPath",
-    "VibrationRecord",
     "envelope_spectrum",
     "housing_acceleration",
     "indicators",
-    "make_record",
     "make_records",
     "node_acceleration",
     "order_spectrum",
-    "sampled",
-    "shaft_angle",
     "write_dataset",
 ]
 

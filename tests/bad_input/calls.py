@@ -31,6 +31,8 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
+from reduced_models import LinearBearing
+from reduced_models.elements.base import ContactElement
 
 OIL = Lubricant(0.0367, 2e-8)
 BALL = OF_6205 | {"speed_rpm": 3000.0, "load": 34.0}
@@ -184,7 +186,7 @@ CALLS = {
         lambda: rm.Rotor(mass=[["1"]], stiffness=[[1.0]], mounts=()),
         ("mass", "numbers"),
     ),
-    "springs that are true": (lambda: rm.LinearBearing(np.eye(2) > 0.0, np.eye(2)), ("stiffness", "numbers")),
+    "springs that are true": (lambda: LinearBearing(np.eye(2) > 0.0, np.eye(2)), ("stiffness", "numbers")),
     "speeds masked": (lambda: rm.SpeedProfile(MASKED, np.ones(20)), ("t", "without a masked one")),
     "dry and crushed": (
         lambda: rm.BallBearing.catalogue("6205").equilibrium((0.0, -1e6), speed_rpm=1000.0),
@@ -252,7 +254,7 @@ CALLS = {
     "load a number": (lambda: read(5), ("file", "the name of a file")),
     "save a number": (lambda: save(5, "none.h5"), ("object to save", "result, element or bearing")),
     "load an element of Python": (
-        lambda: read(__file__, rm.ContactElement),
+        lambda: read(__file__, ContactElement),
         ("file", "a complete file of a contact element"),
     ),
     "an atlas of Python": (lambda: rm.Atlas(__file__), ("atlas", "a complete file of a table of an atlas")),

@@ -7,8 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ehlcontact import LimitingShear, Lubricant
-from reduced_models import BallBearing, Spall, angle_from_order, bearing_friction, clearance_from_order
+from ehlcontact import Lubricant
+from ehlcontact.lubricant import LimitingShear
+from reduced_models import BallBearing, Spall
+from reduced_models.bearing.measured_order import angle_from_order, clearance_from_order
+from reduced_models.bearing.sliding import bearing_friction
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
 OIL = ("--oil", "68", "--temp", "50")

@@ -6,21 +6,13 @@ from math import pi
 
 import pytest
 
-from ehlcontact import (
-    Grid,
-    Lubricant,
-    OperatingPoint,
-    SimulationResult,
-    assumptions,
-    impedance,
-    read,
-    solve_steady,
-)
+from ehlcontact import Grid, Lubricant, OperatingPoint, assumptions, impedance, read, solve_steady
 from ehlcontact.cli.contact import Contact
 from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant.oil import GRADES
+from ehlcontact.transient.result import SimulationResult
 from fmu.contact_spec import contact_spec
 from reduced_models import Atlas, BallBearing
 

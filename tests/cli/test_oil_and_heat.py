@@ -22,9 +22,9 @@ from ehlcontact.cli.study.points.finalise import faults
 from ehlcontact.cli.study.report import conditions
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.status import Status
-from reduced_models import BallBearing, BearingSet, oil_and_heat
+from reduced_models import BallBearing, BearingSet
 from reduced_models.atlas.supply import THINNEST
-from reduced_models.bearing.oil_and_heat import FLOODED, LAYER
+from reduced_models.bearing.oil_and_heat import FLOODED, LAYER, oil_and_heat
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
 OIL = ("--oil", "68", "--temp", "60")

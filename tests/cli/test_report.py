@@ -10,7 +10,8 @@ from page_numbers import blocks_of, is_shown, numbers_of, unknown_numbers
 from tiny_study import STUDY
 
 from ehlcontact import Lubricant, read, store
-from reduced_models import BallBearing, ContactRecord, RotorResult, fit
+from reduced_models import BallBearing, ContactRecord, fit
+from reduced_models.rotor.result import RotorResult
 
 # Two balls, another grid for the steady film, and a swing so wild that the run has not settled.
 WILD = {

@@ -20,8 +20,8 @@ from ehlcontact.cli.study.reduction import CONTACTS
 from ehlcontact.cli.study.rotor import film_response, frequencies
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.errors import ConvergenceError
-from reduced_models import RotorResult
 from reduced_models.rotor.events import ContactEvents
+from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.settling import Settling
 
 

@@ -28,7 +28,7 @@ from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES, stage_named
 from ehlcontact.status import Status
 from fmu import verify_references
-from reduced_models import RotorResult
+from reduced_models.rotor.result import RotorResult
 
 
 def run_stages(folder, jobs=1):

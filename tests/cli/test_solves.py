@@ -7,9 +7,11 @@ import zipfile
 import numpy as np
 import pytest
 
-from ehlcontact import SimulationResult, SteadyResult, read
+from ehlcontact import read
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.results import SteadyResult
 from ehlcontact.status import Status
+from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.transient_film import TransientFilm
 
 STEADY_KEYS = (

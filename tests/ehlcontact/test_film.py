@@ -18,7 +18,9 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.film import Film, FilmWave, film_history, film_of, film_wave, interferogram, track_wave
+from ehlcontact.film import film_history, film_of, interferogram, track_wave
+from ehlcontact.film.over_time import FilmWave, film_wave
+from ehlcontact.film.plane import Film
 
 STEEL_ON_GLASS = OperatingPoint(Geometry(12.7e-3, 20e-3, e2=8e10, nu2=0.2), Lubricant(0.1), 20.0, 0.5)
 

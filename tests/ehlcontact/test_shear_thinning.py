@@ -10,12 +10,9 @@ from scipy.optimize import brentq
 
 from ehlcontact import (
     Asperities,
-    Carreau,
-    Eyring,
     Grid,
     Heat,
     InputError,
-    LimitingShear,
     Lubricant,
     MoesPoint,
     OilLayer,
@@ -25,6 +22,7 @@ from ehlcontact import (
     save,
     solve_steady,
 )
+from ehlcontact.lubricant import Carreau, Eyring, LimitingShear
 from ehlcontact.solver.film_thinning import FilmThinning
 from ehlcontact.solver.level import Level
 

@@ -12,20 +12,20 @@ from ehlcontact import (
     FreeVibration,
     Grid,
     HarmonicLoad,
-    ImpedanceResult,
     InputError,
     KeepSettings,
-    SimulationResult,
-    SteadyResult,
     TimeSteps,
     TransientContact,
     simulate,
     solve_steady,
 )
-from ehlcontact.film import Film, FilmHistory
+from ehlcontact.film.over_time import FilmHistory
+from ehlcontact.film.plane import Film
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import Geometry, OperatingPoint
 from ehlcontact.quantities import quantities_of, si_quantities
+from ehlcontact.results import ImpedanceResult, SteadyResult
+from ehlcontact.transient.result import SimulationResult
 
 POINT = OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 3.0, 1.3)
 S = POINT.scales

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from ehlcontact import Grid, InputError, Lubricant, MoesPoint, OilLayer, OperatingPoint, oil_passes
+from ehlcontact import Grid, InputError, Lubricant, MoesPoint, OilLayer, OperatingPoint
 from ehlcontact.lubricant import density
-from ehlcontact.side_flow import layer_after_passes, side_flow
+from ehlcontact.side_flow import layer_after_passes, oil_passes, side_flow
 
 CIRCLE = MoesPoint(20, 10, 1)
 SMALL = Grid(64)

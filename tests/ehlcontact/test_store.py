@@ -25,15 +25,15 @@ from ehlcontact import (
     PrescribedApproach,
     PrescribedLoad,
     RampLoad,
-    SimulationResult,
-    SteadyResult,
     TimeSteps,
     read,
     save,
     simulate,
     solve_steady,
 )
+from ehlcontact.results import SteadyResult
 from ehlcontact.store import stored, text_of
+from ehlcontact.transient.result import SimulationResult
 
 POINT = MoesPoint(20, 5, 0.5)
 T = np.linspace(0.0, 0.2, 5)

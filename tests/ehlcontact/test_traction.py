@@ -10,22 +10,20 @@ from programs import script
 from refusals import refusals
 
 from ehlcontact import (
-    Carreau,
-    Eyring,
     Geometry,
     Grid,
     Heat,
     InputError,
-    LimitingShear,
     Lubricant,
     MoesPoint,
     OperatingPoint,
     read,
     save,
     solve_steady,
-    traction_curve,
 )
+from ehlcontact.lubricant import Carreau, Eyring, LimitingShear
 from ehlcontact.lubricant.traction_laws import TractionLaw
+from ehlcontact.traction import traction_curve
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
 SMALL = Grid(64)

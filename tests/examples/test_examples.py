@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from programs import script
 
-from reduced_models import OutsideValidityWarning, log_decrement
+from reduced_models import OutsideValidityWarning
 from reduced_models.atlas.build import build
+from reduced_models.rotor.decay import log_decrement
 
 FOLDER = Path(__file__).parents[2] / "examples"
 SHORT = sorted(path.stem for path in FOLDER.glob("*.py"))

@@ -53,7 +53,8 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.film import film_of, film_wave, track_wave
+from ehlcontact.film import film_of, track_wave
+from ehlcontact.film.over_time import film_wave
 from fmu import export, export_system
 from reduced_models import (
     Atlas,
@@ -68,19 +69,18 @@ from reduced_models import (
     Support,
     campbell,
     compare,
-    film_impedance,
     fit,
     fit_memory,
     linearise,
-    log_decrement,
     rotor_on_bearings,
-    sensitivity,
     simulate_oscillator,
     simulate_rotor,
     unbalance_response,
-    wide_range_from_solves,
 )
-from reduced_models.rotor.linear_contact import impedance_about
+from reduced_models.fitting.sensitivity import sensitivity
+from reduced_models.fitting.wide_range_fit import wide_range_from_solves
+from reduced_models.rotor.decay import log_decrement
+from reduced_models.rotor.linear_contact import film_impedance, impedance_about
 
 sys.path.insert(0, str(Path(__file__).parents[1]))  # the tests' own helpers
 

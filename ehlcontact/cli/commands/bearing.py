@@ -35,8 +35,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from ehlcontact.cli.study.bearing import BearingJob
-    from reduced_models import BallBearing, BearingSet, BearingState, Spall
+    from reduced_models import BallBearing, BearingSet, Spall
     from reduced_models.bearing.coefficients import BearingCoefficients
+    from reduced_models.bearing.equilibrium_result import BearingState
     from reduced_models.bearing.excitation import BearingExcitation
     from reduced_models.bearing.kinematics import DefectFrequencies
     from reduced_models.bearing.oil_and_heat import OilAndHeat

@@ -218,7 +218,7 @@ def _exporter(system: bool) -> Any:
 def _element_of(file: Path, keywords: dict[str, Any]) -> FmuModel:
     """A contact element from a file."""
     from fmu.models import fmu_model
-    from reduced_models import ContactElement
+    from reduced_models.elements.base import ContactElement
 
     element: Any = read(file, ContactElement)
     return fmu_model(element, **keywords)
@@ -261,8 +261,8 @@ def _rotor_and_element(file: Path, contact: Path | None) -> tuple[JeffcottRotor,
     """The rotor of a study, an element in SI, and where the latter is from."""
     from ehlcontact.cli.study.rotor import build_rotor
     from ehlcontact.cli.study.schema import load_study
-    from reduced_models import ContactElement
     from reduced_models.atlas.atlas import Atlas
+    from reduced_models.elements.base import ContactElement
 
     study = load_study(file)
     if "rotor" not in study.model_fields_set:

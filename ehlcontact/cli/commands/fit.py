@@ -15,8 +15,7 @@ from ehlcontact.cli.rows import Row
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
-    from reduced_models import FitResult
-    from reduced_models.fitting.result import ElementFit
+    from reduced_models.fitting.result import ElementFit, FitResult
 
 
 @o.grouped
@@ -39,10 +38,11 @@ def fit(
     """Fit a contact element to one or several simulations of the same contact."""
     from ehlcontact.store import read
     from ehlcontact.transient.result import SimulationResult
-    from reduced_models import ContactRecord, FitResult
+    from reduced_models import ContactRecord
     from reduced_models import fit as fit_records
     from reduced_models.fitting.fit import MEMORY, MODELS
     from reduced_models.fitting.records import repeated
+    from reduced_models.fitting.result import FitResult
 
     require_choice("--model", model, MODELS)
     if model == MEMORY and window is not None:

@@ -258,7 +258,7 @@ def _at_rest(result: SimulationResult) -> Any:
 
 def _draw(result: SimulationResult, path: Path) -> None:
     """Draw histories, the film wave, and the force against the approach."""
-    from ehlcontact.film import film_wave
+    from ehlcontact.film.over_time import film_wave
     from ehlcontact.results.picture import Panel, draw
     from ehlcontact.summary import contact_text
 

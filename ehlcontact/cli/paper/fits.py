@@ -10,18 +10,10 @@ import numpy as np
 from ehlcontact.cli.paper.data import paper_fits
 from ehlcontact.cli.paper.runs import Runs
 from ehlcontact.errors import InputError
-from reduced_models import (
-    ContactElement,
-    ContactRecord,
-    FitResult,
-    OutsideValidityWarning,
-    SpringContact,
-    fit,
-    sensitivity,
-    simulate_oscillator,
-)
-from reduced_models.fitting.result import ElementFit, rms_error
-from reduced_models.fitting.sensitivity import Sensitivity
+from reduced_models import ContactRecord, OutsideValidityWarning, SpringContact, fit, simulate_oscillator
+from reduced_models.elements.base import ContactElement
+from reduced_models.fitting.result import ElementFit, FitResult, rms_error
+from reduced_models.fitting.sensitivity import Sensitivity, sensitivity
 from reduced_models.rotor.oscillator import OscillatorResult
 
 BEYOND = 0.25  # of the range of a motion that an element of the paper reaches beyond it on either side

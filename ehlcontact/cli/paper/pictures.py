@@ -29,10 +29,11 @@ from ehlcontact.cli.plots.style import (
     vertical,
 )
 from ehlcontact.cli.plots.units import units_of
-from ehlcontact.film import Interferogram, film_of
+from ehlcontact.film import film_of
+from ehlcontact.film.plane import Interferogram
 from ehlcontact.film_formulas import wijnant_approach
 from ehlcontact.point import moes_point
-from reduced_models import FitResult
+from reduced_models.fitting.result import FitResult
 
 COLOURS = (BLUE, ORANGE, GREEN)  # of the cases
 FARTHEST = 3.0  # approach up to which springs are drawn

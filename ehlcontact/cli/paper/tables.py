@@ -10,7 +10,7 @@ from ehlcontact.cli.numerals import between, numeral
 from ehlcontact.cli.paper.data import PaperFit, paper_fits, paper_sensitivity
 from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.runs import CASES, FREE, HARMONIC, RAMP
-from reduced_models import FitResult
+from reduced_models.fitting.result import FitResult
 
 Cell = float | str | None
 TABLE_CASES: dict[int, tuple[str, ...]] = {1: FREE, 2: FREE, 3: FREE, 4: HARMONIC, 5: HARMONIC, 6: RAMP}

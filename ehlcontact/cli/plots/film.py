@@ -19,8 +19,8 @@ from ehlcontact.cli.plots.maps import (
 )
 from ehlcontact.cli.plots.style import BLUE, GREY, ORANGE, RED, grid, label_axes
 from ehlcontact.cli.plots.units import units_of
-from ehlcontact.film import Film, Interferogram, film_of, interferogram
-from ehlcontact.film.plane import Profile
+from ehlcontact.film import film_of, interferogram
+from ehlcontact.film.plane import Film, Interferogram, Profile
 from ehlcontact.point import moes_point
 from ehlcontact.results import SteadyResult
 

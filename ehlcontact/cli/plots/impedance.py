@@ -10,7 +10,7 @@ import plotly.graph_objects as go
 
 from ehlcontact.cli.plots.style import BLUE, GREEN, RED, grid, label_axes, vertical
 from ehlcontact.results import ImpedanceResult
-from reduced_models import FitResult
+from reduced_models.fitting.result import FitResult
 
 
 def impedance(

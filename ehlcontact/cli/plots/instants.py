@@ -12,7 +12,8 @@ from ehlcontact.cli.plots.film import noted
 from ehlcontact.cli.plots.maps import HIGHEST, VIEW, add_film, add_pressure, move_together, refined, scale_note
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, PURPLE, RED, grid, label_axes, slide
 from ehlcontact.cli.plots.units import units_of
-from ehlcontact.film import Film, film_of
+from ehlcontact.film import film_of
+from ehlcontact.film.plane import Film
 from ehlcontact.point import moes_point
 from ehlcontact.transient.motion import HarmonicLoad
 from ehlcontact.transient.result import SimulationResult

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.plots.units import units_of
-from ehlcontact.film import Film
-from ehlcontact.film.plane import interpolated
+from ehlcontact.film.plane import Film, interpolated
 
 VIEW = (-1.8, 1.5, 1.5)  # along X from, to; across to: in semi-axes
 FLATTEST = 0.3  # height over width of a map with the surfaces moving upwards: a flatter one is stretched

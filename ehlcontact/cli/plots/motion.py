@@ -11,9 +11,9 @@ import scipy
 
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, PALE_BLUE, RED, grid, label_axes, shaded
 from ehlcontact.cli.plots.units import units_of
-from ehlcontact.film import film_wave
+from ehlcontact.film.over_time import film_wave
 from ehlcontact.transient.result import SimulationResult
-from reduced_models import FitResult
+from reduced_models.fitting.result import FitResult
 
 WITHIN = 1.1  # semi-axes of the film wave shown: beyond, the film follows the approach at once
 POINTS = (180, 111)  # of its picture over time and place: interpolated smoothly, so that it does not show the grid

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.plots.style import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, grid, label_axes, shaded, vertical
-from reduced_models import RotorResult
 from reduced_models.rotor.decay import Decrement
 from reduced_models.rotor.resonance import Resonances
+from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.settling import Settling, steps_per_revolution
 
 MICRO = "\N{MICRO SIGN}m"

@@ -24,8 +24,9 @@ from reduced_models import BallBearing, BearingSet
 
 if TYPE_CHECKING:
     from ehlcontact import Heat, OilLayer
-    from reduced_models import BearingState, Spall
+    from reduced_models import Spall
     from reduced_models.bearing.coefficients import BearingCoefficients
+    from reduced_models.bearing.equilibrium_result import BearingState
     from reduced_models.bearing.excitation import BearingExcitation
     from reduced_models.bearing.oil_and_heat import OilAndHeat
     from reduced_models.bearing.set_result import SetState

@@ -13,7 +13,8 @@ from ehlcontact.cli.study.rotor import kicked_mode, linear_rotors, run_decay_red
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.results import ImpedanceResult
-from reduced_models import ContactElement, RotorResult, compare
+from reduced_models import compare
+from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.compare import Comparison
 from reduced_models.rotor.decay import Decrement
 from reduced_models.rotor.events import ContactEvents, contact_events
@@ -21,6 +22,7 @@ from reduced_models.rotor.free_decay import decay_decrement
 from reduced_models.rotor.linearise import LinearRotor
 from reduced_models.rotor.modes import RotorMode
 from reduced_models.rotor.resonance import Resonances, resonances
+from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.settling import Settling, settling
 
 DECIDES = 0.2  # share of a full decrement that contacts without a film must miss for the film to decide it

@@ -13,8 +13,8 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.shared_entries import supply_and_heat, tilt_of
 from ehlcontact.cli.study.whole_bearing import bearing_or_pair, ring_load
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import oil_and_heat
 from reduced_models.bearing.kinematics import RPM_TO_HZ
+from reduced_models.bearing.oil_and_heat import oil_and_heat
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study

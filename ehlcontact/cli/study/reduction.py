@@ -17,10 +17,10 @@ from ehlcontact.results import ImpedanceResult
 from ehlcontact.store import save
 from ehlcontact.transient.motion import HarmonicLoad
 from ehlcontact.transient.result import SimulationResult
-from reduced_models import ContactRecord, FitResult, SpringContact, dry_contact, fit, fit_memory
+from reduced_models import ContactRecord, SpringContact, fit, fit_memory
 from reduced_models.fitting.memory_fit import OMEGAS
-from reduced_models.fitting.result import MemoryFit
-from reduced_models.rotor.baselines import without_damper
+from reduced_models.fitting.result import FitResult, MemoryFit
+from reduced_models.rotor.baselines import dry_contact, without_damper
 
 RECORDS = {"free": "free vibration", "harmonic": "harmonic, contact band", "rotor_band": "harmonic, rotor band"}
 MODELS: tuple[Literal["linear", "cubic"], ...] = ("linear", "cubic")

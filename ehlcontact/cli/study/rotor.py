@@ -14,14 +14,8 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.impedance import impedance
 from ehlcontact.results import ImpedanceResult
 from ehlcontact.solver.grid import Grid
-from reduced_models import (
-    ContactElement,
-    JeffcottRotor,
-    OutsideValidityWarning,
-    RotorResult,
-    film_impedance,
-    linearise,
-)
+from reduced_models import JeffcottRotor, OutsideValidityWarning, linearise
+from reduced_models.elements.base import ContactElement
 from reduced_models.fitting.memory_fit import OMEGAS
 from reduced_models.rotor.baselines import local_contact
 from reduced_models.rotor.free_decay import initial_velocity, simulate_decay
@@ -34,9 +28,10 @@ from reduced_models.rotor.full_films import (
     simulate_on_films,
 )
 from reduced_models.rotor.jeffcott import RotorState
-from reduced_models.rotor.linear_contact import impedance_about
+from reduced_models.rotor.linear_contact import film_impedance, impedance_about
 from reduced_models.rotor.linearise import LinearRotor
 from reduced_models.rotor.modes import RotorMode
+from reduced_models.rotor.result import RotorResult
 
 BELOW = 0.5  # of the rotor's frequency: the lowest one of the impedance, but for rest
 

@@ -46,8 +46,8 @@ from reduced_models.rotor.compare_bearing_models import (
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
-    from reduced_models import BearingState
     from reduced_models.bearing.coefficients import BearingCoefficients
+    from reduced_models.bearing.equilibrium_result import BearingState
     from reduced_models.bearing.set_result import SetState
     from reduced_models.rotor.modes import RotorMode
 

@@ -24,7 +24,6 @@ from ehlcontact import (
     PrescribedLoad,
     RampLoad,
     Roughness,
-    SimulationResult,
     TimeSteps,
     Waviness,
     read,
@@ -33,6 +32,7 @@ from ehlcontact import (
 from ehlcontact.status import Status
 from ehlcontact.transient import checkpoint
 from ehlcontact.transient.checkpoint import Checkpoint
+from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.transient_film import TransientFilm
 
 POINT = MoesPoint(200, 10, 0.5)

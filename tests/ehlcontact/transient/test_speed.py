@@ -23,9 +23,9 @@ from ehlcontact import (
     save,
     simulate,
     solve_steady,
-    speed_response,
 )
 from ehlcontact.lubricant import density, log_viscosity
+from ehlcontact.speed_response import speed_response
 from ehlcontact.transient.prescribed import passed_over
 
 POINT = MoesPoint(20.0, 5.0, 1.0)

@@ -14,13 +14,13 @@ from scipy.interpolate import CubicSpline
 
 from ehlcontact import Grid, InputError, MoesPoint, excitation
 from ehlcontact.content_store import ContentStore
-from reduced_models import contact_filter
 from reduced_models.atlas.build import entry_key
 from reduced_models.atlas.surface import shipped
 from reduced_models.atlas.waves import (
     BOX,
     RECIPE,
     WAVE_NUMBERS,
+    contact_filter,
     dry_filter,
     film_over_dry,
     films_over_dry,

@@ -9,8 +9,9 @@ from refusals import refused
 
 from ehlcontact import Lubricant, read, save
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingMotion, BearingState
+from reduced_models import BallBearing, BearingMotion
 from reduced_models.bearing.catalogue import ROWS
+from reduced_models.bearing.equilibrium_result import BearingState
 
 DOWN = (0.0, -1000.0)
 SIZES = {"balls": 9, "ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3}

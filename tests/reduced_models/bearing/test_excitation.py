@@ -9,7 +9,8 @@ from scipy.optimize import fsolve
 
 from ehlcontact import Grid, Lubricant, MoesPoint, excitation
 from ehlcontact.hertz import hertz_contact
-from reduced_models import BallBearing, BallDiameter, BallWaviness, RaceWaviness, contact_filter
+from reduced_models import BallBearing, BallDiameter, BallWaviness, RaceWaviness
+from reduced_models.atlas.waves import contact_filter
 from reduced_models.bearing.height_tables import track_radius
 
 DRY = BallBearing.catalogue("6205", clearance=15e-6)

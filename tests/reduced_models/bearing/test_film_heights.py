@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, BallDiameter, BallWaviness, RaceWaviness, Spall, contact_filter
+from reduced_models import BallBearing, BallDiameter, BallWaviness, RaceWaviness, Spall
+from reduced_models.atlas.waves import contact_filter
 from reduced_models.bearing.contact_heights import looked_up
 from reduced_models.bearing.film_heights import heights_in_runs, mean_film_speed
 from reduced_models.bearing.freedoms import FIVE, PLANAR

@@ -9,9 +9,10 @@ from scipy.optimize import root
 
 from ehlcontact import Lubricant, read, save
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingSet, BearingState
+from reduced_models import BallBearing, BearingSet
 from reduced_models.bearing.angular_balls import press_ring
 from reduced_models.bearing.contact_angles import CONTROLS
+from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.ring import StaticRing
 
 # Harris, Rolling Bearing Analysis: 218 angular contact bearing; steel of 206.8 GPa

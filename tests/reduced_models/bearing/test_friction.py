@@ -8,7 +8,8 @@ import pytest
 from ehlcontact import Domain, Grid, read, save, solve_steady
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import ellipse_ratio, hertz_contact
-from reduced_models import BallBearing, BearingState
+from reduced_models import BallBearing
+from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.kinematics import rolling_torque
 from reduced_models.bearing.race import shared_atlas
 

@@ -6,7 +6,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import Heat, InputError, LimitingShear, Lubricant, assumptions
+from ehlcontact import Heat, InputError, Lubricant, assumptions
+from ehlcontact.lubricant import LimitingShear
 from reduced_models import BallBearing, BearingMotion
 from reduced_models.bearing.oil_and_heat import oil_and_heat
 from reduced_models.bearing.sliding import bearing_friction

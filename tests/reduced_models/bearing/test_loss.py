@@ -9,15 +9,10 @@ import pytest
 from beam_rotor import block
 
 from ehlcontact.errors import InputError
-from reduced_models import (
-    BallBearing,
-    BearingMotion,
-    linearise,
-    log_decrement,
-    simulate_rotor,
-)
+from reduced_models import BallBearing, BearingMotion, linearise, simulate_rotor
 from reduced_models.bearing import loss as loss_room
 from reduced_models.bearing.loss import BAND, loss_of, loss_state_of, response
+from reduced_models.rotor.decay import log_decrement
 
 RPM = 3000.0
 

@@ -5,7 +5,8 @@ import pytest
 from refusals import refusals
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, angle_from_order, clearance_from_order
+from reduced_models import BallBearing
+from reduced_models.bearing.measured_order import angle_from_order, clearance_from_order
 
 BEARING = BallBearing(balls=9, ball_diameter=7.94e-3, pitch_diameter=39.04e-3)
 MEASURED = {"105": {"bpfi": 5.4021}, "106": {"bpfi": 5.4030}, "107": {"bpfi": 5.4021}, "130": {"bpfo": 3.5970}}

@@ -10,10 +10,10 @@ import pytest
 
 import reduced_models.bearing.oil_and_heat as module
 from ehlcontact import Grid, Heat, InputError, Lubricant, OilLayer, impedance
-from reduced_models import BallBearing, BearingSet, bearing_friction
+from reduced_models import BallBearing, BearingSet
 from reduced_models.bearing.oil_and_heat import BOTH, FLOODED, HEAT, HIGH, LAYER, oil_and_heat
 from reduced_models.bearing.race import shared_atlas
-from reduced_models.bearing.sliding import USUAL_LAW, race_at
+from reduced_models.bearing.sliding import USUAL_LAW, bearing_friction, race_at
 
 LOAD, SPEED = (0.0, -100.0), 6000.0
 BEARING = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=60.0), rq_race=0.1e-6)

@@ -5,8 +5,9 @@ import pytest
 from refusals import refusals
 
 from ehlcontact import Lubricant
-from reduced_models import BallBearing, angle_from_order, clearance_from_order
+from reduced_models import BallBearing
 from reduced_models.bearing.kinematics import DefectFrequencies
+from reduced_models.bearing.measured_order import angle_from_order, clearance_from_order
 
 DRY = BallBearing.catalogue("6205", clearance=8e-6)
 

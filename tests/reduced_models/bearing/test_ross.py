@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingSet, RossCallback, from_ross, linearise, simulate_rotor
+from reduced_models import BallBearing, BearingSet, from_ross, linearise, simulate_rotor
 from reduced_models.bearing.ross_bearing import WHIRL, has_whirl_axis
+from reduced_models.rotor.ross_rotor import RossCallback
 
 RPM, NODES, DISC = 3000.0, (1, 5), 3
 SPEED = RPM * np.pi / 30.0

@@ -7,9 +7,17 @@ import pytest
 from balls import OF_6205
 from scipy.special import ellipe
 
-from ehlcontact import Eyring, InputError, LimitingShear, Lubricant, OperatingPoint
-from reduced_models import BallBearing, bearing_friction, cage_slip
-from reduced_models.bearing.sliding import SlidingContact, oiled_state, radius_across, sliding_contact
+from ehlcontact import InputError, Lubricant, OperatingPoint
+from ehlcontact.lubricant import Eyring, LimitingShear
+from reduced_models import BallBearing
+from reduced_models.bearing.cage_slip import cage_slip
+from reduced_models.bearing.sliding import (
+    SlidingContact,
+    bearing_friction,
+    oiled_state,
+    radius_across,
+    sliding_contact,
+)
 
 OIL = Lubricant.iso_vg(68, temperature=60.0)
 POINT = OperatingPoint.ball_bearing(OIL, **OF_6205, speed_rpm=3000.0, load=300.0)

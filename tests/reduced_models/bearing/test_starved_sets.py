@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from ehlcontact import Heat, InputError, Lubricant, OilLayer
-from reduced_models import BallBearing, BearingSet, Shaft, Support, linearise, oil_and_heat, rotor_on_bearings
-from reduced_models.bearing.oil_and_heat import FLOODED, LAYER
+from reduced_models import BallBearing, BearingSet, Shaft, Support, linearise, rotor_on_bearings
+from reduced_models.bearing.oil_and_heat import FLOODED, LAYER, oil_and_heat
 from reduced_models.bearing.race import RACES
 from reduced_models.elements.validity import OutsideValidityWarning
 

@@ -15,12 +15,12 @@ from reduced_models import (
     Shaft,
     Support,
     linearise,
-    oil_and_heat,
     rotor_on_bearings,
     simulate_rotor,
 )
 from reduced_models.atlas.supply import lightest_load
 from reduced_models.bearing import ross_bearing
+from reduced_models.bearing.oil_and_heat import oil_and_heat
 from reduced_models.bearing.race import RACES
 from reduced_models.elements.validity import OutsideValidityWarning
 

@@ -14,13 +14,13 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.store import read as read_file
 from reduced_models import (
-    ContactElement,
     FilmMemoryContact,
     OutsideValidityWarning,
     SpeedRangeContact,
     SpringContact,
     WideRangeContact,
 )
+from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.scaled_contact import has_tangents
 
 BOX = {"low": 0.75, "high": 1.0, "rate": 1.2, "load_range": (0.8, 1.2), "omega_range": (3.0, 6.0)}

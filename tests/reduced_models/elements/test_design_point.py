@@ -8,13 +8,7 @@ import pytest
 from balls import OF_6205
 
 from ehlcontact import InputError, Lubricant, OperatingPoint, read, save
-from reduced_models import (
-    ContactMount,
-    JeffcottRotor,
-    OutsideValidityWarning,
-    ScaledContact,
-    simulate_rotor,
-)
+from reduced_models import ContactMount, JeffcottRotor, OutsideValidityWarning, ScaledContact, simulate_rotor
 from reduced_models.atlas.atlas_elements import damper_band
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.elements.design_point import DesignPoint

@@ -6,7 +6,8 @@ import pytest
 
 from ehlcontact import __version__, read, save
 from ehlcontact.errors import InputError
-from reduced_models import ContactElement, SpringContact, fit
+from reduced_models import SpringContact, fit
+from reduced_models.elements.base import ContactElement
 
 
 def test_round_trip_is_exact(tmp_path, record):

@@ -16,14 +16,8 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from reduced_models import (
-    OutsideValidityWarning,
-    WideRangeContact,
-    fit_memory,
-    simulate_oscillator,
-    wide_range_from_solves,
-)
-from reduced_models.fitting.wide_range_fit import wide_range_contact
+from reduced_models import OutsideValidityWarning, WideRangeContact, fit_memory, simulate_oscillator
+from reduced_models.fitting.wide_range_fit import wide_range_contact, wide_range_from_solves
 
 # Shape of M = 2900, L = 19, kappa = 0.11.
 LOADS = np.array([0.005, 0.02, 0.1, 0.3, 1.0, 3.0])

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from reduced_models import fit, sensitivity
+from reduced_models import fit
+from reduced_models.fitting.sensitivity import sensitivity
 
 
 @pytest.fixture

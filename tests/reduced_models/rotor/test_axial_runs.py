@@ -20,13 +20,13 @@ from reduced_models import (
     Support,
     Unbalance,
     linearise,
-    log_decrement,
     rotor_on_bearings,
     simulate_rotor,
 )
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
+from reduced_models.rotor.decay import log_decrement
 
 OIL = Lubricant.iso_vg(46, temperature=70.0)
 RPM = 12000.0

@@ -5,8 +5,8 @@ import pytest
 from rotor_twins import POINT, SCALES
 
 from ehlcontact import InputError
-from reduced_models import SpringContact, dry_contact
-from reduced_models.rotor.baselines import local_contact, without_damper
+from reduced_models import SpringContact
+from reduced_models.rotor.baselines import dry_contact, local_contact, without_damper
 
 
 def test_dry_contact_is_hertz():

@@ -16,12 +16,10 @@ from reduced_models import (
     BallDiameter,
     BallWaviness,
     BearingMount,
-    FullFilm,
     Indentation,
     RaceWaviness,
     Rotor,
     Spall,
-    simulate_full_films,
     simulate_rotor,
 )
 from reduced_models.bearing import track_surface
@@ -29,6 +27,7 @@ from reduced_models.bearing.contact_heights import height_of
 from reduced_models.bearing.height_tables import track_radius
 from reduced_models.bearing.track_surface import TrackSurface, tracks_at
 from reduced_models.rotor import bearing_films
+from reduced_models.rotor.bearing_films import FullFilm, simulate_full_films
 from reduced_models.rotor.film_process import FilmAnswer
 
 RPM, MASS, DAMPING, LOAD = 1800.0, 5.0, 2000.0, 500.0

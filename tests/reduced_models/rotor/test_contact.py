@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from reduced_models import OutsideValidityWarning, ScaledContact
-from reduced_models.rotor.scaled_contact import Contact, has_tangents
+from reduced_models import OutsideValidityWarning
+from reduced_models.rotor.scaled_contact import Contact, ScaledContact, has_tangents
 
 
 def test_scaled_contact_is_to_si(cubic, scales):

@@ -7,7 +7,8 @@ import pytest
 from rotor_twins import C, K, one_mass, spring
 
 from ehlcontact import InputError
-from reduced_models import SpringContact, linearise, log_decrement, simulate_rotor
+from reduced_models import SpringContact, linearise, simulate_rotor
+from reduced_models.rotor.decay import log_decrement
 from reduced_models.rotor.jeffcott import RotorState
 
 

@@ -7,15 +7,8 @@ import pytest
 from rotor_twins import MASS, POINT, C, K, one_mass, spring
 
 from ehlcontact import Grid, InputError, MoesPoint, impedance
-from reduced_models import (
-    Atlas,
-    JeffcottRotor,
-    SpringContact,
-    film_impedance,
-    linearise,
-    simulate_rotor,
-)
-from reduced_models.rotor.linear_contact import impedance_about
+from reduced_models import Atlas, JeffcottRotor, SpringContact, linearise, simulate_rotor
+from reduced_models.rotor.linear_contact import film_impedance, impedance_about
 
 
 def test_mode_of_one_mass():

@@ -8,7 +8,8 @@ import pytest
 from beam_rotor import DISC, still_run
 
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingMount, Rotor, linearise, log_decrement
+from reduced_models import BallBearing, BearingMount, Rotor, linearise
+from reduced_models.rotor.decay import log_decrement
 from reduced_models.rotor.modes import is_new
 
 RPM = 3000.0

@@ -18,13 +18,13 @@ from reduced_models import (
     JeffcottRotor,
     OutsideValidityWarning,
     Rotor,
-    RotorResult,
     ScaledContact,
     SpeedProfile,
     Unbalance,
     simulate_rotor,
 )
 from reduced_models.rotor.integrate_compiled import run_block
+from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.simulate import default_tolerance
 from reduced_models.rotor.speed_profile import turning_forces
 

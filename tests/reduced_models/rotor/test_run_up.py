@@ -7,7 +7,6 @@ from programs import script
 from reduced_models import (
     BallBearing,
     Disc,
-    RotorResult,
     Shaft,
     SpeedProfile,
     Support,
@@ -18,6 +17,7 @@ from reduced_models import (
 from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
+from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.speed_profile import law_speeds, turning_forces
 
 RANGE = np.array([500.0, 9000.0])

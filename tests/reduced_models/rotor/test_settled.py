@@ -7,7 +7,8 @@ import pytest
 from rotor_twins import SCALES, C, K, one_mass, run_of
 
 from ehlcontact import InputError
-from reduced_models import SpringContact, dry_contact
+from reduced_models import SpringContact
+from reduced_models.rotor.baselines import dry_contact
 from reduced_models.rotor.settling import QUIET, run_until_settled, settling
 
 STEPS = 40

@@ -13,15 +13,13 @@ from reduced_models import BallBearing, RaceWaviness, Spall, simulate_rotor
 from reduced_models.signals import (
     ModalPath,
     RecordCase,
-    VibrationRecord,
     envelope_spectrum,
     housing_acceleration,
     indicators,
-    make_record,
     make_records,
     write_dataset,
 )
-from reduced_models.signals.records import _is_whole
+from reduced_models.signals.records import VibrationRecord, _is_whole, make_record
 
 OIL, PATH = Lubricant.iso_vg(68, temperature=40.0), ModalPath(hz=[2700.0], damping=[0.05], mass=[3.0])
 # of every row in version 0.3.0, but for the name of the data set and the three of its files
