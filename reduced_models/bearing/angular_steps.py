@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.jit import inner, jit_exact_loop, jit_exact_node
+from ehlcontact.jit import inner, jit_exact_called_node, jit_exact_loop, jit_exact_node
 from reduced_models.bearing.angular_balls import COMPLEX_STEP, FAR, FIRST_STEP, FREEDOMS, AngularBalls, ring_map
 from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_angles import INNER, SHARED, ball_forces, film_factors, inner_span, rolling
@@ -77,6 +77,7 @@ RENEWED = 16  # time steps after which the derivatives of centrifugal force and 
 # Rows of `AngularFilms.kept`: place and rate of a ball at the last two ends of steps, and what its rate and its
 # acceleration follow from
 PLACE_NOW, PLACE_BEFORE, PLACE_HISTORY, RATE_NOW, RATE_BEFORE, RATE_HISTORY, KEPT = range(7)
+TRANSIT = 3  # column of `AngularFilms.speed_sum`
 SETTLED = 20  # times that films at rest are made to follow the angles of their balls: their effect is a thousandth
 
 
@@ -94,7 +95,9 @@ class AngularFilms(NamedTuple):
     follow: _Floats  # (balls, 2, 4) its slopes by both
     film: _Floats  # (contacts, 4) film over that of the table: in this step, at the last two ends; v - u of
     # `film_curve` at the last end
-    speed_sum: _Floats  # (contacts, 3) sum of both surface speeds over the speed of the shaft [m], likewise
+    # (contacts, 4) sum of both surface speeds over the speed of the shaft [m], likewise; 2a/u_sum over sqrt(g) in
+    # this step (TRANSIT)
+    speed_sum: _Floats
     inertia: _Floats  # (balls, 5, 4) derivatives of the forces of inertia, by b and c
     orbit: _Floats  # (balls,) speed about the shaft, over that of the shaft
     force: _Floats  # (balls, 2) at the inner and at the outer race [N]
@@ -125,7 +128,7 @@ def films_of_angular(balls: AngularBalls) -> AngularFilms:
         tried=np.zeros((n, 4)),
         follow=np.zeros((n, 2, 4)),
         film=np.ones((contacts, 4)),
-        speed_sum=np.ones((contacts, 3)),
+        speed_sum=np.ones((contacts, TRANSIT + 1)),
         inertia=np.zeros((n, 5, 4)),
         orbit=np.zeros(n),
         force=np.zeros((n, 2)),
@@ -141,7 +144,7 @@ def films_of_angular(balls: AngularBalls) -> AngularFilms:
     )
 
 
-@jit_exact_loop
+@jit_exact_called_node
 def begin_angular_step(balls, omega, dt, films):
     """Begin a step of length `dt`, as long as the one before, at whose end the shaft turns at `omega`."""
     films.omega[0], cage = omega, films.cage
@@ -168,6 +171,7 @@ def begin_angular_step(balls, omega, dt, films):
             middle, transit = 1.5 * u[1] - 0.5 * u[2], 0.0
             if rolling_speed > 0.0:
                 transit = law.contact_length_factor / (middle * rolling_speed)
+            u[TRANSIT] = law.contact_length_factor / (u[0] * rolling_speed) if rolling_speed > 0.0 else 0.0
             prepare_filters(law, transit, row, (film[0], film[3]), dt, films, c)
     begin_loss(balls.loss, dt, films.loss)
 
@@ -203,7 +207,7 @@ def _groove_centre(balls, films, k, q, v, cage):
     """Inner groove centre at ball `k`, and its velocity, seen in the plane of the ball."""
     rows, turned = films.maps[k, 0], films.maps[k, 1]
     c_r, c_z, d_r, d_z = balls.grooves.radial, balls.grooves.axial, 0.0, 0.0
-    for j in range(FREEDOMS):
+    for j in range(q.size):
         c_r += rows[0, j] * q[j]
         c_z += rows[1, j] * q[j]
         d_r += rows[0, j] * v[j] + cage * turned[0, j] * q[j]
@@ -260,9 +264,7 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
     w, mass = films.tangents[0], balls.inertia * gain
     heavy = mass * gain
     film_i, film_o = _film(films, 2 * k), _film(films, 2 * k + 1)
-    u_i, u_o, speed = films.speed_sum[2 * k, 0], films.speed_sum[2 * k + 1, 0], max(omega, balls.speeds[0])
-    transit_i = balls.inner.contact_length_factor / (u_i * speed) if speed > 0.0 else 0.0
-    transit_o = balls.outer.contact_length_factor / (u_o * speed) if speed > 0.0 else 0.0
+    transit_i, transit_o = films.speed_sum[2 * k, TRANSIT], films.speed_sum[2 * k + 1, TRANSIT]
     b_r, b_z = place[0], place[1]
     for j in range(4):
         moved = c[j] - tried[j]
@@ -279,7 +281,8 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
             _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, inertia)
         l_i, x_r, x_z = inner_span(b_r, b_z, c_r, c_z)
         l_o = sqrt(b_r * b_r + b_z * b_z)
-        i_r, i_z, o_r, o_z = x_r / l_i, x_z / l_i, b_r / l_o, b_z / l_o
+        per_i, per_o = 1.0 / l_i, 1.0 / l_o
+        i_r, i_z, o_r, o_z = x_r * per_i, x_z * per_i, b_r * per_o, b_z * per_o
         v_r, v_z = gain * (b_r - history[0]), gain * (b_z - history[1])
         e_r, e_z = d_r - v_r, d_z - v_z
         rate_i, rate_o = i_r * e_r + i_z * e_z + up_i, o_r * v_r + o_z * v_z + up_o
@@ -309,8 +312,8 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
             b_r, b_z, previous = 0.5 * (b_r + last_r), 0.5 * (b_z + last_z), np.inf
             continue
         # slopes of f_i n_i by c, by c' and, but for the sign and the gain, by b; of f_o n_o by b
-        s_i, s_o = f_i / l_i, f_o / l_o  # forces that turn with their springs
-        t_i, t_o = (i_r * e_z - i_z * e_r) / l_i, (o_r * v_z - o_z * v_r) / l_o  # rates at which springs turn
+        s_i, s_o = f_i * per_i, f_o * per_o  # forces that turn with their springs
+        t_i, t_o = (i_r * e_z - i_z * e_r) * per_i, (o_r * v_z - o_z * v_r) * per_o  # rates at which springs turn
         a_r, a_z = k_i * i_r - d_i * t_i * i_z, k_i * i_z + d_i * t_i * i_r
         h_r, h_z = a_r + d_i * gain * i_r, a_z + d_i * gain * i_z
         m_r, m_z = (k_o + d_o * gain) * o_r - d_o * t_o * o_z, (k_o + d_o * gain) * o_z + d_o * t_o * o_r
@@ -338,9 +341,10 @@ def _balance_ball(balls, omega, row, films, k, c, gain):
         w[1, 2], w[1, 3] = w[0, 3], d_i * i_z * i_z
         p_rr, p_rz = -i_r * h_r - turn_rr + inertia[2, 0], -i_r * h_z - turn_rz + inertia[2, 1]
         p_zr, p_zz = -i_z * h_r - turn_rz + inertia[3, 0], -i_z * h_z - turn_zz + inertia[3, 1]
+        per_det = 1.0 / det
         for j in range(4):
-            follow[0, j] = (by_rz * w[1, j] - by_zz * w[0, j]) / det
-            follow[1, j] = (by_zr * w[0, j] - by_rr * w[1, j]) / det
+            follow[0, j] = (by_rz * w[1, j] - by_zz * w[0, j]) * per_det
+            follow[1, j] = (by_zr * w[0, j] - by_rr * w[1, j]) * per_det
         for j in range(4):
             own_r = w[0, j] - (inertia[0, 2 + j] - inertia[2, 2 + j] if j < 2 else 0.0)
             own_z = w[1, j] - (inertia[1, 2 + j] - inertia[3, 2 + j] if j < 2 else 0.0)
@@ -394,10 +398,7 @@ def _imbalance(balls, omega, row, films, k, c, gain, b_r, b_z):
     """Sum of the forces on ball `k` at a place, radial and axial [N]."""
     g, kept, heights = balls.grooves, films.kept[k], films.heights
     mass = balls.inertia * gain
-    speed, transit_i, transit_o = max(omega, balls.speeds[0]), 0.0, 0.0
-    if speed > 0.0:
-        transit_i = balls.inner.contact_length_factor / (films.speed_sum[2 * k, 0] * speed)
-        transit_o = balls.outer.contact_length_factor / (films.speed_sum[2 * k + 1, 0] * speed)
+    transit_i, transit_o = films.speed_sum[2 * k, TRANSIT], films.speed_sum[2 * k + 1, TRANSIT]
     film_i, film_o = _film(films, 2 * k), _film(films, 2 * k + 1)
     l_i, x_r, x_z = inner_span(b_r, b_z, c[0], c[1])
     l_o = sqrt(b_r * b_r + b_z * b_z)
@@ -472,15 +473,19 @@ def _along(balls, omega, row, films, k, c, gain, length, far):
 
 
 @jit_exact_node
-def _add_ball(rows, turned, cage, tangents, force, stiffness, damping):
-    """Add the forces of one ball to those of the ring; r moves x and y, z and the moment the others."""
+def _add_ball(rows, turned, cage, tangents, moving, out):
+    """Add the forces of one ball to those of the ring in the first `moving` directions.
+
+    r moves x and y, z and the moment the others.
+    """
+    force, stiffness, damping = out
     w, found = tangents[0], tangents[1]
     p_r, p_z, moment = found[2, 3], found[3, 3], found[4, 3]
     for j in range(2):
         force[j] += rows[0, j] * p_r
-    for j in range(2, FREEDOMS):
+    for j in range(2, moving):
         force[j] += rows[1, j] * p_z + rows[2, j] * moment
-    for j in range(FREEDOMS):
+    for j in range(moving):
         # by the place and the rate of freedom j, for r, z and the moment
         row, at = (rows[0, j], 0) if j < 2 else (rows[1, j], 1)
         swept = cage * (turned[0, j] if j < 2 else turned[1, j])
@@ -490,17 +495,19 @@ def _add_ball(rows, turned, cage, tangents, force, stiffness, damping):
         for i in range(2):
             stiffness[i, j] += rows[0, i] * r
             damping[i, j] += rows[0, i] * r_rate
-        for i in range(2, FREEDOMS):
+        for i in range(2, moving):
             stiffness[i, j] += rows[1, i] * z + rows[2, i] * m
             damping[i, j] += rows[1, i] * z_rate + rows[2, i] * m_rate
 
 
-@jit_exact_loop
+@jit_exact_called_node
 def press_angular(balls, films, q, v, gain, out):
     """Force that the ring at `q`, moving at `v`, exerts on the balls, and its derivatives by both.
 
-    They are written into `out`, arrays of shape (5,), (5, 5) and (5, 5). The step is that begun last; `gain` leads
-    from places of balls to their rates, and is 0 at rest. Not a number where a ball finds no balance.
+    The ring moves in the first n directions, with `q` and `v` of shape (n,), and is held at 0 in the others. Its
+    force and the derivatives are written into `out`, arrays of shape (5,), (5, 5) and (5, 5), of which the others
+    stay 0. The step is that begun last; `gain` leads from places of balls to their rates, and is 0 at rest. Not a
+    number where a ball finds no balance.
     """
     force, stiffness, damping = out
     force[:], stiffness[:], damping[:] = 0.0, 0.0, 0.0
@@ -524,11 +531,11 @@ def press_angular(balls, films, q, v, gain, out):
         if not done:
             force[:] = nan
             return
-        _add_ball(rows, turned, cage, films.tangents, force, stiffness, damping)
+        _add_ball(rows, turned, cage, films.tangents, q.size, out)
     apply_loss(films.loss, force, stiffness, damping)
 
 
-@jit_exact_loop
+@jit_exact_called_node
 def accept_angular(balls, films, gain):
     """Move all films, balls and the cage to the end of the step, with the ring where `press_angular` was last."""
     g, omega = balls.grooves, films.omega[0]
@@ -545,12 +552,10 @@ def accept_angular(balls, films, gain):
         rate_i = at.cos_i * (d_r - v_r) + at.sin_i * (d_z - v_z) + heights[i, HEIGHT_RATE]
         rate_o = at.cos_o * v_r + at.sin_o * v_z + heights[o, HEIGHT_RATE]
         film, u = films.film, films.speed_sum
-        transit_i = balls.inner.contact_length_factor / (u[i, 0] * rolling_speed) if rolling_speed > 0.0 else 0.0
-        transit_o = balls.outer.contact_length_factor / (u[o, 0] * rolling_speed) if rolling_speed > 0.0 else 0.0
         u_i, u_o = at.l_i - (g.inner - heights[i, HEIGHT]), at.l_o - (g.outer - heights[o, HEIGHT])
         film_i, film_o = _film(films, i), _film(films, o)
-        film[i, 3] = accept_contact(balls.inner, transit_i, row, film_i, films, i, u_i, rate_i)
-        film[o, 3] = accept_contact(balls.outer, transit_o, row, film_o, films, o, u_o, rate_o)
+        film[i, 3] = accept_contact(balls.inner, u[i, TRANSIT], row, film_i, films, i, u_i, rate_i)
+        film[o, 3] = accept_contact(balls.outer, u[o, TRANSIT], row, film_o, films, o, u_o, rate_o)
         factors = film_factors(g, at)
         film[i, 2], film[i, 1] = film[i, 1], factors[0]
         film[o, 2], film[o, 1] = film[o, 1], factors[1]
@@ -569,7 +574,8 @@ def accept_angular(balls, films, gain):
             turned + films.force[k, 0] * at.orbit,
             free + at.orbit / balls.number,
         )
-        if omega > 0.0 and (g.control in (INNER, SHARED) or (films.steps[0] + k) % RENEWED == 0):
+        inclined = at.sin_i != 0.0 or at.sin_o != 0.0
+        if omega > 0.0 and inclined and (g.control in (INNER, SHARED) or (films.steps[0] + k) % RENEWED == 0):
             _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, films.inertia[k])
     films.steps[0] += 1
     films.turned[0, ANGLE_LAST] = films.turned[0, ANGLE_NOW]
@@ -595,7 +601,7 @@ def rest_angular(balls, films, q, out):
             factors = film_factors(balls.grooves, at)
             for j in range(3):
                 films.film[2 * k, j], films.film[2 * k + 1, j] = factors
-            films.speed_sum[2 * k], films.speed_sum[2 * k + 1] = at.u_i, at.u_o
+                films.speed_sum[2 * k, j], films.speed_sum[2 * k + 1, j] = at.u_i, at.u_o
             films.orbit[k], films.turned[1 + k, ANGLE_RATE] = at.orbit, at.ball_rotation
             if omega > 0.0:
                 _renew_inertia(balls, omega, b_r, b_z, c_r, c_z, films.inertia[k])

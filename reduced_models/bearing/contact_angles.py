@@ -34,7 +34,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ehlcontact.jit import inner, jit_exact
+from ehlcontact.jit import jit_exact_node
 
 CONTROLS = ("outer", "inner", "shared", "harris")
 OUTER, INNER, SHARED, HARRIS = range(4)
@@ -88,8 +88,7 @@ class Rolling(NamedTuple):
     u_o: float
 
 
-@inner
-@jit_exact
+@jit_exact_node
 def _rolls_at(cosine, sine):
     """Cosine and sine of the angle at which a ball rolls on a race, at most that of `LEAST_COSINE`."""
     if cosine.real >= LEAST_COSINE:
@@ -98,15 +97,13 @@ def _rolls_at(cosine, sine):
     return LEAST_COSINE + 0.0 * cosine, (most if sine.real >= 0.0 else -most) + 0.0 * sine
 
 
-@inner
-@jit_exact
+@jit_exact_node
 def _at_least(value, least):
     """The value, or a constant where it would be smaller."""
     return value if value.real > least else least + 0.0 * value
 
 
-@inner
-@jit_exact
+@jit_exact_node
 def inner_span(b_r, b_z, c_r, c_z):
     """Length of the inner spring and the vector along it.
 
@@ -119,7 +116,7 @@ def inner_span(b_r, b_z, c_r, c_z):
     return np.sqrt(s_r * s_r + s_z * s_z + TINY * TINY), s_r, s_z
 
 
-@jit_exact
+@jit_exact_node
 def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     """Angles and speeds of a ball at `b` with the inner groove centre at `c`.
 
@@ -128,9 +125,14 @@ def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     gamma = g.ball / g.pitch
     l_o = np.sqrt(b_r * b_r + b_z * b_z)
     l_i, s_r, s_z = inner_span(b_r, b_z, c_r, c_z)
-    cos_o, sin_o, cos_i, sin_i = b_r / l_o, b_z / l_o, s_r / l_i, s_z / l_i
-    (c_i, s_i), (c_o, s_o) = _rolls_at(cos_i, sin_i), _rolls_at(cos_o, sin_o)
+    per_i, per_o = 1.0 / l_i, 1.0 / l_o
+    cos_o, sin_o, cos_i, sin_i = b_r * per_o, b_z * per_o, s_r * per_i, s_z * per_i
     share = 0.0 * l_i
+    if sin_i == 0.0 and sin_o == 0.0:  # on no inclined contact nothing spins
+        orbit, u = 0.5 * (1.0 - gamma) + share, 0.5 * g.pitch * (1.0 - gamma * gamma) + share
+        turns = 0.5 * (1.0 - gamma * gamma) / gamma + share
+        return Rolling(l_i, cos_i, sin_i, l_o, cos_o, sin_o, orbit, turns, share, 1.0 + share, share, u, u)
+    (c_i, s_i), (c_o, s_o) = _rolls_at(cos_i, sin_i), _rolls_at(cos_o, sin_o)
     if g.control in (INNER, SHARED) and g_i.real > 0.0:
         ratio = g.outer_spin_moment * g_o * g_o / (g.inner_spin_moment * g_i * g_i)  # W_o/W_i
         share = 1.0 / (1.0 + (ratio if g.control == SHARED else (OF_OUTER * ratio) ** 2))
@@ -150,11 +152,12 @@ def rolling(g, b_r, b_z, c_r, c_z, g_i, g_o):
     )  # fmt: skip
 
 
-@inner
-@jit_exact
+@jit_exact_node
 def film_factors(g, at):
     """Films at both races over those of the tables, whose contacts have the nominal angle, at the same load."""
     gamma = g.ball / g.pitch
+    if g.cosine == 1.0 and at.sin_i == 0.0 and at.sin_o == 0.0:
+        return 1.0 + 0.0 * at.u_i, 1.0 + 0.0 * at.u_o
     nominal = gamma * g.cosine
     r_i, r_o = at.u_i / ((1.0 - at.orbit) * g.pitch), at.u_o / (at.orbit * g.pitch)  # radii of rolling
     u = 0.5 * g.pitch * (1.0 - nominal * nominal)
@@ -163,8 +166,7 @@ def film_factors(g, at):
     return film_i, film_o
 
 
-@inner
-@jit_exact
+@jit_exact_node
 def ball_forces(g, omega, at, q_i, q_o):
     """Forces on a ball in (r, z) [N] and its inner contact, the contacts pressed by `q_i` and `q_o` [N].
 

@@ -51,7 +51,6 @@ class BallMotion:
         self.balls, self.films, self.directions = balls, films_of_angular(balls), directions
         n = len(FIVE)
         self._gain, self._moving = 0.0, len(directions)
-        self._ring = np.zeros((2, n))
         self._out = np.zeros(n), np.zeros((n, n)), np.zeros((n, n))
 
     @property
@@ -76,10 +75,10 @@ class BallMotion:
 
         Films are those of the speed `omega` [rad/s]; the first ball is at `angle` [rad].
         """
-        self._ring[0, : self._moving] = q
+        place = np.array(q)  # for arrays that may only be read, kernels would be compiled a second time
         begin_angular_rest(self.balls, omega, angle, self.films)
         for _ in range(MOST_TIMES):
-            rest_angular(self.balls, self.films, self._ring[0], (*self._out, np.zeros(len(FIVE))))
+            rest_angular(self.balls, self.films, place, (*self._out, np.zeros(place.size)))
             before = self.films.heights[:, HEIGHT].copy()
             if self.balls.heights.shape[0] > 0:
                 find_heights(self.balls, self.films, angle, 0.0)
@@ -99,8 +98,7 @@ class BallMotion:
         Not a number where a ball finds no balance.
         """
         n = self._moving
-        self._ring[0, :n], self._ring[1, :n] = q, v
-        press_angular(self.balls, self.films, *self._ring, self._gain, self._out)
+        press_angular(self.balls, self.films, np.array(q), np.array(v), self._gain, self._out)
         force, stiffness, damping = self._out
         return force[:n].copy(), stiffness[:n, :n].copy(), damping[:n, :n].copy()
 
@@ -110,11 +108,10 @@ class BallMotion:
 
     def drive(self, omega: float, dt: float, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
         """Forces (k, n) of the ring, and of all balls (k, balls, 2), over steps that end at `q` and `v` (k, n)."""
-        places, rates, force = np.zeros((3, len(q), len(FIVE)))
-        places[:, : self._moving], rates[:, : self._moving] = q, v
-        loads = np.zeros((len(q), self.balls.number, 2))
-        _drive(self.balls, self.films, (omega, dt, places, rates), self._out, (force, loads))
-        return force[:, : self._moving].copy(), loads
+        n, loads = self._moving, np.zeros((len(q), self.balls.number, 2))
+        force = np.zeros((len(q), n))
+        _drive(self.balls, self.films, (omega, dt, np.array(q), np.array(v)), self._out, (force, loads))
+        return force, loads
 
 
 class BearingMotion:
@@ -251,7 +248,7 @@ def _drive(balls, films, motion, pushed, out):
         begin_angular_step(balls, omega, dt, films)
         press_angular(balls, films, q[i], v[i], 1.5 / dt, pushed)
         accept_angular(balls, films, 1.5 / dt)
-        for j in range(pushed[0].size):
+        for j in range(q.shape[1]):
             out[0][i, j] = pushed[0][j]
         for k in range(balls.number):
             out[1][i, k, 0], out[1][i, k, 1] = films.force[k, 0], films.force[k, 1]

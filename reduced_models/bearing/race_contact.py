@@ -106,6 +106,8 @@ def film_curve(u, film, row, weight, law, k):
     v, g, slope, stretch = u + lift, 0.0, 1.0, 1.0
     for _ in range(MOST_STEPS):
         g, slope, k = curve(v, row, weight, law, k)
+        if f == 1.0:
+            break
         stretch = (1.0 - f) * slope + f
         step = (u - (1.0 - f) * g - f * v) / stretch
         v, g = v + step, g + slope * step

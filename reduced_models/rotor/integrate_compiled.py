@@ -216,7 +216,7 @@ def _balance(steps, balls, films, rings, allowed):
                 for j in range(n):
                     ring[POSITION, i] += ties[i, j] * tried[R, j]
                     ring[VELOCITY, i] += ties[i, j] * tried[RATE, j]
-            q, v = ring[POSITION, first : first + d], ring[VELOCITY, first : first + d]
+            q, v = ring[POSITION, first : first + moving], ring[VELOCITY, first : first + moving]
             press_angular(balls[b], films[b], q, v, 1.5 / steps.dt, rings.pushed)
             for i in range(moving):
                 ring[RING_FORCE, first + i] = force[i]
