@@ -13,7 +13,7 @@ import numpy as np
 from ehlcontact import read
 from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
-from reduced_models import FilmMemoryContact
+from reduced_models import FilmContact
 
 RESULTS = Path("results/deep_groove_6205")
 PICTURE = Path("docs/images/overview.png")
@@ -50,7 +50,7 @@ def main() -> None:
     panel = axes[1, 0]
     found = json.loads((RESULTS / "results.json").read_text(encoding="utf-8"))
     film, rotor = found["memory"]["impedance"], found["operating_point"]["rotor_omega"]
-    memory = read(RESULTS / "elements" / "memory.json", FilmMemoryContact)
+    memory = read(RESULTS / "elements" / "memory.json", FilmContact)
     omega = np.geomspace(0.5 * rotor, film["Omega"][-1], 300)
     panel.loglog(film["Omega"][1:], film["damping"][1:], "o", markersize=4, label="full film")
     panel.plot(omega, memory.impedance(Omega=omega).imag / omega, label="film memory, one element")

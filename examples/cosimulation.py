@@ -17,14 +17,14 @@ import numpy as np
 
 from ehlcontact import Lubricant, OperatingPoint
 from fmu import export
-from reduced_models import Atlas, WideRangeContact, simulate_oscillator
+from reduced_models import Atlas, FilmContact, simulate_oscillator
 from reduced_models.rotor.decay import log_decrement
 
 MASS, LOAD = 1.0, 486.0  # kg, N
 DEFAULT, LATE = 1.5, 1.0  # values of lead
 
 
-def contact() -> WideRangeContact:
+def contact() -> FilmContact:
     """The most loaded ball of a 6205 on its inner race, with the memory of its film; in N, m, s."""
     sizes = {"ball_diameter": 7.94e-3, "pitch_diameter": 39.04e-3, "conformity": 0.52}
     oil = Lubricant.iso_vg(68, temperature=50.0)

@@ -70,8 +70,9 @@ def contact_spec(element: Element, model_name: str | None = None, lead: float = 
     InputError
         No contact element, a name that is empty, too long or not printable, or another lead.
     """
-    if not isinstance(element, Element):
-        raise InputError("element", type(element).__name__, "a contact element (linear, cubic, ..., wide)")
+    if not isinstance(element, Element) or element.kind == "speed":
+        kind = getattr(element, "kind", type(element).__name__)
+        raise InputError("element", kind, "a contact element (linear, cubic, ..., wide)")
     name = checked_name(f"{element.kind.capitalize()}Contact" if model_name is None else model_name)
     parts = _film_parts(element, lead) if isinstance(element, Film) else _spring_parts(element, lead)
     system = "SI units" if element.units == "SI" else _DIMENSIONLESS

@@ -8,14 +8,13 @@ from fmu.c_headers import c_double
 from fmu.lead import CONTACT
 from fmu.spec import VariableList
 from reduced_models import (
-    FilmMemoryContact,
-    WideRangeContact,
+    FilmContact,
 )
 from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import MARGIN
 
-Element = SpringContact | FilmMemoryContact | WideRangeContact
-Film = FilmMemoryContact | WideRangeContact
+Element = SpringContact | FilmContact
+Film = FilmContact
 
 ALLOWED_ERROR = 1e-4  # of the force in a step that is cut inside, where the importer gives no tolerance
 

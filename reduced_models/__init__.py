@@ -25,11 +25,9 @@ from reduced_models.bearing.features import RaceWaviness as RaceWaviness
 from reduced_models.bearing.features import Spall as Spall
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
 from reduced_models.bearing.oil_balance import OilBalance as OilBalance
-from reduced_models.elements.film_memory import FilmMemoryContact as FilmMemoryContact
-from reduced_models.elements.speed_range import SpeedRangeContact as SpeedRangeContact
+from reduced_models.elements.film_contact import FilmContact as FilmContact
 from reduced_models.elements.spring import SpringContact as SpringContact
 from reduced_models.elements.validity import OutsideValidityWarning as OutsideValidityWarning
-from reduced_models.elements.wide_range import WideRangeContact as WideRangeContact
 from reduced_models.fitting.fit import fit as fit
 from reduced_models.fitting.memory_fit import fit_memory as fit_memory
 from reduced_models.fitting.records import ContactRecord as ContactRecord

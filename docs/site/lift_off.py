@@ -25,9 +25,8 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from reduced_models import Atlas, WideRangeContact
-from reduced_models.elements.film_response import fit_gains
-from reduced_models.elements.wide_range import inlet_saturation_of
+from reduced_models import Atlas, FilmContact
+from reduced_models.elements.film_response import fit_gains, inlet_saturation_of
 from reduced_models.fitting.memory_fit import OMEGAS
 
 DOCS = Path(__file__).resolve().parents[1]
@@ -66,7 +65,7 @@ def element_of_region(point, domain):
         approach.append(film.approach * load ** (2.0 / 3.0))
         gains.append(fit_gains(rates, Z.Omega, Z.stiffness, Z.damping, float(Z.stiffness[0])).gains.tolist())
     saturation = inlet_saturation_of(solved, approach, solved, gains)
-    return WideRangeContact(solved, approach, solved, gains, inlet_saturation=saturation, **rates.coefficients)
+    return FilmContact.wide(solved, approach, solved, gains, inlet_saturation=saturation, **rates.coefficients)
 
 
 def run_of(case, snapshots=()):

@@ -41,12 +41,10 @@ from reduced_models.atlas.heat import Heated, rolling_heat
 from reduced_models.atlas.supply import Supplied
 from reduced_models.atlas.surface import opened, shipped_file
 from reduced_models.atlas.table import Box
-from reduced_models.elements.film_memory import FilmMemoryContact
+from reduced_models.elements.film_contact import FilmContact
 from reduced_models.elements.film_response import DRY, LEAST_VISCOUS, FilterRates
-from reduced_models.elements.speed_range import SpeedRangeContact
 from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import OutsideValidityWarning
-from reduced_models.elements.wide_range import WideRangeContact
 
 _Floats = NDArray[np.float64]
 
@@ -192,7 +190,7 @@ class Atlas:
         rpm: float | None = None,
         supply: OilLayer | None = None,
         thermal: Heat | bool | None = None,
-    ) -> FilmMemoryContact | WideRangeContact | SpringContact:
+    ) -> FilmContact | SpringContact:
         """Contact element at a point, in SI for an `OperatingPoint`.
 
         Parameters
@@ -233,7 +231,7 @@ class Atlas:
         *,
         supply: OilLayer | None = None,
         thermal: Heat | bool | None = None,
-    ) -> WideRangeContact:
+    ) -> FilmContact:
         """Wide element through answers at loads of one's own choice, in units of the point's, the reference load.
 
         As fine as wanted and as far as the box goes. The approach is that of `at` under each load, whose region
@@ -257,7 +255,7 @@ class Atlas:
         require_positive("loads[0]", float(column[0]))
         self.box.require_all_inside(_rows(moes, column), moes.alpha)
         element = self._remembering(point, column, conditions_at(point, supply, thermal))
-        assert isinstance(element, WideRangeContact)
+        assert isinstance(element, FilmContact)
         return element
 
     def element_over_speed(
@@ -267,7 +265,7 @@ class Atlas:
         *,
         supply: OilLayer | None = None,
         thermal: Heat | bool | None = None,
-    ) -> SpeedRangeContact:
+    ) -> FilmContact:
         """Contact element at any load and a speed that may change, in SI for an `OperatingPoint`.
 
         Parameters
@@ -305,7 +303,7 @@ class Atlas:
             at = replace(moes, M=moes.M * U**-0.75, L=moes.L * U**0.25)
             own = at if isinstance(point, MoesPoint) else replace(point, u_sum=point.u_sum * U)
             row = self._remembering(at, self._loads(at), conditions_at(own, supply, thermal), one_region=True)
-            assert isinstance(row, WideRangeContact)
+            assert isinstance(row, FilmContact)
             assert row.omega_range is not None
             rows.append(row)
             slowest = max(slowest, U * row.omega_range[0])
@@ -354,7 +352,7 @@ class Atlas:
 
     def _remembering(
         self, point: Point, over: _Floats | None, conditions: Sequence[Condition], *, one_region: bool = False
-    ) -> FilmMemoryContact | WideRangeContact:
+    ) -> FilmContact:
         """Wide-range element over these loads, or film memory about the point's own load.
 
         `one_region`: where oil floods the inlet, of all loads as far as under the point's own.

@@ -14,14 +14,12 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.atlas.frequency_curve import FrequencyCurve
-from reduced_models.elements.film_element import units_of
+from reduced_models.elements.film_contact import FilmContact, units_of
+from reduced_models.elements.film_curve import approach_under, film_and_exponent
 from reduced_models.elements.film_law import films
-from reduced_models.elements.film_memory import FilmMemoryContact, approach_under, film_and_exponent
-from reduced_models.elements.film_response import FilterRates
-from reduced_models.elements.speed_range import SpeedRangeContact
+from reduced_models.elements.film_response import FilterRates, inlet_saturation_of
 from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import MARGIN, Band
-from reduced_models.elements.wide_range import WideRangeContact, inlet_saturation_of
 
 _Floats = NDArray[np.float64]
 
@@ -73,12 +71,12 @@ def approaches_in_one_region(loads: _Floats, approach: _Floats, tangent: _Floats
     return np.asarray(1.0 - (own + (film - own) / (1.0 + (ADDED_UP / reference) ** 2)) / unit)
 
 
-def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
+def memory_element(at: Loads, scales: Scales | None) -> FilmContact:
     """Film-memory element about one load; film and its slope over the load follow from approach and tangent."""
     film, exponent = film_and_exponent(float(at.approach[0]), float(at.tangent[0]))
     low, high = (approach_under(load, film, exponent) for load in LOAD_BAND)
     force, length, time = units_of(scales)
-    return FilmMemoryContact(
+    return FilmContact.memory(
         film=film,
         exponent=exponent,
         inlet_saturation=0.0,
@@ -95,16 +93,16 @@ def memory_element(at: Loads, scales: Scales | None) -> FilmMemoryContact:
     )
 
 
-def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
+def wide_element(at: Loads, scales: Scales | None) -> FilmContact:
     """Wide-range element for all loads at one speed."""
     approach = at.approach * at.loads ** (2.0 / 3.0)
     saturation = inlet_saturation_of(at.loads, approach, at.loads, at.gains)
     _, length, time = units_of(scales)
-    return WideRangeContact(
-        loads=at.loads,  # type: ignore[arg-type]
-        approach=approach,  # type: ignore[arg-type]
-        gain_loads=at.loads,  # type: ignore[arg-type]
-        gains=at.gains,  # type: ignore[arg-type]
+    return FilmContact.wide(
+        loads=at.loads,
+        approach=approach,
+        gain_loads=at.loads,
+        gains=at.gains,
         inlet_saturation=saturation,
         **at.rates.coefficients,
         # beyond, closing makes more film than the static one; a starved contact hardly makes any
@@ -118,8 +116,8 @@ def wide_element(at: Loads, scales: Scales | None) -> WideRangeContact:
 
 
 def speed_element(
-    speeds: _Floats, rows: Sequence[WideRangeContact], omega: Band | None, scales: Scales | None
-) -> SpeedRangeContact:
+    speeds: _Floats, rows: Sequence[FilmContact], omega: Band | None, scales: Scales | None
+) -> FilmContact:
     """Element over speed from dimensionless ones of one reference load at `speeds` over that of the point.
 
     All rows get the loads of the lightest and the heaviest: beyond its own, the curve of a row goes on as that of
@@ -136,13 +134,13 @@ def speed_element(
         approach.append(loads ** (2.0 / 3.0) - h)
     reference = rows[int(np.argmin(np.abs(np.log(speeds))))]
     _, length, time = units_of(scales)
-    return SpeedRangeContact(
-        speeds=speeds,  # type: ignore[arg-type]
-        loads=loads,  # type: ignore[arg-type]
-        approach=approach,  # type: ignore[arg-type]
-        gain_loads=loads,  # type: ignore[arg-type]
-        gains=[row.gains_at(x).T for row in rows],  # type: ignore[arg-type]
-        inlet_saturation=[row.inlet_saturation for row in rows],  # type: ignore[arg-type]
+    return FilmContact.over_speed(
+        speeds=speeds,
+        loads=loads,
+        approach=approach,
+        gain_loads=loads,
+        gains=[row.gains_at(x).T for row in rows],
+        inlet_saturation=[row.inlet_saturation for row in rows],
         **reference.rates.coefficients,
         rate=None if reference.rate is None else reference.rate * length / time,
         omega_range=None if omega is None else (omega[0] / time, omega[1] / time),

@@ -84,7 +84,7 @@ from reduced_models.bearing.ring import (
 from reduced_models.bearing.shoulders import require_below_shoulders, shoulder_angle
 from reduced_models.bearing.skf_friction import friction_under
 from reduced_models.bearing.solved_balls import damping_left_out, signed_damping
-from reduced_models.elements.wide_range import WideRangeContact
+from reduced_models.elements.film_contact import FilmContact
 
 _Floats = NDArray[np.float64]
 
@@ -388,7 +388,7 @@ class BallBearing(Summary):
         return self._cache["races"][name]
 
     @takes(speed_rpm="rev/min")
-    def element(self, race: str, speed_rpm: float) -> WideRangeContact:
+    def element(self, race: str, speed_rpm: float) -> FilmContact:
         """Element of a ball's contact with one race [SI], for all loads that the atlas has at this speed."""
         contact, speed = self.race(race), self.speed(speed_rpm)
         if self.oil is None:

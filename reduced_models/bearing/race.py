@@ -32,7 +32,7 @@ from reduced_models.atlas.supply import heaviest_load, supply_box
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, speed_sum_per_omega
 from reduced_models.bearing.race_contact import film_cutoff
 from reduced_models.bearing.ring import RingEquilibrium
-from reduced_models.elements.wide_range import WideRangeContact
+from reduced_models.elements.film_contact import FilmContact
 
 _Floats = NDArray[np.float64]
 
@@ -145,7 +145,7 @@ class Race:
             allowed = f"such that a ball carries at most {highest:.4g} N on the {self.name} race, {end}"
             raise InputError(field, value, f"{allowed} (here {force:.4g} N)")
 
-    def element(self, speed_rpm: float) -> WideRangeContact:
+    def element(self, speed_rpm: float) -> FilmContact:
         """Contact element for all loads of the atlas at this speed, in SI.
 
         It goes through the same loads in N at every speed, but for its ends: so K and C change smoothly with it.

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
-from reduced_models.elements.film_element import FilmContact
+from reduced_models.elements.film_contact import FilmContact
 from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.film_law import LEAST_MADE, FilmLaw, films, static
 

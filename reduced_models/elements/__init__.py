@@ -13,11 +13,8 @@
 | film_curve | static curve of a film law from a table of loads |
 | film_response | transfer functions of the filters: gains from an impedance, passivity |
 | small_motion | linear law about rest, of elements and bearings alike: impedance and state space |
-| film_element | elements with a film memory: state, steps, tangents, impedance |
-| film_memory | `FilmMemoryContact`: one load |
-| wide_range | `WideRangeContact`: every load |
-| film_speed | compiled: the speed at which the film in a contact was made, while the speed changes |
-| speed_range | `SpeedRangeContact`: any load, a speed that may change |
+| film_contact | `FilmContact`: elements with a film memory: about one load, for every load, over the speed |
+| film_speed | film laws over the speed; the speed at which the film in a contact was made, while it changes |
 | motion_errors | error of wide-range elements by kind of motion, from full solves |
 | element_summary | summary and figure of an element |
 

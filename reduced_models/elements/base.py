@@ -92,7 +92,6 @@ class ContactElement(ElementSummary, _Common, ABC):
     low: float  # fields of the subclass, so that they follow its coefficients
     high: float
     validity: Validity
-    beyond: ClassVar[Mapping[str, str]] = {}  # what to take instead, by what was left: "motion", "frequency"
     _warned: set[str]
     _reach: tuple[float, float, float, float, float]
 
@@ -209,6 +208,11 @@ class ContactElement(ElementSummary, _Common, ABC):
     @abstractmethod
     def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
         """Fields of the element in SI, its validity box and units apart."""
+
+    @property
+    def _beyond(self) -> Mapping[str, str]:
+        """What to take instead, by what of the validity box was left: "motion", "frequency"."""
+        return {}
 
     @property
     def parameter_names(self) -> tuple[str, ...]:
@@ -332,7 +336,7 @@ class ContactElement(ElementSummary, _Common, ABC):
         if new:
             self._note(set(new))
             left = ", ".join(word for words in new.values() for word in words)
-            advice = "".join(f"; {self.beyond[reason]}" for reason in new if reason in self.beyond)
+            advice = "".join(f"; {self._beyond[reason]}" for reason in new if reason in self._beyond)
             message = f"{self._summary_name()} used outside its validity box: {left}{advice}"
             warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel + 1)
 

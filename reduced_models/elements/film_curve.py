@@ -1,8 +1,9 @@
-"""Static curve of a film law: loads and approaches to interpolation nodes, from lift-off to overload."""
+"""Static curve of a film law: nodes from loads and approaches, or from a film that is a power of the load."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import scipy
@@ -59,6 +60,27 @@ def curve_nodes(loads: ArrayLike, approach: ArrayLike) -> dict[str, _Floats]:
         "slope": np.append(RIGID_SLOPE, slope),
         "u": np.append(np.exp(2.0 / 3.0 * below[0]) - np.exp(below[1]), u),
     }
+
+
+def film_and_exponent(approach: float, tangent: float) -> tuple[float, float]:
+    """Static film at load 1 and how it thins with the load, from approach and static tangent K_0 there.
+
+    1/K_0 = 2/3 + exponent film, the derivative of u = F^(2/3) - film F^-exponent; but at least `LEAST_EXPONENT`.
+    """
+    film = 1.0 - approach
+    return film, max((1.0 / tangent - 2.0 / 3.0) / film, LEAST_EXPONENT)
+
+
+def approach_under(load: Any, film: float, exponent: float) -> Any:
+    """Static approach u = F^(2/3) - film F^-exponent under a load F, a number or an array."""
+    return load ** (2.0 / 3.0) - film * load**-exponent
+
+
+def power_nodes(film: float, exponent: float) -> dict[str, _Floats]:
+    """Nodes of ln h_s over ln F for `FilmLaw`, of a film h_s = film F^-exponent."""
+    x = np.array([-1.0, 1.0])  # a straight line: any two points
+    y = math.log(film) - exponent * x
+    return {"x": x, "y": y, "slope": np.full(2, -exponent), "u": np.exp(2.0 / 3.0 * x) - np.exp(y)}
 
 
 def require_rising(law: FilmLaw) -> None:

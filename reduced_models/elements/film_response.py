@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.process.blas import one_blas_thread
+from reduced_models.elements.film_filters import DIRECT
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -200,3 +201,14 @@ def fit_gains(
         gains[0] -= 1.001 * rates.least_dissipation(gains)
     G = basis @ gains
     return GainFit(gains, static - w * G.imag, G.real, rows @ gains - target)
+
+
+def inlet_saturation_of(loads: ArrayLike, approach: ArrayLike, gain_loads: ArrayLike, gains: ArrayLike) -> float:
+    """Beta at which opening takes away at most the static film at load 1: film made per own rate over that film.
+
+    Parameters as for `FilmContact.wide`.
+    """
+    places, x = np.log(np.asarray(gain_loads, float)), np.log(np.asarray(loads, float))
+    made = np.interp(0.0, places, np.abs(np.asarray(gains, float)[:, DIRECT:]).sum(axis=1))
+    film = np.interp(0.0, x, np.exp(2.0 / 3.0 * x) - np.asarray(approach, float))
+    return float(made / film)

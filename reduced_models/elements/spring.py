@@ -88,9 +88,6 @@ class SpringContact(ContactElement):
         "polynomial": ("K1", "C1", "K2", "C2", "K3", "C3", "B4"),
         "power": ("K", "n", "u0", "F0", "C1"),
     }
-    beyond: ClassVar[Mapping[str, str]] = {
-        "frequency": "it is for the band it was made in: a film memory (model 'memory' or 'wide') is for all"
-    }
     law: _Floats = field(init=False, repr=False, compare=False)
 
     @classmethod
@@ -173,6 +170,11 @@ class SpringContact(ContactElement):
         object.__setattr__(self, "law", joined(self._law()))
         require_rising(self.law)
         require_size("damping", float(np.abs(self._parts([self.low, self.high])[1]).max()))
+
+    @property
+    def _beyond(self) -> Mapping[str, str]:
+        text = "it is for the band it was made in: a film memory (model 'memory' or 'wide') is for all"
+        return {"frequency": text}
 
     def _check_coefficients(self) -> None:
         super()._check_coefficients()

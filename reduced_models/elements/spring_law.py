@@ -173,10 +173,11 @@ def joined(law: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def require_rising(law: NDArray[np.float64]) -> None:
     """Raise `InputError` where a cubic that rises at both ends falls in between."""
-    if law[K3] <= 0.0:  # the tangent is a line, or highest in the middle
+    low, high, k2, k3 = law[[LOW, HIGH, K2, K3]].tolist()
+    if k3 <= 0.0:  # the tangent is a line, or highest in the middle
         return
-    lowest = -law[K2] / (3.0 * law[K3])  # where the tangent is lowest
-    if law[LOW] < lowest < law[HIGH]:
+    lowest = -k2 / (3.0 * k3)  # where the tangent is lowest
+    if low < lowest < high:
         slope = inside(lowest, law)[1]
         if not slope > 0.0:
             raise InputError(f"spring tangent at approach {lowest:.4g}", slope, f"> 0 {ADVICE}")
@@ -185,11 +186,12 @@ def require_rising(law: NDArray[np.float64]) -> None:
 def require_dissipation(law: NDArray[np.float64]) -> None:
     """Raise `InputError` where a damper feeds energy into a cycle somewhere in the box or beyond it."""
     # Even powers of the rate cancel over a cycle; what remains is linear in u and in u'^2: look at corners.
-    reach = 0.5 * (law[HIGH] - law[LOW])
-    cubed = law[C3] * law[RATE] ** 2 if law[C3] != 0.0 else 0.0
-    for u in (law[LOW] - reach, law[HIGH] + reach):
+    low, high, c1, c3, b4, rate = law[[LOW, HIGH, C1, C3, B4, RATE]].tolist()
+    reach = 0.5 * (high - low)
+    cubed = c3 * rate**2 if c3 != 0.0 else 0.0
+    for u in (low - reach, high + reach):
         for more in (0.0, cubed):
-            damping = float(law[C1] + law[B4] * u + more)
+            damping = c1 + b4 * u + more
             if not damping >= 0.0:
                 raise InputError(
                     f"cycle damping C1 + B4 u + C3 rate^2 at u = {u:.4g}", damping, ">= 0 (fit the cubic model)"

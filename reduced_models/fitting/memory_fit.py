@@ -15,8 +15,9 @@ from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import ImpedanceResult
+from reduced_models.elements.film_contact import FilmContact
+from reduced_models.elements.film_curve import approach_under, film_and_exponent, power_nodes
 from reduced_models.elements.film_law import FilmLaw, film_drive
-from reduced_models.elements.film_memory import FilmMemoryContact, approach_under, film_and_exponent, memory_curve
 from reduced_models.elements.film_response import WEIGHT_C, WEIGHT_K, FilterRates, GainFit, fit_gains
 from reduced_models.elements.validity import Validity
 from reduced_models.fitting.records import ContactRecord, as_records
@@ -234,9 +235,9 @@ def cross_validate(target: Target, lags: int) -> float:
     return float(np.sqrt(np.mean(squares)))
 
 
-def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
+def _solve(target: Target, lags: int) -> tuple[FilmContact, GainFit]:
     """Nonlinear least squares over logs of the rates and the inlet saturation, gains projected out."""
-    curve = memory_curve(*target.film)
+    curve = power_nodes(*target.film) | {"gain_x": np.zeros(1)}
 
     def parts(p: _Floats) -> tuple[FilterRates, GainFit, float]:
         rates = FilterRates(lags, *(float(value) for value in np.exp(p[:3])))
@@ -274,9 +275,9 @@ def _solve(target: Target, lags: int) -> tuple[FilmMemoryContact, GainFit]:
     return _element(target, rates, gains, inlet_saturation), gains
 
 
-def _element(target: Target, rates: FilterRates, gains: GainFit, inlet_saturation: float) -> FilmMemoryContact:
+def _element(target: Target, rates: FilterRates, gains: GainFit, inlet_saturation: float) -> FilmContact:
     film, exponent = target.film
-    return FilmMemoryContact(
+    return FilmContact.memory(
         film=film,
         exponent=exponent,
         inlet_saturation=inlet_saturation,

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ehlcontact.results.table import frame_of, plain
 from ehlcontact.summary import Summary
 from reduced_models.elements.base import ContactElement
-from reduced_models.elements.film_memory import FilmMemoryContact
+from reduced_models.elements.film_contact import FilmContact
 from reduced_models.elements.spring import SpringContact
 
 _Floats = NDArray[np.float64]
@@ -153,7 +153,7 @@ class MemoryFit(ElementFit):
         As in `ElementFit`.
     """
 
-    element: FilmMemoryContact
+    element: FilmContact
     record_rms: tuple[float, ...]
     damping_error: _Floats
     stiffness_error: _Floats

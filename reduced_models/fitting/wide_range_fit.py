@@ -16,9 +16,8 @@ from ehlcontact.checks.frequency import by_name
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from ehlcontact.point import Point, moes_point, require_solvable, scales_of
-from reduced_models.elements.film_memory import FilmMemoryContact
-from reduced_models.elements.film_response import FilterRates, fit_gains
-from reduced_models.elements.wide_range import WideRangeContact, inlet_saturation_of
+from reduced_models.elements.film_contact import FilmContact
+from reduced_models.elements.film_response import FilterRates, fit_gains, inlet_saturation_of
 from reduced_models.fitting.memory_fit import OMEGAS, RATE_STARTS, SEARCH, SEARCH_LIMITS, TRANSIT_TIME, Response
 
 _Floats = NDArray[np.float64]
@@ -36,9 +35,9 @@ def wide_range_contact(
     responses: Sequence[Response],
     *,
     lags: int = 12,
-    memory: FilmMemoryContact | None = None,
+    memory: FilmContact | None = None,
     source: dict[str, Any] | None = None,
-) -> WideRangeContact:
+) -> FilmContact:
     """Element from tables, every row in the units of its own load, as solves at that load give them.
 
     Parameters
@@ -53,7 +52,7 @@ def wide_range_contact(
         In the units of their loads.
     lags : int
         Length of the chain, where `memory` does not set it.
-    memory : FilmMemoryContact, optional
+    memory : FilmContact, optional
         Element fitted at the reference load, whose rates and inlet saturation are taken. Without it the rates are
         fitted to all impedances together, and the saturation is that of `inlet_saturation_of`.
     source : dict, optional
@@ -78,11 +77,11 @@ def wide_range_contact(
     gains = [fit_gains(rates, r.Omega, r.stiffness, r.damping, _static(r)).gains.tolist() for r in responses]
     saturation = inlet_saturation_of(at, u, places, gains) if memory is None else memory.inlet_saturation
     bands = [(float(np.min(r.Omega)), float(np.max(r.Omega))) for r in responses]
-    return WideRangeContact(
-        loads=at,  # type: ignore[arg-type]
-        approach=u,  # type: ignore[arg-type]
-        gain_loads=places,  # type: ignore[arg-type]
-        gains=gains,  # type: ignore[arg-type]
+    return FilmContact.wide(
+        loads=at,
+        approach=u,
+        gain_loads=places,
+        gains=gains,
         inlet_saturation=saturation,
         **rates.coefficients,
         omega_range=(min(low for low, _ in bands), max(high for _, high in bands)),
@@ -97,10 +96,10 @@ def wide_range_from_solves(
     *,
     memory_loads: Sequence[float] = MEMORY_LOADS,
     Omega: Sequence[float] = OMEGAS,
-    memory: FilmMemoryContact | None = None,
+    memory: FilmContact | None = None,
     lags: int = 12,
     n: int = 128,
-) -> WideRangeContact:
+) -> FilmContact:
     """Solve at M times each load and build the element; the domain of every solve is that of its own load.
 
     Parameters

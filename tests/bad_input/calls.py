@@ -79,7 +79,7 @@ def element_of(kind, section=None, **changes):
     """An element from the entries of a file, some of them changed."""
     entries = copy.deepcopy(elements()[kind])
     (entries if section is None else entries[section]).update(changes)
-    return {"memory": rm.FilmMemoryContact, "wide": rm.WideRangeContact}[kind].from_dict(entries)
+    return rm.FilmContact.from_dict(entries)
 
 
 def rows_of_gains():

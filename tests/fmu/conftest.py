@@ -19,10 +19,9 @@ from fmu.driver import Exchange
 from fmu.driver import Slave as DriverSlave
 from fmu.jeffcott.model import JeffcottModel
 from reduced_models import (
-    FilmMemoryContact,
+    FilmContact,
     JeffcottRotor,
     SpringContact,
-    WideRangeContact,
 )
 
 # Table 3, case 2 of Nonato and Cavalca (2010) in round numbers; the interval is that of a free vibration.
@@ -39,8 +38,8 @@ GAINS = (0.001, 0.002, 0.005, 0.013, 0.0, 0.009, 0.011, 0.0, 0.0, 0.0, 0.021)
 LOADS = np.array([0.005, 0.02, 0.1, 0.3, 1.0, 3.0])
 CURVE = LOADS ** (2.0 / 3.0) - [0.0649, 0.0659, 0.0626, 0.0574, 0.0499, 0.0400]
 ROWS = tuple(tuple(scale * g for g in GAINS) for scale in (2.0, 1.0, 0.6))
-MEMORY = FilmMemoryContact(film=0.129, exponent=0.13, gains=GAINS, **FILTERS, **BOX)
-WIDE = WideRangeContact(LOADS, CURVE, (0.03, 0.3, 2.0), ROWS, **FILTERS, **BOX)
+MEMORY = FilmContact.memory(film=0.129, exponent=0.13, gains=GAINS, **FILTERS, **BOX)
+WIDE = FilmContact.wide(LOADS, CURVE, (0.03, 0.3, 2.0), ROWS, **FILTERS, **BOX)
 SPRINGS = ELEMENTS | {"polynomial": POLYNOMIAL, "power": POWER, "power_si": POWER.to_si(SCALES)}
 SPRINGS["polynomial without rate"] = SpringContact.polynomial(0.62, 0.02, 0.75, 0.0, -0.17, 0.0, 0.01, 0.75, 1.0)
 FILMS = {"memory": MEMORY, "wide": WIDE, "wide_si": WIDE.to_si(SCALES)}

@@ -5,7 +5,7 @@ import pytest
 
 from ehlcontact import Lubricant
 from ehlcontact.point import Scales
-from reduced_models import Atlas, BallBearing, ContactRecord, FilmMemoryContact, SpringContact
+from reduced_models import Atlas, BallBearing, ContactRecord, FilmContact, SpringContact
 
 # Nonato and Cavalca (2010), Table 3 case 2 (free vibration, Omega_n = 5.13).
 PAPER = {"K1": 0.806, "K2": 0.346, "K3": 0.054, "C1": 0.013}
@@ -51,7 +51,7 @@ def linear():
 @pytest.fixture
 def memory():
     """Fitted to M = 200, L = 10, kappa = 0.5 on n = 64."""
-    return FilmMemoryContact(
+    return FilmContact.memory(
         film=0.129,
         exponent=0.13,
         inlet_saturation=0.25,

@@ -1,4 +1,4 @@
-/* Contact elements with a film memory, of reduced_models.elements.film_memory and wide_range: the film law of film_law.c in the
+/* Contact elements with a film memory, of reduced_models.elements.film_contact: the film law of film_law.c in the
  * units of the FMU. The states are those of continuous time: inlet, fast part, chain. Equations in README.md. */
 #include <math.h>
 #include <string.h>

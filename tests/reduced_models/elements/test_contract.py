@@ -14,11 +14,9 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.store import read as read_file
 from reduced_models import (
-    FilmMemoryContact,
+    FilmContact,
     OutsideValidityWarning,
-    SpeedRangeContact,
     SpringContact,
-    WideRangeContact,
 )
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.scaled_contact import has_tangents
@@ -38,9 +36,9 @@ MADE = {
     "cubic": SpringContact.cubic(0.806, 0.346, 0.054, 0.013, **BOX),
     "polynomial": SpringContact.polynomial(0.806, 0.004, 0.346, 0.002, 0.054, -0.001, 0.010, **BOX),
     "power": SpringContact.power(0.95, 1.7, 0.15, -0.05, 0.013, **BOX),
-    "memory": FilmMemoryContact(film=0.129, exponent=0.13, gains=GAINS, **FILTERS, **BOX),
-    "wide": WideRangeContact(LOADS, CURVE, (0.03, 0.3, 2.0), ROWS, **FILTERS, **BOX),
-    "speed": SpeedRangeContact(
+    "memory": FilmContact.memory(film=0.129, exponent=0.13, gains=GAINS, **FILTERS, **BOX),
+    "wide": FilmContact.wide(LOADS, CURVE, (0.03, 0.3, 2.0), ROWS, **FILTERS, **BOX),
+    "speed": FilmContact.over_speed(
         (0.4, 1.0, 1.5),
         LOADS,
         (SLOWER, CURVE, CURVE),
@@ -260,7 +258,7 @@ def test_file_keeps_every_bit(asked, tmp_path):
     assert (document["header"]["class"], document["kind"]) == (type(e).__name__, e.kind)
     assert list(document["parameters"]) == list(e.parameter_names)
     assert list(document["valid"]) == ["low", "high", "rate", "load", "omega"]
-    other = SpringContact if e.state_count else FilmMemoryContact
+    other = SpringContact if e.state_count else FilmContact
     with pytest.raises(InputError, match=rf"class '{type(e).__name__}'"):
         read_file(path, other)
 

@@ -6,14 +6,14 @@ import numba
 import numpy as np
 import pytest
 
-from reduced_models import SpringContact, WideRangeContact
+from reduced_models import FilmContact, SpringContact
 from reduced_models.elements import film_filters, film_law, jet, spring_law
 
 BOX = {"low": 0.75, "high": 1.0}
 POLYNOMIAL = SpringContact.polynomial(0.806, 0.004, 0.346, 0.002, 0.054, -0.001, 0.010, rate=1.2, **BOX).law
 VISCOUS = SpringContact.polynomial(0.806, 0.004, 0.346, 0.0, 0.054, 0.0, 0.0, **BOX).law
 POWER = SpringContact.power(0.95, 1.7, 0.15, -0.05, 0.013, **BOX).law
-FILM = WideRangeContact(
+FILM = FilmContact.wide(
     (0.1, 1.0, 3.0), (0.15, 0.95, 2.04), (0.3, 2.0), ((0.02, 0.01, 0.05, 0.2, 0.1), (0.01, 0.0, 0.03, 0.1, 0.05)),
     inlet_saturation=0.2, lag_rate=2.5, inlet_rate=20.0, fast_rate=60.0,
 ).law  # fmt: skip

@@ -16,7 +16,7 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from reduced_models import OutsideValidityWarning, WideRangeContact, fit_memory, simulate_oscillator
+from reduced_models import FilmContact, OutsideValidityWarning, fit_memory, simulate_oscillator
 from reduced_models.fitting.wide_range_fit import wide_range_contact, wide_range_from_solves
 
 # Shape of M = 2900, L = 19, kappa = 0.11.
@@ -38,7 +38,7 @@ TABLES = {
 
 @pytest.fixture
 def wide():
-    return WideRangeContact(**TABLES)
+    return FilmContact.wide(**TABLES)
 
 
 def test_static_curve_goes_through_its_table(wide):
@@ -211,7 +211,7 @@ def test_oscillator_agrees_with_steps_at_every_load(wide):
 )
 def test_bad_tables_are_named(changes, message):
     with pytest.raises(InputError, match=message):
-        WideRangeContact(**(TABLES | changes))
+        FilmContact.wide(**(TABLES | changes))
 
 
 def test_from_solves_meets_loads_it_was_not_made_of():
@@ -259,7 +259,7 @@ def test_a_6205_from_lift_off_to_overload():
 
 def test_a_record_outside_the_box_warns_once(wide):
     t, still = np.array([0.0, 1.0, 2.0]), np.zeros(3)
-    words = r"^WideRangeContact \(wide\) used outside .*force 4\.\S+ \(fitted"
+    words = r"^FilmContact \(wide\) used outside .*force 4\.\S+ \(fitted"
     with pytest.warns(OutsideValidityWarning, match=words) as told:
         for _ in range(2):
             wide.drive(t, np.full(3, wide.approach_at(4.2)), still)
