@@ -106,7 +106,7 @@ class Interpolation:
             raise InputError("degree of the atlas", self.degree, f"{KERNELS[self.kernel]} beside {self.kernel!r}")
 
 
-@stored("table of an atlas", 5)
+@stored("table of an atlas")
 @dataclass(frozen=True, eq=False)
 class Table:
     """Solved points of a recipe; ``table[name]`` is an axis or a column in double precision.
