@@ -106,7 +106,7 @@ class AtlasAnswer(ScaledTable):
 
     @property
     def film_origin(self) -> str:
-        """How the smallest film was found, and how sure it is, in words."""
+        """Source of the smallest film and its error bar, in words."""
         return f"from the atlas, ± {100.0 * self.error_bars['h_min'] / self.h_min:.2g} %"
 
     @property
@@ -163,9 +163,9 @@ class AtlasAnswer(ScaledTable):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON; of an SI point with ``si``."""
-        found = super().to_dict() | {"point": self.point.to_dict(), "scales": plain(self.scales)}
-        found |= {} if self.temperature is None else {"temperature": self.temperature.to_dict()}
-        return found | {"outside_assumptions": self.outside_assumptions}
+        document = super().to_dict() | {"point": self.point.to_dict(), "scales": plain(self.scales)}
+        document |= {} if self.temperature is None else {"temperature": self.temperature.to_dict()}
+        return document | {"outside_assumptions": self.outside_assumptions}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -141,11 +141,11 @@ class Atlas:
         Parameters
         ----------
         M, L, kappa : array_like, shape (n,)
-            Or numbers, the same for all.
+            Or numbers, which hold for all.
         alpha, eta0 : float, optional
             Of the oil [1/Pa, Pa s]; by default those of the atlas.
         supply : OilLayer, optional
-            In flooded films or dry approaches, the same number at all points; some milliseconds a point.
+            In flooded films or dry approaches, one number for all points; some milliseconds a point.
         thermal : optional
             Refused: heat depends on the speed and the viscosity in SI. `at` takes it at an `OperatingPoint`.
 
@@ -331,7 +331,7 @@ class Atlas:
         for numbers in (named, bars):
             numbers |= {name: float(numbers[name]) for name in NUMBERS}
         for condition in conditions:
-            named |= condition.noted(float(flooded[0, 1]), named["h_central"])
+            named |= condition.noted(float(flooded[0, 1]))
         return AtlasAnswer(moes, Omega=Omega, **named, error_bars=bars, scales=scales_of(point))
 
     def _cubic(self, point: Point, w: float, conditions: Sequence[Condition]) -> SpringContact:

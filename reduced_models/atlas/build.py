@@ -173,7 +173,7 @@ def entry_key(solve: Solve, point: Any) -> str:
     return key_of([solve.__module__, solve.__qualname__, point.to_dict()])
 
 
-def _require_enough(things: str, found: Sized, advice: str) -> None:
+def _require_enough(things: str, entries: Sized, advice: str) -> None:
     """Raise `InputError` unless a table can be made of these."""
-    if len(found) < FEWEST:
-        raise InputError(things, len(found), f"at least {FEWEST}{advice}")
+    if len(entries) < FEWEST:
+        raise InputError(things, len(entries), f"at least {FEWEST}{advice}")

@@ -112,8 +112,8 @@ class Condition(ABC):
         return after.values[:, 0]
 
     @abstractmethod
-    def noted(self, flooded: float, film: float) -> dict[str, Any]:
-        """Fields of an `AtlasAnswer` for it; central films, flooded and isothermal, and under all conditions."""
+    def noted(self, flooded: float) -> dict[str, Any]:
+        """Fields of an `AtlasAnswer` for it, given the flooded isothermal central film."""
 
     @abstractmethod
     def to_dict(self) -> dict[str, Any]:

@@ -380,7 +380,7 @@ class Heated(Condition):
         others = self._moes.L, self._moes.kappa, self.thermal_load, self.heat.temperature_slope
         return np.column_stack([self._moes.M * loads, *(np.full(loads.size, number) for number in others)])
 
-    def noted(self, flooded: float, film: float) -> dict[str, Any]:
+    def noted(self, flooded: float) -> dict[str, Any]:
         """Heat of the answer."""
         changes, _ = shipped("heat").at(self._rows(np.ones(1)))
         share = exp(changes[0, NUMBERS.index("h_central")])

@@ -444,7 +444,7 @@ class Supplied(Condition):
             )
             raise InputError("supply", f"{thinnest:.2g} flooded films", allowed)
 
-    def noted(self, flooded: float, film: float) -> dict[str, Any]:
+    def noted(self, flooded: float) -> dict[str, Any]:
         """r, for which the flooded isothermal central film is needed."""
         isothermal = np.array([flooded])
         return {"over_flooded": float(self.ratio(np.ones(1), isothermal, isothermal)[0])}

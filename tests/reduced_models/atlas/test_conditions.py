@@ -37,7 +37,7 @@ class Thinner(Condition):
         rows = zip(before.impedance, after.impedance, np.maximum(gains, 0.0), low.tolist(), strict=True)
         return np.array([heated_gains(after.Omega, cold, hot, g, rates, unit) for cold, hot, g, unit in rows])
 
-    def noted(self, flooded, film):
+    def noted(self, flooded):
         """Nothing."""
         return {}
 
