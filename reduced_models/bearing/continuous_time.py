@@ -5,12 +5,12 @@ Both contacts of a ball have the force
     F = share k_n (g(u) + c tau u' + sum g_j x_j)_+^(3/2)
 
 with g_j/G for the states of the chain (`film_law`).
-A planar ball without inertia has F_o = F_i + F_c, from which w' follows: it lies above the rate at which the outer
-contact lets go, and below the rate at which the inner one does or the outer one carries F_c alone. A ball with
-inertia has w' as a state, and m w'' = F_i + F_c - F_o.
-
-A ball at contact angles has its rate b' from the balance of both contact forces along their normals, centrifugal
+A ball without inertia has its rate b' from the balance of both contact forces along their normals, centrifugal
 force and friction that turns its axis: the minimum of a convex function, for both forces rise with their rates.
+Along the outer contact that rate lies above the one at which this contact lets go, and below the one at which the
+inner contact does or the outer one carries all other forces. A ball with inertia m has b' as a state. Between
+rings that are held along the shaft and cannot tilt a ball moves along its outer contact alone.
+
 Films follow the angles and speeds of their ball at once; the cage turns at the mean speed of the balls by their
 loads, as in `angular_steps`. Places are counted from rest, so that small changes keep their digits.
 """
@@ -103,36 +103,6 @@ def _balance(inner, outer, rate, centrifugal):
     return _pushed(ki, ai + di * (rate - z))[0], z
 
 
-@jit_exact
-def bearing_rates(balls, at_speed, normals, states, r, v, rates, force):
-    """Fill the rates of all balls' states [m/s] and the force of the ring at `r`, moving at `v`, on the balls."""
-    wet, first = balls.inner.x.size > 0, 2 if balls.inertia > 0.0 else 1
-    size_i = balls.inner.gains.shape[2] - 1 if wet else 0
-    size_o = balls.outer.gains.shape[2] - 1 if wet else 0
-    force[:] = 0.0
-    for k in range(balls.number):
-        x, y, at = normals[k, 0], normals[k, 1], k * (first + size_i + size_o)
-        delta = x * r[0] + y * r[1] - balls.half_clearance
-        rate = x * v[0] + y * v[1] + at_speed.cage * (x * r[1] - y * r[0])
-        w, second = states[at], at + first + size_i
-        inner = _held(balls.inner, at_speed.inner, at_speed.speed_row, None, delta - w, states, at + first)
-        outer = _held(balls.outer, at_speed.outer, at_speed.speed_row, None, w, states, second)
-        if first == 2:
-            own = states[at + 1]
-            pushed = _pushed(inner[2], inner[0] + inner[1] * (rate - own))[0]
-            held = _pushed(outer[2], outer[0] + outer[1] * own)[0]
-            rates[at + 1] = (pushed + at_speed.centrifugal - held) / balls.inertia
-        else:
-            pushed, own = _balance(inner, outer, rate, at_speed.centrifugal)
-        rates[at] = own
-        if wet:
-            at_i, at_o = slice(at + first, second), slice(second, second + size_o)
-            filter_rates(balls.inner, inner[4] * states[at_i][0], inner[3], rate - own, states[at_i], rates[at_i])
-            filter_rates(balls.outer, outer[4] * states[at_o][0], outer[3], own, states[at_o], rates[at_o])
-        force[0] += pushed * x
-        force[1] += pushed * y
-
-
 class RestingBalls(NamedTuple):
     """Balls at contact angles at rest, from which their states are counted."""
 
@@ -178,14 +148,16 @@ def _rates_in_balance(inner, outer, normal, moving, pushed, across):
 
 
 @jit_exact
-def angular_rates(balls, rest, angle, cage, states, q, v, rates, force):
+def bearing_rates(balls, rest, angle, cage, states, q, v, rates, force):
     """Fill the rates of all balls' states and the force of the ring at `q`, moving at `v`, on the balls.
 
-    The first ball is at `angle` [rad], and the cage turns at `cage` [rad/s]; returned is the speed at which the
-    balls would turn it.
+     The ring moves in the first n directions, `q` and `v` have shape (n,). The first ball is at `angle` [rad], and
+    the  cage turns at `cage` [rad/s]; returned is the speed at which the balls would turn it.
     """
     g, omega, inertia = balls.grooves, balls.omega, rest.inertia
-    wet, first, rolling_speed = balls.inner.x.size > 0, 4 if inertia > 0.0 else 2, max(omega, balls.speeds[0])
+    places = 1 if q.size == 2 else 2  # of a ball: along and across its outer contact
+    wet, first = balls.inner.x.size > 0, 2 * places if inertia > 0.0 else places
+    rolling_speed = max(omega, balls.speeds[0])
     row = row_of_speed(balls.speeds, rolling_speed)
     size_i = balls.inner.gains.shape[2] - 1 if wet else 0
     size_o = balls.outer.gains.shape[2] - 1 if wet else 0
@@ -198,7 +170,7 @@ def angular_rates(balls, rest, angle, cage, states, q, v, rates, force):
         turned[0, 0], turned[0, 1] = -sin(psi), cos(psi)
         turned[1, 3], turned[1, 4] = g.groove_circle * cos(psi), g.groove_circle * sin(psi)
         m_r, m_z, d_r, d_z = 0.0, 0.0, 0.0, 0.0
-        for j in range(FREEDOMS):
+        for j in range(q.size):
             m_r += rows[0, j] * q[j]
             m_z += rows[1, j] * q[j]
             d_r += rows[0, j] * v[j] + cage * turned[0, j] * q[j]
@@ -208,7 +180,8 @@ def angular_rates(balls, rest, angle, cage, states, q, v, rates, force):
         from_r, from_z = rest.moved[k, 0], rest.moved[k, 1]
         s_r, s_z = g.radial + from_r - rest_r, g.axial + from_z - rest_z
         rest_o, rest_i = sqrt(rest_r * rest_r + rest_z * rest_z), sqrt(s_r * s_r + s_z * s_z)
-        e_r, e_z, w, a = rest_r / rest_o, rest_z / rest_o, states[at], states[at + 1]
+        e_r, e_z, w = rest_r / rest_o, rest_z / rest_o, states[at]
+        a = states[at + 1] if places == 2 else 0.0
         x_r, x_z = e_r * w - e_z * a, e_z * w + e_r * a
         m_r, m_z = m_r - from_r, m_z - from_z
         y_r, y_z = m_r - x_r, m_z - x_z
@@ -236,7 +209,8 @@ def angular_rates(balls, rest, angle, cage, states, q, v, rates, force):
         pushed = o_r * r_r + o_z * r_z, o_r * r_z - o_z * r_r
         moving = o_r * d_r + o_z * d_z, o_r * d_z - o_z * d_r
         if inertia > 0.0:
-            v_r, v_z = e_r * states[at + 2] - e_z * states[at + 3], e_z * states[at + 2] + e_r * states[at + 3]
+            by_w, by_a = states[at + places], states[at + 3] if places == 2 else 0.0
+            v_r, v_z = e_r * by_w - e_z * by_a, e_z * by_w + e_r * by_a
             along, aside = o_r * v_r + o_z * v_z, o_r * v_z - o_z * v_r
             f_i = _pushed(
                 inner[2], inner[0] + inner[1] * (normal[0] * (moving[0] - along) + sine * (moving[1] - aside))
@@ -244,11 +218,15 @@ def angular_rates(balls, rest, angle, cage, states, q, v, rates, force):
             net_p = pushed[0] + normal[0] * f_i - _pushed(outer[2], outer[0] + outer[1] * along)[0]
             net_t = pushed[1] + sine * f_i
             net_r, net_z = (o_r * net_p - o_z * net_t) / inertia, (o_z * net_p + o_r * net_t) / inertia
-            rates[at + 2], rates[at + 3] = e_r * net_r + e_z * net_z, e_r * net_z - e_z * net_r
+            rates[at + places] = e_r * net_r + e_z * net_z
+            if places == 2:
+                rates[at + 3] = e_r * net_z - e_z * net_r
         else:
             along, aside = _rates_in_balance(inner, outer, normal, moving, pushed, rest.across[k])
             v_r, v_z = o_r * along - o_z * aside, o_z * along + o_r * aside
-        rates[at], rates[at + 1] = e_r * v_r + e_z * v_z, e_r * v_z - e_z * v_r
+        rates[at] = e_r * v_r + e_z * v_z
+        if places == 2:
+            rates[at + 1] = e_r * v_z - e_z * v_r
         rate_i = normal[0] * (moving[0] - along) + sine * (moving[1] - aside)
         f_i = _pushed(inner[2], inner[0] + inner[1] * rate_i)[0]
         if wet:
@@ -256,7 +234,7 @@ def angular_rates(balls, rest, angle, cage, states, q, v, rates, force):
             filter_rates(balls.inner, inner[4] * states[at_i][0], inner[3], rate_i, states[at_i], rates[at_i])
             filter_rates(balls.outer, outer[4] * states[at_o][0], outer[3], along, states[at_o], rates[at_o])
         p_r, p_z = p_r + f_i * n_r / l_i, p_z + f_i * n_z / l_i
-        for j in range(FREEDOMS):
+        for j in range(q.size):
             force[j] += rows[0, j] * p_r + rows[1, j] * p_z + rows[2, j] * moment
         carried, driven, free = carried + f_i, driven + f_i * rolls.orbit, free + rolls.orbit / balls.number
     return omega * (driven / carried if carried > 0.0 else free)
@@ -272,8 +250,8 @@ def rates_with_cage(
     rates: _Floats,
     force: _Floats,
 ) -> float:
-    """`angular_rates` with the cage at the speed that the balls give it, which is returned [rad/s]."""
+    """`bearing_rates` with the cage at the speed that the balls give it, which is returned [rad/s]."""
     cage = 0.0
     for _ in range(CAGE_ROUNDS):
-        cage = float(angular_rates(balls, rest, angle, cage, states, q, v, rates, force))
+        cage = float(bearing_rates(balls, rest, angle, cage, states, q, v, rates, force))
     return cage

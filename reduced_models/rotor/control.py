@@ -7,8 +7,8 @@ for stiff equations (``solve_ivp_method="BDF"``); the relative tolerance of scip
 
 After displacements and velocities of the rotor come the states of each bearing: of ball 3 of bearing 0 its place
 ``b0_3_w`` along the outer contact, with five degrees of freedom ``b0_3_a`` across it, the inlet, fast and chain
-filters of both films (``b0_3_i_s``, ``b0_3_i_y``, ``b0_3_i_q1``, ...), then those of a loss factor. With five
-degrees of freedom and a cage that turns its angle comes last, ``b0_cage``: it follows the contact angles.
+filters of both films (``b0_3_i_s``, ``b0_3_i_y``, ``b0_3_i_q1``, ...), then those of a loss factor. Where the cage
+turns, its angle comes last, ``b0_cage``: it follows the contact angles.
 """
 
 from __future__ import annotations
@@ -23,23 +23,10 @@ from ehlcontact.checks import require_instance, require_integer, require_nonnega
 from ehlcontact.errors import InputError
 from reduced_models.bearing.angular_balls import LOAD, ORBIT, AngularBalls
 from reduced_models.bearing.ball_states import PER_METRE, across_damping, bearing_system
-from reduced_models.bearing.balls import (
-    Balls,
-    SpeedState,
-    directions,
-    speed_state,
-)
-from reduced_models.bearing.continuous_time import (
-    RestingBalls,
-    angular_rates,
-    bearing_rates,
-    rates_with_cage,
-)
+from reduced_models.bearing.continuous_time import RestingBalls, bearing_rates, rates_with_cage
 from reduced_models.bearing.freedoms import FIVE, PLANAR
-from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.loss import Loss
+from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.ring import equilibrium_at
-from reduced_models.elements.film_filters import DIRECT
 from reduced_models.elements.small_motion import FILTERS
 from reduced_models.rotor.linear_system import rotor_system
 from reduced_models.rotor.rotor import Rotor
@@ -70,11 +57,6 @@ def linear_block(
     A, driven = rotor_system(rotor.matrices(omega), rings_of(rotor), [bearing_system(balls) for balls in about])
     C = np.zeros((len(outs), len(A)))
     C[range(len(outs)), list(outs.values())] = UNIT
-    shapes = []
-    for b in about:
-        inner, outer = (0 if film.rates is None else film.rates.lags for film in (b.inner, b.outer))
-        angular = b.maps.shape[-1] == len(FIVE)
-        shapes.append(_Shape(angular, len(b.maps), inner, outer, b.loss.gains.size, b.inertia))
     return control.ss(
         A,
         driven[:, list(ins.values())] / UNIT,
@@ -82,7 +64,7 @@ def linear_block(
         0.0,
         inputs=list(ins),
         outputs=list(outs),
-        states=_states(size, shapes),
+        states=_states(size, [_shape_of(balls) for balls in about]),
         name=name,
     )
 
@@ -130,7 +112,7 @@ def rotor_to_control(
     def update(t: float, x: _Floats, u: _Floats, params: object) -> _Floats:
         force = np.zeros(rotor.size)
         np.add.at(force, pushed, u)
-        return motion.rates(t, np.asarray(x, float) * UNIT, force) / UNIT
+        return motion.rates(np.asarray(x, float) * UNIT, force) / UNIT
 
     def output(t: float, x: _Floats, u: _Floats, params: object) -> _Floats:
         return np.asarray(x, float)[seen] * UNIT
@@ -154,7 +136,7 @@ def _signals(field: str, given: Signals, letter: str, size: int) -> dict[str, in
 class _Shape(NamedTuple):
     """How many states a bearing has: its balls, lags of both films (none: dry), filters of its seat."""
 
-    angular: bool  # balls at contact angles
+    moving: int  # directions of the ring
     balls: int
     inner: int
     outer: int
@@ -165,7 +147,7 @@ class _Shape(NamedTuple):
     @property
     def own(self) -> tuple[str, ...]:
         """States of a ball's own place."""
-        names = ("w", "a", "vw", "va") if self.angular else ("w", "v")
+        names = ("w", "v") if self.moving == len(PLANAR) else ("w", "a", "vw", "va")
         return names if self.inertia else names[: len(names) // 2] if self.inner else ()
 
     @property
@@ -176,7 +158,7 @@ class _Shape(NamedTuple):
     @property
     def directions(self) -> tuple[str, ...]:
         """Of the ring."""
-        return FIVE if self.angular else PLANAR
+        return FIVE[: self.moving]
 
 
 def _states(size: int, bearings: Sequence[_Shape]) -> list[str]:
@@ -196,102 +178,61 @@ def _states(size: int, bearings: Sequence[_Shape]) -> list[str]:
 class _Ring:
     """One bearing: its balls about static equilibrium, with the ring at `r`, and its seat.
 
-    Parameters
-    ----------
-    shape : _Shape
-    loss : Loss
-    force : ndarray
-        Of the ring in static equilibrium.
+    The angle of the cage is a state where it turns.
     """
 
-    def __init__(self, shape: _Shape, loss: Loss, force: _Floats) -> None:
-        self.shape, self.force, self._loss, self._pressed = shape, force, loss, force.copy()
-        seat = np.tile(force / PER_METRE, shape.seat)
-        self.rest = np.concatenate([np.zeros(shape.of_balls), seat, np.zeros(int(shape.cage))])
+    def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
+        bearing, rpm = mount.ball_bearing, mount.ball_bearing.speed(speed)
+        self._static, self._angle = bearing._static_ring(rpm, mount.cage_angle, r.size), mount.cage_angle
+        held = equilibrium_at(self._static, r)
+        linear = bearing._linear_balls(rpm, [held])
+        self.balls: AngularBalls = self._static.balls
+        self.shape = _shape_of(linear)._replace(cage=cage_turns)
+        self.force = held.load.copy()
+        self._pressed = self.force.copy()
+        seat = np.tile(self.force / PER_METRE, self.shape.seat)
+        self.rest = np.concatenate([np.zeros(self.shape.of_balls), seat, np.zeros(int(cage_turns))])
+        self._resting = RestingBalls(
+            place=self._static.places.place.copy(),
+            moved=held.maps[:, :2] @ r,
+            across=np.array([across_damping(linear, k) for k in range(self.balls.number)]),
+            inertia=linear.inertia,
+        )
 
-    def rates(self, t: float, x: _Floats, r: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
+    def rates(self, x: _Floats, r: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
         """Rates of the states `x`, which are differences from rest; force of the ring on the balls."""
         states, rates = self.rest + x, np.zeros(x.size)
-        self._press(t, states, r, v, rates)
-        gains, poles = self._loss
+        self._press(states, r, v, rates)
+        gains, poles = self.balls.loss
         seat = slice(self.shape.of_balls, x.size - self.shape.cage)
         lost = self._pressed - PER_METRE * states[seat].reshape(-1, self.force.size)
         rates[seat] = (poles[:, None] * lost).ravel() / PER_METRE
         return rates, self._pressed + gains @ lost
 
-    def _press(self, t: float, states: _Floats, r: _Floats, v: _Floats, rates: _Floats) -> None:
+    def _press(self, states: _Floats, r: _Floats, v: _Floats, rates: _Floats) -> None:
         """Set the force on the balls, and the rates of their states."""
-        raise NotImplementedError
-
-
-class _PlanarRing(_Ring):
-    """On balls that move along their radius."""
-
-    def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
-        bearing, angle, rpm = mount.ball_bearing, mount.cage_angle, mount.ball_bearing.speed(speed)
-        self._static = bearing._static_ring(rpm, angle, r.size)
-        held = equilibrium_at(self._static, r)
-        self.balls: Balls = bearing._kernel(rpm)
-        laws: SpeedState = speed_state(self.balls, speed * RPM_TO_RAD_S)
-        self._at_speed = laws if cage_turns else laws._replace(cage=0.0)
-        self._angle, self._normals = angle, np.zeros((self.balls.number, 2))
-        super().__init__(_shape_of(self.balls, False, self.balls.inertia), self.balls.loss, held.load)
-        films = self.shape.of_balls
-        if films:
-            self.rest[: films : films // self.balls.number] = held.approach[:, 1]
-
-    def _press(self, t: float, states: _Floats, r: _Floats, v: _Floats, rates: _Floats) -> None:
-        angle = self._angle + self._at_speed.cage * t
-        if self.shape.of_balls:
-            directions(self.balls, angle, self._normals)
-            bearing_rates(self.balls, self._at_speed, self._normals, states, r, v, rates, self._pressed)
-        else:
-            self._static.angle = angle
-            self._static.press(r)
-            self._pressed[:] = self._static.load
-
-
-class _AngularRing(_Ring):
-    """On balls at contact angles; the angle of the cage is a state where it turns."""
-
-    def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
-        bearing, rpm = mount.ball_bearing, mount.ball_bearing.speed(speed)
-        self._static = bearing._static_ring(rpm, mount.cage_angle, r.size)
-        held = equilibrium_at(self._static, r)
-        small = bearing._linear_balls(rpm, [held])
-        self.balls: AngularBalls = self._static.balls
-        shape = _shape_of(self.balls, True, small.inertia)._replace(cage=cage_turns)
-        super().__init__(shape, self.balls.loss, held.load)
-        self._angle = mount.cage_angle
-        self._resting = RestingBalls(
-            place=self._static.places.place.copy(),
-            moved=held.maps[:, :2] @ r,
-            across=np.array([across_damping(small, k) for k in range(self.balls.number)]),
-            inertia=small.inertia,
-        )
-
-    def _press(self, t: float, states: _Floats, r: _Floats, v: _Floats, rates: _Floats) -> None:
         angle = self._angle + (states[-1] if self.shape.cage else 0.0)
         if self.shape.of_balls:
             given = states, r, v, rates, self._pressed
             if self.shape.cage:
                 turning = rates_with_cage(self.balls, self._resting, angle, *given)
             else:
-                turning = angular_rates(self.balls, self._resting, angle, 0.0, *given)
+                turning = bearing_rates(self.balls, self._resting, angle, 0.0, *given)
         else:
             self._static.angle = angle
             self._static.press(r)
             self._pressed[:] = self._static.load
             found = self._static.places.found
-            turning = self.balls.omega * float(np.average(found[:, ORBIT], weights=found[:, LOAD]))
+            loads = found[:, LOAD] if found[:, LOAD].any() else None
+            turning = self.balls.omega * float(np.average(found[:, ORBIT], weights=loads))
         if self.shape.cage:
             rates[-1] = turning
 
 
-def _shape_of(balls: Balls | AngularBalls, angular: bool, inertia: float) -> _Shape:
-    """States of a bearing from the parameters of its kernels."""
-    inner, outer = (law.gains.shape[2] - DIRECT if law.x.size else 0 for law in (balls.inner, balls.outer))
-    return _Shape(angular, balls.number, inner, outer, balls.loss.gains.size, inertia)
+def _shape_of(balls: LinearBalls) -> _Shape:
+    """States of a bearing."""
+    inner, outer = (0 if film.rates is None else film.rates.lags for film in (balls.inner, balls.outer))
+    return _Shape(balls.maps.shape[-1], len(balls.maps), inner, outer, balls.loss.gains.size, balls.inertia)
 
 
 class _Motion:
@@ -305,11 +246,11 @@ class _Motion:
         self._inverse = np.linalg.inv(rotor.mass)
         _, self._damping, self._stiffness = rotor.matrices(speed * np.pi / 30.0)
         self.rings = [
-            (_PlanarRing if mount.z is None else _AngularRing)(mount, speed, self._r[at], cage_turns)
+            _Ring(mount, speed, self._r[at], cage_turns)
             for at, mount in zip(self._places, rotor.ball_bearings, strict=True)
         ]
 
-    def rates(self, t: float, x: _Floats, force: _Floats) -> _Floats:
+    def rates(self, x: _Floats, force: _Floats) -> _Floats:
         """Of q, q' and the states of the bearings, under a force beside the load [N]."""
         size, out = self._size, np.empty(x.size)
         q, v = x[:size], x[size : 2 * size]
@@ -318,7 +259,7 @@ class _Motion:
         at = 2 * size
         for own, ring in zip(self._places, self.rings, strict=True):
             here = slice(at, at + ring.rest.size)
-            out[here], pushed = ring.rates(t, x[here], r[own], r_rate[own])
+            out[here], pushed = ring.rates(x[here], r[own], r_rate[own])
             net -= self._to_rings[own].T @ (pushed - ring.force)
             at = here.stop
         out[:size], out[size : 2 * size] = v, self._inverse @ net

@@ -152,7 +152,10 @@ def test_names(film, block):
     for one in (moving, exact):
         assert one.input_labels == ["F0", "F1"] and one.output_labels == ["q0", "q1"]
         assert one.state_labels[:6] == ["q0", "q1", "v0", "v1", "b0_0_w", "b0_0_i_s"]
-        assert one.nstates == len(one.state_labels) == 4 + 9 * (1 + 2 * (film.element("inner", RPM).lags + 2))
+        cage = int(one is moving)  # turns
+        assert one.nstates == len(one.state_labels)
+        assert one.nstates == 4 + 9 * (1 + 2 * (film.element("inner", RPM).lags + 2)) + cage
+    assert moving.state_labels[-1] == "b0_cage"
     assert (moving.name, exact.name) == ("rotor", "r")
 
 
