@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.loss import Loss
-from reduced_models.elements.small_motion import StateSpace
+from reduced_models.elements.film_response import StateSpace
 
 _Floats = NDArray[np.float64]
 

@@ -1,6 +1,6 @@
 """A ball bearing about static equilibrium: impedance at complex frequencies.
 
-Every contact has an impedance Z along its own normal, a `reduced_models.elements.small_motion.SmallMotion`: it
+Every contact has an impedance Z along its own normal, a `reduced_models.elements.film_response.LinearFilm`: it
 takes the place of the stiffness in the tangents of its ball. With the balance R of the ball over its place b and
 the inner groove centre c, and the force P of the ring (`angular_balls`),
 
@@ -31,8 +31,7 @@ from reduced_models.bearing.race_contact import curve, film_cutoff, film_made
 from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.bearing.ring import RingEquilibrium
 from reduced_models.elements.film_filters import DIRECT
-from reduced_models.elements.film_response import FilterRates
-from reduced_models.elements.small_motion import SmallMotion
+from reduced_models.elements.film_response import FilterRates, LinearFilm
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -41,8 +40,8 @@ _Complex = NDArray[np.complex128]
 class LinearBalls(NamedTuple):
     """All balls of a bearing about static equilibrium, at one position of the cage or at several."""
 
-    inner: SmallMotion  # of all contacts, (positions * balls,)
-    outer: SmallMotion
+    inner: LinearFilm  # of all contacts, (positions * balls,)
+    outer: LinearFilm
     angles: _Floats  # (positions * balls, 2) contact angles [rad]
     geometric: _Floats  # (positions * balls, 5, 4) G of the balance and of the force of the ring
     maps: _Floats  # (positions * balls, 3, n) of `ring_map`, for the n directions of the ring
@@ -61,7 +60,7 @@ class LinearBalls(NamedTuple):
         )
         slope = np.concatenate([at.found[:, SLOPE : SLOPE + 2] for at in equilibria])
         inner, outer = (
-            SmallMotion.stack(
+            LinearFilm.stack(
                 [
                     _about(law, balls.omega, *row)
                     for row in zip(force[:, j], approach[:, j], slope[:, j], speed_sum[:, j], strict=True)
@@ -140,7 +139,7 @@ def _solve(matrix: list[_Complex], right: tuple[_Complex, ...]) -> tuple[_Comple
 
 def small_film(
     law: RaceForceTable, transit: float, speed_row: tuple[int, float], g: float, slope: float, stiffness: float
-) -> SmallMotion:
+) -> LinearFilm:
     """Linear law of a film of dry compression `g` [m], whose static force has this slope and `stiffness` [N/m]."""
     root = np.sqrt(g)
     rows = law.gains[speed_row[0]]
@@ -150,15 +149,15 @@ def small_film(
     gains = np.array([np.interp(x, law.x, column) for column in rows.T])
     rates = FilterRates(gains.size - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
     made = film_made(law, speed_row, float(x))
-    return SmallMotion(stiffness, slope, transit * root, gains, rates, made)
+    return LinearFilm(stiffness, slope, transit * root, gains, rates, made)
 
 
 def _about(
     law: RaceForceTable, omega: float, force: float, u: float, slope: float, speed_sum: float
-) -> SmallMotion:
+) -> LinearFilm:
     """Linear law of one contact under its static force, whose derivative by the approach is `slope`."""
     if law.x.size == 0:
-        return SmallMotion(slope, 0.0, 0.0, np.zeros(0), None)
+        return LinearFilm(slope, 0.0, 0.0, np.zeros(0), None)
     share = film_cutoff(u, law.cutoff_gap)[0]
     g = (force / (share * law.kn)) ** (2.0 / 3.0) if share > 0.0 else curve(u, 0, 0.0, law, 0)[0]
     by_film = share * 1.5 * law.kn * np.sqrt(g)

@@ -11,8 +11,7 @@
 | film_filters | compiled: the filters of the film memory over a step and in continuous time |
 | film_law | compiled: a dry Hertz spring on a film with memory: a step, and the equations in continuous time |
 | film_curve | static curve of a film law from a table of loads |
-| film_response | transfer functions of the filters: gains from an impedance, passivity |
-| small_motion | linear law about rest, of elements and bearings alike: impedance and state space |
+| film_response | the film law linearised about rest: impedance, state space; gains from an impedance, passivity |
 | film_contact | `FilmContact`: elements with a film memory: about one load, for every load, over the speed |
 | film_speed | film laws over the speed; the speed at which the film in a contact was made, while it changes |
 | motion_errors | error of wide-range elements by kind of motion, from full solves |

@@ -32,7 +32,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Point, Scales
 from reduced_models.elements.design_point import DesignPoint, known_scale, require_own_scales
 from reduced_models.elements.element_summary import ElementSummary
-from reduced_models.elements.small_motion import StateSpace
+from reduced_models.elements.film_response import StateSpace
 from reduced_models.elements.validity import UNITS, Band, OutsideValidityWarning, Validity, numbers
 
 UNWATCHED = (-math.inf, math.inf, math.inf, -math.inf, math.inf)  # a reach that nothing leaves
@@ -167,10 +167,10 @@ class ContactElement(ElementSummary, _Common, ABC):
             Another number of states, or one of them, approach or rate not finite.
         """
         u, v = require_finite("approach", approach), require_finite("rate", rate)
-        given = as_numbers("states", states)
-        if given.shape != (self.state_count,) or not np.isfinite(given).all():
-            raise InputError("states", given.tolist(), f"{self.state_count} finite numbers")
-        force, rates = self.continuous(given, u, v)
+        values = as_numbers("states", states)
+        if values.shape != (self.state_count,) or not np.isfinite(values).all():
+            raise InputError("states", values.tolist(), f"{self.state_count} finite numbers")
+        force, rates = self.continuous(values, u, v)
         self._watch(u, v, force)
         return force, rates
 
@@ -192,18 +192,18 @@ class ContactElement(ElementSummary, _Common, ABC):
         """Static approach under `force` > 0."""
 
     def copy(self) -> Self:
-        """The same element with a state of its own, at rest."""
+        """An equal element with a state of its own, at rest."""
         return replace(self)
 
     def at_rest(self, approach: float | None = None, *, load: float | None = None) -> Self:
         """A copy at rest at an approach or under a load > 0, by default as `copy`; its states are zero."""
         if approach is not None and load is not None:
             raise InputError("approach and load", (approach, load), "one of the two")
-        found = self.copy()
+        element = self.copy()
         place = approach if load is None else self.approach_at(require_positive("load", load))
         if place is not None:
-            found.rest(place)
-        return found
+            element.rest(place)
+        return element
 
     @abstractmethod
     def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
@@ -328,11 +328,11 @@ class ContactElement(ElementSummary, _Common, ABC):
         **frequency
             Its frequency, named as for `impedance`.
         """
-        found = {
+        excess = {
             "motion": self.validity.excess(approach, rate, None, force, self.units),
             "frequency": self.validity.excess(omega=self._frequency(frequency), units=self.units),
         }
-        new = {reason: words for reason, words in found.items() if words and reason not in self._warned}
+        new = {reason: words for reason, words in excess.items() if words and reason not in self._warned}
         if new:
             self._note(set(new))
             left = ", ".join(word for words in new.values() for word in words)
@@ -405,7 +405,7 @@ class ContactElement(ElementSummary, _Common, ABC):
         return static
 
     def to_si(self, scales: Scales) -> Self:
-        """The same element in m, m/s and N.
+        """The element in m, m/s and N.
 
         Parameters
         ----------
@@ -452,14 +452,14 @@ class ContactElement(ElementSummary, _Common, ABC):
         for key in ("fit", "source"):
             require_instance(key, entries.get(key), dict | None, "an object, or null")
         values = cls._read_coefficients(kind, entries) | Validity.from_dict(entries["valid"]).fields()
-        found = cls(
+        element = cls(
             kind=kind, **values, units=entries["units"], fit=entries.get("fit"), source=entries.get("source")
         )
-        known = found.to_dict()
+        known = element.to_dict()
         require_no_others(entries, known)
         for key in ("parameters", "valid"):
             require_no_others(entries[key], known[key], f"{key}.")
-        return found
+        return element
 
     @classmethod
     def _read_coefficients(cls, kind: str, entries: Mapping[str, Any]) -> dict[str, Any]:

@@ -26,9 +26,9 @@ def require_own_scales(scales: Scales, source: Mapping[str, Any] | None) -> None
     """Raise `InputError` where the source of an element has other scales."""
     made_at = {name: known_scale(source, name) for name in ("force", "length", "time")}
     known = {name: value for name, value in made_at.items() if value is not None}
-    given = {name: getattr(scales, name) for name in known}
-    if any(not math.isclose(given[name], known[name], rel_tol=SAME_SCALES) for name in known):
-        raise InputError("scales", given, f"those of the point the element was fitted at: {known}")
+    wanted = {name: getattr(scales, name) for name in known}
+    if any(not math.isclose(wanted[name], known[name], rel_tol=SAME_SCALES) for name in known):
+        raise InputError("scales", wanted, f"those of the point the element was fitted at: {known}")
 
 
 @dataclass(frozen=True)
@@ -70,13 +70,13 @@ class DesignPoint:
         # Where both speeds are known, L follows from speed, oil and shape.
         by_speed = isinstance(point, OperatingPoint) and self.u_sum is not None
         theirs |= {"u_sum": point.u_sum} if by_speed else {"L": moes.L}  # type: ignore[union-attr]
-        found = []
+        differences = []
         for name in ("u_sum", "L", "eta0", "alpha", "kappa"):
             made = getattr(self, name)
             if name in theirs and made is not None and _differs(theirs[name], made, POWER.get(name, 1.0)):
                 unit = UNIT.get(name, "")
-                found.append(f"{name} = {theirs[name]:.4g}{unit} (made for {made:.4g}{unit})")
-        return found
+                differences.append(f"{name} = {theirs[name]:.4g}{unit} (made for {made:.4g}{unit})")
+        return differences
 
     def load_of(self, point: Point) -> float | None:
         """Static load of a point in units of the load that this was made at; None where that is not known."""

@@ -76,8 +76,10 @@ class ElementSummary(Summary):
         except InputError:  # a load that is not known
             Z = self.impedance(load=float(self.spring(0.5 * (self.low + self.high))), **frequency)
         x = (w / (2.0 * np.pi), ("frequency", "Hz")) if si else (w, ("angular frequency", FREQUENCY.moes))
-        found = ("stiffness", Z.real, STIFFNESS), ("damping", Z.imag / w, DAMPING)
-        return [Panel(x, [("", values, None)], (name, self._unit(one)), "xy") for name, values, one in found]
+        curves = ("stiffness", Z.real, STIFFNESS), ("damping", Z.imag / w, DAMPING)
+        return [
+            Panel(x, [("", values, None)], (name, self._unit(quantity)), "xy") for name, values, quantity in curves
+        ]
 
     def _unit(self, quantity: Quantity) -> str:
         return quantity.unit if self.units == "SI" else quantity.moes

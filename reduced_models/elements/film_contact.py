@@ -40,10 +40,9 @@ from reduced_models.elements.film_law import (
     static,
     static_forces,
 )
-from reduced_models.elements.film_response import DRY, FilterRates
+from reduced_models.elements.film_response import DRY, FilterRates, LinearFilm, StateSpace
 from reduced_models.elements.film_speed import SpeedHistory, SpeedRange
 from reduced_models.elements.motion_errors import UNLOADING, WITHIN, motion_errors
-from reduced_models.elements.small_motion import SmallMotion, StateSpace
 from reduced_models.elements.validity import numbers, require_size
 
 _Floats = NDArray[np.float64]
@@ -97,6 +96,11 @@ class FilmContact(ContactElement):
         for the speed of the reference.
     scales : Scales, optional
         Of an element in SI.
+
+    Attributes
+    ----------
+    law : FilmLaw
+        Static curve, filters and gains at the present speed.
 
     Raises
     ------
@@ -498,7 +502,7 @@ class FilmContact(ContactElement):
             self._put(_speed=speed, law=self._range.at(rolling), _units=(f, length, time / rolling))
 
     def copy(self) -> Self:
-        """The same element at the present speed, with a state of its own, at rest."""
+        """An equal element at the present speed, with a state of its own, at rest."""
         element = replace(self)
         if self.speeds is not None:
             element.set_speed(self.speed)
@@ -650,9 +654,9 @@ class FilmContact(ContactElement):
 
     def _response(self, w: _Floats, load: float | None = None) -> NDArray[np.complex128]:
         """As `impedance`, at angular frequencies in the units of the element, shape (k,)."""
-        return self.small_motion(load).impedance(1j * w)
+        return self.linear_film(load).impedance(1j * w)
 
-    def small_motion(self, load: float | None = None) -> SmallMotion:
+    def linear_film(self, load: float | None = None) -> LinearFilm:
         """Linear law about rest under `load`, by default the reference load, in the units of the element."""
         f, length, time = self._units
         share = 1.0 if load is None else require_positive("load", load) / f
@@ -660,7 +664,7 @@ class FilmContact(ContactElement):
         tangent = self.spring_tangent(self.approach_at(share * f))
         x = math.log(share)
         slope, tau, made = DRY * own * f / length, own * time, float(film_made(x, self.law))
-        return SmallMotion(tangent, slope, tau, self.gains_at(x), self.rates, made)
+        return LinearFilm(tangent, slope, tau, self.gains_at(x), self.rates, made)
 
     def gains_at(self, x: float | _Floats) -> _Floats:
         """Gains at x = ln F, shape (3 + lags,) + that of x, with F in units of the reference load."""
@@ -690,7 +694,7 @@ class FilmContact(ContactElement):
 
     def state_space(self, load: float | None = None) -> StateSpace:
         """Linear law about rest under `load`; states s, y, q1 ... are those of `state_rates`."""
-        A, fed, C, D = self.small_motion(load).state_space()
+        A, fed, C, D = self.linear_film(load).state_space()
         unit = self._units[1]
         return StateSpace(A, fed / unit, C * unit, D)
 

@@ -1,20 +1,25 @@
-"""Linear response of the film memory: transfer functions, gains from an impedance, and whether they dissipate.
+"""The film law linearised about rest, as an impedance and as a state space; gains from an impedance, passivity.
 
-A small motion about rest under load F has, in the units of that load (force F, length F^(2/3), time F^(1/3)),
+About rest the law of `reduced_models.elements.film_law` is linear: with the own time tau of the contact, its
+filters are fed by i = tau u', and
 
-    Z(Omega) = K_0 + i Omega (3/2) G(Omega),
-    G = c + g_i/(1 + i Omega/p_i) + g_f/(1 + i Omega/p_f) + 1/(1 + i Omega/p_i) sum_k g_k/(1 + i Omega/nu)^k
+    dF = stiffness du + slope dm,    dm = c i + g_i s + g_f y + sum_k g_k q_k
 
-with the static tangent K_0. G is linear in the gains, so that they interpolate as impedances do, and
-C(Omega) = (3/2) Re G.
+    Z(s) = stiffness + slope s tau G(s tau),
+    G(z) = c + g_i/(1 + z/p_i) + g_f/(1 + z/p_f) + 1/(1 + z/p_i) sum_k g_k/(1 + z/nu)^k
+
+In the units of the load (force F, length F^(2/3), time F^(1/3)) slope is 3/2 and tau 1. G is linear in the gains,
+so that they interpolate as impedances do, and C(Omega) = (3/2) Re G(i Omega). Elements and races of bearings have
+this form, in their own units of force, approach and time.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy
@@ -35,6 +40,7 @@ WEIGHT_C, WEIGHT_K = 0.05, 0.01  # relative errors of C and K that count alike
 MOST_LAGS = 32
 POINTS, PIECES = 64, 12
 LEAST_VISCOUS = 1e-3
+FILTERS = DIRECT - 1  # states of a film before those of its chain: inlet and fast
 
 
 @dataclass(frozen=True)
@@ -158,6 +164,57 @@ def _pieces() -> tuple[_Floats, _Floats, _Complex]:
     t = np.sqrt(1.0 / x - 1.0)
     chain: _Complex = np.cumprod(np.tile(1.0 / (1.0 + 1j * t), (MOST_LAGS, 1)), axis=0, dtype=complex)
     return x, t, chain
+
+
+class StateSpace(NamedTuple):
+    """Linear system x' = A x + B w, f = C x + D w; w holds displacements, then their rates."""
+
+    A: _Floats  # (n, n)
+    B: _Floats  # (n, inputs)
+    C: _Floats  # (forces, n)
+    D: _Floats  # (forces, inputs)
+
+
+class LinearFilm(NamedTuple):
+    """Contacts about rest, shape S: () of one contact, (k,) of k contacts with the same filters."""
+
+    stiffness: float | _Floats  # S, slope of the static force
+    slope: float | _Floats  # S, dF/dm
+    tau: float | _Floats  # S, own time
+    gains: _Floats  # S + (DIRECT + lags,); none in a dry contact
+    rates: FilterRates | None  # in own time; None in a dry contact
+    made: float | _Floats = 1.0  # S, film that a unit of the inlet's state lets into the chain; cancels in Z
+
+    @classmethod
+    def stack(cls, contacts: Sequence[LinearFilm]) -> LinearFilm:
+        """Contacts with the same filters as one, shape (k,)."""
+        stiffness, slope, tau, gains, rates, made = zip(*contacts, strict=True)
+        return cls(np.array(stiffness), np.array(slope), np.array(tau), np.array(gains), rates[0], np.array(made))
+
+    def impedance(self, s: ArrayLike) -> _Complex:
+        """Z of a motion exp(s t) at complex `s`, whose shape broadcasts against that of the contacts."""
+        own = np.asarray(s, complex) * self.tau
+        if self.rates is None:
+            return np.asarray(self.stiffness + 0.0 * own)
+        return np.asarray(self.stiffness + self.slope * own * (self.rates.transfer(own) * self.gains).sum(axis=-1))
+
+    def state_space(self, *index: int) -> StateSpace:
+        """System from (u, u') to the force; states inlet, fast, chain. `index` is the contact of several."""
+        stiffness, slope, tau, gains = (np.asarray(part)[index] for part in self[:4])
+        if self.rates is None:
+            return StateSpace(
+                np.zeros((0, 0)), np.zeros((0, 2)), np.zeros((1, 0)), np.array([[float(stiffness), 0.0]])
+            )
+        made = float(np.broadcast_to(self.made, np.shape(self.stiffness))[index])
+        rates, size = self.rates, FILTERS + self.rates.lags
+        A = np.diag(np.array([-rates.inlet_rate, -rates.fast_rate, *[-rates.lag_rate] * rates.lags]) / tau)
+        for j in range(FILTERS, size):
+            A[j, 0 if j == FILTERS else j - 1] = rates.lag_rate / tau * (made if j == FILTERS else 1.0)
+        shares = gains[1:].copy()
+        shares[FILTERS:] /= made
+        fed = np.zeros((size, 2))
+        fed[:FILTERS, 1] = rates.inlet_rate, rates.fast_rate
+        return StateSpace(A, fed, slope * shares[None], np.array([[float(stiffness), slope * gains[0] * tau]]))
 
 
 @dataclass(frozen=True, eq=False)

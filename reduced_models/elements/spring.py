@@ -16,7 +16,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.store import stored
 from reduced_models.elements.base import Box, ContactElement, as_approaches
-from reduced_models.elements.small_motion import StateSpace
+from reduced_models.elements.film_response import StateSpace
 from reduced_models.elements.spring_law import (
     A_HIGH,
     A_LOW,
@@ -60,6 +60,11 @@ class SpringContact(ContactElement):
         Coefficients of the damper; in SI N s/m, N s^2/m^2, N s^3/m^3 and N s/m^2.
     low, high, rate, load_range, omega_range, units, fit, source
         As for `ContactElement`.
+
+    Attributes
+    ----------
+    law : ndarray, shape (18,)
+        Coefficients and ends, by the names in `reduced_models.elements.spring_law`.
 
     Raises
     ------
@@ -214,10 +219,10 @@ class SpringContact(ContactElement):
         Of a single value outside the validity box it warns, once per element; arrays are questions.
         """
         if not (isinstance(approach, float) and isinstance(rate, float)):
-            found = self._value(0, approach, rate)
-            if isinstance(found, float):
-                self._watch(float(approach), float(rate), found)  # type: ignore[arg-type]
-            return found
+            values = self._value(0, approach, rate)
+            if isinstance(values, float):
+                self._watch(float(approach), float(rate), values)  # type: ignore[arg-type]
+            return values
         force = contact(approach, rate, self.law)[0]
         low, high, fastest, least, most = self._reach  # here, for the sake of integrators: a call takes 0.1 us
         if not (low <= approach <= high and -fastest <= rate <= fastest and least <= force <= most):

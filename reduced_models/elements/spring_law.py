@@ -166,9 +166,9 @@ def joined(law: NDArray[np.float64]) -> NDArray[np.float64]:
             values = f"force {force:g}, tangent {slope:g}"
             raise InputError(f"spring at {name}", values, "smaller or larger (the units may be wrong)")
         ends |= {f"o_{name}": u - reach, f"A_{name}": factor}
-    found = law.copy()
-    found[O_LOW:] = list(ends.values())
-    return found
+    whole = law.copy()
+    whole[O_LOW:] = list(ends.values())
+    return whole
 
 
 def require_rising(law: NDArray[np.float64]) -> None:

@@ -16,7 +16,9 @@ from ehlcontact.point import Scales
 
 MARGIN = 0.05  # share of the intervals of approach and load, and of the largest rate, that goes unmentioned
 STILL = 1e-6  # spread of an approach over its size, below which its frequency means nothing
-OCTAVE = 2.0  # likewise of frequency: in the contact's own band damping changes by a fifth over an octave
+OCTAVE = (
+    2.0  # of frequency that goes unmentioned: in the contact's own band damping changes by a fifth over an octave
+)
 
 # Magnitude of any number of an element, in SI or not, powers of a length in the divisor apart: stiffnesses in N/m
 # come to 1e10. Beyond it the units are wrong, and products of several overflow.
@@ -104,24 +106,24 @@ class Validity:
         Those are a twentieth of the intervals of approach and load and of the largest rate, and an octave of
         frequency. `omega` is in the units of the box, which are `units`.
         """
-        found = []
+        outside = []
         m, speed, newton = (" m", " m/s", " N") if units == "SI" else ("", "", "")
         worst = _outside(approach, self.approach)
         if worst is not None:
-            found.append(f"approach {worst:.4g}{m} (fitted {text_of(self.approach)}{m})")
+            outside.append(f"approach {worst:.4g}{m} (fitted {text_of(self.approach)}{m})")
         v = np.abs(np.asarray(rate, float))
         if v.size and v.max() > self.reach[2]:
-            found.append(f"rate {float(v.max()):.4g}{speed} (fitted up to {self.rate:.4g}{speed})")
+            outside.append(f"rate {float(v.max()):.4g}{speed} (fitted up to {self.rate:.4g}{speed})")
         worst = None if self.load is None else _outside(force, self.load)
         if self.load is not None and worst is not None:
-            found.append(f"force {worst:.4g}{newton} (fitted {text_of(self.load)}{newton})")
+            outside.append(f"force {worst:.4g}{newton} (fitted {text_of(self.load)}{newton})")
         if omega is not None and self.omega is not None:
             if not self.omega[0] / OCTAVE <= omega <= self.omega[1] * OCTAVE:
-                found.append(f"{frequency_text((omega,), units)} (fitted {frequency_text(self.omega, units)})")
-        return found
+                outside.append(f"{frequency_text((omega,), units)} (fitted {frequency_text(self.omega, units)})")
+        return outside
 
     def to_si(self, scales: Scales) -> Validity:
-        """The same box in m, m/s, N and rad/s."""
+        """The box in m, m/s, N and rad/s."""
         return Validity(
             _scaled(self.approach, scales.length),
             None if self.rate is None else self.rate * scales.rate,
@@ -238,11 +240,11 @@ def numbers(section: str, entries: Mapping[str, Any], required: tuple[str, ...])
     InputError
         One is absent or not a finite number.
     """
-    found: dict[str, float] = {}
+    values: dict[str, float] = {}
     for key in required:
         value = entries.get(key)
         number = isinstance(value, int | float) and not isinstance(value, bool)
         if not number or not math.isfinite(value):  # type: ignore[arg-type]
             raise InputError(f"{section}.{key}", value, "a finite number")
-        found[key] = float(value)  # type: ignore[arg-type]
-    return found
+        values[key] = float(value)  # type: ignore[arg-type]
+    return values

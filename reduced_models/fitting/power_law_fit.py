@@ -124,8 +124,8 @@ class _Projected:
             return float(np.sqrt(np.mean(self.residuals(np.array([n, q])) ** 2)))
 
         options = {"xatol": 1e-10 * highest}
-        found = scipy.optimize.minimize_scalar(rms, bounds=(lowest, highest), method="bounded", options=options)
-        return float(found.x), float(found.fun)
+        minimum = scipy.optimize.minimize_scalar(rms, bounds=(lowest, highest), method="bounded", options=options)
+        return float(minimum.x), float(minimum.fun)
 
     def nearest_to_hertz(self, best: _Floats, allowed: float) -> tuple[float, float]:
         """(n, q) nearest to Hertz's exponent whose rms error is at most `allowed`."""

@@ -162,10 +162,10 @@ class MemoryFit(ElementFit):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the element, ready for JSON; of the errors over frequency the largest."""
-        found = super().to_dict()
+        entries = super().to_dict()
         for name in ("damping_error", "stiffness_error"):
-            found[f"{name}_max"] = float(np.abs(found.pop(name)).max())
-        return found | {"validation": {str(lags): score for lags, score in self.validation.items()}}
+            entries[f"{name}_max"] = float(np.abs(entries.pop(name)).max())
+        return entries | {"validation": {str(lags): score for lags, score in self.validation.items()}}
 
 
 def rms_error(force: _Floats, fitted: _Floats) -> float:

@@ -55,12 +55,12 @@ class Samples:
 
     @cached_property
     def rate(self) -> _Floats:
-        """Rate likewise."""
+        """Rate of all cuts, one after the other."""
         return np.concatenate([cut.rate for cut in self.cuts])
 
     @cached_property
     def force(self) -> _Floats:
-        """Force likewise."""
+        """Force of all cuts, one after the other."""
         return np.concatenate([cut.force for cut in self.cuts])
 
     def each(self, name: str) -> Any:

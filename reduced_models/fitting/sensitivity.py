@@ -115,13 +115,13 @@ class Sensitivity(Summary):
             The file cannot be written.
         """
         names = np.array([row.removed or "none" for row in self.rows])
-        found = {
+        errors = {
             "fitted again": [row.rms for row in self.rows],
             "as it was": [r.rms_without_refit for r in self.rows],
         }
         panels = [
             Panel((names, "term left out"), [("", np.array(values), None)], f"rms error, the rest {how}")
-            for how, values in found.items()
+            for how, values in errors.items()
         ]
         return draw("Sensitivity: rms error over the standard deviation of the force", panels, path)
 

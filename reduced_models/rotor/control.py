@@ -27,7 +27,7 @@ from reduced_models.bearing.continuous_time import RestingBalls, bearing_rates, 
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.ring import equilibrium_at
-from reduced_models.elements.small_motion import FILTERS
+from reduced_models.elements.film_response import FILTERS
 from reduced_models.rotor.linear_system import rotor_system
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.supports import BearingMount

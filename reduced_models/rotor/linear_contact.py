@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import InputError
 from ehlcontact.results import ImpedanceResult
 from reduced_models.elements.base import ContactElement
-from reduced_models.elements.small_motion import StateSpace
+from reduced_models.elements.film_response import StateSpace
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]

@@ -11,7 +11,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from reduced_models.elements.small_motion import StateSpace
+from reduced_models.elements.film_response import StateSpace
 from reduced_models.rotor.rotor import Matrices
 
 _Floats = NDArray[np.float64]

@@ -3,10 +3,12 @@
 import copy
 from dataclasses import replace
 from math import inf
+from typing import NamedTuple
 
 import numba
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from ehlcontact.errors import InputError
 from reduced_models.bearing import balls as balls_room
@@ -14,8 +16,17 @@ from reduced_models.bearing import race_contact as contact_room
 from reduced_models.bearing.balls import films_of, speed_state
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import shared_atlas
-from reduced_models.bearing.race_contact import APPROACH, contact_force, curve, film_cutoff, prepare_filters
+from reduced_models.bearing.race_contact import (
+    APPROACH,
+    HELD,
+    accept_contact,
+    contact_force,
+    curve,
+    film_cutoff,
+    prepare_filters,
+)
 from reduced_models.bearing.race_table import tabulate_race
+from reduced_models.elements.film_filters import CHAIN, DIRECT
 from reduced_models.elements.film_law import static
 
 SPEEDS = (1000.0, 3000.0, 9000.0)
@@ -100,6 +111,62 @@ def test_between_speeds_films_grow_as_they_should(film):
         prepare_filters(many.inner, at_speed.inner, at_speed.speed_row, None, 2e-5, films, 0)
         pressed.append(contact_force(many.inner, at_speed.inner, at_speed.speed_row, None, films, 0, 5.1e-6, 3e-3))
     np.testing.assert_allclose(pressed[0], pressed[1], rtol=1e-6)
+
+
+class Films(NamedTuple):
+    """States and work of one contact."""
+
+    state: np.ndarray
+    work: np.ndarray
+    interval: np.ndarray
+    poisson: np.ndarray
+    share: np.ndarray
+
+
+def race_forces(law, transit, u, v, dt):
+    """Force at the end of every step from rest at u[0], by the reduced filters of a race."""
+    lags = law.gains.shape[2] - DIRECT
+    sizes = (1, CHAIN + lags + 1), (1, HELD + 3 * lags)
+    films = Films(*map(np.zeros, sizes), np.zeros((1, 2), np.int64), np.zeros(lags + 3), np.zeros(lags + 3))
+    films.state[0, APPROACH] = u[0]
+    forces = []
+    for place, rate in zip(u[1:], v[1:], strict=True):
+        prepare_filters(law, transit, (0, 0.0), None, dt, films, 0)
+        forces.append(contact_force(law, transit, (0, 0.0), None, films, 0, place, rate)[0])
+        accept_contact(law, transit, (0, 0.0), None, films, 0, place, rate)
+    return np.array(forces)
+
+
+def test_reduced_filters_converge_to_the_law_in_continuous_time(film):
+    """Of second order, over a return of half the approach. The law is `film_rates`, integrated to 1e-9."""
+    element = film.element("inner", 3000.0)
+    scales, law = element.scales, tabulate_race([element])
+    transit = law.contact_length_factor * scales.time / (2.0 * scales.a)
+    start, swing, omega, end = (
+        element.approach_at(100.0),
+        0.25 * element.approach_at(100.0),
+        1.5 / scales.time,
+        6.0,
+    )
+
+    def motion(t):
+        return start - swing * (1.0 - np.cos(omega * t)), -swing * omega * np.sin(omega * t)
+
+    def rates(t, states):
+        return element.continuous(states, *motion(t))[1]
+
+    span = end * scales.time
+    still = np.zeros(element.state_count)
+    solved = solve_ivp(rates, (0.0, span), still, "LSODA", rtol=1e-9, atol=1e-12, dense_output=True)
+    errors = []
+    for steps in (60, 120, 240):
+        t = np.linspace(0.0, span, steps + 1)
+        u, v = motion(t)
+        force = race_forces(law, transit, u, v, t[1])
+        wanted = [element.continuous(solved.sol(time), *motion(time))[0] for time in t[1:]]
+        errors.append(np.abs(force - wanted).max() / np.ptp(wanted))
+    assert np.ptp(wanted) > 50.0 and errors[-1] < 1e-3
+    assert errors[0] > 3.0 * errors[1] > 9.0 * errors[2]
 
 
 def test_films_that_squeeze_are_refused(film):

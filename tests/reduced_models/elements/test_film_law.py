@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 from ehlcontact import InputError, read, save
 from reduced_models import ScaledContact
+from reduced_models.elements.film_filters import filter_rates
 from reduced_models.elements.film_response import FilterRates, fit_gains
 
 OMEGAS = np.concatenate([[0.0], np.geomspace(0.03, 60.0, 24)])
@@ -111,6 +112,20 @@ def test_impedance_is_that_of_a_small_motion(memory):
         columns = np.column_stack([np.ones(100), np.sin(omega * T[last]), np.cos(omega * T[last])])
         _, K, wC = np.linalg.lstsq(columns, force, rcond=None)[0] / 1e-5
         assert complex(K, wC) == pytest.approx(memory.impedance(Omega=omega)[0], rel=1e-3)
+
+
+@pytest.mark.parametrize("load", [0.4, 1.0])
+def test_linear_law_has_the_matrices_of_the_rates(memory, load):
+    """Column by column: `filter_rates` of every state alone, and of the rate."""
+    film = memory.linear_film(load)
+    A, B, *_ = film.state_space()
+    for k, state in enumerate(np.eye(memory.state_count)):
+        rates = np.empty(state.size)
+        filter_rates(memory.law, film.made * state[0], film.tau, 0.0, state, rates)
+        np.testing.assert_allclose(A[:, k], rates, rtol=1e-14)
+    filter_rates(memory.law, 0.0, film.tau, 1.0, np.zeros(memory.state_count), rates)
+    np.testing.assert_allclose(B[:, 1], rates, rtol=1e-14)
+    assert not B[:, 0].any()
 
 
 def test_least_dissipation_is_the_minimum_over_all_frequencies():
