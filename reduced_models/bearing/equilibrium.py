@@ -1,9 +1,13 @@
-"""Static equilibrium of springs under a load. The springs of a bearing: `ring`."""
+"""Static equilibrium of springs under a load: a ring on its balls (`ring`), a rotor on its supports.
+
+Newton's method with the exact slopes. Contacts act as springs that only pull or push, and only stiffen: their
+potential is convex (nearly, for the orbits of balls depend on their angles), so that a step that does not bring
+the balance closer is shortened to where the forces along it balance.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from math import atan2, pi
 from typing import Protocol
 
@@ -15,116 +19,81 @@ from ehlcontact.errors import ConvergenceError, InputError
 
 _Floats = NDArray[np.float64]
 
-BALANCED = 1e-12  # imbalance over the load that ends the iteration
-BALANCED_BY_ROUNDING = 1e-9  # imbalance over the load that is accepted where steps no longer help
+GUESS = 1e8  # N/m, springs in place of the contacts, on which a search begins
+OPEN = 1.0  # N/m, beside the slopes of contacts that are open in some direction
+BALANCED = 1e-12  # imbalance over the load that ends the search
+BY_ROUNDING = 1e-9  # imbalance over the load that is accepted where steps no longer help
 ROUNDING = 1e-15  # imbalance over the forces by which springs press each other, below which steps do not help
-# Stiffness given to directions that have none, over that of the others: contacts on one side only leave one.
-REGULARISATION = 1e-6
-MOST_STEPS = 100  # of which Newton needs a handful where contacts neither open nor close
-FIRST_STEP = 1e-7  # [m], along the load, from where all contacts may be open
-GROWTH = 4.0  # of such a step, until contacts hold the load
 ROUGHLY = 0.1  # of the forces along a step, that are left at the end of a search along it
 LEAST_SHARE = 0.1  # of a bracket, by which each step of that search makes it smaller
+MOST_STEPS, MOST_SHORTENED = 60, 30  # of both
 SMALLEST_STEP = 1e-18  # [m], rounding of places of balls: under loads of nN nothing comes closer
-LONGEST_STEP = 1.0  # no journal travels this far [m]; beyond it the contacts do not stand in the way
 
 
 class Springs(Protocol):
-    """Springs on one body, as a force over its displacement."""
+    """Springs under a load, over the displacement of what they carry, shape (n,)."""
 
-    def force(self, q: _Floats) -> _Floats:
-        """What they carry with the body at `q`, shape (directions,) [N]."""
+    pressed: float  # forces by which they press each other, where `imbalance` was computed last [N]
+
+    def imbalance(self, q: _Floats) -> _Floats:
+        """Forces that they carry with it at `q`, less the load, shape (n,) [N]."""
 
     def tangent(self, q: _Floats) -> _Floats:
-        """Its derivative, shape (directions, directions) [N/m]."""
+        """Derivative of these forces, `OPEN` added where springs may be open, shape (n, n) [N/m]."""
+
+    def too_long(self, step: _Floats) -> float:
+        """At least 1: how many times longer a step is than one along which springs are followed."""
 
 
-def equilibrium(
-    springs: Springs,
-    load: _Floats,
-    longest: float = math.inf,
-    first: _Floats | None = None,
-    internal: float = 0.0,
-) -> _Floats:
-    """Find the displacement, shape (directions,) [m], at which springs carry `load` [N].
+def equilibrium(springs: Springs, first: _Floats, size: float) -> _Floats:
+    """Find the displacement, shape (n,) [m], at which springs carry their load, from a first one.
 
-    Newton's method with the analytic tangents. Springs that only stiffen have a convex potential, so a step
-    that does not bring the balance closer is replaced by the minimum along it. Steps are at most `longest` [m].
-    With a `first` place the search begins there. `internal` are the forces [N] by which springs press each other
-    at the origin: their rounding errors remain however small the load is.
+    The load has the `size` [N]. Rounding errors of the forces by which springs press each other remain however
+    small it is.
 
     Raises
     ------
-    InputError
-        No load, and springs that do not press each other.
     ConvergenceError
-        The contacts do not stand against the load; ``result`` is the last position.
+        The springs do not stand against the load; ``result`` is the last displacement.
     """
-    size = float(np.linalg.norm(load))
-    if size == 0.0 and internal == 0.0:
-        raise InputError("static load", 0.0, "different from zero to press the contacts")
-
-    def balance(q: _Floats) -> _Floats:
-        return springs.force(q) - load
-
-    if first is None and size <= internal:
-        q = np.zeros(load.size)
-        residual = balance(q)
-    elif first is None:
-        q = np.zeros(load.size)
-        residual = balance(q)
-        # Where all contacts are open there is no tangent to follow: first go along the load until they carry it.
-        ahead = -math.copysign(FIRST_STEP / size, float(load @ residual)) * load
-        q, residual = _line_search(balance, q, ahead, residual)
-    else:
-        q = first
-        residual = balance(q)
+    q, residual = first, springs.imbalance(first)
     for _ in range(MOST_STEPS):
         error = float(np.linalg.norm(residual))
-        if error <= BALANCED * size + ROUNDING * internal:
+        if error <= BALANCED * size + ROUNDING * springs.pressed:
             return q
-        stiffness = springs.tangent(q)
-        stiffness += REGULARISATION * max(float(np.trace(stiffness)), size, internal) * np.eye(load.size)
-        step = -np.asarray(np.linalg.solve(stiffness, residual), dtype=np.float64)
-        if (length := float(np.linalg.norm(step))) > longest:
-            step *= longest / length
-        after = balance(q + step)
-        if np.linalg.norm(after) < 0.5 * error:
+        tangent = springs.tangent(q)
+        step = -np.asarray(np.linalg.solve(tangent, residual), np.float64)
+        if error <= BY_ROUNDING * size + BALANCED * springs.pressed or np.linalg.norm(step) <= SMALLEST_STEP:
+            after = springs.imbalance(q + step)  # whole steps, while they help
+            if not np.linalg.norm(after) < 0.5 * error:
+                return q
             q, residual = q + step, after
-        elif error <= BALANCED_BY_ROUNDING * size + BALANCED * internal or length <= SMALLEST_STEP:
-            return q
-        else:
-            if step @ residual >= 0.0:  # inertia of balls makes tangents unsymmetric
-                step = -residual * float(np.linalg.norm(step)) / error
-            q, residual = _line_search(balance, q, step, residual)
-    raise ConvergenceError("static equilibrium not found: the iteration stalled", q)
+            continue
+        if step @ residual >= 0.0:  # inertia of balls makes slopes unsymmetric
+            step = -residual / np.diag(tangent)
+        q, residual = _along(springs, q, residual, step / springs.too_long(step))
+    left = f"the contacts do not hold {np.linalg.norm(residual):.3g} N of a load of {size:.3g} N"
+    raise ConvergenceError(f"static equilibrium not found: {left}", q)
 
 
-def _line_search(
-    balance: Callable[[_Floats], _Floats], q: _Floats, step: _Floats, residual: _Floats
-) -> tuple[_Floats, _Floats]:
-    """Point on the line at which the forces along it balance, roughly, and the imbalance there.
-
-    Springs that only stiffen have just one such point.
-    """
-    start = float(step @ residual)
+def _along(springs: Springs, q: _Floats, residual: _Floats, step: _Floats) -> tuple[_Floats, _Floats]:
+    """Place along a step from `q`, closer to balance or where forces along it balance, and the imbalance there."""
+    error, start = float(np.linalg.norm(residual)), float(step @ residual)
     low, high, by_low, by_high, t = 0.0, math.inf, start, math.inf, 1.0
-    for _ in range(MOST_STEPS):
-        place = q + t * step
-        after = balance(place)
+    for k in range(MOST_SHORTENED):
+        try:
+            after = springs.imbalance(q + t * step)
+        except ConvergenceError:  # of a ball
+            after = np.full(q.size, math.nan)
         along = float(step @ after)
-        if abs(along) <= ROUGHLY * abs(start):
-            return place, after
+        if np.linalg.norm(after) < 0.5 * error or abs(along) <= ROUGHLY * abs(start) or (t == 1.0 and along < 0.0):
+            return q + t * step, after
         if along < 0.0:
             low, by_low = t, along
         else:
             high, by_high = t, along
-        if high == math.inf:
-            t *= GROWTH
-            if t * float(np.linalg.norm(step)) > LONGEST_STEP:
-                raise ConvergenceError("static equilibrium not found: the contacts do not hold the load", q)
-        else:
-            t = low + (high - low) * min(max(by_low / (by_low - by_high), LEAST_SHARE), 1.0 - LEAST_SHARE)
+        falsi = by_low / (by_low - by_high) if math.isfinite(by_high) and k % 2 else 0.5
+        t = low + (high - low) * min(max(falsi, LEAST_SHARE), 1.0 - LEAST_SHARE)
     raise ConvergenceError("static equilibrium not found: forces that jump with the displacement", q)
 
 

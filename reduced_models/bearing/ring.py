@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import cos, degrees, pi
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +34,7 @@ from reduced_models.bearing.angular_balls import (
     ring_map,
 )
 from reduced_models.bearing.contact_angles import CONTROLS
-from reduced_models.bearing.equilibrium import Springs, equilibrium
+from reduced_models.bearing.equilibrium import GUESS, OPEN, equilibrium
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 
 _Floats = NDArray[np.float64]
@@ -87,13 +86,8 @@ class StaticRing:
         self.balls = whole if centrifugal == gyroscopic == 1.0 else whole._replace(grooves=part)
         self._pressed_at = None
 
-    def pressed(self) -> float:
-        """Forces of the ring on all balls with what moves at the origin, added without their directions [N]."""
-        self.press(self.displacement(np.zeros(self.free)))
-        return self.carried()
-
     def carried(self) -> float:
-        """The same where it was pressed last."""
+        """Forces of the ring on all balls where it was pressed last, added without their directions [N]."""
         return float(self.places.found[:, LOAD].sum())
 
     def displacement(self, q: _Floats) -> _Floats:
@@ -205,7 +199,7 @@ def ring_equilibrium(ring: StaticRing, load: _Floats, first: _Floats | None = No
         No balance was found.
     """
     near = None if first is None else first[: ring.free] / ring.unit
-    q = search(ring, [ring], load * ring.unit, load, near)
+    q = search(ring, load, near)
     require_seated(ring.tangent(q), load, FIVE[: ring.free])
     found = equilibrium_at(ring, ring.displacement(q))
     return replace(found, load=np.append(load, found.load[load.size :]))
@@ -241,38 +235,47 @@ def require_seated(stiffness: _Floats, load: _Floats, names: Sequence[str]) -> N
         raise InputError("load", load.tolist(), allowed)
 
 
-class PressedRing(Springs, Protocol):
-    """What `search` moves."""
+class _LoadedRing:
+    """A ring under a scaled load, as the springs of `equilibrium`."""
 
-    longest: float  # step [m]
+    def __init__(self, ring: StaticRing, load: _Floats) -> None:
+        self._ring, self._load = ring, load
+        self.pressed = 0.0
 
-    def pressed(self) -> float:
-        """Forces of the ring on all balls at the origin, added without their directions [N]."""
+    def imbalance(self, q: _Floats) -> _Floats:
+        """Scaled forces on the balls, less the load, shape (free,) [N]."""
+        force = self._ring.force(q)
+        self.pressed = self._ring.carried()
+        return force - self._load
+
+    def tangent(self, q: _Floats) -> _Floats:
+        """Derivative of the forces, shape (free, free) [N/m]."""
+        return self._ring.tangent(q) + OPEN * np.eye(q.size)
+
+    def too_long(self, step: _Floats) -> float:
+        """At least 1: how many times further than balls follow a step moves the ring."""
+        return max(float(np.linalg.norm(step)) / self._ring.longest, 1.0)
 
 
-def search(
-    body: PressedRing, rings: Sequence[StaticRing], force: _Floats, load: _Floats, near: _Floats | None = None
-) -> _Floats:
-    """Scaled displacement of a body on rings under a scaled force, if given from one that is near.
-
-    Messages show the `load`.
-    """
-    internal = body.pressed()
-    if not force.any() and internal == 0.0:
-        return force
+def search(ring: StaticRing, load: _Floats, near: _Floats | None = None) -> _Floats:
+    """Scaled displacement of a ring under a load, from one that is near if it is given."""
+    force = load * ring.unit
+    springs, size = _LoadedRing(ring, force), float(np.linalg.norm(force))
 
     def solve(first: _Floats | None) -> _Floats:
-        return equilibrium(body, force, body.longest, first, internal)
+        if first is None:
+            first = force / GUESS / springs.too_long(force / GUESS)
+        return equilibrium(springs, first, size)
 
     if near is not None:
         try:
             return solve(near)
         except ConvergenceError:
             pass  # searched from anywhere
-    place, found = grow_gyroscopic(rings, solve)
-    if found < 1.0:
+    place, share = grow_gyroscopic([ring], solve)
+    if share < 1.0:
         allowed = "one under which friction holds the gyroscopic moment of all balls at this speed"
-        raise InputError("load", load.tolist(), f"{allowed} (found to {found:.2g} of it)")
+        raise InputError("load", load.tolist(), f"{allowed} (found to {share:.2g} of it)")
     return place
 
 
@@ -298,7 +301,8 @@ def grow_gyroscopic(
         Of the gyroscopic moments that it is for: 1 where the search succeeded.
     """
     wholes = [ring.balls for ring in rings]
-    if all(whole.omega == 0.0 for whole in wholes):
+    planar = all(ring.size == len(PLANAR) for ring in rings)  # contact angles of 0: no gyroscopic moment
+    if planar or all(whole.omega == 0.0 for whole in wholes):
         return solve(None), 1.0
 
     def share(centrifugal: float, gyroscopic: float) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
@@ -11,6 +10,8 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.angular_balls import APPROACH, AngularBalls
+from reduced_models.bearing.equilibrium import GUESS, OPEN
+from reduced_models.bearing.equilibrium import equilibrium as solve
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.ring import RingEquilibrium, equilibrium_at, grow_gyroscopic
 from reduced_models.rotor.nodes import LENGTHS
@@ -27,14 +28,8 @@ from reduced_models.rotor.supports import (
 
 _Floats = NDArray[np.float64]
 
-GUESS = 1e8  # N/m, springs in place of the supports from which the search starts
-OPEN = 1.0  # N/m, beside the slopes of a support that is open in some direction
-BALANCED = 1e-12  # imbalance over the load that ends the search
-BY_ROUNDING = 1e-9  # imbalance over the load that is accepted where steps no longer help
-ROUGHLY = 0.1  # of the forces along a step, that are left at the end of a search along it
 NOT_HELD = "one that presses balls in all directions: more preload, or a bearing of the other facing, holds it"
 HELD = 1e-12  # smallest stiffness of a rotor over its largest, beam included: below is rounding
-MOST_STEPS, MOST_HALVINGS = 60, 30  # of the search
 _NOTHING: tuple[AngularBalls | None, _Floats] = (
     None,
     np.empty(0),
@@ -195,7 +190,7 @@ class StaticRotor:
             self._held[place] = displacement
         self.free = np.setdiff1d(np.arange(load.size), list(held or {}))
         self._both_ways = _across(mounts, load.size)  # springs in both directions where a rotor stands on contacts
-        self._carried = 0.0  # forces of preloaded bearings, beside which the load may be small
+        self.pressed = 0.0  # forces of supports and stiffness, beside which the load may be small [N]
 
     def search(self) -> tuple[_Floats, float]:
         """Displacements in equilibrium, shape (N,), and the share of the gyroscopic moments that they are for.
@@ -224,67 +219,31 @@ class StaticRotor:
     def _solve(self, first: _Floats | None) -> _Floats:
         """Displacements in equilibrium, searched from `first` or from springs in place of the supports."""
         q = self._first() if first is None else first
-        residual, size = self._imbalance(q), float(np.linalg.norm(self._load[self.free]))
-        for _ in range(MOST_STEPS):
-            scale, error = max(size, self._carried, 1.0), self._error(residual)
-            if error <= BALANCED * scale:
-                return q
-            step = self._newton_step(q, residual)
-            if error <= BY_ROUNDING * scale:  # whole steps, while they help
-                new = self._imbalance(q + step)
-                if not self._error(new) < 0.5 * error:
-                    return q
-                q, residual = q + step, new
-            elif self.angular:
-                q, residual = self._along(q, residual, step)
-            else:
-                for _ in range(MOST_HALVINGS):
-                    new = self._imbalance(q + step)
-                    if self._error(new) < error:
-                        break
-                    step *= 0.5
-                q, residual = q + step, new
-        raise ConvergenceError(
-            f"no equilibrium: the supports do not hold {self._error(residual):.3g} N of {size:.3g} N", q
-        )
+        size = float(np.linalg.norm(self._load[self.free]))
+        return self._displaced(solve(self, q[self.free], size))
 
-    def _error(self, imbalance: _Floats) -> float:
-        """Imbalance of what moves [N]."""
-        return float(np.linalg.norm(imbalance[self.free]))
+    def imbalance(self, moved: _Floats) -> _Floats:
+        """Forces on what moves at its displacements, shape (free,), less the load."""
+        return self._imbalance(self._displaced(moved))[self.free]
 
-    def _newton_step(self, q: _Floats, residual: _Floats) -> _Floats:
-        step, free = np.zeros(q.size), self.free
-        step[free] = np.linalg.solve(self._slopes(q, OPEN)[np.ix_(free, free)], -residual[free])
-        return step
+    def tangent(self, moved: _Floats) -> _Floats:
+        """Derivative of these forces, shape (free, free)."""
+        return self._slopes(self._displaced(moved), OPEN)[np.ix_(self.free, self.free)]
 
-    def _along(self, q: _Floats, residual: _Floats, step: _Floats) -> tuple[_Floats, _Floats]:
-        """Place on the way from `q` along a step, and the imbalance there: where forces along it balance, roughly.
+    def too_long(self, step: _Floats) -> float:
+        """At least 1: how many times further than balls follow a step moves a ring."""
+        moves = self.rows[:, self.free] @ step
+        lengths = [
+            float(np.abs(moves[columns])[: len(LENGTHS)].max()) / support.ring.longest
+            for columns, support in self.angular
+        ]
+        return max([*lengths, 1.0])
 
-        Springs that only pull (groove centres move apart as a ball is compressed) have a convex potential; at its
-        minimum along the step the imbalance may be larger.
-        """
-        if step @ residual >= 0.0:  # inertia of balls makes slopes unsymmetric
-            step = np.zeros(q.size)
-            step[self.free] = -(residual / np.diag(self._slopes(q, OPEN)))[self.free]
-        step = step / self._too_long(step)
-        low, high, t = 0.0, math.inf, 1.0
-        error, slope = self._error(residual), abs(float(step @ residual))
-        for _ in range(MOST_HALVINGS):
-            try:
-                new = self._imbalance(q + t * step)
-            except ConvergenceError:  # of a ball
-                new = np.full(q.size, math.nan)
-            along = float(step @ new)
-            if self._error(new) < 0.5 * error or abs(along) <= ROUGHLY * slope:
-                break
-            if along < 0.0:
-                low = t
-            else:
-                high = t
-            if low >= 1.0:
-                break
-            t = 0.5 * (low + high)
-        return q + t * step, new
+    def _displaced(self, moved: _Floats) -> _Floats:
+        """All displacements, shape (N,), from those of what moves."""
+        q = self._held.copy()
+        q[self.free] = moved
+        return q
 
     def unsupported(self, q: _Floats) -> str:
         """Bearing and direction in which nothing holds the rotor at `q`; empty where all is held."""
@@ -307,25 +266,16 @@ class StaticRotor:
         shifts = [mount.shift if isinstance(mount, BearingMount) else [mount.offset] for mount in mounts]
         springs = self._stiffness + GUESS * (rows.T @ rows) + GUESS * self._both_ways
         right = self._load - GUESS * rows.T @ np.concatenate(shifts) - springs @ self._held
-        moved = np.zeros(right.size)
-        moved[free] = np.linalg.solve(springs[np.ix_(free, free)], right[free])
-        return np.asarray(self._held + moved / self._too_long(moved))
-
-    def _too_long(self, step: _Floats) -> float:
-        """At least 1: how many times further than balls follow a step moves a ring."""
-        lengths = [
-            float(np.abs(self.rows[columns] @ step)[: len(LENGTHS)].max()) / support.ring.longest
-            for columns, support in self.angular
-        ]
-        return max([*lengths, 1.0])
+        moved = np.linalg.solve(springs[np.ix_(free, free)], right[free])
+        return self._displaced(moved / self.too_long(moved))
 
     def _imbalance(self, q: _Floats) -> _Floats:
         r, forces = self.rows @ q, np.zeros(len(self.rows))
         for columns, support in self.supports:
             forces[columns] = support.force(r[columns])
-        if self.angular:
-            self._carried = float(np.linalg.norm(forces))
-        return np.asarray(self._stiffness @ q + self.rows.T @ forces - self._load)
+        bent = self._stiffness @ q
+        self.pressed = float(np.linalg.norm(forces) + np.linalg.norm(np.abs(self._stiffness) @ np.abs(q)))
+        return np.asarray(bent + self.rows.T @ forces - self._load)
 
     def _slopes(self, q: _Floats, more: float) -> _Floats:
         """Derivative of the imbalance, `more` [N/m] added where supports may be open."""
