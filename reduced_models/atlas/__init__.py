@@ -15,6 +15,7 @@
 | supply | recipe of what a layer of oil changes, over M, L, kappa and r; `Supplied` |
 | heat | recipe of what heat changes, over M, L, kappa, Q and slope of the oil; `Heated`, `HeatedFilm` |
 | waves | recipe of contact filters: share of short waves that acts like an approach; `contact_filter` |
+| other_oil | `OtherOil`: reading the atlas for oils of another alpha and eta0 |
 | mesh | grids of a point, by the width of its inlet |
 | build | `build`: sample, solve what is missing on workers, put together, leave one out, write |
 """

@@ -16,11 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions import assumptions
 from ehlcontact.checks import as_column, as_numbers, require_choice, require_positive
-from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
-from ehlcontact.lubricant.oil_laws import secant_over_slope
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
@@ -35,9 +33,10 @@ from reduced_models.atlas.atlas_elements import (
     wide_element,
 )
 from reduced_models.atlas.conditions import Condition, Rows, under
-from reduced_models.atlas.film import HEAD, LOW, OtherOil
+from reduced_models.atlas.film import HEAD, LOW
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.atlas.heat import Heated, rolling_heat
+from reduced_models.atlas.other_oil import OtherOil
 from reduced_models.atlas.supply import Supplied
 from reduced_models.atlas.surface import opened, shipped_file
 from reduced_models.atlas.table import Box
@@ -163,7 +162,8 @@ class Atlas:
         first = points[0].tolist()
         self._inside(MoesPoint(first[0], first[1], first[2], *oil))  # the oil, which is that of all
         self.box.require_all_inside(points, oil[0])
-        values, bars = self._surface.at(points * self._oil_factors(*oil), oil_error=self._oil_error(*oil))
+        added = self._oil.error(*oil, meta, self._omega.size)
+        values, bars = self._surface.at(points * self._oil.factors(*oil, meta), oil_error=added)
         Omega = self._omega
         if supply is not None:
             supplied = []
@@ -323,7 +323,7 @@ class Atlas:
     def _answer(self, point: Point, conditions: Sequence[Condition]) -> AtlasAnswer:
         """Answer under conditions."""
         moes, load = self._inside(point), np.ones(1)
-        error = self._oil_error(moes.alpha, moes.eta0)
+        error = self._oil.error(moes.alpha, moes.eta0, self._table.metadata, self._omega.size)
         flooded, flooded_bars = self._surface.at(self._rows(moes, load), oil_error=error)
         (Omega, values), rows_bars = under(conditions, load, Rows(self._omega, flooded), flooded_bars)
         named, bars = ({n: v[0] for n, v in _named(part).items()} for part in (values, rows_bars))
@@ -421,15 +421,7 @@ class Atlas:
     def _inside(self, point: Point) -> MoesPoint:
         moes = moes_point(point)
         self.box.require_inside(moes)
-        for name in ("viscosity", "density"):
-            if getattr(moes, name) != self._table.metadata[name]:
-                raise InputError(name, getattr(moes, name), f"{self._table.metadata[name]}, the law of the atlas")
-        for name in ("alpha", "eta0"):
-            low, high = getattr(self._oil, name)
-            if not low <= getattr(moes, name) <= high:
-                guess = INPUTS[name].slip(getattr(moes, name))
-                allowed = f"between {low:g} and {high:g} {INPUTS[name].unit}, the range of the atlas"
-                raise InputError(name, getattr(moes, name), f"{allowed} ({guess})" if guess else allowed)
+        self._oil.require_accepted(moes, self._table.metadata)
         return moes
 
     def _loads(self, point: MoesPoint) -> _Floats:
@@ -444,20 +436,7 @@ class Atlas:
 
     def _rows(self, point: MoesPoint, loads: _Floats) -> _Floats:
         """M, L and kappa at which the table is read for loads in units of the point's, shape (n, 3)."""
-        return _rows(point, loads) * self._oil_factors(point.alpha, point.eta0)
-
-    def _oil_factors(self, alpha: float, eta0: float) -> _Floats:
-        """Factors on M, L and kappa for an oil, see `OtherOil`."""
-        meta = self._table.metadata
-        own = secant_over_slope(meta["alpha"], meta["eta0"], self._oil.secant)
-        return np.array([1.0, secant_over_slope(alpha, eta0, self._oil.secant) / own, 1.0])
-
-    def _oil_error(self, alpha: float, eta0: float) -> _Floats:
-        """Error bars of the smooth variables for an oil whose alpha and eta0 are not those of the atlas."""
-        meta, oil, k = self._table.metadata, self._oil, self._omega.size
-        away = abs(math.log(alpha / meta["alpha"])), abs(math.log(eta0 / meta["eta0"]))
-        film, K, C, m = (float(np.dot(s, away)) for s in (oil.film, oil.stiffness, oil.damping, oil.moment))
-        return np.concatenate([[film, film, film, C, m], np.full(k, K), np.full(k, C)])
+        return _rows(point, loads) * self._oil.factors(point.alpha, point.eta0, self._table.metadata)
 
     def _source(self, answer: AtlasAnswer) -> dict[str, Any]:
         bars, low = answer.error_bars, self._table.interpolation.reference

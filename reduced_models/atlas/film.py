@@ -33,6 +33,7 @@ from ehlcontact.hertz import radius_ratio
 from ehlcontact.status import Status
 from reduced_models.atlas.gain_fit import FLOOR, HIGHEST, RIDGE, smooth_gains
 from reduced_models.atlas.mesh import film_grid, impedance_grid, near_grid
+from reduced_models.atlas.other_oil import OtherOil
 from reduced_models.atlas.recipe import (
     FEWEST,
     FILM,
@@ -84,29 +85,6 @@ class FilmInterpolation(Interpolation):
     def __post_init__(self) -> None:
         super().__post_init__()
         object.__setattr__(self, "lobe_weights", tuple(float(weight) for weight in self.lobe_weights))
-
-
-@dataclass(frozen=True)
-class OtherOil:
-    """Range of alpha and eta0 around those of the atlas; correction and wider error bars for another oil.
-
-    At given M, L and kappa, alpha and eta0 enter through the curvature of Roelands' law and the compressibility.
-    Pressures up to about 2/alpha form the film, so the atlas is read at an L with the secant of ln(eta) up to
-    there in place of its slope at ambient pressure, each over that of the oil of the atlas. Error bars widen by
-    what is left: the largest change of ln of films, K, C and moment per unit of ln alpha and of ln eta0.
-    """
-
-    alpha: tuple[float, float]  # range [1/Pa]
-    eta0: tuple[float, float]  # range [Pa s]
-    secant: float  # alpha p at the end of the secant
-    film: tuple[float, float]
-    stiffness: tuple[float, float]  # K changes the less the thinner the film
-    damping: tuple[float, float]
-    moment: tuple[float, float]
-
-    def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            object.__setattr__(self, name, float(value) if name == "secant" else tuple(map(float, value)))
 
 
 # By tests/benchmarks/tune_atlas.py the slopes cover what is left at light, middle and heavy load.
