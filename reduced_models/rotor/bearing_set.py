@@ -48,7 +48,7 @@ from reduced_models.bearing.race import assumptions_under
 from reduced_models.bearing.ring import RingEquilibrium, groove_distance, require_seated
 from reduced_models.bearing.set_result import SetState
 from reduced_models.bearing.solved_balls import require_frequencies
-from reduced_models.rotor.equilibrium import StaticAngularBalls, StaticRotor
+from reduced_models.rotor.equilibrium import StaticBearing, StaticRotor
 from reduced_models.rotor.linearise import LinearRotor, linear_bearing
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.supports import BearingMount
@@ -179,12 +179,14 @@ class BearingSet(Summary):
         """
         require_choice("arrangement", arrangement, tuple(ARRANGEMENTS))
         require_instance("bearing", bearing, BallBearing, "a BallBearing")
-        given = {"preload": preload, "offset": offset, "spring": spring}
-        given = {name: value for name, value in given.items() if value is not None}
-        if len(given) > 1:
-            raise InputError(" and ".join(given), list(given.values()), f"{' or '.join(given)}, not together")
-        if given and arrangement == "tandem":
-            name, value = next(iter(given.items()))
+        preloads = {"preload": preload, "offset": offset, "spring": spring}
+        preloads = {name: value for name, value in preloads.items() if value is not None}
+        if len(preloads) > 1:
+            raise InputError(
+                " and ".join(preloads), list(preloads.values()), f"{' or '.join(preloads)}, not together"
+            )
+        if preloads and arrangement == "tandem":
+            name, value = next(iter(preloads.items()))
             raise InputError(name, value, "left out: bearings in tandem do not press each other")
         both = bearing, bearing if other is None else other
         require_instance("other", both[1], BallBearing, "a BallBearing")
@@ -192,7 +194,7 @@ class BearingSet(Summary):
             distance = SIDE_BY_SIDE * 0.5 * (both[0].ball_diameter + both[1].ball_diameter)
         apart = 0.5 * require_nonnegative("distance", distance)
         half = 0.5 * require_finite("offset", 0.0 if offset is None else offset)
-        found = cls(
+        pair = cls(
             bearings=both,
             facings=ARRANGEMENTS[arrangement],
             positions=(-apart, apart),
@@ -200,7 +202,7 @@ class BearingSet(Summary):
             spring=0.0 if spring is None else require_positive("spring", spring),
             **options,
         )
-        return found if preload is None else found.preloaded(preload)
+        return pair if preload is None else pair.preloaded(preload)
 
     @classmethod
     @takes(distance="m")
@@ -432,7 +434,7 @@ class BearingSet(Summary):
         """
         require_choice("direction", direction, FACINGS)
         speed, sign = self.speed(speed_rpm), facing_signs(direction)[Z]
-        balls = [support for _, support in self._static(np.zeros(len(FIVE)), speed).angular]
+        balls = [support for _, support in self._static(np.zeros(len(FIVE)), speed).mounted]
         signs = [sign * facing_signs(facing)[Z] for facing in self.facings]
         held = [k for k, facing in enumerate(self.facings) if facing != self.sprung]
 
@@ -576,7 +578,7 @@ class BearingSet(Summary):
             allowed = "one under which friction holds the gyroscopic moment of all balls at this speed"
             raise InputError("load", load.tolist(), f"{allowed} (found to {share:.2g} of it)")
         slopes, free = static.slopes(q), static.free
-        circle = float(np.mean([support.ring.balls.grooves.groove_circle for _, support in static.angular]))
+        circle = float(np.mean([support.ring.balls.grooves.groove_circle for _, support in static.mounted]))
         unit = np.array([1.0, 1.0, 1.0, 1.0 / circle, 1.0 / circle, 1.0])[free]  # of lengths, over displacements
         require_seated(slopes[np.ix_(free, free)] * np.outer(unit, unit), load, [NAMES[k] for k in free])
         bearings = static.bearings(q)
@@ -585,7 +587,7 @@ class BearingSet(Summary):
                 bearing._require_in_grooves(balls.found, load, speed)
             except InputError as error:
                 raise InputError(error.field, error.value, f"{error.allowed}, in bearing {k}") from None
-        self._require_loaded([support for _, support in static.angular], load, speed)
+        self._require_loaded([support for _, support in static.mounted], load, speed)
         full = np.append(load, static.carried(q)[load.size : len(FIVE)])
         return _SetAtRest(q[: len(FIVE)], full, _ring_following(slopes), bearings)
 
@@ -593,7 +595,9 @@ class BearingSet(Summary):
         """Raise `InputError` for an axial load that nothing carries."""
         for sign, facing in zip((1.0, -1.0), FACINGS, strict=True):
             rows = zip(self.bearings, self.facings, strict=True)
-            if any(own != self.sprung and (one.contact_angle is None or own == facing) for one, own in rows):
+            if any(
+                own != self.sprung and (bearing.contact_angle is None or own == facing) for bearing, own in rows
+            ):
                 continue
             most = self.spring if self.sprung == facing else 0.0
             if sign * load[Z] >= most:
@@ -606,7 +610,7 @@ class BearingSet(Summary):
     def _preloads(self) -> bool:
         return self._interference > 0.0
 
-    def _require_loaded(self, balls: Sequence[StaticAngularBalls], load: _Floats, speed: float) -> None:
+    def _require_loaded(self, balls: Sequence[StaticBearing], load: _Floats, speed: float) -> None:
         """Raise `InputError` where a load has unloaded a bearing of a set that offsets preload."""
         if self.may_lift_off or self.sprung is not None or not self._preloads:
             return
@@ -639,16 +643,16 @@ class BearingSet(Summary):
 
     def to_dict(self) -> dict[str, Any]:
         """All arguments, ready for JSON."""
-        found = {f.name: getattr(self, f.name) for f in fields(self) if f.init}
-        found |= {name: list(found[name]) for name in ("facings", "positions", "offsets")}
-        return found | {"bearings": [bearing.to_dict() for bearing in self.bearings]}
+        entries = {f.name: getattr(self, f.name) for f in fields(self) if f.init}
+        entries |= {name: list(entries[name]) for name in ("facings", "positions", "offsets")}
+        return entries | {"bearings": [bearing.to_dict() for bearing in self.bearings]}
 
     @classmethod
     def from_dict(cls, entries: Mapping[str, Any]) -> Self:
         """Rebuild a set from `to_dict`; raises `InputError` for entries that are missing, unknown or wrong."""
         require_names(entries, [f.name for f in fields(cls) if f.init])
         require_instance("bearings", entries["bearings"], list, "a list of objects")
-        return cls(**{**entries, "bearings": [BallBearing.from_dict(one) for one in entries["bearings"]]})
+        return cls(**{**entries, "bearings": [BallBearing.from_dict(bearing) for bearing in entries["bearings"]]})
 
 
 @dataclass(frozen=True, eq=False)
@@ -661,7 +665,7 @@ class _SetAtRest:
     bearings: list[RingEquilibrium]  # each in its own frame
 
 
-def _margin(balls: Sequence[StaticAngularBalls], k: int) -> float:
+def _margin(balls: Sequence[StaticBearing], k: int) -> float:
     """Above 0 while bearing k carries: approach of its most pressed ball [m], or force beyond a share [N]."""
     if balls[k].bearing.oil is None:
         return balls[k].closest
@@ -681,6 +685,6 @@ def _coefficients(linear: LinearRotor, omega: _Floats) -> tuple[_Floats, _Floats
     """Stiffness and damping of the shaft, shape (k, 5, 5), at angular frequencies [rad/s], shape (k,)."""
 
     def impedance(s: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        return _ring_following(np.array([linear.support_impedance(one) for one in s.tolist()]))
+        return _ring_following(np.array([linear.support_impedance(rate) for rate in s.tolist()]))
 
     return stiffness_and_damping(impedance, omega)

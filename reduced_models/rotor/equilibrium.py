@@ -64,7 +64,7 @@ class StaticContact:
         return np.array([[self._count * self._contact.spring_tangent(float(r[0]) + self._offset)]])
 
 
-class StaticAngularBalls:
+class StaticBearing:
     """A ball bearing of n directions in static equilibrium."""
 
     def __init__(self, mount: BearingMount, speed_rpm: float, name: str) -> None:
@@ -104,10 +104,10 @@ class StaticAngularBalls:
 
     def require_bearable(self, r: _Floats) -> None:
         """Raise `InputError` where a ball leaves its groove or carries more than the atlas has."""
-        load, found = self.force(r), self.ring.places.found
-        shown = np.array([float(f"{one:.4g}") for one in load])
+        load, balls = self.force(r), self.ring.places.found
+        shown = np.array([float(f"{component:.4g}") for component in load])
         try:
-            self.bearing._require_in_grooves(found, shown, self.speed)
+            self.bearing._require_in_grooves(balls, shown, self.speed)
         except InputError as error:
             other = "; or change its facing" if self.bearing.contact_angle is not None else ""
             raise InputError(f"{error.field} of {self._name}", error.value, error.allowed + other) from None
@@ -121,16 +121,16 @@ def static_supports(mounts: Sequence[Mount], speed_rpm: float) -> list[tuple[sli
     InputError
         A speed that a bearing does not take, a contact without static law.
     """
-    found: list[tuple[slice, StaticSupport]] = []
+    supports: list[tuple[slice, StaticSupport]] = []
     names = iter(bearing_names(mounts))
     for columns, mount in zip(support_columns(mounts), mounts, strict=True):
         if isinstance(mount, ContactMount):
-            found.append((columns, StaticContact(mount)))
+            supports.append((columns, StaticContact(mount)))
             continue
         name = next(names)
         if is_ball_bearing(mount):
-            found.append((columns, StaticAngularBalls(mount, speed_rpm, name)))
-    return found
+            supports.append((columns, StaticBearing(mount, speed_rpm, name)))
+    return supports
 
 
 def equilibrium(mounts: Sequence[Mount], load: _Floats, stiffness: _Floats, speed_rpm: float) -> _Floats:
@@ -139,13 +139,13 @@ def equilibrium(mounts: Sequence[Mount], load: _Floats, stiffness: _Floats, spee
     try:
         q, share = static.search()
     except ConvergenceError as error:
-        if static.angular and (unsupported := static.unsupported(error.result)):
+        if static.mounted and (unsupported := static.unsupported(error.result)):
             raise InputError("load", f"not held by {unsupported}", NOT_HELD) from error
         raise
     if share < 1.0:
         allowed = "those at which friction holds the gyroscopic moment of all balls under this load"
         raise InputError("speed_rpm", speed_rpm, f"{allowed} (found to {share:.2g} of it)")
-    for columns, support in static.angular:
+    for columns, support in static.mounted:
         support.require_bearable(static.rows[columns] @ q)
     return q
 
@@ -183,7 +183,9 @@ class StaticRotor:
         held: Mapping[int, float] | None = None,
     ) -> None:
         self.supports, self.rows = static_supports(mounts, speed_rpm), support_rows(mounts, load.size)
-        self.angular = [(at, one) for at, one in self.supports if isinstance(one, StaticAngularBalls)]
+        self.mounted = [
+            (columns, support) for columns, support in self.supports if isinstance(support, StaticBearing)
+        ]
         self._mounts, self._stiffness, self._load = mounts, stiffness, load
         self._held = np.zeros(load.size)
         for place, displacement in (held or {}).items():
@@ -200,9 +202,9 @@ class StaticRotor:
         ConvergenceError
             None was found; ``result`` is the last displacement.
         """
-        if not self.angular:
+        if not self.mounted:
             return self._solve(None), 1.0
-        return grow_gyroscopic([support.ring for _, support in self.angular], self._solve)
+        return grow_gyroscopic([support.ring for _, support in self.mounted], self._solve)
 
     def carried(self, q: _Floats) -> _Floats:
         """Forces that supports and stiffness carry at `q`, shape (N,): the load, and reactions of what is held."""
@@ -214,7 +216,7 @@ class StaticRotor:
 
     def bearings(self, q: _Floats) -> list[RingEquilibrium]:
         """Ball bearings at `q`, each in its own frame."""
-        return [support.at(self.rows[columns] @ q) for columns, support in self.angular]
+        return [support.at(self.rows[columns] @ q) for columns, support in self.mounted]
 
     def _solve(self, first: _Floats | None) -> _Floats:
         """Displacements in equilibrium, searched from `first` or from springs in place of the supports."""
@@ -235,7 +237,7 @@ class StaticRotor:
         moves = self.rows[:, self.free] @ step
         lengths = [
             float(np.abs(moves[columns])[: len(LENGTHS)].max()) / support.ring.longest
-            for columns, support in self.angular
+            for columns, support in self.mounted
         ]
         return max([*lengths, 1.0])
 
@@ -291,6 +293,6 @@ def _across(mounts: Sequence[Mount], size: int) -> _Floats:
     held = np.zeros((size, size))
     for mount in mounts:
         if isinstance(mount, ContactMount):
-            at = [place for place in mount.ends[0] if place is not None]
-            held[at, at] = 1.0
+            places = [place for place in mount.ends[0] if place is not None]
+            held[places, places] = 1.0
     return held

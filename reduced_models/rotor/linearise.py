@@ -122,12 +122,12 @@ class LinearRotor(Summary):
     def support_impedance(self, s: complex) -> _Complex:
         """Part of contacts and ball bearings in `dynamic_stiffness`, shape (N, N) [N/m], at s [1/s]."""
         rows = self._rows
-        Z, at = np.zeros((len(rows), len(rows)), complex), 0
+        Z, first = np.zeros((len(rows), len(rows)), complex), 0
         supports: tuple[LinearSupport, ...] = (*self.contacts, *self.balls)
         for support in supports:
-            found = support.impedance(s)
-            here = slice(at, at + len(found))
-            Z[here, here], at = found, here.stop
+            impedance = support.impedance(s)
+            here = slice(first, first + len(impedance))
+            Z[here, here], first = impedance, here.stop
         return np.asarray(rows.T @ Z @ rows)
 
     def dynamic_stiffness(self, s: complex) -> _Complex:
@@ -147,20 +147,20 @@ class LinearRotor(Summary):
             require_integer("count", count, "a whole number >= 1", 1)
         undamped = self.support_impedance(SLOW)  # at a real s, real
         values, vectors = eigenvectors(self.matrices, undamped, SLOW)
-        found: list[tuple[complex, _Complex]] = []
+        roots: list[tuple[complex, _Complex]] = []
         for s, q in zip(values[:count], vectors.T[:count], strict=True):
-            found += self._root(complex(s), q, found)
-        modes = [self._mode(s, q) for s, q in found if s.imag > 0.0]
+            roots += self._root(complex(s), q, roots)
+        modes = [self._mode(s, q) for s, q in roots if s.imag > 0.0]
         return tuple(sorted(modes, key=lambda mode: mode.omega))
 
     def slowest(self) -> dict[str, RotorMode]:
         """The slowest mode along each direction, "x" or "y", by the larger share of its motion."""
-        found: dict[str, RotorMode] = {}
+        modes: dict[str, RotorMode] = {}
         for mode in self.modes(None):
             if mode.axial_share > ALONG:
                 continue
-            found.setdefault("y" if mode.vertical_share >= VERTICAL else "x", mode)
-        return found
+            modes.setdefault("y" if mode.vertical_share >= VERTICAL else "x", mode)
+        return modes
 
     def nearest(self, mode: RotorMode) -> RotorMode:
         """The mode next in frequency to that of another rotor, if possible among those along its direction."""
@@ -191,7 +191,7 @@ class LinearRotor(Summary):
             Exactly one of omega [rad/s], hz and rpm, shape (k,).
         """
         w = radians_per_second(None, **frequency)
-        return np.array([np.linalg.inv(self.dynamic_stiffness(1j * one)) for one in w.tolist()])
+        return np.array([np.linalg.inv(self.dynamic_stiffness(1j * omega)) for omega in w.tolist()])
 
     @by_name(1)
     def unbalance_response(self, **frequency: Unpack[Frequency]) -> UnbalanceResponse:
@@ -205,7 +205,7 @@ class LinearRotor(Summary):
         """
         w = radians_per_second(None, **frequency)
         return UnbalanceResponse.of(
-            self.rotor, w / RPM_TO_RAD_S, np.array([self._unbalanced(one) for one in w.tolist()])
+            self.rotor, w / RPM_TO_RAD_S, np.array([self._unbalanced(omega) for omega in w.tolist()])
         )
 
     def orbit(self, rest: ArrayLike | None = None) -> tuple[_Floats, _Floats]:
@@ -286,13 +286,13 @@ class LinearRotor(Summary):
         return eigenmodes(self.matrices, self._rows, spaces)
 
     def _root(
-        self, s: complex, q: _Complex, found: list[tuple[complex, _Complex]]
+        self, s: complex, q: _Complex, roots: list[tuple[complex, _Complex]]
     ) -> list[tuple[complex, _Complex]]:
         """The root near a mode without damping, none of those found; nothing where damping leaves fewer modes."""
         values, vectors = eigenvectors(self.matrices, self.support_impedance(1j * s.imag), s.imag)
         for k in np.argsort(mode_distance(s, q, values, vectors))[:CANDIDATES].tolist():
             for root, shape in self._near(complex(values[k]), vectors[:, k]):
-                if is_new(root, shape, found):
+                if is_new(root, shape, roots):
                     return [(root, shape)]
         if len(values) < self.rotor.size:
             return []
@@ -362,11 +362,11 @@ def linearise(
     require_held(rotor.mounts, rest, rotor.matrices(speed * RPM_TO_RAD_S)[2], speed)
     points, normals, _ = rotor.geometry
     r = normals @ (points @ rest)
-    found = [
-        _linear_bearing(mount, speed, r[at], passage, signed_damping)
-        for at, mount in zip(rotor.ball_columns, bearings, strict=True)
+    parts = [
+        _linear_bearing(mount, speed, r[columns], passage, signed_damping)
+        for columns, mount in zip(rotor.ball_columns, bearings, strict=True)
     ]
-    names, words = rotor.ball_bearing_names, tuple("" if signed_damping else one for _, _, one in found)
+    names, words = rotor.ball_bearing_names, tuple("" if signed_damping else one for _, _, one in parts)
     for mount, name, left_out in zip(bearings, names, words, strict=True):
         warn_of_damping_left_out(mount.ball_bearing, name, left_out, stacklevel=3)
     return LinearRotor(
@@ -374,9 +374,9 @@ def linearise(
         speed,
         passage,
         rest,
-        np.array([load for load, _, _ in found]) if found else np.zeros((0, 2)),
+        np.array([load for load, _, _ in parts]) if parts else np.zeros((0, 2)),
         tuple(_linear_contact(mount, float(u) + mount.offset) for mount, u in zip(mounted, r, strict=False)),
-        tuple(balls for _, balls, _ in found),
+        tuple(balls for _, balls, _ in parts),
         words,
         signed_damping,
     )
@@ -411,7 +411,8 @@ def _linear_bearing(
     if passage:
         rings = [bearing._static_ring(rpm, angle, ring.size) for angle in bearing._cage_angles(force[:2], None)]
         places = [
-            ring_equilibrium(one, force, first=ring) if loaded else equilibrium_at(one, ring) for one in rings
+            ring_equilibrium(static, force, first=ring) if loaded else equilibrium_at(static, ring)
+            for static in rings
         ]
     return force, *linear_bearing(bearing, rpm, places, signed)
 

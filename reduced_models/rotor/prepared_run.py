@@ -125,8 +125,8 @@ class PreparedRun:
         r, rate = geometry.normals @ (geometry.points @ d), geometry.normals @ (geometry.points @ v)
         force, first = np.zeros(len(r)), len(rotor.contacts)
         if isinstance(start, str):
-            for mount, approach in zip(rotor.contacts, r.tolist(), strict=False):
-                mount.contact.rest(approach + mount.offset)
+            for place, approach in zip(rotor.contacts, r.tolist(), strict=False):
+                place.contact.rest(approach + place.offset)
         force[:first] = self.contacts.start(r[:first], rate[:first])
         for mount, at, balls in zip(rotor.ball_bearings, self.ball_directions, self.balls, strict=True):
             force[at] = balls.rest(self.omega[0], mount.cage_angle, r[at] + self.shift[at])
