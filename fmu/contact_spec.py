@@ -22,7 +22,7 @@ from reduced_models.elements.validity import frequency_text, text_of
 LONGEST_NAME = 200  # characters of the name of a contact in the description of an FMU
 
 _DIMENSIONLESS = "dimensionless: force in static loads, approach in dry Hertz approaches, time in 2a/u_sum"
-LAW = "film_law", "film_filters", "film_curve"  # C files of the film law, each with its header
+LAW = "film_law", "film_filters"  # C files of the film law, each with its header
 # Unit and description of every coefficient.
 _POLYNOMIAL = {
     "K1": ("N/m", "Coefficient of the approach in the spring force"),
@@ -248,13 +248,17 @@ def _film_parts(element: Film, lead: float) -> dict[str, Any]:
         "variables": tuple(common.variables),
         "macros": common.macros() | _film_macros(element),
         "tables": {
-            "film_curve_data.h": _header(
-                "ln F_s, ln h_s, its slope and the approach at the nodes of the static curve",
-                {"curve_x": law.x, "curve_y": law.y, "curve_slope": law.slope, "curve_u": law.u},
-            ),
-            "film_gains.h": _header(
-                "ln F_s of the rows of gains; viscous, inlet and fast gain and those of the chain",
-                {"gain_x": law.gain_x, "gains": law.gains},
+            "film_tables.h": _header(
+                "ln F_s, ln h_s, its slope and the approach at the nodes of the static curve; ln F_s of the rows"
+                " of gains; viscous, inlet and fast gain and those of the chain of every row",
+                {
+                    "film_x": law.x,
+                    "film_y": law.y,
+                    "film_slope": law.slope,
+                    "film_u": law.u,
+                    "film_gain_x": law.gain_x,
+                    "film_gains": law.gains.ravel(),
+                },
             ),
         },
     }

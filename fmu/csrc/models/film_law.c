@@ -1,20 +1,150 @@
-/* The film law through a step; see film_law.h. Names and order of the arithmetic are those of film_law.py. */
+/* The film law: static curve, steps, rates; see film_law.h. Names and order of the arithmetic are those of film_law.py. */
 #include "film_law.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
-#include "film_curve.h"
-#include "film_filters.h"
-#include "film_gains.h"
 #include "jet.h"
 
 static const double few = 3.0; /* of lag_moments: full relative accuracy */
 
 #define LEAST_MADE 1e-9 /* added to G, so that shares of it exist where a row of gains has no chain */
 
+/* ---- the static curve ---- */
+
+static const double nothing = -400.0; /* ln of a force that is none */
+
+/* Last index k with nodes[k] < x (or <= x if `at`), for x between the ends. */
+static int film_before(const double nodes[], int count, double x, int at)
+{
+    int low = 0, high = count - 1;
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+        if (nodes[middle] < x || (at && nodes[middle] <= x)) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/* Film h_s, dh_s/dx and d2h_s/dx2 at x = ln F: Hermite between the nodes, straight beyond them; x is most likely behind
+ * node `guess`. */
+static double film(const FilmLaw *law, double x, int guess, double *slope, double *curvature)
+{
+    const int n = law->nodes;
+    double w, t, d, a, b, y, dy, ddy, h;
+    int k;
+    if (x <= law->x[0] || !(x < law->x[n - 1])) {
+        k = x <= law->x[0] ? 0 : n - 1;
+        h = exp(law->y[k] + law->slope[k] * (x - law->x[k]));
+        *slope = h * law->slope[k];
+        *curvature = *slope * law->slope[k];
+        return h;
+    }
+    k = law->x[guess] < x && x <= law->x[guess + 1] ? guess : film_before(law->x, n, x, 0);
+    w = law->x[k + 1] - law->x[k];
+    t = (x - law->x[k]) / w;
+    d = law->y[k + 1] - law->y[k];
+    a = w * law->slope[k] - d;
+    b = d - w * law->slope[k + 1];
+    y = law->y[k] + t * d + t * (1.0 - t) * ((1.0 - t) * a + t * b);
+    dy = d + (1.0 - 2.0 * t) * ((1.0 - t) * a + t * b) + t * (1.0 - t) * (b - a);
+    ddy = -2.0 * ((1.0 - t) * a + t * b) + 2.0 * (1.0 - 2.0 * t) * (b - a);
+    h = exp(y);
+    *slope = h * dy / w;
+    *curvature = h * (dy * dy + ddy) / (w * w);
+    return h;
+}
+
+void film_static(const FilmLaw *law, double u, const Rest *near, Rest *rest)
+{
+    const int n = law->nodes;
+    double low = -HUGE_VAL, high = HUGE_VAL, x, g, h, dh, ddh, du, r, new_x, step;
+    int i, k = 0;
+    if (u < law->u[0]) {
+        high = law->x[0];
+        x = high;
+        if (-u > exp(law->y[0])) { /* F hardly matters there: h_s is nearly -u */
+            x += (log(-u) - law->y[0]) / law->slope[0];
+            if (x < nothing) {
+                rest->u = u;
+                rest->x = nothing;
+                rest->g = exp(2.0 / 3.0 * nothing);
+                rest->g_u = 0.0;
+                return;
+            }
+        }
+    } else if (!(u < law->u[n - 1])) {
+        low = law->x[n - 1];
+        x = low;
+    } else {
+        k = film_before(law->u, n, u, 1);
+        low = law->x[k];
+        high = law->x[k + 1];
+        x = low + (high - low) * (u - law->u[k]) / (law->u[k + 1] - law->u[k]);
+    }
+    if (near != NULL && near->g_u > 0.0) { /* along the slope of the curve from there, if that is not far */
+        step = 1.5 * near->g_u / near->g * (u - near->u);
+        new_x = near->x + step;
+        x = fabs(step) <= 1.0 && low <= new_x && new_x <= high ? new_x : x;
+    }
+    for (i = 0; i < 100; i++) {
+        g = exp(2.0 / 3.0 * x);
+        h = film(law, x, k, &dh, &ddh);
+        du = 2.0 / 3.0 * g - dh;
+        r = g - h - u;
+        if (r > 0.0) {
+            high = high < x ? high : x;
+        } else {
+            low = low > x ? low : x;
+        }
+        step = r / du;
+        new_x = x - (step < -2.0 ? -2.0 : step > 2.0 ? 2.0 : step);
+        if (!(low <= new_x && new_x <= high)) {
+            new_x = 0.5 * (low + high);
+        }
+        step = new_x - x;
+        x = new_x;
+        if (fabs(step) <= 1e-9) {
+            break;
+        }
+    }
+    /* The last step squared is below rounding: its first two orders are enough. After a hundred the approach is beyond
+     * all numbers of use, and the force will be refused. */
+    r = 2.0 / 3.0 * step;
+    g = i < 100 ? g * (1.0 + r * (1.0 + 0.5 * r)) : HUGE_VAL;
+    dh += ddh * step;
+    rest->u = u;
+    rest->x = x;
+    rest->g = g;
+    rest->g_u = i < 100 ? 2.0 / 3.0 * g / (2.0 / 3.0 * g - dh) : 1.0;
+}
+
+/* Second derivatives of x = ln F_s and of g by the approach. */
+static void film_curvature(const FilmLaw *law, const Rest *rest, double *x_uu, double *g_uu)
+{
+    double dh, ddh, du, ddu, x_u;
+    if (rest->g_u == 0.0) {
+        *x_uu = *g_uu = 0.0;
+        return;
+    }
+    film(law, rest->x, 0, &dh, &ddh);
+    du = 2.0 / 3.0 * rest->g - dh;
+    ddu = 4.0 / 9.0 * rest->g - ddh;
+    x_u = 1.0 / du;
+    *x_uu = -ddu * x_u * x_u * x_u;
+    *g_uu = 2.0 / 3.0 * rest->g * (2.0 / 3.0 * x_u * x_u + *x_uu);
+}
+
+/* ---- gains, and the film that enters the chain ---- */
+
 /* Rows of gains on both sides of x = ln F, weight of the second and its slope. */
 typedef struct {
+    const FilmLaw *law;
+    const double *here, *there; /* the rows */
     int row, after;
     double weight, per_x;
 } Between;
@@ -31,10 +161,10 @@ static Jet one_lag(double old, double start, Jet end, Jet bump, double rate, Jet
 }
 
 /* phi(s), the film that enters the chain, and its slope. */
-static double film_entering(double s, double *slope)
+static double film_entering(const FilmLaw *law, double s, double *slope)
 {
-    const double b = INLET_SATURATION * s, d = 1.0 + fabs(b);
-    if (RIM && b > 0.0) {
+    const double b = law->inlet_saturation * s, d = 1.0 + fabs(b);
+    if (law->rim > 0.0 && b > 0.0) {
         const double c = pow(1.0 + 1.5 * b, 1.0 / 3.0);
         *slope = 1.0 / c;
         return 1.5 * s * (c + 1.0) / (c * c + c + 1.0); /* (c^2 - 1)/beta without a difference */
@@ -44,43 +174,42 @@ static double film_entering(double s, double *slope)
 }
 
 /* The same of a jet. */
-static Jet entering(Jet s)
+static Jet entering(const FilmLaw *law, Jet s)
 {
     double slope;
-    const double x = film_entering(s.x, &slope);
+    const double x = film_entering(law, s.x, &slope);
     return through(x, slope, s);
 }
 
-static Between between(double x)
+static Between between(const FilmLaw *law, double x)
 {
-    Between b = {0, 0, 0.0, 0.0};
-    int row;
-    if (GAIN_ROWS == 1 || x <= gain_x[0]) {
-        b.after = GAIN_ROWS > 1 ? 1 : 0;
-        return b;
-    }
-    if (!(x < gain_x[GAIN_ROWS - 1])) {
-        b.row = GAIN_ROWS - 2;
-        b.after = GAIN_ROWS - 1;
+    Between b = {law, NULL, NULL, 0, 0, 0.0, 0.0};
+    const int last = law->rows - 1, width = DIRECT + law->lags;
+    if (last == 0 || x <= law->gain_x[0]) {
+        b.after = last > 0 ? 1 : 0;
+    } else if (!(x < law->gain_x[last])) {
+        b.row = last - 1;
+        b.after = last;
         b.weight = 1.0;
-        return b;
+    } else {
+        b.row = film_before(law->gain_x, law->rows, x, 0);
+        b.after = b.row + 1;
+        b.per_x = 1.0 / (law->gain_x[b.after] - law->gain_x[b.row]);
+        b.weight = (x - law->gain_x[b.row]) * b.per_x;
     }
-    row = film_before(gain_x, GAIN_ROWS, x, 0);
-    b.row = row;
-    b.after = row + 1;
-    b.per_x = 1.0 / (gain_x[row + 1] - gain_x[row]);
-    b.weight = (x - gain_x[row]) * b.per_x;
+    b.here = &law->gains[b.row * width];
+    b.there = &law->gains[b.after * width];
     return b;
 }
 
 static double gain(int k, const Between *b)
 {
-    return gains[b->row][k] * (1.0 - b->weight) + gains[b->after][k] * b->weight;
+    return b->here[k] * (1.0 - b->weight) + b->there[k] * b->weight;
 }
 
 static double gain_slope(int k, const Between *b)
 {
-    return (gains[b->after][k] - gains[b->row][k]) * b->per_x;
+    return (b->there[k] - b->here[k]) * b->per_x;
 }
 
 /* Film G that a unit of phi lets into the chain, with its slope by x: 1 with one row of gains. */
@@ -93,12 +222,12 @@ static Made film_made(const Between *b)
     double here = LEAST_MADE, there = LEAST_MADE;
     Made made = {1.0, 0.0};
     int k;
-    if (GAIN_ROWS == 1) {
+    if (b->law->rows == 1) {
         return made;
     }
-    for (k = DIRECT; k < FILM_GAINS; k++) {
-        here += fabs(gains[b->row][k]);
-        there += fabs(gains[b->after][k]);
+    for (k = DIRECT; k < DIRECT + b->law->lags; k++) {
+        here += fabs(b->here[k]);
+        there += fabs(b->there[k]);
     }
     made.film = here + b->weight * (there - here);
     made.by_x = (there - here) * b->per_x;
@@ -160,18 +289,20 @@ static Lag with_rim(Lag q, double stayed, double stayed_mu, double passed, doubl
 }
 
 /* Advances the chain: the film made goes from f0 to f with a bump; `kept` is 1 but in a contact that has grown. */
-static Chain advance_chain(const double before[FILM_SIZE], double after[FILM_SIZE], double mu, double f0, double f,
+static Chain advance_chain(const double before[], double after[], double mu, double f0, double f,
                            double hump, double kept, const Between *b)
 {
-    const double *row = gains[b->row], *next = gains[b->after];
+    const double *row = b->here, *next = b->there;
     const double share_of_next = b->weight, share_of_row = 1.0 - b->weight, per_x = b->per_x, per_mu = 1.0 / mu;
-    double poisson[LAGS + 3], share[LAGS + 3], held[LAGS + 1] = {0.0};
+    const int lags = b->law->lags;
+    double poisson[MOST_LAGS + 3], share[MOST_LAGS + 3], held[MOST_LAGS + 1];
     Chain sum = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     Lag rim = {0.0, 0.0, 0.0, 0.0, 0.0};
     int j;
-    poisson_shares(mu, LAGS + 2, LAGS + 2.0, poisson, share);
-    pass_on(LAGS, &before[CHAIN], poisson, &held[1]);
-    for (j = 1; j <= LAGS; j++) {
+    memset(held, 0, (size_t)(lags + 1) * sizeof held[0]);
+    poisson_shares(mu, lags + 2, lags + 2.0, poisson, share);
+    pass_on(lags, &before[CHAIN], poisson, &held[1]);
+    for (j = 1; j <= lags; j++) {
         const Moments r = chain_moments(j, per_mu, share);
         const double low = row[DIRECT - 1 + j], high = next[DIRECT - 1 + j];
         const int counts = low != 0.0 || high != 0.0; /* many lags have no part in the force */
@@ -208,7 +339,7 @@ static Chain advance_chain(const double before[FILM_SIZE], double after[FILM_SIZ
     return sum;
 }
 
-void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v,
+void film_step(const FilmLaw *law, const double before[], double after[], double dt, const Rest *rest, double v,
                FilmStep *found)
 {
     const Jet g = jet(rest->g, rest->g_u, 0.0);
@@ -220,31 +351,31 @@ void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double d
     /* what the straight line between both rates misses of the change of approach */
     const Jet travel = jet(rest->u - before[APPROACH], 1.0, 0.0);
     const Jet bump = minus(over(travel, span), half(start, end));
-    const Jet s = one_lag(before[INLET], start, end, bump, INLET_RATE, span);
-    const Jet y = one_lag(before[FAST], start, end, bump, FAST_RATE, span);
+    const Jet s = one_lag(before[INLET], start, end, bump, law->inlet_rate, span);
+    const Jet y = one_lag(before[FAST], start, end, bump, law->fast_rate, span);
     /* the film made: its ends, and a bump that keeps its mean, which the balance of the inlet lag gives */
-    const double p = INLET_RATE, mean = (travel.x - (s.x - before[INLET]) / p) / span.x;
+    const double p = law->inlet_rate, mean = (travel.x - (s.x - before[INLET]) / p) / span.x;
     const Jet entered = jet(mean, (travel.u - s.u / p - mean * span.u) / span.x, -s.v / (p * span.x));
-    const Between b = between(rest->x);
+    const Between b = between(law, rest->x);
     const double x_u = 1.5 * g.u / g.x;
-    const Between b0 = between(3.0 * log(before[THETA]));
+    const Between b0 = between(law, 3.0 * log(before[THETA]));
     double ignored, by_gain;
     const double made0 = film_made(&b0).film;
     const Made at_end = film_made(&b);
     const Jet made = jet(at_end.film, at_end.by_x * x_u, 0.0);
-    const double f0 = made0 * film_entering(before[INLET], &ignored);
-    const Jet f = times(made, entering(s));
-    const Jet hump = minus(times(half(made0, made), entering(entered)), half(f0, f));
-    const int grows = RIM && theta.x > before[THETA];
+    const double f0 = made0 * film_entering(law, before[INLET], &ignored);
+    const Jet f = times(made, entering(law, s));
+    const Jet hump = minus(times(half(made0, made), entering(law, entered)), half(f0, f));
+    const int grows = law->rim > 0.0 && theta.x > before[THETA];
     const double kept = grows ? before[THETA] / theta.x : 1.0, kept_u = grows ? -kept / theta.x * theta.u : 0.0;
     Chain chain;
     Jet m, w, carried;
-    chain = advance_chain(before, after, LAG_RATE * span.x, f0, f.x, hump.x, kept, &b);
+    chain = advance_chain(before, after, law->lag_rate * span.x, f0, f.x, hump.x, kept, &b);
     m = weighed(VISCOUS, end, &b, x_u);
     m = plus(m, weighed(1, s, &b, x_u));
     m = plus(m, weighed(2, y, &b, x_u));
     carried = over(jet(chain.value,
-                       x_u * chain.by_gain + LAG_RATE * span.u * chain.by_mu + chain.by_end * f.u
+                       x_u * chain.by_gain + law->lag_rate * span.u * chain.by_mu + chain.by_end * f.u
                            + chain.by_hump * hump.u + chain.by_kept * kept_u,
                        chain.by_end * f.v + chain.by_hump * hump.v), made);
     m = plus(m, carried);
@@ -272,12 +403,12 @@ typedef struct {
     Between between;
 } Memory;
 
-static Memory film_memory(const double states[FILM_RATES], const Rest *rest)
+static Memory film_memory(const FilmLaw *law, const double states[], const Rest *rest)
 {
     Memory m;
     double carried = 0.0, carried_x = 0.0;
     int k;
-    m.between = between(rest->x);
+    m.between = between(law, rest->x);
     m.theta = sqrt(rest->g);
     m.theta_u = 0.5 * rest->g_u / m.theta;
     m.x_u = 1.5 * rest->g_u / rest->g;
@@ -286,7 +417,7 @@ static Memory film_memory(const double states[FILM_RATES], const Rest *rest)
     m.made = film_made(&m.between);
     m.inlet = gain(1, &m.between) * states[0];
     m.fast = gain(2, &m.between) * states[1];
-    for (k = DIRECT - 1; k < FILM_RATES; k++) {
+    for (k = DIRECT - 1; k < DIRECT - 1 + law->lags; k++) {
         carried += gain(k + 1, &m.between) * states[k];
         carried_x += gain_slope(k + 1, &m.between) * states[k];
     }
@@ -303,19 +434,19 @@ static double film_argument(const Memory *m, const Rest *rest, double v)
     return rest->g + (m->direct * (m->theta * v) + m->inlet + m->fast + m->carried);
 }
 
-FilmForce film_now(const double states[FILM_RATES], const Rest *rest, double v)
+FilmForce film_now(const FilmLaw *law, const double states[], const Rest *rest, double v)
 {
-    const Memory m = film_memory(states, rest);
+    const Memory m = film_memory(law, states, rest);
     return force_of(film_argument(&m, rest, v),
                     frozen_slope(rest, &m.between, m.theta, m.theta_u, v, m.held_x), m.direct * m.theta);
 }
 
-void film_instant(const double states[FILM_RATES], const Rest *rest, double v, FilmInstant *now)
+void film_instant(const FilmLaw *law, const double states[], const Rest *rest, double v, FilmInstant *now)
 {
-    const Memory m = film_memory(states, rest);
+    const Memory m = film_memory(law, states, rest);
     double x_uu, g_uu, theta_uu, w_root, w[2], ww[2][2];
     int i, j, k;
-    film_curvature(rest, &x_uu, &g_uu);
+    film_curvature(law, rest, &x_uu, &g_uu);
     theta_uu = (0.5 * g_uu - m.theta_u * m.theta_u) / m.theta;
     w[0] = rest->g_u + v * (m.direct_x * m.x_u * m.theta + m.direct * m.theta_u) + m.held_x * m.x_u;
     w[1] = m.direct * m.theta;
@@ -336,7 +467,7 @@ void film_instant(const double states[FILM_RATES], const Rest *rest, double v, F
             now->second[i][j] = 1.5 * (w_root * ww[i][j] + 0.5 * w[i] * w[j] / w_root);
         }
     }
-    for (k = 0; k < FILM_RATES; k++) {
+    for (k = 0; k < DIRECT - 1 + law->lags; k++) {
         const int lag = k >= DIRECT - 1;
         const double made = lag ? m.made.film : 1.0, by = gain(k + 1, &m.between) / made;
         const double by_u = (gain_slope(k + 1, &m.between) - (lag ? by * m.made.by_x : 0.0)) / made * m.x_u;
@@ -352,51 +483,51 @@ static double clock(double theta)
     return theta > LEAST_THETA ? theta : LEAST_THETA;
 }
 
-void film_rates(const double states[FILM_RATES], const Rest *rest, double v, double rates[FILM_RATES])
+void film_rates(const FilmLaw *law, const double states[], const Rest *rest, double v, double rates[])
 {
     const double theta = sqrt(rest->g), i = theta * v, unit = clock(theta);
-    const Between b = between(rest->x);
+    const Between b = between(law, rest->x);
     double fed, entered, ignored;
     int k;
-    rates[0] = INLET_RATE * (i - states[0]) / unit;
-    rates[1] = FAST_RATE * (i - states[1]) / unit;
-    fed = film_entering(states[0], &ignored);
+    rates[0] = law->inlet_rate * (i - states[0]) / unit;
+    rates[1] = law->fast_rate * (i - states[1]) / unit;
+    fed = film_entering(law, states[0], &ignored);
     fed *= film_made(&b).film;
     entered = fed;
-    for (k = 2; k < FILM_RATES; k++) {
-        rates[k] = LAG_RATE * (fed - states[k]) / unit;
-        if (RIM && v > 0.0) {
+    for (k = 2; k < DIRECT - 1 + law->lags; k++) {
+        rates[k] = law->lag_rate * (fed - states[k]) / unit;
+        if (law->rim > 0.0 && v > 0.0) {
             rates[k] += 0.5 * rest->g_u / theta * v / unit * (entered - states[k]);
         }
         fed = states[k];
     }
 }
 
-void film_rates_along(const double states[FILM_RATES], const Rest *rest, double v, double du, double dv,
-                      const double along[FILM_RATES], double change[FILM_RATES])
+void film_rates_along(const FilmLaw *law, const double states[], const Rest *rest, double v, double du, double dv,
+                      const double along[], double change[])
 {
     const double theta = sqrt(rest->g), unit = clock(theta), theta_u = 0.5 * rest->g_u / theta;
     const double i = theta * v, di = theta_u * v * du + theta * dv;
     const double dunit = theta > LEAST_THETA ? theta_u * du / unit : 0.0; /* over the unit */
-    const Between b = between(rest->x);
+    const Between b = between(law, rest->x);
     const Made made = film_made(&b);
     double fed, slope, dfed, entered, dentered, grow = 0.0, dgrow = 0.0;
     int k;
-    if (RIM && v > 0.0) {
+    if (law->rim > 0.0 && v > 0.0) {
         double x_uu, g_uu;
-        film_curvature(rest, &x_uu, &g_uu);
+        film_curvature(law, rest, &x_uu, &g_uu);
         grow = theta_u * v / unit;
         dgrow = ((0.5 * g_uu - theta_u * theta_u) / theta * v * du + theta_u * dv) / unit - grow * dunit;
     }
-    change[0] = INLET_RATE * ((di - along[0]) - (i - states[0]) * dunit) / unit;
-    change[1] = FAST_RATE * ((di - along[1]) - (i - states[1]) * dunit) / unit;
-    fed = film_entering(states[0], &slope);
+    change[0] = law->inlet_rate * ((di - along[0]) - (i - states[0]) * dunit) / unit;
+    change[1] = law->fast_rate * ((di - along[1]) - (i - states[1]) * dunit) / unit;
+    fed = film_entering(law, states[0], &slope);
     dfed = made.film * slope * along[0] + made.by_x * 1.5 * rest->g_u / rest->g * du * fed;
     fed *= made.film;
     entered = fed;
     dentered = dfed;
-    for (k = 2; k < FILM_RATES; k++) {
-        change[k] = LAG_RATE * ((dfed - along[k]) - (fed - states[k]) * dunit) / unit;
+    for (k = 2; k < DIRECT - 1 + law->lags; k++) {
+        change[k] = law->lag_rate * ((dfed - along[k]) - (fed - states[k]) * dunit) / unit;
         change[k] += dgrow * (entered - states[k]) + grow * (dentered - along[k]);
         fed = states[k];
         dfed = along[k];

@@ -2,12 +2,21 @@
 #ifndef FILM_LAW_H
 #define FILM_LAW_H
 
-#include "config.h"
+#include "film_filters.h"
 
-/* Entries of a state of film_step; the chain is the rest. Those from INLET on are the states of film_rates. */
-enum { THETA, RATE, APPROACH, INLET, FAST, CHAIN, FILM_SIZE = CHAIN + LAGS, FILM_RATES = FILM_SIZE - INLET };
+/* Entries of a state of film_step; the chain, as long as there are lags, is the rest. Those from INLET on are the states of
+ * film_rates. */
+enum { THETA, RATE, APPROACH, INLET, FAST, CHAIN, MOST_RATES = CHAIN - INLET + MOST_LAGS };
 
-enum { VISCOUS, DIRECT = 3, FILM_GAINS = DIRECT + LAGS }; /* gains before those of the chain: viscous, inlet, fast */
+enum { VISCOUS, DIRECT = 3 }; /* gains before those of the chain: viscous, inlet, fast */
+
+/* Static curve, filters and gains of one element. */
+typedef struct {
+    int nodes, rows, lags;              /* of the curve, of gains; in the chain */
+    const double *x, *y, *slope, *u;    /* ln F_s, ln h_s, its slope and the approach at the nodes */
+    const double *gain_x, *gains;       /* ln F_s of the rows; rows of DIRECT + lags gains */
+    double lag_rate, inlet_rate, fast_rate, inlet_saturation, rim;
+} FilmLaw;
 
 #define LEAST_THETA 0.01      /* of the clock of film_rates: the static force is a millionth of the reference load there */
 #define SHORTEST_STEP 1e-100 /* in units of 2a/u_sum; its square must be a number */
@@ -33,24 +42,24 @@ typedef struct {
     double argument, force;
     double by[2];
     double second[2][2];              /* by approach and rate */
-    double by_state[FILM_RATES];
-    double second_state[2][FILM_RATES]; /* of dF/du and dF/dv by each state */
+    double by_state[MOST_RATES];
+    double second_state[2][MOST_RATES]; /* of dF/du and dF/dv by each state */
 } FilmInstant;
 
 /* At approach u; `near` is a point close by, which may be `rest` itself, or NULL. */
-void film_static(double u, const Rest *near, Rest *rest);
+void film_static(const FilmLaw *law, double u, const Rest *near, Rest *rest);
 
 /* Advances `before` into `after`, another one, which is at rest->u, moving at v. */
-void film_step(const double before[FILM_SIZE], double after[FILM_SIZE], double dt, const Rest *rest, double v,
+void film_step(const FilmLaw *law, const double before[], double after[], double dt, const Rest *rest, double v,
                FilmStep *found);
 
 /* Force and first derivatives alone; and all of it. */
-FilmForce film_now(const double states[FILM_RATES], const Rest *rest, double v);
-void film_instant(const double states[FILM_RATES], const Rest *rest, double v, FilmInstant *now);
+FilmForce film_now(const FilmLaw *law, const double states[], const Rest *rest, double v);
+void film_instant(const FilmLaw *law, const double states[], const Rest *rest, double v, FilmInstant *now);
 
 /* d(states)/dT, and its change along a direction of approach, rate and states. */
-void film_rates(const double states[FILM_RATES], const Rest *rest, double v, double rates[FILM_RATES]);
-void film_rates_along(const double states[FILM_RATES], const Rest *rest, double v, double du, double dv,
-                      const double along[FILM_RATES], double change[FILM_RATES]);
+void film_rates(const FilmLaw *law, const double states[], const Rest *rest, double v, double rates[]);
+void film_rates_along(const FilmLaw *law, const double states[], const Rest *rest, double v, double du, double dv,
+                      const double along[], double change[]);
 
 #endif

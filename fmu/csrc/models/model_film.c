@@ -4,7 +4,13 @@
 #include <string.h>
 
 #include "film_law.h"
+#include "film_tables.h"
 #include "validity.h"
+
+enum { FILM_RATES = DIRECT - 1 + LAGS, FILM_SIZE = INLET + FILM_RATES }; /* states of film_rates and of film_step */
+
+static const FilmLaw own_film = {CURVE_NODES, GAIN_ROWS, LAGS, film_x, film_y, film_slope, film_u, film_gain_x, film_gains,
+                                 LAG_RATE, INLET_RATE, FAST_RATE, INLET_SATURATION, RIM};
 
 /* Entries of the cache: the static curve where it was last asked for. */
 enum { KNOWN, REST_U, REST_X, REST_G, REST_G_U };
@@ -44,9 +50,9 @@ static int known(const Model *m, Rest *rest)
 static void rest_at(const Model *m, double u, Rest *rest)
 {
     if (!known(m, rest)) {
-        film_static(u, NULL, rest);
+        film_static(&own_film, u, NULL, rest);
     } else if (rest->u != u) {
-        film_static(u, rest, rest);
+        film_static(&own_film, u, rest, rest);
     }
 }
 
@@ -97,7 +103,7 @@ Fault model_evaluate(Model *m)
     FilmForce now;
     int k;
     rest_at(m, own_approach(m->input[VR_approach]), &rest);
-    now = film_now(&m->value[FIRST_STATE], &rest, own_rate(m->input[VR_rate]));
+    now = film_now(&own_film, &m->value[FIRST_STATE], &rest, own_rate(m->input[VR_rate]));
     for (k = 0; k < FILM_RATES; k++) {
         if (!isfinite(m->value[FIRST_STATE + k])) {
             return fault(REFUSE, "the states must be finite");
@@ -116,7 +122,7 @@ Fault model_rates(Model *m)
     Rest rest;
     int k;
     rest_at(m, own_approach(m->input[VR_approach]), &rest);
-    film_rates(&m->value[FIRST_STATE], &rest, own_rate(m->input[VR_rate]), rates);
+    film_rates(&own_film, &m->value[FIRST_STATE], &rest, own_rate(m->input[VR_rate]), rates);
     for (k = 0; k < FILM_RATES; k++) {
         if (!isfinite(rates[k] / SCALE_TIME)) {
             return fault(DISCARD, "a derivative of the film's states is too large for a floating-point number");
@@ -155,12 +161,12 @@ static int walk(const Motion *motion, double h, int parts, double first[FILM_SIZ
             v = rate->start + t * rate->slope;
         }
         if (own_approach(u) != rest->u) {
-            film_static(own_approach(u), rest, rest);
+            film_static(&own_film, own_approach(u), rest, rest);
         }
         if (!isfinite(rest->g)) {
             return 0;
         }
-        film_step(from, to, part / SCALE_TIME, rest, own_rate(v), found);
+        film_step(&own_film, from, to, part / SCALE_TIME, rest, own_rate(v), found);
         from = to;
         to = to == last ? other : last;
     }
@@ -234,7 +240,7 @@ void model_direction(const Model *m, const double seed[], double along[])
     Rest rest;
     int k;
     rest_at(m, own_approach(m->input[VR_approach]), &rest);
-    film_instant(states, &rest, own_rate(m->input[VR_rate]), &now);
+    film_instant(&own_film, states, &rest, own_rate(m->input[VR_rate]), &now);
     force = now.by[0] * du + now.by[1] * dv;
     stiffness = now.second[0][0] * du + now.second[0][1] * dv;
     damping = now.second[1][0] * du + now.second[1][1] * dv;
@@ -246,7 +252,7 @@ void model_direction(const Model *m, const double seed[], double along[])
     along[VR_force] = force * SCALE_FORCE;
     along[VR_stiffness] = stiffness * stiffness_unit;
     along[VR_damping] = damping * damping_unit;
-    film_rates_along(states, &rest, own_rate(m->input[VR_rate]), du, dv, ds, change);
+    film_rates_along(&own_film, states, &rest, own_rate(m->input[VR_rate]), du, dv, ds, change);
     for (k = 0; k < FILM_RATES; k++) {
         along[FIRST_DERIVATIVE + k] = change[k] / SCALE_TIME;
     }
