@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from reduced_models import BearingMotion, BearingMount, Rotor, Unbalance
+from reduced_models.bearing.bearing_tables import BearingTables
 from reduced_models.rotor.integrate_compiled import CompiledSteps
 from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.simulate import steps_until
@@ -129,8 +130,14 @@ def still_run(rotor, speed_rpm, dt, until, start="static", rho_inf=0.8):
     return run.t, run.histories.displacement
 
 
-def with_light_balls(bearing, speed_rpm):
-    """A copy of a bearing whose balls have hardly any inertia about the shaft in static answers at a speed."""
-    balls, changed = bearing._balls(speed_rpm), replace(bearing)
-    changed._cache["balls", speed_rpm] = balls._replace(grooves=balls.grooves._replace(mass=1e-12))
+def with_light_balls(bearing):
+    """A copy of a bearing whose balls have hardly any inertia about the shaft."""
+    changed = replace(bearing)
+    object.__setattr__(changed, "tables", _LightBalls(changed))
     return changed
+
+
+class _LightBalls(BearingTables):
+    def balls(self, speeds_rpm):
+        balls = super().balls(speeds_rpm)
+        return balls._replace(grooves=balls.grooves._replace(mass=1e-12))

@@ -29,7 +29,7 @@ from reduced_models import BallBearing
 from reduced_models.atlas import film as atlas_film
 from reduced_models.atlas import frequency_curve
 from reduced_models.atlas.surface import Surface, shipped
-from reduced_models.bearing import ball_bearing, coefficients, kinematics, race, ring
+from reduced_models.bearing import coefficients, grooves, kinematics, race, ring, ring_statics
 from reduced_models.bearing.catalogue import DEEP_GROOVE
 from reduced_models.elements import film_curve, film_response
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
@@ -45,7 +45,8 @@ RULES: Mapping[Any, tuple[str, ...]] = {
     race: ("INSIDE", "PER_DECADE", "NEAR"),
     film_curve: ("DECADE", "RIGID_SLOPE"),
     film_response: ("DRY", "LEAST_VISCOUS", "SMALL_OMEGA"),
-    ball_bearing: ("LARGEST_PLAY", "POSITIONS"),
+    grooves: ("LARGEST_PLAY",),
+    ring_statics: ("POSITIONS",),
     ring: ("SEATED",),
     kinematics: ("LEAST_SLIP",),
     coefficients: ("TINY_OMEGA",),

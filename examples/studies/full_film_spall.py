@@ -30,7 +30,7 @@ TRACK = track_radius(SMOOTH, "outer")
 
 def with_dry_filter(bearing: BallBearing) -> BallBearing:
     """The same with heights in runs as dry contacts filter them."""
-    bearing._cache["heights", SPEED] = bearing._heights
+    bearing.tables.heights_in_films[SPEED] = bearing.tables.heights
     return bearing
 
 

@@ -40,9 +40,9 @@ def spalled(length: float) -> BallBearing:
 def without_filter(bearing: BallBearing) -> BallBearing:
     """The same with the bare height under the middle of every contact."""
     bare = profile_of(bearing, bearing.features, "outer", track_radius(bearing, "outer"))
-    heights = bearing._heights.copy()
+    heights = bearing.tables.heights.copy()
     heights[1, : bare.size] = bare[:, None]
-    bearing._cache["heights", SPEED] = heights
+    bearing.tables.heights_in_films[SPEED] = heights
     return bearing
 
 

@@ -2,7 +2,10 @@
 
 | module | is responsible for |
 |---|---|
-| ball_bearing | `BallBearing`: dimensions, checks, and what can be asked of it |
+| ball_bearing | `BallBearing`: inputs, and what can be asked of it |
+| grooves | checks of dimensions; grooves, balls and race control for the kernels |
+| bearing_conditions | oil, supply and heat: which go together; speeds of films |
+| bearing_tables | `BearingTables`: races, elements, tables and heights, made once |
 | catalogue | dimensions by name, with their sources |
 | clearance | radial clearance by class and bore |
 | freedoms | degrees of freedom of the ring: names, units, loads |
@@ -11,6 +14,7 @@
 | angular_steps | compiled: balls at contact angles over time steps, with their films |
 | compiled_list | `CompiledList`: bearings of any number in kernels that are compiled once |
 | ring | the inner ring on its balls in static equilibrium: `StaticRing`, `ring_equilibrium` |
+| ring_statics | loads that a bearing takes, its ring in equilibrium, the state for users |
 | shoulders | shoulders of the grooves, and contact ellipses that reach over them |
 | kinematics | cage, balls and defect frequencies |
 | measured_order | contact angle and clearance from a measured defect order |

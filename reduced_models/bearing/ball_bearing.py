@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
-from math import acos, cos, degrees, hypot, inf, pi, sin
+from math import degrees, hypot, inf
 from typing import Any, Self
 
 import numpy as np
@@ -12,8 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact import Lubricant
 from ehlcontact.checks import (
-    as_column,
-    as_numbers,
     require_choice,
     require_finite,
     require_instance,
@@ -22,22 +20,20 @@ from ehlcontact.checks import (
     require_nonnegative,
     require_positive,
 )
-from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.checks.frequency import by_name, radians_per_second
 from ehlcontact.checks.quantity import fields_take, takes
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.heat import rolling_heat
-from reduced_models.atlas.supply import require_uniform
-from reduced_models.bearing.angular_balls import ANGLE, LOAD, AngularBalls
-from reduced_models.bearing.balls import Balls
+from reduced_models.bearing.bearing_conditions import condition_lines, require_oil, require_speed, require_supply
+from reduced_models.bearing.bearing_tables import BearingTables
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.clearance import clearance_of_class
 from reduced_models.bearing.coefficients import BearingCoefficients
-from reduced_models.bearing.contact_angles import CONTROLS, HARRIS, Grooves
+from reduced_models.bearing.contact_angles import CONTROLS
 from reduced_models.bearing.equilibrium import angle_of, direction_of
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.excitation import (
@@ -50,49 +46,33 @@ from reduced_models.bearing.excitation import (
     with_cage_slip,
 )
 from reduced_models.bearing.features import Feature, feature_entries, features_from
-from reduced_models.bearing.freedoms import FIVE, PLANAR, bearing_load, held_tilt
-from reduced_models.bearing.height_tables import heights_of, require_features_fit, settle
+from reduced_models.bearing.freedoms import PLANAR, held_tilt
+from reduced_models.bearing.grooves import angle_without_load, require_contact_angle, require_room, table_cosine
+from reduced_models.bearing.height_tables import require_features_fit
 from reduced_models.bearing.kinematics import (
     RPM_TO_HZ,
-    RPM_TO_RAD_S,
     DefectFrequencies,
-    ball_mass,
-    cage_ratio,
-    centrifugal_factor,
-    speed_sum_per_omega,
 )
-from reduced_models.bearing.linear_balls import LinearBalls
-from reduced_models.bearing.loss import loss_of, require_loss_factor
+from reduced_models.bearing.loss import require_loss_factor
 from reduced_models.bearing.race import (
     RACES,
     Race,
     assumptions_under,
-    films_under,
-    race_of,
     require_roughness,
 )
-from reduced_models.bearing.race_table import tabulate_dry_race, tabulate_race
-from reduced_models.bearing.ring import (
-    RingEquilibrium,
-    StaticRing,
-    free_clearance,
-    groove_distance,
-    require_in_groove,
-    ring_equilibrium,
-    spin_moment_factor,
+from reduced_models.bearing.ring_statics import (
+    cage_angles,
+    equilibrium_under,
+    linear_balls,
+    require_load,
+    state_of,
 )
-from reduced_models.bearing.shoulders import require_below_shoulders, shoulder_angle
-from reduced_models.bearing.skf_friction import friction_under
 from reduced_models.bearing.solved_balls import damping_left_out, signed_damping
 from reduced_models.elements.film_contact import FilmContact
 
 _Floats = NDArray[np.float64]
 
-LARGEST_PLAY = 0.05  # clearance or preload over ball diameter: five times what C5 or a heavy fit has
-LARGEST_ANGLE = pi / 4.0  # rad: beyond it, a thrust bearing
-SAME_CLEARANCE = 0.01  # by which a clearance beside a contact angle may be rounded
 SUPPLIES = ("h", "over_flooded")  # units of an oil supply that is the same at all balls
-POSITIONS = 12  # of the cage over a ball passage for means: those of 6205 are within 1e-3 of those of 48
 
 
 @stored("ball bearing")
@@ -163,6 +143,11 @@ class BallBearing(Summary):
         tracks, as that of an `OilBalance`, or ``OilLayer(over_flooded=r)`` times what each flooded film lets
         through, r over the isothermal film with `thermal` too. By default contacts are flooded.
 
+    Attributes
+    ----------
+    tables : BearingTables
+        What is computed once from these inputs.
+
     Raises
     ------
     InputError
@@ -195,7 +180,7 @@ class BallBearing(Summary):
     thermal: Any = None
     features: Sequence[Feature] = ()
     supply: OilLayer | None = None
-    _cache: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
+    tables: BearingTables = field(init=False, repr=False, compare=False)
 
     def _summary_lines(self) -> list[str]:
         play = 1e6 * self.clearance
@@ -205,40 +190,15 @@ class BallBearing(Summary):
             f"{self.name or 'ball bearing'}, {self.balls} balls of {1e3 * self.ball_diameter:.4g} mm "
             f"on {1e3 * self.pitch_diameter:.4g} mm",
             f"conformity {self.conformity_inner:.4g} and {self.conformity_outer:.4g}, {grooves}",
-            "dry"
-            if self.oil is None
-            else f"oil of {self.oil.eta0:.4g} Pa s, alpha {1e9 * self.oil.alpha:.4g} 1/GPa, {self._supply_words}",
+            *condition_lines(self),
         ]
-        lines += (
-            []
-            if self.thermal is None
-            else [f"films heat up, inlets at {self._inlet_temperature:.4g} degrees Celsius"]
-        )
         lines += [f"loss factor {self.loss_factor:.3g}"] if self.loss_factor else []
         return [*lines, f"features: {', '.join(map(str, self.features))}"] if self.features else lines
 
-    @property
-    def _supply_words(self) -> str:
-        if self.supply is None:
-            return "flooded"
-        r, h = self.supply.over_flooded, self.supply.h
-        films = "flooded films" if self.thermal is None else "flooded isothermal films"
-        return f"a layer of {1e6 * h:.4g} µm" if r is None else f"a layer of {r:.4g} {films}"
-
-    def _require_supply(self) -> None:
-        if self.supply is None:
-            return
-        require_uniform(self.supply)
-        if self.oil is None:
-            raise InputError("supply", self._supply_words, "left out of a dry bearing, which has no oil")
-        if self.supply.H is not None:
-            raise InputError("supply", "H", "h [m] or over_flooded: dry approaches differ from ball to ball")
-
     def __post_init__(self) -> None:
         require_integer("balls", self.balls, "a whole number >= 3", 3)
-        if self.oil is not None:
-            require_instance("oil", self.oil, Lubricant, "a Lubricant, as Lubricant.iso_vg(68, temperature=50.0)")
-        self._require_supply()
+        require_oil(self.oil)
+        require_supply(self)
         object.__setattr__(self, "thermal", rolling_heat(self.thermal))
         if self.thermal is not None and self.oil is None:
             raise InputError("thermal", "Heat", "left out of a dry bearing, which has no films")
@@ -252,29 +212,14 @@ class BallBearing(Summary):
         require_choice("race_control", self.race_control, CONTROLS)
         if self.contact_angle is not None:
             require_contact_angle(self.contact_angle)
-        races = {name: race_of(self, name) for name in RACES}
-        self._cache["races"] = races
-        room = self.pitch_diameter * sin(pi / self.balls)
-        if self.ball_diameter >= room:
-            most = int(pi / np.arcsin(self.ball_diameter / self.pitch_diameter))
-            raise InputError("balls", self.balls, f"at most {most} on this pitch circle: they overlap")
-        play = LARGEST_PLAY * self.ball_diameter
-        if isinstance(self.clearance, str):
-            allowed = 'a number [m]; classes need a bore, as BallBearing.catalogue("6205", clearance="CN") has'
-            raise InputError("clearance", self.clearance, allowed)
-        if not abs(require_finite("clearance", self.clearance)) <= play:
-            raise InputError("clearance", self.clearance, f"between {-play:.3g} and {play:.3g} m")
-        if self.contact_angle is not None and self.clearance != 0.0:
-            own = free_clearance(self._groove_distance, self.contact_angle)
-            if abs(self.clearance - own) > SAME_CLEARANCE * own:
-                allowed = f"left out beside a contact angle, which makes it {own:.4g} m with these conformities"
-                raise InputError("clearance", self.clearance, allowed)
+        object.__setattr__(self, "tables", BearingTables(self))
+        require_room(self)
         given = require_features(self.features, self.balls, self.ball_diameter) if self.features else []
         object.__setattr__(self, "features", tuple(given))
         require_features_fit(self)
-        self._cache["shoulders"] = {name: shoulder_angle(self, name) for name in RACES}
+        _ = self.tables.shoulders  # refused where they are no shoulders of these grooves
         if self.oil is not None:
-            for race in races.values():
+            for race in self.tables.races.values():
                 race.require_in_atlas()
 
     @classmethod
@@ -312,9 +257,7 @@ class BallBearing(Summary):
     @property
     def free_angle(self) -> float:
         """Contact angle with the balls just touching both races [rad]: 0 without clearance."""
-        if self.contact_angle is not None:
-            return self.contact_angle
-        return acos(1.0 - 0.5 * max(self.clearance, 0.0) / self._groove_distance)
+        return angle_without_load(self)
 
     @property
     def orders(self) -> DefectFrequencies:
@@ -322,7 +265,7 @@ class BallBearing(Summary):
 
         `orders_under` has those at the contact angles of a load.
         """
-        return DefectFrequencies.of(self.balls, self.gamma, self._cosine)
+        return DefectFrequencies.of(self.balls, self.gamma, table_cosine(self))
 
     @takes(load="N", axial="N", speed_rpm="rev/min")
     def orders_under(
@@ -358,7 +301,7 @@ class BallBearing(Summary):
     def frequencies(self, speed_rpm: float) -> DefectFrequencies:
         """Defect frequencies [Hz] at a speed of the shaft [rev/min]."""
         turns = require_nonnegative("speed_rpm", speed_rpm) * RPM_TO_HZ
-        return DefectFrequencies.of(self.balls, self.gamma, self._cosine, turns)
+        return DefectFrequencies.of(self.balls, self.gamma, table_cosine(self), turns)
 
     @property
     def roughness(self) -> float | None:
@@ -367,25 +310,15 @@ class BallBearing(Summary):
         return hypot(*given) if given else None
 
     @property
-    def _inlet_temperature(self) -> float:
-        """Where films heat up, in degrees Celsius: an input."""
-        given = self.thermal.temperature
-        return float(self.oil.temperature if given is None else given)  # type: ignore[union-attr, arg-type]
-
-    @property
     def highest_speed(self) -> float:
         """Speed [rev/min] up to which the atlas and its tables have films for it; infinite where it is dry."""
-        return inf if self.oil is None else self._end[0]
-
-    @property
-    def _end(self) -> tuple[float, str]:
-        return min(race.end for race in self._cache["races"].values())
+        return inf if self.oil is None else self.tables.end[0]
 
     def race(self, name: str) -> Race:
         """The contact with the "inner" or the "outer" race."""
         if name not in RACES:
             raise InputError("race", name, f"one of {', '.join(RACES)}")
-        return self._cache["races"][name]
+        return self.tables.races[name]
 
     @takes(speed_rpm="rev/min")
     def element(self, race: str, speed_rpm: float) -> FilmContact:
@@ -393,9 +326,7 @@ class BallBearing(Summary):
         contact, speed = self.race(race), self.speed(speed_rpm)
         if self.oil is None:
             raise InputError("oil", None, "given, for a film")
-        if (race, speed) not in self._cache:
-            self._cache[race, speed] = contact.element(speed)
-        return self._cache[race, speed]
+        return self.tables.element(contact.name, speed)
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad", tilt="rad")
     def equilibrium(
@@ -429,10 +360,10 @@ class BallBearing(Summary):
             A load that does not seat the bearing, drives balls out of their grooves or is beyond the atlas; a
             speed beyond it.
         """
-        force, speed = self._bearing_load(load), self.speed(speed_rpm)
+        force, speed = require_load(self, load), self.speed(speed_rpm)
         angle = direction_of(force) if cage_angle is None else angle_of(cage_angle)
         held, turned = held_tilt(tilt, force.size), angle_of(shaft_angle, "shaft_angle") if self.features else None
-        return self._state(self._equilibrium(force, speed, angle, held, turned), speed, angle)
+        return state_of(self, equilibrium_under(self, force, speed, angle, held, turned), speed, angle)
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
     @by_name(2)
@@ -467,10 +398,10 @@ class BallBearing(Summary):
         -------
         BearingCoefficients
         """
-        force, speed = self._bearing_load(load), self.speed(speed_rpm)
+        force, speed = require_load(self, load), self.speed(speed_rpm)
         w, held = radians_per_second(None, omega=omega, hz=hz, rpm=rpm), held_tilt(tilt, force.size)
-        places = [self._equilibrium(force, speed, at, held) for at in self._cage_angles(force, cage_angle)]
-        balls = self._linear_balls(speed, places)
+        places = [equilibrium_under(self, force, speed, at, held) for at in cage_angles(self, force, cage_angle)]
+        balls = linear_balls(self, speed, places)
         full = np.mean([at.load for at in places], axis=0)
         outside = "" if self.oil is None else assumptions_under(self, speed, places).headline
         left_out = damping_left_out(self, speed, np.array([at.force for at in places]))
@@ -515,10 +446,10 @@ class BallBearing(Summary):
         """
         own = require_features(features, self.balls, self.ball_diameter)
         require_choice("contact_filter", contact_filter, FILTERS)
-        force, speed, cage_angle = self._bearing_load(load), self.speed(speed_rpm), angle_of(cage_angle)
-        cages = self._cage_angles(force, None)
-        places = [self._equilibrium(force, speed, at) for at in cages]
-        small = self._linear_balls(speed, places)
+        force, speed, cage_angle = require_load(self, load), self.speed(speed_rpm), angle_of(cage_angle)
+        cages = cage_angles(self, force, None)
+        places = [equilibrium_under(self, force, speed, at) for at in cages]
+        small = linear_balls(self, speed, places)
         forces, approach, rotations = (
             np.array([getattr(at, name) for at in places]) for name in ("force", "approach", "ball_rotation")
         )
@@ -527,13 +458,6 @@ class BallBearing(Summary):
         rotations = rotations * (rotation / turns[1])
         balls = FeaturedBalls(self, small, forces, cages[0], speed, cage, rotations, contact_filter)
         return excitation_of(balls, full, float(approach.sum(axis=-1).max()), own, cage_angle)
-
-    def _cage_angles(self, load: _Floats, cage_angle: float | None) -> list[float]:
-        """Angles of the first ball [rad] over a ball passage, or the one that is given."""
-        first = direction_of(load) if cage_angle is None else angle_of(cage_angle)
-        steps = np.arange(POSITIONS) / POSITIONS if cage_angle is None else np.zeros(1)
-        angles: list[float] = (first + 2.0 * pi / self.balls * steps).tolist()
-        return angles
 
     @takes(load="N", speeds_rpm="rev/min")
     @by_name(2)
@@ -578,207 +502,9 @@ class BallBearing(Summary):
         frequency = {"omega": omega, "hz": hz, "rpm": rpm}
         return bearing_element(self, node, speeds_rpm, load, frequency, **options)
 
-    def _require_bearable(self, force: _Floats, load: _Floats, speed: float) -> None:
-        """Raise `InputError` for forces on the balls, shape (balls, 2) [N], that a race does not bear."""
-        given: tuple[str, Any] = "load", load.tolist()
-        if not load.any() and self.clearance < 0.0:
-            given = "clearance", self.clearance
-        for name, most in zip(RACES, force.max(axis=0).tolist(), strict=True):
-            self.race(name).require_bearable(most, speed, *given)
-
-    def _require_bearable_by_all(self, load: _Floats, speed: float) -> None:
-        """Raise `InputError` for a load that is too large even if all balls carried the same share of it."""
-        moment = float(np.hypot.reduce(load[3:])) / (0.5 * self.pitch_diameter)
-        share = max(float(np.hypot.reduce(load[:3])), moment) / self.balls
-        for name in RACES:
-            highest, end = self.race(name).heaviest(speed)
-            if share > highest:
-                allowed = f"such that a ball carries at most {highest:.4g} N on the {name} race, {end}"
-                raise InputError("load", load.tolist(), f"{allowed} (here {share:.4g} N in the mean of all balls)")
-
-    def _bearing_load(self, load: ArrayLike) -> _Floats:
-        """A load that a bearing of this kind takes."""
-        force = bearing_load(load)
-        if force.size == len(PLANAR) and self.contact_angle is not None:
-            allowed = "(Fx, Fy, Fz) or (Fx, Fy, Fz, Mx, My): an angular contact bearing needs an axial load"
-            raise InputError("load", force.tolist(), allowed)
-        if self.contact_angle is not None and force[2] <= 0.0:
-            allowed = "one with Fz > 0: an angular contact bearing carries axial load in +z only"
-            raise InputError("load", force.tolist(), f"{allowed} (a BearingSet has others that face -z)")
-        return force
-
-    def _equilibrium(
-        self,
-        load: _Floats,
-        speed: float,
-        angle: float,
-        tilt: _Floats | None = None,
-        turned: float | None = None,
-    ) -> RingEquilibrium:
-        """Ring in equilibrium, the first ball at `angle`; raises `InputError` for a load that it does not take.
-
-        With the shaft `turned` by an angle [rad] its features are there; else it is smooth.
-        """
-        ring = self._static_ring(speed, angle, load.size, tilt)
-        if load.size > len(PLANAR):
-            self._require_bearable_by_all(load, speed)
-        try:
-            at = ring_equilibrium(ring, load)
-        except ConvergenceError:
-            self._require_bearable_by_all(load, speed)
-            raise
-        if turned is not None:
-            first = at.displacement
-            at = settle(self, ring.places.height, (angle, turned), lambda: ring_equilibrium(ring, load, first))
-        self._require_in_grooves(at.found, load, speed)
-        return at
-
-    def _require_in_grooves(self, found: _Floats, load: _Floats, speed: float) -> None:
-        """Raise `InputError` for balls (balls, ENTRIES) of `angular_balls` beyond what grooves and races bear."""
-        require_in_groove(found, load, self.contact_angle is not None)
-        force = found[:, LOAD : LOAD + 2]
-        require_below_shoulders(self, found[:, ANGLE : ANGLE + 2], force, load)
-        self._require_bearable(force, load, speed)
-
-    def _static_ring(self, speed: float, angle: float, free: int, tilt: _Floats | None = None) -> StaticRing:
-        """Inner ring of `free` degrees of freedom on balls at contact angles, the first ball at `angle`."""
-        held = np.zeros(len(FIVE)) if tilt is None else np.concatenate([np.zeros(3), tilt])
-        return StaticRing(self._balls(speed), angle, free, held)
-
-    def _linear_balls(self, speed: float, places: list[RingEquilibrium]) -> LinearBalls:
-        """All balls about equilibrium, over positions of the cage."""
-        return LinearBalls.of(self._balls(speed), places, loss_of(self.loss_factor), self._inertia)
-
-    def _state(self, at: RingEquilibrium, speed: float, angle: float) -> BearingState:
-        """State of the bearing with its ring where balls are in equilibrium, the first ball at `angle`."""
-        rolling: dict[str, Any] = {
-            "contact_angles": at.angles,
-            "spin_to_roll": at.spin_to_roll,
-            "orbit": at.orbit,
-            "ball_rotation": at.ball_rotation,
-        }
-        return BearingState(
-            name=self.name,
-            load=at.load,
-            speed_rpm=speed,
-            cage_angle=angle,
-            displacement=at.displacement,
-            stiffness=at.stiffness,
-            angles=np.asarray(angle + 2.0 * pi / self.balls * np.arange(self.balls)),
-            force=at.force,
-            approach=at.approach,
-            **({} if at.load.size == len(PLANAR) else rolling),
-            **({} if self.oil is None else films_under(self, speed, at)),
-            **friction_under(self, at.load, speed),
-        )
-
-    def _balls(self, speeds_rpm: ArrayLike) -> AngularBalls:
-        """Parameters of the compiled kernels (`reduced_models.bearing.angular_balls`) over increasing speeds."""
-        speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
-        key = ("balls", *speeds.tolist())
-        if key not in self._cache:
-            distance = self._groove_distance
-            inner, outer = ((f - 0.5) * self.ball_diameter for f in (self.conformity_inner, self.conformity_outer))
-            # without a given angle the outer groove is at 0 along the shaft, and the inner one with it
-            free = distance - 0.5 * self.clearance, 0.0
-            if self.contact_angle is not None:
-                free = distance * cos(self.contact_angle), distance * sin(self.contact_angle)
-            grooves = Grooves(
-                radial=free[0],
-                axial=free[1],
-                inner=inner,
-                outer=outer,
-                groove_circle=0.5 * self.pitch_diameter + inner * cos(self.free_angle),
-                radius=self.conformity_inner * self.ball_diameter,
-                ball=self.ball_diameter,
-                pitch=self.pitch_diameter,
-                mass=ball_mass(self.ball_diameter, self.density),
-                control=CONTROLS.index(self.race_control),
-                gyroscopic=-1.0 if self.race_control == CONTROLS[HARRIS] else 1.0,
-                inner_spin_moment=spin_moment_factor(self.race("inner").geometry, self.race("inner").kn),
-                outer_spin_moment=spin_moment_factor(self.race("outer").geometry, self.race("outer").kn),
-                cosine=self._cosine,
-            )
-            laws = self._law("inner", speeds), self._law("outer", speeds)
-            omega = speeds * RPM_TO_RAD_S
-            self._cache[key] = AngularBalls(
-                *laws,
-                self.balls,
-                grooves,
-                float(omega[0]),
-                omega,
-                loss_of(self.loss_factor),
-                self._inertia,
-                self._heights,
-            )
-        return self._cache[key]
-
-    @property
-    def _groove_distance(self) -> float:
-        return groove_distance(self.ball_diameter, self.conformity_inner, self.conformity_outer)
-
-    @property
-    def _inertia(self) -> float:
-        """Of a ball towards the rings [kg]; 0 where it has none."""
-        return ball_mass(self.ball_diameter, self.density) if self.ball_inertia else 0.0
-
-    @property
-    def _cosine(self) -> float:
-        """Of the contact angle for which both races are tabulated."""
-        return 1.0 if self.contact_angle is None else cos(self.contact_angle)
-
-    def _kernel(self, speeds_rpm: ArrayLike) -> Balls:
-        """Parameters of the compiled kernels (`reduced_models.bearing.balls`) over increasing speeds [rev/min].
-
-        Between two speeds films grow as with the speed to the power of 0.67; outside them the kernels do not ask.
-        They are planar: `InputError` for an angular contact bearing.
-        """
-        if self.contact_angle is not None:
-            allowed = "left out where bearings are planar: planar FMUs, rotors without axial motion"
-            raise InputError("contact_angle", self.contact_angle, allowed)
-        speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
-        key = ("kernel", *speeds.tolist())
-        if key not in self._cache:
-            self._cache[key] = Balls(
-                inner=self._law("inner", speeds),
-                outer=self._law("outer", speeds),
-                number=self.balls,
-                half_clearance=0.5 * self.clearance,
-                cage=cage_ratio(self.gamma),
-                centrifugal_factor=centrifugal_factor(self.ball_diameter, self.pitch_diameter, self.density),
-                speed_sum=speed_sum_per_omega(self.pitch_diameter, self.gamma),
-                speeds=speeds * RPM_TO_RAD_S,
-                loss=loss_of(self.loss_factor),
-                inertia=self._inertia,
-                heights=self._heights,
-            )
-        return self._cache[key]
-
-    @property
-    def _heights(self) -> _Floats:
-        """Heights of all features, as the kernels need them."""
-        if "heights" not in self._cache:
-            self._cache["heights"] = heights_of(self)
-        return self._cache["heights"]
-
-    def _law(self, race: str, speeds: _Floats) -> Any:
-        if self.oil is None:
-            return tabulate_dry_race(self.race(race).kn)
-        limit = inf if self.cutoff_gap is None else self.cutoff_gap
-        return tabulate_race([self.element(race, speed) for speed in speeds.tolist()], limit)
-
     def speed(self, speed_rpm: float) -> float:
         """The speed [rev/min] where the bearing can run at it; raises `InputError` where not."""
-        speed = require_nonnegative("speed_rpm", speed_rpm)
-        if self.oil is None:
-            return speed
-        if speed == 0.0:
-            raise InputError("speed_rpm", speed, "> 0 for a bearing with oil: without rolling there is no film")
-        INPUTS["speed_rpm"].require("speed_rpm", speed)
-        if speed > self.highest_speed:
-            allowed = f"at most {self.highest_speed:.5g}, where {self._end[1]} ends for this bearing and oil"
-            raise InputError("speed_rpm", speed, allowed)
-        return speed
+        return require_speed(self, speed_rpm)
 
     def to_dict(self) -> dict[str, Any]:
         """All arguments, ready for JSON."""
@@ -807,12 +533,3 @@ class BallBearing(Summary):
             require_names(thermal, [f.name for f in fields(Heat)], "thermal.")
             given["thermal"] = Heat.from_dict(thermal)
         return cls(**{**entries, **given})
-
-
-def require_contact_angle(angle: float) -> None:
-    """Raise `InputError` for a contact angle [rad] that no angular contact bearing has."""
-    if not 0.0 < require_finite("contact_angle", angle) <= LARGEST_ANGLE:
-        allowed = f"above 0 and at most {LARGEST_ANGLE:.4g} rad (45 degrees)"
-        given = f"; {angle:g} degrees are {np.radians(angle):.4g} rad" if LARGEST_ANGLE < angle <= 45.0 else ""
-        given = '; a bearing of the other hand has facing="-z" in its set or mount' if angle < 0.0 else given
-        raise InputError("contact_angle", angle, allowed + given)

@@ -38,12 +38,12 @@ def heights_in_runs(bearing: BallBearing, speeds_rpm: Sequence[float]) -> _Float
     Those of a dry bearing, and of one without features, are the heights in equilibria.
     """
     if bearing.oil is None or not bearing.features:
-        return bearing._heights
+        return bearing.tables.heights
     speed = mean_film_speed(min(speeds_rpm), max(speeds_rpm))
-    if ("heights", speed) not in bearing._cache:
-        bearing._cache["heights", speed] = _with_films(bearing, speed)
-    found: _Floats = bearing._cache["heights", speed]
-    return found
+    found = bearing.tables.heights_in_films
+    if speed not in found:
+        found[speed] = _with_films(bearing, speed)
+    return found[speed]
 
 
 def mean_film_speed(lowest: float, highest: float) -> float:
@@ -54,7 +54,7 @@ def mean_film_speed(lowest: float, highest: float) -> float:
 
 
 def _with_films(bearing: BallBearing, speed_rpm: float) -> _Floats:
-    found = bearing._heights.copy()
+    found = bearing.tables.heights.copy()
     places = found.shape[1] - 1
     tables = found[0, : 1 + bearing.balls, TABLE : TABLE + len(RACES)].astype(int)
     for row, column in np.argwhere(tables).tolist():

@@ -125,7 +125,7 @@ def settle(
     ConvergenceError
         The heights do not settle.
     """
-    heights = bearing._heights
+    heights = bearing.tables.heights
     turned = np.zeros((1 + bearing.balls, 3))
     turned[0, ANGLE_NOW] = angles[1]
     kn = np.array([bearing.race(name).kn for name in RACES])

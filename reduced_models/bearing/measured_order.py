@@ -19,7 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_numbers, require_finite, require_nonnegative
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from reduced_models.bearing.ball_bearing import LARGEST_ANGLE, LARGEST_PLAY, BallBearing
+from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.grooves import LARGEST_ANGLE, LARGEST_PLAY
 from reduced_models.bearing.kinematics import DefectFrequencies
 
 _Floats = NDArray[np.float64]

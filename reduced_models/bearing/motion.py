@@ -227,7 +227,7 @@ def motion_of(bearing: BallBearing, speeds_rpm: list[float], directions: tuple[s
     """
     speeds = [bearing.speed(speed) for speed in speeds_rpm]
     heights = heights_in_runs(bearing, speeds)
-    return BallMotion(bearing._balls(speeds)._replace(heights=heights), directions)
+    return BallMotion(bearing.tables.balls(speeds)._replace(heights=heights), directions)
 
 
 def _settled(before: _Floats, heights: _Floats) -> bool:

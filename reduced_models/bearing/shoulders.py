@@ -56,7 +56,7 @@ def require_below_shoulders(bearing: Any, angles: _Floats, force: _Floats, load:
     `angles` [rad] and `force` [N] have shape (balls, 2): columns for inner and outer race.
     """
     for column, race in enumerate(SIDES):
-        end = bearing._cache["shoulders"][race]
+        end = bearing.tables.shoulders[race]
         if end is None:
             continue
         body = bearing.race(race).geometry

@@ -24,7 +24,6 @@ _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
 ALIKE = 9  # digits to which the loads, angles and speeds of two contacts are the same
-WARNED = "warned of damping left out"  # where a bearing keeps that
 
 
 class SolvedContacts:
@@ -164,8 +163,8 @@ def damping_left_out(bearing: Any, speed_rpm: float, force: _Floats) -> str:
 
 def warn_of_damping_left_out(bearing: Any, name: str, words: str, stacklevel: int) -> None:
     """Warn, once per bearing, of what `damping_left_out` says; `name` is that of the bearing."""
-    if words and WARNED not in bearing._cache:
-        bearing._cache[WARNED] = True
+    if words and not bearing.tables.warned:
+        bearing.tables.warned = True
         warnings.warn(f"{name}: {words}", OutsideValidityWarning, stacklevel=stacklevel + 1)
 
 

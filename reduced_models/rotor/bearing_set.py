@@ -46,6 +46,7 @@ from reduced_models.bearing.equilibrium import angle_of, direction_of
 from reduced_models.bearing.freedoms import FACINGS, FIVE, bearing_load, facing_signs, held_tilt, require_offset
 from reduced_models.bearing.race import assumptions_under
 from reduced_models.bearing.ring import RingEquilibrium, groove_distance, require_seated
+from reduced_models.bearing.ring_statics import cage_angles, require_in_grooves, state_of
 from reduced_models.bearing.set_result import SetState
 from reduced_models.bearing.solved_balls import require_frequencies
 from reduced_models.rotor.equilibrium import StaticBearing, StaticRotor
@@ -267,7 +268,7 @@ class BearingSet(Summary):
         q, _ = static.search()
         try:
             for bearing, balls in zip(dry, static.bearings(q), strict=True):
-                bearing._require_in_grooves(balls.found, load[: Z + 1], 0.0)
+                require_in_grooves(bearing, balls.found, load[: Z + 1], 0.0)
         except InputError as error:
             raise InputError("preload", preload, error.allowed) from None
         return float(q[Z])
@@ -342,7 +343,7 @@ class BearingSet(Summary):
             stiffness=rest.stiffness,
             axial_forces=np.array([balls.load[Z] for balls in rest.bearings]),
             facings=tuple(self.facings),
-            bearings=tuple(bearing._state(balls, speed, angle) for bearing, balls in rows),
+            bearings=tuple(state_of(bearing, balls, speed, angle) for bearing, balls in rows),
         )
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad", tilt="rad")
@@ -381,7 +382,7 @@ class BearingSet(Summary):
         """
         force, speed = bearing_load(load), self.speed(speed_rpm)
         w = radians_per_second(None, omega=omega, hz=hz, rpm=rpm)
-        cages = list(zip(*(bearing._cage_angles(force, cage_angle) for bearing in self.bearings), strict=True))
+        cages = list(zip(*(cage_angles(bearing, force, cage_angle) for bearing in self.bearings), strict=True))
         held = held_tilt(tilt, force.size)
         rests = [self._at_rest(force, speed, angles, held) for angles in cages]
         full = np.mean([rest.load for rest in rests], axis=0)
@@ -584,7 +585,7 @@ class BearingSet(Summary):
         bearings = static.bearings(q)
         for k, (bearing, balls) in enumerate(zip(self.bearings, bearings, strict=True)):
             try:
-                bearing._require_in_grooves(balls.found, load, speed)
+                require_in_grooves(bearing, balls.found, load, speed)
             except InputError as error:
                 raise InputError(error.field, error.value, f"{error.allowed}, in bearing {k}") from None
         self._require_loaded([support for _, support in static.mounted], load, speed)

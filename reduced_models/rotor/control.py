@@ -27,6 +27,7 @@ from reduced_models.bearing.continuous_time import RestingBalls, bearing_rates, 
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.ring import equilibrium_at
+from reduced_models.bearing.ring_statics import linear_balls, static_ring
 from reduced_models.elements.film_response import FILTERS
 from reduced_models.rotor.linear_system import rotor_system
 from reduced_models.rotor.rotor import Rotor
@@ -183,9 +184,9 @@ class _Ring:
 
     def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
         bearing, rpm = mount.ball_bearing, mount.ball_bearing.speed(speed)
-        self._static, self._angle = bearing._static_ring(rpm, mount.cage_angle, r.size), mount.cage_angle
+        self._static, self._angle = static_ring(bearing, rpm, mount.cage_angle, r.size), mount.cage_angle
         held = equilibrium_at(self._static, r)
-        linear = bearing._linear_balls(rpm, [held])
+        linear = linear_balls(bearing, rpm, [held])
         self.balls: AngularBalls = self._static.balls
         self.shape = _shape_of(linear)._replace(cage=cage_turns)
         self.force = held.load.copy()

@@ -14,6 +14,7 @@ from reduced_models.bearing.equilibrium import GUESS, OPEN
 from reduced_models.bearing.equilibrium import equilibrium as solve
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.ring import RingEquilibrium, equilibrium_at, grow_gyroscopic
+from reduced_models.bearing.ring_statics import require_in_grooves, static_ring
 from reduced_models.rotor.nodes import LENGTHS
 from reduced_models.rotor.scaled_contact import has_tangents
 from reduced_models.rotor.supports import (
@@ -70,7 +71,7 @@ class StaticBearing:
     def __init__(self, mount: BearingMount, speed_rpm: float, name: str) -> None:
         bearing, self._name = mount.ball_bearing, name
         self.bearing, self._shift, self.speed = bearing, mount.shift, bearing.speed(speed_rpm)
-        self.ring = bearing._static_ring(self.speed, mount.cage_angle, len(mount.directions))
+        self.ring = static_ring(bearing, self.speed, mount.cage_angle, len(mount.directions))
         self._pressed = _NOTHING
 
     def press(self, r: _Floats) -> None:
@@ -107,7 +108,7 @@ class StaticBearing:
         load, balls = self.force(r), self.ring.places.found
         shown = np.array([float(f"{component:.4g}") for component in load])
         try:
-            self.bearing._require_in_grooves(balls, shown, self.speed)
+            require_in_grooves(self.bearing, balls, shown, self.speed)
         except InputError as error:
             other = "; or change its facing" if self.bearing.contact_angle is not None else ""
             raise InputError(f"{error.field} of {self._name}", error.value, error.allowed + other) from None

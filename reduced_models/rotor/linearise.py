@@ -19,6 +19,7 @@ from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.ring import RingEquilibrium, equilibrium_at, ring_equilibrium
+from reduced_models.bearing.ring_statics import cage_angles, linear_balls, static_ring
 from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out, with_solved_contacts
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
@@ -405,11 +406,11 @@ def _linear_bearing(
 ) -> tuple[_Floats, LinearBalls, str]:
     """Static force on the inner ring, linear bearing about it, and the damping left out, in words."""
     bearing, rpm, ring = mount.ball_bearing, mount.ball_bearing.speed(speed), ring + mount.shift
-    held = equilibrium_at(bearing._static_ring(rpm, mount.cage_angle, ring.size), ring)
+    held = equilibrium_at(static_ring(bearing, rpm, mount.cage_angle, ring.size), ring)
     force, loaded = held.load, np.linalg.norm(held.load) >= UNLOADED * held.force.max()
     places = [held]
     if passage:
-        rings = [bearing._static_ring(rpm, angle, ring.size) for angle in bearing._cage_angles(force[:2], None)]
+        rings = [static_ring(bearing, rpm, angle, ring.size) for angle in cage_angles(bearing, force[:2], None)]
         places = [
             ring_equilibrium(static, force, first=ring) if loaded else equilibrium_at(static, ring)
             for static in rings
@@ -425,5 +426,5 @@ def linear_bearing(
     With `signed` contacts under an oil supply have the impedance of the solved ones.
     """
     left_out = damping_left_out(bearing, speed, np.array([balls.force for balls in places]))
-    small = bearing._linear_balls(speed, list(places))
+    small = linear_balls(bearing, speed, list(places))
     return with_solved_contacts(bearing, speed, small, places) if signed else small, left_out

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import sin
 from typing import Any
 
 import numpy as np
@@ -85,13 +84,13 @@ class PreparedRun:
         face each other: its balls would be pressed on the side that has no shoulder.
         """
         found = []
-        rows = zip(self.rotor.ball_bearings, self.rotor.ball_bearing_names, self.ball_directions, strict=True)
-        for mount, name, at in rows:
+        rotor = self.rotor
+        rows = zip(rotor.ball_bearings, rotor.ball_bearing_names, self.ball_directions, self.balls, strict=True)
+        for mount, name, at, one in rows:
             place = (self.histories.motion[first + 1 : end + 1, at] + self.shift[at])[:, :DISPLACEMENTS]
             far, against = (np.abs(place) > self.farthest).any(axis=1), np.zeros(len(place), bool)
-            bearing = mount.ball_bearing
-            if bearing.contact_angle is not None:
-                against = place[:, AXIAL] < -bearing._groove_distance * sin(bearing.contact_angle)
+            if mount.ball_bearing.contact_angle is not None:
+                against = place[:, AXIAL] < -one.balls.grooves.axial
             for k in np.flatnonzero(far | against)[:1].tolist():
                 how = f", {1e3 * float(np.linalg.norm(place[k])):.3g} mm from the middle"
                 if against[k]:

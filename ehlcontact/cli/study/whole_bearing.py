@@ -14,9 +14,9 @@ from ehlcontact.cli.spall import require_fit, spall_of
 from ehlcontact.cli.study.shared_entries import moments_of, pair_of, supply_and_heat, tilt_of
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import BallBearing, BearingSet, Spall
-from reduced_models.bearing.ball_bearing import LARGEST_PLAY
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import PLANAR
+from reduced_models.bearing.grooves import LARGEST_PLAY
 from reduced_models.bearing.set_result import SetState
 from reduced_models.rotor.prepared_run import LEAST_STEPS
 

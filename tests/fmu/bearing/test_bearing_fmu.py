@@ -369,7 +369,7 @@ def test_a_coast_down_ends_at_standstill(made, lead):
 
 def test_powers_of_a_curve_that_are_zero():
     """A coefficient of an interval may come out as exactly 0; that of a 6205 in ISO VG 68 at 3000 rev/min did."""
-    law = bearing()._kernel([RPM]).inner
+    law = bearing().tables.law("inner", [RPM])
     cells = law.cells.copy()
     cells[:, 1, :, 0], cells[:, 1, :, 1:] = 0.5, 0.0  # the second interval is constant
     place = _halved(law)[1]
@@ -382,7 +382,7 @@ def test_powers_of_a_curve_that_are_zero():
 
 def test_the_curve_of_a_layer_that_runs_dry():
     """Within an interval it bends: one polynomial is 9e-5 of it off, and there are more, with gains as before."""
-    law = bearing("6305", supply=OilLayer(3e-7))._kernel([2000.0, 5000.0]).inner
+    law = bearing("6305", supply=OilLayer(3e-7)).tables.law("inner", [2000.0, 5000.0])
     halved, place = _halved(law)
     powers, first = _curve(halved, place)
     assert halved.x.size > law.x.size

@@ -82,7 +82,7 @@ def test_tables_of_defects_are_those_of_elastic_contacts(defect):
         for place in np.linspace(-3.5e-4, 0.0, 4):
             force = twin(body.kappa, lambda X, a=a, x=place, r=raised, d=d: (defect.height(x + a * X) + d - r) / r)
             expected = raised * force ** (2.0 / 3.0) - d
-            found = looked_up(bearing._heights, 1, defect.angle + place / radius, d)
+            found = looked_up(bearing.tables.heights, 1, defect.angle + place / radius, d)
             off.append(abs(found - expected) / defect.depth)
             strip_off.append(
                 abs(np.interp(place, spacing * np.arange(-400, 400), strip) - expected) / defect.depth
@@ -92,7 +92,7 @@ def test_tables_of_defects_are_those_of_elastic_contacts(defect):
 
 def test_far_from_defects_tables_are_those_of_the_strip():
     spall = Spall(race="outer", angle=1.0, length=5e-4, depth=2e-6, edge=1e-4)
-    table = replace(DRY, features=[spall])._heights[1, :-1]
+    table = replace(DRY, features=[spall]).tables.heights[1, :-1]
     theta = 2.0 * pi * np.arange(len(table)) / len(table)
     away = np.abs(theta - 1.0) * track_radius(DRY, "outer")
     assert np.abs(table[away > 2e-3]).max() < 1e-15 and table[away < 1e-4].max() < -5e-7

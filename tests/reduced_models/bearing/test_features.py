@@ -163,7 +163,7 @@ def test_waves_are_filtered_by_the_length_of_the_contact():
         for load in (50.0, 300.0, 1500.0):
             approach = (load / kn) ** (2.0 / 3.0)
             k = waves * sqrt(2.0 * strip * approach) / radius
-            found = looked_up(bearing._heights, 1, 0.0, approach) / 1e-9
+            found = looked_up(bearing.tables.heights, 1, 0.0, approach) / 1e-9
             assert found == pytest.approx(np.sinc(k / pi), abs=0.01), (waves, load)
 
 
@@ -342,7 +342,7 @@ def test_features_without_height_change_no_bit(freedoms):
     ]
     for smooth, featured in zip(*runs, strict=True):
         np.testing.assert_array_equal(smooth, featured)
-    assert OILED._heights.size == 0
+    assert OILED.tables.heights.size == 0
 
 
 def test_a_dent_of_a_film_is_no_feature_of_a_bearing():

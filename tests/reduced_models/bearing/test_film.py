@@ -27,7 +27,7 @@ def as_the_prototype(bearing, rpm, load, omega):
         for race in ("inner", "outer")
     ]
     inner, outer = (tabulate_race([element]) for element in elements)
-    balls = bearing._balls(rpm)._replace(inner=inner, outer=outer)
+    balls = bearing.tables.balls(rpm)._replace(inner=inner, outer=outer)
     angles = [ON + 2.0 * pi / 9.0 * k / 4.0 for k in range(4)]
     at = [ring_equilibrium(StaticRing(balls, angle, 2, np.zeros(5)), load) for angle in angles]
     K, C = LinearBalls.of(balls, at, balls.loss, 0.0).coefficients(np.array([omega]))

@@ -51,7 +51,7 @@ def test_waves_have_the_filter_of_their_film(track, length):
 def test_films_keep_the_volume_of_a_spall_and_round_its_edges(race):
     bearing = replace(OILED, features=[replace(PIT, race=race)])
     heights, column = heights_in_runs(bearing, [RPM]), 8
-    film, dry = (one[1, :-1, column] for one in (heights, bearing._heights))
+    film, dry = (one[1, :-1, column] for one in (heights, bearing.tables.heights))
     assert film.mean() == pytest.approx(dry.mean(), rel=1e-9)
     assert np.abs(np.diff(film)).max() < 0.95 * np.abs(np.diff(dry)).max()
     assert dry.min() < film.min() and film.max() < 0.002 * PIT.depth
@@ -60,17 +60,16 @@ def test_films_keep_the_volume_of_a_spall_and_round_its_edges(race):
 def test_dry_bearings_smooth_ones_and_equilibria_have_the_tables_as_they_are():
     dry, oiled = replace(DRY, features=[PIT]), replace(OILED, features=[PIT])
     for directions in (PLANAR, FIVE):
-        assert motion_of(dry, [RPM], directions).balls.heights is dry._heights
-        assert motion_of(OILED, [RPM], directions).balls.heights is OILED._heights
+        assert motion_of(dry, [RPM], directions).balls.heights is dry.tables.heights
+        assert motion_of(OILED, [RPM], directions).balls.heights is OILED.tables.heights
         assert motion_of(oiled, [RPM], directions).balls.heights is heights_in_runs(oiled, [RPM])
-    for kernel in (oiled._kernel(RPM), oiled._balls(RPM)):
-        np.testing.assert_array_equal(kernel.heights, dry._heights)
-    assert np.abs(heights_in_runs(oiled, [RPM]) - dry._heights).max() > 0.1 * PIT.depth
+    np.testing.assert_array_equal(oiled.tables.balls(RPM).heights, dry.tables.heights)
+    assert np.abs(heights_in_runs(oiled, [RPM]) - dry.tables.heights).max() > 0.1 * PIT.depth
 
 
 def test_balls_of_another_diameter_have_no_filter():
     bearing = replace(OILED, features=[BallDiameter(ball=1, excess=1e-6)])
-    np.testing.assert_array_equal(heights_in_runs(bearing, [RPM]), bearing._heights)
+    np.testing.assert_array_equal(heights_in_runs(bearing, [RPM]), bearing.tables.heights)
 
 
 def test_films_of_a_changing_speed():

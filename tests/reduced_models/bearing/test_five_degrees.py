@@ -162,7 +162,7 @@ def test_balls_against_their_equations_written_out(control):
     state = bearing.equilibrium((1000.0, -700.0, 15000.0, 20.0, -10.0), speed_rpm=10000.0)
     mass = bearing.density * pi / 6.0 * D**3
     kn = [bearing.race(name).kn for name in ("inner", "outer")]
-    grooves = bearing._balls(10000.0).grooves
+    grooves = bearing.tables.balls(10000.0).grooves
     torsion = grooves.inner_spin_moment, grooves.outer_spin_moment
     reach = (bearing.conformity_inner - 0.5) * D
     lever = 0.5 * dm + reach * cos(bearing.contact_angle)
@@ -200,7 +200,7 @@ def test_balls_against_their_equations_written_out(control):
 
 
 def ring(bearing, rpm, angle=0.3):
-    return StaticRing(bearing._balls(rpm), angle, 5, np.zeros(5))
+    return StaticRing(bearing.tables.balls(rpm), angle, 5, np.zeros(5))
 
 
 def pressed(at, q):
@@ -265,7 +265,7 @@ def test_a_radial_load_is_carried_as_with_axial_motion_and_tilts_held(oil, clear
         whole = bearing.equilibrium((*force, 0.0), speed_rpm=6000.0, cage_angle=0.3)
         np.testing.assert_allclose(whole.displacement[:2], planar.displacement, rtol=1e-9)
         np.testing.assert_allclose(whole.force, planar.force, rtol=1e-9, atol=1e-9 * planar.force.max())
-        at = StaticRing(bearing._balls(6000.0), 0.3, 2, np.zeros(5))
+        at = StaticRing(bearing.tables.balls(6000.0), 0.3, 2, np.zeros(5))
         columns = []
         for step in 1e-9 * np.eye(2):
             ends = []

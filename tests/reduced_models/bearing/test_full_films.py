@@ -9,6 +9,7 @@ from ehlcontact import Domain, Grid, Lubricant, PrescribedApproach, TimeSteps, i
 from reduced_models import BallBearing
 from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.loss import loss_of
+from reduced_models.bearing.ring_statics import equilibrium_under
 
 DOWN = (0.0, -1000.0)
 OMEGA = np.array([0.0, 0.05, 0.25, 1.0, pi, 2.0 * pi, 12.0, 20.0])  # 1 is 4.2 kHz at 3000 rpm under 477 N
@@ -109,7 +110,7 @@ def test_contacts_at_angles_of_a_7205(ball, race):
     )
     load, rpm, column = np.array([500.0, -200.0, 1000.0]), 12000.0, ("inner", "outer").index(race)
     state = bearing.equilibrium(load, speed_rpm=rpm)
-    at = bearing._equilibrium(load, rpm, state.cage_angle)
+    at = equilibrium_under(bearing, load, rpm, state.cage_angle)
     angle, speed_sum = float(at.angles[ball, column]), float(at.speed_sum[ball, column])
     own = bearing.race(race).at_angle(bearing.pitch_diameter, angle, speed_sum)
     point = own.point(float(state.force[ball, column]), rpm)
@@ -118,7 +119,7 @@ def test_contacts_at_angles_of_a_7205(ball, race):
     assert state.h_min[ball, column] == pytest.approx(steady.h_min, rel=0.01)
     Omega = np.array([0.05, 0.5, pi])
     solved, omega = impedance(point, Omega=Omega, grid=Grid(n=128)).si, Omega / point.scales.time
-    small = LinearBalls.of(bearing._balls(rpm), [at], loss_of(0.0), 0.0)
+    small = LinearBalls.of(bearing.tables.balls(rpm), [at], loss_of(0.0), 0.0)
     Z = (small.inner, small.outer)[column].impedance(1j * omega[:, None])[:, ball]
     full = solved.stiffness + 1j * omega * solved.damping
     assert np.all(np.abs(Z - full) < 0.03 * np.abs(full))

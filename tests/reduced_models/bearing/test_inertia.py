@@ -17,6 +17,7 @@ from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
 from reduced_models.bearing.ring import equilibrium_at
+from reduced_models.bearing.ring_statics import equilibrium_under, linear_balls, static_ring
 
 RPM = 3000.0
 
@@ -57,12 +58,12 @@ def test_against_scipy():
 def test_small_motions_in_time_have_the_impedance(oil, oiled):
     """At half the frequency of the balls on their contacts, where their inertia counts."""
     bearing = BallBearing.catalogue("6205", oil=oil if oiled else None, ball_inertia=True, loss_factor=0.1)
-    still = with_light_balls(bearing, RPM)
-    at = still._equilibrium(np.array([0.0, -1000.0]), RPM, -pi / 2.0)
+    still = with_light_balls(bearing)
+    at = equilibrium_under(still, np.array([0.0, -1000.0]), RPM, -pi / 2.0)
     hz, size, periods, per_period = 15e3, 1e-11, 40, 400
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)
-    balls = still._linear_balls(RPM, [at])
+    balls = linear_balls(still, RPM, [at])
     Z, massless = (b.impedance(1j * omega) for b in (balls, balls._replace(inertia=0.0)))
     run = still_motion(bearing, RPM, dt)
     start = run.rest(at.displacement)
@@ -82,7 +83,7 @@ def test_small_motions_in_time_have_the_impedance(oil, oiled):
 def test_small_motions_at_contact_angles_have_the_impedance(oil, oiled):
     bearing = BallBearing.catalogue("7205", oil=oil if oiled else None, ball_inertia=True, loss_factor=0.1)
     place = bearing.equilibrium((0.0, -300.0, 800.0), speed_rpm=RPM, cage_angle=0.3).displacement
-    small = bearing._linear_balls(RPM, [equilibrium_at(bearing._static_ring(RPM, 0.3, 5), place)])
+    small = linear_balls(bearing, RPM, [equilibrium_at(static_ring(bearing, RPM, 0.3, 5), place)])
     hz, size, periods, per_period = 15e3, 1e-11, 40, 100
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     Z, massless = (b.impedance(1j * omega) for b in (small, small._replace(inertia=0.0)))

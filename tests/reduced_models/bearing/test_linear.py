@@ -9,6 +9,7 @@ from beam_rotor import still_motion, with_light_balls
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
 from reduced_models.bearing.ball_states import bearing_system
+from reduced_models.bearing.ring_statics import equilibrium_under, linear_balls
 
 RPM = 3000.0
 
@@ -18,10 +19,10 @@ RPM = 3000.0
 def test_a_contact_has_the_impedance_of_its_element(film, race, load):
     """Of the heaviest ball."""
     element, omega = film.element(race, RPM), np.array([10.0, 1e3, 1e5])
-    at = film._equilibrium(np.array([0.0, -5.0 * load]), RPM, -pi / 2.0)
+    at = equilibrium_under(film, np.array([0.0, -5.0 * load]), RPM, -pi / 2.0)
     column = ("inner", "outer").index(race)
     k = int(np.argmax(at.force[:, column]))
-    found = getattr(film._linear_balls(RPM, [at]), race).impedance(1j * omega[:, None])[:, k]
+    found = getattr(linear_balls(film, RPM, [at]), race).impedance(1j * omega[:, None])[:, k]
     expected = element.impedance(load=at.force[k, column], omega=omega)
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
@@ -30,8 +31,8 @@ def test_a_contact_has_the_impedance_of_its_element(film, race, load):
 @pytest.mark.parametrize(("name", "load"), [("6205", (0.0, -800.0)), ("7205", (0.0, -300.0, 400.0))])
 def test_the_impedance_is_the_transfer_function_of_the_state_space(oil, name, load, changes):
     bearing = BallBearing.catalogue(name, **{"oil": oil} | changes)
-    places = [bearing._equilibrium(np.array(load), RPM, angle) for angle in (0.1, 0.3)]
-    balls = bearing._linear_balls(RPM, places)
+    places = [equilibrium_under(bearing, np.array(load), RPM, angle) for angle in (0.1, 0.3)]
+    balls = linear_balls(bearing, RPM, places)
     A, B, C, D = bearing_system(balls)
     n, unit = len(C), np.array([1.0, 1.0, 1.0, 1e-2, 1e-2])
     for s in 2j * pi * np.array([0.5, 50.0, 500.0, 5000.0]):
@@ -53,11 +54,11 @@ def test_the_impedance_is_the_transfer_function_of_the_state_space(oil, name, lo
 def test_small_motions_in_time(oil, changes, ways, hz, periods, per_period, within):
     """A ring that swings a little, its balls standing still: amplitude and phase of the force."""
     bearing = BallBearing.catalogue("6205", **{"oil": oil} | changes)
-    still = with_light_balls(bearing, RPM)
-    at = still._equilibrium(np.array([200.0, -1000.0]), RPM, 0.4)
+    still = with_light_balls(bearing)
+    at = equilibrium_under(still, np.array([200.0, -1000.0]), RPM, 0.4)
     size, omega, dt = 1e-10, 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)
-    Z = still._linear_balls(RPM, [at]).impedance(1j * omega)
+    Z = linear_balls(still, RPM, [at]).impedance(1j * omega)
     for k in ways:
         direction = np.eye(2)[k]
         run = still_motion(bearing, RPM, dt, 0.4)

@@ -1,6 +1,5 @@
 """Tabulated laws against the elements that they are made of, and the atlas behind those."""
 
-import copy
 from dataclasses import replace
 from math import inf
 from typing import NamedTuple
@@ -11,9 +10,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from ehlcontact.errors import InputError
-from reduced_models.bearing import balls as balls_room
 from reduced_models.bearing import race_contact as contact_room
-from reduced_models.bearing.balls import films_of, speed_state
+from reduced_models.bearing.angular_steps import films_of_angular
+from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import shared_atlas
 from reduced_models.bearing.race_contact import (
@@ -82,35 +81,45 @@ def test_elements_of_one_race_hold_all_its_loads(film):
         np.testing.assert_allclose(found, (low, high), rtol=1e-6)
 
 
+def row_at(balls, rpm):
+    """Row of the tables at a speed, and weight of the next."""
+    return row_of_speed(balls.speeds, rpm * RPM_TO_RAD_S)
+
+
 def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
-    many = film._kernel(SPEEDS)
+    many = film.tables.balls(SPEEDS)
     u = np.array([-5e-6, 0.0, 3e-6, 8e-6])
     for row, speed in enumerate(SPEEDS):
-        at_speed = speed_state(many, speed * RPM_TO_RAD_S)
-        assert sum(at_speed.speed_row) == row
-        one = film._kernel(speed)
+        assert sum(row_at(many, speed)) == row
+        one = film.tables.balls(speed)
         for approach in u:
-            ours = curve(approach, *at_speed.speed_row, many.inner, 0)[0]
+            ours = curve(approach, *row_at(many, speed), many.inner, 0)[0]
             assert ours == pytest.approx(curve(approach, 0, 0.0, one.inner, 0)[0], rel=1e-9)
 
 
 def test_between_speeds_films_grow_as_they_should(film):
     """Half way between two speeds of a law it is within 1 % of the law of that speed, and nowhere does it jump."""
-    coarse = film._kernel((2500.0, 3500.0))
-    at_speed, own = speed_state(coarse, 3000.0 * RPM_TO_RAD_S), film._kernel(3000.0)
+    coarse, own = film.tables.balls((2500.0, 3500.0)), film.tables.balls(3000.0)
     for u in (2e-6, 5e-6, 8e-6):
-        film_there = curve(u, *at_speed.speed_row, coarse.inner, 0)[0] - u
+        film_there = curve(u, *row_at(coarse, 3000.0), coarse.inner, 0)[0] - u
         assert film_there == pytest.approx(curve(u, 0, 0.0, own.inner, 0)[0] - u, rel=0.01)
-    many = film._kernel(SPEEDS)
-    below, above = (speed_state(many, 3000.0 * RPM_TO_RAD_S * (1.0 + s)) for s in (-1e-9, 1e-9))
-    assert below.speed_row[0] == 0 and above.speed_row[0] == 1
+    many = film.tables.balls(SPEEDS)
+    below, above = (row_at(many, 3000.0 * (1.0 + s)) for s in (-1e-9, 1e-9))
+    assert below[0] == 0 and above[0] == 1
     pressed = []
-    for at_speed in (below, above):
-        films = films_of(many)
+    for row in (below, above):
+        films = films_of_angular(many)
         films.state[0, APPROACH] = 5e-6
-        prepare_filters(many.inner, at_speed.inner, at_speed.speed_row, None, 2e-5, films, 0)
-        pressed.append(contact_force(many.inner, at_speed.inner, at_speed.speed_row, None, films, 0, 5.1e-6, 3e-3))
+        prepare_filters(many.inner, transit(many), row, None, 2e-5, films, 0)
+        pressed.append(contact_force(many.inner, transit(many), row, None, films, 0, 5.1e-6, 3e-3))
     np.testing.assert_allclose(pressed[0], pressed[1], rtol=1e-6)
+
+
+def transit(balls):
+    """Time scale 2a/u_sum of the inner contact over sqrt(g), at 3000 rev/min."""
+    g = balls.grooves
+    u_sum = 0.5 * g.pitch * (1.0 - (g.ball / g.pitch) ** 2) * 3000.0 * RPM_TO_RAD_S
+    return balls.inner.contact_length_factor / u_sum
 
 
 class Films(NamedTuple):
@@ -188,39 +197,22 @@ def test_fading():
 
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="kernels are plain Python already")
 def test_compiled_and_plain_are_twins(film, monkeypatch):
-    """A ball over two steps, all its kernels as plain Python."""
-    kernel = film._kernel(3000.0)
-    at_speed = speed_state(kernel, 3000.0 * RPM_TO_RAD_S)
+    """A contact over two steps, all its kernels as plain Python."""
+    balls = film.tables.balls(3000.0)
+    names = "_at", "gain", "_lag", "_weigh", "_add", "_made_at", "film_made", "curve", "film_curve", "film_cutoff"
     steps = "prepare_filters", "contact_force", "accept_contact"
-    names = {
-        contact_room: (
-            "_at",
-            "gain",
-            "_lag",
-            "_weigh",
-            "_add",
-            "_made_at",
-            "film_made",
-            "curve",
-            "film_cutoff",
-            *steps,
-        ),
-        balls_room: ("_ball", "begin_step", "press_balls", "accept_balls", *steps),
-    }
-    normals = np.array([[0.0, -1.0]] * 9)
-    q, v = np.array([0.0, -9e-6]), np.array([0.0, 2e-3])
 
     def run():
-        films, out = films_of(kernel), (np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2)))
-        for _ in range(2):
-            gain = balls_room.begin_step(kernel, at_speed, 2e-5, films)
-            balls_room.press_balls(kernel, at_speed, films, normals, q, v, gain, out)
-            balls_room.accept_balls(kernel, at_speed, films, normals, q, v, gain)
-        return copy.deepcopy((*out, films.state))
+        films, law, forces = films_of_angular(balls), balls.inner, []
+        for u in (4e-6, 4.1e-6):
+            given = law, transit(balls), (0, 0.0), (1.02, 0.0)
+            contact_room.prepare_filters(*given, 2e-5, films, 0)
+            forces += contact_room.contact_force(*given, films, 0, u, 2e-3)
+            forces.append(contact_room.accept_contact(*given, films, 0, u, 2e-3))
+        return np.array(forces), films.state
 
     compiled = run()
-    for room, kernels in names.items():
-        for name in kernels:
-            monkeypatch.setattr(room, name, getattr(room, name).py_func)
+    for name in (*names, *steps):
+        monkeypatch.setattr(contact_room, name, getattr(contact_room, name).py_func)
     for ours, plain in zip(compiled, run(), strict=True):
         np.testing.assert_allclose(ours, plain, rtol=1e-11, atol=1e-15)

@@ -9,8 +9,9 @@ from control_blocks import response, slopes
 
 from ehlcontact import Lubricant
 from reduced_models import BallBearing, linearise, rotor_to_control, simulate_rotor
-from reduced_models.bearing import ball_bearing
+from reduced_models.bearing import ring_statics
 from reduced_models.bearing.ball_states import bearing_system
+from reduced_models.bearing.ring_statics import equilibrium_under, linear_balls
 
 control = pytest.importorskip("control")
 
@@ -59,8 +60,8 @@ def coupled(diagonal):
 def test_states_have_the_coefficients_of_the_bearing(bearing, load):
     """Stiffness and damping, 5 x 5, from 20 Hz to 20 kHz: within 1e-10 and 1e-8."""
     rpm, angle = 3000.0, -np.pi / 2.0
-    at = bearing._equilibrium(np.array(load), rpm, angle)
-    space = bearing_system(bearing._linear_balls(rpm, [at]))
+    at = equilibrium_under(bearing, np.array(load), rpm, angle)
+    space = bearing_system(linear_balls(bearing, rpm, [at]))
     hz = np.geomspace(20.0, 20e3, 7)
     found = bearing.coefficients(load, speed_rpm=rpm, cage_angle=angle, hz=hz)
     n = len(space.A)
@@ -165,7 +166,7 @@ def test_a_dry_cage_turns_by_its_loads():
 
 
 def test_means_over_a_passage_have_all_positions_as_states(monkeypatch):
-    monkeypatch.setattr(ball_bearing, "POSITIONS", 2)
+    monkeypatch.setattr(ring_statics, "POSITIONS", 2)
     at = linearise(single(balls=4), RPM)
     block = at.to_control()
     assert block.nstates == 10 + 2 * 4 * (2 + 2 * (spindle().element("inner", RPM).lags + 2))

@@ -139,7 +139,7 @@ def test_surface_is_what_the_height_tables_have(smooth, race, psi):
     turned[0, 0] = shaft + rates[1] * T
     turned[1:, 0] = bearing.orders.bsf * turned[0, 0]
     column = ("inner", "outer").index(race)
-    table = height_of(bearing._heights, 2, column, psi + rates[0] * T, turned, 0.0)
+    table = height_of(bearing.tables.heights, 2, column, psi + rates[0] * T, turned, 0.0)
     assert -here[0] * s.length + 5e-7 == pytest.approx(table, abs=1e-8)
     later = surface(X, np.zeros((1, 1)), T + 0.5)[0]
     assert later[1] == pytest.approx(here[0], abs=1e-6 / s.length * 1e-3)

@@ -6,7 +6,7 @@ from control_blocks import response, slopes
 
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, linearise, rotor_to_control, simulate_rotor
-from reduced_models.bearing import ball_bearing
+from reduced_models.bearing import ring_statics
 
 control = pytest.importorskip("control")
 
@@ -35,7 +35,7 @@ def test_eigenvalues_of_the_states_are_the_modes(film, beam):
 
 
 def test_means_over_a_passage_have_all_positions_as_states(film, block, monkeypatch):
-    monkeypatch.setattr(ball_bearing, "POSITIONS", 2)
+    monkeypatch.setattr(ring_statics, "POSITIONS", 2)
     at = linearise(block(film), RPM)
     found = at.to_control()
     assert found.nstates == 4 + 2 * 9 * (1 + 2 * (film.element("inner", RPM).lags + 2))

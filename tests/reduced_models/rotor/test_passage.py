@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from reduced_models import linearise, simulate_rotor
+from reduced_models.bearing.ring_statics import equilibrium_under, linear_balls
 
 RPM, DISC = 3000.0, 12
 POSITIONS, HARMONICS = 24, 2
@@ -20,7 +21,8 @@ def floquet(at, mode):
     first = at.rotor.mounts[0].cage_angle
     angles = first + 2.0 * pi / bearing.balls * np.arange(POSITIONS) / POSITIONS
     places = [
-        bearing._linear_balls(RPM, [bearing._equilibrium(at.loads[0], RPM, angle)]) for angle in angles.tolist()
+        linear_balls(bearing, RPM, [equilibrium_under(bearing, at.loads[0], RPM, angle)])
+        for angle in angles.tolist()
     ]
     passing, rings, (M, C, K) = 2.0 * pi * bearing.frequencies(RPM).bpfo, at.rotor.support_rows, at.matrices
     count = 2 * HARMONICS + 1
