@@ -8,6 +8,7 @@
 #include "rolling.h"
 
 enum { MOST_BALL_STEPS = 60, STALE = 5, SETTLED = 20 };
+enum { DOUBLED = 40, HALVED = 48 }; /* steps of a search by bisection: to a bracket, and in it */
 enum { RENEWED = 16 }; /* steps after which the slopes of centrifugal force and gyroscopic moment are renewed */
 static const double two_pi = 6.283185307179586;
 static const double nearly = 1e-8, nearly_shared = 1e-10; /* imbalance of a ball, over its forces and 1 N, that one more step ends */
@@ -15,6 +16,8 @@ static const double first_step = 1e-7; /* m, outward, of a ball that nothing tou
 static const double overshoot = 2.0;   /* growth of the imbalance that halves the way to the last place */
 static const double longest = 0.05;    /* step over the distance of the groove centres */
 static const double singular = 1e-14;
+static const double beside = 0.5;      /* rad, of the angle of a ball, on either side of the line between the groove centres and of that across the shaft */
+static const double rounding = 1e-15;  /* of the place of a ball: what is left of its imbalance, over its stiffness */
 static const char *const no_balance = "a ball finds no balance: a shorter step, or a smaller displacement, can help";
 
 /* A step of the bearing; `gain` leads from places to rates, by differences of second order. `angle` is that of the first ball at its
@@ -145,6 +148,38 @@ static void leave_ball(BallStep *ball, const double b[2])
     memset(ball->slopes, 0, sizeof ball->slopes);
 }
 
+/* A ball at a place: its rolling, the rates of ball and groove centre along which its springs move, both contacts, and the sum of
+ * its forces. */
+typedef struct {
+    Turning at;
+    RaceForce inner, outer;
+    double v[2], e[2], sum[2];
+} Pressed;
+
+static void press(const Search *s, const double b[2], Pressed *p)
+{
+    const double *free = s->bearing->grooves.free_length, gain = s->step->gain;
+    const BallStep *ball = s->ball;
+    double *cosine, *sine;
+    int j;
+    turn(s, b, 0, &p->at);
+    cosine = p->at.cosine;
+    sine = p->at.sine;
+    for (j = 0; j < 2; j++) {
+        p->v[j] = gain * (b[j] - ball->history[j]);
+        p->e[j] = ball->d[j] - p->v[j];
+    }
+    p->inner = race_force(&s->contact[INNER_RACE], p->at.l[INNER_RACE] - free[INNER_RACE],
+                          cosine[INNER_RACE] * p->e[0] + sine[INNER_RACE] * p->e[1]);
+    p->outer = race_force(&s->contact[OUTER_RACE], p->at.l[OUTER_RACE] - free[OUTER_RACE],
+                          cosine[OUTER_RACE] * p->v[0] + sine[OUTER_RACE] * p->v[1]);
+    p->sum[0] = p->at.sum[0] + p->inner.force * cosine[INNER_RACE] - p->outer.force * cosine[OUTER_RACE];
+    p->sum[1] = p->at.sum[1] + p->inner.force * sine[INNER_RACE] - p->outer.force * sine[OUTER_RACE];
+    for (j = 0; j < 2 && s->heavy > 0.0; j++) {
+        p->sum[j] -= s->bearing->inertia * gain * (p->v[j] - ball->rate_history[j]);
+    }
+}
+
 /* Balances a ball from b to first order, from where its imbalance is small; returns whether there is a balance. `kept` are slopes
  * of its forces of inertia. */
 static int balance_ball(const Search *s, const double start[2], const double kept[5][4])
@@ -157,38 +192,28 @@ static int balance_ball(const Search *s, const double start[2], const double kep
     int i, j;
     for (i = 0; i < MOST_BALL_STEPS; i++) {
         const double (*inertia)[4] = kept;
-        double i_r, i_z, o_r, o_z, l_i, l_o, v[2], e[2], sum[2], size, s_i, s_o, t_i, t_o, k_i, k_o, d_i, d_o, det, stiff;
+        double i_r, i_z, o_r, o_z, l_i, l_o, *v, *e, *sum, size, s_i, s_o, t_i, t_o, k_i, k_o, d_i, d_o, det, stiff;
         double a_r, a_z, h_r, h_z, m_r, m_z, turn_rr, turn_rz, turn_zz, rr, rz, zr, zz, move[2];
         RaceForce inner, outer;
-        Turning at;
+        Pressed p;
         if (i >= STALE - 1 && step->omega > 0.0) { /* a long search */
             if (i % STALE == STALE - 1) {
                 renew_inertia(s, b, renewed);
             }
             inertia = (const double (*)[4])renewed;
         }
-        turn(s, b, 0, &at);
-        l_i = at.l[INNER_RACE];
-        l_o = at.l[OUTER_RACE];
-        i_r = at.cosine[INNER_RACE];
-        i_z = at.sine[INNER_RACE];
-        o_r = at.cosine[OUTER_RACE];
-        o_z = at.sine[OUTER_RACE];
-        for (j = 0; j < 2; j++) {
-            v[j] = gain * (b[j] - ball->history[j]);
-            e[j] = ball->d[j] - v[j];
-        }
-        inner = race_force(&s->contact[INNER_RACE], l_i - free[INNER_RACE], i_r * e[0] + i_z * e[1]);
-        outer = race_force(&s->contact[OUTER_RACE], l_o - free[OUTER_RACE], o_r * v[0] + o_z * v[1]);
-        at.ring[0] += inner.force * i_r;
-        at.ring[1] += inner.force * i_z;
-        sum[0] = at.sum[0] + inner.force * i_r - outer.force * o_r;
-        sum[1] = at.sum[1] + inner.force * i_z - outer.force * o_z;
-        for (j = 0; j < 2; j++) {
-            if (s->heavy > 0.0) {
-                sum[j] -= s->bearing->inertia * gain * (v[j] - ball->rate_history[j]);
-            }
-        }
+        press(s, b, &p);
+        l_i = p.at.l[INNER_RACE];
+        l_o = p.at.l[OUTER_RACE];
+        i_r = p.at.cosine[INNER_RACE];
+        i_z = p.at.sine[INNER_RACE];
+        o_r = p.at.cosine[OUTER_RACE];
+        o_z = p.at.sine[OUTER_RACE];
+        inner = p.inner;
+        outer = p.outer;
+        v = p.v;
+        e = p.e;
+        sum = p.sum;
         size = sqrt(sum[0] * sum[0] + sum[1] * sum[1]);
         if (!isfinite(size)) {
             return 0;
@@ -240,7 +265,7 @@ static int balance_ball(const Search *s, const double start[2], const double kep
         }
         move[0] = (rz * sum[1] - zz * sum[0]) / det;
         move[1] = (zr * sum[0] - rr * sum[1]) / det;
-        if (size > close * (1.0 + inner.force + outer.force)) {
+        if (size > close * (1.0 + inner.force + outer.force) + rounding * l_o * stiff) {
             const double cut = fmin(1.0, most / sqrt(move[0] * move[0] + move[1] * move[1]));
             for (j = 0; j < 2; j++) {
                 last[j] = b[j];
@@ -256,6 +281,7 @@ static int balance_ball(const Search *s, const double start[2], const double kep
             const double by_b[3][2] = {{-i_r * h_r - turn_rr + inertia[2][0], -i_r * h_z - turn_rz + inertia[2][1]},
                                        {-i_z * h_r - turn_rz + inertia[3][0], -i_z * h_z - turn_zz + inertia[3][1]},
                                        {inertia[4][0], inertia[4][1]}};
+            const double ring[2] = {p.at.ring[0] + inner.force * i_r, p.at.ring[1] + inner.force * i_z};
             for (j = 0; j < 4; j++) {
                 const double follow_r = (rz * w[1][j] - zz * w[0][j]) / det, follow_z = (zr * w[0][j] - rr * w[1][j]) / det;
                 for (i = 0; i < 3; i++) {
@@ -267,7 +293,7 @@ static int balance_ball(const Search *s, const double start[2], const double kep
                 }
             }
             for (i = 0; i < 3; i++) {
-                ball->ring[i] = (i < 2 ? at.ring[i] : at.moment) + by_b[i][0] * move[0] + by_b[i][1] * move[1];
+                ball->ring[i] = (i < 2 ? ring[i] : p.at.moment) + by_b[i][0] * move[0] + by_b[i][1] * move[1];
             }
             ball->place[0] = b[0] + move[0];
             ball->place[1] = b[1] + move[1];
@@ -293,6 +319,53 @@ static void first_place(const Search *s, double b[2])
     }
     b[0] = outward * c[0] / length;
     b[1] = outward * c[1] / length;
+}
+
+/* Force on a ball away from the outer groove centre, at a distance from it where none acts across; the angle there. */
+static double push_along(const Search *s, double length, double far, double b[2])
+{
+    double low = fmin(far, 0.0) - beside, high = fmax(far, 0.0) + beside, along = 0.0;
+    Pressed p;
+    int i;
+    for (i = 0; i < HALVED; i++) {
+        const double angle = 0.5 * (low + high), c = cos(angle), z = sin(angle);
+        b[0] = length * c;
+        b[1] = length * z;
+        press(s, b, &p);
+        along = p.sum[0] * c + p.sum[1] * z;
+        if (p.sum[1] * c - p.sum[0] * z > 0.0) {
+            low = angle;
+        } else {
+            high = angle;
+        }
+    }
+    return along;
+}
+
+/* Place of a ball by bisection, for one that Newton's method loses between the races: there nothing may act on it whose slope leads
+ * to the far race. The force outward falls towards the outer race, and those across with the angle. */
+static void search_place(const Search *s, double b[2])
+{
+    const double *c = s->ball->c, far = atan2(c[1], c[0]);
+    double low = s->bearing->grooves.free_length[OUTER_RACE], high = low, reach = first_step;
+    int i;
+    for (i = 0; i < DOUBLED && push_along(s, low, far, b) < 0.0; i++) {
+        reach *= 2.0;
+        low = fmax(low - reach, 0.5 * low);
+    }
+    reach = first_step;
+    for (i = 0; i < DOUBLED && push_along(s, high, far, b) > 0.0; i++) {
+        reach *= 2.0;
+        high += reach;
+    }
+    for (i = 0; i < HALVED; i++) {
+        const double middle = 0.5 * (low + high);
+        if (push_along(s, middle, far, b) > 0.0) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
 }
 
 /* ---- all balls ---- */
@@ -442,21 +515,28 @@ const char *bearing_press(const Bearing *b, const double state[], double work[],
     StepHead *step = step_of(work);
     Race races[2];
     int k, j;
+    for (j = 0; j < b->directions; j++) {
+        if (!isfinite(q[j] + v[j])) {
+            return "the motion of the ring must be finite";
+        }
+    }
     races_of(b, state, races);
     memset(step->bare, 0, sizeof step->bare);
     for (k = 0; k < b->balls; k++) {
+        const double (*inertia)[4] = ball_of(state, k)->inertia;
         BallStep *ball = ball_in(work, k);
         Search s;
         int done;
         place_groove(b, step, q, v, settings->clearance, settings->offset, ball);
         search_of(b, state, work, k, races, &s);
-        done = ball->start[0] != 0.0 && balance_ball(&s, ball->start, ball_of(state, k)->inertia);
+        done = ball->start[0] != 0.0 && balance_ball(&s, ball->start, inertia);
+        for (j = 0; j < 2 && !done; j++) {
+            double place[2];
+            (j == 0 ? first_place : search_place)(&s, place);
+            done = balance_ball(&s, place, inertia);
+        }
         if (!done) {
-            double first[2];
-            first_place(&s, first);
-            if (!balance_ball(&s, first, ball_of(state, k)->inertia)) {
-                return no_balance;
-            }
+            return no_balance;
         }
         for (j = 0; j < b->directions; j++) {
             double rows[3];

@@ -52,3 +52,27 @@ def test_slopes_of_a_step(name, speed, clearance, start, within, tmp_path):
     program = built(tmp_path, "slopes.c", bearing_table(MODELS[name]()), "-O1", *macros)
     found = subprocess.run([program], check=True, capture_output=True, text=True).stdout.split()
     assert len(found) == 2 and max(map(float, found)) < within
+
+
+SANITIZE = ["-g", "-O1", "-fsanitize=address,undefined,float-divide-by-zero", "-fno-sanitize-recover=all"]
+
+
+@pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
+@pytest.mark.parametrize(
+    ("name", "steps"),
+    [
+        ("lossy", 2000),
+        *(pytest.param(name, 8000, marks=pytest.mark.long) for name in ("range", "angular")),
+        *(
+            pytest.param(name, 100_000, marks=pytest.mark.slow)
+            for name in ("lossy", "angular", "thin five", "five dry")
+        ),
+    ],
+)
+def test_random_bearings_under_sanitizers(name, steps, tmp_path):
+    """No number that is not finite without a reason, and hardly a step refused: in one of 1000 the ring has no number."""
+    program = built(tmp_path, "fuzz_steps.c", bearing_table(MODELS[name]()), *SANITIZE)
+    done = subprocess.run([program, str(steps), "3"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    made, refused, parted = map(int, done.stdout.split())
+    assert made == steps and parted > steps / 500 and refused < 0.002 * steps
