@@ -297,8 +297,8 @@ static int balance_ball(const Search *s, const double start[2], const double kep
             }
             ball->place[0] = b[0] + move[0];
             ball->place[1] = b[1] + move[1];
-            ball->force[INNER_RACE] = inner.force - h_r * move[0] - h_z * move[1];
-            ball->force[OUTER_RACE] = outer.force + m_r * move[0] + m_z * move[1];
+            ball->force[INNER_RACE] = fmax(0.0, inner.force - h_r * move[0] - h_z * move[1]);
+            ball->force[OUTER_RACE] = fmax(0.0, outer.force + m_r * move[0] + m_z * move[1]);
         }
         return 1;
     }

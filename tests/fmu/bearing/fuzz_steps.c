@@ -11,6 +11,7 @@
 #include "bearing_data.h"
 
 enum { PER_BEARING = 2500, MOST_BALLS = 24 };
+static const double slow = 2e-4; /* s, in which half of a motion is there */
 
 static unsigned long long seed = 1;
 
@@ -121,23 +122,24 @@ int main(int argc, char **argv)
         if (bearing_start(&b, &settings, state) != NULL) {
             fail("settings are refused");
         }
-        if (bearing_rest(&b, state, work, omega, vibrates.middle, force) != NULL) {
-            refused++;
-        }
+        refused += bearing_rest(&b, state, work, omega, vibrates.middle, force) != NULL;
         for (i = 0; i < PER_BEARING && made < count; i++, made++) {
             const char *reason;
-            if (any(300) == 0) {
+            if (any(300) == 0) { /* another motion, which grows from rest */
                 vibrates = vibration(&b);
+                t = 0.0;
+                refused += bearing_rest(&b, state, work, omega, vibrates.middle, force) != NULL;
             }
-            h = any(20) == 0 ? pow(10.0, uniform(-7.0, -4.5)) : h;
+            h = any(20) == 0 ? pow(10.0, uniform(-6.0, -4.5)) : h;
             omega = any(100) == 0 ? (any(4) == 0 ? 0.0 : b.most_speed * uniform(0.0, 1.2)) : omega;
             t += h;
             for (j = 0; j < b.directions; j++) {
-                q[j] = vibrates.middle[j] + vibrates.size[j] * sin(vibrates.turn[j] * t);
-                v[j] = vibrates.size[j] * vibrates.turn[j] * cos(vibrates.turn[j] * t);
+                const double turn = vibrates.turn[j], size_now = vibrates.size[j] * t / (t + slow), grows = slow / ((t + slow) * (t + slow));
+                q[j] = vibrates.middle[j] + size_now * sin(turn * t);
+                v[j] = size_now * turn * cos(turn * t) + vibrates.size[j] * grows * sin(turn * t);
             }
             if (any(500) == 0) {
-                v[0] = any(2) == 0 ? NAN : 10.0;
+                v[0] = any(2) == 0 ? NAN : 0.01;
             }
             memcpy(kept, state, size * sizeof *state);
             bearing_begin(&b, state, work, h, omega);
@@ -158,7 +160,7 @@ int main(int argc, char **argv)
             }
             for (k = 0; k < b.balls; k++) {
                 const double load = ball_of(state, k)->force[INNER_RACE];
-                if (load < -1e-6) {
+                if (load < 0.0) {
                     fail("a race pulls a ball");
                 }
                 parted += loaded[k] && load <= 0.0;

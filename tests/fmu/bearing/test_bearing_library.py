@@ -70,7 +70,7 @@ SANITIZE = ["-g", "-O1", "-fsanitize=address,undefined,float-divide-by-zero", "-
     ],
 )
 def test_random_bearings_under_sanitizers(name, steps, tmp_path):
-    """No number that is not finite without a reason, and hardly a step refused: in one of 1000 the ring has no number."""
+    """No number that is not finite without a reason; of 1000 steps one has a ring without a velocity."""
     program = built(tmp_path, "fuzz_steps.c", bearing_table(MODELS[name]()), *SANITIZE)
     done = subprocess.run([program, str(steps), "3"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
