@@ -163,7 +163,7 @@ class FullFilmRun:
 
     @property
     def status(self) -> Status:
-        """Of the run."""
+        """Status of the run."""
         return self.rotor.status
 
 
@@ -382,7 +382,7 @@ class _RunningFilm:
             self._submit(close_film, id(self))
 
     def history(self) -> ContactHistory:
-        """What was recorded."""
+        """History of the film."""
         t, approach, force, h_central, h_min, beside, solves = np.array(self._rows).reshape(-1, 7).T
         counts, steep = solves.astype(np.int64), ""
         if self._point is not None and (most := float(beside[np.argmin(h_min)])) > STEEP:
@@ -403,7 +403,7 @@ class _RunningFilm:
         self._given[[FILM_FORCE, FILM_SLOPE, FILM_APPROACH]] = force, slope, approach
 
     def _approach(self) -> float:
-        """Of ball and race, features left out, where `forces` was called last [m]."""
+        """Approach of ball and race, features left out, where `forces` was called last [m]."""
         return self._motion.approach(self.spec.ball, self.spec.race)
 
     def _open(self, step: int) -> None:

@@ -54,7 +54,7 @@ class CriticalSpeed:
 
 
 class CriticalSpeeds(tuple[CriticalSpeed, ...]):
-    """Those of a diagram: a tuple, which says in words what was looked through where it is empty.
+    """Critical speeds of a diagram; where there are none, `searched` names what was looked through.
 
     Attributes
     ----------
@@ -180,7 +180,7 @@ class Campbell(QuantityTable):
 
 
 def _sides(off: _Floats) -> tuple[int, int]:
-    """How many columns of `off` stay above 0, and how many below."""
+    """Number of columns of `off` that stay above 0, and of those that stay below."""
     return int((off > 0.0).all(axis=0).sum()), int((off <= 0.0).all(axis=0).sum())
 
 

@@ -120,7 +120,7 @@ class BearingModels:
 
     bearing: BallBearing
     state: BearingState  # under the radial load, a ball below
-    dry_deflection: float  # likewise, without films [m]
+    dry_deflection: float  # under that load, without films [m]
     ran: Mapping[str, ModelRun]
     failed: Mapping[str, str]  # on which it could not be run, and why
     said: tuple[str, ...]  # warnings

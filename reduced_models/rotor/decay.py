@@ -126,7 +126,7 @@ def log_decrement(t: ArrayLike, signal: ArrayLike, *, omega: float) -> Decrement
 
 
 def _half_width(solution: scipy.optimize.OptimizeResult, samples: int) -> float:
-    """Of the decrement's interval: from the slope of the residuals, enlarged for those that hang together."""
+    """Half width of the decrement's interval: by the slope of the residuals, which hang together."""
     residual = solution.fun
     freedom = samples - 5  # three linear unknowns and two others
     covariance = np.linalg.pinv(solution.jac.T @ solution.jac)

@@ -41,7 +41,7 @@ class StaticSupport(Protocol):
     """A support in static equilibrium: force and its derivative over its motion."""
 
     def force(self, r: _Floats) -> _Floats:
-        """What it carries, shape (directions,) [N]."""
+        """Force that it carries, shape (directions,) [N]."""
 
     def tangent(self, r: _Floats) -> _Floats:
         """Its derivative, shape (directions, directions) [N/m]."""
@@ -57,7 +57,7 @@ class StaticContact:
         self._contact, self._offset, self._count = mount.contact, mount.offset, mount.count
 
     def force(self, r: _Floats) -> _Floats:
-        """What it carries, shape (1,) [N]."""
+        """Force that the contacts carry, shape (1,) [N]."""
         return np.array([self._count * self._contact.spring(float(r[0]) + self._offset)])
 
     def tangent(self, r: _Floats) -> _Floats:
@@ -84,7 +84,7 @@ class StaticBearing:
         self._pressed = self.ring.balls, r.copy()
 
     def force(self, r: _Floats) -> _Floats:
-        """What it carries, shape (n,) [N], [N m]."""
+        """Forces and moments that the bearing carries, shape (n,) [N], [N m]."""
         self.press(r)
         return self.ring.load.copy()
 

@@ -35,7 +35,7 @@ class ContactEvents:
     outside_approach, outside_rate, outside_load : float or None
         Share outside the element's validity box; None where it has no such bound.
     outside_omega : float or None
-        Likewise, 0 or 1: the frequency is one of the whole run.
+        Whether the frequency of the whole run is outside, 1, or inside, 0; None where the box has no bound.
     warnings : tuple of str
         Of the element.
     """

@@ -24,7 +24,7 @@ from reduced_models.rotor.simulate import simulate_rotor
 # Of the force balance on full films: at a third of it they take 2 to 3 solves per step in place of 2, and at ten
 # times as much the journal's velocity under a light unbalance shows it.
 FILM_TOLERANCE = 1e-6
-ELEMENT_TOLERANCE = 1e-9  # likewise on elements, which cost nothing
+ELEMENT_TOLERANCE = 1e-9  # of the force balance on elements, which cost nothing
 # Before a run the film is led along the motion it starts on: so long, in its unit of time, of which it takes 2 to
 # cross the contact; and so many steps at least.
 LEAD_IN = (8.0, 3)
@@ -114,7 +114,7 @@ def simulate_on_films(
 
 
 def _approach_at_rest(contact: Any) -> float:
-    """Of a film under its static load [m]."""
+    """Approach of a film under its static load [m]."""
     return float(contact.contact.static_approach * contact.scales.length)
 
 

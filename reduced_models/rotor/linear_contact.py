@@ -75,7 +75,7 @@ class ContactImpedance:
         self._impedance, self._count = impedance, count
 
     def impedance(self, s: complex) -> _Complex:
-        """Of all of them, shape (1, 1) [N/m]: K + s C with K and C at the frequency of `s` [1/s]."""
+        """Impedance of all contacts, shape (1, 1) [N/m]: K + s C with K and C at the frequency of `s` [1/s]."""
         omega = max(s.imag, TINY_OMEGA)
         Z = complex(self._impedance(np.array([omega]))[0])
         impedance = Z if s == 1j * omega else Z.real + s * Z.imag / omega
@@ -97,7 +97,7 @@ class LinearElement:
         self.space = StateSpace(space.A, space.B, count * space.C, count * space.D)
 
     def impedance(self, s: complex) -> _Complex:
-        """Of all of them, shape (1, 1) [N/m], at s [1/s]."""
+        """Impedance of all elements, shape (1, 1) [N/m], at s [1/s]."""
         A, driven, C, D = self.space
         moved = np.array([[1.0], [s]])
         return np.asarray(C @ np.linalg.solve(s * np.eye(len(A)) - A, driven @ moved) + D @ moved)

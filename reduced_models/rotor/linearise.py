@@ -57,7 +57,7 @@ VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 
 
 class LinearSupport(Protocol):
-    """What a small vibration finds in a support."""
+    """A support about static equilibrium."""
 
     def impedance(self, s: complex) -> _Complex:
         """Forces over its motions, shape (directions, directions) [N/m], at s [1/s] of exp(s t)."""
@@ -86,9 +86,9 @@ class LinearRotor(Summary):
     loads : ndarray, shape (ball bearings, n)
         Forces on the inner rings in static equilibrium, n = 2 or 5 [N], [N m], in the frame of each bearing.
     contacts : tuple
-        What a small vibration finds in each contact.
+        Contacts about static equilibrium.
     balls : tuple
-        What it finds in each ball bearing.
+        Ball bearings about static equilibrium.
     damping_left_out : tuple of str
         Damping below zero of starved contacts that elements leave out, by ball bearing, in words; empty where
         there is none.

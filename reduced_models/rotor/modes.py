@@ -30,8 +30,8 @@ _Complex = NDArray[np.complex128]
 Matrices = tuple[_Floats, _Floats, _Floats]
 
 CONVERGED = 1e-8  # relative change of an eigenvalue that ends Newton's method: what it leaves is of its square
-# Likewise where Z is known on the imaginary axis alone: its change with the frequency is no part of the slopes, so
-# what is left falls by a factor only
+# Such a change where Z is known on the imaginary axis alone: its change with the frequency is no part of the
+# slopes, so what is left falls by a factor only
 CONVERGED_BY_STEPS = 1e-12
 MOST_ROUNDS = 50  # of it: five, in a rotor whose bearings damp it little
 PROBE = 1e-5  # of |s|: difference quotients of Z, which only steer Newton's method

@@ -41,7 +41,7 @@ class ByNode:
         return by_node
 
     def _node(self, values: NDArray[Any], name: str) -> NDArray[Any]:
-        """Of `values`, whose last axis are the degrees of freedom, x and y of a node; 0 where it does not move."""
+        """Motion of a node in x and y, of `values` over all degrees of freedom; 0 where it does not move."""
         nodes = self.nodes
         if name not in nodes:
             known = f"one of {', '.join(nodes)}" if nodes else "none: the rotor has no names"

@@ -220,7 +220,7 @@ class Disc(Summary):
         density: float = DENSITY,
         **others: Any,
     ) -> Self:
-        """Of one material, `position` being that of its middle.
+        """A disc of one material, `position` being that of its middle.
 
         Parameters
         ----------

@@ -15,7 +15,7 @@ from reduced_models.rotor.modes import RotorMode
 from reduced_models.rotor.nodes import PLANE
 
 SPAN = (0.3, 1.7)  # of the slowest mode, and of the fastest shown, at the ends of the frequencies
-SHOWN = (0.75, 1.25)  # likewise, of what a picture shows
+SHOWN = (0.75, 1.25)  # of a resonance, at the ends of what a picture shows
 POINTS = 300  # evenly on the logarithm, beside those near resonances
 # Round every resonance: how far, in half widths of its peak, and points, evenly on the area hyperbolic sine.
 NEAR = (50.0, 81)

@@ -143,7 +143,7 @@ def from_ross(
 def _operating_point(
     ross: Any, rotor: Any, speed_rpm: float | None, frequency: Mapping[str, float | None]
 ) -> tuple[float, ...]:
-    """What `rotor.K` takes [rad/s]: the speed in ROSS 2, frequency of the whirl and speed in ROSS 3."""
+    """Arguments of `rotor.K` [rad/s]: the speed in ROSS 2, frequency of the whirl and speed in ROSS 3."""
     w = (speed_rpm or 0.0) * RPM_TO_RAD_S
     both = has_whirl_axis(ross)
     if is_given(**frequency) and not both:
@@ -271,7 +271,7 @@ class RossCallback:
         accl_resp: _Floats | None = None,
         **_: Any,
     ) -> _Floats:
-        """What the bearings push beyond their linear elements, shape (ndof,) [N].
+        """Forces of the bearings beyond those of their linear elements, shape (ndof,) [N].
 
         Raises
         ------

@@ -36,7 +36,7 @@ class TangentContact(Contact, Protocol):
         """Slope of the static force."""
 
     def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:
-        """What `advance` would return, and its derivatives dF/du and dF/du'; the state stays."""
+        """Force that `advance` would return, and its derivatives dF/du and dF/du'; the state stays."""
 
 
 def has_tangents(contact: object) -> bool:

@@ -126,7 +126,7 @@ def simulate_rotor(
 
 
 def default_tolerance(rotor: Rotor) -> float:
-    """Of the balance of forces; larger with full films that are solved more coarsely than by default."""
+    """Tolerance of the balance of forces; larger with full films that are solved more coarsely than by default."""
     films = (getattr(mount.contact, "contact", mount.contact) for mount in rotor.contacts)
     coarsest = max((film.coarseness for film in films if isinstance(film, TransientContact)), default=1.0)
     return TOLERANCE * max(coarsest, 1.0)
