@@ -12,6 +12,7 @@
 | film_law | compiled: a dry Hertz spring on a film with memory: a step, and the equations in continuous time |
 | film_curve | static curve of a film law from a table of loads |
 | film_response | the film law linearised about rest: impedance, state space; gains from an impedance, passivity |
+| film_tables | coefficients of elements with a film memory: names by kind, checks, laws |
 | film_contact | `FilmContact`: elements with a film memory: about one load, for every load, over the speed |
 | film_speed | film laws over the speed; the speed at which the film in a contact was made, while it changes |
 | motion_errors | error of wide-range elements by kind of motion, from full solves |

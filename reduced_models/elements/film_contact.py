@@ -14,18 +14,13 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import (
     as_column,
     as_float,
-    as_numbers,
-    as_rows,
-    require_between,
     require_finite,
-    require_nonnegative,
     require_positive,
 )
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.store import stored
 from reduced_models.elements.base import Box, ContactElement, as_approaches
-from reduced_models.elements.film_curve import LEAST_EXPONENT, curve_nodes, power_nodes, require_rising
 from reduced_models.elements.film_filters import CHAIN, DIRECT
 from reduced_models.elements.film_law import (
     RATE,
@@ -42,22 +37,19 @@ from reduced_models.elements.film_law import (
 )
 from reduced_models.elements.film_response import DRY, FilterRates, LinearFilm, StateSpace
 from reduced_models.elements.film_speed import SpeedHistory, SpeedRange
+from reduced_models.elements.film_tables import (
+    COEFFICIENTS,
+    KINDS,
+    checked_coefficients,
+    film_laws,
+    read_coefficients,
+)
 from reduced_models.elements.motion_errors import UNLOADING, WITHIN, motion_errors
-from reduced_models.elements.validity import numbers, require_size
+from reduced_models.elements.validity import numbers
 
 _Floats = NDArray[np.float64]
 
-# All of them dimensionless, and of the order of 0.01 to 100 in the atlas.
-RATES = (1e-6, 1e6)
-FILMS = (1e-9, 1e6)
-LARGEST_GAIN = 1e6
-LARGEST_EXPONENT = 10.0  # films thin with the load to the power of 0.1 to 1
-LOADS = (1e-12, 1e12)  # over the reference load
-SPEEDS = (1e-6, 1e6)  # over that of the point
 _SCALES = tuple(f.name for f in fields(Scales))
-_FILTERS = ("inlet_saturation", "lag_rate", "inlet_rate", "fast_rate")
-_TABLES = ("loads", "approach", "gain_loads", "gains")
-_NUMBERS = ("film", "exponent", "lag_rate", "inlet_rate", "fast_rate")  # coefficients that are no tables
 
 
 def units_of(scales: Scales | None) -> tuple[float, float, float]:
@@ -124,11 +116,7 @@ class FilmContact(ContactElement):
     high: float | None = None  # type: ignore[assignment]
     scales: Scales | None = None
 
-    kinds: ClassVar[Mapping[str, tuple[str, ...]]] = {
-        "memory": ("film", "exponent", *_FILTERS, "gains"),
-        "wide": (*_TABLES, *_FILTERS),
-        "speed": ("speeds", *_TABLES, *_FILTERS),
-    }
+    kinds: ClassVar[Mapping[str, tuple[str, ...]]] = KINDS
     law: FilmLaw = field(init=False, repr=False, compare=False)  # at the present speed
     _range: SpeedRange = field(init=False, repr=False, compare=False)
     _speed: float = field(init=False, repr=False, compare=False)  # present one, over that of the reference
@@ -309,7 +297,8 @@ class FilmContact(ContactElement):
         super().__post_init__()
         if (self.scales is None) != (self.units == "dimensionless"):
             raise InputError("scales", self.scales, "given for an element in SI, and only there")
-        self._put(_range=SpeedRange(self.speeds or (1.0,), self._laws()), _speed=1.0, _units=units_of(self.scales))
+        laws = film_laws(self.kind, self._coefficients())
+        self._put(_range=SpeedRange(self.speeds or (1.0,), laws), _speed=1.0, _units=units_of(self.scales))
         self._put(law=self._range.laws[0] if self.speeds is None else self._range.at(1.0))
         self._put(_state=np.zeros(CHAIN + self.lags), _next=np.zeros(CHAIN + self.lags))
         self.rest(self.approach_at(self._units[0]))
@@ -318,94 +307,20 @@ class FilmContact(ContactElement):
         for name, value in values.items():
             object.__setattr__(self, name, value)
 
-    def _laws(self) -> tuple[FilmLaw, ...]:
-        """Checked laws, one for every speed."""
-        if self.kind == "memory":
-            assert self.film is not None and self.exponent is not None
-            tables = power_nodes(self.film, self.exponent) | {
-                "gain_x": np.zeros(1),
-                "gains": np.array([self.gains]),
-            }
-            return (self._law_of(tables, self.inlet_saturation),)
-        x, laws = np.log(np.array(self.gain_loads)), []
-        rows = (self.approach, self.gains, self.inlet_saturation)
-        for u, gains, saturation in zip(*rows, strict=True) if self.kind == "speed" else (rows,):
-            tables = curve_nodes(self.loads, u) | {"gain_x": x, "gains": np.array(gains)}
-            laws.append(self._law_of(tables, saturation))
-        return tuple(laws)
-
-    def _law_of(self, tables: Mapping[str, _Floats], inlet_saturation: float) -> FilmLaw:
-        """Law of these tables, or `InputError`."""
-        grows = self.kind != "memory" and inlet_saturation > 0.0  # a contact that is made for growing has a rim
-        law = FilmLaw(
-            **tables,
-            lag_rate=self.lag_rate,
-            inlet_rate=self.inlet_rate,
-            fast_rate=self.fast_rate,
-            inlet_saturation=inlet_saturation,
-            rim=1.0 if grows else 0.0,
-        )
-        require_size("gains", float(np.abs(law.gains).max()), LARGEST_GAIN)
-        require_rising(law)
-        rates = FilterRates(law.gains.shape[1] - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
-        if not rates.passive(law.gains):
-            least = min(rates.least_dissipation(row) for row in law.gains)
-            raise InputError("least dissipation of gains", least, ">= 0 at every frequency (passive)")
-        return law
+    def _coefficients(self) -> dict[str, Any]:
+        """All coefficients by name, None of another kind."""
+        return {name: getattr(self, name) for name in COEFFICIENTS}
 
     def _check_coefficients(self) -> None:
-        for name in {name for names in self.kinds.values() for name in names} - set(self.parameter_names):
-            if getattr(self, name) is not None:
-                raise InputError(name, getattr(self, name), f"left out of an element of kind {self.kind!r}")
-        for name in ("lag_rate", "inlet_rate", "fast_rate"):
-            self._put(**{name: require_between(name, getattr(self, name), *RATES)})
-        if self.kind != "speed":
-            self._put(inlet_saturation=require_nonnegative("inlet_saturation", self.inlet_saturation))
-            require_size("inlet_saturation", self.inlet_saturation, LARGEST_GAIN)
+        self._put(**checked_coefficients(self.kind, self._coefficients()))
         if self.kind == "memory":
-            self._put(film=require_between("film", self.film, *FILMS))
-            self._put(exponent=require_between("exponent", self.exponent, LEAST_EXPONENT, LARGEST_EXPONENT))
-            self._put(gains=tuple(as_column("gains", self.gains, least=DIRECT + 1).tolist()))
-        else:
-            self._check_tables()
-
-    def _check_tables(self) -> None:
-        """Tables over the load, and over the speed where there are several."""
-        speeds = {"speeds": (2, SPEEDS)} if self.kind == "speed" else {}
-        for name, (least, limits) in (speeds | {"loads": (2, LOADS), "gain_loads": (1, LOADS)}).items():
-            axis = tuple(as_column(name, getattr(self, name), least=least, increasing=True).tolist())
-            require_between(f"{name}[0]", axis[0], *limits)
-            require_between(f"{name}[-1]", axis[-1], *limits)
-            self._put(**{name: axis})
-        loads, rows = self.loads, len(self.gain_loads)
-        if self.kind == "speed":
-            self._check_speeds(self.speeds, len(loads), rows)
-        else:
-            column = as_column("approach", self.approach, least=2, increasing=True)
-            gains = as_rows("gains", self.gains, rows, DIRECT + 1)
-            self._put(approach=tuple(column.tolist()), gains=tuple(map(tuple, gains.tolist())))
+            return
         u, (force, length, _) = np.atleast_2d(np.asarray(self.approach)), units_of(self.scales)
         for name, end in (("low", u[:, 0].min()), ("high", u[:, -1].max())):
             if getattr(self, name) is None:
                 self._put(**{name: float(end) * length})
         if self.load_range is None:
-            self._put(load_range=(loads[0] * force, loads[-1] * force))
-
-    def _check_speeds(self, speeds: tuple[float, ...], loads: int, gain_loads: int) -> None:
-        """Rows of the tables for each speed."""
-        if not speeds[0] <= 1.0 <= speeds[-1]:
-            raise InputError("speeds", speeds, "from at most 1 to at least 1, the speed of the reference")
-        count = len(speeds)
-        rows = as_rows("approach", self.approach, count, loads)
-        gains = as_numbers("gains", self.gains, "rows of numbers for every speed")
-        if gains.ndim != 3 or gains.shape[0] != count:
-            raise InputError("shape of gains", gains.shape, f"({count}, {gain_loads}, {DIRECT + 1} or more)")
-        tables = [as_rows("gains", table, gain_loads, DIRECT + 1).tolist() for table in gains]
-        saturation = as_column("inlet_saturation", self.inlet_saturation, size=count).tolist()
-        for k, value in enumerate(saturation):
-            require_between(f"inlet_saturation[{k}]", value, 0.0, LARGEST_GAIN)
-        self._put(approach=tuple(map(tuple, rows.tolist())), inlet_saturation=tuple(saturation))
-        self._put(gains=tuple(tuple(map(tuple, table)) for table in tables))
+            self._put(load_range=(self.loads[0] * force, self.loads[-1] * force))
 
     @property
     def _beyond(self) -> Mapping[str, str]:
@@ -709,15 +624,7 @@ class FilmContact(ContactElement):
 
     @classmethod
     def _read_coefficients(cls, kind: str, entries: Mapping[str, Any]) -> dict[str, Any]:
-        parameters, scales = entries["parameters"], entries.get("scales")
-        single = _NUMBERS if kind == "speed" else (*_NUMBERS, "inlet_saturation")
-        scalars = tuple(name for name in cls.kinds[kind] if name in single)
-        values: dict[str, Any] = {**numbers("parameters", parameters, scalars)}
-        for name in cls.kinds[kind]:
-            if name not in scalars:
-                values[name] = parameters.get(name)
-                if not isinstance(values[name], list):
-                    raise InputError(f"parameters.{name}", values[name], "a list of numbers")
+        values, scales = read_coefficients(kind, entries["parameters"]), entries.get("scales")
         if scales is not None:
             if not isinstance(scales, dict):
                 raise InputError("scales", scales, "an object or null")
