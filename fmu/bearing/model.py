@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_numbers, require_instance
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
-from reduced_models.bearing.angular_balls import AngularBalls
+from reduced_models.bearing.ball import AngularBalls
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.motion import BallMotion, motion_of

@@ -10,8 +10,9 @@
 | clearance | radial clearance by class and bore |
 | freedoms | degrees of freedom of the ring: names, units, loads |
 | contact_angles | compiled: groove centres, contact angles, rolling and race control of a ball |
-| angular_balls | compiled: balls at contact angles in static equilibrium, the force on a ring with five degrees |
-| angular_steps | compiled: balls at contact angles over time steps, with their films |
+| ball | compiled: one ball between two races, its residual with exact tangents, in time steps and at rest |
+| ball_search | compiled: places of balls from anywhere |
+| ball_steps | compiled: all balls of a bearing: time steps with their films, rest, the force of the ring |
 | compiled_list | `CompiledList`: bearings of any number in kernels that are compiled once |
 | ring | the inner ring on its balls in static equilibrium: `StaticRing`, `ring_equilibrium` |
 | ring_statics | loads that a bearing takes, its ring in equilibrium, the state for users |

@@ -50,13 +50,13 @@ def ball_system(balls: LinearBalls, k: int) -> tuple[_Floats, _Floats, _Floats]:
 
     Directions are along and across its outer contact; the map from the ring to them, shape (3, n), comes last.
     """
-    at_i, at_o = balls.angles[k]
-    outward = np.array([[np.cos(at_o), np.sin(at_o)], [-np.sin(at_o), np.cos(at_o)]])
+    (n_r, n_z), inner = balls.normals[1, :, k], balls.normals[0, :, k]
+    outward = np.array([[n_r, n_z], [-n_z, n_r]])
     both, whole = np.kron(np.eye(2), outward), np.eye(5)
     whole[:4, :4] = both
     G = whole @ balls.geometric[k] @ both.T
     maps = np.concatenate([outward @ balls.maps[k, :2], balls.maps[k, 2:]])
-    n_i, n_o = np.array([np.cos(at_i - at_o), np.sin(at_i - at_o)]), np.array([1.0, 0.0])
+    n_i, n_o = outward @ inner, np.array([1.0, 0.0])
     film_i, film_o = balls.inner.state_space(k), balls.outer.state_space(k)
     (k_i, d_i), (k_o, d_o) = film_i.D[0], film_o.D[0]
     own = 4 if balls.inertia else 2

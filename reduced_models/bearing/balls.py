@@ -227,8 +227,8 @@ def _ball(balls, at_speed, films, k, delta, rate, gain):
     for count in range(MOST_STEPS):
         v = gain * (w - history)
         u_i, v_i, u_o, v_o = delta - w + h_i, rate - v + up_i, w + h_o, v + up_o
-        fi, ki, di = contact_force(balls.inner, at_speed.inner, row, None, films, 2 * k, u_i, v_i)
-        fo, ko, do = contact_force(balls.outer, at_speed.outer, row, None, films, 2 * k + 1, u_o, v_o)
+        fi, ki, di, _ = contact_force(balls.inner, at_speed.inner, row, None, films, 2 * k, u_i, v_i)
+        fo, ko, do, _ = contact_force(balls.outer, at_speed.outer, row, None, films, 2 * k + 1, u_o, v_o)
         if films.heights[2 * k, FILM_SLOPE] > 0.0:
             fi, ki, di = full_film(films.heights[2 * k], delta - w)
         if films.heights[2 * k + 1, FILM_SLOPE] > 0.0:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, as_numbers
-from reduced_models.bearing.angular_balls import AngularBalls
+from reduced_models.bearing.ball import AngularBalls
 from reduced_models.bearing.grooves import ball_inertia, grooves_of
 from reduced_models.bearing.height_tables import heights_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S

@@ -12,7 +12,7 @@ inner contact does or the outer one carries all other forces. A ball with inerti
 rings that are held along the shaft and cannot tilt a ball moves along its outer contact alone.
 
 Films follow the angles and speeds of their ball at once; the cage turns at the mean speed of the balls by their
-loads, as in `angular_steps`. Places are counted from rest, so that small changes keep their digits.
+loads, as in `ball_steps`. Places are counted from rest, so that small changes keep their digits.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact
-from reduced_models.bearing.angular_balls import FREEDOMS, AngularBalls, ring_map
+from reduced_models.bearing.ball import FREEDOMS, AngularBalls, ring_map
 from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_angles import ball_forces, film_factors, inner_span, rolling
 from reduced_models.bearing.race_contact import curve, film_curve, film_cutoff, film_made, gain

@@ -2,7 +2,7 @@
 
 Every contact has an impedance Z along its own normal, a `reduced_models.elements.film_response.LinearFilm`: it
 takes the place of the stiffness in the tangents of its ball. With the balance R of the ball over its place b and
-the inner groove centre c, and the force P of the ring (`angular_balls`),
+the inner groove centre c, and the force P of the ring (`ball`),
 
     R_b = G_b - Z_i n_i n_i^T - Z_o n_o n_o^T - m s^2,    R_c = G_c + Z_i n_i n_i^T,
     dP = (P_c - P_b R_b^-1 R_c) dc.
@@ -24,7 +24,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reduced_models.bearing.angular_balls import SLOPE, AngularBalls
+from reduced_models.bearing.ball import AngularBalls
+from reduced_models.bearing.ball_steps import SLOPE
 from reduced_models.bearing.coefficients import stiffness_and_damping
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_contact import curve, film_cutoff, film_made
@@ -42,7 +43,7 @@ class LinearBalls(NamedTuple):
 
     inner: LinearFilm  # of all contacts, (positions * balls,)
     outer: LinearFilm
-    angles: _Floats  # (positions * balls, 2) contact angles [rad]
+    normals: _Floats  # (2, 2, positions * balls): inner and outer race; r and z
     geometric: _Floats  # (positions * balls, 5, 4) G of the balance and of the force of the ring
     maps: _Floats  # (positions * balls, 3, n) of `ring_map`, for the n directions of the ring
     positions: int
@@ -68,13 +69,14 @@ class LinearBalls(NamedTuple):
             )
             for j, law in enumerate((balls.inner, balls.outer))
         )
-        return cls(inner, outer, angles, geometric, maps, len(equilibria), loss, inertia)
+        normals = np.stack([np.cos(angles.T), np.sin(angles.T)], axis=1)
+        return cls(inner, outer, normals, geometric, maps, len(equilibria), loss, inertia)
 
     def impedance(self, s: ArrayLike) -> _Complex:
         """Of the ring at frequencies s [1/s] of exp(s t), shape of `s` + (n, n)."""
         s = np.asarray(s, complex)[..., None]
         inner, _, by_b = self._tangents(s)
-        G, n = self.geometric, self._normals[0]
+        G, n = self.geometric, self.normals[0]
         condensed = np.empty((*s.shape[:-1], len(G), 3, 2), complex)
         for j in range(2):
             pressed = inner * (n[0] * n[j]), inner * (n[1] * n[j]), 0.0  # no moment by the normal force
@@ -91,22 +93,17 @@ class LinearBalls(NamedTuple):
     def force_of_heights(self, s: complex, inner: _Complex, outer: _Complex) -> _Complex:
         """Force of every ball on the ring, shape (contacts, n), by heights at both of its contacts at exp(s t)."""
         inner_z, outer_z, by_b = self._tangents(np.array([s]))
-        n = self._normals
+        n = self.normals
         pressed = [inner_z * inner * n[0][j] for j in range(2)]
         moved = _solve(by_b, tuple(outer_z * outer * n[1][j] - pressed[j] for j in range(2)))
         P = np.stack([self._carried(inner_z, moved, i) for i in range(3)], axis=-1)
         P[:, :2] += np.stack(pressed, axis=-1)
         return np.asarray(-response(self.loss, np.asarray(s)) * (P[:, None] @ self.maps)[:, 0])
 
-    @property
-    def _normals(self) -> _Floats:
-        """Of the inner and the outer contacts, shape (2, 2, contacts)."""
-        return np.stack([np.stack([np.cos(angle), np.sin(angle)]) for angle in self.angles.T])
-
     def _tangents(self, s: _Complex) -> tuple[_Complex, _Complex, list[_Complex]]:
         """Impedances of all contacts at s, shape (..., 1), and R_b by rows; all of shape (..., contacts)."""
         inner, outer = (np.asarray(race.impedance(s)) for race in (self.inner, self.outer))
-        n_i, n_o = self._normals
+        n_i, n_o = self.normals
         lost = inner + outer == 0.0  # nothing touches the ball: it carries nothing
         own = self.inertia * s * s + lost
         by_b = [
@@ -121,7 +118,7 @@ class LinearBalls(NamedTuple):
 
     def _carried(self, inner: _Complex, moved: tuple[_Complex, _Complex], i: int) -> _Complex:
         """Component `i` of P_b times a motion of the balls."""
-        G, n = self.geometric, self._normals[0]
+        G, n = self.geometric, self.normals[0]
         found = G[:, 2 + i, 0] * moved[0] + G[:, 2 + i, 1] * moved[1]
         return found - inner * n[i] * (n[0] * moved[0] + n[1] * moved[1]) if i < 2 else found
 

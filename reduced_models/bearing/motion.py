@@ -11,16 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_column, as_rows, require_instance, require_positive
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import jit_exact_loop
-from reduced_models.bearing.angular_balls import AngularBalls
-from reduced_models.bearing.angular_steps import (
+from reduced_models.bearing.ball import AngularBalls, films_of_angular
+from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.ball_steps import (
     accept_angular,
     begin_angular_rest,
     begin_angular_step,
-    films_of_angular,
     press_angular,
     rest_angular,
 )
-from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.contact_heights import HEIGHT, find_heights
 from reduced_models.bearing.equilibrium import angle_of
 from reduced_models.bearing.film_heights import heights_in_runs

@@ -237,13 +237,16 @@ def _add(law, speed_row, node, work, c, to, chain):
 
 @jit_exact_node
 def contact_force(law, transit, speed_row, film, films, c, u, v):
-    """Force [N] at approach `u` [m] and rate `v` [m/s] of the end of the step, dF/du and dF/dv."""
+    """Force [N] at approach `u` [m] and rate `v` [m/s] of the end of the step, dF/du, dF/dv and dF/df.
+
+    f is the film over that of the table. With filters that are cleared it is the static force.
+    """
     work = films.work
-    g, g_u, _, _, k = film_curve(u, film, speed_row[0], speed_row[1], law, films.interval[c, 0])
+    g, g_u, g_f, _, k = film_curve(u, film, speed_row[0], speed_row[1], law, films.interval[c, 0])
     films.interval[c, 0] = k
     root = sqrt(g)
     if law.x.size == 0:
-        return law.kn * g * root, 1.5 * law.kn * root * g_u, 0.0
+        return law.kn * g * root, 1.5 * law.kn * root * g_u, 0.0, 0.0
     x = law.log_kn + 1.5 * log(g)
     while k > 0 and x < law.x[k]:
         k -= 1
@@ -272,12 +275,14 @@ def contact_force(law, transit, speed_row, film, films, c, u, v):
     w = g + m0 + weight * (work[c, NEXT] - m0) + me * e + mt * t + carried
     me, mt = me + per_made * qe, mt + per_made * qt
     if w <= 0.0:
-        return 0.0, 0.0, 0.0
-    w_u = g_u + mt + (0.5 * me * e + 1.5 * per_x * step) * g_u / g
+        return 0.0, 0.0, 0.0, 0.0
+    bent = 0.5 * me * e + 1.5 * per_x * step
+    w_u = g_u + mt + bent * g_u / g
     root = sqrt(w)
     force, slope = law.kn * w * root, 1.5 * law.kn * root
     share, share_u = film_cutoff(u, law.cutoff_gap)
-    return share * force, share * slope * w_u + share_u * force, share * slope * me * tau
+    by_u, by_f = share * slope * w_u + share_u * force, share * slope * (g_f + bent * g_f / g)
+    return share * force, by_u, share * slope * me * tau, by_f
 
 
 @jit_exact_node

@@ -18,22 +18,22 @@ from numpy.typing import NDArray
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.hertz import elliptic_integrals, hertz_contact
 from ehlcontact.point import Geometry
-from reduced_models.bearing.angular_balls import (
+from reduced_models.bearing.ball import FAR, FREEDOMS, AngularBalls, films_of_angular, ring_map
+from reduced_models.bearing.ball_steps import (
     ANGLE,
-    APPROACH,
     AXIS_ANGLE,
-    FAR,
-    FREEDOMS,
+    CLOSER,
+    ENTRIES,
     LOAD,
     ORBIT,
     OWN_ROTATION,
     SPEED_SUM,
-    AngularBalls,
-    places_of,
-    press_ring,
-    ring_map,
+    begin_angular_rest,
+    describe_balls,
+    press_angular,
 )
 from reduced_models.bearing.contact_angles import CONTROLS
+from reduced_models.bearing.contact_heights import HEIGHT
 from reduced_models.bearing.equilibrium import GUESS, OPEN, equilibrium
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 
@@ -63,17 +63,35 @@ class StaticRing:
     """
 
     def __init__(self, balls: AngularBalls, angle: float, free: int, held: _Floats) -> None:
-        self.balls, self.angle, self.free, self.held = balls, angle, free, held
+        self.balls, self.free, self.held = balls, free, held
         self.size = len(PLANAR) if free == len(PLANAR) else FREEDOMS
         radius = balls.grooves.groove_circle
         self.unit = np.array([1.0, 1.0, 1.0, 1.0 / radius, 1.0 / radius])[
             :free
         ]  # of a displacement, over a length
-        self.places = places_of(balls)
+        self.films = films_of_angular(balls)
         self.longest = FAR * (balls.grooves.inner + balls.grooves.outer)
-        self._whole = np.zeros(FREEDOMS), np.zeros((FREEDOMS, FREEDOMS))
-        self.load, self.stiffness = self._whole[0][: self.size], self._whole[1][: self.size, : self.size]
-        self._pressed_at: _Floats | None = None
+        n = self.size
+        self._whole = np.zeros(FREEDOMS), np.zeros((FREEDOMS, FREEDOMS)), np.zeros((FREEDOMS, FREEDOMS))
+        self.load, self.stiffness = self._whole[0][:n], self._whole[1][:n, :n]
+        self._still, self._pressed_at = np.zeros(n), np.full(n, np.nan)
+        self.angle = angle
+
+    @property
+    def angle(self) -> float:
+        """Of the first ball [rad]."""
+        return float(self.films.cage[0])
+
+    @angle.setter
+    def angle(self, angle: float) -> None:
+        """Turn the cage."""
+        begin_angular_rest(self.balls, self.balls.omega, angle, self.films)
+        self.changed()
+
+    @property
+    def heights(self) -> _Floats:
+        """Of features at both contacts of every ball, shape (balls, 2) [m]; may be written."""
+        return self.films.heights[:, HEIGHT].reshape(-1, 2)
 
     def with_inertia(self, whole: AngularBalls, centrifugal: float, gyroscopic: float) -> None:
         """Balls with a share of the centrifugal forces and of the gyroscopic moments of `whole`.
@@ -84,11 +102,15 @@ class StaticRing:
         control = g.control if gyroscopic > 0.0 else CONTROLS.index("outer")
         part = g._replace(mass=centrifugal * g.mass, control=control, gyroscopic=gyroscopic * g.gyroscopic)
         self.balls = whole if centrifugal == gyroscopic == 1.0 else whole._replace(grooves=part)
-        self._pressed_at = None
+        self.changed()
+
+    def changed(self) -> None:
+        """Balls or heights are no longer those with which it was pressed last."""
+        self._pressed_at[:] = np.nan
 
     def carried(self) -> float:
         """Forces of the ring on all balls where it was pressed last, added without their directions [N]."""
-        return float(self.places.found[:, LOAD].sum())
+        return float(self.films.force[:, 0].sum())
 
     def displacement(self, q: _Floats) -> _Floats:
         """Displacement, shape (n,) [m], [rad], from a scaled one of the directions that move."""
@@ -114,20 +136,24 @@ class StaticRing:
         ConvergenceError
             A ball finds no balance.
         """
-        whole = self.held.copy()
-        whole[: self.size] = displacement
-        press_ring(self.balls, self.angle, whole, self.places, *self._whole)
-        self._pressed_at = whole[: self.size]
-        if not np.isfinite(self.load).all():
-            ball = int(np.flatnonzero(~np.isfinite(self.places.force[:, 0]))[0])
+        self._pressed_at[:] = displacement
+        press_angular(self.balls, self.films, self._pressed_at, self._still, 0.0, self._whole)
+        if not np.isfinite(self.load[0]):
+            ball = int(np.flatnonzero(~np.isfinite(self.films.place[:, 0]))[-1])
             where = f"the ring at {displacement.tolist()} (m, rad)"
             raise ConvergenceError(f"ball {ball} finds no balance with {where}", displacement)
 
     def _press(self, q: _Floats) -> None:
         """Press it at a scaled displacement, unless it was there last."""
         displacement = self.displacement(q)
-        if self._pressed_at is None or not np.array_equal(displacement, self._pressed_at):
+        if not np.array_equal(displacement, self._pressed_at):
             self.press(displacement)
+
+    def describe(self) -> tuple[_Floats, _Floats]:
+        """Quantities of all balls where they were pressed last: `found` and `geometric` of `RingEquilibrium`."""
+        found, geometric = np.zeros((self.balls.number, ENTRIES)), np.zeros((self.balls.number, 5, 4))
+        describe_balls(self.balls, self.films, found, geometric)
+        return found, geometric
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +163,7 @@ class RingEquilibrium:
     displacement: _Floats  # (n,) [m], [rad]
     load: _Floats  # (n,) [N], [N m], reactions of what is held included
     stiffness: _Floats  # (n, n)
-    found: _Floats  # (balls, ENTRIES), see `angular_balls`
+    found: _Floats  # (balls, ENTRIES), see `ball_steps`
     geometric: _Floats  # (balls, 5, 4)
     maps: _Floats  # (balls, 3, n) of `ring_map`
 
@@ -154,7 +180,7 @@ class RingEquilibrium:
     @property
     def approach(self) -> _Floats:
         """Mutual approaches [m]."""
-        return self.found[:, APPROACH : APPROACH + 2]
+        return self.found[:, CLOSER : CLOSER + 2]
 
     @property
     def speed_sum(self) -> _Floats:
@@ -199,6 +225,7 @@ def ring_equilibrium(ring: StaticRing, load: _Floats, first: _Floats | None = No
         No balance was found.
     """
     near = None if first is None else first[: ring.free] / ring.unit
+    ring.changed()  # heights may be others
     q = search(ring, load, near)
     require_seated(ring.tangent(q), load, FIVE[: ring.free])
     found = equilibrium_at(ring, ring.displacement(q))
@@ -208,7 +235,7 @@ def ring_equilibrium(ring: StaticRing, load: _Floats, first: _Floats | None = No
 def equilibrium_at(ring: StaticRing, displacement: _Floats) -> RingEquilibrium:
     """Balls in equilibrium with the ring held at a displacement, shape (n,) [m], [rad]."""
     ring.press(displacement)
-    balls = ring.balls
+    balls, (found, geometric) = ring.balls, ring.describe()
     maps = np.zeros((balls.number, 3, FREEDOMS))
     for k in range(balls.number):
         ring_map(balls.grooves, ring.angle + 2.0 * pi * k / balls.number, maps[k])
@@ -216,8 +243,8 @@ def equilibrium_at(ring: StaticRing, displacement: _Floats) -> RingEquilibrium:
         displacement=displacement,
         load=ring.load.copy(),
         stiffness=ring.stiffness.copy(),
-        found=ring.places.found.copy(),
-        geometric=ring.places.geometric.copy(),
+        found=found,
+        geometric=geometric,
         maps=maps[..., : ring.size],
     )
 
@@ -314,7 +341,7 @@ def grow_gyroscopic(
         place = solve(None)
     except ConvergenceError:  # centrifugal forces bend the potential: from light balls to those that there are
         for ring in rings:
-            ring.places.place[:] = np.nan
+            ring.films.place[:] = np.nan
         share(SMALLEST_SHARE, 0.0)
         place, found = _grow(rings, solve, lambda of: share(of, 0.0), solve(None), SMALLEST_SHARE)
         if found < 1.0:
@@ -334,13 +361,13 @@ def _grow(
     while done < 1.0:
         tried = min(done + step, 1.0)
         set_share(tried)
-        kept = [ring.places.place.copy() for ring in rings]
+        kept = [ring.films.place.copy() for ring in rings]
         try:
             place = solve(place)
         except ConvergenceError:
             step *= 0.5
             for ring, places in zip(rings, kept, strict=True):
-                ring.places.place[:] = places
+                ring.films.place[:], ring.films.follow[:] = places, 0.0
             if step < SMALLEST_SHARE:
                 return place, done
         else:
@@ -351,10 +378,10 @@ def _grow(
 def require_in_groove(found: _Floats, load: _Floats, one_way: bool) -> None:
     """Raise `InputError` where a ball that both rings press leaves its groove.
 
-    `found` has shape (balls, ENTRIES), see `angular_balls`; with `one_way` balls carry at positive contact angles
+    `found` has shape (balls, ENTRIES), see `ball_steps`; with `one_way` balls carry at positive contact angles
     only, as of an angular contact bearing.
     """
-    inner, outer = found[:, APPROACH], found[:, APPROACH + 1]
+    inner, outer = found[:, CLOSER], found[:, CLOSER + 1]
     pressed = (inner + outer > 0.0) & (found[:, LOAD] > CARRIES * found[:, LOAD].max())
     for k in np.flatnonzero(pressed).tolist():
         angle = found[k, ANGLE : ANGLE + 2]

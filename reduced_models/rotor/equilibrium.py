@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.angular_balls import APPROACH, AngularBalls
+from reduced_models.bearing.ball import AngularBalls
+from reduced_models.bearing.ball_steps import CLOSER
 from reduced_models.bearing.equilibrium import GUESS, OPEN
 from reduced_models.bearing.equilibrium import equilibrium as solve
 from reduced_models.bearing.freedoms import FIVE
@@ -101,11 +102,11 @@ class StaticBearing:
     @property
     def closest(self) -> float:
         """Largest approach of a ball to the inner race where it was pressed last [m]."""
-        return float(self.ring.places.found[:, APPROACH].max())
+        return float(self.ring.describe()[0][:, CLOSER].max())
 
     def require_bearable(self, r: _Floats) -> None:
         """Raise `InputError` where a ball leaves its groove or carries more than the atlas has."""
-        load, balls = self.force(r), self.ring.places.found
+        load, balls = self.force(r), self.ring.describe()[0]
         shown = np.array([float(f"{component:.4g}") for component in load])
         try:
             require_in_grooves(self.bearing, balls, shown, self.speed)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import inner, jit_exact_loop
-from reduced_models.bearing.angular_steps import accept_angular, begin_angular_step, press_angular
+from reduced_models.bearing.ball_steps import accept_angular, begin_angular_step, press_angular
 from reduced_models.bearing.compiled_list import CompiledList
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.rotor.prepared_run import DISPLACEMENTS, PreparedRun

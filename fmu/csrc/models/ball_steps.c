@@ -1,4 +1,4 @@
-/* Balls between two races in steps: reduced_models.bearing.angular_steps. The ball is at b, the inner groove centre at c, moving at
+/* Balls between two races in steps: reduced_models.bearing.ball. The ball is at b, the inner groove centre at c, moving at
  * d, see rolling.h. */
 #include <math.h>
 #include <string.h>

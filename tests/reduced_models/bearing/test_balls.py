@@ -9,7 +9,7 @@ from bearing_twins import SlowBearing, SlowContact, SlowElement
 
 from ehlcontact import Lubricant, OilLayer
 from reduced_models import BallBearing
-from reduced_models.bearing.angular_steps import press_angular, rest_angular
+from reduced_models.bearing.ball_steps import press_angular, rest_angular
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BearingMotion, motion_of

@@ -21,7 +21,7 @@ from reduced_models import (
     Spall,
     simulate_rotor,
 )
-from reduced_models.bearing.angular_steps import _search_ball
+from reduced_models.bearing.ball_search import search_ball
 from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_heights import looked_up
 from reduced_models.bearing.freedoms import FIVE
@@ -329,7 +329,7 @@ def test_the_search_for_a_ball_ends_where_newtons_method_does(k):
     motion.forces(q, v)
     balls, films = motion._motion.balls, motion._motion.films
     found, c, omega = films.place[k].copy(), films.tried[k].copy(), films.omega[0]
-    _search_ball(balls, omega, row_of_speed(balls.speeds, omega), films, k, tuple(c), 1.5e5)
+    search_ball(balls, omega, row_of_speed(balls.speeds, omega), films, k, tuple(c), 1.5e5)
     np.testing.assert_allclose(films.place[k], found, atol=1e-10)
 
 

@@ -10,7 +10,6 @@ from scipy.optimize import root
 from ehlcontact import Lubricant, read, save
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet
-from reduced_models.bearing.angular_balls import press_ring
 from reduced_models.bearing.contact_angles import CONTROLS
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.ring import StaticRing
@@ -204,7 +203,7 @@ def ring(bearing, rpm, angle=0.3):
 
 
 def pressed(at, q):
-    press_ring(at.balls, at.angle, np.asarray(q, float), at.places, at.load, at.stiffness)
+    at.press(np.asarray(q, float))
     return at.load.copy(), at.stiffness.copy()
 
 
@@ -226,7 +225,7 @@ def test_tangents_at_speed(control):
         BallBearing(**HARRIS_218, race_control=control), 10000.0, (20e-6, -10e-6, 20e-6, 1e-4, -2e-4)
     )
     assert error < 1e-6
-    assert at.places.found[:, 2].min() > 50.0
+    assert at.describe()[0][:, 2].min() > 50.0
 
 
 @pytest.mark.parametrize("control", CONTROLS)
@@ -234,7 +233,7 @@ def test_tangents_where_balls_have_lifted_off(control):
     error, at = tangent_error(
         BallBearing(**SPINDLE, race_control=control), 18000.0, (30e-6, 5e-6, -50e-6, 5e-4, -5e-4)
     )
-    carries = at.places.found[:, 2] > 0.0
+    carries = at.describe()[0][:, 2] > 0.0
     assert carries.sum() == 5
     assert error < 1e-6
 
@@ -245,7 +244,7 @@ def test_tangents_with_films():
         bearing = BallBearing(**SPINDLE, oil=oil, race_control=control)
         error, at = tangent_error(bearing, 12000.0, (5e-6, -3e-6, 2e-6, 1e-4, -1e-4))
         assert error < 1e-6
-        assert np.ptp(at.places.found[:, 8:10]) > 0.01  # films at angles of their own
+        assert np.ptp(at.describe()[0][:, 8:10]) > 0.01  # films at angles of their own
 
 
 def test_stiffness_at_rest_is_symmetric():

@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 from ehlcontact.errors import InputError
 from reduced_models.bearing import race_contact as contact_room
-from reduced_models.bearing.angular_steps import films_of_angular
+from reduced_models.bearing.ball import films_of_angular
 from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import shared_atlas
