@@ -686,6 +686,8 @@ def _coefficients(linear: LinearRotor, omega: _Floats) -> tuple[_Floats, _Floats
     """Stiffness and damping of the shaft, shape (k, 5, 5), at angular frequencies [rad/s], shape (k,)."""
 
     def impedance(s: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        return _ring_following(np.array([linear.support_impedance(rate) for rate in s.tolist()]))
+        rows = zip(linear.rotor.mounts, linear.balls, strict=True)
+        parts = [(mount.rows(linear.rotor.size), balls.impedance(s)) for mount, balls in rows]
+        return _ring_following(np.sum([move.T @ Z @ move for move, Z in parts], axis=0))
 
     return stiffness_and_damping(impedance, omega)
