@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_numbers, require_instance
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
-from reduced_models.bearing.ball import AngularBalls
+from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.motion import BallMotion, motion_of
@@ -154,7 +154,7 @@ class BearingModel:
         return ""
 
     @cached_property
-    def balls(self) -> AngularBalls:
+    def balls(self) -> Balls:
         """Grooves, races and losses of the bearing, as the kernels in Python have them."""
         return self.motion().balls
 

@@ -22,7 +22,6 @@
 | race | one contact: geometry, oil, element at a speed; the only module that imports the atlas |
 | race_table | load over deflection of a race and its memory gains, tabulated over approach and speed |
 | race_contact | compiled: time step of one ball on one race: filters once, force and tangents per iteration |
-| balls | compiled: balls of a planar bearing, two contacts in series on each, as one force with tangents |
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load |
 | linear_balls | all balls about static equilibrium: impedance at complex frequencies |

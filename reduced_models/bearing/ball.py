@@ -62,13 +62,13 @@ FIRST_STEP = 1e-7  # [m], outward, of a ball that nothing touches; doubled until
 EPSILON = 2.0**-52
 COMPLEX_STEP = 1e-30  # [m], of derivatives: nothing is subtracted, so it need not be large
 
-# Rows of `AngularFilms.kept`: place and rate of a ball at the last two ends of steps, and what its rate and its
+# Rows of `BallFilms.kept`: place and rate of a ball at the last two ends of steps, and what its rate and its
 # acceleration follow from
 PLACE_NOW, PLACE_BEFORE, PLACE_HISTORY, RATE_NOW, RATE_BEFORE, RATE_HISTORY, KEPT = range(7)
-TRANSIT = 3  # column of `AngularFilms.speed_sum`
+TRANSIT = 3  # column of `BallFilms.speed_sum`
 
 
-class AngularBalls(NamedTuple):
+class Balls(NamedTuple):
     """A bearing as its kernels need it: at one speed, or in time at a range of them."""
 
     inner: RaceForceTable
@@ -82,7 +82,7 @@ class AngularBalls(NamedTuple):
     heights: _Floats  # tables of features, see `contact_heights`
 
 
-class AngularFilms(NamedTuple):
+class BallFilms(NamedTuple):
     """States and work of a bearing: contacts 2 k (inner race) and 2 k + 1 of ball k; balls; cage; loss."""
 
     state: _Floats
@@ -114,11 +114,11 @@ class AngularFilms(NamedTuple):
     loss: Seat
 
 
-def films_of_angular(balls: AngularBalls) -> AngularFilms:
+def films_of(balls: Balls) -> BallFilms:
     """States and work for all its contacts and balls and filters, all zero."""
     lags = max(law.gains.shape[2] for law in (balls.inner, balls.outer)) - DIRECT
     n, contacts = balls.number, 2 * balls.number
-    return AngularFilms(
+    return BallFilms(
         state=np.zeros((contacts, CHAIN + lags + 1)),
         work=np.zeros((contacts, WORK + 3 * lags)),
         interval=np.zeros((contacts, 2), np.int64),

@@ -27,7 +27,6 @@ from reduced_models.bearing.ball import (
     rolls,
 )
 from reduced_models.bearing.ball_search import move_on, place_ball, search_ball, seek_ball
-from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_angles import INNER, SHARED, film_factors
 from reduced_models.bearing.contact_heights import (
     ANGLE_LAST,
@@ -40,7 +39,13 @@ from reduced_models.bearing.contact_heights import (
     rest_heights,
 )
 from reduced_models.bearing.loss import accept_loss, apply_loss, begin_loss, hold_still, rest_loss
-from reduced_models.bearing.race_contact import APPROACH, accept_contact, clear_filters, prepare_filters
+from reduced_models.bearing.race_contact import (
+    APPROACH,
+    accept_contact,
+    clear_filters,
+    prepare_filters,
+    row_of_speed,
+)
 
 RENEWED = 16  # time steps after which the derivatives of centrifugal force and gyroscopic moment are renewed
 
@@ -52,7 +57,7 @@ ORBIT, OWN_ROTATION, AXIS_ANGLE, ENTRIES = 12, 13, 14, 15
 
 
 @jit_exact_called_node
-def begin_angular_step(balls, omega, dt, films):
+def begin_step(balls, omega, dt, films):
     """Begin a step of length `dt`, as long as the one before, at whose end the shaft turns at `omega`."""
     films.omega[0], cage = omega, films.cage
     cage[0] = cage[1] + 0.5 * dt * (omega + films.omega[1]) * (1.5 * cage[2] - 0.5 * cage[3])
@@ -84,8 +89,8 @@ def begin_angular_step(balls, omega, dt, films):
 
 
 @jit_exact_loop
-def begin_angular_rest(balls, omega, angle, films):
-    """Prepare `press_angular` for the static law, at the speed `omega` and with the first ball at `angle`."""
+def begin_rest(balls, omega, angle, films):
+    """Prepare `press_balls` for the static law, at the speed `omega` and with the first ball at `angle`."""
     films.omega[:] = omega
     films.cage[:] = 0.0
     films.cage[0] = films.cage[1] = angle
@@ -158,7 +163,7 @@ def _reach(balls, films, k):
 
 
 @jit_exact_called_node
-def press_angular(balls, films, q, v, gain, out):
+def press_balls(balls, films, q, v, gain, out):
     """Force that the ring at `q`, moving at `v`, exerts on the balls, and its derivatives by both.
 
     The ring moves in the first n directions, with `q` and `v` of shape (n,), and is held at 0 in the others. Its
@@ -203,8 +208,8 @@ def press_angular(balls, films, q, v, gain, out):
 
 
 @jit_exact_called_node
-def accept_angular(balls, films, gain):
-    """Move all films, balls and the cage to the end of the step, with the ring where `press_angular` was last."""
+def accept_balls(balls, films, gain):
+    """Move all films, balls and the cage to the end of the step, with the ring where `press_balls` was last."""
     g, omega = balls.grooves, films.omega[0]
     rolling_speed = max(omega, balls.speeds[0])
     row = row_of_speed(balls.speeds, rolling_speed)
@@ -255,11 +260,11 @@ def accept_angular(balls, films, gain):
 
 
 @jit_exact_loop
-def rest_angular(balls, films, q, out):
+def rest_balls(balls, films, q, out):
     """Put balls, films and cage at rest with the ring at `q`; its force on the balls is left in `out`."""
     still, omega = out[3], films.omega[0]
     still[:] = 0.0
-    press_angular(balls, films, q, still, 0.0, out[:3])
+    press_balls(balls, films, q, still, 0.0, out[:3])
     if not np.isfinite(out[0][0]):
         return
     g, heights = balls.grooves, films.heights

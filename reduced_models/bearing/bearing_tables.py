@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, as_numbers
-from reduced_models.bearing.ball import AngularBalls
+from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.grooves import ball_inertia, grooves_of
 from reduced_models.bearing.height_tables import heights_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -45,7 +45,7 @@ class BearingTables:
         self.heights_in_films: dict[float, _Floats] = {}
         self.warned = False
         self._elements: dict[tuple[str, float], FilmContact] = {}
-        self._balls: dict[tuple[float, ...], AngularBalls] = {}
+        self._balls: dict[tuple[float, ...], Balls] = {}
 
     @property
     def end(self) -> tuple[float, str]:
@@ -77,7 +77,7 @@ class BearingTables:
         speeds = np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)).tolist()
         return tabulate_race([bearing.element(race, speed) for speed in speeds], limit)
 
-    def balls(self, speeds_rpm: ArrayLike) -> AngularBalls:
+    def balls(self, speeds_rpm: ArrayLike) -> Balls:
         """Parameters of the compiled kernels over increasing speeds [rev/min].
 
         Between two speeds films grow as with the speed to the power of 0.67; outside them the kernels do not ask.
@@ -86,7 +86,7 @@ class BearingTables:
         key = tuple(speeds.tolist())
         if key not in self._balls:
             bearing, omega = self._bearing, speeds * RPM_TO_RAD_S
-            self._balls[key] = AngularBalls(
+            self._balls[key] = Balls(
                 inner=self.law("inner", speeds),
                 outer=self.law("outer", speeds),
                 number=bearing.balls,

@@ -24,10 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact
-from reduced_models.bearing.ball import FREEDOMS, AngularBalls, ring_map
-from reduced_models.bearing.balls import row_of_speed
+from reduced_models.bearing.ball import FREEDOMS, Balls, ring_map
 from reduced_models.bearing.contact_angles import ball_forces, film_factors, inner_span, rolling
-from reduced_models.bearing.race_contact import curve, film_curve, film_cutoff, film_made, gain
+from reduced_models.bearing.race_contact import curve, film_curve, film_cutoff, film_made, gain, row_of_speed
 from reduced_models.elements.film_filters import DIRECT, filter_rates
 from reduced_models.elements.film_law import interval
 
@@ -241,7 +240,7 @@ def bearing_rates(balls, rest, angle, cage, states, q, v, rates, force):
 
 
 def rates_with_cage(
-    balls: AngularBalls,
+    balls: Balls,
     rest: RestingBalls,
     angle: float,
     states: _Floats,

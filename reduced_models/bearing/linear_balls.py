@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reduced_models.bearing.ball import AngularBalls
+from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.ball_steps import SLOPE
 from reduced_models.bearing.coefficients import stiffness_and_damping
 from reduced_models.bearing.loss import Loss, response
@@ -51,9 +51,7 @@ class LinearBalls(NamedTuple):
     inertia: float  # of a ball [kg]
 
     @classmethod
-    def of(
-        cls, balls: AngularBalls, equilibria: Sequence[RingEquilibrium], loss: Loss, inertia: float
-    ) -> LinearBalls:
+    def of(cls, balls: Balls, equilibria: Sequence[RingEquilibrium], loss: Loss, inertia: float) -> LinearBalls:
         """From where the ring stands at each position."""
         force, approach, speed_sum, angles, geometric, maps = (
             np.concatenate([getattr(at, name) for at in equilibria])

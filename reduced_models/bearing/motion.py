@@ -11,14 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_column, as_rows, require_instance, require_positive
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import jit_exact_loop
-from reduced_models.bearing.ball import AngularBalls, films_of_angular
+from reduced_models.bearing.ball import Balls, films_of
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.ball_steps import (
-    accept_angular,
-    begin_angular_rest,
-    begin_angular_step,
-    press_angular,
-    rest_angular,
+    accept_balls,
+    begin_rest,
+    begin_step,
+    press_balls,
+    rest_balls,
 )
 from reduced_models.bearing.contact_heights import HEIGHT, find_heights
 from reduced_models.bearing.equilibrium import angle_of
@@ -41,13 +41,13 @@ class BallMotion:
 
     Parameters
     ----------
-    balls : AngularBalls
+    balls : Balls
     directions : tuple of str
         In which the ring moves, as of `BearingMotion`.
     """
 
-    def __init__(self, balls: AngularBalls, directions: tuple[str, ...]) -> None:
-        self.balls, self.films, self.directions = balls, films_of_angular(balls), directions
+    def __init__(self, balls: Balls, directions: tuple[str, ...]) -> None:
+        self.balls, self.films, self.directions = balls, films_of(balls), directions
         n = len(FIVE)
         self._gain, self._moving = 0.0, len(directions)
         self._out = np.zeros(n), np.zeros((n, n)), np.zeros((n, n))
@@ -75,9 +75,9 @@ class BallMotion:
         Films are those of the speed `omega` [rad/s]; the first ball is at `angle` [rad].
         """
         place = np.array(q)  # for arrays that may only be read, kernels would be compiled a second time
-        begin_angular_rest(self.balls, omega, angle, self.films)
+        begin_rest(self.balls, omega, angle, self.films)
         for _ in range(MOST_TIMES):
-            rest_angular(self.balls, self.films, place, (*self._out, np.zeros(place.size)))
+            rest_balls(self.balls, self.films, place, (*self._out, np.zeros(place.size)))
             before = self.films.heights[:, HEIGHT].copy()
             if self.balls.heights.shape[0] > 0:
                 find_heights(self.balls, self.films, angle, 0.0)
@@ -88,7 +88,7 @@ class BallMotion:
 
     def begin(self, omega: float, dt: float) -> None:
         """Begin a step of `dt` [s], at whose end the shaft turns at `omega` [rad/s]."""
-        begin_angular_step(self.balls, omega, dt, self.films)
+        begin_step(self.balls, omega, dt, self.films)
         self._gain = 1.5 / dt
 
     def forces(self, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats, _Floats]:
@@ -97,13 +97,13 @@ class BallMotion:
         Not a number where a ball finds no balance.
         """
         n = self._moving
-        press_angular(self.balls, self.films, np.array(q), np.array(v), self._gain, self._out)
+        press_balls(self.balls, self.films, np.array(q), np.array(v), self._gain, self._out)
         force, stiffness, damping = self._out
         return force[:n].copy(), stiffness[:n, :n].copy(), damping[:n, :n].copy()
 
     def accept(self) -> None:
         """Move balls, films and cage to the end of the step, as `forces` was called last."""
-        accept_angular(self.balls, self.films, self._gain)
+        accept_balls(self.balls, self.films, self._gain)
 
     def drive(self, omega: float, dt: float, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
         """Forces (k, n) of the ring, and of all balls (k, balls, 2), over steps that end at `q` and `v` (k, n)."""
@@ -244,9 +244,9 @@ def _drive(balls, films, motion, pushed, out):
     """Steps along a motion; the first has not begun, or is begun again."""
     omega, dt, q, v = motion
     for i in range(q.shape[0]):
-        begin_angular_step(balls, omega, dt, films)
-        press_angular(balls, films, q[i], v[i], 1.5 / dt, pushed)
-        accept_angular(balls, films, 1.5 / dt)
+        begin_step(balls, omega, dt, films)
+        press_balls(balls, films, q[i], v[i], 1.5 / dt, pushed)
+        accept_balls(balls, films, 1.5 / dt)
         for j in range(q.shape[1]):
             out[0][i, j] = pushed[0][j]
         for k in range(balls.number):

@@ -31,6 +31,8 @@ from reduced_models.elements.film_filters import (
     pass_on,
     poisson_shares,
 )
+from reduced_models.elements.film_law import interval
+from reduced_models.elements.film_speed import FILM_GROWTH
 
 # Entries of a state before those of its filters; the last one, behind the chain, is the film that enters it.
 APPROACH, RATE, OWN_RATE = range(3)
@@ -41,6 +43,21 @@ S, Y, MIDDLE, ROW, NEXT, CARRIED, NEXT_CARRIED, HELD = 0, 3, 6, 9, 12, 15, 18, 2
 WORK = HELD  # entries before those of the lags
 MOST_STEPS = 100  # of Newton's method for the film of a contact: a handful
 FOUND = 1e-7  # of g, its last step: what that leaves is of its square
+
+
+@inner
+@jit_exact_loop
+def row_of_speed(speeds, omega):
+    """Row of the tables made at increasing `speeds` of the shaft, and weight of the next, at the speed `omega`.
+
+    Above the highest speed the tables of that speed hold.
+    """
+    if speeds.size < 2:
+        return 0, 0.0
+    omega = min(omega, speeds[-1])
+    row = min(max(interval(speeds, omega), 0), speeds.size - 2)
+    low, high = speeds[row] ** FILM_GROWTH, speeds[row + 1] ** FILM_GROWTH
+    return row, (omega**FILM_GROWTH - low) / (high - low)
 
 
 @jit_exact_called_node

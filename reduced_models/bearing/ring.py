@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.hertz import elliptic_integrals, hertz_contact
 from ehlcontact.point import Geometry
-from reduced_models.bearing.ball import FAR, FREEDOMS, AngularBalls, films_of_angular, ring_map
+from reduced_models.bearing.ball import FAR, FREEDOMS, Balls, films_of, ring_map
 from reduced_models.bearing.ball_steps import (
     ANGLE,
     AXIS_ANGLE,
@@ -28,9 +28,9 @@ from reduced_models.bearing.ball_steps import (
     ORBIT,
     OWN_ROTATION,
     SPEED_SUM,
-    begin_angular_rest,
+    begin_rest,
     describe_balls,
-    press_angular,
+    press_balls,
 )
 from reduced_models.bearing.contact_angles import CONTROLS
 from reduced_models.bearing.contact_heights import HEIGHT
@@ -53,7 +53,7 @@ class StaticRing:
 
     Parameters
     ----------
-    balls : AngularBalls
+    balls : Balls
     angle : float
         Of the first ball [rad].
     free : int
@@ -62,14 +62,14 @@ class StaticRing:
         Displacement [m], [rad] of those that are held.
     """
 
-    def __init__(self, balls: AngularBalls, angle: float, free: int, held: _Floats) -> None:
+    def __init__(self, balls: Balls, angle: float, free: int, held: _Floats) -> None:
         self.balls, self.free, self.held = balls, free, held
         self.size = len(PLANAR) if free == len(PLANAR) else FREEDOMS
         radius = balls.grooves.groove_circle
         self.unit = np.array([1.0, 1.0, 1.0, 1.0 / radius, 1.0 / radius])[
             :free
         ]  # of a displacement, over a length
-        self.films = films_of_angular(balls)
+        self.films = films_of(balls)
         self.longest = FAR * (balls.grooves.inner + balls.grooves.outer)
         n = self.size
         self._whole = np.zeros(FREEDOMS), np.zeros((FREEDOMS, FREEDOMS)), np.zeros((FREEDOMS, FREEDOMS))
@@ -85,7 +85,7 @@ class StaticRing:
     @angle.setter
     def angle(self, angle: float) -> None:
         """Turn the cage."""
-        begin_angular_rest(self.balls, self.balls.omega, angle, self.films)
+        begin_rest(self.balls, self.balls.omega, angle, self.films)
         self.changed()
 
     @property
@@ -93,7 +93,7 @@ class StaticRing:
         """Of features at both contacts of every ball, shape (balls, 2) [m]; may be written."""
         return self.films.heights[:, HEIGHT].reshape(-1, 2)
 
-    def with_inertia(self, whole: AngularBalls, centrifugal: float, gyroscopic: float) -> None:
+    def with_inertia(self, whole: Balls, centrifugal: float, gyroscopic: float) -> None:
         """Balls with a share of the centrifugal forces and of the gyroscopic moments of `whole`.
 
         Without any gyroscopic moment they run under outer race control.
@@ -137,7 +137,7 @@ class StaticRing:
             A ball finds no balance.
         """
         self._pressed_at[:] = displacement
-        press_angular(self.balls, self.films, self._pressed_at, self._still, 0.0, self._whole)
+        press_balls(self.balls, self.films, self._pressed_at, self._still, 0.0, self._whole)
         if not np.isfinite(self.load[0]):
             ball = int(np.flatnonzero(~np.isfinite(self.films.place[:, 0]))[-1])
             where = f"the ring at {displacement.tolist()} (m, rad)"

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.errors import InputError
-from reduced_models.bearing.ball import AngularBalls
+from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.ball_states import PER_METRE, across_damping, bearing_system
 from reduced_models.bearing.ball_steps import LOAD, ORBIT
 from reduced_models.bearing.continuous_time import RestingBalls, bearing_rates, rates_with_cage
@@ -188,7 +188,7 @@ class _Ring:
         self._static, self._angle = static_ring(bearing, rpm, mount.cage_angle, r.size), mount.cage_angle
         held = equilibrium_at(self._static, r)
         linear = linear_balls(bearing, rpm, [held])
-        self.balls: AngularBalls = self._static.balls
+        self.balls: Balls = self._static.balls
         self.shape = _shape_of(linear)._replace(cage=cage_turns)
         self.force = held.load.copy()
         self._pressed = self.force.copy()

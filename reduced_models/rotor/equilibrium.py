@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.ball import AngularBalls
+from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.ball_steps import CLOSER
 from reduced_models.bearing.equilibrium import GUESS, OPEN
 from reduced_models.bearing.equilibrium import equilibrium as solve
@@ -32,7 +32,7 @@ _Floats = NDArray[np.float64]
 
 NOT_HELD = "one that presses balls in all directions: more preload, or a bearing of the other facing, holds it"
 HELD = 1e-12  # smallest stiffness of a rotor over its largest, beam included: below is rounding
-_NOTHING: tuple[AngularBalls | None, _Floats] = (
+_NOTHING: tuple[Balls | None, _Floats] = (
     None,
     np.empty(0),
 )  # balls with their inertia, and motion of the ring

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import inner, jit_exact_loop
-from reduced_models.bearing.ball_steps import accept_angular, begin_angular_step, press_angular
+from reduced_models.bearing.ball_steps import accept_balls, begin_step, press_balls
 from reduced_models.bearing.compiled_list import CompiledList
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.rotor.prepared_run import DISPLACEMENTS, PreparedRun
@@ -126,7 +126,7 @@ def run_block(steps, balls, films, rings, state, course, limits, out):
     ----------
     steps : Steps
     balls, films : CompiledList
-        `AngularBalls` and `AngularFilms` of every bearing.
+        `Balls` and `BallFilms` of every bearing.
     rings : RingState
     state : ndarray, shape (4, N)
         Displacement, velocity and acceleration; room.
@@ -143,14 +143,14 @@ def run_block(steps, balls, films, rings, state, course, limits, out):
     for i in range(speed.size):
         _foresee(steps, rings, state, forces[i])
         for b in range(len(balls)):
-            begin_angular_step(balls[b], speed[i], steps.dt, films[b])
+            begin_step(balls[b], speed[i], steps.dt, films[b])
         count = _balance(steps, balls, films, rings, limits[0])
         if count == 0:
             return i, NO_BALANCE
         _finish(steps, rings, state, forces[i])
         farthest, column = 0.0, 0
         for b in range(len(balls)):
-            accept_angular(balls[b], films[b], 1.5 / steps.dt)
+            accept_balls(balls[b], films[b], 1.5 / steps.dt)
             for j in range(rings.moving[b]):
                 k = d * b + j
                 moved = rings.ring[POSITION, k]
@@ -217,7 +217,7 @@ def _balance(steps, balls, films, rings, allowed):
                     ring[POSITION, i] += ties[i, j] * tried[R, j]
                     ring[VELOCITY, i] += ties[i, j] * tried[RATE, j]
             q, v = ring[POSITION, first : first + moving], ring[VELOCITY, first : first + moving]
-            press_angular(balls[b], films[b], q, v, 1.5 / steps.dt, rings.pushed)
+            press_balls(balls[b], films[b], q, v, 1.5 / steps.dt, rings.pushed)
             for i in range(moving):
                 ring[RING_FORCE, first + i] = force[i]
                 for j in range(n):

@@ -9,7 +9,7 @@ from bearing_twins import SlowBearing, SlowContact, SlowElement
 
 from ehlcontact import Lubricant, OilLayer
 from reduced_models import BallBearing
-from reduced_models.bearing.ball_steps import press_angular, rest_angular
+from reduced_models.bearing.ball_steps import press_balls, rest_balls
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BearingMotion, motion_of
@@ -59,7 +59,7 @@ def test_a_place_that_may_only_be_read_compiles_nothing(film):
     kinds = []
     for place in (POSITION, held):
         fast.rest(place)
-        kinds.append([len(kernel.signatures) for kernel in (press_angular, rest_angular)])
+        kinds.append([len(kernel.signatures) for kernel in (press_balls, rest_balls)])
     assert kinds[0] == kinds[1]
 
 

@@ -22,11 +22,11 @@ from reduced_models import (
     simulate_rotor,
 )
 from reduced_models.bearing.ball_search import search_ball
-from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.contact_heights import looked_up
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.height_tables import filtered, track_radius
 from reduced_models.bearing.motion import BearingMotion
+from reduced_models.bearing.race_contact import row_of_speed
 
 DRY = BallBearing.catalogue("6205", clearance=15e-6)
 OILED = replace(DRY, oil=Lubricant.iso_vg(68, temperature=50.0))

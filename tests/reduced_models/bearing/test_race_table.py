@@ -11,8 +11,7 @@ from scipy.integrate import solve_ivp
 
 from ehlcontact.errors import InputError
 from reduced_models.bearing import race_contact as contact_room
-from reduced_models.bearing.ball import films_of_angular
-from reduced_models.bearing.balls import row_of_speed
+from reduced_models.bearing.ball import films_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import shared_atlas
 from reduced_models.bearing.race_contact import (
@@ -23,6 +22,7 @@ from reduced_models.bearing.race_contact import (
     curve,
     film_cutoff,
     prepare_filters,
+    row_of_speed,
 )
 from reduced_models.bearing.race_table import tabulate_race
 from reduced_models.elements.film_filters import CHAIN, DIRECT
@@ -108,7 +108,7 @@ def test_between_speeds_films_grow_as_they_should(film):
     assert below[0] == 0 and above[0] == 1
     pressed = []
     for row in (below, above):
-        films = films_of_angular(many)
+        films = films_of(many)
         films.state[0, APPROACH] = 5e-6
         prepare_filters(many.inner, transit(many), row, None, 2e-5, films, 0)
         pressed.append(contact_force(many.inner, transit(many), row, None, films, 0, 5.1e-6, 3e-3))
@@ -203,7 +203,7 @@ def test_compiled_and_plain_are_twins(film, monkeypatch):
     steps = "prepare_filters", "contact_force", "accept_contact"
 
     def run():
-        films, law, forces = films_of_angular(balls), balls.inner, []
+        films, law, forces = films_of(balls), balls.inner, []
         for u in (4e-6, 4.1e-6):
             given = law, transit(balls), (0, 0.0), (1.02, 0.0)
             contact_room.prepare_filters(*given, 2e-5, films, 0)

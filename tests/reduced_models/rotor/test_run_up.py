@@ -14,9 +14,9 @@ from reduced_models import (
     rotor_on_bearings,
     simulate_rotor,
 )
-from reduced_models.bearing.balls import row_of_speed
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
+from reduced_models.bearing.race_contact import row_of_speed
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.speed_profile import law_speeds, turning_forces
 
