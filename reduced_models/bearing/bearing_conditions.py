@@ -63,5 +63,5 @@ def condition_lines(bearing: BallBearing) -> list[str]:
     lines = [f"oil of {oil.eta0:.4g} Pa s, alpha {1e9 * oil.alpha:.4g} 1/GPa, {supply_words(bearing)}"]
     if bearing.thermal is not None:
         inlets = oil.temperature if bearing.thermal.temperature is None else bearing.thermal.temperature
-        lines.append(f"films heat up, inlets at {float(inlets):.4g} degrees Celsius")
+        lines.append(f"films heat up, inlets at {inlets:.4g} degrees Celsius")
     return lines
