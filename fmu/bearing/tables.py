@@ -32,6 +32,7 @@ MISFIT = 1e-9  # of g: what a polynomial may leave before its interval is halved
 HALVINGS = 7  # down to one cubic
 ROUNDED = 2.0**-54  # of g: unit of the coefficients
 FILM_NODES = 48  # loads of the films, even in their logarithm
+FILM_UNIT = 2.0**-24  # of the logarithms of films, for small files: far below what lies between two loads
 FARTHEST = 0.1  # of the ball diameter: largest displacement, which no ring in its bearing reaches
 LARGEST_TILT = 0.1  # rad
 # Sizes in numbers of the structures of ``bearing.h`` and ``ball_steps.c``, which an FMU compares with its own
@@ -240,7 +241,8 @@ def film_logarithms(model: BearingModel) -> tuple[_Floats, _Floats]:
         rows = []
         for speed, (least, most) in zip(model.speeds.tolist(), ends, strict=True):
             loads = np.clip(np.exp(x), least * (1.0 + 1e-9), most * (1.0 - 1e-9))
-            rows.append(np.log(race.films(speed, loads, np.ones(loads.size))))
+            logarithms = np.log(race.films(speed, loads, np.ones(loads.size)))
+            rows.append(FILM_UNIT * np.rint(logarithms / FILM_UNIT))
         loads_of.append(x)
         tables.append(rows)
     return np.array(loads_of), np.array(tables)

@@ -343,7 +343,7 @@ def _about(model: FmuModel | SystemModel, system: bool) -> list[Row]:
         ]
     if isinstance(exported, BearingModel):
         speeds = " to ".join(f"{speed:g}" for speed in sorted({exported.speeds[0], exported.speeds[-1]}))
-        of = f"{exported.bearing.balls} balls; displacements {', '.join(exported.names)}"
+        of = f"{exported.bearing.balls} balls; displacements {', '.join(exported.directions)}"
         return [("bearing", exported.bearing.name, of), ("speed", f"{speeds} rpm", "of the tables of the films")]
     if not isinstance(exported, JeffcottModel):
         return [("element", exported.kind, exported.units)]
