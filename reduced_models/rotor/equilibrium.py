@@ -148,7 +148,8 @@ def equilibrium(mounts: Sequence[Mount], load: _Floats, stiffness: _Floats, spee
         allowed = "those at which friction holds the gyroscopic moment of all balls under this load"
         raise InputError("speed_rpm", speed_rpm, f"{allowed} (found to {share:.2g} of it)")
     for columns, support in static.mounted:
-        support.require_bearable(static.rows[columns] @ q)
+        if columns.stop - columns.start == len(FIVE):  # runs on others begin beyond the atlas too, and warn of it
+            support.require_bearable(static.rows[columns] @ q)
     return q
 
 
