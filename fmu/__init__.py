@@ -25,9 +25,7 @@ module                   responsibility
 ``verification``         `Verification`: result of a comparison
 ``verify``               `verify`: an FMU against fmpy's rules and the Python element, also before it is written
 ``bearing/``             FMU of a ball bearing whose inner ring is moved from outside
-``jeffcott/``            FMU of a Jeffcott rotor, alone or with its contacts
-``rotor/``               FMU of a rotor with its ball bearings inside
-``shaft/``               FMU of a rotor whose ball bearings are outside, with the torque of its motor
+``rotor/``               FMU of a rotor, its supports inside or outside
 ``system/``              `export_system`: system archives (SSP) of a rotor and its supports
 ``csrc/``                C sources: core, interface of each FMI version, models; equations in its README
 =======================  ===========================================================================

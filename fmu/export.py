@@ -74,6 +74,7 @@ def export(
         ("bearing 0", ... where they have none).
     contacts : sequence of ContactElement, optional
         Of a `JeffcottRotor`: one per mount, in SI or as `ScaledContact`, of any kind; their films start at rest.
+        Of those that are `outside` the FMU starts with the static force; left out where all are.
     speed_rpm : float, optional
         Of a `Rotor`: speed at the start [rev/min]; by default the highest of `speeds_rpm`, or 0.
     inertia : float, optional

@@ -13,24 +13,15 @@ from fmu.bearing.variables import bearing_spec
 from fmu.comparison import compare_film, compare_spring
 from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element, Film
-from fmu.jeffcott.comparison import compare_jeffcott
-from fmu.jeffcott.model import JeffcottModel
-from fmu.jeffcott.references import jeffcott_references
-from fmu.jeffcott.variables import jeffcott_spec
 from fmu.lead import HELD_PARALLEL
 from fmu.references.contact_references import contact_references
 from fmu.references.series import References
 from fmu.rotor.comparison import compare_rotor, rotor_references
 from fmu.rotor.model import RotorModel
 from fmu.rotor.variables import rotor_spec
-from fmu.shaft.comparison import compare_shaft, shaft_references
-from fmu.shaft.model import ShaftModel
-from fmu.shaft.variables import shaft_spec
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
 from reduced_models import BallBearing, JeffcottRotor, Rotor
-
-ALL = "all"  # in place of the names of all supports
 
 Exported = Element | BallBearing | Rotor | JeffcottRotor
 
@@ -101,30 +92,11 @@ def fmu_model(model: Exported, **keywords: Unpack[Keywords]) -> FmuModel:
     if isinstance(model, BallBearing):
         bearing = BearingModel(model, given.pop("speeds_rpm", None), **given)
         return _made(bearing, bearing_spec(bearing, model_name, lead), compare_bearing, bearing_references)
-    outside = _outside(model, given.pop("outside", ()))
     if isinstance(model, JeffcottRotor):
-        jeffcott = JeffcottModel(model, **_contacts_inside(model, outside, given))
-        spec = jeffcott_spec(jeffcott, model_name, lead)
-        return _made(jeffcott, spec, compare_jeffcott, jeffcott_references)
-    speeds = given.pop("speeds_rpm", None)
-    if outside:
-        if speeds is not None:
-            raise InputError("speeds_rpm", speeds, "left out: no ball bearing is inside")
-        shaft = ShaftModel(model, **given)
-        return _made(shaft, shaft_spec(shaft, model_name, lead), compare_shaft, shaft_references)
-    if speeds is None and model.ball_bearings:
-        raise InputError("speeds_rpm", None, f"those of the ball bearings inside, or outside={_names(model)}")
-    if "start" in given:
-        raise InputError("start", given["start"], "left out with bearings inside: the FMU starts in equilibrium")
-    rotor = RotorModel(model, speeds, **given)
+        rotor = RotorModel.jeffcott(model, **given)
+    else:
+        rotor = RotorModel(model, **given)
     return _made(rotor, rotor_spec(rotor, model_name, lead), compare_rotor, rotor_references)
-
-
-def supports_of(rotor: Rotor | JeffcottRotor) -> tuple[str, ...]:
-    """Names of the supports of a rotor that may be outside of its FMU: contacts, then ball bearings."""
-    if isinstance(rotor, JeffcottRotor):
-        return tuple(f"contact {i}" for i in range(1, len(rotor.mounts) + 1))
-    return (*(f"contact {i}" for i in range(1, len(rotor.contacts) + 1)), *rotor.ball_bearing_names)
 
 
 def _is_given(value: Any) -> bool:
@@ -140,33 +112,6 @@ def _require_taken(model: object, given: dict[str, Any]) -> None:
             return
     allowed = "a contact element (linear, cubic, ..., wide), a BallBearing, a Rotor or a JeffcottRotor"
     raise InputError("model", type(model).__name__, allowed)
-
-
-def _names(rotor: Rotor | JeffcottRotor) -> str:
-    return repr(supports_of(rotor))
-
-
-def _outside(rotor: Rotor | JeffcottRotor, outside: str | Iterable[str]) -> tuple[str, ...]:
-    """Names of the supports outside, checked."""
-    known = supports_of(rotor)
-    names = (known if outside == ALL else (outside,)) if isinstance(outside, str) else tuple(outside)
-    for name in names:
-        if name not in known:
-            raise InputError("outside", name, f"of {_names(rotor)}, or 'all'")
-    if names and set(names) != set(known):
-        raise InputError("outside", list(names), f"all supports, {_names(rotor)}, or none of them")
-    return names
-
-
-def _contacts_inside(rotor: JeffcottRotor, outside: tuple[str, ...], given: dict[str, Any]) -> dict[str, Any]:
-    """Keywords of a Jeffcott rotor, whose contacts are inside or outside."""
-    contacts = given.get("contacts")
-    if outside and contacts is not None:
-        raise InputError("contacts", len(contacts), f"left out: outside={outside!r}")
-    if not outside and contacts is None:
-        allowed = f"one per mount, {len(rotor.mounts)}, or outside={_names(rotor)}"
-        raise InputError("contacts", None, allowed)
-    return given
 
 
 def _made(source: Any, spec: ModelSpec, compare: Any, references: Any) -> FmuModel:

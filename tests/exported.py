@@ -1,14 +1,57 @@
 """Models of FMUs as tests keep them, and what `fmu.export` and `fmu.verify` take to make them."""
 
-from functools import singledispatch
+from dataclasses import dataclass, field
+from functools import cached_property, singledispatch
 from typing import Any
+
+import numpy as np
 
 from fmu import verify
 from fmu.bearing.model import BearingModel
-from fmu.jeffcott.model import JeffcottModel
-from fmu.models import ALL, FmuModel, fmu_model
+from fmu.models import FmuModel, fmu_model
 from fmu.rotor.model import RotorModel
-from fmu.shaft.model import ShaftModel
+from reduced_models import JeffcottRotor, Rotor
+from reduced_models.rotor.jeffcott import RotorState
+
+
+@dataclass(frozen=True, eq=False)
+class Jeffcott:
+    """A Jeffcott rotor with contacts inside, or outside where there are none."""
+
+    rotor: JeffcottRotor
+    contacts: Any = None
+    start: RotorState | None = None
+
+    @cached_property
+    def model(self) -> RotorModel:
+        return RotorModel.jeffcott(self.rotor, self.contacts, () if self.contacts else "all", self.start)
+
+    @property
+    def elements(self) -> tuple[Any, ...]:
+        return self.model.elements
+
+    @property
+    def inner_step(self) -> float:
+        return self.model.inner_step
+
+    @property
+    def state(self) -> RotorState:
+        """Where it starts."""
+        planes = np.zeros((4, 2))
+        planes[:, list(self.rotor.axes)] = np.concatenate(self.model.motion).reshape(4, -1)
+        return RotorState(*planes)
+
+
+@dataclass(frozen=True, eq=False)
+class OfRotor:
+    """A rotor and the keywords of its export."""
+
+    rotor: Rotor
+    keywords: dict[str, Any] = field(default_factory=dict)
+
+    @cached_property
+    def model(self) -> RotorModel:
+        return RotorModel(self.rotor, **self.keywords)
 
 
 @singledispatch
@@ -23,21 +66,14 @@ def _(model: BearingModel):
 
 
 @given.register
-def _(model: JeffcottModel):
-    inside = {"outside": ALL} if model.contacts is None else {"contacts": model.contacts}
-    return model.rotor, {**inside, "start": model.start}
+def _(model: Jeffcott):
+    supports = {"outside": "all"} if model.contacts is None else {"contacts": model.contacts}
+    return model.rotor, {**supports, "start": model.start}
 
 
 @given.register
-def _(model: ShaftModel):
-    turning = {"speed_rpm": model.speed_rpm, "inertia": model.inertia}
-    return model.rotor, {"outside": ALL, "start": model.start, **turning}
-
-
-@given.register
-def _(model: RotorModel):
-    turning = {"speed_rpm": model.speed_rpm, "inertia": model.inertia}
-    return model.rotor, {"speeds_rpm": model.speeds_rpm, **turning}
+def _(model: OfRotor):
+    return model.rotor, dict(model.keywords)
 
 
 def model_of(model: Any) -> FmuModel:

@@ -43,10 +43,8 @@ from ehlcontact.status import Status
 from ehlcontact.summary import Summary, span
 from ehlcontact.transient.result import Instants, SimulationResult
 from fmu.bearing.model import BearingModel
-from fmu.jeffcott.model import JeffcottModel
 from fmu.references.check import Interface, ReferenceCheck
 from fmu.rotor.model import RotorModel
-from fmu.shaft.model import ShaftModel
 from fmu.verification import Verification
 from reduced_models import (
     Atlas,
@@ -113,7 +111,7 @@ RETURNED = (
     *(LinearRotor, RotorState, UnbalanceResponse, ContactHistory, EnvelopeSpectrum, OrderSpectrum),
     *(SteadyResult, ImpedanceResult, SimulationResult, BearingState, FitResult, RotorResult, VibrationRecord),
     *(Carreau, Eyring, LimitingShear, ContactElement, FullFilm, RossCallback),
-    *(BearingModel, JeffcottModel, ShaftModel, RotorModel, Verification, ReferenceCheck),
+    *(BearingModel, RotorModel, Verification, ReferenceCheck),
 )
 # What a user gives, or a few numbers: shown as they are.
 SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness", "SpeedHistory"
@@ -131,8 +129,8 @@ WITHOUT_PLOT = {
         ("BallBearing", "BearingSet", "LinearBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT
     ),
     **dict.fromkeys(("MeasuredPath", "ModalPath", "SystemPath", "RecordCase"), INPUT),
-    **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support", "JeffcottModel"), INPUT),
-    **dict.fromkeys(("BearingModel", "ShaftModel", "RotorModel", "OilBalance"), INPUT),
+    **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support"), INPUT),
+    **dict.fromkeys(("BearingModel", "RotorModel", "OilBalance"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
     **dict.fromkeys(("RotorState", "BearingFriction", "OilAndHeat"), NUMBERS),
     **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),

@@ -68,10 +68,10 @@ def state_points(model: BearingModel, count: int = POINTS, seed: int = 2) -> Sta
         model.angular
     ):  # balls are near their balance at the place of the ring: little damps them across their contacts
         angles = (START + turned).tolist()
-        states = np.array([_rest_states(model, motion, fastest, *at) for at in zip(angles, place, strict=True)])
+        states = np.array([rest_states(model, motion, fastest, *at) for at in zip(angles, place, strict=True)])
         states[:, 1 + sizes.size :] *= SETTLING
     else:
-        states = np.tile(_rest_states(model, motion, fastest, START, model.place), (count, 1))
+        states = np.tile(rest_states(model, motion, fastest, START, model.place), (count, 1))
     states[:, 0] = START + turned
     states[:, 1 : 1 + sizes.size] += np.where(kinds == "w", np.abs(moved), moved)
     counted = counted_from(model)
@@ -83,7 +83,7 @@ def state_points(model: BearingModel, count: int = POINTS, seed: int = 2) -> Sta
     return StatePoints(states, rates, place, velocity, speed, force)
 
 
-def _rest_states(model: BearingModel, motion: BallMotion, speed: float, angle: float, place: _Floats) -> _Floats:
+def rest_states(model: BearingModel, motion: BallMotion, speed: float, angle: float, place: _Floats) -> _Floats:
     """States of the bearing at rest [rad], [m], [N], [N m]; those of films are 0."""
     made, counted = BallStates.of(model), counted_from(model)
     force = motion.rest(speed, angle, place)

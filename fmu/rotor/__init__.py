@@ -1,11 +1,14 @@
-"""A rotor with its ball bearings as one FMU: forces at its nodes, unbalances and speed in, motions and loads out.
+"""A rotor as an FMU: supports inside it, or outside, their forces being inputs then.
 
-===================  ==========================================================================================
-module               responsibility
-===================  ==========================================================================================
-``model``            `RotorModel`: a `Rotor` on ball bearings, the speeds of the tables, where it starts
-``variables``        its variables, constants and tables, and the bearings inside
-``trial``            a run by the steps of `simulate_rotor`, with inputs as the FMU has them
-``comparison``       comparison of the FMU with that; references stored in the FMU
-===================  ==========================================================================================
+==============  ==============================================================================================
+module          responsibility
+==============  ==============================================================================================
+``model``       `RotorModel`: a rotor, its supports inside and outside, where it starts
+``parameters``  parameters of its matrices
+``variables``   its variables and specification
+``tables``      constants and C tables
+``laws``        supports inside, a C file for each that differs
+``trial``       a run by the steps of `simulate_rotor`, with inputs as the FMU has them
+``comparison``  comparison of the FMU with that; references stored in the FMU
+==============  ==============================================================================================
 """

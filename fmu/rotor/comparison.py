@@ -1,60 +1,253 @@
-"""The FMU of a rotor with its ball bearings beside the rotor, and the references inside it."""
+"""The FMU of a rotor beside the rotor, and the references inside it."""
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fmu.bearing.continuous import rates_in_time, rest_states
+from fmu.bearing.places import counted_from
 from fmu.bearing.variables import FORCES
+from fmu.comparison import each_over, film_rates_at
+from fmu.contact_variables import Element, Film
 from fmu.lead import ROTOR
 from fmu.references.series import References, Trial, walk
 from fmu.rotor.model import RotorModel
 from fmu.rotor.trial import RotorTrial, rotor_trial
-from fmu.shaft.comparison import sizes
+from fmu.rotor.variables import force_rows
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
 from reduced_models.bearing.race import RACES
 
+_Floats = NDArray[np.float64]
+
 TOLERANCE = 1e-6  # of references
+REFERENCE_POINTS = 2  # with ball bearings
+EVERY = 20  # steps of the trial between states for model exchange
+FILM = 0.02  # size of the states of films there, over their nominal values
 ABOUT = "The speed rises, unbalances grow, forces lift the rotor off; steps of simulate_rotor, in Python"
 
 
 def compare_rotor(slave: Any, exchange: Any, model: RotorModel, spec: ModelSpec) -> Verification:
-    """Compare a rotor, in a run-up with lift-off."""
-    trial = rotor_trial(model)
+    """Compare a rotor, in a run-up with lift-off, and its equations at states of that run."""
+    trial = _trial(model)
     references = _references(trial, model, spec)
-    found = walk(slave, references)
+    ours = walk(slave, references)
     slave.raw.terminate()
     assert references.steps is not None
     histories = np.array(list(references.steps.unknowns.values())).T
-    gaps = np.abs(found - histories).max(axis=0) / sizes(histories)
-    return Verification(states=len(found), parted=trial.parted, motion=float(gaps.max()))
+    gaps = np.abs(ours - histories).max(axis=0) / sizes(histories)
+    found = Verification(states=len(ours), parted=trial.parted, motion=float(gaps.max()))
+    if exchange is None:
+        return found
+    return replace(found, rates=_compare_points(exchange, model, spec))
+
+
+def sizes(histories: _Floats) -> _Floats:
+    """What each output moves in a run, or where it stands."""
+    return np.asarray(
+        np.maximum(np.maximum(np.ptp(histories, axis=0), 1e-3 * np.abs(histories).max(axis=0)), 1e-12)
+    )
 
 
 def rotor_references(model: RotorModel, spec: ModelSpec) -> References:
-    """Reference inputs and results of the FMU of a rotor with its ball bearings."""
-    return _references(rotor_trial(model), model, spec)
+    """Reference inputs and results of the FMU of a rotor."""
+    return _references(_trial(model), model, spec)
+
+
+def _trial(model: RotorModel) -> RotorTrial:
+    return rotor_trial(model, force_rows(model).tobytes())
 
 
 def _references(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> References:
     inputs = {v.name: trial.inputs[:, k] for k, v in enumerate(spec.inputs)}
     settings = {ROTOR.name: ROTOR.at_end, "inner_step": model.inner_step}
     if model.inertia is not None:
-        settings["speed_start"] = float(trial.speed[0])
-    return References(Trial(trial.time, inputs, _results(trial, model, spec)), None, settings, TOLERANCE, ABOUT)
+        settings["speed"] = float(trial.speed[0])
+    if model.start is not None:
+        names = [state.name for state in spec.states[: 2 * model.rotor.size]]
+        settings |= dict(zip(names, [*trial.displacement[0], *trial.velocity[0]], strict=True))
+    steps = Trial(trial.time, inputs, _results(trial, model, spec))
+    return References(steps, _points(trial, model, spec), settings, TOLERANCE, ABOUT)
 
 
 def _results(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> dict[str, Any]:
-    names = [v.name for v in spec.outputs]
-    found = dict(zip(names, [*trial.displacement.T, *trial.velocity.T], strict=False))
-    rings = [
-        f"bearing[{b}].{FORCES[name]}"
-        for b, mount in enumerate(model.stations, start=1)
-        for name in mount.directions
-    ]
-    found |= dict(zip(rings, trial.force.T, strict=True))
-    for b in range(len(model.stations)):
-        found |= {f"bearing[{b + 1}].largest_load_{race}": trial.load[:, b, k] for k, race in enumerate(RACES)}
+    size = model.rotor.size
+    states = [v.name for v in spec.states]
+    results = dict(zip(states, [*trial.displacement.T, *trial.velocity.T], strict=False))
+    first = next(
+        v.value_reference
+        for v in spec.variables
+        if v.name.startswith(model.stations_in_order[0].label)
+        and v.causality == "output"
+        and v.derivative_of is None
+    )
+    moving = [v.name for v in spec.variables[first : first + 2 * trial.motion.shape[1]]]
+    results |= dict(zip(moving, [*trial.motion.T, *trial.rate.T], strict=True))
+    column = 0
+    for station in model.inside:
+        if station.is_contact:
+            results[f"{station.label}.force"] = trial.force[:, column]
+            column += 1
+            continue
+        for name in station.mount.directions:
+            results[f"{station.label}.{FORCES[name]}"] = -trial.force[:, column]
+            column += 1
+    for b, station in enumerate(model.bearings_inside):
+        results |= {f"{station.label}.largest_load_{race}": trial.load[:, b, k] for k, race in enumerate(RACES)}
     turning = {"angle": trial.angle} | ({} if model.inertia is None else {"speed": trial.speed})
-    return found | turning
+    assert size
+    return results | turning
+
+
+# ---- continuous time
+
+
+class Felt(NamedTuple):
+    """A support in a state: forces of the rotor on it, rates of its states, and their sizes."""
+
+    force: _Floats
+    rates: _Floats
+    scales: _Floats
+
+
+def _contact(element: Element, states: _Floats, u: float, v: float) -> Felt:
+    if isinstance(element, Film):
+        force, rates = film_rates_at(element, states, u, v)
+        return Felt(np.array([force]), rates, np.full(rates.size, 1e3 * element.law.fast_rate / element._units[2]))
+    return Felt(np.array([float(element.force(u, v))]), np.empty(0), np.empty(0))
+
+
+def _points(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> Trial:
+    """States of the trial with films away from rest: derivatives there."""
+    rotor, size = model.rotor, model.rotor.size
+    at = np.arange(EVERY, len(trial.time), EVERY)
+    if model.bearings:  # some 300 states and rates each: 6 kB in an FMU
+        at = at[:REFERENCE_POINTS]
+    M = rotor.mass
+    bearings = list(model.bearings)
+    motions = [bearing.motion() for bearing in bearings]
+    counted = [counted_from(bearing) for bearing in bearings]
+    named = [state.name for state in spec.states]
+    nominal = np.array([state.nominal or 1.0 for state in spec.states])
+    forces = force_rows(model)
+    rows, states = [], []
+    for n in at:
+        q, v, omega = trial.displacement[n], trial.velocity[n], float(trial.speed[n])
+        angle = float(trial.angle[n])
+        inputs = trial.inputs[n]
+        _, C, K = rotor.matrices(omega)
+        net = rotor.load + inputs[: len(forces)] @ forces - C @ v - K @ q
+        x = [q, v, [angle], *([[omega]] if model.inertia is not None else [])]
+        rates: list[Any] = [v, None, [omega], *([[0.0]] if model.inertia is not None else [])]
+        drag, b = 0.0, 0
+        first = sum(map(len, x))
+        for station in model.inside:
+            mount = station.mount
+            place, rate = mount.rows(size) @ q + station.shift, mount.rows(size) @ v
+            if station.is_contact:
+                count = mount.contact.state_count
+                films = FILM * np.cos((1.0 + np.arange(count)) * n)
+                felt = _contact(mount.contact, films, float(place[0]), float(rate[0]))
+            else:
+                own = rest_states(bearings[b], motions[b], omega, mount.cage_angle, place)
+                count = own.size
+                films = own + FILM * nominal[first : first + count] * np.cos((1.0 + np.arange(count)) * n)
+                films[0] = own[0] + 0.1
+                rates_of, force = rates_in_time(bearings[b], motions[b], films, place, rate, omega, counted[b])
+                felt = Felt(-force, rates_of, np.abs(rates_of))
+                b += 1
+            x.append(films)
+            rates.append(felt.rates)
+            net = net - station.count * mount.rows(size).T @ felt.force
+            first += count
+        a, alpha = _accelerations(model, net, inputs, angle, omega, drag)
+        rates[1] = a
+        if model.inertia is not None:
+            rates[3] = [alpha]
+        states.append(np.concatenate(x))
+        rows.append(np.concatenate([np.asarray(one, float) for one in rates]))
+    assert M.size
+    knowns = dict(zip(named, np.array(states).T, strict=True))
+    knowns |= {v.name: trial.inputs[at, k] for k, v in enumerate(spec.inputs)}
+    unknowns = dict(zip((f"der({name})" for name in named), np.array(rows).T, strict=True))
+    if model.inertia is not None and any(bearing.bearing.oil is not None for bearing in bearings):
+        unknowns = {name: values for name, values in unknowns.items() if not _is_driven(name, model, spec)}
+    return Trial(np.arange(at.size, dtype=float), knowns, unknowns)
+
+
+def _is_driven(name: str, model: RotorModel, spec: ModelSpec) -> bool:
+    """Whether a derivative depends on the torque that films take, which Python has in steps only."""
+    accelerations = {f"der({state.name})" for state in spec.states[model.rotor.size : 2 * model.rotor.size]}
+    return name == "der(speed)" or (name in accelerations and bool(model.rotor.unbalances))
+
+
+def _accelerations(
+    model: RotorModel, net: _Floats, inputs: _Floats, angle: float, omega: float, drag: float
+) -> tuple[_Floats, float]:
+    """Of the rotor, and of its shaft, at once: the centre of mass of an unbalance moves with both."""
+    rotor, size = model.rotor, model.rotor.size
+    forces = len(force_rows(model))
+    amounts = inputs[forces : forces + len(rotor.unbalances)]
+    turning = inputs[forces + len(rotor.unbalances) :]
+    w, net = np.zeros(size), net.copy()
+    for u, amount in zip(rotor.unbalances, amounts, strict=True):
+        c, s = np.cos(angle + u.phase), np.sin(angle + u.phase)
+        for place, swing, side in ((u.x, c, s), (u.y, s, -c)):
+            if place is not None:
+                net[place] += amount * omega**2 * swing
+                w[place] += amount * side
+    if model.inertia is None:
+        return np.linalg.solve(rotor.mass, net + turning[1] * w), float(turning[1])
+    whole = np.zeros((size + 1, size + 1))
+    whole[:size, :size], whole[size, size] = rotor.mass, model.inertia
+    whole[:size, size] = whole[size, :size] = -w
+    found = np.linalg.solve(whole, np.append(net, turning[0] - turning[1:].sum() - drag))
+    return found[:size], float(found[size])
+
+
+def _compare_points(exchange: Any, model: RotorModel, spec: ModelSpec) -> float:
+    """Largest difference of rates in model exchange, over the largest of their kind."""
+    points = _points(_trial(model), model, spec)
+    names = [v.name for v in spec.states]
+    exchange.start()
+    ours = []
+    for k in range(points.time.size):
+        row = {name: float(values[k]) for name, values in points.knowns.items()}
+        x = np.array([row.pop(name) for name in names])
+        ours.append(exchange.place(x, **row))
+    worst = 0.0
+    for j, name in enumerate(names):
+        wanted = points.unknowns.get(f"der({name})")
+        if wanted is not None:
+            size = _size_of(points, model, spec, j)
+            worst = max(worst, float(each_over(np.abs(np.array(ours)[:, j] - wanted), size).max()))
+    return worst
+
+
+def _size_of(points: Trial, model: RotorModel, spec: ModelSpec, j: int) -> _Floats:
+    """What a difference of a rate is measured by: the largest of its kind, or what balances within it."""
+    names, size = [v.name for v in spec.states], model.rotor.size
+    known = [points.unknowns.get(f"der({name})") for name in names]
+    length = points.time.size
+    if j < 2 * size:
+        kind = range(0, size) if j < size else range(size, 2 * size)
+        largest = max(float(np.abs(one).max()) for k in kind if (one := known[k]) is not None)
+        if j >= size:
+            load = max(float(np.abs(model.rotor.load).max()), 1.0)
+            largest = max(largest, load / float(np.diag(model.rotor.mass).max()))
+        return np.full(length, largest)
+    label = names[j].rpartition(".")[0].partition("[")[0]
+    kind_name = names[j].rpartition(".")[2].partition("[")[0]
+    alike = [
+        float(np.abs(one).max())
+        for k, one in enumerate(known)
+        if one is not None
+        and k >= 2 * size
+        and names[k].startswith(label)
+        and names[k].rpartition(".")[2].partition("[")[0] == kind_name
+    ]
+    return np.full(length, max([*alike, 1e-300]))

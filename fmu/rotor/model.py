@@ -1,88 +1,408 @@
-"""`RotorModel`: rotor, speeds and inertia of an FMU with the ball bearings inside."""
+"""What the FMU of a rotor is made from: rotor, supports inside and outside, parameters, and where it starts."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+import warnings
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
-from ehlcontact.checks import require_instance, require_nonnegative
-from ehlcontact.errors import InputError
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.checks import as_column, require_instance, require_nonnegative, require_positive
+from ehlcontact.errors import ConvergenceError, InputError
 from fmu.bearing.model import BearingModel
-from fmu.shaft.model import MOST_INPUTS, ShaftModel
-from fmu.steps import round_down
+from fmu.contact_variables import Element
+from fmu.rotor.parameters import Parameter, jeffcott_parameters, scales
+from fmu.steps import default_step, round_down
+from reduced_models import JeffcottRotor, OutsideValidityWarning, ScaledContact
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.bearing.motion import motion_of
+from reduced_models.rotor.jeffcott import BODIES, RotorState
+from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.prepared_run import LEAST_STEPS
-from reduced_models.rotor.rotor import Rotor
-from reduced_models.rotor.supports import BearingMount
+from reduced_models.rotor.rotor import Rotor, Unbalance
+from reduced_models.rotor.supports import (
+    BearingMount,
+    ContactMount,
+    SupportGeometry,
+    support_geometry,
+)
 
-MOST_BALLS = 128  # of all bearings: a step keeps some hundred numbers of each on the stack
-MOST_BEARINGS = 32  # two bits of a number each
-LONGEST_STEP = 1e-5  # s
+_Floats = NDArray[np.float64]
+
+ALL = "all"  # in place of the names of all supports
+MOST_BALLS = 128  # of all bearings inside: a step keeps some hundred numbers of each on the stack
+MOST_SUPPORTS = 32  # two bits of a number each
+MOST_FREEDOMS = 100  # of the tables, which have square matrices
+MOST_INPUTS = 64  # of the core: one bit for each
+LONGEST_STEP = 1e-5  # s, with ball bearings
+STEPS_PER_PERIOD = 60.0  # of the disc on its shaft against the journal, which an inner step resolves
+ROUNDING = 1e-9  # of the largest entry: asymmetry of a stiffness
+SPEED_LIMITED = "constant, without speeds_rpm: matrices of a rotor's FMU do not change with the speed"
+
+
+@dataclass(frozen=True, eq=False)
+class Station:
+    """One support of the rotor.
+
+    Attributes
+    ----------
+    label : str
+        Of its variables: ``contact[1]``, ``bearing[1]``.
+    name : str
+        By which `outside` has it.
+    mount : BearingMount or ContactMount
+    inside : bool
+    """
+
+    label: str
+    name: str
+    mount: Any
+    inside: bool
+
+    @property
+    def is_contact(self) -> bool:
+        """Whether it is a contact, or a ball bearing."""
+        return isinstance(self.mount, ContactMount)
+
+    @property
+    def shift(self) -> _Floats:
+        """What is added to the motions that `rows` of its mount gives."""
+        return np.array([self.mount.offset]) if isinstance(self.mount, ContactMount) else self.mount.shift
+
+    @property
+    def count(self) -> float:
+        """How often its force acts."""
+        return float(self.mount.count) if isinstance(self.mount, ContactMount) else 1.0
 
 
 @dataclass(frozen=True, eq=False)
 class RotorModel:
-    """A rotor with its ball bearings inside.
+    """A rotor with supports inside and outside.
 
     Parameters
     ----------
     rotor : Rotor
-        On ball bearings; linear ones may be beside them.
-    speeds_rpm : float or (float, float)
-        Speed of the shaft [rev/min], or lowest and highest one: as of `BearingModel`.
+        Linear bearings stay inside, in its matrices; contacts are elements in SI.
+    outside : str or sequence of str
+        Names of the supports whose forces are inputs; "all".
+    speeds_rpm : float or (float, float), optional
+        Of ball bearings inside, as of `BearingModel`.
     speed_rpm : float, optional
-        Speed at the start, in equilibrium under the load; the highest by default.
+        Speed at the start; the highest of the tables by default, or 0.
     inertia : float, optional
-        Polar moment of inertia [kg m2] of all that turns: the speed then follows from the torque of the motor,
-        an input. By default the speed is an input.
+        Polar moment of inertia [kg m2] of all that turns: the speed then follows from torques.
+    start : (array_like, array_like), optional
+        Displacements and velocities to start from, shape (N,) each; equilibrium under the load by default.
+    parameters : tuple of Parameter, optional
+        That scale its matrices; factors by default.
+    rest : array_like, optional
+        Displacements at rest, where it is not the equilibrium on its supports.
 
     Raises
     ------
     InputError
-        Contacts as supports, no ball bearing, too many balls; else as `ShaftModel` and `BearingModel`.
+        No support, a name of none, a contact that is no element, a linear bearing whose matrices depend on the
+        speed, a stiffness that is not symmetric, too many degrees of freedom, supports, balls or inputs.
     """
 
     rotor: Rotor
-    speeds_rpm: Any
+    outside: str | Iterable[str] = ()
+    speeds_rpm: Any = None
     speed_rpm: float | None = None
     inertia: float | None = None
+    start: Any = None
+    parameters: tuple[Parameter, ...] = ()
+    rest: Any = None
+    kind: str = field(default="Rotor")
 
     def __post_init__(self) -> None:
         require_instance("rotor", self.rotor, Rotor, "a Rotor")
-        shaft, stations = self.shaft, self.stations
-        balls = sum(mount.ball_bearing.balls for mount in stations)
-        if balls > MOST_BALLS or len(stations) > MOST_BEARINGS:
-            allowed = f"at most {MOST_BALLS} in {MOST_BEARINGS} bearings"
-            raise InputError("balls", f"{balls} in {len(stations)} bearings", allowed)
-        inputs = len(shaft.points) + len(self.rotor.unbalances) + 1
-        if inputs > MOST_INPUTS:
-            allowed = f"at most {MOST_INPUTS}: forces along the directions of named nodes, unbalances, speed"
-            raise InputError("inputs", inputs, allowed)
+        object.__setattr__(self, "outside", outside_names(supports_of(self.rotor), self.outside))
+        object.__setattr__(self, "rotor", _with_elements(self.rotor, self.outside))
+        object.__setattr__(self, "parameters", self.parameters or scales(self.rotor))
+        if self.inertia is not None:
+            require_positive("inertia", self.inertia)
+        self._check_size()
+        self._check_matrices()
+        if self.speeds_rpm is None and self.bearings_inside:
+            names = tuple(station.name for station in self.bearings_inside)
+            raise InputError("speeds_rpm", None, f"those of the ball bearings inside, or outside={names!r}")
+        if self.speeds_rpm is not None and not self.bearings_inside:
+            raise InputError("speeds_rpm", self.speeds_rpm, "left out: no ball bearing is inside")
+        _ = self.bearings
+        require_nonnegative("speed_rpm", self.speed)
+        _ = self.motion
 
-    @property
-    def stations(self) -> tuple[BearingMount, ...]:
-        """Mounts of the ball bearings."""
-        return self.rotor.ball_bearings
+    @classmethod
+    def jeffcott(
+        cls,
+        rotor: JeffcottRotor,
+        contacts: Sequence[Any] | None = None,
+        outside: str | Iterable[str] = (),
+        start: RotorState | None = None,
+    ) -> Self:
+        """A Jeffcott rotor, whose contacts are inside, or outside where they are named; its own parameters.
+
+        Raises
+        ------
+        InputError
+            Contacts that do not fit the mounts, or do not carry the static load; no start.
+        """
+        if start is not None and not isinstance(start, RotorState):
+            raise InputError("start", start, "a RotorState, or left out")
+        if len(rotor.mounts) > MOST_SUPPORTS:
+            raise InputError("rotor.mounts", len(rotor.mounts), f"at most {MOST_SUPPORTS} in an FMU")
+        names = tuple(f"contact {i}" for i in range(1, len(rotor.mounts) + 1))
+        chosen = outside_names(names, outside)
+        if contacts is None:
+            if set(chosen) != set(names):
+                raise InputError("contacts", None, f"one per mount, {len(names)}, or outside={names!r}")
+            elements: list[Any] = [None] * len(names)
+        else:
+            elements = jeffcott_elements(rotor, contacts)
+        whole = rotor.on(elements)
+        disc = whole.nodes[BODIES[0]]
+        turning = Unbalance(x=disc.get("x"), y=disc.get("y"), amount=rotor.unbalance)
+        return cls(
+            replace(whole, unbalances=(turning,)),
+            chosen,
+            speed_rpm=rotor.speed_rpm,
+            start=None if start is None else rotor.motion(start),
+            parameters=jeffcott_parameters(rotor),
+            rest=rotor.motion(jeffcott_rest(rotor, elements) if start is None else start)[0],
+            kind="JeffcottRotor",
+        )
+
+    # ---- supports
 
     @cached_property
-    def shaft(self) -> ShaftModel:
-        """The rotor as the FMU of a shaft has it: named nodes, equilibrium at the start."""
-        start = self.speed_rpm
-        if start is None:
-            start = float(self.bearings[0].speeds[-1]) if self.bearings else 0.0
-        return ShaftModel(self.rotor, require_nonnegative("speed_rpm", start), self.inertia)
-
-    @cached_property
-    def bearings(self) -> tuple[BearingModel, ...]:
-        """Each ball bearing as its own FMU has it."""
+    def stations(self) -> tuple[Station, ...]:
+        """Contacts, then ball bearings."""
+        names = supports_of(self.rotor)
+        contacts = self.rotor.contacts
+        labels = [f"contact[{i}]" for i in range(1, len(contacts) + 1)]
+        labels += [f"bearing[{b}]" for b in range(1, len(self.rotor.ball_bearings) + 1)]
+        mounts = (*contacts, *self.rotor.ball_bearings)
         return tuple(
-            BearingModel(mount.ball_bearing, self.speeds_rpm, directions=mount.directions)
-            for mount in self.stations
+            Station(label, name, mount, name not in self.outside)
+            for label, name, mount in zip(labels, names, mounts, strict=True)
         )
 
     @cached_property
+    def inside(self) -> tuple[Station, ...]:
+        """Stations inside, contacts first."""
+        return tuple(station for station in self.stations if station.inside)
+
+    @cached_property
+    def out(self) -> tuple[Station, ...]:
+        """Stations outside, contacts first."""
+        return tuple(station for station in self.stations if not station.inside)
+
+    @property
+    def stations_in_order(self) -> tuple[Station, ...]:
+        """Inside before outside."""
+        return self.inside + self.out
+
+    @property
+    def bearings_inside(self) -> tuple[Station, ...]:
+        """Ball bearings inside."""
+        return tuple(station for station in self.inside if not station.is_contact)
+
+    @property
+    def bearings_out(self) -> tuple[Station, ...]:
+        """Ball bearings outside."""
+        return tuple(station for station in self.out if not station.is_contact)
+
+    @property
+    def elements(self) -> tuple[Element, ...]:
+        """Contacts inside."""
+        return tuple(station.mount.contact for station in self.inside if isinstance(station.mount, ContactMount))
+
+    @cached_property
+    def bearings(self) -> tuple[BearingModel, ...]:
+        """Each ball bearing inside as its own FMU has it."""
+        return tuple(
+            BearingModel(station.mount.ball_bearing, self.speeds_rpm, directions=station.mount.directions)
+            for station in self.bearings_inside
+            if isinstance(station.mount, BearingMount)
+        )
+
+    @cached_property
+    def geometry(self) -> SupportGeometry:
+        """Where the supports inside act."""
+        return _geometry(self.inside, self.rotor.size)
+
+    @cached_property
+    def held(self) -> _Floats:
+        """Points at which supports outside act, which stay where they are as rest is found, shape (n, N)."""
+        return _geometry(self.out, self.rotor.size).points
+
+    @property
+    def points(self) -> tuple[tuple[str, str, int], ...]:
+        """Node, direction and degree of freedom of all named nodes."""
+        return tuple((node, name, place) for node, at in self.rotor.nodes.items() for name, place in at.items())
+
+    # ---- the start
+
+    @property
+    def speed(self) -> float:
+        """Speed at the start [rev/min]."""
+        if self.speed_rpm is not None:
+            return self.speed_rpm
+        return float(self.bearings[0].speeds[-1]) if self.bearings else 0.0
+
+    @cached_property
+    def motion(self) -> tuple[_Floats, _Floats]:
+        """Displacements and velocities at the start, shape (N,) each."""
+        size = self.rotor.size
+        if self.start is None:
+            q = self.rotor.equilibrium(self.speed) if self.rest is None else np.asarray(self.rest, float)
+            return q, np.zeros(size)
+        try:
+            q, v = self.start
+        except (TypeError, ValueError):
+            raise InputError("start", type(self.start).__name__, "displacements and velocities") from None
+        return as_column("displacements", q, size=size), as_column("velocities", v, size=size)
+
+    def force(self, station: Station) -> _Floats:
+        """Of a support outside at the start, as its own FMU gives it: of a contact, or on the inner ring."""
+        q, _ = self.motion
+        ring = station.mount.rows(self.rotor.size) @ q + station.shift
+        if isinstance(station.mount, ContactMount):
+            contact = station.mount.contact
+            return np.zeros(1) if contact is None else np.array([float(contact.spring(float(ring[0])))])
+        balls = motion_of(station.mount.ball_bearing, [self.speed], station.mount.directions)
+        return -balls.rest(self.speed * RPM_TO_RAD_S, station.mount.cage_angle, ring)
+
+    @cached_property
     def inner_step(self) -> float:
-        """Longest step [s]: 10 us, and 16 in every turn of the shaft and ball passage, as of `simulate_rotor`."""
-        fastest = float(self.bearings[0].speeds[-1])
-        passages = [mount.ball_bearing.frequencies(fastest).bpfo for mount in self.stations]
-        return round_down(min(LONGEST_STEP, 1.0 / (LEAST_STEPS * max(fastest / 60.0, *passages))))
+        """Longest step inside one of co-simulation [s]: 1, 2 or 5 times a power of ten.
+
+        It resolves contacts; without ball bearings the shaft too, and with them 10 us, and 16 in every turn of
+        the shaft and ball passage, as of `simulate_rotor`.
+        """
+        longest = [default_step(element) for element in self.elements]
+        mounts = [
+            station.mount.ball_bearing for station in self.stations if isinstance(station.mount, BearingMount)
+        ]
+        if mounts:
+            longest.append(LONGEST_STEP)
+        else:
+            longest.append(round_down(2.0 * math.pi / self.fastest / STEPS_PER_PERIOD))
+        if self.bearings:
+            fastest = float(self.bearings[0].speeds[-1])
+            passages = [model.bearing.frequencies(fastest).bpfo for model in self.bearings]
+            longest.append(round_down(1.0 / (LEAST_STEPS * max(fastest / 60.0, *passages))))
+        return min(longest)
+
+    @property
+    def fastest(self) -> float:
+        """Angular frequency of the fastest vibration without the supports; 1 rad/s where the rotor is rigid."""
+        M, _, K = self.rotor.matrices(0.0)
+        squares = np.linalg.eigvals(np.linalg.solve(M, K)).real
+        return math.sqrt(max(float(squares.max()), 1.0))
+
+    # ---- checks
+
+    def _check_size(self) -> None:
+        if not self.stations:
+            raise InputError("rotor.mounts", "no contact or ball bearing", "one at least")
+        if self.rotor.size > MOST_FREEDOMS:
+            allowed = f"at most {MOST_FREEDOMS}: reduce the rotor"
+            raise InputError("degrees of freedom", self.rotor.size, allowed)
+        balls = sum(
+            station.mount.ball_bearing.balls
+            for station in self.bearings_inside
+            if isinstance(station.mount, BearingMount)
+        )
+        if balls > MOST_BALLS or len(self.stations) > MOST_SUPPORTS:
+            allowed = f"at most {MOST_BALLS} in {MOST_SUPPORTS} supports"
+            raise InputError("balls", f"{balls} in {len(self.stations)} supports", allowed)
+        forces = sum(len(station.mount.directions) for station in self.out) + len(self.points)
+        inputs = forces + len(self.bearings_out) + len(self.rotor.unbalances) + 2
+        if inputs > MOST_INPUTS:
+            allowed = f"at most {MOST_INPUTS}: forces on named nodes and of supports outside, unbalances, speed"
+            raise InputError("inputs", inputs, allowed)
+
+    def _check_matrices(self) -> None:
+        for mount in self.rotor.bearings:
+            if isinstance(mount.bearing, LinearBearing) and mount.bearing.speeds_rpm is not None:
+                raise InputError("bearing", mount.bearing.name or "a table over the speed", SPEED_LIMITED)
+        _, _, K = self.rotor.matrices(0.0)
+        if np.abs(K - K.T).max() > ROUNDING * np.abs(K).max():
+            raise InputError("stiffness", "one that is not symmetric", "symmetric, of a rotor that has modes")
+
+
+def supports_of(rotor: Rotor) -> tuple[str, ...]:
+    """Names of the supports of a rotor that may be outside: contacts, then ball bearings."""
+    return (*(f"contact {i}" for i in range(1, len(rotor.contacts) + 1)), *rotor.ball_bearing_names)
+
+
+def outside_names(known: tuple[str, ...], outside: str | Iterable[str]) -> tuple[str, ...]:
+    """Names of the supports outside, checked."""
+    names = (known if outside == ALL else (outside,)) if isinstance(outside, str) else tuple(outside)
+    for name in names:
+        if name not in known:
+            raise InputError("outside", name, f"of {known!r}, or 'all'")
+    return names
+
+
+def jeffcott_elements(rotor: JeffcottRotor, contacts: Sequence[Any]) -> list[Element]:
+    """Contacts of a Jeffcott rotor, checked, one per mount."""
+    if not isinstance(contacts, list | tuple):
+        raise InputError("contacts", type(contacts).__name__, "a list of contact elements, one per mount")
+    if len(contacts) != len(rotor.mounts):
+        raise InputError("contacts", len(contacts), f"one per mount, {len(rotor.mounts)}")
+    return [_element(f"contacts[{i}]", contact) for i, contact in enumerate(contacts)]
+
+
+def jeffcott_rest(rotor: JeffcottRotor, elements: list[Any]) -> RotorState:
+    """Static equilibrium; without contacts the journal at the origin and the shaft bent by the load."""
+    if None in elements:
+        return rotor.rest_state(np.zeros(len(rotor.axes)))
+    try:
+        with warnings.catch_warnings():  # about the speed, on which rest does not depend
+            warnings.simplefilter("ignore", OutsideValidityWarning)
+            return rotor.static_equilibrium([element.copy() for element in elements])
+    except ConvergenceError as error:
+        load = f"{rotor.static_load.tolist()} N"
+        raise InputError("contacts", str(error), f"ones that carry the static load {load}") from None
+
+
+def _geometry(stations: Sequence[Station], size: int) -> SupportGeometry:
+    contacts = [station.mount for station in stations if isinstance(station.mount, ContactMount)]
+    bearings = [station.mount for station in stations if isinstance(station.mount, BearingMount)]
+    if not stations:
+        return SupportGeometry(np.zeros((0, size)), np.zeros((0, 0)), np.zeros(0))
+    return support_geometry(contacts, bearings, size)
+
+
+def _with_elements(rotor: Rotor, outside: str | Iterable[str]) -> Rotor:
+    """The rotor with the contacts inside as elements in SI."""
+    mounts: list[Any] = []
+    i = 0
+    for mount in rotor.mounts:
+        if isinstance(mount, ContactMount):
+            i += 1
+            if mount.contact is not None or f"contact {i}" not in outside:
+                mounts.append(replace(mount, contact=_element(f"contacts[{i - 1}]", mount.contact)))
+                continue
+        mounts.append(mount)
+    return replace(rotor, mounts=tuple(mounts))
+
+
+def _element(name: str, contact: Any) -> Element:
+    """A contact element in SI that the FMU can hold."""
+    element = contact
+    if isinstance(contact, ScaledContact) and isinstance(contact.contact, Element):
+        element = contact.contact.to_si(contact.scales)
+    if not isinstance(element, Element):
+        raise InputError(name, type(contact).__name__, "a contact element (linear, cubic, ..., wide)")
+    if element.units != "SI":
+        raise InputError(f"{name}.units", element.units, "SI; see to_si and ScaledContact")
+    return element.copy()

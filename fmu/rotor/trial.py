@@ -1,7 +1,8 @@
-"""A run of a rotor on its ball bearings by the steps of `simulate_rotor`, with inputs as its FMU has them."""
+"""A run of a rotor by the steps of `simulate_rotor`, with inputs as its FMU has them."""
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -12,11 +13,14 @@ from numpy.typing import NDArray
 from fmu.bearing.model import BearingModel
 from fmu.bearing.tables import film_logarithms
 from fmu.rotor.model import RotorModel
+from reduced_models import OutsideValidityWarning, SpringContact
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
 from reduced_models.rotor.integrate_python import PythonSteps
 from reduced_models.rotor.prepared_run import PreparedRun
+from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.speed_profile import SpeedProfile, turning_forces
+from reduced_models.rotor.supports import ContactMount
 
 _Floats = NDArray[np.float64]
 
@@ -25,8 +29,13 @@ NOW = 1  # entry of speeds of contacts: at the end of the last step
 TOLERANCE = 1e-11  # of the balance of a step
 RHO = 0.8  # of simulate_rotor
 PUSH = 1.5  # of the weight: forces that lift the rotor off
+SWING = 0.3  # of the forces of supports outside, by which they vary
 LEVER = 0.02  # m, of forces that turn a node
 UNIT, MORE = 1e-6, 2e-5  # kg m, unbalances: by which forces are scaled; by which they grow
+RISE = 0.1  # of the speed, where no table has a range
+TURN = 60  # steps of a revolution of a rotor that stands
+DRAG = 0.05  # N m, of bearings outside
+NOWHERE = SpringContact.linear(K1=1.0, C1=0.0, low=1.0, high=2.0, units="SI")  # a contact that is not met
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,21 +47,25 @@ class RotorTrial:
     time : ndarray, shape (k,)
     inputs : ndarray, shape (k, inputs)
         In the order of the FMU; straight between the ends of a step.
-    displacement, velocity : ndarray, shape (k, named directions + motions of rings)
-    force : ndarray, shape (k, motions of rings)
-        On the inner rings [N].
-    load : ndarray, shape (k, bearings, 2)
+    displacement, velocity : ndarray, shape (k, N)
+    motion, rate : ndarray, shape (k, motions of the supports)
+        Inside before outside.
+    force : ndarray, shape (k, motions of supports inside)
+        Of the rotor on them [N], [N m].
+    load : ndarray, shape (k, bearings inside, 2)
         Largest of a ball at both races [N].
     angle, speed : ndarray, shape (k,)
         Of the shaft [rad], [rad/s].
     parted : int
-        Balls that carried nothing at the inner race, over all ends of steps.
+        Balls and contacts that carried nothing, over all ends of steps.
     """
 
     time: _Floats
     inputs: _Floats
     displacement: _Floats
     velocity: _Floats
+    motion: _Floats
+    rate: _Floats
     force: _Floats
     load: _Floats
     angle: _Floats
@@ -61,39 +74,77 @@ class RotorTrial:
 
 
 class _Run(PreparedRun):
-    """A prepared run with the tables of the FMU, forces at named nodes, and unbalances that change."""
+    """A prepared run with the tables of the FMU, forces that are given, and unbalances that change."""
 
-    def __init__(self, model: RotorModel, dt: float, course: SpeedProfile, given: _Floats) -> None:
-        self._model, self._given, self._course = model, given, course
-        super().__init__(model.rotor, course, dt, len(given) - 1, "static", RHO)
+    def __init__(self, model: RotorModel, dt: float, course: SpeedProfile, given: _Floats, rows: _Floats) -> None:
+        self._model, self._given, self._course, self._rows = model, given, course, rows
+        inside = bool(model.inside) and not model.out and model.start is None
+        start = "static" if inside and model.rest is None else model.motion
+        super().__init__(_rotor_inside(model), course, dt, len(given) - 1, start, RHO)
 
     def _begin(self, start: Any) -> _Floats:
-        model, rotor, time = self._model, self._model.rotor, self.t
+        model, rotor, time = self._model, self.rotor, self.t
         self.balls = tuple(one.motion() for one in model.bearings)
-        places = [place for _, _, place in model.shaft.points]
         unit = replace(rotor, unbalances=tuple(replace(u, amount=UNIT) for u in rotor.unbalances))
         omega, angle, rise = self._course.at(time)
         turning, at = turning_forces(unit, omega, angle, rise)
-        amounts = self._given[:, len(places) :] / UNIT
-        self.turning = np.hstack([turning * np.repeat(amounts, 2, axis=1), self._given[:, : len(places)]])
-        self.at = np.hstack([at, np.eye(rotor.size)[:, places]])
+        forces = len(self._rows)
+        amounts = self._given[:, forces:] / UNIT
+        self.turning = np.hstack([turning * np.repeat(amounts, 2, axis=1), self._given[:, :forces]])
+        self.at = np.hstack([at, self._rows.T])
+        if not isinstance(start, str):
+            for mount, approach in zip(
+                rotor.contacts, rotor.geometry.normals @ (rotor.geometry.points @ start[0]), strict=False
+            ):
+                mount.contact.rest(float(approach) + mount.offset)
         return super()._begin(start)
 
 
+def _rotor_inside(model: RotorModel) -> Rotor:
+    """The rotor on its supports inside alone."""
+    gone = {id(station.mount) for station in model.out}
+    mounts: list[Any] = [
+        replace(mount, contact=mount.contact.copy()) if isinstance(mount, ContactMount) else mount
+        for mount in model.rotor.mounts
+        if id(mount) not in gone
+    ]
+    if not model.inside:
+        mounts.append(ContactMount(0.0, -1e3, None, NOWHERE, x=0, y=None))
+    return replace(model.rotor, mounts=tuple(mounts))
+
+
 @lru_cache(maxsize=1)
-def rotor_trial(model: RotorModel, steps: int = STEPS) -> RotorTrial:
-    """A run-up with forces that lift the rotor off its bearings, and unbalances that grow."""
-    rng, speeds = np.random.default_rng(1), model.bearings[0].speeds
-    dt, rotor, points = model.inner_step, model.rotor, model.shaft.points
+def rotor_trial(model: RotorModel, rows: bytes = b"", steps: int = STEPS) -> RotorTrial:
+    """A run-up with forces that lift the rotor off its supports, and unbalances that grow."""
+    rng, rotor = np.random.default_rng(1), model.rotor
+    dt, points = model.inner_step, model.points
     time = dt * np.arange(steps + 1)
-    omega = 2.0 * np.pi * rng.uniform(1.0, 10.0, len(points)) / time[-1]
-    size = PUSH * max(float(np.abs(rotor.load).sum()), 1.0)
-    levers = np.array([LEVER if name.startswith("tilt") else 1.0 for _, name, _ in points])
+    load = max(float(np.abs(rotor.load).sum()), 1.0)
+    sizes = [PUSH * load * (LEVER if name.startswith("tilt") else 1.0) for _, name, _ in points]
+    middle = [0.0] * len(points)
+    for station in model.out:
+        force = model.force(station)
+        least = 0.1 * max(float(np.abs(force).max()), load / len(model.out))
+        levers = [LEVER if name.startswith("tilt") else 1.0 for name in station.mount.directions]
+        sizes += [SWING * max(abs(f), least * arm) for f, arm in zip(force.tolist(), levers, strict=True)]
+        middle += force.tolist()
+    omega = 2.0 * np.pi * rng.uniform(1.0, 10.0, len(sizes)) / time[-1]
     amounts = np.array([u.amount for u in rotor.unbalances])
     grown = amounts + MORE * np.outer(time / time[-1], np.ones(amounts.size))
-    given = np.hstack([size * levers * np.sin(omega * time[:, None]), grown])
-    course = SpeedProfile.ramp(float(speeds[0]), float(speeds[-1]), 2.0 * float(time[-1]))
-    return _recorded(model, _Run(model, dt, course, given), given)
+    given = np.hstack([np.array(middle) + np.array(sizes) * np.sin(omega * time[:, None]), grown])
+    course = SpeedProfile.ramp(*_speeds(model, dt), 2.0 * float(time[-1]))
+    at = np.frombuffer(rows).reshape(-1, rotor.size)
+    with warnings.catch_warnings():  # about a motion that is none of the user's
+        warnings.simplefilter("ignore", OutsideValidityWarning)
+        return _recorded(model, _Run(model, dt, course, given, at), given)
+
+
+def _speeds(model: RotorModel, dt: float) -> tuple[float, float]:
+    """Speed at the start, and that to which it would go in twice the time [rev/min]."""
+    if model.bearings:
+        return float(model.bearings[0].speeds[0]), float(model.bearings[0].speeds[-1])
+    first = model.speed if model.speed > 0.0 else 60.0 / (TURN * dt)
+    return first, (1.0 + RISE) * first
 
 
 def _recorded(model: RotorModel, run: _Run, given: _Floats) -> RotorTrial:
@@ -105,29 +156,43 @@ def _recorded(model: RotorModel, run: _Run, given: _Floats) -> RotorTrial:
         forces.append([one.films.force.copy() for one in run.balls])
         rolls.append(_rolls(run))
         resisted.append(_slowed(model, run, given[k + 1], k + 1))
-    d, v, motion, rate, force, _ = run.histories
-    places = [place for _, _, place in model.shaft.points]
-    drive = run.omega if model.inertia is None else _torque(model, run, forces, rolls, np.array(resisted))
+    d, v, _, _, force, _ = run.histories
+    stations = (*model.inside, *model.out)
+    rows = np.concatenate([station.mount.rows(model.rotor.size) for station in stations])
+    shifts = np.concatenate([station.shift for station in stations])
+    contacts = len(model.elements)
+    angle, rise = run._course.at(run.t)[1:]
+    if model.inertia is None:
+        drive = np.column_stack([run.omega, rise])
+    else:
+        drags = np.full((len(run.t), len(model.bearings_out)), DRAG)
+        drive = np.column_stack(
+            [_torque(model, run, forces, rolls, np.array(resisted)) + drags.sum(axis=1), drags]
+        )
+    parted = sum(int((one[:, 0] == 0.0).sum()) for row in forces for one in row)
     return RotorTrial(
         time=run.t,
         inputs=np.column_stack([given, drive]),
-        displacement=np.hstack([d[:, places], motion + run.shift]),
-        velocity=np.hstack([v[:, places], rate]),
-        force=-force,
+        displacement=d,
+        velocity=v,
+        motion=d @ rows.T + shifts,
+        rate=v @ rows.T,
+        force=force if model.inside else force[:, :0],
         load=np.array([[one.max(axis=0) for one in row] for row in forces]),
-        angle=run._course.at(run.t)[1],
+        angle=angle,
         speed=run.omega,
-        parted=sum(int((one[:, 0] == 0.0).sum()) for row in forces for one in row),
+        parted=parted + int((force[:, :contacts] == 0.0).sum()),
     )
 
 
 def _slowed(model: RotorModel, run: _Run, given: _Floats, k: int) -> float:
     """Torque that the unbalances take from the shaft at the end of a step, through their accelerations."""
-    angle, acceleration, found = float(run._course.at(run.t[k : k + 1])[1][0]), run.state[2], 0.0
-    for u, amount in zip(model.rotor.unbalances, given[len(model.shaft.points) :], strict=True):
+    angle, acceleration, torque = float(run._course.at(run.t[k : k + 1])[1][0]), run.state[2], 0.0
+    amounts = given[given.size - len(model.rotor.unbalances) :]
+    for u, amount in zip(model.rotor.unbalances, amounts, strict=True):
         for place, share in ((u.x, -np.sin(angle + u.phase)), (u.y, np.cos(angle + u.phase))):
-            found += 0.0 if place is None else float(amount * share * acceleration[place])
-    return found
+            torque += 0.0 if place is None else float(amount * share * acceleration[place])
+    return torque
 
 
 def _rolls(run: _Run) -> list[_Floats]:

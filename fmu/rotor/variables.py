@@ -1,157 +1,438 @@
-"""Variables, C tables and bearings of the FMU of a rotor with its ball bearings."""
+"""Variables of the FMU of a rotor."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+import re
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fmu.bearing.tables import bearing_table, state_size, work_size
 from fmu.bearing.variables import BEARING_HEADERS, BEARING_SOURCES, FORCES, RATES, bearing_spec
-from fmu.c_headers import c_double, c_table
-from fmu.contact_spec import checked_name
-from fmu.contact_variables import ALLOWED_ERROR
-from fmu.lead import ROTOR
-from fmu.rotor.model import RotorModel
-from fmu.shaft.variables import SCALES, node_name
+from fmu.contact_spec import checked_name, contact_spec, source_text
+from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
+from fmu.rotor.laws import PARAMETERS, shown, tunable
+from fmu.rotor.model import RotorModel, Station
+from fmu.rotor.tables import rotor_macros, rotor_tables
 from fmu.spec import ModelSpec, Variable, VariableList
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
-LEAST_INNER_STEP = 1e-3  # of the default
-SHOWN = (
-    "force_",
-    "moment_",
-    "largest_",
-    "smallest_",
-    "rolling_",
-    "outside_",
-)  # outputs of a bearing that the rotor has
-PARAMETERS = ("clearance", "offset", "cage_angle_start", "film")  # `BearingSettings`, in that order
-ALL = "outside_validity"
+_Floats = NDArray[np.float64]
+
+OUTSIDE = "outside_validity"
+SOURCES = (
+    "core.c", "core_step.c", "model_rotor.c", "rotor.c", "rotor_supports.c", "rotor_rest.c", "rotor_step.c",
+    "linear_equations.c",
+)  # fmt: skip
+HEADERS = "core.h", "model.h", "rotor.h", "support.h", "linear_equations.h"
+LEAST_INNER_STEP = 1e-6  # of the default: below it, importers repeat what is refused without end
+EXCHANGE_TOLERANCE = 1e-8  # an orbit is some thousandths of the approach; 1e-6 of that is a tenth of it
+MOST_INDICATORS = 64  # bits of a number in core.h
+MOST_DEPENDED = 200  # beyond, dependencies are left out of the model description
 
 
 def rotor_spec(model: RotorModel, model_name: str | None = None, force_lead: float | None = None) -> ModelSpec:
-    """Specification of the FMU of a rotor with its ball bearings.
+    """Specification of the FMU of a rotor.
 
     Raises
     ------
     InputError
         A name that is empty, too long or not printable, or another lead.
     """
-    specs = [bearing_spec(bearing) for bearing in model.bearings]
-    made = _Variables(model, specs)
-    made.fill(0.0 if force_lead is None else force_lead)
-    laws = _laws(model, made)
+    made = _Variables(model)
+    between = force_lead_for(HELD_PARALLEL) if model.out else 0.0
+    made.fill(between if force_lead is None else force_lead)
+    bearings = ("bearing_support.c", *BEARING_SOURCES), ("bearing_support.h", *BEARING_HEADERS)
     return ModelSpec(
-        name=checked_name("Rotor" if model_name is None else model_name),
-        description=f"Rotor of {model.rotor.size} degrees of freedom on {len(specs)} ball bearings; SI units"
-        + _left_out(model),
-        sources=("core.c", "core_step.c", "model_whole_rotor.c", "linear_equations.c", *BEARING_SOURCES),
-        headers=("core.h", "model.h", "linear_equations.h", *BEARING_HEADERS),
+        name=checked_name(model.kind if model_name is None else model_name),
+        description=_description(model),
+        sources=(*SOURCES, *(bearings[0] if model.bearings else ())),
+        headers=(*HEADERS, *(bearings[1] if model.bearings else ())),
         variables=tuple(made.variables),
-        notes=_notes(model, specs),
-        macros=_macros(model, made, specs),
-        tables={"rotor_data.h": _data(model), **laws},
-        step=model.inner_step,
-        exchange=False,
-        indicators=(),
-        flanges=tuple(
-            (
-                f"{node}_{name}",
-                f"{node} along {name}: displacement and rate out, force in",
-                (f"{node}.{name}", f"{node}.{RATES[name]}", f"{node}.{FORCES[name]}"),
-            )
-            for node, name, _ in _points(model)
-        ),
+        notes=_notes(model, made.specs),
+        macros=rotor_macros(model, made),
+        tables=rotor_tables(model, made),
+        step=model.inner_step if model.inside or not model.bearings_out else 1e-5,
+        tolerance=EXCHANGE_TOLERANCE,
+        plain_steps=bool(model.bearings),
+        indicators=tuple(made.indicators) if len(made.indicators) <= MOST_INDICATORS else (),
+        flanges=tuple(made.flanges),
     )
 
 
-def _left_out(model: RotorModel) -> str:
-    """Damping below zero of starved bearings, in words."""
-    words = [(b, bearing.damping_left_out) for b, bearing in enumerate(model.bearings, start=1)]
-    return "".join(f"; bearing {b}: {said}" for b, said in words if said)
+def node_name(name: str) -> str:
+    """Name of a node as part of a variable's: letters, digits and underscores."""
+    text = re.sub(r"\W", "_", name, flags=re.ASCII)
+    return text if text[:1].isalpha() else f"node_{text}"
 
 
-def _points(model: RotorModel) -> Iterator[tuple[str, str, int]]:
-    for node, name, place in model.shaft.points:
-        yield node_name(node), name, place
+def force_rows(model: RotorModel) -> _Floats:
+    """Where each input force acts, and how, shape (forces, N)."""
+    rows = [np.eye(model.rotor.size)[place] for _, _, place in model.points]
+    for station in model.out:
+        sign = -station.count if station.is_contact else 1.0
+        rows += list(sign * station.mount.rows(model.rotor.size))
+    return np.array(rows).reshape(-1, model.rotor.size)
 
 
 class _Variables(VariableList):
-    """The variables of a rotor, numbered as they are made."""
+    """The variables of a rotor, numbered as they are made, and where those of each kind begin."""
 
-    def __init__(self, model: RotorModel, specs: list[ModelSpec]) -> None:
+    def __init__(self, model: RotorModel) -> None:
         super().__init__()
-        self.model, self.specs = model, specs
+        self.model = model
+        bearings = iter(model.bearings)
+        self.specs = [
+            contact_spec(station.mount.contact) if station.is_contact else bearing_spec(next(bearings))
+            for station in model.inside
+        ]
         self.first: dict[str, int] = {}
-        self.shown_at: list[int] = []  # first output of each bearing
+        self.outputs_at: list[int] = []  # of each support inside: its first output, validity flag, parameter
         self.outside_at: list[int] = []
-        self.settings_at: list[tuple[int, ...]] = []  # of `PARAMETERS` of each bearing, -1 for none
-        self.points = tuple(_points(model))
+        self.settings_at: list[tuple[int, ...]] = []
+        self.indicators: list[tuple[str, str]] = []
+        self.flanges: list[tuple[str, str, tuple[str, str, str]]] = []
+        self.rows = force_rows(model)
+        self.states = self._state_names()
+        load = float(np.abs(model.rotor.load).max())
+        self.force = load if load > 0.0 else 1.0
+        self.length, self.rate = self._sizes()
 
     def fill(self, lead: float) -> None:
         """All of them."""
         self._inputs()
-        for moving in (False, True):
-            self._motions(moving)
-        self._bearings()
+        self._states()
+        self._derivatives()
+        self._motions()
+        self._supports()
         self._parameters(lead)
+
+    # ---- sizes and names
+
+    def _sizes(self) -> tuple[float, float]:
+        """Nominal displacement and velocity."""
+        model = self.model
+        if model.bearings or model.bearings_out:
+            return 1e-5, 1e-3
+        K = model.rotor.matrices(0.0)[2]
+        stiffness = float(np.abs(np.diag(K)).max())
+        bend = self.force / stiffness if stiffness > 0.0 else 1e-5
+        eccentric = max(
+            (abs(u.amount) / float(np.diag(model.rotor.mass).max()) for u in model.rotor.unbalances), default=0.0
+        )
+        length = max(bend, eccentric, *(element.validity.approach[1] for element in model.elements), 0.0)
+        return length, length * max(model.fastest, model.speed * RPM_TO_RAD_S)
+
+    def _state_names(self) -> dict[int, tuple[str, str]]:
+        """Displacement and rate of each degree of freedom: of the first node that names it, else by number."""
+        names = {k: (f"q[{k}]", f"velocity[{k}]") for k in range(self.model.rotor.size)}
+        for node, direction, place in reversed(self.model.points):
+            names[place] = f"{node_name(node)}.{direction}", f"{node_name(node)}.{RATES[direction]}"
+        return names
+
+    # ---- inputs
 
     def _inputs(self) -> None:
         model = self.model
-        for node, name, _ in self.points:
-            tilt = name.startswith("tilt")
-            text = f"{'Moment' if tilt else 'Force'} on {node}, {name}, beside the load"
-            self.add(
-                f"{node}.{FORCES[name]}", "input", "continuous", text,
-                unit="N.m" if tilt else "N", start=0.0, nominal=1.0 if tilt else 100.0,
-            )  # fmt: skip
-        self.first["UNBALANCE"] = len(self.variables)
+        for node, direction, _ in model.points:
+            name = f"{node_name(node)}.{FORCES[direction]}"
+            self._force(name, direction, f"on {node}, {direction}, beside the load", 0.0)
+        for station in model.out:
+            if station.is_contact:
+                text = "Force of the contact, positive = repulsive"
+                start = float(model.force(station)[0])
+                self.add(
+                    f"{station.label}.force",
+                    "input",
+                    "continuous",
+                    text,
+                    unit="N",
+                    start=start,
+                    nominal=self.force,
+                )
+                continue
+            for direction, start in zip(station.mount.directions, model.force(station).tolist(), strict=True):
+                self._force(
+                    f"{station.label}.{FORCES[direction]}", direction, f"of {station.name} on its ring", start
+                )
+        self.first["FORCES"] = len(self.variables)
         for u, unbalance in enumerate(model.rotor.unbalances, start=1):
             self.add(
                 f"unbalance[{u}]", "input", "continuous", "Unbalance: mass times eccentricity",
                 unit="kg.m", start=float(unbalance.amount), nominal=1e-4,
             )  # fmt: skip
         self.first["DRIVE"] = len(self.variables)
+        self._turning()
+
+    def _force(self, name: str, direction: str, text: str, start: float) -> None:
+        tilt = direction.startswith("tilt")
+        self.add(
+            name, "input", "continuous", f"{'Moment' if tilt else 'Force'} {text}",
+            unit="N.m" if tilt else "N", start=start, nominal=1.0 if tilt else self.force,
+        )  # fmt: skip
+
+    def _turning(self) -> None:
+        model, start = self.model, self.model.speed * RPM_TO_RAD_S
         if model.inertia is None:
+            rate = "angular_acceleration"
+            text = "Speed of the shaft about z, reached at the end of a step"
+            if model.elements:
+                text += "; films of contacts inside stay those of the speed that they were made for"
             self.add(
-                "speed", "input", "continuous", "Speed of the shaft about z, reached at the end of a step",
-                unit="rad/s", start=model.shaft.speed_rpm * RPM_TO_RAD_S, nominal=100.0, minimum=0.0,
+                "speed", "input", "continuous", text, unit="rad/s", start=start, nominal=100.0, rate=rate,
+                minimum=0.0 if model.bearings else None,
             )  # fmt: skip
-        else:
-            text = "Torque of the motor about z"
-            self.add("torque", "input", "continuous", text, unit="N.m", start=0.0, nominal=1.0)
-
-    def _motions(self, moving: bool) -> None:
-        rings = [
-            (f"bearing[{b}]", name) for b, mount in enumerate(self.model.stations, 1) for name in mount.directions
-        ]
-        self.first["VELOCITY" if moving else "PLACE"] = len(self.variables)
-        for what, name in [*((node, name) for node, name, _ in self.points), *rings]:
-            unit, nominal = ("rad", 1e-4) if name.startswith("tilt") else ("m", 1e-5)
+            text = (
+                "Rate of the speed, for the tangential force of unbalances in model exchange; steps have their own"
+            )
+            self.add(rate, "input", "continuous", text, unit="rad/s2", start=0.0, nominal=100.0)
+            return
+        text = "Torque of the motor about z"
+        self.add("torque", "input", "continuous", text, unit="N.m", start=0.0, nominal=1.0)
+        for station in model.bearings_out:
+            text = f"Torque that {station.name} takes from the shaft, against its turning"
             self.add(
-                f"{what}.{RATES[name] if moving else name}", "output", "continuous",
-                f"{'Rate' if moving else 'Displacement'} of {what}, {name}",
-                unit=f"{unit}/s" if moving else unit, nominal=100.0 * nominal if moving else nominal,
+                f"{station.label}.rolling_torque", "input", "continuous", text,
+                unit="N.m", start=0.0, nominal=1e-2,
             )  # fmt: skip
 
-    def _bearings(self) -> None:
-        for b, spec in enumerate(self.specs, start=1):
-            self.shown_at.append(len(self.variables))
-            for one in _shown(spec):
-                if one.name == ALL:
-                    self.outside_at.append(len(self.variables))
+    # ---- states and derivatives
+
+    def _states(self) -> None:
+        self.first["MOTION"] = len(self.variables)
+        places = {k: (node, direction) for node, direction, k in reversed(self.model.points)}
+        for moving, starts in enumerate(self.model.motion):
+            for k, start in enumerate(starts.tolist()):
+                node, direction = places.get(k, (f"degree of freedom {k}", ""))
+                tilt = direction.startswith("tilt")
+                unit, nominal = ("rad", 10.0 * self.length) if tilt else ("m", self.length)
+                name = self.states[k][moving]
                 self.add(
-                    f"bearing[{b}].{one.name}", "output", one.variability, one.description,
-                    type=one.type, unit=one.unit, nominal=one.nominal, minimum=one.minimum,
+                    name, "output" if k in places else "local", "continuous",
+                    f"{'Rate' if moving else 'Displacement'} of {node}, {direction}".rstrip(", "),
+                    unit=f"{unit}/s" if moving else unit, start=start,
+                    nominal=nominal * (self.rate / self.length if moving else 1.0),
+                    depends=(name,) if k in places else (),
                 )  # fmt: skip
-        self.add("angle", "output", "continuous", "Angle of the shaft about z", unit="rad", nominal=1.0)
+        text = "Angle of the shaft about z, from x towards y"
+        self.add("angle", "output", "continuous", text, unit="rad", start=0.0, nominal=1.0, depends=("angle",))
         if self.model.inertia is not None:
             self.add(
-                "speed", "output", "continuous", "Speed of the shaft about z", unit="rad/s", nominal=100.0,
-                depends=("speed_start",),
+                "speed", "output", "continuous", "Speed of the shaft about z", unit="rad/s",
+                start=self.model.speed * RPM_TO_RAD_S, nominal=100.0, depends=("speed",),
+                minimum=0.0 if self.model.bearings else None,
             )  # fmt: skip
-        self.add(ALL, "output", "discrete", "True where a bearing is outside its tables", type="Boolean")
+        for station, spec in zip(self.model.inside, self.specs, strict=True):
+            for state in spec.states:
+                follows = tuple(self._start_names(station, spec, state)) if state.start is None else ()
+                text = f"{state.description} ({station.name})"
+                self.add(
+                    f"{station.label}.{state.name}", "local", "continuous", text,
+                    unit=state.unit, start=state.start, nominal=state.nominal, follows=follows,
+                )  # fmt: skip
+
+    def _start_names(self, station: Station, spec: ModelSpec, state: Variable) -> list[str]:
+        """Parameters of a support that a state at the start follows; the place of the rotor does too."""
+        known = {one.name for one in tunable(spec)}
+        return [f"{station.label}.{name}" for name in state.follows if name in known]
+
+    def _derivatives(self) -> None:
+        model = self.model
+        size = model.rotor.size
+        pattern, applied = self._pattern()
+        films = self._film_names()
+        turning = ("speed", "angular_acceleration") if model.inertia is None else ("speed", "torque")
+        drags = tuple(f"{station.label}.rolling_torque" for station in model.bearings_out) * (
+            model.inertia is not None
+        )
+        everything = tuple(name for pair in self.states.values() for name in pair)
+        for k in range(size):
+            self.derivative(self.states[k][0], self._unit(k, 1), (self.states[k][1],))
+        for k in range(size):
+            moved = tuple(name for i in np.flatnonzero(pattern[k]) for name in self.states[int(i)])
+            spun = model.inertia is not None and bool(model.rotor.unbalances)
+            depends = (*(everything if spun else moved), *applied[k])
+            if spun or self._is_turned(k):
+                depends += (
+                    "angle",
+                    *turning,
+                    *drags,
+                    *(f"unbalance[{u + 1}]" for u in range(len(model.rotor.unbalances))),
+                )
+            elif model.rotor.gyroscopic[k].any():
+                depends += ("speed",)
+            reached = self._reached(k)
+            depends += tuple(name for i, names in enumerate(films) if spun or reached[i] for name in names)
+            if spun:
+                depends += tuple(v.name for v in self.variables if v.causality == "input")
+            self.derivative(self.states[k][1], self._unit(k, 2), tuple(dict.fromkeys(depends)))
+        self.derivative("angle", "rad/s", ("speed",))
+        if model.inertia is not None:
+            inputs = tuple(v.name for v in self.variables if v.causality == "input")
+            depends = (*everything, "angle", "speed", *inputs, *(name for names in films for name in names))
+            self.derivative("speed", "rad/s2", tuple(dict.fromkeys(depends)))
+        for station, spec in zip(model.inside, self.specs, strict=True):
+            for rate in spec.derivatives:
+                depends = self._of_support(station, spec, rate.depends)
+                self.derivative(f"{station.label}.{rate.derivative_of}", rate.unit, depends)
+
+    def _unit(self, k: int, order: int) -> str:
+        name = self.states[k][0]
+        angular = name.rpartition(".")[2].startswith("tilt")
+        return {1: "rad/s" if angular else "m/s", 2: "rad/s2" if angular else "m/s2"}[order]
+
+    def _pattern(self) -> tuple[NDArray[np.bool_], list[tuple[str, ...]]]:
+        """Which displacements, and which input forces, each acceleration depends on."""
+        model = self.model
+        M, C, K = model.rotor.matrices(1.0)
+        rows = [station.mount.rows(model.rotor.size) for station in model.inside]
+        coupled = (C != 0.0) | (K != 0.0)
+        for row in rows:
+            at = (row != 0.0).astype(float)
+            coupled |= (at.T @ np.ones((len(at), len(at))) @ at) > 0.0
+        inverse = (np.abs(np.linalg.inv(M)) > 1e-14 * np.abs(np.linalg.inv(M)).max()).astype(float)
+        pattern = (inverse @ coupled.astype(float)) > 0.0
+        names: list[list[str]] = [[] for _ in range(model.rotor.size)]
+        for name, row in zip((v.name for v in self.variables), self.rows, strict=False):
+            for k in np.flatnonzero(inverse @ (row != 0.0)):
+                names[int(k)].append(name)
+        return pattern, [tuple(one) for one in names]
+
+    def _is_turned(self, k: int) -> bool:
+        inverse = np.linalg.inv(self.model.rotor.mass)[k]
+        return any(
+            place is not None and inverse[place] != 0.0
+            for u in self.model.rotor.unbalances
+            for place in (u.x, u.y)
+        )
+
+    def _film_names(self) -> list[tuple[str, ...]]:
+        return [
+            tuple(f"{station.label}.{state.name}" for state in spec.states) + tuple(self._speed_of(station))
+            for station, spec in zip(self.model.inside, self.specs, strict=True)
+        ]
+
+    @staticmethod
+    def _speed_of(station: Station) -> tuple[str, ...]:
+        return () if station.is_contact else ("speed",)
+
+    def _reached(self, k: int) -> list[bool]:
+        """Whether the force of each support inside accelerates a degree of freedom."""
+        inverse = np.linalg.inv(self.model.rotor.mass)[k]
+        return [bool((station.mount.rows(self.model.rotor.size) @ inverse).any()) for station in self.model.inside]
+
+    def _of_support(self, station: Station, spec: ModelSpec, depends: tuple[str, ...]) -> tuple[str, ...]:
+        """Names of what a variable of a support depends on, as the rotor has them."""
+        rows = station.mount.rows(self.model.rotor.size)
+        motion: dict[str, tuple[str, ...]] = {"speed": ("speed",)}
+        directions = ("approach",) if station.is_contact else station.mount.directions
+        rates = {"approach": "rate"} | RATES
+        for direction, row in zip(directions, rows, strict=True):
+            at = np.flatnonzero(row)
+            motion[direction] = tuple(self.states[int(i)][0] for i in at)
+            motion[rates[direction]] = tuple(self.states[int(i)][1] for i in at)
+        states = {state.name for state in spec.states}
+        names = [
+            name
+            for one in depends
+            for name in motion.get(one, (f"{station.label}.{one}",) if one in states else ())
+        ]
+        return tuple(dict.fromkeys(names))
+
+    # ---- outputs
+
+    def _motions(self) -> None:
+        """Motions of the supports, inside before outside, and their rates."""
+        stations = (*self.model.inside, *self.model.out)
+        for moving in (False, True):
+            self.first["RATE" if moving else "PLACE"] = len(self.variables)
+            for station in stations:
+                rows = station.mount.rows(self.model.rotor.size)
+                names = ("approach",) if station.is_contact else station.mount.directions
+                for direction, row in zip(names, rows, strict=True):
+                    self._motion(station, direction, row, moving)
+        for station in self.model.out:
+            for direction in ("approach",) if station.is_contact else station.mount.directions:
+                rate, force = ("rate", "force") if station.is_contact else (RATES[direction], FORCES[direction])
+                label = station.label
+                self.flanges.append(
+                    (
+                        f"{label}_{direction}".replace("[", "_").replace("]", ""),
+                        f"{station.name}, {direction}: motion and rate out, force in",
+                        (f"{label}.{direction}", f"{label}.{rate}", f"{label}.{force}"),
+                    )
+                )
+        for node, direction, _ in self.model.points:
+            name = node_name(node)
+            self.flanges.append(
+                (
+                    f"{name}_{direction}",
+                    f"{name} along {direction}: displacement and rate out, force in",
+                    (
+                        self.states_of(node, direction)[0],
+                        self.states_of(node, direction)[1],
+                        f"{name}.{FORCES[direction]}",
+                    ),
+                )
+            )
+
+    def states_of(self, node: str, direction: str) -> tuple[str, str]:
+        """States of a named degree of freedom."""
+        return self.states[self.model.rotor.nodes[node][direction]]
+
+    def _motion(self, station: Station, direction: str, row: _Floats, moving: bool) -> None:
+        tilt = direction.startswith("tilt")
+        unit, nominal = ("rad", 10.0 * self.length) if tilt else ("m", self.length)
+        rate = "rate" if direction == "approach" else RATES[direction]
+        self.add(
+            f"{station.label}.{rate if moving else direction}", "output", "continuous",
+            f"{'Rate' if moving else 'Displacement'} of {station.name}, {direction}",
+            unit=f"{unit}/s" if moving else unit,
+            nominal=nominal * (self.rate / self.length if moving else 1.0),
+            depends=tuple(self.states[int(k)][moving] for k in np.flatnonzero(row)),
+        )  # fmt: skip
+
+    def _supports(self) -> None:
+        model = self.model
+        for station, spec in zip(model.inside, self.specs, strict=True):
+            self.outputs_at.append(len(self.variables))
+            for output in shown(spec):
+                if output.name == OUTSIDE:
+                    self.outside_at.append(len(self.variables))
+                depends = self._of_support(station, spec, output.depends)
+                self.variables.append(
+                    replace(
+                        output,
+                        name=f"{station.label}.{output.name}",
+                        value_reference=len(self.variables),
+                        causality="output",
+                        description=f"{output.description} ({station.name})",
+                        depends=depends,
+                    )
+                )
+            self.indicators += [
+                (f"{station.label}.{name}", self._like(station, like)) for name, like in spec.indicators
+            ]
+        if model.inside:
+            text = "True where a support inside is outside the box of its data or tables"
+            depends = tuple(
+                dict.fromkeys(
+                    name
+                    for station, spec in zip(model.inside, self.specs, strict=True)
+                    for output in shown(spec)
+                    if output.name == OUTSIDE
+                    for name in self._of_support(station, spec, output.depends)
+                )
+            )
+            self.add(OUTSIDE, "output", "discrete", text, type="Boolean", depends=depends)
+
+    @staticmethod
+    def _like(station: Station, like: str) -> str:
+        """A variable of the rotor that depends on the same as that of a support."""
+        name = like.removeprefix("der(").removesuffix(")")
+        return f"der({station.label}.{name})" if like.startswith("der(") else f"{station.label}.{name}"
 
     def _parameters(self, lead: float) -> None:
         model = self.model
@@ -160,121 +441,56 @@ class _Variables(VariableList):
             "inner_step", "parameter", "fixed", "Longest step inside one of co-simulation, which is cut evenly",
             unit="s", start=model.inner_step, minimum=LEAST_INNER_STEP * model.inner_step,
         )  # fmt: skip
-        for name, text in SCALES.items():
-            self.add(name, "parameter", "fixed", text, unit="1", start=1.0, minimum=0.0)
+        self.first["PARAMETER"] = len(self.variables)
+        for own in model.parameters:
+            more: dict[str, Any] = {} if own.signed else {"minimum": 0.0}
+            self.add(own.name, "parameter", "fixed", own.text, unit=own.unit, start=own.start, **more)
         if model.inertia is not None:
             self.add(
-                "inertia", "parameter", "fixed", "Polar moment of inertia of all that turns, times mass_scale",
+                "inertia", "parameter", "fixed", "Polar moment of inertia of all that turns",
                 unit="kg.m2", start=float(model.inertia), minimum=0.0,
             )  # fmt: skip
-            self.add(
-                "speed_start", "parameter", "fixed", "Speed of the shaft at the start",
-                unit="rad/s", start=model.shaft.speed_rpm * RPM_TO_RAD_S, minimum=0.0,
-            )  # fmt: skip
-        for b, (mount, spec) in enumerate(zip(model.stations, self.specs, strict=True), start=1):
+        for station, spec in zip(model.inside, self.specs, strict=True):
             at = dict.fromkeys(PARAMETERS, -1)
-            for one in _parameters(spec):
-                name = one.name
-                at[name] = len(self.variables)
-                start = mount.cage_angle if name == "cage_angle_start" else one.start
+            for one in tunable(spec):
+                at[one.name] = len(self.variables)
+                start = station.mount.cage_angle if one.name == "cage_angle_start" else one.start
                 self.add(
-                    f"bearing[{b}].{name}", "parameter", "fixed", one.description,
+                    f"{station.label}.{one.name}", "parameter", "fixed", one.description,
                     unit=one.unit, start=start, minimum=one.minimum, maximum=one.maximum,
                 )  # fmt: skip
             self.settings_at.append(tuple(at.values()))
 
 
-def _shown(spec: ModelSpec) -> list[Variable]:
-    return [one for one in spec.outputs if one.name.startswith(SHOWN)]
-
-
-def _parameters(spec: ModelSpec) -> list[Variable]:
-    return [one for one in spec.variables if one.name in PARAMETERS]
-
-
-def _laws(model: RotorModel, made: _Variables) -> dict[str, str]:
-    """``rotor_laws.h``: the bearings that differ, which is where, and where its numbers stand."""
-    texts: dict[str, str] = {}
-    names = []
-    for bearing in model.bearings:
-        text = bearing_table(bearing, "NAME")
-        names.append(texts.setdefault(text, f"bearing_{len(texts) + 1}"))
-    tables = {
-        "law_numbers": np.cumsum([0, *(state_size(bearing) for bearing in model.bearings)]).tolist()[:-1],
-        "law_work": np.cumsum([0, *(work_size(bearing) for bearing in model.bearings)]).tolist()[:-1],
-        "law_shown_at": made.shown_at,
-        "law_outside": made.outside_at,
-    }
-    settings = ", ".join(f"{{{', '.join(map(str, row))}}}" for row in made.settings_at)
-    lines = [
-        "/* Generated by ehlcontact: the bearings, where their numbers and their outputs stand. */",
-        *(text.replace("NAME", name) for text, name in texts.items()),
-        f"static const Bearing *const law_of[BEARINGS] = {{{', '.join(f'&{name}' for name in names)}}};",
-        *(f"static const int {name}[BEARINGS] = {{{', '.join(map(str, at))}}};" for name, at in tables.items()),
-        f"static const int law_settings[BEARINGS][{len(PARAMETERS)}] = {{{settings}}};",
-        "",
+def _description(model: RotorModel) -> str:
+    contacts = sum(station.is_contact for station in model.inside)
+    bearings = len(model.inside) - contacts
+    words = [
+        *([f"{contacts} contact{'s' * (contacts != 1)} inside"] if contacts else []),
+        *([f"{bearings} ball bearing{'s' * (bearings != 1)} inside"] if bearings else []),
+        *([f"{len(model.out)} support{'s' * (len(model.out) != 1)} outside"] if model.out else []),
     ]
-    return {"rotor_laws.h": "\n".join(lines)}
-
-
-def _data(model: RotorModel) -> str:
-    rotor = model.rotor
-    M, C, K = rotor.matrices(0.0)
-    points, ties, _ = rotor.geometry
-    q, _ = model.shaft.motion
-    phases = [unbalance.phase for unbalance in rotor.unbalances] or [0.0]
-    at = [(u.x, u.y) for u in rotor.unbalances] or [(None, None)]
-    tables = {
-        "mass_matrix": M,
-        "mass_inverse": np.linalg.inv(M),
-        "damping_matrix": C,
-        "gyroscopic_matrix": rotor.gyroscopic,
-        "stiffness_matrix": K,
-        "load": rotor.load,
-        "points": points,
-        "ties": ties,
-        "ring_shift": model.shaft.shifts[: len(ties)],
-        "rest": q,
-        "unbalance_phase": np.array(phases),
-    }
-    pairs = ", ".join("{" + ", ".join("-1" if k is None else str(k) for k in pair) + "}" for pair in at)
-    shown = ", ".join(str(place) for _, _, place in model.shaft.points) or "0"
-    lines = [
-        "/* Generated by ehlcontact: matrices, points at which bearings act, and the place at rest. */",
-        *(c_table(*one) for one in tables.items()),
-        f"static const int unbalance_at[][2] = {{{pairs}}};",
-        f"static const int shown[] = {{{shown}}};",
-        "",
+    name = "Jeffcott rotor" if model.kind == "JeffcottRotor" else f"Rotor of {model.rotor.size} degrees of freedom"
+    left_out = [
+        (station.name, one.damping_left_out)
+        for station, one in zip(model.bearings_inside, model.bearings, strict=True)
     ]
-    return "\n".join(lines)
-
-
-def _macros(model: RotorModel, made: _Variables, specs: list[ModelSpec]) -> dict[str, str]:
-    size, (points, ties, _) = model.rotor.size, model.rotor.geometry
-    counts = {
-        "FREEDOMS": size,
-        "POINTS": len(points),
-        "MOTIONS": len(ties),
-        "BEARINGS": len(specs),
-        "SHOWN": len(made.points),
-        "UNBALANCES": len(model.rotor.unbalances),
-        "HAS_TORQUE": int(model.inertia is not None),
-        "REACHED": made.first["DRIVE"] if model.inertia is None else "(-1)",
-        "HAS_GYROSCOPIC": int(model.rotor.gyroscopic.any()),
-        "LAW_WORK": sum(work_size(bearing) for bearing in model.bearings),
-        "MOST_BALLS": max(bearing.bearing.balls for bearing in model.bearings),
-        "N_CACHE": 4 * size + 4 * len(points) + 8 + sum(state_size(bearing) for bearing in model.bearings),
-        **{f"FIRST_{name}": at for name, at in made.first.items()},
-    }
-    numbers = {"DEFAULT_TOLERANCE": ALLOWED_ERROR, "LEAST_INNER_STEP": LEAST_INNER_STEP * model.inner_step}
-    return (
-        {k: str(v) for k, v in counts.items()} | {k: c_double(v) for k, v in numbers.items()} | dict(ROTOR.macros)
-    )
+    more = "".join(f"; {name}: {said}" for name, said in left_out if said)
+    return f"{name}, {', '.join(words)}; SI units{source_text(model.elements)}{more}"
 
 
 def _notes(model: RotorModel, specs: list[ModelSpec]) -> tuple[tuple[str, str], ...]:
     turns = "its speed is an input" if model.inertia is None else "the torque of its motor decides on its speed"
     lines = [("Rotor", f"{model.rotor.size} degrees of freedom; turns about z, from x towards y; {turns}")]
-    for b, spec in enumerate(specs, start=1):
-        lines += [(f"Bearing {b}: {label}", text) for label, text in spec.notes]
+    for station in model.stations:
+        if station.is_contact:
+            angle = math.degrees(station.mount.angle)
+            text = f"approach = n . q + offset, n at {angle:g} degrees, offset {station.shift[0]:g} m"
+            text += f", {station.count:g} times" if station.count > 1 else ""
+        else:
+            bearing = station.mount.ball_bearing
+            text = f"{bearing.name or 'ball bearing'}, {', '.join(station.mount.directions)}"
+        lines.append((station.label, f"{text}; {'inside' if station.inside else 'outside'}"))
+    for station, spec in zip(model.inside, specs, strict=True):
+        lines += [(f"{station.label}: {label}", text) for label, text in spec.notes]
     return tuple(lines)

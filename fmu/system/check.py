@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import warnings
 import zipfile
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -12,10 +13,9 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.errors import ConvergenceError
-from fmu.jeffcott.model import JeffcottModel
 from fmu.system.master import DESCRIPTION, SystemRun
 from fmu.verify import VerificationError
-from reduced_models.rotor.jeffcott import JeffcottRotor
+from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
 from reduced_models.rotor.simulate import simulate_rotor
 
 LOAD_STEP = 0.1  # of the static load on the disc, along it and across
@@ -41,7 +41,15 @@ class SystemVerification:
         return asdict(self) | {"passes": self.passes}
 
 
-def verify_system(content: bytes, made: JeffcottModel, step: float, *, serial: bool = False) -> SystemVerification:
+def verify_system(
+    content: bytes,
+    rotor: JeffcottRotor,
+    elements: Sequence[Any],
+    state: RotorState,
+    step: float,
+    *,
+    serial: bool = False,
+) -> SystemVerification:
     """Hold an archive against the schema, and run it beside the Python rotor from equilibrium.
 
     At the start a force comes on the disc, a tenth of the static load along it and across, where the rotor moves
@@ -52,10 +60,10 @@ def verify_system(content: bytes, made: JeffcottModel, step: float, *, serial: b
     VerificationError
         It does not run.
     """
-    findings, rotor = schema_findings(content), made.rotor
+    findings = schema_findings(content)
     push = _push(rotor)
-    names = [f"disc_force_{'xy'[axis]}" for axis in rotor.axes]
-    watched = [("rotor", f"journal_{'xy'[axis]}") for axis in rotor.axes]
+    names = [f"disc.force_{'xy'[axis]}" for axis in rotor.axes]
+    watched = [("rotor", f"journal.{'xy'[axis]}") for axis in rotor.axes]
     try:
         forces = dict(zip(names, push[list(rotor.axes)].tolist(), strict=True))
         with SystemRun(content, {"rotor": forces}, serial=serial) as run:
@@ -67,7 +75,12 @@ def verify_system(content: bytes, made: JeffcottModel, step: float, *, serial: b
         warnings.simplefilter("ignore")  # of leaving the box, which is no matter of this comparison
         try:
             found = simulate_rotor(
-                pushed, resting(made), dt=step, until=STEPS * step, start=made.state, tolerance=1e-9
+                pushed,
+                resting(rotor, elements, state),
+                dt=step,
+                until=STEPS * step,
+                start=state,
+                tolerance=1e-9,
             )
         except ConvergenceError as error:
             raise VerificationError(f"the rotor itself does not run at steps of {step:g} s: {error}") from None
@@ -77,10 +90,10 @@ def verify_system(content: bytes, made: JeffcottModel, step: float, *, serial: b
     return SystemVerification(findings, deviation if np.isfinite(deviation) else float("inf"), step)
 
 
-def resting(made: JeffcottModel) -> list[Any]:
+def resting(rotor: JeffcottRotor, elements: Sequence[Any], state: RotorState) -> list[Any]:
     """Copies of the contacts, at rest where the system starts."""
-    copies = [element.copy() for element in made.elements]
-    for contact, approach in zip(copies, made.rotor.approaches(made.state.journal).tolist(), strict=True):
+    copies = [element.copy() for element in elements]
+    for contact, approach in zip(copies, rotor.approaches(state.journal).tolist(), strict=True):
         contact.rest(approach)
     return copies
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
+import scipy
 
 from ehlcontact.errors import ConvergenceError, InputError
 from fmu.bearing.variables import FORCES, RATES
 from fmu.lead import force_lead_for
-from fmu.models import ALL
-from fmu.shaft.model import ShaftModel
+from fmu.rotor.model import ALL, RotorModel
 from fmu.steps import FAST_STEP, round_down
 from fmu.system.check import STEPS, SystemVerification, schema_findings
 from fmu.system.master import SystemRun
@@ -29,11 +29,16 @@ ALLOWED = 0.02  # deviation of the rings in the check, over what they move
 STANDING = 0.1  # of the largest displacement: counted as motion, for films of tables are 0.03 % off
 
 
+def mounts_of(model: RotorModel) -> list[Any]:
+    """Mounts of its ball bearings."""
+    return [station.mount for station in model.bearings_out]
+
+
 @dataclass(frozen=True, slots=True)
 class RotorOnBearings:
     """A rotor between ball bearings, and the speeds [rev/min] of their tables."""
 
-    made: ShaftModel
+    made: RotorModel
     speeds_rpm: Any
     name = "rotor on bearings"
     description = "A rotor in its ball bearings, in SI units; values are passed on after each step"
@@ -44,23 +49,25 @@ class RotorOnBearings:
         """Rotor and speeds, checked."""
         if speeds_rpm is None:
             raise InputError("speeds_rpm", None, "given: the speed, or lowest and highest one, of the bearings")
-        return cls(ShaftModel(rotor, **keywords), speeds_rpm)
+        return cls(RotorModel(rotor, ALL, **keywords), speeds_rpm)
 
     def parts(self, lead: float) -> tuple[Part, ...]:
         """Rotor and bearings, whose FMUs have this lead."""
         model = self.made
         q, v = model.motion
-        omega = model.speed_rpm * RPM_TO_RAD_S
+        omega = model.speed * RPM_TO_RAD_S
         starts: dict[str, float] = {}
         bearings: list[Part] = []
-        for b, (mount, force) in enumerate(zip(model.stations, model.forces, strict=True), start=1):
+        mounts = [station.mount for station in model.bearings_out]
+        for b, station in enumerate(model.bearings_out, start=1):
+            mount, force = station.mount, model.force(station)
             rows, names = mount.rows(model.rotor.size), mount.directions
             ring = dict(zip(names, (rows @ q + mount.shift).tolist(), strict=True))
             rates = {RATES[k]: rate for k, rate in zip(names, (rows @ v).tolist(), strict=True)}
             starts |= {f"bearing[{b}].{FORCES[k]}": f for k, f in zip(names, force.tolist(), strict=True)}
             same = [
                 bearings[k].source
-                for k, other in enumerate(model.stations[: b - 1])
+                for k, other in enumerate(mounts[: b - 1])
                 if other.bearing is mount.bearing and other.directions == names
             ]
             back = [FORCES[k] for k in names] + ["rolling_torque"] * (model.inertia is not None)
@@ -75,7 +82,7 @@ class RotorOnBearings:
                     tuple((k, f"bearing[{b}].{k}") for k in back),
                 )
             )
-        settings = {"outside": ALL, "lead": force_lead_for(lead), "speed_rpm": model.speed_rpm}
+        settings = {"outside": ALL, "lead": force_lead_for(lead), "speed_rpm": model.speed}
         settings |= {"inertia": model.inertia, "start": model.start}
         return (Part("rotor", "rotor", model.rotor, settings, starts), *bearings)
 
@@ -89,16 +96,16 @@ class RotorOnBearings:
         model = self.made
         size = model.rotor.size
         borne = np.zeros((size, size))
-        for mount in model.stations:
-            balls = motion_of(mount.ball_bearing, [model.speed_rpm], mount.directions)
+        for mount in mounts_of(model):
+            balls = motion_of(mount.ball_bearing, [model.speed], mount.directions)
             rows = mount.rows(size)
             ring = rows @ model.motion[0] + mount.shift
-            balls.rest(model.speed_rpm * RPM_TO_RAD_S, mount.cage_angle, ring)
+            balls.rest(model.speed * RPM_TO_RAD_S, mount.cage_angle, ring)
             _, stiffness, _ = balls.forces(ring, np.zeros(len(ring)))
             borne += rows.T @ stiffness @ rows
-        shapes = model.modes.shapes
-        of_bearings = shapes.T @ (0.5 * (borne + borne.T)) @ shapes
-        squares, vectors = np.linalg.eigh(np.diag(model.modes.stiffness) + of_bearings)
+        M, _, K = model.rotor.matrices(0.0)
+        of_bearings = 0.5 * (borne + borne.T)
+        squares, vectors = scipy.linalg.eigh(0.5 * (K + K.T) + of_bearings, 0.5 * (M + M.T))
         share = np.einsum("ik,ij,jk->k", vectors, of_bearings, vectors) / np.maximum(squares, 1.0)
         fastest = float(squares[share > BORNE].max(initial=0.0))
         return round_down(FAST_STEP / np.sqrt(fastest)) if fastest > 0.0 else 1e-5
@@ -114,7 +121,7 @@ class RotorOnBearings:
         model = self.made
         findings = schema_findings(content)
         watched = [
-            ("rotor", f"bearing[{b}].{k}") for b, m in enumerate(model.stations, start=1) for k in m.directions
+            ("rotor", f"bearing[{b}].{k}") for b, m in enumerate(mounts_of(model), start=1) for k in m.directions
         ]
         turning = [("rotor", "speed")]
         try:
@@ -137,7 +144,7 @@ class RotorOnBearings:
         arms = np.concatenate(
             [
                 np.repeat([1.0, 0.5 * m.ball_bearing.pitch_diameter], [3, 2])[: len(m.directions)]
-                for m in model.stations
+                for m in mounts_of(model)
             ]
         )
         theirs = arms * wanted.ring[: STEPS + 1].reshape(STEPS + 1, -1)

@@ -10,14 +10,13 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu.jeffcott.model import JeffcottModel
 from fmu.lead import force_lead_for
-from fmu.models import ALL
+from fmu.rotor.model import ALL, jeffcott_elements, jeffcott_rest
 from fmu.steps import ADDED_DAMPING, damping_at, round_down
 from fmu.system.check import ALLOWED, SystemVerification, verify_system
 from fmu.system.part import Part
 from fmu.verify import VerificationError
-from reduced_models.rotor.jeffcott import JeffcottRotor
+from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
 
 FOREIGN_DAMPING = 0.05  # of that of a contact, at the journal's fastest vibration: what the default step may add
 LONGEST = 0.1  # default step times that frequency, or the rate at which dampers stop the journal
@@ -27,30 +26,33 @@ STANDING = 0.1  # [s] of it, where nothing turns
 
 @dataclass(frozen=True, slots=True)
 class RotorOnContacts:
-    """A Jeffcott rotor closed with copies of its contacts, in SI."""
+    """A Jeffcott rotor closed with copies of its contacts, in SI, in equilibrium."""
 
-    made: JeffcottModel
+    rotor: JeffcottRotor
+    elements: tuple[Any, ...]
+    state: RotorState
     name = "rotor on contacts"
     description = "Jeffcott rotor on rolling contacts, in SI units; values are passed on after each step"
 
     @classmethod
     def of(cls, rotor: JeffcottRotor, contacts: Sequence[Any]) -> Self:
         """Rotor and contacts, checked."""
-        return cls(JeffcottModel(rotor, contacts))
+        elements = jeffcott_elements(rotor, contacts)
+        return cls(rotor, tuple(elements), jeffcott_rest(rotor, elements))
 
     @property
     def stop(self) -> float:
         """End of the default experiment [s]."""
-        w = self.made.rotor.omega
+        w = self.rotor.omega
         return float(f"{REVOLUTIONS * 2.0 * pi / w if w > 0.0 else STANDING:.6g}")
 
     def parts(self, lead: float) -> tuple[Part, ...]:
         """Rotor and contacts, whose FMUs have this lead."""
-        rotor = self.made.rotor
-        approaches = rotor.approaches(self.made.state.journal).tolist()
-        pairs = list(enumerate(zip(self.made.elements, approaches, strict=True), start=1))
-        settings = {"outside": ALL, "start": self.made.state, "lead": force_lead_for(lead)}
-        forces = {f"force[{k}]": float(element.spring(u)) for k, (element, u) in pairs}
+        rotor = self.rotor
+        approaches = rotor.approaches(self.state.journal).tolist()
+        pairs = list(enumerate(zip(self.elements, approaches, strict=True), start=1))
+        settings = {"outside": ALL, "start": self.state, "lead": force_lead_for(lead)}
+        forces = {f"contact[{k}].force": float(element.spring(u)) for k, (element, u) in pairs}
         contacts = [
             Part(
                 f"contact_{k}",
@@ -58,8 +60,8 @@ class RotorOnContacts:
                 element,
                 {"lead": lead},
                 {"approach": u, "rate": 0.0},
-                ((f"approach[{k}]", "approach"), (f"rate[{k}]", "rate")),
-                (("force", f"force[{k}]"),),
+                ((f"contact[{k}].approach", "approach"), (f"contact[{k}].rate", "rate")),
+                (("force", f"contact[{k}].force"),),
             )
             for k, (element, u) in pairs
         ]
@@ -72,8 +74,8 @@ class RotorOnContacts:
         vibration of w; the fastest is that of the journal on the contacts. Such a loop is stable up to w h = 0.57,
         and as long as h resolves how fast their dampers alone would stop the journal.
         """
-        rotor, contacts = self.made.rotor, self.made.elements
-        approaches = rotor.approaches(self.made.state.journal).tolist()
+        rotor, contacts = self.rotor, self.elements
+        approaches = rotor.approaches(self.state.journal).tolist()
         pairs = list(zip(contacts, approaches, strict=True))
         K = np.array([float(element.spring_tangent(u)) for element, u in pairs])
         forces = [float(element.spring(u)) for element, u in pairs]
@@ -91,7 +93,7 @@ class RotorOnContacts:
 
     def require_verified(self, content: bytes, step: float, *, serial: bool) -> SystemVerification:
         """Check of an archive; raises `VerificationError` where it differs from the rotor."""
-        verification = verify_system(content, self.made, step, serial=serial)
+        verification = verify_system(content, self.rotor, self.elements, self.state, step, serial=serial)
         if not verification.passes:
             gap = verification.deviation
             off = f"the journal is {gap:.2g} of its way after a load step off, allowed {ALLOWED:g}"

@@ -10,14 +10,13 @@ from typing import Any
 import fmpy
 import numpy as np
 import pytest
-from exported import given
+from exported import Jeffcott, given
 from fmpy import fmi2
 
 from ehlcontact.point import Scales
 from fmu import export
 from fmu.driver import Exchange
 from fmu.driver import Slave as DriverSlave
-from fmu.jeffcott.model import JeffcottModel
 from reduced_models import (
     FilmContact,
     JeffcottRotor,
@@ -66,7 +65,7 @@ class Unit:
 
     path: Path
     folder: str
-    model: JeffcottModel
+    model: Jeffcott
     fmi: int
 
     @property
@@ -213,17 +212,17 @@ def elements() -> dict[str, Any]:
 
 
 @pytest.fixture(scope="session")
-def rotors(elements) -> dict[str, JeffcottModel]:
+def rotors(elements) -> dict[str, Jeffcott]:
     """Alone and closed, with two axes and with one, with equal contacts and with different ones."""
     scales = elements["wide_si"], elements["cubic_si"], elements["power_si"]
     wide, cubic, power = scales
     return {
-        "alone": JeffcottModel(VEE),
-        "alone in y": JeffcottModel(VERTICAL),
-        "wide": JeffcottModel(VEE, [wide, wide]),
-        "cubic": JeffcottModel(VEE, [cubic, cubic]),
-        "mixed": JeffcottModel(VEE, [wide, power]),
-        "wide in y": JeffcottModel(VERTICAL, [wide]),
+        "alone": Jeffcott(VEE),
+        "alone in y": Jeffcott(VERTICAL),
+        "wide": Jeffcott(VEE, [wide, wide]),
+        "cubic": Jeffcott(VEE, [cubic, cubic]),
+        "mixed": Jeffcott(VEE, [wide, power]),
+        "wide in y": Jeffcott(VERTICAL, [wide]),
     }
 
 

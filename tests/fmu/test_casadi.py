@@ -79,7 +79,7 @@ def test_a_mass_in_a_loop_by_its_own_integrator(block, elements):
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_equations_of_a_rotor_and_their_jacobian(unit, instance, fmi):
     one = unit("wide", fmi)
-    outputs = ["journal_x", "force[1]", "approach[2]"]
+    outputs = ["journal.x", "contact[1].force", "contact[2].approach"]
     block = casadi.DaeBuilder("rotor", str(one.folder))
     block.set_y(outputs)
     f = block.create("f", ["x", "u"], ["ode", "y"])

@@ -132,7 +132,7 @@ def test_the_loop_of_every_tutorial(tmp_path, importer, fmi):
 @pytest.mark.parametrize(("importer", "fmi"), [(libcosimpy, 2), (ecospy, 2), (ecospy, 3)])
 def test_a_rotor_moves_as_by_fmpy(unit, instance, importer, fmi):
     """To the last bits of what each makes of the time."""
-    names, step, steps = ("journal_x", "journal_y", "disc_x", "disc_y", "force[1]"), 1e-5, 200
+    names, step, steps = ("journal.x", "journal.y", "disc.x", "disc.y", "contact[1].force"), 1e-5, 200
     slave = instance("wide", fmi)
     slave.start()
     with importer(unit("wide", fmi).path, step, (), names) as advance:

@@ -15,7 +15,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from exported import model_of
+from exported import OfRotor, model_of
 from fmpy.build import build_platform_binary
 from fmpy.validation import validate_fmu
 
@@ -25,9 +25,7 @@ from fmu.archive import content_guid
 from fmu.bearing.model import BearingModel
 from fmu.comparison import film_motion, state_grid
 from fmu.contact_spec import contact_spec
-from fmu.jeffcott.laws import distinct, law_source
-from fmu.rotor.model import RotorModel
-from fmu.shaft.model import ShaftModel
+from fmu.rotor.laws import law_names, laws_of
 from fmu.sources import CSRC, source_files, standard_folder, standard_headers
 from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings
 
@@ -85,8 +83,8 @@ def models(elements, rotors):
         ],
     )
     shafts = {
-        "shaft": ShaftModel(shaft, 3e3, inertia=0.02),
-        "whole rotor": RotorModel(whole, 3e3, inertia=0.02),
+        "shaft": OfRotor(shaft, {"outside": "all", "speed_rpm": 3e3, "inertia": 0.02}),
+        "whole rotor": OfRotor(whole, {"speeds_rpm": 3e3, "inertia": 0.02}),
     }
     return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings | shafts
 
@@ -133,12 +131,12 @@ def random_calls_of(name):
         return [f"-DFUZZ_{macro}={text}" for macro, text in (given | {"USUAL": "0.0", "STEP": "1e-7"}).items()]
     if name in SHAFTS:
         # the first of them must not be negative, as motions may be
-        given = {"INPUTS": "0,FIRST_DRIVE", "OUTPUTS": "VR_mass_scale,VR_angle,FIRST_VELOCITY"}
+        given = {"INPUTS": "0,FIRST_DRIVE", "OUTPUTS": "VR_mass_scale,VR_angle,FIRST_RATE"}
         return [f"-DFUZZ_{macro}={text}" for macro, text in (given | {"USUAL": "1e2", "STEP": "1e-5"}).items()]
     if name not in ROTORS:
         return []
-    first = "FIRST_STATE+4*AXES" if "alone" in name else "FIRST_FORCE"  # the angle, or a force
-    given = {"INPUTS": "0,1", "OUTPUTS": f"{first},FIRST_APPROACH,FIRST_RATE", "USUAL": "1e3", "STEP": "1e-8"}
+    # the first of them must not be negative, as motions may be
+    given = {"INPUTS": "0,1", "OUTPUTS": "VR_inner_step,FIRST_PLACE,FIRST_RATE", "USUAL": "1e3", "STEP": "1e-8"}
     return [f"-DFUZZ_{macro}={text}" for macro, text in given.items()]
 
 
@@ -308,11 +306,13 @@ def test_other_checkers_find_nothing(elements, unit, name, fmi, tmp_path):
 
 
 def test_equal_contacts_share_a_law(rotors):
-    wide, mixed = rotors["wide"].elements, rotors["mixed"].elements
-    assert [len(distinct(elements)[0]) for elements in (wide, mixed)] == [1, 2]
-    assert distinct((*mixed, *wide))[1] == [0, 1, 0, 0]
-    text = law_source(wide[0], "law_of_a_ball")
-    assert "#define model_step law_of_a_ball_model_step" in text and '#include "' not in text
+    names = {}
+    for name in ("wide", "mixed"):
+        model = rotors[name].model
+        laws = laws_of(model, [contact_spec(element) for element in model.elements])
+        names[name], texts = law_names(model, laws)
+        assert all("model_step contact_law_" in text and '#include "' not in text for text in texts.values())
+    assert names == {"wide": ["contact_law_1"] * 2, "mixed": ["contact_law_1", "contact_law_2"]}
 
 
 def test_sources_are_ascii():

@@ -173,7 +173,7 @@ def export(
         "platforms": built,
         **verdict,
     }
-    uses = "co-simulation and model exchange" if bearings is None else "co-simulation alone"
+    uses = "co-simulation alone" if system else "co-simulation and model exchange"
     version = "FMI", f"{fmi}.0", uses
     rows = [
         *_about(exported, system),
@@ -181,7 +181,7 @@ def export(
         ("binaries", str(len(built)), ", ".join(built)),
         *_advice(exported, found),
     ]
-    out.deliver(document, (str(output), [*rows, *_rows(found, rotor=study, shaft=bearings is not None)]))
+    out.deliver(document, (str(output), [*rows, *_rows(found, rotor=study)]))
 
 
 def _check_bearings(output: Path, study: bool, bearings: str | None, **values: float | None) -> None:
@@ -284,7 +284,8 @@ def _on_bearings(
     file: Path, bearings: str, inertia: float | None, top_rpm: float | None, named: dict[str, Any]
 ) -> FmuModel | SystemModel:
     """The rotor of a study on its whole bearings, at its speed, at rest under the load on them."""
-    from fmu.models import ALL, fmu_model
+    from fmu.models import fmu_model
+    from fmu.rotor.model import ALL
     from fmu.system.export import system_model
 
     rotor, speed = _whole_rotor(file)
@@ -322,36 +323,40 @@ def _whole_rotor(file: Path) -> tuple[Rotor, float]:
 def _about(model: FmuModel | SystemModel, system: bool) -> list[Row]:
     """What it is."""
     from fmu.bearing.model import BearingModel
-    from fmu.jeffcott.model import JeffcottModel
     from fmu.rotor.model import RotorModel
-    from fmu.shaft.model import ShaftModel
+    from fmu.system.on_contacts import RotorOnContacts
 
-    exported: Any = getattr(model, "made", None) or getattr(model, "source", None)
+    exported: Any = getattr(model, "made", None) or getattr(model, "source", model)
+    if isinstance(exported, RotorOnContacts):
+        return _on_contacts_row(exported.rotor.speed_rpm, exported.elements, "each an FMU, wired")
+    if isinstance(exported, RotorModel) and exported.elements:
+        return _on_contacts_row(exported.speed, exported.elements, "inside; their forces are outputs")
     if isinstance(exported, RotorModel):
-        speeds = " to ".join(f"{speed:g}" for speed in sorted({*exported.bearings[0].speeds[[0, -1]].tolist()}))
+        where = (
+            "each an FMU, wired" if system else "outside; their forces are inputs" if exported.out else "inside"
+        )
+        speeds = {exported.speed} if not exported.bearings else {*exported.bearings[0].speeds[[0, -1]].tolist()}
         turns = "its speed is an input" if exported.inertia is None else f"{exported.inertia:g} kg m2 turn"
+        of = "of the tables of the films" if exported.bearings else "at the start"
         return [
-            ("bearings", str(len(exported.stations)), "inside"),
-            ("speed", f"{speeds} rpm", f"of the tables of the films; {turns}"),
-        ]
-    if isinstance(exported, ShaftModel):
-        wired = "each an FMU, wired" if system else "outside; their forces are inputs"
-        turns = "an input" if exported.inertia is None else f"at the start; {exported.inertia:g} kg m2 turn"
-        return [
-            ("bearings", str(len(exported.stations)), wired),
-            ("speed", f"{exported.speed_rpm:g} rpm", turns),
+            ("bearings", str(len(exported.stations)), where),
+            ("speed", f"{' to '.join(f'{speed:g}' for speed in sorted(speeds))} rpm", f"{of}; {turns}"),
         ]
     if isinstance(exported, BearingModel):
-        speeds = " to ".join(f"{speed:g}" for speed in sorted({exported.speeds[0], exported.speeds[-1]}))
+        span = " to ".join(f"{speed:g}" for speed in sorted({exported.speeds[0], exported.speeds[-1]}))
         of = f"{exported.bearing.balls} balls; displacements {', '.join(exported.directions)}"
-        return [("bearing", exported.bearing.name, of), ("speed", f"{speeds} rpm", "of the tables of the films")]
-    if not isinstance(exported, JeffcottModel):
-        return [("element", exported.kind, exported.units)]
-    rotor, kinds = exported.rotor, sorted({element.kind for element in exported.elements})
-    where = f"bearings: {rotor.bearings}, contacts in each: {len(rotor.mounts)}; SI"
+        return [
+            ("bearing", exported.bearing.name, of),
+            ("speed", f"{span} rpm", "of the tables of the films"),
+        ]
+    return [("element", exported.kind, exported.units)]
+
+
+def _on_contacts_row(speed_rpm: float, elements: Any, where: str) -> list[Row]:
+    kinds = sorted({element.kind for element in elements})
     return [
-        ("rotor", f"{rotor.speed_rpm:g} rpm", where),
-        ("contacts", ", ".join(kinds), "each an FMU, wired" if system else "inside; their forces are outputs"),
+        ("rotor", f"{speed_rpm:g} rpm", f"contacts in each bearing: {len(elements)}; SI"),
+        ("contacts", ", ".join(kinds), where),
     ]
 
 
@@ -363,20 +368,18 @@ def _advice(model: FmuModel | SystemModel, found: Any) -> list[Row]:
             ("step", f"{step:g} s", "of the default experiment; longer ones damp more, and blow up in the end")
         ]
     from fmu.bearing.model import BearingModel
-    from fmu.jeffcott.model import JeffcottModel
     from fmu.rotor.model import RotorModel
-    from fmu.shaft.model import ShaftModel
     from fmu.steps import step_advice
 
-    exported: Any = getattr(model, "made", None) or getattr(model, "source", None)
-    if isinstance(exported, BearingModel | ShaftModel):
-        return [("step", "1e-05 s", "of the default experiment; how long one may be: docs/coupling.md")]
-    if isinstance(exported, JeffcottModel | RotorModel):
+    exported: Any = getattr(model, "source", None)
+    if isinstance(exported, RotorModel):
         return [("inner step", f"{exported.inner_step:g} s", "steps of the master are cut into such ones")]
-    return step_advice(exported)
+    if isinstance(exported, BearingModel):
+        return [("step", "1e-05 s", "of the default experiment; how long one may be: docs/coupling.md")]
+    return [] if exported is None else step_advice(exported)
 
 
-def _rows(found: Verification | SystemVerification | None, *, rotor: bool, shaft: bool) -> list[Row]:
+def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> list[Row]:
     """What the verification found."""
     if found is None:
         return [("verified", "no", "this machine can run no such FMU")]
@@ -398,14 +401,11 @@ def _rows(found: Verification | SystemVerification | None, *, rotor: bool, shaft
         moved = "largest error of the states' rates in model exchange, over those in Python"
         rates = [("rates", f"{found.rates:.1e}", moved)] if found.rates else []
         return [findings, ("forces", f"{found.bearing:.1e}", run), *rates, ("verified", "yes", "")]
-    if shaft:
-        run = f"largest error, over that in Python; {found.states} steps"
-        return [findings, ("motion", f"{found.motion:.1e}", run), ("verified", "yes", "")]
     if rotor:
         return [
             findings,
             ("motion", f"{found.motion:.1e}", f"largest error, over that of simulate_rotor; {found.states} steps"),
-            ("equations", f"{found.exchange:.1e}", "largest error of accelerations and rates of films"),
+            ("equations", f"{found.rates:.1e}", "largest error of accelerations and rates of films"),
             ("verified", "yes", ""),
         ]
     return [

@@ -61,7 +61,7 @@ Fault model_evaluate(Model *model);
 Fault model_rates(Model *model);
 
 /* Moves the states along `motion` for a time h, the inputs to its end, and evaluates there;
- * a relative error of the force of about `tolerance` is allowed. Untouched if it refuses. */
+ * a relative error of the force of about `tolerance` is allowed. May leave anything in a model it refuses. */
 Fault model_step(Model *model, const Motion *motion, double h, double tolerance);
 
 /* Change of outputs and derivatives, by value reference, along `seed`, a direction of inputs, parameters and states;

@@ -7,7 +7,7 @@
 
 #include "jet.h"
 
-static const double few = 3.0; /* of lag_moments: full relative accuracy */
+static const double few_moments = 3.0; /* of lag_moments: full relative accuracy */
 
 #define LEAST_MADE 1e-9 /* added to G, so that shares of it exist where a row of gains has no chain */
 
@@ -153,7 +153,7 @@ typedef struct {
 static Jet one_lag(double old, double start, Jet end, Jet bump, double rate, Jet span)
 {
     Moments r;
-    const double mu = rate * span.x, kept = lag_moments(mu, few, &r);
+    const double mu = rate * span.x, kept = lag_moments(mu, few_moments, &r);
     const double d1 = (kept * mu - r.r1) / mu, d2 = (kept * mu - 2.0 * r.r2) / mu;
     const double value = old * kept + start * r.r1 + end.x * (r.r0 - r.r1) + 6.0 * bump.x * (r.r1 - r.r2);
     const double slope = -old * kept + start * d1 + end.x * (kept - d1) + 6.0 * bump.x * (d1 - d2);

@@ -10,24 +10,26 @@ static void exchange(double *a, double *b)
     *b = kept;
 }
 
-int factorise(int n, double a[], int pivot[])
+int factorise(int n, double a[], double pivot[])
 {
     int i, j, k;
     for (k = 0; k < n; k++) {
-        pivot[k] = k;
+        int row = k;
         for (i = k + 1; i < n; i++) {
-            if (fabs(a[i * n + k]) > fabs(a[pivot[k] * n + k])) {
-                pivot[k] = i;
+            if (fabs(a[i * n + k]) > fabs(a[row * n + k])) {
+                row = i;
             }
         }
-        if (!(fabs(a[pivot[k] * n + k]) > 0.0)) {
+        if (!(fabs(a[row * n + k]) > 0.0)) {
             return 0;
         }
-        for (j = 0; j < n && pivot[k] != k; j++) {
-            exchange(&a[k * n + j], &a[pivot[k] * n + j]);
+        pivot[k] = row;
+        for (j = 0; j < n && row != k; j++) {
+            exchange(&a[k * n + j], &a[row * n + j]);
         }
+        a[k * n + k] = 1.0 / a[k * n + k];
         for (i = k + 1; i < n; i++) {
-            const double factor = a[i * n + k] / a[k * n + k];
+            const double factor = a[i * n + k] * a[k * n + k];
             a[i * n + k] = factor;
             for (j = k + 1; j < n && factor != 0.0; j++) {
                 a[i * n + j] -= factor * a[k * n + j];
@@ -37,11 +39,11 @@ int factorise(int n, double a[], int pivot[])
     return 1;
 }
 
-void substitute(int n, const double a[], const int pivot[], double x[])
+void substitute(int n, const double a[], const double pivot[], double x[])
 {
     int i, j;
     for (i = 0; i < n; i++) {
-        exchange(&x[i], &x[pivot[i]]);
+        exchange(&x[i], &x[(int)pivot[i]]);
     }
     for (i = 0; i < n; i++) {
         for (j = 0; j < i; j++) {
@@ -52,6 +54,20 @@ void substitute(int n, const double a[], const int pivot[], double x[])
         for (j = i + 1; j < n; j++) {
             x[i] -= a[i * n + j] * x[j];
         }
-        x[i] /= a[i * n + i];
+        x[i] *= a[i * n + i];
+    }
+}
+
+void invert(int n, const double a[], const double pivot[], double column[], double inverse[])
+{
+    int i, k;
+    for (k = 0; k < n; k++) {
+        for (i = 0; i < n; i++) {
+            column[i] = i == k ? 1.0 : 0.0;
+        }
+        substitute(n, a, pivot, column);
+        for (i = 0; i < n; i++) {
+            inverse[i * n + k] = column[i];
+        }
     }
 }

@@ -2,10 +2,13 @@
 #ifndef LINEAR_EQUATIONS_H
 #define LINEAR_EQUATIONS_H
 
-/* Turns the matrix a, (n, n), into its factors; returns whether it has an inverse. */
-int factorise(int n, double a[], int pivot[]);
+/* Turns the matrix a, (n, n), into its factors, the diagonal inverted, and rows exchanged; returns whether it has an inverse. */
+int factorise(int n, double a[], double pivot[]);
 
 /* Turns the right side x into the solution. */
-void substitute(int n, const double a[], const int pivot[], double x[]);
+void substitute(int n, const double a[], const double pivot[], double x[]);
+
+/* The inverse, row by row, of a matrix of these factors; `column` is room for n numbers. */
+void invert(int n, const double a[], const double pivot[], double column[], double inverse[]);
 
 #endif

@@ -1,90 +1,117 @@
-/* A Jeffcott rotor, alone or on its contacts: reduced_models.rotor. Equations in README.md. AXES, N_MOUNTS, BEARINGS and
- * the value references FIRST_... are generated, and so is rotor_data.h: rotor_normals and rotor_offsets of the mounts,
- * rotor_gravity, rotor_force on the disc, and rotor_rest, the positions at rest with the parameters of the export. */
+/* A linear rotor on supports that are inside:
+ *
+ *     m M q'' + (c C + m omega G) q' + s K q + sum_i n_i T_i^T F_i = l L + P + U (omega^2 (cos, sin) + alpha (sin, -cos))(angle + phase)
+ *     m J alpha = torque - torques of the supports - sum_u U (y'' cos - x'' sin)(angle + phase),  angle' = omega
+ *
+ * Equations in README.md. Tables are constant; state and work are plain numbers: copying them saves a rotor. */
 #ifndef ROTOR_H
 #define ROTOR_H
 
-#include "model.h"
-#include "rotor_data.h"
+#include <stddef.h>
 
-/* Degrees of freedom, in the order of JeffcottRotor.matrices: the disc along the axes that move, then the journal. */
-enum { DISC = 0, JOURNAL = AXES, FREEDOMS = 2 * AXES };
+#include "support.h"
 
-/* States among the values: positions, velocities, angle of the unbalance, films. */
-enum {
-    POSITION = FIRST_STATE,
-    VELOCITY = POSITION + FREEDOMS,
-    ANGLE = VELOCITY + FREEDOMS,
-    FILMS = ANGLE + 1,
-    FILM_STATES = N_STATES - 2 * FREEDOMS - 1
-};
-
-/* Inputs: forces on journal and disc, and those of the contacts, where they are not inside; unbalance, speed and its rate. */
-enum { JOURNAL_FORCE = 0, DISC_FORCE = AXES, MOUNT_FORCE = 2 * AXES, MOUNT_FORCES = VR_unbalance - MOUNT_FORCE };
-
-/* Entries of the cache: the contacts are ready; a step has been made; what rounding took from the angle; accelerations,
- * applied forces and the contacts' force on the journal at the end of the last step; positions at rest; the contacts' own
- * numbers. */
-enum {
-    READY,
-    MOVING,
-    ANGLE_REST,
-    ACCELERATION,
-    APPLIED = ACCELERATION + FREEDOMS,
-    CARRIED = APPLIED + FREEDOMS,
-    REST = CARRIED + AXES,
-    CONTACTS = REST + FREEDOMS
-};
-
-/* How far a contact is pressed with the journal there, and how fast at a velocity. */
-double rotor_approach(int mount, const double journal[]);
-double rotor_rate(int mount, const double velocity[]);
-
-/* Shows approach and rate of all mounts in a state. */
-const char *rotor_mounts(Model *model);
-
-/* Adds what a force of a contact, in all bearings, takes from the journal. */
-void rotor_carry(int mount, double force, double carried[]);
-
-/* Force of the shaft on the disc along the axis k, at displacements d and velocities v of disc and journal. */
-double rotor_shaft(const double value[], const double d[], const double v[], int k);
-
-/* Weight and constant forces on the degrees of freedom. */
-void rotor_loads(const double value[], double loads[]);
-
-/* Forces applied to the degrees of freedom at an angle of the unbalance, with these inputs. */
-void rotor_applied(const double value[], const double inputs[], double angle, double applied[]);
-
-/* Accelerations in a state, under applied forces and the contacts' force on the journal. */
-void rotor_accelerations(const double value[], const double applied[], const double carried[], double accelerations[]);
-
-/* ---- the contacts: rotor_contacts.c, or rotor_free.c where they are not inside ---- */
-
-const char *contacts_start(Model *model);
-
-/* Moves the journal from q to where the contacts carry this load at rest, with their films as they are. */
-const char *contacts_rest(Model *model, const double load[], double q[]);
-
-/* Forces and all that is shown of the contacts in a state. */
-const char *contacts_evaluate(Model *model);
-
-/* Their force on the journal, as evaluated. */
-void contacts_carried(const double value[], double carried[]);
-
-/* Rates of the films; and changes along a direction: of forces and rates in `along`, of the force on the journal. */
-const char *contacts_rates(Model *model);
-void contacts_direction(const Model *model, const double seed[], double along[], double carried[]);
-
-/* The end of a step: with the journal at q and the force F of the contacts on it, D (q - free) + weight F = 0, and the
- * journal's velocity is gain q + history. */
 typedef struct {
-    double D, weight, gain;
-    double free[AXES], history[AXES];
-    double load; /* what the imbalance is measured by */
-} Balance;
+    int freedoms, points, motions, supports, unbalances; /* of q; at which supports act; of all supports */
+    double mass, damping, stiffness, load;               /* factors of matrices and constant forces */
+    const double *M, *C, *G, *K, *L;                     /* (freedoms, freedoms) row by row; G: NULL for none; L: (freedoms) */
+    const double *M_inverse;
+    const double *B;                                     /* (points + held, freedoms): displacements of the points */
+    const double *ties, *shift, *count;                  /* (motions, points), then (motions): motions are ties B q + shift */
+    const int *unbalance_at;                             /* (unbalances, 2): x and y, -1 for none */
+    const double *phase;
+    double inertia;                                      /* J; 0 where the speed is given */
+    double rho;                                          /* spectral radius of steps at infinite frequency */
+    double floor, balanced, rested;                      /* N, and shares of the forces: what may be left of an imbalance, in steps, at rest */
+    int held;                                            /* rows of B behind those of the points: held in equilibrium */
+    const Support *const *support;
+    const int *first;                                    /* first motion of each support */
+} Rotor;
 
-/* Finds q, from a guess, and moves the contacts and what is shown of them there, from the start of the step, where the rest
- * of the model still is. */
-const char *contacts_balance(Model *model, const Balance *balance, double h, double q[], double carried[]);
+/* Places in the state. Accelerations follow displacements and velocities; forces on the points and applied forces are those of
+ * the last step's end, `past` the points at the ends of the last three, the newest first; then the linear part of a step. */
+typedef struct {
+    size_t place, velocity, acceleration, past, carried, applied, shaft, step, supports;
+} RotorLayout;
+
+enum { METHOD_NUMBERS = 11 }; /* weights of a step: rotor_step.c */
+enum { SHAFT_ANGLE, SHAFT_ANGLE_REST, SHAFT_SPEED, SHAFT_SPIN, SHAFT_RESISTED, SHAFT_MOVING = SHAFT_RESISTED + 2, SHAFT_NUMBERS };
+
+/* Step length and speed, method, factors, pivots, responses to unit forces at the points, and the stiffness of these. */
+static inline size_t step_numbers(const Rotor *r)
+{
+    const size_t n = (size_t)r->freedoms, p = (size_t)r->points;
+    return 2 + METHOD_NUMBERS + n * n + n + p * n + p * p;
+}
+
+static inline RotorLayout rotor_layout(const Rotor *r)
+{
+    const size_t n = (size_t)r->freedoms, p = (size_t)r->points;
+    RotorLayout at;
+    at.place = 0;
+    at.velocity = n;
+    at.acceleration = 2 * n;
+    at.past = 3 * n;
+    at.carried = at.past + 3 * p;
+    at.applied = at.carried + p;
+    at.shaft = at.applied + n;
+    at.step = at.shaft + SHAFT_NUMBERS;
+    at.supports = at.step + step_numbers(r);
+    return at;
+}
+
+size_t rotor_size(const Rotor *rotor); /* of the state */
+size_t rotor_work(const Rotor *rotor);
+size_t support_place(const Rotor *rotor, int support); /* of its numbers, from layout.supports on */
+
+/* Displacements of `motion` and their rates, from those of the rotor. */
+double rotor_motion(const Rotor *rotor, int motion, const double q[]);
+
+/* ---- forces ---- */
+
+/* Load, forces that are given on all freedoms, and unbalances. */
+void rotor_applied(const Rotor *rotor, const double given[], const double unbalance[], double angle, double omega, double spin,
+                   double force[]);
+/* Takes `weight` times the forces on the points from forces on the freedoms. */
+void rotor_take(const Rotor *rotor, const double carried[], double weight, double force[]);
+/* Accelerations under forces on the freedoms, by the mass alone; not in place. */
+void rotor_accelerate(const Rotor *rotor, const double force[], double acceleration[]);
+/* Takes damping and stiffness from forces. */
+void rotor_resist(const Rotor *rotor, double omega, const double q[], const double v[], double force[]);
+/* Torque that unbalances take from the shaft through these accelerations. */
+double rotor_slowed(const Rotor *rotor, const double unbalance[], double angle, const double acceleration[]);
+
+/* ---- supports ---- */
+
+const char *supports_start(const Rotor *rotor, const double *const parameters[], double state[]);
+/* Work of all supports, their forces on the points, and slopes of these by the points, velocities being `gain` times as much. */
+void supports_begin(const Rotor *rotor, const double state[], double work[], double h, double omega);
+const char *supports_press(const Rotor *rotor, const double state[], double work[], const double r[], const double v[],
+                           double carried[]);
+const char *supports_rest(const Rotor *rotor, double state[], double work[], double omega, const double r[], const double v[],
+                          double carried[]);
+void supports_slopes(const Rotor *rotor, double work[], double gain, double slopes[]);
+const char *supports_accept(const Rotor *rotor, double state[], double work[]);
+/* At the end of the last step, or at rest. */
+double supports_torque(const Rotor *rotor, const double state[]);
+
+/* ---- motion ---- */
+
+/* Supports where the rotor is, at rest but for contacts, which have its velocity; forces on the points and torques follow. */
+const char *rotor_place(const Rotor *rotor, const double *const parameters[], double state[], double work[]);
+/* Equilibrium under the load and `given` forces, from the place of the state, what is held staying there; supports are at rest. */
+const char *rotor_rest(const Rotor *rotor, const double *const parameters[], const double given[], double state[], double work[]);
+
+/* What acts at a time. */
+typedef struct {
+    const double *given, *unbalance; /* on the freedoms; amounts */
+    double torque, drag;             /* of the motor; of what is outside, against the turning */
+    double omega;                    /* where the speed is given */
+} Acting;
+
+/* Accelerations at the start of a step of length h under what acts now and at its end; later ones go on from the last step. */
+void rotor_begin(const Rotor *rotor, const Acting *now, const Acting *end, double h, double state[], double work[]);
+/* A step of length h; torque and drag are those of its middle. */
+const char *rotor_step(const Rotor *rotor, const Acting *end, double h, double state[], double work[]);
 
 #endif

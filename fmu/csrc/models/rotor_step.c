@@ -1,210 +1,387 @@
-/* Steps of a rotor by the generalised-alpha method, everything linear condensed onto the journal: reduced_models.rotor
- * time_step (`Steps`, `steps_of`) and integrate_python. Both axes have the same masses and springs, so that what is a matrix of all
- * degrees of freedom there is one of disc and journal here. */
+/* Steps of a rotor by the generalised-alpha method (Chung and Hulbert 1993), everything linear condensed onto the points at which
+ * supports act: reduced_models.rotor time_step, integrate_compiled. See rotor.h. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
+#include "linear_equations.h"
 #include "rotor.h"
 
-static const double rho = 0.8;             /* spectral radius at infinite frequency, as simulate_rotor has it */
-static const double most_steps = 1e6;      /* inner ones in one step of the master */
-static const double by_rounding = 1e-9;    /* of an inner step, that a step of the master may be longer */
+static const double by_rounding = 16.0 * DBL_EPSILON; /* of what balances, which cannot be less */
+static const double overshoot = 2.0; /* growth of the imbalance that halves the way to the last place: a surface lands or leaves */
+static const char *const no_number = "the motion is too large for a floating-point number";
 
-static const Fault fine = {FINE, NULL};
-
-/* What a step of length h makes of the linear part. */
+/* What a step of a length makes of velocities and accelerations: gain, then what place, velocity and acceleration at the start
+ * make of them at the end. */
 typedef struct {
-    double h, alpha_m, alpha_f, weight;
-    double velocity, velocity_0, velocity_a;             /* v' = velocity (d' - d) + velocity_0 v + velocity_a a */
-    double acceleration, acceleration_v, acceleration_a; /* a' = acceleration (d' - d) - acceleration_v v - ... a */
-    double inverse[2][2];                                /* of the matrix of disc and journal */
-    double D;
-} Condensed;
+    double alpha_m, alpha_f, weight, velocity[4], acceleration[4];
+} Method;
 
-static Condensed condense(const double value[], double h)
+typedef char method_is_numbers[sizeof(Method) == METHOD_NUMBERS * sizeof(double) ? 1 : -1];
+
+static Method method_of(double rho, double h)
 {
     const double alpha_m = (2.0 * rho - 1.0) / (rho + 1.0), alpha_f = rho / (rho + 1.0);
-    const double gamma = 0.5 - alpha_m + alpha_f, ratio = 1.0 - alpha_m + alpha_f, beta = 0.25 * ratio * ratio;
-    double inertia, spring, disc, journal, per_det;
+    const double gamma = 0.5 - alpha_m + alpha_f, twice = 1.0 - alpha_m + alpha_f, beta = 0.25 * twice * twice, ratio = gamma / beta;
+    Method m;
+    m.alpha_m = alpha_m;
+    m.alpha_f = alpha_f;
+    m.weight = 1.0 - alpha_f;
+    m.velocity[0] = ratio / h;
+    m.velocity[1] = -m.velocity[0];
+    m.velocity[2] = 1.0 - ratio;
+    m.velocity[3] = h * (1.0 - 0.5 * ratio);
+    m.acceleration[0] = 1.0 / (beta * h * h);
+    m.acceleration[1] = -m.acceleration[0];
+    m.acceleration[2] = -1.0 / (beta * h);
+    m.acceleration[3] = 1.0 - 0.5 / beta;
+    return m;
+}
+
+/* The linear part of a step, in the state: of which length and speed, factors (without gyroscopic forces the inverse), responses to forces on the points, and the
+ * stiffness of the points, (points, points). */
+typedef struct {
+    Method *method;
+    double *h, *omega, *factors, *pivot, *columns, *D;
+} Condensed;
+
+static Condensed condensed(const Rotor *r, double state[])
+{
+    const size_t n = (size_t)r->freedoms, p = (size_t)r->points;
     Condensed c;
-    c.h = h;
-    c.alpha_m = alpha_m;
-    c.alpha_f = alpha_f;
-    c.weight = 1.0 - alpha_f;
-    c.velocity = gamma / (beta * h);
-    c.velocity_0 = 1.0 - gamma / beta;
-    c.velocity_a = h * (1.0 - 0.5 * gamma / beta);
-    c.acceleration = 1.0 / (beta * h * h);
-    c.acceleration_v = c.acceleration * h;
-    c.acceleration_a = 0.5 / beta - 1.0;
-    inertia = (1.0 - alpha_m) * c.acceleration;
-    spring = c.weight * (c.velocity * value[VR_shaft_damping] + value[VR_shaft_stiffness]);
-    disc = inertia * value[VR_disc_mass] + c.weight * c.velocity * value[VR_disc_damping];
-    journal = inertia * value[VR_journal_mass];
-    per_det = 1.0 / (disc * journal + spring * (disc + journal)); /* nothing cancels */
-    c.inverse[0][0] = (journal + spring) * per_det;
-    c.inverse[0][1] = c.inverse[1][0] = spring * per_det;
-    c.inverse[1][1] = (disc + spring) * per_det;
-    c.D = 1.0 / c.inverse[1][1];
+    c.h = state + rotor_layout(r).step;
+    c.omega = c.h + 1;
+    c.method = (Method *)(void *)(c.h + 2);
+    c.factors = c.h + 2 + METHOD_NUMBERS;
+    c.pivot = c.factors + n * n;
+    c.columns = c.pivot + n;
+    c.D = c.columns + p * n;
     return c;
 }
 
-/* Force of shaft and dampers on disc and journal along an axis. */
-static void pulled(const double value[], const double d[], const double v[], int k, double force[2])
+/* Room of a step, behind that of the supports. */
+typedef struct {
+    double *place, *inertial, *damped, *more, *r, *free, *history, *off, *step, *velocity, *carried, *pivot, *slopes, *system;
+} Room;
+
+static Room room(const Rotor *r, double work[])
 {
-    const double pull = rotor_shaft(value, d, v, k);
-    force[0] = pull - value[VR_disc_damping] * v[DISC + k];
-    force[1] = -pull;
+    const size_t n = (size_t)(r->freedoms + r->held), p = (size_t)r->points, m = (size_t)r->motions;
+    Room room;
+    int i;
+    for (i = 0; i < r->supports; i++) {
+        work += r->support[i]->work;
+    }
+    room.place = work + 3 * m + 2 * m * m;
+    room.inertial = room.place + n;
+    room.damped = room.inertial + n;
+    room.more = room.damped + n;
+    room.r = room.more + n;
+    room.free = room.r + p;
+    room.history = room.free + p;
+    room.off = room.history + p;
+    room.step = room.off + p;
+    room.velocity = room.step + p;
+    room.carried = room.velocity + p;
+    room.pivot = room.carried + p;
+    room.slopes = room.pivot + p;
+    room.system = room.slopes + p * p;
+    return room;
 }
 
-/* Size of the forces at work: what an imbalance is measured by. */
-static double size_of(const double value[], const double applied[], const double carried[])
+static double product(const double row[], const double x[], int n)
 {
-    double most = 0.0;
+    double sum = 0.0;
     int k;
-    for (k = 0; k < AXES; k++) {
-        const double shaft = value[VR_shaft_stiffness] * (value[POSITION + DISC + k] - value[POSITION + JOURNAL + k]);
-        most = fmax(most, fmax(fabs(shaft), fabs(carried[k])));
-        most = fmax(most, fmax(fabs(applied[DISC + k]), fabs(applied[JOURNAL + k])));
+    for (k = 0; k < n; k++) {
+        sum += row[k] * x[k];
+    }
+    return sum;
+}
+
+static const char *condense(const Rotor *r, const Method *m, double h, double omega, double state[], const Room *room)
+{
+    const Condensed c = condensed(r, state);
+    const int n = r->freedoms, p = r->points;
+    const double inertial = (1.0 - m->alpha_m) * m->acceleration[0] * r->mass, damped = m->weight * m->velocity[0];
+    int i, j, k;
+    for (i = 0; i < n * n; i++) {
+        const double turned = r->G == NULL ? 0.0 : r->mass * omega * r->G[i];
+        c.factors[i] = inertial * r->M[i] + damped * (r->damping * r->C[i] + turned) + m->weight * r->stiffness * r->K[i];
+    }
+    *c.h = 0.0;
+    if (!(isfinite(m->acceleration[0]) && factorise(n, c.factors, c.pivot))) {
+        return "the step size is too small for the rotor";
+    }
+    for (j = 0; j < p; j++) {
+        memcpy(&c.columns[j * n], &r->B[j * n], (size_t)n * sizeof c.columns[0]);
+        substitute(n, c.factors, c.pivot, &c.columns[j * n]);
+    }
+    for (j = 0; j < p; j++) {
+        for (k = 0; k < p; k++) {
+            room->slopes[j * p + k] = product(&r->B[j * n], &c.columns[k * n], n);
+        }
+    }
+    if (!factorise(p, room->slopes, room->pivot)) {
+        return "supports act on points that move as one";
+    }
+    for (k = 0; k < p; k++) {
+        for (j = 0; j < p; j++) {
+            room->off[j] = j == k ? 1.0 : 0.0;
+        }
+        substitute(p, room->slopes, room->pivot, room->off);
+        for (j = 0; j < p; j++) {
+            c.D[j * p + k] = room->off[j];
+        }
+    }
+    if (r->G == NULL) { /* the same for all steps of this length: products in place of substitutions */
+        invert(n, c.factors, c.pivot, room->place, room->system);
+        memcpy(c.factors, room->system, (size_t)(n * n) * sizeof c.factors[0]);
+    }
+    *c.h = h;
+    *c.omega = omega;
+    return NULL;
+}
+
+/* Places at the end of a step without forces of the supports there. */
+static void free_place(const Rotor *r, const Method *m, double omega, const double applied[], double state[], const Room *room)
+{
+    const RotorLayout at = rotor_layout(r);
+    const Condensed c = condensed(r, state);
+    const double *d = state + at.place, *v = state + at.velocity, *a = state + at.acceleration;
+    const int n = r->freedoms;
+    double *place = room->place;
+    int i;
+    for (i = 0; i < n; i++) {
+        const double late = m->velocity[1] * d[i] + m->velocity[2] * v[i] + m->velocity[3] * a[i];
+        const double history = m->acceleration[1] * d[i] + m->acceleration[2] * v[i] + m->acceleration[3] * a[i];
+        room->inertial[i] = (1.0 - m->alpha_m) * history + m->alpha_m * a[i];
+        room->damped[i] = m->weight * late + m->alpha_f * v[i];
+        room->more[i] = m->alpha_f * d[i];
+        place[i] = m->weight * applied[i] + m->alpha_f * state[at.applied + (size_t)i];
+    }
+    rotor_take(r, state + at.carried, m->alpha_f, place);
+    rotor_resist(r, omega, room->more, room->damped, place);
+    for (i = 0; i < n; i++) {
+        place[i] -= r->mass * product(&r->M[i * n], room->inertial, n);
+    }
+    if (r->G != NULL) {
+        substitute(n, c.factors, c.pivot, place);
+        return;
+    }
+    memcpy(room->more, place, (size_t)n * sizeof place[0]);
+    for (i = 0; i < n; i++) {
+        place[i] = product(&c.factors[i * n], room->more, n);
+    }
+}
+
+/* What an imbalance is measured by. */
+static double size_of(const Rotor *r, const double applied[], const double state[])
+{
+    const RotorLayout at = rotor_layout(r);
+    double most = r->floor;
+    int i;
+    for (i = 0; i < r->freedoms; i++) {
+        most = fmax(most, fmax(fabs(applied[i]), fabs(state[at.applied + (size_t)i])));
+    }
+    for (i = 0; i < r->points; i++) {
+        most = fmax(most, fabs(state[at.carried + (size_t)i]));
     }
     return most;
 }
 
-/* One step to the applied forces at its end; states, accelerations and contacts go there. */
-static const char *advance(Model *m, const Condensed *c, const double applied[])
+/* Newton's method for D (r - free) + weight F = 0 from r; the points' rates are gain r + history. */
+static const char *balance(const Rotor *r, const Method *m, double size, double state[], double work[], const Room *room)
 {
-    double *value = m->value, *d = &value[POSITION], *v = &value[VELOCITY];
-    double *a = &m->cache[ACCELERATION], *before = &m->cache[APPLIED], *carried = &m->cache[CARRIED];
-    double free[FREEDOMS], v_history[FREEDOMS], a_history[FREEDOMS], q[AXES], now_carried[AXES];
-    Balance balance;
-    const char *reason;
-    int i, k;
-    for (i = 0; i < FREEDOMS; i++) {
-        v_history[i] = -c->velocity * d[i] + c->velocity_0 * v[i] + c->velocity_a * a[i];
-        a_history[i] = -c->acceleration * d[i] - c->acceleration_v * v[i] - c->acceleration_a * a[i];
-    }
-    for (k = 0; k < AXES; k++) {
-        static const double nowhere[FREEDOMS] = {0.0};
-        const double masses[2] = {value[VR_disc_mass], value[VR_journal_mass]};
-        double late[2], soon[2], right[2];
-        pulled(value, d, v, k, late);
-        pulled(value, nowhere, v_history, k, soon);
-        late[1] -= carried[k];
-        for (i = 0; i < 2; i++) {
-            const int f = i * AXES + k;
-            right[i] = c->weight * (applied[f] + soon[i]) + c->alpha_f * (before[f] + late[i])
-                       - masses[i] * (c->alpha_m * a[f] + (1.0 - c->alpha_m) * a_history[f]);
+    enum { MOST = 30 };
+    const Condensed c = condensed(r, state);
+    const int p = r->points;
+    double previous = HUGE_VAL;
+    int n, i, k;
+    memset(room->step, 0, (size_t)p * sizeof room->step[0]);
+    for (n = 0; n < MOST; n++) {
+        double error = 0.0, noise = 0.0;
+        const char *reason;
+        for (i = 0; i < p; i++) {
+            room->velocity[i] = m->velocity[0] * room->r[i] + room->history[i];
         }
-        free[DISC + k] = c->inverse[0][0] * right[0] + c->inverse[0][1] * right[1];
-        free[JOURNAL + k] = c->inverse[1][0] * right[0] + c->inverse[1][1] * right[1];
-        balance.free[k] = free[JOURNAL + k];
-        balance.history[k] = v_history[JOURNAL + k];
-        q[k] = d[JOURNAL + k] + c->h * (v[JOURNAL + k] + 0.5 * c->h * a[JOURNAL + k]);
-    }
-    balance.D = c->D;
-    balance.weight = c->weight;
-    balance.gain = c->velocity;
-    balance.load = size_of(value, applied, carried);
-    reason = contacts_balance(m, &balance, c->h, q, now_carried);
-    if (reason != NULL) {
-        return reason;
-    }
-    for (k = 0; k < AXES; k++) {
-        const double moved = c->D * (q[k] - free[JOURNAL + k]);
-        d[DISC + k] = free[DISC + k] + c->inverse[0][1] * moved;
-        d[JOURNAL + k] = q[k];
-        carried[k] = now_carried[k];
-    }
-    for (i = 0; i < FREEDOMS; i++) {
-        v[i] = c->velocity * d[i] + v_history[i];
-        a[i] = c->acceleration * d[i] + a_history[i];
-        before[i] = applied[i];
-        if (!(isfinite(d[i]) && isfinite(v[i]) && isfinite(a[i]))) {
-            return "the motion is too large for a floating-point number";
+        reason = supports_press(r, state, work, room->r, room->velocity, room->carried);
+        if (reason != NULL) {
+            return reason;
+        }
+        for (i = 0; i < p; i++) {
+            room->off[i] = m->weight * room->carried[i];
+            for (k = 0; k < p; k++) {
+                const double stiffness = c.D[i * p + k];
+                room->off[i] += stiffness * (room->r[k] - room->free[k]);
+                noise = fmax(noise, fabs(stiffness) * fmax(fabs(room->r[k]), fabs(room->free[k])));
+            }
+            error += room->off[i] * room->off[i];
+        }
+        error = sqrt(error);
+        if (!isfinite(error)) {
+            return no_number;
+        }
+        if (error <= r->balanced * size + by_rounding * noise) {
+            return NULL;
+        }
+        if (error > overshoot * previous) {
+            for (i = 0; i < p; i++) {
+                room->step[i] *= 0.5;
+                room->r[i] -= room->step[i];
+            }
+            continue;
+        }
+        previous = error;
+        supports_slopes(r, work, m->velocity[0], room->slopes);
+        for (i = 0; i < p * p; i++) {
+            room->slopes[i] = c.D[i] + m->weight * room->slopes[i];
+        }
+        if (!factorise(p, room->slopes, room->pivot)) {
+            break;
+        }
+        for (i = 0; i < p; i++) {
+            room->step[i] = -room->off[i];
+        }
+        substitute(p, room->slopes, room->pivot, room->step);
+        for (i = 0; i < p; i++) {
+            room->r[i] += room->step[i];
         }
     }
-    return rotor_mounts(m);
+    return "the forces of the supports find no balance: a shorter inner_step can help";
 }
 
-/* Inputs at a time t within a step, of which `end` is the last. */
-static void inputs_at(const Motion *motion, double t, int end, double inputs[])
+/* To the end of a step, where the points are at room->r under the forces room->carried. */
+static const char *move_on(const Rotor *r, const Method *m, const double applied[], double state[], const Room *room)
 {
-    int k;
-    for (k = 0; k < N_INPUTS; k++) {
-        const Path *p = &motion->input[k];
-        inputs[k] = end ? p->end : p->start + t * (p->slope + 0.5 * t * p->bend);
-    }
-}
-
-/* Accelerations at the start of a step. They go on from the last one, but for the jump of the applied forces. */
-static void begin(Model *m, const Motion *motion)
-{
-    const double *value = m->value;
-    double *a = &m->cache[ACCELERATION], *before = &m->cache[APPLIED], *carried = &m->cache[CARRIED];
-    double inputs[N_INPUTS], applied[FREEDOMS];
-    int k;
-    inputs_at(motion, 0.0, 0, inputs);
-    rotor_applied(value, inputs, value[ANGLE], applied);
-    if (m->cache[MOVING] == 0.0) {
-        contacts_carried(value, carried);
-        rotor_accelerations(value, applied, carried, a);
-    } else {
-        for (k = 0; k < AXES; k++) {
-            a[DISC + k] += (applied[DISC + k] - before[DISC + k]) / value[VR_disc_mass];
-            a[JOURNAL + k] += (applied[JOURNAL + k] - before[JOURNAL + k]) / value[VR_journal_mass];
+    const RotorLayout at = rotor_layout(r);
+    const Condensed c = condensed(r, state);
+    double *d = state + at.place, *v = state + at.velocity, *a = state + at.acceleration, *past = state + at.past;
+    const int n = r->freedoms, p = r->points;
+    int i, j, finite = 1;
+    for (j = 0; j < p; j++) {
+        const double push = m->weight * room->carried[j];
+        for (i = 0; i < n; i++) {
+            room->place[i] -= push * c.columns[j * n + i];
         }
     }
-    memcpy(before, applied, sizeof applied);
-    m->cache[MOVING] = 1.0;
+    for (i = 0; i < n; i++) {
+        const double old = d[i], rate = v[i], new = room->place[i];
+        d[i] = new;
+        v[i] = m->velocity[0] * new + (m->velocity[1] * old + m->velocity[2] * rate + m->velocity[3] * a[i]);
+        a[i] = m->acceleration[0] * new + m->acceleration[1] * old + m->acceleration[2] * rate + m->acceleration[3] * a[i];
+        state[at.applied + (size_t)i] = applied[i];
+        finite &= isfinite(d[i]) && isfinite(v[i]) && isfinite(a[i]);
+    }
+    memmove(past + p, past, 2 * (size_t)p * sizeof past[0]);
+    memcpy(past, room->r, (size_t)p * sizeof past[0]);
+    memcpy(state + at.carried, room->carried, (size_t)p * sizeof past[0]);
+    return finite ? NULL : no_number;
+}
+
+/* ---- the shaft ---- */
+
+/* Speed at the end of a step. What resists goes on as in the last two steps, and holds a shaft that stands; with supports inside
+ * a shaft does not turn backwards. */
+static double speed_after(const Rotor *r, const Acting *end, double h, const double shaft[])
+{
+    const double omega = shaft[SHAFT_SPEED], inertia = r->mass * r->inertia;
+    double drive, drag, after;
+    if (r->inertia == 0.0) {
+        return end->omega;
+    }
+    drive = end->torque - 1.5 * shaft[SHAFT_RESISTED] + 0.5 * shaft[SHAFT_RESISTED + 1];
+    drag = end->drag;
+    after = omega + h * (drive - (omega > 0.0 || (omega == 0.0 && drive > 0.0) ? drag : -drag)) / inertia;
+    if (drag > 0.0 && fabs(drive) <= drag && after * omega <= 0.0) {
+        after = 0.0;
+    }
+    return r->supports > 0 ? fmax(after, 0.0) : after;
 }
 
 /* Adds to the angle, which must not lose a little in every step. */
-static void turn(Model *m, double by)
+static void turn(double shaft[], double by)
 {
-    const double old = m->value[ANGLE], more = by + m->cache[ANGLE_REST];
-    m->value[ANGLE] = old + more;
-    m->cache[ANGLE_REST] = more - (m->value[ANGLE] - old);
+    const double old = shaft[SHAFT_ANGLE], more = by + shaft[SHAFT_ANGLE_REST];
+    shaft[SHAFT_ANGLE] = old + more;
+    shaft[SHAFT_ANGLE_REST] = more - (shaft[SHAFT_ANGLE] - old);
 }
 
-/* Longest step inside one. The start value of inner_step resolves the shaft of the export; where another has been set whose
- * vibration against the journal is faster, it is resolved as well. */
-static double longest_step(const double value[])
+void rotor_begin(const Rotor *r, const Acting *now, const Acting *end, double h, double state[], double work[])
 {
-    const double omega = sqrt(value[VR_shaft_stiffness] * (1.0 / value[VR_disc_mass] + 1.0 / value[VR_journal_mass]));
-    const double given = value[VR_inner_step];
-    return given == DEFAULT_INNER_STEP ? fmin(given, SHAFT_STEP / omega) : given;
-}
-
-Fault model_step(Model *m, const Motion *motion, double h, double tolerance)
-{
-    const double count = ceil(h / longest_step(m->value) - by_rounding);
-    double inputs[N_INPUTS], applied[FREEDOMS];
-    double omega = motion->input[VR_speed].start;
-    Model next = *m;
-    Condensed c;
-    int i, steps;
-    (void)tolerance; /* inner_step decides */
-    if (!(count <= most_steps)) {
-        return fault(DISCARD, "more than a million inner steps: take a shorter step, or a longer inner_step");
+    const RotorLayout at = rotor_layout(r);
+    const Room own = room(r, work);
+    double *shaft = state + at.shaft, *applied = own.place, *net = own.more, *before = state + at.applied;
+    int i;
+    if (shaft[SHAFT_MOVING] == 0.0) {
+        shaft[SHAFT_SPIN] = (speed_after(r, end, h, shaft) - shaft[SHAFT_SPEED]) / h;
     }
-    steps = count > 1.0 ? (int)count : 1;
-    c = condense(m->value, h / steps);
-    if (!(isfinite(c.acceleration) && isfinite(c.D))) {
-        return fault(REFUSE, "the step size is too small for the rotor");
-    }
-    begin(&next, motion);
-    for (i = 1; i <= steps; i++) {
-        const char *reason;
-        inputs_at(motion, i * c.h, i == steps, inputs);
-        turn(&next, 0.5 * c.h * (omega + inputs[VR_speed]));
-        omega = inputs[VR_speed];
-        rotor_applied(next.value, inputs, next.value[ANGLE], applied);
-        reason = advance(&next, &c, applied);
-        if (reason != NULL) {
-            return fault(DISCARD, reason);
+    rotor_applied(r, now->given, now->unbalance, shaft[SHAFT_ANGLE], shaft[SHAFT_SPEED], shaft[SHAFT_SPIN], applied);
+    if (shaft[SHAFT_MOVING] == 0.0) {
+        memcpy(net, applied, (size_t)r->freedoms * sizeof net[0]);
+        rotor_resist(r, shaft[SHAFT_SPEED], state + at.place, state + at.velocity, net);
+        rotor_take(r, state + at.carried, 1.0, net);
+    } else {
+        for (i = 0; i < r->freedoms; i++) {
+            net[i] = applied[i] - before[i];
         }
     }
-    memcpy(next.input, inputs, sizeof inputs);
-    *m = next;
-    return fine;
+    rotor_accelerate(r, net, own.damped);
+    for (i = 0; i < r->freedoms; i++) {
+        double *a = state + at.acceleration;
+        a[i] = shaft[SHAFT_MOVING] == 0.0 ? own.damped[i] : a[i] + own.damped[i];
+        before[i] = applied[i];
+    }
+    shaft[SHAFT_MOVING] = 1.0;
+}
+
+const char *rotor_step(const Rotor *r, const Acting *end, double h, double state[], double work[])
+{
+    const RotorLayout at = rotor_layout(r);
+    const Condensed c = condensed(r, state);
+    const Room own = room(r, work);
+    const Method *m = c.method;
+    double *shaft = state + at.shaft, *past = state + at.past;
+    const double omega = shaft[SHAFT_SPEED], after = speed_after(r, end, h, shaft), middle = 0.5 * (omega + after);
+    const int n = r->freedoms, p = r->points;
+    const char *reason = NULL;
+    int j;
+    if (!(after >= 0.0) && r->supports > 0) {
+        return "speed must be >= 0 rad/s";
+    }
+    shaft[SHAFT_SPIN] = (after - omega) / h;
+    turn(shaft, 0.5 * h * (omega + after));
+    shaft[SHAFT_SPEED] = after;
+    if (*c.h != h || (r->G != NULL && *c.omega != middle)) {
+        *c.method = method_of(r->rho, h);
+        reason = condense(r, m, h, middle, state, &own);
+    }
+    if (reason == NULL) {
+        double *applied = own.system; /* which rest alone uses otherwise */
+        rotor_applied(r, end->given, end->unbalance, shaft[SHAFT_ANGLE], after, shaft[SHAFT_SPIN], applied);
+        free_place(r, m, middle, applied, state, &own);
+        for (j = 0; j < p; j++) {
+            const double *row = &r->B[j * n];
+            own.free[j] = product(row, own.place, n);
+            own.history[j] = m->velocity[1] * product(row, state + at.place, n) + m->velocity[2] * product(row, state + at.velocity, n)
+                             + m->velocity[3] * product(row, state + at.acceleration, n);
+            own.r[j] = 3.0 * (past[j] - past[p + j]) + past[2 * p + j];
+        }
+        if (p > 0) {
+            supports_begin(r, state, work, h, after);
+            reason = balance(r, m, size_of(r, applied, state), state, work, &own);
+        }
+        if (reason == NULL && p > 0) {
+            reason = supports_accept(r, state, work);
+        }
+        if (reason == NULL) {
+            reason = move_on(r, m, applied, state, &own);
+        }
+    }
+    if (r->inertia != 0.0) {
+        shaft[SHAFT_RESISTED + 1] = shaft[SHAFT_RESISTED];
+        shaft[SHAFT_RESISTED] = supports_torque(r, state)
+                                + rotor_slowed(r, end->unbalance, shaft[SHAFT_ANGLE], state + at.acceleration);
+    }
+    return reason;
 }

@@ -12,7 +12,7 @@ from reduced_models import JeffcottRotor
 def names_of(rotor: JeffcottRotor) -> list[str]:
     """Positions and velocities, as `motion_of` has them."""
     axes = [("x", "y")[k] for k in rotor.axes]
-    return [f"{body}{what}_{axis}" for what in ("", "_velocity") for body in ("disc", "journal") for axis in axes]
+    return [f"{body}.{what}{axis}" for what in ("", "velocity_") for body in ("disc", "journal") for axis in axes]
 
 
 @pytest.fixture

@@ -22,10 +22,19 @@ def status_of(call, *arguments, **named):
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("unbalance", np.nan), ("speed", np.inf), ("inner_step", 0.0), ("inner_step", 1e-15), ("inner_step", np.nan),
-     ("journal_x", np.nan), ("disc_velocity_y", np.inf), ("disc_mass", 0.0), ("journal_mass", -1.0),
-     ("shaft_stiffness", np.nan), ("shaft_damping", -1.0), ("disc_damping", np.inf)],
-)  # fmt: skip
+    [
+        ("unbalance[1]", np.nan),
+        ("speed", np.inf),
+        *(("inner_step", value) for value in (0.0, 1e-15, np.nan)),
+        ("journal.x", np.nan),
+        ("disc.velocity_y", np.inf),
+        ("disc_mass", 0.0),
+        ("journal_mass", -1.0),
+        ("shaft_stiffness", np.nan),
+        ("shaft_damping", -1.0),
+        ("disc_damping", np.inf),
+    ],
+)
 def test_impossible_settings_are_refused_at_the_start(instance, name, value):
     slave = instance("mixed")
     assert status_of(slave.start, force_lead=0.0, **{name: value}) == ERROR
@@ -34,17 +43,17 @@ def test_impossible_settings_are_refused_at_the_start(instance, name, value):
 def test_a_refused_step_changes_nothing(instance):
     slave = started(instance)
     slave.step(1e-5)
-    before = slave.get("journal_x", "journal_y", "force[1]", "angle")
+    before = slave.get("journal.x", "journal.y", "contact[1].force", "angle")
     for name, value, expected in (
         ("speed", np.inf, ERROR),
-        ("disc_force_x", np.nan, ERROR),
-        ("disc_force_x", 1e305, DISCARD),
+        ("disc.force_x", np.nan, ERROR),
+        ("disc.force_x", 1e305, DISCARD),
     ):
         kept = slave.get(name)[0]
         slave.set(**{name: value})
         assert status_of(slave.step, 1e-5) == expected
         slave.set(**{name: kept})
-        assert slave.get("journal_x", "journal_y", "force[1]", "angle") == before
+        assert slave.get("journal.x", "journal.y", "contact[1].force", "angle") == before
     slave.step(1e-5)
     for h, expected in ((0.0, ERROR), (-1e-5, ERROR), (1e6, DISCARD)):  # a million inner steps, and not one more
         assert status_of(slave.step, h) == expected
@@ -53,14 +62,14 @@ def test_a_refused_step_changes_nothing(instance):
 def test_states_and_fixed_parameters_are_not_set_on_the_way(instance):
     slave = started(instance)
     slave.step(1e-5)
-    for name in ("journal_x", "inner_step", "disc_mass", "force[1]"):
+    for name in ("journal.x", "inner_step", "disc_mass", "contact[1].force"):
         assert status_of(slave.set, **{name: 1e-5}) == ERROR
 
 
-def run(slave, steps, h=1e-5, names=("disc_x", "journal_y", "force[1]", "contact[1].q[3]", "angle")):
+def run(slave, steps, h=1e-5, names=("disc.x", "journal.y", "contact[1].force", "contact[1].q[3]", "angle")):
     found = []
     for k in range(steps):
-        slave.set(disc_force_y=100.0 * np.sin(0.1 * k))
+        slave.set(**{"disc.force_y": 100.0 * np.sin(0.1 * k)})
         slave.step(h * (1.0 + 0.5 * (k % 2)))
         found.append(slave.get(*names))
     return np.array(found)
@@ -87,11 +96,11 @@ def test_reading_changes_nothing(instance):
     found = []
     for slave in (one, other):
         for k in range(100):
-            slave.set(journal_force_x=50.0 * np.sin(0.2 * k))
+            slave.set(**{"journal.force_x": 50.0 * np.sin(0.2 * k)})
             if slave is one:
-                slave.get("force[1]", "approach[2]")
+                slave.get("contact[1].force", "contact[2].approach")
             slave.step(1e-5)
-        found.append(slave.get("journal_x", "journal_y", "disc_x", "angle"))
+        found.append(slave.get("journal.x", "journal.y", "disc.x", "angle"))
     assert found[0] == found[1]
 
 
@@ -101,9 +110,9 @@ def test_instances_do_not_know_of_each_other(instance):
     mixed = [[], []]
     for k in range(50):
         for slave, found in zip(pair, mixed, strict=True):
-            slave.set(disc_force_y=100.0 * np.sin(0.1 * k))
+            slave.set(**{"disc.force_y": 100.0 * np.sin(0.1 * k)})
             slave.step(1e-5 * (1.0 + 0.5 * (k % 2)))
-            found.append(slave.get("disc_x", "journal_y", "force[1]", "contact[1].q[3]", "angle"))
+            found.append(slave.get("disc.x", "journal.y", "contact[1].force", "contact[1].q[3]", "angle"))
     assert all(np.array_equal(found, alone) for found in mixed)
 
 
@@ -111,7 +120,7 @@ def test_instances_do_not_know_of_each_other(instance):
 def test_one_contact_outside_is_enough(instance, push):
     """Whichever it is; the flags of the contacts say so too."""
     slave = started(instance, "cubic")
-    slave.set(journal_force_x=push)
+    slave.set(**{"journal.force_x": push})
     seen = set()
     for _ in range(60):
         slave.step(2e-6)
@@ -130,7 +139,7 @@ def test_the_log_names_the_contact_that_left_its_box(unit):
     slave = Slave(one.folder, one.description, messages)
     slave.raw.fmi2SetDebugLogging(slave.raw.component, True, 0, None)
     slave.start(force_lead=0.0)
-    slave.set(journal_force_x=3e3)
+    slave.set(**{"journal.force_x": 3e3})
     for _ in range(40):
         slave.step(1e-5)
     told = [message for message in messages if "validity box" in message]
@@ -144,7 +153,7 @@ def test_event_mode_tells_of_a_lost_contact(instance, unit):
 
     one = unit("cubic", 3)
     slave = Slave(one.folder, one.description, [], eventModeUsed=True, earlyReturnAllowed=True)
-    slave.set(journal_force_y=6e3)
+    slave.set(**{"journal.force_y": 6e3})
     slave.raw.enterInitializationMode()
     slave.raw.exitInitializationMode()
     slave.time = 0.0
@@ -154,7 +163,7 @@ def test_event_mode_tells_of_a_lost_contact(instance, unit):
         event, _, early, last = slave.step(1e-5)
         if event:
             break
-    forces = slave.get("force[1]", "force[2]")
+    forces = slave.get("contact[1].force", "contact[2].force")
     slave.free()
     assert event and early and last == slave.time and 0.0 < min(1.0, last)
     assert min(forces) == 0.0

@@ -83,10 +83,10 @@ def test_every_partial_derivative_against_differences(instance, rotors, name, fm
     sizes = dict(
         zip(states, [1e-6] * (count // 2) + [1e-2] * (count // 2) + [1.0] * (x0.size - count), strict=True)
     )
-    turning = {"unbalance": 1e-4, "speed": 1e2, "angular_acceleration": 1e4}
+    turning = {"unbalance[1]": 1e-4, "speed": 1e2, "angular_acceleration": 1e4}
     sizes |= dict.fromkeys(inputs, load) | turning
     base = dict(zip(states, x0, strict=True)) | dict.fromkeys(inputs, 0.1 * load)
-    base |= {"unbalance": 3e-5, "speed": 700.0, "angular_acceleration": 3e4}
+    base |= {"unbalance[1]": 3e-5, "speed": 700.0, "angular_acceleration": 3e4}
 
     def ask(values):
         rates = unit.place(np.array([values[n] for n in states]), **{n: values[n] for n in inputs})
@@ -120,7 +120,7 @@ def test_adjoint_is_the_transpose(instance, rotors):
     unit, states, x0 = started(instance, "mixed", 3)
     unit.place(x0)
     unknowns = [unit.reference[v.variable.name] for v in unit.description.derivatives]
-    knowns = [unit.reference[name] for name in (*states, "disc_force_x", "unbalance")]
+    knowns = [unit.reference[name] for name in (*states, "disc.force_x", "unbalance[1]")]
     columns = np.array([unit.raw.getDirectionalDerivative(unknowns, [known], [1.0]) for known in knowns]).T
     rows = np.array(
         [
@@ -141,12 +141,12 @@ def test_one_event_indicator_for_each_contact(instance, rotors, fmi):
     def indicators(x):
         unit.place(x)
         get(found.ctypes.data_as(POINTER(c_double)), found.size)
-        return found.copy(), np.array(unit.get("force[1]", "force[2]"))
+        return found.copy(), np.array(unit.get("contact[1].force", "contact[2].force"))
 
     pushing, force = indicators(x0)
     assert (pushing > 0.0).all() and pushing == pytest.approx(force)
     aside = x0.copy()
-    aside[states.index("journal_x")] += 5e-5
+    aside[states.index("journal.x")] += 5e-5
     pushing, force = indicators(aside)
     assert sorted(np.sign(pushing)) == [-1.0, 1.0] and (np.sign(pushing) == np.where(force > 0.0, 1.0, -1.0)).all()
     alone, _, _ = started(instance, "alone", fmi)
@@ -158,11 +158,11 @@ def test_the_tolerance_that_it_proposes_keeps_the_orbit(elements, tmp_path):
     """An orbit of some 30 nm by fmpy, which takes the tolerance of the FMU; a hundred times that would not do."""
     rotor = JeffcottRotor.vertical(load=(0.0, WEIGHT - BALL), unbalance=2e-6, speed_rpm=8000.0, **BODIES)
     path = export(rotor, tmp_path / "x.fmu", contacts=[elements["wide_si"]])
-    asked = {"stop_time": 0.005, "output": ["journal_y"], "output_interval": 2e-5}
+    asked = {"stop_time": 0.005, "output": ["journal.y"], "output_interval": 2e-5}
 
     def journal(**more):
         found = fmpy.simulate_fmu(str(path), **asked, **more)
-        return np.interp(np.arange(0.001, 0.005, 2e-5), found["time"], found["journal_y"])
+        return np.interp(np.arange(0.001, 0.005, 2e-5), found["time"], found["journal.y"])
 
     exact = journal(fmi_type="CoSimulation")
     gaps = [

@@ -7,13 +7,11 @@ from xml.etree import ElementTree
 import fmpy
 import numpy as np
 import pytest
-from exported import given, verified
+from exported import Jeffcott, given, model_of, verified
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from fmu import VerificationError, export, sources, verify
-from fmu.jeffcott.model import JeffcottModel
-from fmu.jeffcott.variables import jeffcott_spec
 from reduced_models import OutsideValidityWarning, ScaledContact, simulate_rotor
 from reduced_models.rotor.jeffcott import RotorState
 
@@ -86,14 +84,19 @@ def altered(monkeypatch, tmp_path, file, old, new):
 @pytest.mark.parametrize(
     ("name", "file", "old", "new"),
     [
-        ("alone", "rotor_step.c", "rho = 0.8;", "rho = 0.9;"),
+        ("alone", "model_rotor.c", "r.rho = 0.8;", "r.rho = 0.9;"),
         pytest.param(
-            *("alone", "model_rotor.c", "carried[k] += BEARINGS * force", "carried[k] += force"),
+            *("cubic", "rotor_supports.c", "push = r->count[i] * force[i]", "push = force[i]"),
             marks=pytest.mark.slow,
         ),
-        ("wide in y", "rotor_contacts.c", "motion.start_rate = before", "motion.start_rate = 0.0 * before"),
+        ("wide in y", "contact_law.c", "VR_rate].start = before", "VR_rate].start = 0.0 * before"),
         pytest.param(
-            *("cubic", "model_rotor.c", "- pull - carried[k]) / m->value", "- pull + carried[k]) / m->value"),
+            *(
+                "cubic",
+                "model_rotor.c",
+                "rotor_take(&r, numbers + at.carried, 1.0, net)",
+                "rotor_take(&r, numbers + at.carried, -1.0, net)",
+            ),
             marks=pytest.mark.slow,
         ),
     ],
@@ -113,8 +116,8 @@ def test_verification_tells_another_rotor(unit, rotors):
     assert verified(one.path, one.model).passes
     rotor = one.model.rotor
     for other in (replace(rotor, shaft_stiffness=1.001 * rotor.shaft_stiffness), replace(rotor, bearings=3)):
-        assert not verified(one.path, JeffcottModel(other, one.model.contacts, one.model.state)).passes
-    with pytest.raises(InputError, match=r"must be an FMU of .*its contacts outside.; it is one of"):
+        assert not verified(one.path, Jeffcott(other, one.model.contacts, one.model.state)).passes
+    with pytest.raises(InputError, match=r"must be an FMU of .*2 supports outside.; it is one of"):
         verified(one.path, rotors["alone"])
     with pytest.raises(
         InputError, match=r"^contacts = None: must be one per mount, 2, or outside=\('contact 1', "
@@ -127,12 +130,12 @@ def test_page_of_a_rotor_reads_well(unit):
     """What its references are is said once."""
     one = unit("mixed")
     page = zipfile.ZipFile(one.path).read("documentation/index.html").decode()
-    assert page.lower().count("from each row") == 1 and "with an unbalance that shows" in page
+    assert page.lower().count("from each row") == 1 and "unbalances grow" in page
 
 
 def test_least_inner_step_is_declared(rotors):
     """So that an importer refuses it itself, before it repeats what is refused for ever."""
-    spec = jeffcott_spec(rotors["mixed"])
+    spec = model_of(rotors["mixed"]).spec
     assert 0.0 < spec["inner_step"].minimum <= 1e-6 * spec["inner_step"].start
 
 
@@ -156,9 +159,9 @@ def test_a_start_is_where_it_begins(rotors, tmp_path):
     path = export(rotors["alone"].rotor, tmp_path / "x.fmu", outside="all", start=start)
     starts = {v.name: v.start for v in fmpy.read_model_description(str(path)).modelVariables}
     found = [
-        float(starts[f"{body}{what}_{axis}"])
+        float(starts[f"{body}.{what}{axis}"])
         for body in ("disc", "journal")
-        for what in ("", "_velocity")
+        for what in ("", "velocity_")
         for axis in "xy"
     ]
     assert found == [*start.disc, *start.disc_velocity, *start.journal, *start.journal_velocity]
@@ -169,28 +172,33 @@ def test_units_flanges_and_what_depends_on_what(unit):
     description = fmpy.read_model_description(str(unit("alone").path))
     known = {v.name: v for v in description.modelVariables}
     wanted = {
-        "journal_x": "m",
-        "disc_velocity_y": "m/s",
-        "force[1]": "N",
-        "unbalance": "kg.m",
+        "journal.x": "m",
+        "disc.velocity_y": "m/s",
+        "contact[1].force": "N",
+        "unbalance[1]": "kg.m",
         "speed": "rad/s",
     }
     assert {name: known[name].unit for name in wanted} == wanted
     by = {v.variable.name: [d.name for d in v.dependencies] for v in description.outputs}
-    assert by["journal_x"] == ["journal_x"] and by["approach[2]"] == ["journal_x", "journal_y"]  # no feedthrough
+    assert by["journal.x"] == ["journal.x"] and by["contact[2].approach"] == [
+        "journal.x",
+        "journal.y",
+    ]  # no feedthrough
     with zipfile.ZipFile(unit("alone", 3).path) as archive:
         flanges = ElementTree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml")).findall(
             ".//Terminal"
         )
     members = [[m.get("variableName") for m in flange] for flange in flanges]
-    assert members == [[f"approach[{i}]", f"rate[{i}]", f"force[{i}]"] for i in (1, 2)]
+    assert members[:2] == [[f"contact[{i}].approach", f"contact[{i}].rate", f"contact[{i}].force"] for i in (1, 2)]
     with zipfile.ZipFile(unit("wide", 3).path) as archive:
         icons = ElementTree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
-    assert not icons.findall(".//Terminal")
+    assert {flange.get("name") for flange in icons.findall(".//Terminal")} == {
+        f"{body}_{axis}" for body in ("disc", "journal") for axis in "xy"
+    }
 
 
 def test_spec_of_one_axis_names_no_other(rotors):
-    assert not any(v.name.endswith(("_x", "_x)")) for v in jeffcott_spec(rotors["wide in y"]).variables)
+    assert not any(v.name.endswith(("_x", "_x)")) for v in model_of(rotors["wide in y"]).spec.variables)
 
 
 @pytest.mark.long

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from bearing_fmus import OIL, POLAR, Exported, assert_speeds_are_reached, pressed_pair
-from exported import given, verified
+from exported import OfRotor, given, verified
 from fmpy.fmi1 import FMICallException
 
 from ehlcontact import InputError, Lubricant, OilLayer
@@ -92,13 +92,13 @@ def layered():
 
 
 MODELS = {
-    "layered": lambda: RotorModel(layered(), (2000.0, 10000.0)),
-    "let go": lambda: RotorModel(let_go(), 10000.0),
-    "flexible": lambda: RotorModel(flexible(), SPEEDS, SPEEDS[0]),
-    "motor": lambda: RotorModel(flexible(), SPEEDS, SPEEDS[0], INERTIA),
-    "rigid": lambda: RotorModel(rigid(), 6000.0),
-    "five": lambda: RotorModel(pressed_pair(), 3000.0, None, POLAR),
-    "axial": lambda: RotorModel(axial(), 3000.0),
+    "layered": lambda: OfRotor(layered(), {"speeds_rpm": (2000.0, 10000.0)}),
+    "let go": lambda: OfRotor(let_go(), {"speeds_rpm": 10000.0}),
+    "flexible": lambda: OfRotor(flexible(), {"speeds_rpm": SPEEDS, "speed_rpm": SPEEDS[0]}),
+    "motor": lambda: OfRotor(flexible(), {"speeds_rpm": SPEEDS, "speed_rpm": SPEEDS[0], "inertia": INERTIA}),
+    "rigid": lambda: OfRotor(rigid(), {"speeds_rpm": 6000.0}),
+    "five": lambda: OfRotor(pressed_pair(), {"speeds_rpm": 3000.0, "inertia": POLAR}),
+    "axial": lambda: OfRotor(axial(), {"speeds_rpm": 3000.0}),
 }
 
 
@@ -155,7 +155,7 @@ def test_a_fault_of_a_millionth_is_found(made, name):
         replace(rotor, mounts=tuple(replace(mount, bearing=stiffer) for mount in rotor.mounts)),
         replace(rotor, mass=rotor.mass * (1.0 + 1e-6)),
     ):
-        found = verified(one.path, RotorModel(faulty, one.model.speeds_rpm, one.model.speed_rpm))
+        found = verified(one.path, OfRotor(faulty, one.model.keywords))
         assert found.motion > 1e-6 and not found.passes and not found.findings
 
 
@@ -179,7 +179,7 @@ def test_is_simulate_rotor(made):
     """In a run-up of two turns whose unbalance lifts the rotor off, with one table of speeds for both."""
     one, steps = made("flexible"), 2000
     profile = SpeedProfile.ramp(*SPEEDS, STEP * steps)
-    assert one.model.bearings[0].speeds.tolist() == pytest.approx([6000.0, 7000.0])
+    assert one.model.model.bearings[0].speeds.tolist() == pytest.approx([6000.0, 7000.0])
     wanted = by_simulate_rotor(one.model.rotor, profile, steps)[:-1]  # the ramp has ended at the last of them
     found = run_up(one, profile, steps - 1)
     assert wanted[:, 7].min() < -20.0 < 20.0 < wanted[:, 7].max()  # N: pushed up, and down

@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from bearing_fmus import FIVE, OIL, POLAR, RPM, Exported, assert_speeds_are_reached, pressed_pair
-from exported import verified
+from exported import OfRotor, verified
 from fmpy.fmi1 import FMICallException
 from other_masters import ecospy, libcosimpy, ours
 from scipy.integrate import solve_ivp
 
 from ehlcontact import InputError
 from fmu import VerificationError, export, export_system, verify_references
-from fmu.shaft.model import ShaftModel
+from fmu.rotor.model import RotorModel
 from fmu.system.master import SystemRun
 from reduced_models import (
     BallBearing,
@@ -41,6 +41,11 @@ def flexible():
     )
 
 
+def shaft_of(rotor, inertia=None):
+    """The rotor, with its bearings outside."""
+    return OfRotor(rotor, {"outside": "all", "speed_rpm": RPM, "inertia": inertia})
+
+
 @pytest.fixture(scope="module")
 def rotors():
     return {"rigid": pressed_pair(), "flexible": flexible()}
@@ -66,7 +71,7 @@ def made(rotors, tmp_path_factory):
 )
 def test_verifies(made, rotors, name, inertia, fmi):
     path = made(name, inertia, fmi).path
-    found = verified(path, ShaftModel(rotors[name], RPM, inertia))
+    found = verified(path, shaft_of(rotors[name], inertia))
     assert found.passes and found.motion < 1e-9
     assert verify_references(path).passes
 
@@ -77,8 +82,8 @@ def in_continuous_time(rotor, inertia, forces, torque, until):
     In x, y and the turn of the shaft inertia is a matrix: the centre of mass moves with both.
     """
     (unbalance,), size = rotor.unbalances, rotor.size
-    model = ShaftModel(rotor, RPM, inertia)
-    push = rotor.load + sum(m.rows(size).T @ f for m, f in zip(model.stations, forces, strict=True))
+    model = shaft_of(rotor, inertia).model
+    push = rotor.load + sum(s.mount.rows(size).T @ f for s, f in zip(model.out, forces, strict=True))
 
     def rates(t, state):
         q, v, angle, omega = state[:size], state[size : 2 * size], state[-2], state[-1]
@@ -104,7 +109,7 @@ def test_motion_is_that_of_continuous_time(made, rotors):
     wanted = in_continuous_time(rotor, INERTIA, forces, torque, until)
     gaps = []
     for steps in (200, 400):
-        slave = made("rigid", INERTIA).started()
+        slave = made("rigid", INERTIA).started(inner_step=until / steps)
         slave.set(torque=torque, **{v.name: 0.0 for v in slave.description.modelVariables if "rolling" in v.name})
         names = [name for name in slave.reference if "force_" in name or "moment_" in name]
         names = [name for name in names if name.startswith("bearing")]
@@ -129,7 +134,7 @@ def test_the_speed_that_is_given_is_reached_whatever_the_lead(made, lead):
 def test_scales_are_those_of_the_matrices(made, rotors, tmp_path):
     """An FMU with its parameters set, beside one of another rotor."""
     rotor = rotors["flexible"]
-    model = ShaftModel(rotor, RPM)
+    model = shaft_of(rotor).model
     other = replace(
         rotor,
         mass=1.3 * rotor.mass,
@@ -144,7 +149,7 @@ def test_scales_are_those_of_the_matrices(made, rotors, tmp_path):
     scales = {"mass_scale": 1.3, "stiffness_scale": 0.8, "damping_scale": 2.0, "load_scale": 0.9}
     held = {f"bearing[{b}].force_{k}": float(f) for b in (1, 2) for k, f in zip("xy", (3.0, 50.0), strict=True)}
     for one, values in ((made("flexible"), scales), (Exported(path), {})):
-        slave = one.started(**held, **values)
+        slave = one.started(**held, **values, **{"disc.velocity_x": 1e-6})  # where the other starts
         for _ in range(300):
             slave.step(2e-6)
         found.append(slave.get(*names))
@@ -152,23 +157,23 @@ def test_scales_are_those_of_the_matrices(made, rotors, tmp_path):
     assert found[0] == pytest.approx(found[1], rel=1e-7)
 
 
-def test_gyroscopic_moments_do_no_work(made):
-    """Nutation of a free rotor, with steps of a tenth of its period: its size stays."""
+def test_gyroscopic_moments_add_no_energy(made):
+    """Nutation of a free rotor: steps of a 280th of its period take a little from it, and never add."""
     slave = made("rigid", None).started(load_scale=0.0)
     names = [v.name for v in slave.description.modelVariables if v.causality == "input"]
     slave.set(**dict.fromkeys(names, 0.0) | {"speed": 6.0 * RPM * RPM_TO_RAD_S, "bearing[1].moment_x": 5.0})
     slave.step(1e-5)
     slave.set(**{"bearing[1].moment_x": 0.0})
-    nutation = INERTIA / 0.01 * 6.0 * RPM * RPM_TO_RAD_S
-    first = np.hypot(*slave.get("rotor.tilt_rate_x", "rotor.tilt_rate_y"))
-    for _ in range(2000):
-        slave.step(0.1 * 2.0 * np.pi / nutation)
-    assert np.hypot(*slave.get("rotor.tilt_rate_x", "rotor.tilt_rate_y")) == pytest.approx(first, rel=1e-9)
+    sizes = []
+    for _ in range(200):
+        slave.step(1e-4)
+        sizes.append(np.hypot(*slave.get("rotor.tilt_rate_x", "rotor.tilt_rate_y")))
     slave.free()
+    assert np.all(np.diff(sizes[1:]) <= 1e-12 * sizes[1]) and sizes[-1] > (1.0 - 1e-4) * sizes[1]
 
 
 def test_rolling_torque_holds_a_shaft_that_stands(made):
-    slave = made("rigid", INERTIA).started(speed_start=0.0)
+    slave = made("rigid", INERTIA).started(speed=0.0)
     slave.set(**{"torque": 0.1, "bearing[1].rolling_torque": 0.06, "bearing[2].rolling_torque": 0.05})
     slave.step(1e-5)
     assert slave.get("speed") == [0.0]
@@ -195,14 +200,14 @@ def test_bad_parameters(made, wrong, words):
     assert words in one.messages[-1]
 
 
-def test_steps_that_are_too_long_leave_a_usable_instance(made):
+def test_a_step_that_fails_leaves_a_usable_instance(made):
     one = made("rigid", None)
     slave = one.started()
-    slave.set(**{"speed": 1e6, "bearing[1].moment_x": 1.0})
+    slave.set(**{"bearing[1].moment_x": 1e308})
     with pytest.raises(FMICallException):
         slave.step(1e-3)
-    assert "too long for the gyroscopic forces" in one.messages[-1]
-    slave.set(speed=RPM * RPM_TO_RAD_S)
+    assert "too large for a floating-point number" in one.messages[-1]
+    slave.set(**{"speed": RPM * RPM_TO_RAD_S, "bearing[1].moment_x": 0.0})
     slave.step(1e-5)
     assert np.isfinite(slave.get("rotor.x")).all()
     slave.free()
@@ -222,7 +227,7 @@ def test_bad_models(rotors, tmp_path):
         ({"rotor": rotors["rigid"], "start": 0.0}, "start"),
     ):
         with pytest.raises(InputError) as error:
-            ShaftModel(**wrong)
+            RotorModel(**{"outside": "all", **wrong})
         assert error.value.field == field
 
 
@@ -234,7 +239,7 @@ STEP, STEPS, TORQUE = 1e-5, 600, 3.0
 @pytest.fixture(scope="module")
 def drive(rotors, tmp_path_factory):
     path = tmp_path_factory.mktemp("drive") / "drive.ssp"
-    start = ShaftModel(rotors["rigid"], RPM).motion[0], np.array([0.0, 2e-3, 1e-3, 0.02, 0.0])
+    start = shaft_of(rotors["rigid"]).model.motion[0], np.array([0.0, 2e-3, 1e-3, 0.02, 0.0])
     turning = {"inertia": INERTIA, "speeds_rpm": (2000.0, 4000.0), "speed_rpm": RPM}
     export_system(rotors["rigid"], path, start=start, **turning)
     return path, start
@@ -282,6 +287,6 @@ def test_a_step_that_is_too_long_is_not_written(rotors, tmp_path):
     with pytest.raises(VerificationError, match=r"of their way off|does not run"):
         export_system(
             rotors["rigid"], tmp_path / "x.ssp", inertia=INERTIA, speeds_rpm=RPM, speed_rpm=RPM, step=4e-5,
-            start=(ShaftModel(rotors["rigid"], RPM).motion[0], np.array([0.0, 2e-3, 1e-3, 0.02, 0.0])),
+            start=(shaft_of(rotors["rigid"]).model.motion[0], np.array([0.0, 2e-3, 1e-3, 0.02, 0.0])),
         )  # fmt: skip
     assert not list(tmp_path.iterdir())

@@ -14,7 +14,7 @@ from fmu.system.master import SystemRun
 from reduced_models import JeffcottRotor, SpringContact, simulate_rotor
 
 STEP, UNTIL = 5e-6, 0.02  # s: one turn
-JOURNAL = ("journal_x", "journal_y")
+JOURNAL = ("journal.x", "journal.y")
 
 
 def ecospy_with_its_parameter_set(*run):
@@ -59,7 +59,7 @@ def test_fmi_3(system_3, upright, master):
 
 def test_it_stands_still_without_unbalance(system, tmp_path):
     """What it starts from is an equilibrium of the FMUs, not only of the Python elements."""
-    with SystemRun(system.path.read_bytes(), {"rotor": {"unbalance": 0.0}}) as run:
+    with SystemRun(system.path.read_bytes(), {"rotor": {"unbalance[1]": 0.0}}) as run:
         journal = run.run(STEP, 500, [("rotor", name) for name in JOURNAL])
     assert np.all(np.abs(journal - journal[0]) <= 1e-9 * np.abs(journal[0]).max())
 
@@ -88,9 +88,9 @@ def test_default_step_leaves_the_damping(tmp_path):
     )
     path, found = export_verified_system(system_model(rotor, contacts=[element]), tmp_path / "x.ssp")
     y, w = rotor.static_equilibrium([element]).journal[1], 1e4  # rad/s
-    with SystemRun(path.read_bytes(), {"rotor": {"journal_velocity_y": 1e-3 * abs(y) * w}}) as run:
+    with SystemRun(path.read_bytes(), {"rotor": {"journal.velocity_y": 1e-3 * abs(y) * w}}) as run:
         steps = round(20.0 * 2.0 * np.pi / w / found.step)
-        rows = run.run(found.step, steps, [("rotor", "journal_y"), ("rotor", "journal_velocity_y")])
+        rows = run.run(found.step, steps, [("rotor", "journal.y"), ("rotor", "journal.velocity_y")])
     swing = np.hypot(rows[:, 0] - y, rows[:, 1] / w)
     damping = -2.0 * np.polyfit(found.step * np.arange(swing.size), np.log(swing), 1)[0]
     assert damping == pytest.approx(element.C1, rel=0.05)

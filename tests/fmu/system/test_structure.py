@@ -8,11 +8,11 @@ from xml.etree import ElementTree
 
 import fmpy
 import pytest
+from exported import Jeffcott
 
 from ehlcontact.errors import InputError
 from fmu import VerificationError, export_system, verify_references
 from fmu.archive import pack
-from fmu.jeffcott.model import JeffcottModel
 from fmu.system.check import schema_findings, verify_system
 from fmu.system.export import export_verified_system, system_model
 from fmu.system.structure import SSC, SSD, SSV
@@ -69,8 +69,8 @@ def test_wires(system):
     ends = [tuple(wire.attrib.values()) for wire in root.iter(f"{{{SSD}}}Connection")]
     expected = set()
     for k in (1, 2):
-        expected |= {("rotor", f"{what}[{k}]", f"contact_{k}", what) for what in ("approach", "rate")}
-        expected.add((f"contact_{k}", "force", "rotor", f"force[{k}]"))
+        expected |= {("rotor", f"contact[{k}].{what}", f"contact_{k}", what) for what in ("approach", "rate")}
+        expected.add((f"contact_{k}", "force", "rotor", f"contact[{k}].force"))
     assert set(ends) == expected and len({end[2:] for end in ends}) == len(ends)
 
 
@@ -86,7 +86,7 @@ def test_it_starts_in_equilibrium(system):
         zip(system.rotor.approaches(start.journal), system.rotor.mounts, strict=True), 1
     ):
         assert values[f"contact_{k}", "approach"] == u
-        carried = carried + system.rotor.bearings * values["rotor", f"force[{k}]"] * mount.normal
+        carried = carried + system.rotor.bearings * values["rotor", f"contact[{k}].force"] * mount.normal
     assert carried == pytest.approx(system.rotor.static_load, rel=1e-9)
 
 
@@ -167,23 +167,26 @@ def test_verification_finds_wrong_wires(system, wrong):
     there = files(system.path)
     text = there["SystemStructure.ssd"].decode()
     if wrong == "swapped":
-        text = text.replace('endConnector="force[1]"', 'endConnector="force[0]"')
-        text = text.replace('endConnector="force[2]"', 'endConnector="force[1]"').replace("force[0]", "force[2]")
+        text = text.replace('endConnector="contact[1].force"', 'endConnector="contact[0].force"')
+        text = text.replace('endConnector="contact[2].force"', 'endConnector="contact[1].force"').replace(
+            "contact[0].force", "contact[2].force"
+        )
     elif wrong == "missing":
-        lines = [line for line in text.splitlines() if 'startConnector="approach[2]"' not in line]
+        lines = [line for line in text.splitlines() if 'startConnector="contact[2].approach"' not in line]
         assert len(lines) == len(text.splitlines()) - 1
         text = "\n".join(lines)
     else:
-        text = text.replace('startConnector="approach[2]"', 'startConnector="approach"')
+        text = text.replace('startConnector="contact[2].approach"', 'startConnector="approach"')
     there["SystemStructure.ssd"] = text.encode()
-    made = JeffcottModel(system.rotor, system.contacts)
+    made = Jeffcott(system.rotor, system.contacts)
+    parts = system.rotor, made.elements, made.state, STEP
     content = pack(there)
     if wrong == "renamed":
         with pytest.raises(VerificationError, match="does not run"):
-            verify_system(content, made, STEP)
+            verify_system(content, *parts)
     else:
-        assert not verify_system(content, made, STEP).passes
-    right = verify_system(system.path.read_bytes(), made, STEP)
+        assert not verify_system(content, *parts).passes
+    right = verify_system(system.path.read_bytes(), *parts)
     assert right.passes and 0.0 < right.deviation < 1e-3
 
 

@@ -1,0 +1,125 @@
+/* Layout of a rotor's numbers, and its forces; see rotor.h. */
+#include "rotor.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "linear_equations.h"
+
+size_t rotor_size(const Rotor *r)
+{
+    return rotor_layout(r).supports + support_place(r, r->supports);
+}
+
+size_t support_place(const Rotor *r, int support)
+{
+    size_t place = 0;
+    int i;
+    for (i = 0; i < support; i++) {
+        place += r->support[i]->size;
+    }
+    return place;
+}
+
+/* Supports' own, then motions, rates and forces of the supports, slopes of one, and vectors and matrices of a step or of rest. */
+size_t rotor_work(const Rotor *r)
+{
+    const size_t n = (size_t)(r->freedoms + r->held), p = (size_t)r->points, m = (size_t)r->motions;
+    size_t work = 0;
+    int i;
+    for (i = 0; i < r->supports; i++) {
+        work += r->support[i]->work;
+    }
+    return work + 3 * m + 2 * m * m + 6 * n + 8 * p + 2 * p * p + n * n + n;
+}
+
+static double product(const double row[], const double x[], int n)
+{
+    double sum = 0.0;
+    int k;
+    for (k = 0; k < n; k++) {
+        sum += row[k] * x[k];
+    }
+    return sum;
+}
+
+double rotor_motion(const Rotor *r, int motion, const double q[])
+{
+    const double *tie = &r->ties[motion * r->points];
+    double sum = 0.0;
+    int j;
+    for (j = 0; j < r->points; j++) {
+        if (tie[j] != 0.0) {
+            sum += tie[j] * product(&r->B[j * r->freedoms], q, r->freedoms);
+        }
+    }
+    return sum;
+}
+
+void rotor_applied(const Rotor *r, const double given[], const double unbalance[], double angle, double omega, double spin,
+                   double force[])
+{
+    int i, u;
+    for (i = 0; i < r->freedoms; i++) {
+        force[i] = r->load * r->L[i] + given[i];
+    }
+    for (u = 0; u < r->unbalances; u++) {
+        const double c = cos(angle + r->phase[u]), s = sin(angle + r->phase[u]), amount = unbalance[u];
+        const int x = r->unbalance_at[2 * u], y = r->unbalance_at[2 * u + 1];
+        if (x >= 0) {
+            force[x] += amount * (omega * omega * c + spin * s);
+        }
+        if (y >= 0) {
+            force[y] += amount * (omega * omega * s - spin * c);
+        }
+    }
+}
+
+void rotor_take(const Rotor *r, const double carried[], double weight, double force[])
+{
+    int i, j;
+    for (j = 0; j < r->points; j++) {
+        const double *row = &r->B[j * r->freedoms], push = weight * carried[j];
+        for (i = 0; i < r->freedoms; i++) {
+            force[i] -= push * row[i];
+        }
+    }
+}
+
+void rotor_accelerate(const Rotor *r, const double force[], double acceleration[])
+{
+    int i;
+    for (i = 0; i < r->freedoms; i++) {
+        acceleration[i] = product(&r->M_inverse[i * r->freedoms], force, r->freedoms) / r->mass;
+    }
+}
+
+void rotor_resist(const Rotor *r, double omega, const double q[], const double v[], double force[])
+{
+    const int n = r->freedoms;
+    int i, k;
+    for (i = 0; i < n; i++) {
+        const double *C = &r->C[i * n], *K = &r->K[i * n];
+        double damped = 0.0, bent = 0.0, turned = 0.0;
+        for (k = 0; k < n; k++) {
+            damped += C[k] * v[k];
+            bent += K[k] * q[k];
+        }
+        if (r->G != NULL) {
+            turned = r->mass * omega * product(&r->G[i * n], v, n);
+        }
+        force[i] -= r->damping * damped + turned + r->stiffness * bent;
+    }
+}
+
+double rotor_slowed(const Rotor *r, const double unbalance[], double angle, const double a[])
+{
+    double sum = 0.0;
+    int u;
+    for (u = 0; u < r->unbalances; u++) {
+        const double c = cos(angle + r->phase[u]), s = sin(angle + r->phase[u]);
+        const int x = r->unbalance_at[2 * u], y = r->unbalance_at[2 * u + 1];
+        sum += unbalance[u] * ((y >= 0 ? a[y] * c : 0.0) - (x >= 0 ? a[x] * s : 0.0));
+    }
+    return sum;
+}
