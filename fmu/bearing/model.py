@@ -102,14 +102,14 @@ class BearingModel:
         axial = self.bearing.contact_angle is not None or size > len(PLANAR)
         if self.directions is None:
             return FIVE if axial else PLANAR
-        given = tuple(self.directions)
+        given = tuple(self.directions) if isinstance(self.directions, tuple | list) else (self.directions,)
         if given not in DIRECTIONS:
-            raise InputError("directions", self.directions, f"one of {', '.join(map(str, DIRECTIONS))}")
+            raise InputError("directions", list(given), " or ".join(map(str, DIRECTIONS)))
         if axial and "z" not in given:
             allowed = "with z under an axial load or a moment, and for angular contact bearings"
-            raise InputError("directions", self.directions, allowed)
+            raise InputError("directions", list(given), allowed)
         if size > len(given):
-            raise InputError("directions", self.directions, "with tilts under a load with moments")
+            raise InputError("directions", list(given), "with tilts under a load with moments")
         return given
 
     @property

@@ -259,6 +259,8 @@ def test_speed_and_loads_beyond_the_tables_are_flagged(made):
         ((bearing(), 3000.0, 1e7), "load"),
         ((bearing("7205"), 3000.0, (0.0, -100.0)), "load"),
         ((bearing(), 3000.0, None, ("x", "z")), "directions"),
+        ((bearing(), 3000.0, None, 5), "directions"),
+        ((bearing(), 3000.0, (0.0, -100.0, 50.0, 0.0, 1.0), ("x", "y", "z")), "directions"),
         ((bearing(), 3000.0, (0.0, -100.0, 50.0), ("x", "y")), "directions"),
         (("6205", 3000.0), "bearing"),
     ],
