@@ -34,10 +34,10 @@ def verify(path: str | os.PathLike[str], model: Exported, **keywords: Unpack[Key
     interval, lift-off included) and rates (both signs, up to where the damper alone cancels the force), and the
     same states in model exchange. With a memory: a motion with lift-off and a pulse of load, in steps from 1e-3 to
     1 of 2a/u_sum, against `drive`, and the film's states along it in model exchange against `state_rates`.
-    A rotor: a short run with an unbalance that shows, against `simulate_rotor`, and its accelerations along it.
+    A rotor: a run-up with forces that lift it off its supports, against the steps of `simulate_rotor`, and its
+    accelerations and films at states of that run in model exchange.
     A bearing: a run of its ring with vibrations and lift-off, against the steps of `BearingMotion`, and
     forces and rates in model exchange at some states.
-    A shaft: a run under forces that vary, against steps by matrix exponentials.
 
     A difference is relative to the magnitude of what is compared, with 1e-3 of its value at the upper end of the
     interval (under the reference load) as the floor, for a number that cancels to nearly nothing has no relative

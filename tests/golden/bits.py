@@ -503,7 +503,8 @@ def fmus() -> Leaves:
                 yield from fmu_steps(f"{name} {fmi}", path, contact, scale)
             closed = [made["wide in SI"], made["wide in SI"].copy()]
             for name, contacts in (("rotor alone", None), ("rotor", closed)):
-                path = export(VEE, Path(folder) / f"{name}{fmi}.fmu", contacts=contacts, fmi=fmi)
+                supports = {"outside": "all"} if contacts is None else {"contacts": contacts}
+                path = export(VEE, Path(folder) / f"{name}{fmi}.fmu", fmi=fmi, **supports)
                 yield from texts(f"{name} {fmi}", path)
                 for kind, dt in (("CoSimulation", 1e-5), ("ModelExchange", 1e-7)):
                     options = {"solver": "Euler", "stop_time": 200 * dt, "step_size": dt, "output_interval": dt}
