@@ -182,6 +182,8 @@ def press_balls(balls, films, q, v, gain, out):
         done, still = False, gain == 0.0
         if still and omega == 0.0 and np.hypot(c[0], c[1]) <= _reach(balls, films, k):  # between both races
             place_ball(balls, k, c, films)
+            films.force[k] = 0.0
+            continue
         for attempt in range(3):
             if not still:
                 if attempt == 0:
