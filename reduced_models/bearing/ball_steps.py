@@ -18,6 +18,7 @@ from reduced_models.bearing.ball import (
     RATE_BEFORE,
     RATE_HISTORY,
     RATE_NOW,
+    SINGULAR,
     TRANSIT,
     balance_ball,
     film_of,
@@ -157,9 +158,9 @@ def _add_ball(rows, turned, cage, tangents, moving, out):
 
 @jit_exact_node
 def _reach(balls, films, k):
-    """Distance of the groove centres at which ball `k` just touches both races [m]."""
+    """Distance of the groove centres at which ball `k` touches both races, by more than rounding [m]."""
     g, heights = balls.grooves, films.heights
-    return g.inner + g.outer - (heights[2 * k, HEIGHT] + heights[2 * k + 1, HEIGHT])
+    return (g.inner + g.outer - (heights[2 * k, HEIGHT] + heights[2 * k + 1, HEIGHT])) * (1.0 + 10.0 * SINGULAR)
 
 
 @jit_exact_called_node
