@@ -324,8 +324,7 @@ def balance_ball(balls, omega, row, films, k, c, gain):
         size = sqrt(r_r * r_r + r_z * r_z)
         if not size < np.inf:
             return False
-        rounding = EPSILON * (now.l_i + now.l_o) * (now.k_i + now.k_o)  # of the forces of a ball that just touches
-        free = f_i + f_o <= 100.0 * rounding and now.d_i == 0.0 and now.d_o == 0.0 and heavy == 0.0
+        free = f_i == 0.0 and f_o == 0.0 and now.d_i == 0.0 and now.d_o == 0.0 and heavy == 0.0
         if omega == 0.0 and free:  # at rest between the races
             w[:] = 0.0
             films.tangents[1, :, 3] = 0.0
@@ -340,7 +339,7 @@ def balance_ball(balls, omega, row, films, k, c, gain):
             continue
         allowed = nearly * (1.0 + f_i + f_o)
         if gain == 0.0:
-            allowed = nearly * (f_i + f_o) + rounding
+            allowed = nearly * (f_i + f_o) + EPSILON * (now.l_i + now.l_o) * (now.k_i + now.k_o)
             if (old or size <= allowed) and omega > 0.0:
                 renew_slopes(balls, omega, (b_r, b_z), c, (0.0, 0.0), (now.film_i, now.film_o), slopes)
         a, h, m, turn, by, det, stiff = by_place(now, slopes, gain, heavy)
