@@ -44,10 +44,8 @@ from reduced_models.bearing.features import (
     FEATURES,
     BallDiameter,
     BallWaviness,
-    Defect,
     Feature,
     RaceWaviness,
-    Waves,
 )
 from reduced_models.bearing.freedoms import PLANAR, in_freedoms, labelled, load_words
 from reduced_models.bearing.height_tables import profile_of, track_radius
@@ -68,6 +66,7 @@ SHORTEST = (
     4.0 * np.pi
 )  # wave number per semi-axis of the most loaded ball, to which defects are waves: 8 % get through
 SWING = 1e-6  # of the phase of waves per radian of the orbit, below which it is rounding
+TOGETHER = 64  # waves whose forces are worked out in one go: a few MB
 FILTERS = ("film", "dry", "none")
 HIGHEST = 0.01  # of a ball's diameter: amplitudes, rims, excess diameters
 LARGE = 0.1  # height over the approach of both contacts of the most loaded ball, from which a result says so
@@ -202,33 +201,33 @@ class FeaturedBalls:
     rotations: _Floats
     contact_filter: str = FILTERS[0]
 
-    def harmonics(self, order: float, inner: _Complex, outer: _Complex) -> tuple[NDArray[np.int64], _Complex]:
-        """Numbers m and force D_m on the ring, (k, n), by heights met `order` times per turn of the shaft.
+    def harmonics(self, order: _Floats, inner: _Complex, outer: _Complex) -> tuple[NDArray[np.int64], _Complex]:
+        """Numbers m (l,) and forces D_m on the ring, (k, l, n), by heights met `order`, (k,), times per turn.
 
-        `inner` and `outer`, (positions, balls), are the heights at both contacts of every ball, filtered.
+        `inner` and `outer` are the heights at both contacts of every ball, filtered, that broadcast against
+        (k, positions * balls).
         """
-        s = 1j * abs(order) * self.speed_rpm * RPM_TO_RAD_S
-        forces = self.small.force_of_heights(s, inner.ravel(), outer.ravel())
-        forces = forces.conj() if order < 0.0 else forces
+        s = 1j * np.abs(order) * self.speed_rpm * RPM_TO_RAD_S
+        forces = self.small.force_of_heights(s, inner, outer)
+        forces = np.where(order[:, None, None] < 0.0, forces.conj(), forces)
         positions, balls, _ = self.force.shape
-        around = forces.reshape(positions, balls, -1).transpose(1, 0, 2).reshape(positions * balls, -1)
-        m = np.fft.fftfreq(len(around), 1.0 / len(around)).round().astype(np.int64)
-        found = np.fft.fft(around, axis=0) / len(around) * np.exp(-1j * m * self.first)[:, None]
-        kept = np.abs(m) < len(around) / 2.0
-        return m[kept], found[kept]
+        size = positions * balls
+        around = forces.reshape(order.size, positions, balls, -1).swapaxes(1, 2).reshape(order.size, size, -1)
+        m = np.fft.fftfreq(size, 1.0 / size).round().astype(np.int64)
+        found = np.fft.fft(around, axis=1) * (np.exp(-1j * m * self.first) / size)[:, None]
+        kept = np.abs(m) < size / 2.0
+        return m[kept], found[:, kept]
 
-    def filters(self, waves: int, ball: bool) -> tuple[_Complex, _Complex]:
-        """Contact filters of waves around a race, or the ball, at both contacts, (positions, balls)."""
-        found = []
-        for j, name in enumerate(RACES):
-            k = waves * self._semi_axes[j] / self._radius(name, ball)
-            if self.contact_filter == "none":
-                found.append(np.ones_like(k, complex))
-            elif self._films is None:
-                found.append(dry_filter(k).astype(complex))
-            else:
-                found.append(self._films[j].at(k.ravel())[0].reshape(k.shape))
-        return found[0], found[1]
+    def filters(self, waves: NDArray[np.int64], name: str, ball: bool) -> _Complex:
+        """Contact filters of k waves around a race, or the ball, at the contacts with a race.
+
+        (k, positions * balls).
+        """
+        j = RACES.index(name)
+        k = waves[:, None] * (self._semi_axes[j].ravel() / self._radius(name, ball))
+        if self.contact_filter == "none":
+            return np.ones_like(k, complex)
+        return dry_filter(k).astype(complex) if self._films is None else self._films[j].at(k)[0]
 
     def _radius(self, race: str, ball: bool) -> float:
         """Of the track of a race, or of a ball [m]."""
@@ -253,18 +252,23 @@ class FeaturedBalls:
             found.append(filters_of(rows))
         return found
 
-    def lines(self, feature: Feature, cage_angle: float) -> list[tuple[float, _Complex]]:
-        """Orders of the lines of one feature, negative ones too, and complex forces."""
-        if isinstance(feature, BallDiameter):
-            return self._ball_lines(feature.ball, 0, complex(0.5 * feature.excess), cage_angle)
-        found = []
-        for n, amplitude in self.waves_of(feature):
+    def lines(self, features: Sequence[Feature], cage_angle: float) -> tuple[_Floats, _Complex]:
+        """Orders of the lines of all features, (l,), negative ones too, and complex forces, (l, n)."""
+        waves: dict[str | None, list[tuple[int, complex, int]]] = {}  # of both races, and of balls
+        for feature in features:
             race, ball = getattr(feature, "race", None), getattr(feature, "ball", None)
-            if ball is None:
-                found += self._race_lines(str(race), n, amplitude, cage_angle)
-            else:
-                found += self._ball_lines(ball, n, amplitude, cage_angle)
-        return found
+            own = waves.setdefault(race if ball is None else None, [])
+            own += [(n, amplitude, ball or 0) for n, amplitude in self.waves_of(feature)]
+        found = []
+        for surface, every in waves.items():
+            for start in range(0, len(every), TOGETHER):
+                n, amplitude, ball = map(np.array, zip(*every[start : start + TOGETHER], strict=True))
+                if surface is None:
+                    found += self._ball_lines(n, amplitude, ball, cage_angle)
+                else:
+                    found.append(self._race_lines(surface, n, amplitude, cage_angle))
+        order, force = zip(*found, strict=True)
+        return np.concatenate(order), np.concatenate(force)
 
     def short_waves(self, feature: Feature) -> int:
         """Number of waves of a waviness that are shorter than any of the table of contact filters; else 0."""
@@ -280,8 +284,10 @@ class FeaturedBalls:
         ]
         return feature.waves if max(k) > last_wave_number() else 0
 
-    def waves_of(self, feature: Waves | Defect) -> list[tuple[int, complex]]:
+    def waves_of(self, feature: Feature) -> list[tuple[int, complex]]:
         """Waves n around a race or a ball and their complex amplitudes: heights ``Re sum A exp(i n theta)``."""
+        if isinstance(feature, BallDiameter):
+            return [(0, complex(0.5 * feature.excess))]
         if isinstance(feature, RaceWaviness | BallWaviness):
             return [(feature.waves, feature.amplitude * np.exp(-1j * feature.phase))]
         race = feature.race or "inner"
@@ -308,28 +314,32 @@ class FeaturedBalls:
         return float(found[0].real), lead
 
     def _race_lines(
-        self, race: str, n: int, amplitude: complex, cage_angle: float
-    ) -> list[tuple[float, _Complex]]:
-        balls, none = self.force.shape[1], np.zeros(self.force.shape[:2], complex)
+        self, race: str, n: NDArray[np.int64], amplitude: _Complex, cage_angle: float
+    ) -> tuple[_Floats, _Complex]:
+        balls, none = self.force.shape[1], np.zeros((1, 1), complex)
         turning = 1.0 if race == "inner" else 0.0
-        inner, outer = self.filters(n, ball=False)
-        heights = (inner, none) if race == "inner" else (none, outer)
-        m, D = self.harmonics(n * (self.cage - turning), *heights)
-        met = (m + n) % balls == 0
-        scale = balls * amplitude * np.exp(1j * (m + n) * cage_angle)[:, None]
-        return list(zip(((m + n) * self.cage - n * turning)[met].tolist(), (D * scale)[met], strict=True))
+        filters = self.filters(n, race, ball=False)
+        heights = (filters, none) if race == "inner" else (none, filters)
+        m, D = self.harmonics(np.asarray(n * (self.cage - turning), float), *heights)
+        number = m + n[:, None]
+        i, met = np.nonzero(number % balls == 0)
+        number = number[i, met]
+        scale = balls * amplitude[i] * np.exp(1j * number * cage_angle)
+        return number * self.cage - n[i] * turning, D[i, met] * scale[:, None]
 
     def _ball_lines(
-        self, ball: int, n: int, amplitude: complex, cage_angle: float
-    ) -> list[tuple[float, _Complex]]:
-        inner, outer = self.filters(n, ball=True)
+        self, n: NDArray[np.int64], amplitude: _Complex, ball: NDArray[np.int64], cage_angle: float
+    ) -> list[tuple[_Floats, _Complex]]:
+        inner, outer = (self.filters(n, name, ball=True) for name in RACES)
         mean, lead = self._ball_turns
-        turns = n * mean
-        m, D = self.harmonics(turns, inner, outer * (-1.0) ** n)
+        m, D = self.harmonics(np.asarray(n * mean, float), inner, outer * (-1.0) ** n[:, None])
         psi = cage_angle + 2.0 * np.pi * ball / self.force.shape[1]
-        m, D = _modulated(m, D, n * lead, psi)
-        scale = amplitude * np.exp(1j * m * psi)[:, None]
-        return list(zip((m * self.cage + turns).tolist(), D * scale, strict=True))
+        found = []
+        for waves, height, start, force in zip(n.tolist(), amplitude, psi, D, strict=True):
+            number, own = _modulated(m, force, waves * lead, start)
+            scale = height * np.exp(1j * number * start)
+            found.append((number * self.cage + waves * mean, own * scale[:, None]))
+        return found
 
 
 def _modulated(
@@ -341,23 +351,22 @@ def _modulated(
     if swing < SWING:
         return m, D
     points = 2 ** ceil(np.log2(4.0 * (np.abs(m).max() + swing)))
-    psi = 2.0 * np.pi * np.arange(points) / points
-    phi = (np.exp(1j * np.outer(psi, numbers)) @ lead).real - (np.exp(1j * start * numbers) @ lead).real
-    force = (np.exp(1j * np.outer(psi, m)) @ D) * np.exp(1j * phi)[:, None]
-    return np.fft.fftfreq(points, 1.0 / points).round().astype(np.int64), np.fft.fft(force, axis=0) / points
+    phi = points * np.fft.ifft(lead, points).real - (np.exp(1j * start * numbers) @ lead).real
+    spectrum = np.zeros((points, D.shape[1]), complex)
+    spectrum[m] = D
+    force = np.fft.ifft(spectrum, axis=0) * np.exp(1j * phi)[:, None]
+    return np.fft.fftfreq(points, 1.0 / points).round().astype(np.int64), np.fft.fft(force, axis=0)
 
 
 def excitation_of(
     balls: FeaturedBalls, load: _Floats, approach: float, features: Sequence[Feature], cage_angle: float
 ) -> BearingExcitation:
     """Lines of all features together, those of one order added."""
-    found: dict[float, _Complex] = {}
-    for feature in features:
-        for signed, line in balls.lines(feature, cage_angle):
-            own, along = round(abs(signed), SAME_ORDER), line.conj() if signed < 0.0 else line
-            found[own] = found.get(own, np.zeros(load.size, complex)) + (along if own else along.real)
-    order = np.array(sorted(found))
-    force = np.array([found[one] for one in order.tolist()]).reshape(order.size, load.size)
+    signed, lines = balls.lines(features, cage_angle)
+    order, place = np.unique(np.round(np.abs(signed), SAME_ORDER), return_inverse=True)
+    force = np.zeros((order.size, load.size), complex)
+    np.add.at(force, place, np.where(signed[:, None] < 0.0, lines.conj(), lines))
+    force[order == 0.0] = force[order == 0.0].real
     heights = [_height(one) for one in features]
     unit = np.ones(load.size)
     unit[3:] = 0.5 * balls.bearing.pitch_diameter

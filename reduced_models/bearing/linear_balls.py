@@ -88,15 +88,21 @@ class LinearBalls(NamedTuple):
         share = response(self.loss, s[..., 0]) / self.positions
         return np.asarray(Z.reshape(*s.shape[:-1], directions, directions) * share[..., None, None])
 
-    def force_of_heights(self, s: complex, inner: _Complex, outer: _Complex) -> _Complex:
-        """Force of every ball on the ring, shape (contacts, n), by heights at both of its contacts at exp(s t)."""
-        inner_z, outer_z, by_b = self._tangents(np.array([s]))
-        n = self.normals
-        pressed = [inner_z * inner * n[0][j] for j in range(2)]
-        moved = _solve(by_b, tuple(outer_z * outer * n[1][j] - pressed[j] for j in range(2)))
-        P = np.stack([self._carried(inner_z, moved, i) for i in range(3)], axis=-1)
-        P[:, :2] += np.stack(pressed, axis=-1)
-        return np.asarray(-response(self.loss, np.asarray(s)) * (P[:, None] @ self.maps)[:, 0])
+    def force_of_heights(self, s: _Complex, inner: _Complex, outer: _Complex) -> _Complex:
+        """Force of every ball on the ring, shape (k, contacts, n), by heights at both of its contacts at exp(s t).
+
+        `s` has the shape (k,), heights broadcast against (k, contacts).
+        """
+        inner_z, outer_z, by_b = self._tangents(s[:, None])
+        n_i, n_o = self.normals
+        by_inner, by_outer = inner_z * inner, outer_z * outer
+        pressed = [by_inner * n_i[j] for j in range(2)]
+        moved = _solve(by_b, tuple(by_outer * n_o[j] - pressed[j] for j in range(2)))
+        P = np.stack(
+            [self._carried(inner_z, moved, i) + (pressed[i] if i < 2 else 0.0) for i in range(3)], axis=-1
+        )
+        P *= -response(self.loss, s)[:, None, None]
+        return np.asarray(np.einsum("kci,cij->kcj", P, self.maps.astype(complex)))
 
     def _tangents(self, s: _Complex) -> tuple[_Complex, _Complex, list[_Complex]]:
         """Impedances of all contacts at s, shape (..., 1), and R_b by rows; all of shape (..., contacts)."""
