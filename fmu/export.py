@@ -30,6 +30,7 @@ def export(
     inertia: float | None = None,
     start: Any = None,
     load: Any = None,
+    mass: Any = None,
     directions: Sequence[str] | None = None,
     lead: float | None = None,
     model_name: str | None = None,
@@ -38,7 +39,7 @@ def export(
     overwrite: bool = False,
     progress: Progress | None = None,
 ) -> Path:
-    """Write a contact, a ball bearing or a rotor as an FMU, once it is verified against it.
+    """Write a contact, a ball bearing, a set of them or a rotor as an FMU, once it is verified against it.
 
     A contact has the inputs `approach` and `rate`, and the output `force` with its tangents `stiffness` and
     `damping`. Coefficients of elements without memory, and their interval, are tunable parameters that start at
@@ -57,35 +58,44 @@ def export(
     `outside` are inputs, named and directed as in the FMU of a contact or a bearing, and the motions there
     outputs. Masses, stiffness and dampers can be set before initialization.
 
+    A `BearingSet` is a rotor too: ``set.rotor(load, mass=mass)``, its rigid shaft with all its bearings inside.
+    Forces and moments at 0 are inputs, `shaft.force_x`, ..., `shaft.moment_y`, beside the load; the motion there,
+    `shaft.x`, ..., is an output.
+
     Reference inputs and results of the model are inside, for `verify_references`. The same model, name, library
     version and compiler give the same bytes. ``docs/coupling.md`` has all variables.
 
     Parameters
     ----------
-    model : ContactElement, BallBearing, Rotor or JeffcottRotor
+    model : ContactElement, BallBearing, BearingSet, Rotor or JeffcottRotor
     path : path-like
         File to write, ending in ``.fmu``.
     speeds_rpm : float or (float, float), optional
-        Of a bearing, and of a rotor with ball bearings inside: speed of the shaft [rev/min], or lowest and highest
-        one. Tables of the films are made for these and some between; below the lowest films are those of the
-        lowest, down to standstill.
+        Of a bearing or set, and of a rotor with ball bearings inside: speed of the shaft [rev/min], or lowest and
+        highest one. Tables of the films are made for these and some between; below the lowest films are those of
+        the lowest, down to standstill.
     outside : sequence of str or "all"
-        Of a rotor: names of the supports whose forces are inputs: "contact 1", ..., names of ball bearings
-        ("bearing 0", ... where they have none).
+        Of a rotor or set: names of the supports whose forces are inputs, as in `RotorResult.columns`: "contact 0",
+        ..., names of ball bearings ("bearing 0", ... where they have none). Variables of an FMU count from 1:
+        those of "contact 0" are ``contact[1]``, those of the first ball bearing ``bearing[1]``.
     contacts : sequence of ContactElement, optional
         Of a `JeffcottRotor`: one per mount, in SI or as `ScaledContact`, of any kind; their films start at rest.
         Of those that are `outside` the FMU starts with the static force; left out where all are.
     speed_rpm : float, optional
-        Of a `Rotor`: speed at the start [rev/min]; by default the highest of `speeds_rpm`, or 0.
+        Of a `Rotor` or set: speed at the start [rev/min]; by default the highest of `speeds_rpm`, or 0.
     inertia : float, optional
-        Of a `Rotor`: polar moment of inertia [kg m2] of all that turns; the speed then follows from the torque of
-        the motor and those of the bearings. By default the speed is an input.
+        Of a `Rotor` or set: polar moment of inertia [kg m2] of all that turns; the speed then follows from the
+        torque of the motor and those of the bearings. By default the speed is an input.
     start : optional
         Of a rotor: where it starts, a `RotorState` or displacements and velocities, shape (N,) each; by default in
         static equilibrium (a `JeffcottRotor` without contacts inside: the journal at the origin, the shaft bent).
     load : float or sequence of float, optional
         Of a bearing: force on the inner ring [N], [N m], as of `BallBearing.equilibrium`, under which it starts at
-        rest; by default the ring starts in the middle.
+        rest; by default the ring starts in the middle. Of a set: constant load on the shaft at 0, shape (5,), by
+        default none.
+    mass : array_like, optional
+        Of a set, which needs it: mass of what moves with the shaft, as of `BearingSet.rotor`, shape (5, 5)
+        [kg], [kg m2], or (6, 6) with that of the outer rings on a spring.
     directions : sequence of str, optional
         Of a bearing: displacements of its ring, the others are held, as of `BearingModel`; by default those that
         its load needs.
@@ -148,6 +158,7 @@ def export(
         inertia=inertia,
         start=start,
         load=load,
+        mass=mass,
         directions=directions,
         lead=lead,
         model_name=model_name,

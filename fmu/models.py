@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypedDict, Unpack
 
+import numpy as np
+
 from ehlcontact.errors import InputError
 from fmu.bearing.comparison import bearing_references, compare_bearing
 from fmu.bearing.model import BearingModel
@@ -21,9 +23,10 @@ from fmu.rotor.model import RotorModel
 from fmu.rotor.variables import rotor_spec
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
-from reduced_models import BallBearing, JeffcottRotor, Rotor
+from reduced_models import BallBearing, BearingSet, JeffcottRotor, Rotor
+from reduced_models.bearing.freedoms import FIVE
 
-Exported = Element | BallBearing | Rotor | JeffcottRotor
+Exported = Element | BallBearing | BearingSet | Rotor | JeffcottRotor
 
 
 class Keywords(TypedDict, total=False):
@@ -38,14 +41,17 @@ class Keywords(TypedDict, total=False):
     inertia: float | None
     start: Any
     load: Any
+    mass: Any
     directions: Sequence[str] | None
 
 
 _EVERY = {"model_name", "lead"}
+_ROTOR = {"speeds_rpm", "outside", "speed_rpm", "inertia", "start"}
 _TAKEN: tuple[tuple[Any, str, set[str]], ...] = (
     (Element, "a contact element", set()),
     (BallBearing, "a ball bearing", {"speeds_rpm", "load", "directions"}),
-    (Rotor, "a Rotor", {"speeds_rpm", "outside", "speed_rpm", "inertia", "start"}),
+    (Rotor, "a Rotor", _ROTOR),
+    (BearingSet, "a BearingSet", _ROTOR | {"load", "mass"}),
     (JeffcottRotor, "a JeffcottRotor", {"contacts", "outside", "start"}),
 )
 
@@ -76,7 +82,7 @@ class FmuModel:
 
 
 def fmu_model(model: Exported, **keywords: Unpack[Keywords]) -> FmuModel:
-    """Model of the FMU of a contact element, a ball bearing or a rotor, with the keywords of `export`.
+    """Model of the FMU of a contact element, of ball bearings or a rotor, with the keywords of `export`.
 
     Raises
     ------
@@ -95,8 +101,17 @@ def fmu_model(model: Exported, **keywords: Unpack[Keywords]) -> FmuModel:
     if isinstance(model, JeffcottRotor):
         rotor = RotorModel.jeffcott(model, **given)
     else:
-        rotor = RotorModel(model, **given)
+        rotor = RotorModel(_on_set(model, given) if isinstance(model, BearingSet) else model, **given)
     return _made(rotor, rotor_spec(rotor, model_name, lead), compare_rotor, rotor_references)
+
+
+def _on_set(bearings: BearingSet, given: dict[str, Any]) -> Rotor:
+    """The shaft of a set as a rotor, with the mass and under the load that it takes from the keywords."""
+    mass = given.pop("mass", None)
+    if mass is None:
+        size = bearings.rotor().size
+        raise InputError("mass", None, f"that of the shaft of the set, shape ({size}, {size}) [kg], [kg m2]")
+    return bearings.rotor(given.pop("load", np.zeros(len(FIVE))), mass=mass)
 
 
 def _is_given(value: Any) -> bool:
@@ -110,7 +125,7 @@ def _require_taken(model: object, given: dict[str, Any]) -> None:
             for name in given.keys() - taken - _EVERY:
                 raise InputError(name, given[name], f"left out for {words}")
             return
-    allowed = "a contact element (linear, cubic, ..., wide), a BallBearing, a Rotor or a JeffcottRotor"
+    allowed = "a contact element (linear, cubic, ..., wide), BallBearing, BearingSet, Rotor or JeffcottRotor"
     raise InputError("model", type(model).__name__, allowed)
 
 

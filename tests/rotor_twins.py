@@ -35,5 +35,5 @@ def run_of(t, approach, rate, force, **others):
         "largest_load": np.zeros((0, 2)),
         "status": Status.CONVERGED,
     }
-    given["columns"] = tuple(f"contact {i + 1}" for i in range(columns[2].shape[1]))
+    given["columns"] = tuple(f"contact {i}" for i in range(columns[2].shape[1]))
     return RotorResult(**(given | others))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
@@ -41,6 +42,7 @@ MOST_FREEDOMS = 100  # of the tables, which have square matrices
 MOST_INPUTS = 64  # of the core: one bit for each
 LONGEST_STEP = 1e-5  # s, with ball bearings
 STEPS_PER_PERIOD = 60.0  # of the disc on its shaft against the journal, which an inner step resolves
+CONTACT_NAME = re.compile(r"contact \d+")
 ROUNDING = 1e-9  # of the largest entry: asymmetry of a stiffness
 SPEED_LIMITED = "constant, without speeds_rpm: matrices of a rotor's FMU do not change with the speed"
 
@@ -54,7 +56,7 @@ class Station:
     label : str
         Of its variables: ``contact[1]``, ``bearing[1]``.
     name : str
-        By which `outside` has it.
+        By which `outside` and results of a run have it: ``contact 0``, ``bearing 0`` or the bearing's own.
     mount : BearingMount or ContactMount
     inside : bool
     """
@@ -157,7 +159,7 @@ class RotorModel:
             raise InputError("start", start, "a RotorState, or left out")
         if len(rotor.mounts) > MOST_SUPPORTS:
             raise InputError("rotor.mounts", len(rotor.mounts), f"at most {MOST_SUPPORTS} in an FMU")
-        names = tuple(f"contact {i}" for i in range(1, len(rotor.mounts) + 1))
+        names = tuple(f"contact {i}" for i in range(len(rotor.mounts)))
         chosen = outside_names(names, outside)
         if contacts is None:
             if set(chosen) != set(names):
@@ -184,13 +186,10 @@ class RotorModel:
     def stations(self) -> tuple[Station, ...]:
         """Contacts, then ball bearings."""
         names = supports_of(self.rotor)
-        contacts = self.rotor.contacts
-        labels = [f"contact[{i}]" for i in range(1, len(contacts) + 1)]
-        labels += [f"bearing[{b}]" for b in range(1, len(self.rotor.ball_bearings) + 1)]
-        mounts = (*contacts, *self.rotor.ball_bearings)
+        mounts = (*self.rotor.contacts, *self.rotor.ball_bearings)
         return tuple(
             Station(label, name, mount, name not in self.outside)
-            for label, name, mount in zip(labels, names, mounts, strict=True)
+            for label, name, mount in zip(labels_of(names), names, mounts, strict=True)
         )
 
     @cached_property
@@ -339,8 +338,15 @@ class RotorModel:
 
 
 def supports_of(rotor: Rotor) -> tuple[str, ...]:
-    """Names of the supports of a rotor that may be outside: contacts, then ball bearings."""
-    return (*(f"contact {i}" for i in range(1, len(rotor.contacts) + 1)), *rotor.ball_bearing_names)
+    """Names of the supports of a rotor that may be outside, as in results: contacts, then ball bearings."""
+    return (*(f"contact {i}" for i in range(len(rotor.contacts))), *rotor.ball_bearing_names)
+
+
+def labels_of(known: Sequence[str]) -> tuple[str, ...]:
+    """Labels of the variables of these supports, which count from 1 and each kind for itself."""
+    contacts = sum(CONTACT_NAME.fullmatch(name) is not None for name in known)
+    bearings = len(known) - contacts
+    return (*(f"contact[{i + 1}]" for i in range(contacts)), *(f"bearing[{b + 1}]" for b in range(bearings)))
 
 
 def outside_names(known: tuple[str, ...], outside: str | Iterable[str]) -> tuple[str, ...]:
@@ -348,7 +354,9 @@ def outside_names(known: tuple[str, ...], outside: str | Iterable[str]) -> tuple
     names = (known if outside == ALL else (outside,)) if isinstance(outside, str) else tuple(outside)
     for name in names:
         if name not in known:
-            raise InputError("outside", name, f"of {known!r}, or 'all'")
+            rows = zip(known, labels_of(known), strict=True)
+            named = ", ".join(f"{own!r} (its variables are {label})" for own, label in rows)
+            raise InputError("outside", name, f"{named}, or 'all'")
     return names
 
 
@@ -387,12 +395,12 @@ def _with_elements(rotor: Rotor, outside: str | Iterable[str]) -> Rotor:
     mounts: list[Any] = []
     i = 0
     for mount in rotor.mounts:
+        own: Any = mount
         if isinstance(mount, ContactMount):
-            i += 1
             if mount.contact is not None or f"contact {i}" not in outside:
-                mounts.append(replace(mount, contact=_element(f"contacts[{i - 1}]", mount.contact)))
-                continue
-        mounts.append(mount)
+                own = replace(mount, contact=_element(f"contacts[{i}]", mount.contact))
+            i += 1
+        mounts.append(own)
     return replace(rotor, mounts=tuple(mounts))
 
 

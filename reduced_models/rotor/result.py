@@ -53,7 +53,7 @@ class RotorResult(QuantityTable, ByNode):
     reservation : str
         What the run leaves open, in words; else empty: steps that are long for a feature of a bearing.
     columns : tuple of str
-        Names of the columns, as "contact 1" or "bearing 0 x".
+        Names of the columns, as "contact 0" or "bearing 0 x".
     names : tuple of str
         Names of degrees of freedom, as "disc x".
     places : ndarray, shape (len(names),)

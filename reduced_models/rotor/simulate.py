@@ -240,7 +240,7 @@ def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, 
     rotor, histories = run.rotor, run.histories
     r, v, force = histories.motion[kept], histories.rate[kept], histories.force[kept]
     offsets, first = np.array([mount.offset for mount in rotor.contacts]), len(rotor.contacts)
-    names = [f"contact {i}" for i in range(1, first + 1)]
+    names = [f"contact {i}" for i in range(first)]
     found = [(r[:, :first] + offsets, v[:, :first], force[:, :first])]
     with_balls = iter(run.ball_directions)
     for mount, name in zip(rotor.bearings, bearing_names(rotor.bearings), strict=True):

@@ -182,11 +182,11 @@ def test_fmu_of_another_kind(fmus, elements):
 @pytest.mark.parametrize(
     ("model", "keywords", "words"),
     [
-        (JEFFCOTT, {}, r"^contacts = None: must be one per mount, 1, or outside=\('contact 1',\)"),
+        (JEFFCOTT, {}, r"^contacts = None: must be one per mount, 1, or outside=\('contact 0',\)"),
         (
             JEFFCOTT,
-            {"contacts": [], "outside": ["contact 2"]},
-            r"^outside = 'contact 2': must be of \('contact 1',\)",
+            {"contacts": [], "outside": ["contact 1"]},
+            r"^outside = 'contact 1': must be 'contact 0' \(its variables are contact\[1\]\), or 'all'$",
         ),
         (
             JEFFCOTT,
@@ -206,9 +206,13 @@ def test_fmu_of_another_kind(fmus, elements):
         (
             BEARING,
             {"speeds_rpm": 3000.0, "directions": ("x",)},
-            r"^directions = \('x',\): must be one of \('x', 'y'\), ",
+            r"^directions = \['x'\]: must be \('x', 'y'\) or ",
         ),
-        ("cubic", {}, r"^model = 'str': must be a contact element .*, a BallBearing, a Rotor or a JeffcottRotor"),
+        (
+            "cubic",
+            {},
+            r"^model = 'str': must be a contact element .*, BallBearing, BearingSet, Rotor or JeffcottRotor",
+        ),
     ],
 )
 def test_keywords_are_those_of_the_model(fmus, tmp_path, model, keywords, words):

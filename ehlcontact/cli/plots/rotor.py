@@ -78,7 +78,7 @@ def _path(run: RotorResult, body: str, centre: NDArray[np.float64], planar: bool
 
 
 def response(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> go.Figure:
-    """Journal displacement and force of contact 1 over time, and the differences of all reduced runs.
+    """Journal displacement and force of contact 0 over time, and the differences of all reduced runs.
 
     Both about their mean: another place of rest is no other vibration. What is before the settled part is grey.
     """
@@ -87,7 +87,7 @@ def response(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> go
     t = full.t * 1e3
     signals = (
         ("journal y", MICRO, lambda run: (run.journal[:, 1] - run.journal[1:, 1].mean()) * 1e6),
-        ("force 1", "N", lambda run: run.force[:, 0]),
+        ("force 0", "N", lambda run: run.force[:, 0]),
     )
     for row, (name, unit, signal) in zip((1, 3), signals, strict=True):
         for which, run in runs.items():
@@ -113,7 +113,7 @@ def spectrum(runs: Mapping[str, RotorResult], how: Settling, names: Names) -> go
     figure = grid(1, 2, heights=[270])
     pairs = (
         (f"disc y [{MICRO}]", lambda run: run.disc[:, 1] * 1e6),
-        ("force of contact 1 [N]", lambda run: run.force[:, 0]),
+        ("force of contact 0 [N]", lambda run: run.force[:, 0]),
     )
     speed = float(runs["full"].speed_rpm[0]) / 60.0
     for col, (label, signal) in enumerate(pairs, start=1):

@@ -171,7 +171,7 @@ class Findings:
         said: dict[str, list[str]] = {}
         for when, events in (("unbalance", self.rotors.unbalance.events), ("kick", self.rotors.decay.events)):
             for name, contacts in events.items():
-                for number, one in enumerate(contacts, start=1):
+                for number, one in enumerate(contacts):
                     for text in one.warnings:
                         said.setdefault(f"{when}, {CONTACTS[name]}: {text}", []).append(str(number))
         return [f"{text} (contact {', '.join(numbers)})" for text, numbers in said.items()]

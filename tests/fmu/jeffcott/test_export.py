@@ -120,7 +120,7 @@ def test_verification_tells_another_rotor(unit, rotors):
     with pytest.raises(InputError, match=r"must be an FMU of .*2 supports outside.; it is one of"):
         verified(one.path, rotors["alone"])
     with pytest.raises(
-        InputError, match=r"^contacts = None: must be one per mount, 2, or outside=\('contact 1', "
+        InputError, match=r"^contacts = None: must be one per mount, 2, or outside=\('contact 0', "
     ):
         verify(one.path, rotor)
 

@@ -9,10 +9,11 @@ from exported import OfRotor, given, verified
 from fmpy.fmi1 import FMICallException
 
 from ehlcontact import InputError, Lubricant, OilLayer
-from fmu import export, verify_references
+from fmu import export, verify, verify_references
 from fmu.rotor.model import RotorModel
 from reduced_models import (
     BallBearing,
+    BearingSet,
     Disc,
     Rotor,
     Shaft,
@@ -361,3 +362,27 @@ def test_bad_models():
         with pytest.raises(InputError) as error:
             RotorModel(**{"rotor": rotor, "speeds_rpm": SPEEDS} | wrong)
         assert error.value.field == field
+
+
+def test_a_set_is_its_rigid_shaft(tmp_path):
+    """A preloaded pair whose shaft starts beside its equilibrium, beside `simulate_rotor` of its rotor."""
+    pair = BearingSet.pair(BallBearing.catalogue("7205", oil=OIL), "back to back", preload=300.0)
+    mass, load, rpm, steps = np.diag([4.0, 4.0, 4.0, 0.02, 0.02]), (0.0, -40.0, 20.0, 0.0, 0.5), 6000.0, 400
+    rotor = pair.rotor(load, mass=mass)
+    start = rotor.equilibrium(rpm) + np.array([2e-7, -3e-7, 4e-7, 1e-6, -2e-6]), np.zeros(5)
+    keywords = {"speeds_rpm": rpm, "mass": mass, "load": load, "start": start}
+    with pytest.raises(InputError, match=r"^mass = None: must be that of the shaft of the set, shape \(5, 5\)"):
+        export(pair, tmp_path / "x.fmu", **{**keywords, "mass": None})
+    one = Exported(export(pair, tmp_path / "x.fmu", **keywords))
+    assert verify(one.path, pair, **keywords).passes
+    assert not verify(one.path, pair, **{**keywords, "mass": 1.001 * mass}).passes
+    wanted = simulate_rotor(rotor, speed_rpm=rpm, dt=STEP, until=steps * STEP, start=start)
+    names = [f"shaft.{name}" for name in rotor.nodes["shaft"]]
+    slave, found = one.started(speed=rpm * RPM_TO_RAD_S), []
+    for k in range(1, steps + 1):
+        slave.step_to(k * STEP)
+        found.append(slave.get(*names, *FORCES))
+    slave.free()
+    held = [wanted.columns.index(f"bearing {b} {k}") for b in (0, 1) for k in "xy"]
+    expected = np.column_stack([wanted.displacement, -wanted.force[:, held]])[1:]
+    assert (np.abs(np.array(found) - expected).max(axis=0) < 1e-9 * np.ptp(expected, axis=0)).all()

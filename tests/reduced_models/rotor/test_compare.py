@@ -29,7 +29,7 @@ def test_figures_follow_their_definitions(run):
     result = compare(run, other, discard=0.005)
     kept = run.t >= 0.005 - 1e-12
     force = run.force[kept, 0]
-    signal = result.signals["force_1"]
+    signal = result.signals["force_0"]
     assert signal.rms == pytest.approx(3.0) and signal.maximum == pytest.approx(3.0)
     assert signal.amplitude == pytest.approx(np.ptp(force) / 2) and signal.std == pytest.approx(np.std(force))
     assert signal.offset == pytest.approx(3.0) and signal.vibration_over_std == pytest.approx(0.0, abs=1e-9)
@@ -42,7 +42,7 @@ def test_figures_follow_their_definitions(run):
     assert result.samples == np.count_nonzero(kept) and result.t_start == pytest.approx(0.005)
     document = json.loads(json.dumps(result.to_dict()))
     assert set(document["signals"]) == {
-        "disc_x", "disc_y", "journal_x", "journal_y", "approach_1", "force_1"
+        "disc_x", "disc_y", "journal_x", "journal_y", "approach_0", "force_0"
     }  # fmt: skip
 
 
