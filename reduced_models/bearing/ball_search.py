@@ -18,6 +18,7 @@ from reduced_models.bearing.ball import (
     press_ball,
     renew_slopes,
 )
+from reduced_models.bearing.contact_heights import HEIGHT
 
 BALANCED_ROUGHLY = 1e-9  # imbalance of a ball over its forces from which `balance_ball` goes on
 MOST_STEPS = 100  # of the search at rest: a handful, but where a ball lifts off
@@ -45,15 +46,15 @@ def move_on(films, k):
 @jit_exact_loop
 def place_ball(balls, k, c, films):
     """First place of ball `k`: on the line between the groove centres, dry contacts in balance if they touch."""
-    g = balls.grooves
-    length = np.hypot(c[0], c[1])
-    closer = length - g.inner - g.outer
+    g, length = balls.grooves, np.hypot(c[0], c[1])
+    free_i, free_o = g.inner - films.heights[2 * k, HEIGHT], g.outer - films.heights[2 * k + 1, HEIGHT]
+    closer = length - free_i - free_o
     ratio = (balls.outer.kn / balls.inner.kn) ** (2.0 / 3.0)
-    outward = g.outer + closer / (1.0 + ratio)
+    outward = free_o + closer / (1.0 + ratio)
     omega = films.omega[0]
     if closer < 0.0 and omega > 0.0:
         centrifugal = 0.125 * omega * omega * g.mass * g.pitch
-        outward = g.outer + (centrifugal / balls.outer.kn) ** (2.0 / 3.0)
+        outward = free_o + (centrifugal / balls.outer.kn) ** (2.0 / 3.0)
     _put(films, k, c, outward * c[0] / length, outward * c[1] / length)
 
 

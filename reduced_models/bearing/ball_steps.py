@@ -181,7 +181,8 @@ def press_balls(balls, films, q, v, gain, out):
         rows, turned = films.maps[k, 0], films.maps[k, 1]
         c = _groove_centre(balls, films, k, q, v, cage)
         done, still = False, gain == 0.0
-        if still and omega == 0.0 and np.hypot(c[0], c[1]) <= _reach(balls, films, k):  # between both races
+        apart = np.hypot(c[0], c[1]) <= _reach(balls, films, k)
+        if still and omega == 0.0 and apart and balls.inner.x.size == 0:  # between both races, without films
             place_ball(balls, k, c, films)
             films.force[k] = 0.0
             continue

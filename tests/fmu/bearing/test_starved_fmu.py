@@ -77,6 +77,6 @@ def test_a_rotor_with_starved_bearings_has_it_in_its_description():
         supports=[Support(position=0.0, bearing=flooded), Support(position=0.2, bearing=starved)],
     )
     with pytest.warns(OutsideValidityWarning, match="where a ball carries"):
-        spec = rotor_spec(RotorModel(rotor, 3000.0))
-    assert "bearing 1" not in spec.description
-    assert re.search(r"; bearing 2: where a ball carries [\d.e+]+ N, under this layer", spec.description)
+        spec = rotor_spec(RotorModel(rotor, speeds_rpm=3000.0))
+    assert "bearing 0" not in spec.description
+    assert re.search(r"; bearing 1: where a ball carries [\d.e+]+ N, under this layer", spec.description)
