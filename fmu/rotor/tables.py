@@ -96,7 +96,9 @@ def _work(model: RotorModel, laws: list[Law]) -> int:
 def _cache(model: RotorModel, laws: list[Law], sums: bool) -> int:
     """Numbers of the cache: enumerators of model_rotor.c, and `rotor_layout`."""
     n, p = model.rotor.size, len(model.geometry.points)
-    state = 4 * n + 4 * p + SHAFT + 2 + METHOD + n * n + n + p * n + p * p + sum(law.size for law in laws)
+    shaft = SHAFT + 2 * len(model.rotor.unbalances)
+    step = 2 + METHOD + n * n + n + p * n + p * p
+    state = 4 * n + 4 * p + shaft + step + sum(law.size for law in laws)
     return (3 * n * n + n) * sums + n * n + n + 3 + n + state
 
 

@@ -283,7 +283,7 @@ static Fault look_ahead(Model *model, const Motion *ahead, double length, double
 
 Fault core_step(State *s, double time, double h)
 {
-    Model next = s->model;
+    const Model before = s->model;
     Motion motion, ahead;
     Fault fault = check_step(s, time, h);
     double beyond = 0.0;
@@ -299,21 +299,21 @@ Fault core_step(State *s, double time, double h)
         fault = check_motion(&ahead);
     }
     if (fault.severity == FINE && (s->stale & STALE_LAW) != 0) {
-        fault = model_prepare(&next);
+        fault = model_prepare(&s->model);
     }
     if (fault.severity == FINE) {
-        fault = model_step(&next, &motion, h, s->tolerance);
+        fault = model_step(&s->model, &motion, h, s->tolerance);
     }
     if (fault.severity == FINE && beyond > 0.0) {
-        fault = look_ahead(&next, &ahead, beyond, s->tolerance);
+        fault = look_ahead(&s->model, &ahead, beyond, s->tolerance);
     }
     if (fault.severity != FINE) {
+        s->model = before;
         return fault;
     }
 #ifndef LEAD_OF_INPUTS
     judge_step(s);
 #endif
-    s->model = next;
     memmove(s->given[1], s->given[0], sizeof s->given[0]);
     memcpy(s->given[0], s->model.value, sizeof s->given[0]);
     s->given_time[1] = s->given_time[0];

@@ -494,8 +494,8 @@ static void take_supports(const double force[], double net[])
 
 /* Accelerations of the freedoms and of the shaft, together, for forces `net` without the part of the angular acceleration, and
  * `drive` on the shaft without that of the unbalances. */
-static double accelerate(const Rotor *r, const double unbalance[], double angle, double alpha, double drive, const double net[],
-                         double a[])
+static double accelerate(const Rotor *r, const double unbalance[], const double swing[], double alpha, double drive,
+                         const double net[], double a[])
 {
     double swung[FREEDOMS], response[FREEDOMS];
     int u, i;
@@ -505,7 +505,7 @@ static double accelerate(const Rotor *r, const double unbalance[], double angle,
     }
     memset(swung, 0, sizeof swung);
     for (u = 0; u < UNBALANCES; u++) {
-        const double c = cos(angle + unbalance_phase[u]), s = sin(angle + unbalance_phase[u]);
+        const double c = swing[2 * u], s = swing[2 * u + 1];
         const int x = unbalance_at[2 * u], y = unbalance_at[2 * u + 1];
         if (x >= 0) {
             swung[x] += unbalance[u] * s;
@@ -556,7 +556,7 @@ Fault model_rates(Model *m)
     const Rotor r = rotor_of(&next);
     const RotorLayout at = rotor_layout(&r);
     double *rates = &next.value[FIRST_DERIVATIVE], *numbers = &next.cache[NUMBERS];
-    double given[FREEDOMS], net[FREEDOMS], alpha = 0.0;
+    double given[FREEDOMS], net[FREEDOMS], swing[2 * UNBALANCES + 1], alpha = 0.0;
     const double omega = angular_speed(m);
     const Acting now = acting(m->input, given);
     const char *reason = NULL;
@@ -567,11 +567,12 @@ Fault model_rates(Model *m)
 #if !HAS_TORQUE
     alpha = m->input[FIRST_DRIVE + 1];
 #endif
-    rotor_applied(&r, given, now.unbalance, m->value[ANGLE], omega, 0.0, net);
+    rotor_swing(&r, m->value[ANGLE], swing);
+    rotor_applied(&r, given, now.unbalance, swing, omega, 0.0, net);
     rotor_resist(&r, omega, &m->value[POSITION], &m->value[VELOCITY], net);
     rotor_take(&r, numbers + at.carried, 1.0, net);
     memcpy(rates, &m->value[VELOCITY], FREEDOMS * sizeof rates[0]);
-    alpha = accelerate(&r, now.unbalance, m->value[ANGLE], alpha, driving(&next, omega), net, rates + FREEDOMS);
+    alpha = accelerate(&r, now.unbalance, swing, alpha, driving(&next, omega), net, rates + FREEDOMS);
     rates[2 * FREEDOMS] = omega;
 #if HAS_TORQUE
     rates[2 * FREEDOMS + 1] = alpha;
@@ -593,11 +594,13 @@ void model_direction(const Model *m, const double seed[], double along[])
 {
     const Rotor r = rotor_of(m);
     const double *numbers = &m->cache[NUMBERS] + rotor_layout(&r).supports, *dq = &seed[POSITION], *dv = &seed[VELOCITY];
-    const double *v = &m->value[VELOCITY], angle = m->value[ANGLE], omega = angular_speed(m), *amount = &m->input[FORCES];
+    const double *v = &m->value[VELOCITY], omega = angular_speed(m), *amount = &m->input[FORCES];
     const double domega = HAS_TORQUE ? seed[SPEED] : seed[FIRST_DRIVE], dangle = seed[ANGLE];
-    double given[FREEDOMS], net[FREEDOMS], force[MOTIONS + 1], a[FREEDOMS], *rates = &along[FIRST_DERIVATIVE], work[WORK];
+    double given[FREEDOMS], net[FREEDOMS], swing[2 * UNBALANCES + 1], force[MOTIONS + 1], a[FREEDOMS], work[WORK];
+    double *rates = &along[FIRST_DERIVATIVE];
     double alpha = 0.0, dalpha = 0.0, ddrive = 0.0;
     int i, k, s, u, films = FILMS;
+    rotor_swing(&r, m->value[ANGLE], swing);
     for (i = 0; i < SHOWN; i++) {
         along[FIRST_PLACE + i] = along[FIRST_RATE + i] = 0.0;
         for (k = 0; k < FREEDOMS; k++) {
@@ -635,21 +638,21 @@ void model_direction(const Model *m, const double seed[], double along[])
         a[i] = m->value[FIRST_DERIVATIVE + FREEDOMS + i];
     }
     for (u = 0; u < UNBALANCES; u++) {
-        const double c = cos(angle + unbalance_phase[u]), sn = sin(angle + unbalance_phase[u]), U = amount[u], dU = seed[FORCES + u];
-        const double swing = dU * omega * omega + U * (2.0 * omega * domega + alpha * dangle);
+        const double c = swing[2 * u], sn = swing[2 * u + 1], U = amount[u], dU = seed[FORCES + u];
+        const double pulled = dU * omega * omega + U * (2.0 * omega * domega + alpha * dangle);
         const double pushed = dU * alpha - U * omega * omega * dangle;
         const int x = unbalance_at[2 * u], y = unbalance_at[2 * u + 1];
         const double ax = x >= 0 ? a[x] : 0.0, ay = y >= 0 ? a[y] : 0.0;
         if (x >= 0) {
-            net[x] += swing * c + pushed * sn;
+            net[x] += pulled * c + pushed * sn;
         }
         if (y >= 0) {
-            net[y] += swing * sn - pushed * c;
+            net[y] += pulled * sn - pushed * c;
         }
         ddrive += dU * (ax * sn - ay * c) + U * dangle * (ax * c + ay * sn);
     }
     memcpy(rates, dv, FREEDOMS * sizeof rates[0]);
-    dalpha = accelerate(&r, amount, angle, dalpha, ddrive, net, rates + FREEDOMS);
+    dalpha = accelerate(&r, amount, swing, dalpha, ddrive, net, rates + FREEDOMS);
     rates[2 * FREEDOMS] = domega;
 #if HAS_TORQUE
     rates[2 * FREEDOMS + 1] = dalpha;

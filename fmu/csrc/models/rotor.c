@@ -56,15 +56,25 @@ double rotor_motion(const Rotor *r, int motion, const double q[])
     return sum;
 }
 
-void rotor_applied(const Rotor *r, const double given[], const double unbalance[], double angle, double omega, double spin,
-                   double force[])
+void rotor_swing(const Rotor *r, double angle, double swing[])
+{
+    int u;
+    for (u = 0; u < r->unbalances; u++) {
+        const double place = angle + r->phase[u];
+        swing[2 * u] = cos(place);
+        swing[2 * u + 1] = sin(place);
+    }
+}
+
+void rotor_applied(const Rotor *r, const double given[], const double unbalance[], const double swing[], double omega,
+                   double spin, double force[])
 {
     int i, u;
     for (i = 0; i < r->freedoms; i++) {
         force[i] = r->load * r->L[i] + given[i];
     }
     for (u = 0; u < r->unbalances; u++) {
-        const double c = cos(angle + r->phase[u]), s = sin(angle + r->phase[u]), amount = unbalance[u];
+        const double c = swing[2 * u], s = swing[2 * u + 1], amount = unbalance[u];
         const int x = r->unbalance_at[2 * u], y = r->unbalance_at[2 * u + 1];
         if (x >= 0) {
             force[x] += amount * (omega * omega * c + spin * s);
@@ -112,12 +122,12 @@ void rotor_resist(const Rotor *r, double omega, const double q[], const double v
     }
 }
 
-double rotor_slowed(const Rotor *r, const double unbalance[], double angle, const double a[])
+double rotor_slowed(const Rotor *r, const double unbalance[], const double swing[], const double a[])
 {
     double sum = 0.0;
     int u;
     for (u = 0; u < r->unbalances; u++) {
-        const double c = cos(angle + r->phase[u]), s = sin(angle + r->phase[u]);
+        const double c = swing[2 * u], s = swing[2 * u + 1];
         const int x = r->unbalance_at[2 * u], y = r->unbalance_at[2 * u + 1];
         sum += unbalance[u] * ((y >= 0 ? a[y] * c : 0.0) - (x >= 0 ? a[x] * s : 0.0));
     }

@@ -29,9 +29,10 @@ typedef struct {
 } Rotor;
 
 /* Places in the state. Accelerations follow displacements and velocities; forces on the points and applied forces are those of
- * the last step's end, `past` the points at the ends of the last three, the newest first; then the linear part of a step. */
+ * the last step's end, `past` the points at the ends of the last three, the newest first, `swing` where the unbalances are; then the
+ * linear part of a step. */
 typedef struct {
-    size_t place, velocity, acceleration, past, carried, applied, shaft, step, supports;
+    size_t place, velocity, acceleration, past, carried, applied, shaft, swing, step, supports;
 } RotorLayout;
 
 enum { METHOD_NUMBERS = 11 }; /* weights of a step: rotor_step.c */
@@ -55,7 +56,8 @@ static inline RotorLayout rotor_layout(const Rotor *r)
     at.carried = at.past + 3 * p;
     at.applied = at.carried + p;
     at.shaft = at.applied + n;
-    at.step = at.shaft + SHAFT_NUMBERS;
+    at.swing = at.shaft + SHAFT_NUMBERS;
+    at.step = at.swing + 2 * (size_t)r->unbalances;
     at.supports = at.step + step_numbers(r);
     return at;
 }
@@ -69,9 +71,11 @@ double rotor_motion(const Rotor *rotor, int motion, const double q[]);
 
 /* ---- forces ---- */
 
-/* Load, forces that are given on all freedoms, and unbalances. */
-void rotor_applied(const Rotor *rotor, const double given[], const double unbalance[], double angle, double omega, double spin,
-                   double force[]);
+/* Directions of the unbalances, (unbalances, 2), with the shaft at an angle: cosine and sine. */
+void rotor_swing(const Rotor *rotor, double angle, double swing[]);
+/* Load, forces that are given on all freedoms, and unbalances in these directions. */
+void rotor_applied(const Rotor *rotor, const double given[], const double unbalance[], const double swing[], double omega,
+                   double spin, double force[]);
 /* Takes `weight` times the forces on the points from forces on the freedoms. */
 void rotor_take(const Rotor *rotor, const double carried[], double weight, double force[]);
 /* Accelerations under forces on the freedoms, by the mass alone; not in place. */
@@ -79,7 +83,7 @@ void rotor_accelerate(const Rotor *rotor, const double force[], double accelerat
 /* Takes damping and stiffness from forces. */
 void rotor_resist(const Rotor *rotor, double omega, const double q[], const double v[], double force[]);
 /* Torque that unbalances take from the shaft through these accelerations. */
-double rotor_slowed(const Rotor *rotor, const double unbalance[], double angle, const double acceleration[]);
+double rotor_slowed(const Rotor *rotor, const double unbalance[], const double swing[], const double acceleration[]);
 
 /* ---- supports ---- */
 

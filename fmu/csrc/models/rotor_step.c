@@ -175,6 +175,12 @@ static void free_place(const Rotor *r, const Method *m, double omega, const doub
     }
 }
 
+/* As fmax of numbers, which compilers call a library for. */
+static double larger(double a, double b)
+{
+    return b > a ? b : a;
+}
+
 /* What an imbalance is measured by. */
 static double size_of(const Rotor *r, const double applied[], const double state[])
 {
@@ -182,10 +188,10 @@ static double size_of(const Rotor *r, const double applied[], const double state
     double most = r->floor;
     int i;
     for (i = 0; i < r->freedoms; i++) {
-        most = fmax(most, fmax(fabs(applied[i]), fabs(state[at.applied + (size_t)i])));
+        most = larger(most, larger(fabs(applied[i]), fabs(state[at.applied + (size_t)i])));
     }
     for (i = 0; i < r->points; i++) {
-        most = fmax(most, fabs(state[at.carried + (size_t)i]));
+        most = larger(most, fabs(state[at.carried + (size_t)i]));
     }
     return most;
 }
@@ -210,13 +216,14 @@ static const char *balance(const Rotor *r, const Method *m, double size, double 
             return reason;
         }
         for (i = 0; i < p; i++) {
-            room->off[i] = m->weight * room->carried[i];
+            double off = m->weight * room->carried[i];
             for (k = 0; k < p; k++) {
-                const double stiffness = c.D[i * p + k];
-                room->off[i] += stiffness * (room->r[k] - room->free[k]);
-                noise = fmax(noise, fabs(stiffness) * fmax(fabs(room->r[k]), fabs(room->free[k])));
+                const double stiffness = c.D[i * p + k], r_k = room->r[k], free = room->free[k];
+                off += stiffness * (r_k - free);
+                noise = larger(noise, fabs(stiffness) * larger(fabs(r_k), fabs(free)));
             }
-            error += room->off[i] * room->off[i];
+            room->off[i] = off;
+            error += off * off;
         }
         error = sqrt(error);
         if (!isfinite(error)) {
@@ -312,11 +319,12 @@ void rotor_begin(const Rotor *r, const Acting *now, const Acting *end, double h,
     const RotorLayout at = rotor_layout(r);
     const Room own = room(r, work);
     double *shaft = state + at.shaft, *applied = own.place, *net = own.more, *before = state + at.applied;
-    int i;
+    int i, changed = 0;
     if (shaft[SHAFT_MOVING] == 0.0) {
+        rotor_swing(r, shaft[SHAFT_ANGLE], state + at.swing);
         shaft[SHAFT_SPIN] = (speed_after(r, end, h, shaft) - shaft[SHAFT_SPEED]) / h;
     }
-    rotor_applied(r, now->given, now->unbalance, shaft[SHAFT_ANGLE], shaft[SHAFT_SPEED], shaft[SHAFT_SPIN], applied);
+    rotor_applied(r, now->given, now->unbalance, state + at.swing, shaft[SHAFT_SPEED], shaft[SHAFT_SPIN], applied);
     if (shaft[SHAFT_MOVING] == 0.0) {
         memcpy(net, applied, (size_t)r->freedoms * sizeof net[0]);
         rotor_resist(r, shaft[SHAFT_SPEED], state + at.place, state + at.velocity, net);
@@ -324,14 +332,18 @@ void rotor_begin(const Rotor *r, const Acting *now, const Acting *end, double h,
     } else {
         for (i = 0; i < r->freedoms; i++) {
             net[i] = applied[i] - before[i];
+            changed |= net[i] != 0.0;
         }
     }
-    rotor_accelerate(r, net, own.damped);
-    for (i = 0; i < r->freedoms; i++) {
-        double *a = state + at.acceleration;
-        a[i] = shaft[SHAFT_MOVING] == 0.0 ? own.damped[i] : a[i] + own.damped[i];
-        before[i] = applied[i];
+    if (shaft[SHAFT_MOVING] == 0.0) {
+        rotor_accelerate(r, net, state + at.acceleration);
+    } else if (changed) {
+        rotor_accelerate(r, net, own.damped);
+        for (i = 0; i < r->freedoms; i++) {
+            state[at.acceleration + (size_t)i] += own.damped[i];
+        }
     }
+    memcpy(before, applied, (size_t)r->freedoms * sizeof before[0]);
     shaft[SHAFT_MOVING] = 1.0;
 }
 
@@ -358,7 +370,8 @@ const char *rotor_step(const Rotor *r, const Acting *end, double h, double state
     }
     if (reason == NULL) {
         double *applied = own.system; /* which rest alone uses otherwise */
-        rotor_applied(r, end->given, end->unbalance, shaft[SHAFT_ANGLE], after, shaft[SHAFT_SPIN], applied);
+        rotor_swing(r, shaft[SHAFT_ANGLE], state + at.swing);
+        rotor_applied(r, end->given, end->unbalance, state + at.swing, after, shaft[SHAFT_SPIN], applied);
         free_place(r, m, middle, applied, state, &own);
         for (j = 0; j < p; j++) {
             const double *row = &r->B[j * n];
@@ -381,7 +394,7 @@ const char *rotor_step(const Rotor *r, const Acting *end, double h, double state
     if (r->inertia != 0.0) {
         shaft[SHAFT_RESISTED + 1] = shaft[SHAFT_RESISTED];
         shaft[SHAFT_RESISTED] = supports_torque(r, state)
-                                + rotor_slowed(r, end->unbalance, shaft[SHAFT_ANGLE], state + at.acceleration);
+                                + rotor_slowed(r, end->unbalance, state + at.swing, state + at.acceleration);
     }
     return reason;
 }
