@@ -93,7 +93,7 @@ class BallFilms(NamedTuple):
     place: _Floats  # (balls, 2) b as tried last [m]
     kept: _Floats  # (balls, KEPT, 2) places and rates of earlier steps; rows above
     tried: _Floats  # (balls, 4) c and c' where `place` was found
-    follow: _Floats  # (balls, 2, 4) its slopes by both
+    follow: _Floats  # (balls, 2, 2) its slopes by c, at rest
     film: _Floats  # (contacts, 4) film over that of the table: in this step, at the last two ends; v - u of
     # `film_curve` at the last end
     # (contacts, 4) sum of both surface speeds over the speed of the shaft [m], likewise; 2a/u_sum over sqrt(g) in
@@ -127,7 +127,7 @@ def films_of(balls: Balls) -> BallFilms:
         place=np.full((n, 2), nan),
         kept=np.zeros((n, KEPT, 2)),
         tried=np.zeros((n, 4)),
-        follow=np.zeros((n, 2, 4)),
+        follow=np.zeros((n, 2, 2)),
         film=np.ones((contacts, 4)),
         speed_sum=np.ones((contacts, TRANSIT + 1)),
         slopes=np.zeros((n, 5, 4)),
@@ -297,20 +297,28 @@ def by_place(now, slopes, gain, heavy):
 
 
 @jit_exact_node
-def balance_ball(balls, omega, row, films, k, c, gain):
+def _following(by, per_det, off_r, off_z):
+    """Motion of a ball that takes away an imbalance; `by` is that of `by_place`, by rows."""
+    return (by[1] * off_z - by[3] * off_r) * per_det, (by[2] * off_r - by[0] * off_z) * per_det
+
+
+@jit_exact_node
+def balance_ball(balls, omega, row, films, k, c, gain, moving):
     """Balance ball `k` with the groove centre at `c` = (c_r, c_z, c_r', c_z'); False where it finds no balance.
 
     Rows 2 to 4 of ``films.tangents`` get the force of the ring on the ball (r, z) and its moment: derivatives by c
-    and c' on the first page, the values in the last column of the second. The third has slopes as
-    ``films.slopes``, where a long search in a step renews them for itself.
+    and c' on the first page, those by z where the ring is `moving` in more than two directions, and the values in
+    the last column of the second. The third has slopes as ``films.slopes``, where a long search in a step renews
+    them for itself.
     """
     g, place, tried, follow = balls.grooves, films.place[k], films.tried[k], films.follow[k]
     slopes, w = films.slopes[k], films.tangents[0]
     heavy = balls.inertia * gain * gain
     b_r, b_z = place[0], place[1]
-    for j in range(4):
-        moved = c[j] - tried[j]
-        b_r, b_z = b_r + follow[0, j] * moved, b_z + follow[1, j] * moved
+    if gain == 0.0:  # steps begin where the ball moves on to
+        for j in range(2):
+            moved = c[j] - tried[j]
+            b_r, b_z = b_r + follow[0, j] * moved, b_z + follow[1, j] * moved
     reach, previous, last_r, last_z = FIRST_STEP, np.inf, b_r, b_z
     longest = FAR * (g.inner + g.outer)
     nearly = NEARLY_SHARED if g.control in (INNER, SHARED) else NEARLY
@@ -343,41 +351,49 @@ def balance_ball(balls, omega, row, films, k, c, gain):
             if (old or size <= allowed) and omega > 0.0:
                 renew_slopes(balls, omega, (b_r, b_z), c, (0.0, 0.0), (now.film_i, now.film_o), slopes)
         a, h, m, turn, by, det, stiff = by_place(now, slopes, gain, heavy)
-        by_rr, by_rz, by_zr, by_zz = by
         if stiff <= 0.0 or abs(det) <= SINGULAR * stiff * stiff:  # nothing touches it
             b_r, b_z = b_r + reach * r_r / size, b_z + reach * r_z / size
             reach, previous = 2.0 * reach, np.inf
             continue
-        step_r, step_z = (by_rz * r_z - by_zz * r_r) / det, (by_zr * r_r - by_rr * r_z) / det
+        per_det = 1.0 / det
+        step_r, step_z = _following(by, per_det, r_r, r_z)
         if size > allowed:
-            length = sqrt(step_r * step_r + step_z * step_z)
-            cut = min(1.0, longest / length)
+            length, cut = step_r * step_r + step_z * step_z, 1.0
+            if length > longest * longest:
+                cut = longest / sqrt(length)
             last_r, last_z, previous = b_r, b_z, size
             b_r, b_z = b_r + cut * step_r, b_z + cut * step_z
             continue
-        # by c and c': of the balance, then of the force of the ring, in which b follows c
-        i_r, i_z, d_i = now.i_r, now.i_z, now.d_i
-        w[0, 0], w[0, 1] = i_r * a[0] + turn[0] + slopes[0, 2], i_r * a[1] + turn[1] + slopes[0, 3]
-        w[1, 0], w[1, 1] = i_z * a[0] + turn[1] + slopes[1, 2], i_z * a[1] + turn[2] + slopes[1, 3]
-        w[0, 2], w[0, 3] = d_i * i_r * i_r, d_i * i_r * i_z
-        w[1, 2], w[1, 3] = w[0, 3], d_i * i_z * i_z
+        # by c and c', of the balance, then of the force of the ring, in which b follows c; by c' along the inner
+        # contact alone
+        i_r, i_z, d_i, out = now.i_r, now.i_z, now.d_i, films.tangents[1]
         p_rr, p_rz = -i_r * h[0] - turn[0] + slopes[2, 0], -i_r * h[1] - turn[1] + slopes[2, 1]
-        p_zr, p_zz = -i_z * h[0] - turn[1] + slopes[3, 0], -i_z * h[1] - turn[2] + slopes[3, 1]
-        per_det = 1.0 / det
-        for j in range(4):
-            follow[0, j] = (by_rz * w[1, j] - by_zz * w[0, j]) * per_det
-            follow[1, j] = (by_zr * w[0, j] - by_rr * w[1, j]) * per_det
-        for j in range(4):
-            own_r = w[0, j] - (slopes[0, 2 + j] - slopes[2, 2 + j] if j < 2 else 0.0)
-            own_z = w[1, j] - (slopes[1, 2 + j] - slopes[3, 2 + j] if j < 2 else 0.0)
-            w[2, j] = own_r + p_rr * follow[0, j] + p_rz * follow[1, j]
-            w[3, j] = own_z + p_zr * follow[0, j] + p_zz * follow[1, j]
-            own = slopes[4, 2 + j] if j < 2 else 0.0
-            w[4, j] = own + slopes[4, 0] * follow[0, j] + slopes[4, 1] * follow[1, j]
-        out = films.tangents[1]
+        own_r, own_z = i_r * a[0] + turn[0], i_z * a[0] + turn[1]
+        x_r, x_z = _following(by, per_det, own_r + slopes[0, 2], own_z + slopes[1, 2])
+        y_r, y_z = _following(by, per_det, i_r, i_z)
+        w[2, 0] = own_r + slopes[2, 2] + p_rr * x_r + p_rz * x_z
+        along = d_i * (i_r + p_rr * y_r + p_rz * y_z)
+        w[2, 2] = along * i_r
         out[2, 3] = now.p_r + p_rr * step_r + p_rz * step_z
-        out[3, 3] = now.p_z + p_zr * step_r + p_zz * step_z
-        out[4, 3] = now.moment + slopes[4, 0] * step_r + slopes[4, 1] * step_z
+        if gain == 0.0:
+            follow[0, 0], follow[1, 0] = x_r, x_z
+        if moving > 2:
+            p_zr, p_zz = -i_z * h[0] - turn[1] + slopes[3, 0], -i_z * h[1] - turn[2] + slopes[3, 1]
+            m_r, m_z = slopes[4, 0], slopes[4, 1]
+            side_r, side_z = i_r * a[1] + turn[1], i_z * a[1] + turn[2]
+            z_r, z_z = _following(by, per_det, side_r + slopes[0, 3], side_z + slopes[1, 3])
+            w[2, 1], w[2, 3] = side_r + slopes[2, 3] + p_rr * z_r + p_rz * z_z, along * i_z
+            w[3, 0] = own_z + slopes[3, 2] + p_zr * x_r + p_zz * x_z
+            w[3, 1] = side_z + slopes[3, 3] + p_zr * z_r + p_zz * z_z
+            w[4, 0], w[4, 1] = slopes[4, 2] + m_r * x_r + m_z * x_z, slopes[4, 3] + m_r * z_r + m_z * z_z
+            along = d_i * (i_z + p_zr * y_r + p_zz * y_z)
+            w[3, 2], w[3, 3] = along * i_r, along * i_z
+            along = d_i * (m_r * y_r + m_z * y_z)
+            w[4, 2], w[4, 3] = along * i_r, along * i_z
+            out[3, 3] = now.p_z + p_zr * step_r + p_zz * step_z
+            out[4, 3] = now.moment + m_r * step_r + m_z * step_z
+            if gain == 0.0:
+                follow[0, 1], follow[1, 1] = z_r, z_z
         place[0], place[1] = b_r + step_r, b_z + step_z
         for j in range(4):
             tried[j] = c[j]

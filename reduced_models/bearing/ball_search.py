@@ -37,7 +37,6 @@ def move_on(films, k):
     It begins there however often a step is tried: a film that lets go pulls and pushes, so a ball may have several
     balances, and which one is found must not depend on where the ring was tried before.
     """
-    films.follow[k] = 0.0
     for j in range(2):
         films.place[k, j] = 2.0 * films.kept[k, PLACE_NOW, j] - films.kept[k, PLACE_BEFORE, j]
 

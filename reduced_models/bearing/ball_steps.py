@@ -6,7 +6,7 @@ alone, by their loads.
 
 from __future__ import annotations
 
-from math import cos, nan, pi, sin
+from math import nan, pi
 
 import numpy as np
 
@@ -109,21 +109,22 @@ def _turn_maps(balls, films):
     """Maps from the ring to the groove centres at the angles that the balls have now."""
     for k in range(balls.number):
         psi = films.cage[0] + 2.0 * pi * k / balls.number
-        ring_map(balls.grooves, psi, films.maps[k, 0])
-        turned = films.maps[k, 1]
-        c, s, groove_circle = cos(psi), sin(psi), balls.grooves.groove_circle
+        rows, turned, groove_circle = films.maps[k, 0], films.maps[k, 1], balls.grooves.groove_circle
+        ring_map(balls.grooves, psi, rows)
+        c, s = rows[0, 0], rows[0, 1]
         turned[0, 0], turned[0, 1], turned[1, 3], turned[1, 4] = -s, c, groove_circle * c, groove_circle * s
 
 
 @jit_exact_node
 def _groove_centre(balls, films, k, q, v, cage):
-    """Inner groove centre at ball `k`, and its velocity, seen in the plane of the ball."""
+    """Inner groove centre at ball `k`, and its velocity, seen in the plane of the ball, by `ring_map`."""
     rows, turned = films.maps[k, 0], films.maps[k, 1]
-    c_r, c_z, d_r, d_z = balls.grooves.radial, balls.grooves.axial, 0.0, 0.0
-    for j in range(q.size):
-        c_r += rows[0, j] * q[j]
+    cosine, sine = rows[0, 0], rows[0, 1]
+    c_r = balls.grooves.radial + cosine * q[0] + sine * q[1]
+    d_r = cosine * v[0] + cage * turned[0, 0] * q[0] + (sine * v[1] + cage * turned[0, 1] * q[1])
+    c_z, d_z = balls.grooves.axial, 0.0
+    for j in range(2, q.size):
         c_z += rows[1, j] * q[j]
-        d_r += rows[0, j] * v[j] + cage * turned[0, j] * q[j]
         d_z += rows[1, j] * v[j] + cage * turned[1, j] * q[j]
     return c_r, c_z, d_r, d_z
 
@@ -136,21 +137,36 @@ def _add_ball(rows, turned, cage, tangents, moving, out):
     """
     force, stiffness, damping = out
     w, found = tangents[0], tangents[1]
-    p_r, p_z, moment = found[2, 3], found[3, 3], found[4, 3]
-    for j in range(2):
-        force[j] += rows[0, j] * p_r
+    p_r, by_r, by_rate = found[2, 3], w[2, 0], w[2, 2]
+    cosine, sine = rows[0, 0], rows[0, 1]
+    force[0] += cosine * p_r
+    force[1] += sine * p_r
+    by_x, by_y = by_r * cosine + by_rate * (cage * turned[0, 0]), by_r * sine + by_rate * (cage * turned[0, 1])
+    stiffness[0, 0] += cosine * by_x
+    stiffness[1, 0] += sine * by_x
+    stiffness[0, 1] += cosine * by_y
+    stiffness[1, 1] += sine * by_y
+    by_x, by_y = by_rate * cosine, by_rate * sine
+    damping[0, 0] += cosine * by_x
+    damping[1, 0] += sine * by_x
+    damping[0, 1] += cosine * by_y
+    damping[1, 1] += sine * by_y
+    if moving == 2:
+        return
+    p_z, moment = found[3, 3], found[4, 3]
     for j in range(2, moving):
         force[j] += rows[1, j] * p_z + rows[2, j] * moment
     for j in range(moving):
         # by the place and the rate of freedom j, for r, z and the moment
         row, at = (rows[0, j], 0) if j < 2 else (rows[1, j], 1)
         swept = cage * (turned[0, j] if j < 2 else turned[1, j])
-        r, z = w[2, at] * row + w[2, 2 + at] * swept, w[3, at] * row + w[3, 2 + at] * swept
-        m = w[4, at] * row + w[4, 2 + at] * swept
-        r_rate, z_rate, m_rate = w[2, 2 + at] * row, w[3, 2 + at] * row, w[4, 2 + at] * row
-        for i in range(2):
-            stiffness[i, j] += rows[0, i] * r
-            damping[i, j] += rows[0, i] * r_rate
+        if j >= 2:
+            r, r_rate = w[2, 1] * row + w[2, 3] * swept, w[2, 3] * row
+            for i in range(2):
+                stiffness[i, j] += rows[0, i] * r
+                damping[i, j] += rows[0, i] * r_rate
+        z, m = w[3, at] * row + w[3, 2 + at] * swept, w[4, at] * row + w[4, 2 + at] * swept
+        z_rate, m_rate = w[3, 2 + at] * row, w[4, 2 + at] * row
         for i in range(2, moving):
             stiffness[i, j] += rows[1, i] * z + rows[2, i] * m
             damping[i, j] += rows[1, i] * z_rate + rows[2, i] * m_rate
@@ -161,6 +177,27 @@ def _reach(balls, films, k):
     """Distance of the groove centres at which ball `k` touches both races, by more than rounding [m]."""
     g, heights = balls.grooves, films.heights
     return (g.inner + g.outer - (heights[2 * k, HEIGHT] + heights[2 * k + 1, HEIGHT])) * (1.0 + 10.0 * SINGULAR)
+
+
+@inner
+@jit_exact_loop
+def _balance_lost_ball(balls, omega, row, films, k, c, gain, moving):
+    """`balance_ball`, of a ball that finds no balance from where it is: from elsewhere, then by a search."""
+    known = np.isfinite(films.place[k, 0])
+    for attempt in range(1 if known else 0, 3):
+        if gain > 0.0:
+            if attempt == 2:
+                search_ball(balls, omega, row, films, k, c, gain)
+            else:
+                place_ball(balls, k, c, films)
+        else:
+            if attempt == 2 or not np.isfinite(films.place[k, 0]):
+                place_ball(balls, k, c, films)
+            if not seek_ball(balls, omega, row, films, k, c):
+                continue
+        if balance_ball(balls, omega, row, films, k, c, gain, moving):
+            return True
+    return False
 
 
 @jit_exact_called_node
@@ -177,34 +214,21 @@ def press_balls(balls, films, q, v, gain, out):
     omega = films.omega[0]
     cage = omega * films.cage[2] if gain > 0.0 else 0.0
     row = row_of_speed(balls.speeds, max(omega, balls.speeds[0]))
+    still = gain == 0.0 and omega == 0.0 and balls.inner.x.size == 0
     for k in range(balls.number):
         rows, turned = films.maps[k, 0], films.maps[k, 1]
         c = _groove_centre(balls, films, k, q, v, cage)
-        done, still = False, gain == 0.0
-        apart = np.hypot(c[0], c[1]) <= _reach(balls, films, k)
-        if still and omega == 0.0 and apart and balls.inner.x.size == 0:  # between both races, without films
+        if still and np.hypot(c[0], c[1]) <= _reach(balls, films, k):  # between both races, without films
             place_ball(balls, k, c, films)
             films.force[k] = 0.0
             continue
-        for attempt in range(3):
-            if not still:
-                if attempt == 0:
-                    move_on(films, k)
-                if attempt == 1 or not np.isfinite(films.place[k, 0]):
-                    place_ball(balls, k, c, films)
-                if attempt == 2:
-                    search_ball(balls, omega, row, films, k, c, gain)
-            elif attempt > 0 or not np.isfinite(films.place[k, 0]):
-                if attempt == 2 or not np.isfinite(films.place[k, 0]):
-                    place_ball(balls, k, c, films)
-                if not seek_ball(balls, omega, row, films, k, c):
-                    continue
-            done = balance_ball(balls, omega, row, films, k, c, gain)
-            if done:
-                break
+        if gain > 0.0:
+            move_on(films, k)
+        done = np.isfinite(films.place[k, 0]) and balance_ball(balls, omega, row, films, k, c, gain, q.size)
+        done = done or _balance_lost_ball(balls, omega, row, films, k, c, gain, q.size)
         if not done:
             force[:] = nan
-            if still:
+            if gain == 0.0:
                 films.place[k] = nan
             return
         _add_ball(rows, turned, cage, films.tangents, q.size, out)

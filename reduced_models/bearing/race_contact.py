@@ -124,7 +124,7 @@ def film_curve(u, film, row, weight, law, k):
     for _ in range(MOST_STEPS):
         g, slope, k = curve(v, row, weight, law, k)
         if f == 1.0:
-            break
+            return g, slope, slope * (g - v), v - u, k
         stretch = (1.0 - f) * slope + f
         step = (u - (1.0 - f) * g - f * v) / stretch
         v, g = v + step, g + slope * step
