@@ -17,9 +17,10 @@ from fmu.isolated import isolated, require_path
 from fmu.lead import CONTACT, ROTOR
 from fmu.models import Exported, FmuModel, Keywords, fmu_model
 from fmu.references.check import check_references
-from fmu.spec import ModelSpec
+from fmu.spec import ModelSpec, Variable
 from fmu.verification import Verification
 
+ROUNDING = 1e-12  # of a start value or its nominal value, within which both may differ
 EXPORT_OPTIONS = {CONTACT.name, ROTOR.name}  # whose start values are chosen at export
 REACH = 3.0  # validity intervals above `high` up to which `verify` compares the force
 
@@ -94,16 +95,24 @@ def _known_variables(file: FmuFile, spec: ModelSpec) -> dict[str, Any]:
 
 def _declarations(spec: ModelSpec, known: dict[str, Any]) -> tuple[str, ...]:
     """Findings: variables whose unit or start value differs from the element's."""
-    found = []
+    differences = []
     for variable in spec.variables:
         declared = known[variable.name]
         start = None if declared.start is None else float(declared.start)
-        if (declared.unit, start) != (variable.unit, variable.start) and variable.name not in EXPORT_OPTIONS:
-            found.append(
+        same = declared.unit == variable.unit and _same_start(start, variable)
+        if not same and variable.name not in EXPORT_OPTIONS:
+            differences.append(
                 f"{variable.name}: start {start} [{declared.unit}] in the FMU, "
                 f"{variable.start} [{variable.unit}] in the element"
             )
-    return tuple(found)
+    return tuple(differences)
+
+
+def _same_start(start: float | None, variable: Variable) -> bool:
+    """Whether a start value is that of a variable, but for the rounding of places in equilibrium."""
+    if start is None or variable.start is None:
+        return start is variable.start
+    return abs(start - variable.start) <= ROUNDING * max(abs(variable.start), variable.nominal or 0.0)
 
 
 class VerificationError(RuntimeError):

@@ -286,7 +286,7 @@ def test_a_layer_of_oil_in_the_fmu_of_a_rotor(call, tmp_path):
     )
     assert done.code == 0 and "where a ball carries" in done.err, done
     about = fmpy.read_model_description(str(tmp_path / "r.fmu"))
-    assert "; bearing 2: where a ball carries" in about.description
+    assert "; bearing 1: where a ball carries" in about.description
 
 
 @pytest.mark.long

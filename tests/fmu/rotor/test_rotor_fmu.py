@@ -157,7 +157,8 @@ def test_a_fault_of_a_millionth_is_found(made, name):
         replace(rotor, mass=rotor.mass * (1.0 + 1e-6)),
     ):
         found = verified(one.path, OfRotor(faulty, one.model.keywords))
-        assert found.motion > 1e-6 and not found.passes and not found.findings
+        assert found.motion > 1e-6 and not found.passes
+        assert all(": start " in one for one in found.findings)  # places at rest, which are other ones
 
 
 def run_up(one, profile, steps):
