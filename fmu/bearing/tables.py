@@ -128,10 +128,11 @@ def _race(name: str, law: RaceForceTable) -> tuple[str, dict[str, str]]:
     """C text of the tables of a race, and the members of its `Race`."""
     numbers = ("kn", "log_kn", "contact_length_factor", "lag_rate", "inlet_rate", "fast_rate", "cutoff_gap")
     fields = {number: c_double(float(getattr(law, number))) for number in numbers}
-    fields |= {"lags": str(law.gains.shape[2] - DIRECT), "nodes": str(law.x.size)}
+    fields["lags"] = str(law.gains.shape[2] - DIRECT)
     if law.x.size == 0:
-        return "", fields
+        return "", fields | {"nodes": "0"}
     halved, place = _halved(law)
+    fields["nodes"] = str(halved.x.size)
     curve, first = _curve(halved, place)
     parts = {"x": halved.x, "u": halved.u, "curve": curve, "gains": halved.gains, "made": halved.film_made}
     lines = [c_table(f"{name}_{part}", values.reshape(-1)) for part, values in parts.items()]

@@ -16,7 +16,7 @@ from ehlcontact import InputError, OilLayer
 from fmu import export, verify_references
 from fmu.bearing.comparison import largest_difference
 from fmu.bearing.model import BearingModel
-from fmu.bearing.tables import _curve, _halved
+from fmu.bearing.tables import _curve, _halved, _race
 from fmu.bearing.trial import START, bearing_trial
 from fmu.bearing.variables import FORCES, RATES
 from fmu.driver import Slave
@@ -388,6 +388,7 @@ def test_the_curve_of_a_layer_that_runs_dry():
     halved, place = _halved(law)
     powers, first = _curve(halved, place)
     assert halved.x.size > law.x.size
+    assert _race("race", law)[1]["nodes"] == str(halved.x.size)  # of all tables in C
     for row, (u, nodes) in enumerate(zip(halved.u, law.u, strict=True)):
         np.testing.assert_array_equal(np.isin(nodes, u), True)
         for at in np.random.default_rng(0).uniform(-1e-6, 2e-6, 3000):
