@@ -98,7 +98,9 @@ IN_PLACE Rolling roll(const Bearing *bearing, const Dual b[2], const Dual c[2], 
     s_i = at.sine[INNER_RACE] = mul(s[1], per_i);
     c_o = at.cosine[OUTER_RACE] = mul(b[0], per_o);
     s_o = at.sine[OUTER_RACE] = mul(b[1], per_o);
-    if (c_i.x < least_cosine) {
+    if (c_i.x <= 0.0 && s_i.x == 0.0 && s_i.d == 0.0 && s_o.x == 0.0 && s_o.d == 0.0) {
+        c_i = number(1.0); /* a ball beyond the inner groove centre: on no inclined contact nothing spins */
+    } else if (c_i.x < least_cosine) {
         c_i = number(least_cosine);
         s_i = number((s_i.x >= 0.0 ? 1.0 : -1.0) * sqrt(1.0 - least_cosine * least_cosine));
     }
