@@ -153,7 +153,7 @@ def test_nothing_is_written_that_is_not_right(elements, tmp_path, monkeypatch, f
             EXPORT, "pack", spoiled("model_contact.c", "times(3.0, law->K3)", "times(3.001, law->K3)")
         )
     elif fault == "does not run":
-        step = "fault = model_step(&next, &motion, h, s->tolerance);"
+        step = "fault = model_step(&s->model, &motion, h, s->tolerance);"
         refusal = 'fault = (Fault){DISCARD, "nothing holds the ball"};'
         monkeypatch.setattr(EXPORT, "pack", spoiled("core_step.c", step, refusal))
     else:
