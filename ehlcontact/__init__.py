@@ -27,6 +27,7 @@ module            responsibility
 ``version``       of the distribution
 ``film/``         films for display: maps, mid-planes, fringes, film waves; a namespace of its own
 ``store``         `save` and `read`: one file header, one way back, for every class
+``binaries/``     C compilers of this machine and for others; compiled libraries, kept
 ``content_store`` `ContentStore`: what is computed, found by the hash of its inputs
 ``files``         files written in one move; texts of any origin
 ``executors``     executors of `concurrent.futures`: worker processes, or a Dask cluster

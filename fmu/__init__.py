@@ -16,7 +16,6 @@ module                   responsibility
 ``c_headers``            `ModelSpec` to the generated C headers
 ``sources``              C files of an FMU
 ``documentation``        `ModelSpec` to ``documentation/index.html``
-``binaries/``            shared libraries for every platform
 ``references/``          reference results inside an FMU; `verify_references`
 ``fmu_file``             an FMU file, unpacked, and instances of it
 ``isolated``             work with an FMU's library in a child process, with limits
@@ -36,7 +35,7 @@ the two cannot be installed into one environment.
 
 from inspect import ismodule as _ismodule
 
-from fmu.binaries import BuildError as BuildError
+from ehlcontact.binaries import BuildError as BuildError
 from fmu.export import export as export
 from fmu.references.check import verify_references as verify_references
 from fmu.system.export import export_system as export_system

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
 
-from fmu.binaries import Platform, build_binaries
-from fmu.binaries.libraries import Progress
+from ehlcontact.binaries import Platform, build_binaries
+from ehlcontact.binaries.libraries import Progress
 from fmu.documentation import documentation
 from fmu.model_description import build_description, model_description, terminals
 from fmu.references.files import reference_files

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from ehlcontact.binaries import choose, this_machine
+from ehlcontact.binaries.libraries import Progress
 from ehlcontact.errors import InputError
 from ehlcontact.files import require_writable, write_bytes
 from fmu.archive import fmu_files, pack
-from fmu.binaries import choose, this_machine
-from fmu.binaries.libraries import Progress
 from fmu.models import Exported, FmuModel, fmu_model
 from fmu.sources import FMI_FILES
 from fmu.verification import Verification

@@ -11,8 +11,10 @@ from pathlib import Path
 
 from fmu.c_headers import c_headers
 from fmu.spec import ModelSpec
+from reduced_models.core import CSRC as CORE
 
 CSRC = Path(__file__).parent / "csrc"
+SOURCE_FOLDERS = CSRC, CORE  # what belongs to FMI; what Python calls too
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,9 +58,14 @@ def source_files(spec: ModelSpec, guid: str, fmi: int = 2) -> dict[str, bytes]:
     """All that a compiler needs: content of ``sources/``, and the headers of FMI."""
     interface = FMI_FILES[fmi]
     names = (*interface.sources, *spec.sources, *interface.headers, *spec.headers, "README.md")
-    found = {path.name: path for path in CSRC.rglob("*") if path.is_file()}
+    found = source_paths()
     files = {name: found[name].read_bytes() for name in names} | standard_headers(fmi)
     return files | {name: text.encode("ascii") for name, text in c_headers(spec, guid).items()}
+
+
+def source_paths() -> dict[str, Path]:
+    """C sources and what lies beside them, by name."""
+    return {path.name: path for folder in SOURCE_FOLDERS for path in folder.rglob("*") if path.is_file()}
 
 
 def standard_headers(fmi: int) -> dict[str, bytes]:

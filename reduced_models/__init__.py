@@ -2,6 +2,8 @@
 
 | package | is responsible for |
 |---|---|
+| core | the C core, compiled once and loaded: balls, races, films, rotor steps |
+| csrc | its sources, which FMUs have too |
 | elements | the elements: law, validity, units |
 | fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |

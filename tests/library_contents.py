@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import lief
 
-from fmu.binaries.headers import parse
+from ehlcontact.binaries.headers import parse
 
 
 class Contents(NamedTuple):

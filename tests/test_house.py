@@ -82,7 +82,7 @@ def test_data_files_are_installed():
     data = {
         "fmu": ("*.c", "*.h", "*.txt", "*.png", "py.typed"),
         "ehlcontact": ("*.j2", "*.js", "*.css", "py.typed", "*.csv"),
-        "reduced_models": ("py.typed", "*.h5"),
+        "reduced_models": ("py.typed", "*.h5", "*.c", "*.h"),
     }
     for package, patterns in data.items():
         for pattern in patterns:

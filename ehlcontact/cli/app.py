@@ -12,6 +12,7 @@ from typing import Annotated
 
 import typer
 
+from ehlcontact.binaries import BuildError
 from ehlcontact.cli.commands import (
     atlas,
     bearing,
@@ -92,6 +93,9 @@ def execute(arguments: Sequence[str] | None = None) -> int:
     except ConvergenceError as error:
         complain(str(error))
         return FAILED
+    except BuildError as error:  # the C core of bearings and rotors
+        complain(str(error))
+        return USAGE
     except StdoutError as error:
         if error.closed:
             complain("stdout was closed before everything was written to it")

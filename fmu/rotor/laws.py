@@ -112,7 +112,8 @@ def law_file(
     must differ in name. `more` are headers that `ending` needs.
     """
     starts = np.array([0.0 if v.start is None else float(v.start) for v in spec.variables])
-    files = {path.name: path.read_text(encoding="ascii") for path in fmu_sources.CSRC.rglob("*.[ch]")}
+    paths = fmu_sources.source_paths()
+    files = {name: path.read_text(encoding="ascii") for name, path in paths.items() if path.suffix in (".c", ".h")}
     tables = {"law_values.h": c_table("law_values", starts) + "\n"} | (more or {})
     files |= c_headers(spec, "") | tables
     sources = [source for source in spec.sources if source not in _CORE]

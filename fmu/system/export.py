@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ehlcontact.binaries import Platform, choose, this_machine
+from ehlcontact.binaries.libraries import Progress
 from ehlcontact.checks import require_instance, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
 from fmu.archive import pack
-from fmu.binaries import Platform, choose, this_machine
-from fmu.binaries.libraries import Progress
 from fmu.contact_spec import checked_name
 from fmu.export import export_model, free_target, require_version
 from fmu.lead import CONTACT, HELD_PARALLEL

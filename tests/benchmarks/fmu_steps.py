@@ -13,9 +13,9 @@ from conv import Bracket, circumstances
 from row_file import Row
 
 from ehlcontact import MoesPoint
+from ehlcontact.binaries import this_machine
+from ehlcontact.binaries.compiler import compilers
 from fmu.archive import content_guid, fmu_files
-from fmu.binaries import this_machine
-from fmu.binaries.compiler import compilers
 from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element
 from fmu.sources import standard_folder

@@ -15,10 +15,10 @@ import pytest
 from programs import ROOT, command, environment, shell_script
 
 from ehlcontact import save
+from ehlcontact.binaries import this_machine
 from ehlcontact.cli.study.points.finalise import export_fmu
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import load_study
-from fmu.binaries import this_machine
 from reduced_models import Atlas, SpringContact
 
 STUDY = ROOT / "examples" / "small_study.toml"
@@ -84,7 +84,7 @@ def test_coefficients_that_no_fmu_can_have(refused, element, tmp_path):
 @pytest.mark.skipif(os.name != "posix", reason="a shell script as the compiler")
 def test_compilers_that_fail(refused, element, tmp_path, monkeypatch, tmp_path_factory):
     folder = tmp_path_factory.mktemp("compiler")
-    monkeypatch.setattr("fmu.binaries.process.LONGEST_RUN", 0.3)
+    monkeypatch.setattr("ehlcontact.binaries.process.LONGEST_RUN", 0.3)
     for line, words in {
         "gcc 'x": ("EHLCONTACT_CC = ", "command line (no closing quotation)"),
         "/none/cc": ("no FMU was written", "cannot start the C compiler /none/cc"),

@@ -10,9 +10,9 @@ import pytest
 from programs import shell_script
 
 import fmu.spec
+from ehlcontact.binaries.compiler import compilers
 from ehlcontact.errors import InputError
 from fmu import BuildError, VerificationError, archive, binaries, export, verify
-from fmu.binaries.compiler import compilers
 from fmu.contact_spec import contact_spec
 from fmu.export import export_model
 from fmu.models import fmu_model
@@ -210,7 +210,7 @@ def test_either_compiler_gives_the_same_model(elements, tmp_path, monkeypatch, c
     found = [one for one in compilers(own) if one.is_zig == (compiler == "zig")]
     if not found:
         pytest.skip("no system C compiler")
-    monkeypatch.setattr("fmu.binaries.libraries.compilers", lambda target: found)
+    monkeypatch.setattr("ehlcontact.binaries.libraries.compilers", lambda target: found)
     path = export(elements["cubic"], tmp_path / "x.fmu")
     assert verify(path, elements["cubic"]).passes
     with zipfile.ZipFile(path) as archive:

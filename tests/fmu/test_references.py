@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from fmpy.util import read_csv, read_ref_opt_file
 
+from ehlcontact.binaries import build_binaries, this_machine
 from ehlcontact.errors import InputError
 from fmu import VerificationError, export, verify, verify_references
 from fmu.archive import pack
-from fmu.binaries import build_binaries, this_machine
 from fmu.comparison import difference
 from fmu.contact_spec import contact_spec
 from fmu.references.contact_references import contact_references

@@ -26,7 +26,7 @@ from fmu.bearing.model import BearingModel
 from fmu.comparison import film_motion, state_grid
 from fmu.contact_spec import contact_spec
 from fmu.rotor.laws import law_names, laws_of
-from fmu.sources import CSRC, source_files, standard_folder, standard_headers
+from fmu.sources import SOURCE_FOLDERS, source_files, standard_folder, standard_headers
 from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
@@ -316,5 +316,5 @@ def test_equal_contacts_share_a_law(rotors):
 
 
 def test_sources_are_ascii():
-    for path in CSRC.rglob("*.[ch]"):
+    for path in (path for folder in SOURCE_FOLDERS for path in folder.rglob("*.[ch]")):
         assert "\t" not in path.read_bytes().decode("ascii")

@@ -125,8 +125,8 @@ def export(
         raise InputError("--lead", lead, f"left out: {inside}")
     out.check(file, contact, beside={"--output": (output, (".fmu", ".ssp") if study else (".fmu",))})
     check_new("--output", output, force)
+    from ehlcontact.binaries import choose
     from fmu import BuildError, VerificationError
-    from fmu.binaries import choose
 
     system = output.suffix.lower() == ".ssp"
     named = {} if name is None else {"model_name": name}

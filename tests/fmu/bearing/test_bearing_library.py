@@ -9,9 +9,9 @@ from bearing_fmus import MODELS
 
 from fmu.bearing.tables import bearing_table
 from fmu.bearing.variables import BEARING_SOURCES
-from fmu.sources import CSRC
+from reduced_models.core import CSRC
 
-HERE, MODEL_SOURCES = Path(__file__).parent, CSRC / "models"
+HERE, MODEL_SOURCES = Path(__file__).parent, CSRC
 FLAGS = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", "-I", MODEL_SOURCES]
 
 

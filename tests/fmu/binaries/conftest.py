@@ -4,8 +4,8 @@ import warnings
 
 import pytest
 
+from ehlcontact.binaries import PLATFORMS, build_binaries
 from fmu.archive import content_guid
-from fmu.binaries import PLATFORMS, build_binaries
 from fmu.contact_spec import contact_spec
 from fmu.sources import compiled, source_files
 from reduced_models import SpringContact

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from fmu.binaries import build_binaries, cache, libraries, this_machine
+from ehlcontact.binaries import build_binaries, cache, libraries, this_machine
 
 OWN = this_machine()
 
@@ -64,7 +64,7 @@ def test_other_sources_are_compiled_anew(kept, compiled, change):
 
 def test_so_are_the_same_with_other_flags_or_by_another_compiler(kept, compiled, monkeypatch):
     build()
-    monkeypatch.setattr("fmu.binaries.platforms.COMMON", ("-O3",))
+    monkeypatch.setattr("ehlcontact.binaries.platforms.COMMON", ("-O3",))
     build()
     monkeypatch.setenv("EHLCONTACT_CC", f"{sys.executable} -m cc")
     build()

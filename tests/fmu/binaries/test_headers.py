@@ -8,8 +8,8 @@ import subprocess
 import pytest
 from library_contents import contents
 
-from fmu.binaries import build_binaries, read_library, this_machine
-from fmu.binaries.headers import universal
+from ehlcontact.binaries import build_binaries, read_library, this_machine
+from ehlcontact.binaries.headers import universal
 from fmu.sources import compiled
 
 

@@ -15,10 +15,18 @@ from library_contents import contents
 from programs import shell_script
 
 from ehlcontact import InputError
+from ehlcontact.binaries import (
+    PLATFORMS,
+    BuildError,
+    build_binaries,
+    choose,
+    libraries,
+    read_library,
+    this_machine,
+)
+from ehlcontact.binaries.compiler import Compiler, compilers
 from fmu import export
 from fmu.archive import content_guid
-from fmu.binaries import PLATFORMS, BuildError, build_binaries, choose, libraries, read_library, this_machine
-from fmu.binaries.compiler import Compiler, compilers
 from fmu.contact_spec import contact_spec
 from fmu.sources import FMI_FILES, compiled, source_files, standard_headers
 from reduced_models import SpringContact

@@ -12,9 +12,9 @@ from lxml import etree
 from programs import shell_script
 
 from ehlcontact import InputError
+from ehlcontact.binaries import PLATFORMS, BuildError, choose, this_machine
+from ehlcontact.binaries.compiler import compilers
 from fmu import export
-from fmu.binaries import PLATFORMS, BuildError, choose, this_machine
-from fmu.binaries.compiler import compilers
 from fmu.model_description import build_description
 
 
@@ -142,7 +142,7 @@ def test_a_command_line_that_cannot_be_read(monkeypatch, line):
 
 
 def test_none(monkeypatch):
-    monkeypatch.setattr("fmu.binaries.compiler.find_spec", lambda name: None)
+    monkeypatch.setattr("ehlcontact.binaries.compiler.find_spec", lambda name: None)
     monkeypatch.setenv("PATH", "")
     with pytest.raises(BuildError, match=r"^no C compiler for .*: pip install ziglang, install gcc or set EHL"):
         compilers(OWN)

@@ -9,8 +9,8 @@ from threading import Event, Timer
 import pytest
 from programs import shell_script
 
-from fmu.binaries import process
-from fmu.binaries.process import BuildError
+from ehlcontact.binaries import process
+from ehlcontact.binaries.process import BuildError
 
 posix = pytest.mark.skipif(os.name != "posix", reason="a shell script as the compiler")
 

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 from bearing_fmus import MODELS
 
+from ehlcontact.binaries import PLATFORMS, build_binaries, this_machine
+from ehlcontact.binaries.compiler import compilers
 from fmu.archive import content_guid
 from fmu.bearing.trial import bearing_trial
 from fmu.bearing.variables import RATES, bearing_spec
-from fmu.binaries import PLATFORMS, build_binaries, this_machine
-from fmu.binaries.compiler import compilers
 from fmu.comparison import film_motion
 from fmu.contact_spec import contact_spec
 from fmu.sources import compiled, source_files, standard_folder

@@ -72,12 +72,13 @@ def altered(monkeypatch, tmp_path, file, old, new):
     import shutil
 
     folder = tmp_path / "csrc"
-    shutil.copytree(sources.CSRC, folder)
+    for here in sources.SOURCE_FOLDERS:
+        shutil.copytree(here, folder, dirs_exist_ok=True)
     path = next(folder.rglob(file))
     text = path.read_text()
     assert text.count(old) == 1
     path.write_text(text.replace(old, new))
-    monkeypatch.setattr(sources, "CSRC", folder)
+    monkeypatch.setattr(sources, "SOURCE_FOLDERS", (folder,))
 
 
 @SAYS_NOTHING

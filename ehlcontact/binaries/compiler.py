@@ -11,9 +11,9 @@ from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
 
+from ehlcontact.binaries.platforms import Platform, this_machine
+from ehlcontact.binaries.process import BuildError
 from ehlcontact.errors import InputError
-from fmu.binaries.platforms import Platform, this_machine
-from fmu.binaries.process import BuildError
 
 COMPILER_VARIABLE = "EHLCONTACT_CC"
 SYSTEM = ("cc", "gcc", "clang")  # in the order they are looked for

@@ -1,8 +1,9 @@
-"""Compilation of the C sources of an FMU for each platform."""
+"""Compilation of C sources: of an FMU for each platform, of the library's own for this machine."""
 
 from __future__ import annotations
 
 import os
+import platform
 import re
 import tempfile
 import warnings
@@ -13,11 +14,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Event
 
-from fmu.binaries import cache
-from fmu.binaries.compiler import Compiler, compilers
-from fmu.binaries.headers import Library, read_library, universal
-from fmu.binaries.platforms import Platform
-from fmu.binaries.process import BuildError, run
+from ehlcontact.binaries import cache
+from ehlcontact.binaries.compiler import Compiler, compilers
+from ehlcontact.binaries.headers import Library, read_library, universal
+from ehlcontact.binaries.platforms import Platform, this_machine
+from ehlcontact.binaries.process import BuildError, run
 
 # Binaries shall run on Linux from here on; what a newer system's compiler makes may need that system.
 OLDEST_GLIBC = (2, 17)
@@ -35,7 +36,12 @@ class Work:
     sources: Mapping[str, bytes]
     units: Sequence[str]
     identifier: str
+    flags: Sequence[str] = ()  # of the compiler, behind those of the platform
     stop: Event = field(default_factory=Event)  # set where it is in vain
+
+    def all_flags(self, target: Platform) -> tuple[str, ...]:
+        """Flags of the compiler."""
+        return (*target.all_flags(self.identifier), *self.flags)
 
 
 def build_binaries(
@@ -84,6 +90,35 @@ def build_binaries(
         made.setdefault(path, []).append(library)
         labels.append(f"{one.name}: {compiler.label} {' '.join(one.all_flags(identifier))}")
     return {path: universal(found) for path, found in made.items()}, tuple(labels)
+
+
+def build_library(
+    sources: Mapping[str, bytes], units: Sequence[str], identifier: str, flags: Sequence[str] = ()
+) -> bytes:
+    """Compile C sources for this machine alone, with its C library, by the first compiler that can.
+
+    Parameters
+    ----------
+    sources, units, identifier
+        As of `build_binaries`.
+    flags : sequence of str
+        Of the compiler, behind those of the platform.
+
+    Raises
+    ------
+    BuildError
+        No compiler, one that failed, or a machine that nothing is built for.
+    """
+    target, work = this_machine(), Work(sources, units, identifier, flags)
+    if target is None:
+        raise BuildError(f"C code is not built for this machine, {platform.system()} {platform.machine()}")
+    tried = compilers(target)
+    for compiler in tried[:-1]:
+        try:
+            return _made(work, target, compiler)[0]
+        except BuildError:  # a gcc without the headers of the C library, say
+            continue
+    return _made(work, target, tried[-1])[0]
 
 
 def _libraries(
@@ -146,7 +181,7 @@ def _made(work: Work, target: Platform, compiler: Compiler) -> tuple[bytes, Libr
 
 
 def _key(work: Work, target: Platform, compiler: Compiler) -> str:
-    flags = target.all_flags(work.identifier)
+    flags = work.all_flags(target)
     texts = (compiler.identity, *compiler.command[1:], work.identifier, *flags, "", *work.units)
     parts = [LAYOUT, *(text.encode("utf-8", "surrogateescape") for text in texts)]
     for name in sorted(work.sources):
@@ -156,10 +191,10 @@ def _key(work: Work, target: Platform, compiler: Compiler) -> str:
 
 def _compile(work: Work, target: Platform, compiler: Compiler) -> bytes:
     file = f"{work.identifier}{target.suffix}"  # Windows has the name inside
-    line = [*compiler.command, *target.all_flags(work.identifier), "-o", file, *work.units]
+    line = [*compiler.command, *work.all_flags(target), "-o", file, *work.units]
     line += [] if target.system == "windows" else ["-lm"]
     try:
-        with tempfile.TemporaryDirectory(prefix="ehlcontact-fmu-", ignore_cleanup_errors=True) as name:
+        with tempfile.TemporaryDirectory(prefix="ehlcontact-c-", ignore_cleanup_errors=True) as name:
             folder = Path(name)
             for source, content in work.sources.items():
                 (folder / source).write_bytes(content)
