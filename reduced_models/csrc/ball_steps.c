@@ -7,7 +7,7 @@
 #include "film_filters.h"
 #include "rolling.h"
 
-enum { MOST_BALL_STEPS = 60, STALE = 5, SETTLED = 20 };
+enum { MOST_BALL_STEPS = 60, STALE = 5, SETTLED = 20, MOST_SETTLINGS = 60 };
 enum { DOUBLED = 40, HALVED = 48 }; /* steps of a search by bisection: to a bracket, and in it */
 enum { RENEWED = 16 }; /* steps after which the slopes of centrifugal force and gyroscopic moment are renewed */
 static const double two_pi = 6.283185307179586;
@@ -16,6 +16,7 @@ static const double first_step = 1e-7; /* m, outward, of a ball that nothing tou
 static const double overshoot = 2.0;   /* growth of the imbalance that halves the way to the last place */
 static const double longest = 0.05;    /* step over the distance of the groove centres */
 static const double singular = 1e-14;
+static const double settled = 1e-9; /* of the largest height: by which heights at rest may still change */
 static const double beside = 0.5;      /* rad, of the angle of a ball, on either side of the line between the groove centres and of that across the shaft */
 static const double rounding = 1e-15;  /* of the place of a ball: what is left of its imbalance, over its stiffness */
 static const char *const no_balance = "a ball finds no balance: a shorter step, or a smaller displacement, can help";
@@ -34,7 +35,7 @@ typedef struct {
 typedef struct {
     double x, y, history[2], rate_history[2], start[2];
     double c[2], d[2], place[2], force[2], film[2], ring[3], slopes[3][4];
-    double transit[2];
+    double transit[2], height[2], height_rate[2]; /* [race] of features */
     Thickness thickness[2];
 } BallStep;
 
@@ -48,7 +49,7 @@ typedef char step_is_numbers[sizeof(StepHead) % sizeof(double) == 0 && sizeof(St
 
 size_t bearing_state_size(const Bearing *b)
 {
-    return seat_place(b, 2 + b->filters);
+    return shaft_place(b) + (b->heights != NULL ? 1 + (size_t)b->balls * SURFACE_NUMBERS : 0);
 }
 
 size_t bearing_work_size(const Bearing *b)
@@ -82,6 +83,7 @@ typedef struct {
     BallStep *ball;
     RaceStep contact[2];
     const Race *dry; /* of both races, for the share of the gyroscopic moment */
+    const BallSurface *surface; /* NULL: no full films */
     double heavy;
 } Search;
 
@@ -117,10 +119,11 @@ static void renew_inertia(const Search *s, const double b[2], double slopes[5][4
 
 /* A ball at a place: its springs, its rolling, and what acts on it beside its contacts, all as in `Rolling` and `BallForces`. */
 typedef struct {
-    double l[2], cosine[2], sine[2], orbit, speed_sum[2], factor[2], sum[2], ring[2], moment;
+    double l[2], cosine[2], sine[2], orbit, rotation, speed_sum[2], factor[2], sum[2], ring[2], moment;
 } Turning;
 
-static void turn(const Search *s, const double b[2], int films, Turning *t)
+/* Factors of films where they vary, and the rotation of the ball about its own axis, at the end of a step alone. */
+static void turn(const Search *s, const double b[2], int end, Turning *t)
 {
     const Dual ball[2] = {number(b[0]), number(b[1])}, centre[2] = {number(s->ball->c[0]), number(s->ball->c[1])};
     Rolling at;
@@ -133,9 +136,10 @@ static void turn(const Search *s, const double b[2], int films, Turning *t)
         t->speed_sum[i] = at.speed_sum[i].x;
         t->sum[i] = f.sum[i].x;
         t->ring[i] = f.ring[i].x;
-        t->factor[i] = films ? film_factor(s->bearing, &at, i).x : 1.0;
+        t->factor[i] = end && films_vary(s->bearing) ? film_factor(s->bearing, &at, i).x : 1.0;
     }
     t->orbit = at.orbit.x;
+    t->rotation = end ? own_rotation(s->bearing, &at) : 0.0;
     t->moment = f.moment.x;
 }
 
@@ -156,6 +160,21 @@ typedef struct {
     double v[2], e[2], sum[2];
 } Pressed;
 
+/* Of an element, or of the full film in its place, at an approach and a rate without heights. */
+static RaceForce contact_force(const Search *s, int race, double u, double v)
+{
+    const FullFilm *full = s->surface != NULL ? &s->surface->full[race] : NULL;
+    RaceForce out;
+    if (full == NULL || full->slope == 0.0) {
+        return race_force(&s->contact[race], u + s->ball->height[race], v + s->ball->height_rate[race]);
+    }
+    out.force = full->force + full->slope * (u - full->approach);
+    out.stiffness = full->slope;
+    out.damping = 0.0;
+    out.film = u;
+    return out;
+}
+
 static void press(const Search *s, const double b[2], Pressed *p)
 {
     const double *free = s->bearing->grooves.free_length, gain = s->step->gain;
@@ -169,10 +188,10 @@ static void press(const Search *s, const double b[2], Pressed *p)
         p->v[j] = gain * (b[j] - ball->history[j]);
         p->e[j] = ball->d[j] - p->v[j];
     }
-    p->inner = race_force(&s->contact[INNER_RACE], p->at.l[INNER_RACE] - free[INNER_RACE],
-                          cosine[INNER_RACE] * p->e[0] + sine[INNER_RACE] * p->e[1]);
-    p->outer = race_force(&s->contact[OUTER_RACE], p->at.l[OUTER_RACE] - free[OUTER_RACE],
-                          cosine[OUTER_RACE] * p->v[0] + sine[OUTER_RACE] * p->v[1]);
+    p->inner = contact_force(s, INNER_RACE, p->at.l[INNER_RACE] - free[INNER_RACE],
+                             cosine[INNER_RACE] * p->e[0] + sine[INNER_RACE] * p->e[1]);
+    p->outer = contact_force(s, OUTER_RACE, p->at.l[OUTER_RACE] - free[OUTER_RACE],
+                             cosine[OUTER_RACE] * p->v[0] + sine[OUTER_RACE] * p->v[1]);
     p->sum[0] = p->at.sum[0] + p->inner.force * cosine[INNER_RACE] - p->outer.force * cosine[OUTER_RACE];
     p->sum[1] = p->at.sum[1] + p->inner.force * sine[INNER_RACE] - p->outer.force * sine[OUTER_RACE];
     for (j = 0; j < 2 && s->heavy > 0.0; j++) {
@@ -309,35 +328,42 @@ static int balance_ball(const Search *s, const double start[2], const double kep
 static void first_place(const Search *s, double b[2])
 {
     const Bearing *bearing = s->bearing;
-    const double *c = s->ball->c, omega = s->step->omega, *free = bearing->grooves.free_length;
-    const double length = hypot(c[0], c[1]), closer = length - free[INNER_RACE] - free[OUTER_RACE];
+    const double *c = s->ball->c, omega = s->step->omega, *free = bearing->grooves.free_length, *height = s->ball->height;
+    const double free_outer = free[OUTER_RACE] - height[OUTER_RACE], length = hypot(c[0], c[1]);
+    const double closer = length - (free[INNER_RACE] - height[INNER_RACE]) - free_outer;
     const double ratio = pow(bearing->race[OUTER_RACE].kn / bearing->race[INNER_RACE].kn, 2.0 / 3.0);
-    double outward = free[OUTER_RACE] + closer / (1.0 + ratio);
+    double outward = free_outer + closer / (1.0 + ratio);
     if (closer < 0.0 && omega > 0.0) {
         const double swing = 0.125 * omega * omega * bearing->grooves.mass * bearing->grooves.pitch;
-        outward = free[OUTER_RACE] + pow(swing / bearing->race[OUTER_RACE].kn, 2.0 / 3.0);
+        outward = free_outer + pow(swing / bearing->race[OUTER_RACE].kn, 2.0 / 3.0);
     }
     b[0] = outward * c[0] / length;
     b[1] = outward * c[1] / length;
 }
 
-/* Force on a ball away from the outer groove centre, at a distance from it where none acts across; the angle there. */
+/* Force on a ball away from the outer groove centre, at a distance from it where none acts across; its place there. */
 static double push_along(const Search *s, double length, double far, double b[2])
 {
-    double low = fmin(far, 0.0) - beside, high = fmax(far, 0.0) + beside, along = 0.0;
-    Pressed p;
+    double low = fmin(far, 0.0) - beside, high = fmax(far, 0.0) + beside, angle = far, along = 0.0;
     int i;
     for (i = 0; i < HALVED; i++) {
-        const double angle = 0.5 * (low + high), c = cos(angle), z = sin(angle);
+        const double c = cos(angle), z = sin(angle);
+        double across;
+        Pressed p;
         b[0] = length * c;
         b[1] = length * z;
         press(s, b, &p);
         along = p.sum[0] * c + p.sum[1] * z;
-        if (p.sum[1] * c - p.sum[0] * z > 0.0) {
+        across = p.sum[1] * c - p.sum[0] * z;
+        if (across == 0.0) { /* exactly, of balls between grooves in one plane, which stay in it */
+            break;
+        }
+        if (across > 0.0) {
             low = angle;
         } else {
             high = angle;
         }
+        angle = 0.5 * (low + high);
     }
     return along;
 }
@@ -377,6 +403,7 @@ static void search_of(const Bearing *b, const double state[], double work[], int
     s->step = step_of(work);
     s->ball = ball_in(work, k);
     s->dry = races;
+    s->surface = b->heights != NULL ? surface_of(b, state, k) : NULL;
     s->heavy = b->inertia * s->step->gain * s->step->gain;
     for (race = 0; race < 2; race++) {
         RaceStep *c = &s->contact[race];
@@ -434,12 +461,25 @@ static void begin_contact(const Bearing *b, const Ball *old, int race, double ra
     ball->transit[race] = speed > 0.0 ? c->race->contact_length_factor / (end * speed) : 0.0;
 }
 
+/* Height at a contact under the compression at the end of the last step, that height left out. */
+static double height_at(const Bearing *b, const double state[], int k, int race, double psi, double shaft, double own)
+{
+    const double force = ball_of(state, k)->force[race];
+    double pressed;
+    if (b->heights->tables == 0) {
+        return 0.0;
+    }
+    pressed = force > 0.0 ? pow(force / b->race[race].kn, 2.0 / 3.0) : film_of(b, state, k, race)->approach;
+    return contact_height(b->heights, k, race, psi, shaft, own, pressed - surface_of(b, state, k)->height[race][0]);
+}
+
 void bearing_begin(const Bearing *b, const double state[], double work[], double h, double omega)
 {
     const BearingHead *old = head_of(state);
     const double ratio = h > 0.0 ? (old->h > 0.0 ? h / old->h : 1.0) : 0.0;
     const double turns = old->cage[0] + 0.5 * ratio * (old->cage[0] - old->cage[1]);
     const Differences d = differences(h, old->h);
+    const double swept = 0.5 * h * (old->omega + omega), shaft = b->heights != NULL ? state[shaft_place(b)] + swept : 0.0;
     StepHead *step = step_of(work);
     Race races[2];
     int k, j, race;
@@ -449,7 +489,7 @@ void bearing_begin(const Bearing *b, const double state[], double work[], double
     step->gain = d.gain;
     step->omega = omega;
     step->cage = h > 0.0 ? omega * old->cage[0] : 0.0;
-    step->angle = old->angle + 0.5 * h * (old->omega + omega) * turns;
+    step->angle = old->angle + swept * turns;
     step->row = speed_row(b, omega);
     for (k = 0; k < b->balls; k++) {
         const double psi = step->angle + two_pi * k / b->balls, moved = old->h > 0.0 ? h / old->h : 0.0;
@@ -468,6 +508,12 @@ void bearing_begin(const Bearing *b, const double state[], double work[], double
         search_of(b, state, work, k, races, &s);
         for (race = 0; race < 2; race++) {
             begin_contact(b, last, race, ratio, &s.contact[race], ball, step);
+            ball->height[race] = ball->height_rate[race] = 0.0;
+            if (b->heights != NULL) {
+                const double *height = s.surface->height[race], own = s.surface->angle + swept * s.surface->rotation;
+                ball->height[race] = h > 0.0 ? height_at(b, state, k, race, psi, shaft, own) : height[0];
+                ball->height_rate[race] = d.gain * (ball->height[race] - (d.now * height[0] - d.before * height[1]));
+            }
         }
     }
 }
@@ -621,7 +667,7 @@ static double accept_ball(const Search *s, double state[], int k)
     Turning at;
     double v[2];
     int j, race;
-    turn(s, now->place, films_vary(b), &at);
+    turn(s, now->place, 1, &at);
     for (j = 0; j < 2; j++) {
         v[j] = step->gain * (now->place[j] - now->history[j]);
         ball->place[1][j] = moving ? ball->place[0][j] : now->place[j];
@@ -630,8 +676,9 @@ static double accept_ball(const Search *s, double state[], int k)
         ball->rate[0][j] = v[j];
     }
     for (race = 0; race < 2; race++) {
-        const double c = at.cosine[race], z = at.sine[race], u = at.l[race] - b->grooves.free_length[race];
-        const double rate = race == INNER_RACE ? c * (now->d[0] - v[0]) + z * (now->d[1] - v[1]) : c * v[0] + z * v[1];
+        const double c = at.cosine[race], z = at.sine[race], u = at.l[race] - b->grooves.free_length[race] + now->height[race];
+        const double along = race == INNER_RACE ? c * (now->d[0] - v[0]) + z * (now->d[1] - v[1]) : c * v[0] + z * v[1];
+        const double rate = along + now->height_rate[race];
         const double factor = at.factor[race], speed_sum = at.speed_sum[race];
         FilmState *film = (FilmState *)(void *)(state + film_place(b, k, race));
         ball->force[race] = now->force[race];
@@ -650,6 +697,18 @@ static double accept_ball(const Search *s, double state[], int k)
         ball->cosine[race] = c;
         ball->sine[race] = z;
     }
+    if (b->heights != NULL) {
+        BallSurface *surface = (BallSurface *)(void *)(state + shaft_place(b) + 1) + k;
+        surface->angle += 0.5 * step->h * (head_of(state)->omega + step->omega) * surface->rotation;
+        surface->rotation = at.rotation;
+        for (race = 0; race < 2; race++) {
+            surface->height[race][1] = moving ? surface->height[race][0] : now->height[race];
+            surface->height[race][0] = now->height[race];
+            if (moving && now->force[race] > surface->largest[race]) {
+                surface->largest[race] = now->force[race];
+            }
+        }
+    }
     return at.orbit;
 }
 
@@ -664,12 +723,14 @@ void bearing_accept(const Bearing *b, double state[], double work[])
     for (k = 0; k < b->balls; k++) {
         Search s;
         double orbit;
+        int inclined;
         search_of(b, state, work, k, races, &s);
         orbit = accept_ball(&s, state, k);
         carried += s.ball->force[INNER_RACE];
         turned += s.ball->force[INNER_RACE] * orbit;
         free += orbit / b->balls;
-        if (step->omega > 0.0 && (step->h == 0.0 || shared_by_forces(b) || ((int)head->steps + k) % RENEWED == 0)) {
+        inclined = ball_of(state, k)->sine[INNER_RACE] != 0.0 || ball_of(state, k)->sine[OUTER_RACE] != 0.0;
+        if (step->omega > 0.0 && (step->h == 0.0 || (inclined && (shared_by_forces(b) || ((int)head->steps + k) % RENEWED == 0)))) {
             renew_inertia(&s, s.ball->place, ((Ball *)(void *)(state + HEAD_NUMBERS))[k].inertia);
         }
     }
@@ -677,19 +738,22 @@ void bearing_accept(const Bearing *b, double state[], double work[])
     head->cage[1] = step->h > 0.0 ? head->cage[0] : cage;
     head->cage[0] = cage;
     head->steps = step->h > 0.0 ? (head->steps < RENEWED - 1 ? head->steps + 1.0 : 0.0) : 0.0;
+    if (b->heights != NULL) {
+        state[shaft_place(b)] += 0.5 * step->h * (head->omega + step->omega);
+    }
     head->angle = step->angle;
     head->omega = step->omega;
     head->h = step->h;
     accept_seat(b, state, step);
 }
 
-/* Balls that have not been placed, films of the tables. */
+/* Balls that have not been placed, films of the tables; surfaces are where they were. */
 static void unmoved(const Bearing *b, double state[])
 {
     BearingHead *head = (BearingHead *)(void *)state;
     const BearingSettings settings = head->settings;
     int k, race;
-    memset(state, 0, bearing_state_size(b) * sizeof state[0]);
+    memset(state, 0, shaft_place(b) * sizeof state[0]);
     head->settings = settings;
     head->angle = settings.cage_angle;
     for (k = 0; k < b->balls; k++) {
@@ -710,6 +774,7 @@ const char *bearing_start(const Bearing *b, const BearingSettings *settings, dou
     if (settings->film != 0.0 && !(settings->film == 1.0 && oil)) {
         return oil ? "film must be 0 (dry) or 1 (with oil films)" : "film must be 0: this bearing is dry";
     }
+    memset(state, 0, bearing_state_size(b) * sizeof state[0]);
     ((BearingHead *)(void *)state)->settings = *settings;
     unmoved(b, state);
     return NULL;
@@ -730,6 +795,24 @@ const char *bearing_check(const Bearing *b, const double q[], double omega)
     return NULL;
 }
 
+/* Looks heights up again under the loads of rest; returns whether they stay. */
+static int settle_heights(const Bearing *b, double state[])
+{
+    double change = 0.0, most = 0.0;
+    int k, race;
+    for (k = 0; b->heights != NULL && b->heights->tables > 0 && k < b->balls; k++) {
+        BallSurface *surface = (BallSurface *)(void *)(state + shaft_place(b) + 1) + k;
+        const double psi = head_of(state)->angle + two_pi * k / b->balls;
+        for (race = 0; race < 2; race++) {
+            const double height = height_at(b, state, k, race, psi, state[shaft_place(b)], surface->angle);
+            change = fmax(change, fabs(height - surface->height[race][0]));
+            most = fmax(most, fabs(height));
+            surface->height[race][0] = surface->height[race][1] = height;
+        }
+    }
+    return change <= settled * most;
+}
+
 const char *bearing_rest(const Bearing *b, double state[], double work[], double omega, const double q[], double force[])
 {
     return bearing_rest_at(b, state, work, omega, head_of(state)->settings.cage_angle, q, force);
@@ -743,12 +826,34 @@ const char *bearing_rest_at(const Bearing *b, double state[], double work[], dou
     int i;
     unmoved(b, state);
     ((BearingHead *)(void *)state)->angle = angle;
-    for (i = 0; i <= SETTLED && reason == NULL; i++) { /* films at rest follow the angles of their balls */
+    for (i = 0; i <= MOST_SETTLINGS && reason == NULL; i++) { /* films at rest follow the angles of their balls, heights their loads */
         bearing_begin(b, state, work, 0.0, omega);
         reason = bearing_press(b, state, work, q, still, force);
         if (reason == NULL) {
             bearing_accept(b, state, work);
+            if (settle_heights(b, state) && i >= SETTLED) {
+                break;
+            }
         }
     }
     return reason;
+}
+
+int bearing_drive(const Bearing *b, double state[], double work[], double h, double omega, int steps, const double q[],
+                  const double v[], double force[], double loads[])
+{
+    const size_t directions = (size_t)b->directions, balls = (size_t)b->balls;
+    int i, k;
+    for (i = 0; i < steps; i++) {
+        const size_t row = (size_t)i * directions;
+        bearing_begin(b, state, work, h, omega);
+        if (bearing_press(b, state, work, q + row, v + row, force + row) != NULL) {
+            break;
+        }
+        bearing_accept(b, state, work);
+        for (k = 0; k < b->balls; k++) {
+            memcpy(loads + ((size_t)i * balls + (size_t)k) * 2, ball_of(state, k)->force, sizeof ball_of(state, k)->force);
+        }
+    }
+    return i;
 }

@@ -8,6 +8,7 @@
 
 #include "dual.h"
 #include "race_contact.h"
+#include "surface_heights.h"
 
 enum { INNER_RACE, OUTER_RACE };
 enum { IN_X, IN_Y, IN_Z, TILT_X, TILT_Y, MOST_DIRECTIONS }; /* of the ring; the most that a bearing has */
@@ -47,6 +48,7 @@ typedef struct {
     FilmTables films;
     double most_speed, most_load[2];       /* of the tables */
     double largest_place, largest_tilt;    /* of a ring in its bearing */
+    const HeightTables *heights;           /* of features; NULL: the state has no `BallSurface` */
 } Bearing;
 
 typedef struct {
@@ -78,10 +80,21 @@ typedef struct {
     double inertia[5][4];    /* slopes of `BallForces` without contacts, by the place of the ball and of the inner groove centre */
 } Ball;
 
+/* What changes at the contacts of a ball, of a bearing with `heights`: angle of the ball about its own axis and its speed over that
+ * of the shaft, heights at the ends of the last two steps, a full film in place of the element of a contact. At rest the newest
+ * heights are those that it rests on. */
+typedef struct {
+    double angle, rotation;
+    double height[2][2];   /* [race] m */
+    FullFilm full[2];      /* [race] */
+    double largest[2];     /* [race] force that it has had at the end of a step [N] */
+} BallSurface;
+
 enum {
     HEAD_NUMBERS = sizeof(BearingHead) / sizeof(double),
     BALL_NUMBERS = sizeof(Ball) / sizeof(double),
-    FILM_NUMBERS = sizeof(FilmState) / sizeof(double) /* and the chain */
+    FILM_NUMBERS = sizeof(FilmState) / sizeof(double), /* and the chain */
+    SURFACE_NUMBERS = sizeof(BallSurface) / sizeof(double)
 };
 
 size_t bearing_state_size(const Bearing *b); /* in doubles */
@@ -98,6 +111,17 @@ static inline size_t film_place(const Bearing *b, int k, int race)
 static inline size_t seat_place(const Bearing *b, int row)
 {
     return film_place(b, b->balls, 0) + (size_t)row * (size_t)b->directions;
+}
+
+/* Where the angle of the shaft is, with the surfaces of all balls behind it, of a bearing with `heights`. */
+static inline size_t shaft_place(const Bearing *b)
+{
+    return seat_place(b, 2 + b->filters);
+}
+
+static inline const BallSurface *surface_of(const Bearing *b, const double state[], int k)
+{
+    return (const BallSurface *)(const void *)(state + shaft_place(b) + 1) + k;
 }
 
 static inline const BearingHead *head_of(const double state[])
@@ -137,6 +161,11 @@ void bearing_begin(const Bearing *b, const double state[], double work[], double
 const char *bearing_press(const Bearing *b, const double state[], double work[], const double q[], const double v[], double force[]);
 void bearing_slopes(const Bearing *b, const double work[], double stiffness[], double damping[]);
 void bearing_accept(const Bearing *b, double state[], double work[]);
+
+/* Steps of length h along a motion, (steps, directions) at their ends: forces (steps, directions), and loads of all balls
+ * (steps, balls, 2). Returns how many were made: a ball finds no balance in the next. */
+int bearing_drive(const Bearing *b, double state[], double work[], double h, double omega, int steps, const double q[],
+                  const double v[], double force[], double loads[]);
 
 /* Puts the ring, balls and films at rest, the cage at the angle of the start or at another one; `work` has the slopes there. */
 const char *bearing_rest(const Bearing *b, double state[], double work[], double omega, const double q[], double force[]);

@@ -13,6 +13,19 @@ static const double few_lags = 0.5;     /* see poisson_shares */
 
 /* ---- the static curve ---- */
 
+/* The curve in an interval of its row by cubics. */
+static double by_cells(const double (*cells)[4], double share, int last, double *slope)
+{
+    const int j = share >= CELLS - 1 ? CELLS - 1 : (int)share;
+    const double *at = cells[j], t = share - j;
+    if (t > 1.0 && last) { /* an iteration went too far: straight on */
+        *slope = at[1] + 2.0 * at[2] + 3.0 * at[3];
+        return at[0] + at[1] + at[2] + at[3] + *slope * (t - 1.0);
+    }
+    *slope = at[1] + t * (2.0 * at[2] + 3.0 * at[3] * t);
+    return at[0] + t * (at[1] + t * (at[2] + t * at[3]));
+}
+
 double race_curve(const Race *race, int row, double u, int *k, double *slope)
 {
     const double *nodes = &race->u[row * race->nodes], *term;
@@ -29,6 +42,12 @@ double race_curve(const Race *race, int row, double u, int *k, double *slope)
     if (u < start) { /* wider than the table: F like h^-1/2 */
         const double power = 2.0 / 3.0 / rigid_slope, g = exp(2.0 / 3.0 * (race->x[0] - race->log_kn)) * pow(u / start, power);
         *slope = g / u * power;
+        return g;
+    }
+    if (race->cells != NULL) {
+        const double per_cell = CELLS / (nodes[*k + 1] - start), *cells = &race->cells[(row * (last + 1) + *k) * CELLS * 4];
+        const double g = by_cells((const double (*)[4])(const void *)cells, (u - start) * per_cell, *k == last, slope);
+        *slope *= per_cell;
         return g;
     }
     per_half = 2.0 / (nodes[*k + 1] - start);

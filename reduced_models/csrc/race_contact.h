@@ -13,12 +13,13 @@ typedef struct {
     const int *first;    /* [rows * (nodes - 1) + 1] first coefficient of every interval of `curve` */
     const double *x;     /* [nodes] ln F, increasing */
     const double *u;     /* [rows][nodes] approach there */
-    const double *curve; /* g between, powers of s = -1 to 1 */
+    const double *curve; /* g between, powers of s = -1 to 1; or, in Python: */
+    const double *cells; /* [rows][nodes - 1][CELLS][4] cubics between approaches at equal distances; NULL: `curve` */
     const double *gains; /* [rows][nodes][DIRECT_GAINS + lags]: viscous, inlet, fast, chain */
     const double *made;  /* [rows][nodes] film that a unit of the inlet's state lets into the chain */
 } Race;
 
-enum { DIRECT_GAINS = 3 };
+enum { DIRECT_GAINS = 3, CELLS = 128 };
 
 /* Row of the tables, and weight of the next with its slope by the speed of the shaft. */
 typedef struct {

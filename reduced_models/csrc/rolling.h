@@ -16,6 +16,7 @@
 /* Ball between two races. Angular speeds over that of the shaft, entrainment speeds over it [m]. */
 typedef struct {
     Dual l[2], cosine[2], sine[2]; /* inner and outer spring */
+    Dual axis, drive;              /* tangent of the angle of the axis of the ball; sum of the cosines from it to both contacts, over their radii */
     Dual orbit, spin, share, speed_sum[2]; /* spin: of the ball about its own axis, times the sine of that axis */
 } Rolling;
 
@@ -123,12 +124,20 @@ IN_PLACE Rolling roll(const Bearing *bearing, const Dual b[2], const Dual c[2], 
     r_o = plus(times(g, c_o), 1.0);
     by_i = at_least(over(add(c_i, mul(slope, s_i)), r_i), least_drive);
     by_o = at_least(over(add(c_o, mul(slope, s_o)), r_o), least_drive);
-    per_both = over(number(1.0), add(by_i, by_o));
+    at.axis = slope;
+    at.drive = add(by_i, by_o);
+    per_both = over(number(1.0), at.drive);
     at.orbit = mul(by_o, per_both);
     at.spin = times(1.0 / g, mul(slope, per_both));
     at.speed_sum[INNER_RACE] = mul(times(grooves->pitch, sub(number(1.0), at.orbit)), r_i);
     at.speed_sum[OUTER_RACE] = mul(times(grooves->pitch, at.orbit), r_o);
     return at;
+}
+
+/* Speed of a ball about its own axis, seen from the cage, over that of the shaft. */
+static inline double own_rotation(const Bearing *b, const Rolling *at)
+{
+    return b->grooves.pitch / b->grooves.ball * sqrt(1.0 + at->axis.x * at->axis.x) / at->drive.x;
 }
 
 /* Film at a race over that of the tables, by speed and radius (Hamrock and Dowson 1977). */
