@@ -9,6 +9,7 @@
 | catalogue | dimensions by name, with their sources |
 | clearance | radial clearance by class and bore |
 | freedoms | degrees of freedom of the ring: names, units, loads |
+| core_bearing | `CoreBearing`: a bearing as the C core has it, views of its state |
 | contact_angles | compiled: groove centres, contact angles, rolling and race control of a ball |
 | ball | compiled: one ball between two races, its residual with exact tangents, in time steps and at rest |
 | ball_search | compiled: places of balls from anywhere |

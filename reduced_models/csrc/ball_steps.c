@@ -58,6 +58,20 @@ size_t bearing_work_size(const Bearing *b)
     return STEP_NUMBERS + (size_t)b->balls * (BALL_STEP_NUMBERS + 2 * filters);
 }
 
+void bearing_sizes(size_t sizes[])
+{
+    sizes[0] = sizeof(Bearing);
+    sizes[1] = sizeof(Grooves);
+    sizes[2] = sizeof(Race);
+    sizes[3] = sizeof(HeightTables);
+    sizes[4] = sizeof(BearingHead);
+    sizes[5] = sizeof(Ball);
+    sizes[6] = sizeof(FilmState);
+    sizes[7] = sizeof(BallSurface);
+    sizes[8] = sizeof(StepHead);
+    sizes[9] = sizeof(BallStep);
+}
+
 static StepHead *step_of(double work[])
 {
     return (StepHead *)(void *)work;
