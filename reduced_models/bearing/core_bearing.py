@@ -1,8 +1,8 @@
 """`CoreBearing`: a ball bearing as the C core has it, with views of its state and of the work of a step.
 
 The structures here are those of ``csrc/bearing.h`` and of the files that it includes, with the names of their
-members; their sizes are compared with those of the library when it is loaded. State and work of a bearing are arrays
-of numbers, which the C functions read and write in place: views of them show balls, films and surfaces.
+members; their sizes are compared with those of the library when it is loaded. State and work of a bearing are
+arrays of numbers, which the C functions read and write in place: views of them show balls, films and surfaces.
 
 C functions are called with pointers that are made once; no array is converted in a call.
 """
@@ -205,7 +205,7 @@ class CoreBearing:
         return state[first : first + size].view(kind).reshape(self.number, 2)
 
     def seat(self, state: _Floats) -> _Floats:
-        """View of the seat, (2 + filters, n): forces with and without losses, and what its filters have of them."""
+        """View of the seat, (2 + filters, n): force with and without losses, and what its filters have of it."""
         size, n = (2 + self._filters) * len(self.directions), len(self.directions)
         end = self.state_size - 1 - self.number * SURFACE.itemsize // NUMBER
         return state[end - size : end].reshape(-1, n)
