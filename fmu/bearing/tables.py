@@ -35,9 +35,9 @@ FILM_NODES = 48  # loads of the films, even in their logarithm
 FILM_UNIT = 2.0**-24  # of the logarithms of films, for small files: far below what lies between two loads
 FARTHEST = 0.1  # of the ball diameter: largest displacement, which no ring in its bearing reaches
 LARGEST_TILT = 0.1  # rad
-# Sizes in numbers of the structures of ``bearing.h`` and ``ball_steps.c``, which an FMU compares with its own
+# Sizes in numbers of the structures of ``bearing.h`` and ``ball.h``, which an FMU compares with its own
 HEAD_NUMBERS, BALL_NUMBERS, FILM_NUMBERS = 10, 46, 6
-STEP_NUMBERS, BALL_STEP_NUMBERS, FILTER_NUMBERS = 19, 43, 25
+STEP_NUMBERS, BALL_STEP_NUMBERS, FILTER_NUMBERS = 19, 49, 25
 
 
 def bearing_table(model: BearingModel, name: str = "bearing") -> str:

@@ -55,11 +55,12 @@ FORCES = {name: motion.force for name, motion in MOTIONS.items()}
 RATES = {name: motion.rate for name, motion in MOTIONS.items()}
 # C sources of a bearing, inside a rotor too
 BEARING_SOURCES = (
-    "ball_steps.c", "ball_rates.c", "bearing_outputs.c", "contact_rates.c", "race_contact.c", "film_filters.c",
-    "surface_heights.c",
+    "ball.c", "ball_search.c", "ball_steps.c", "ball_rest.c", "ball_rates.c", "bearing_outputs.c",
+    "contact_rates.c", "race_contact.c", "film_filters.c", "surface_heights.c",
 )  # fmt: skip
 BEARING_HEADERS = (
-    "bearing.h", "rolling.h", "contact_rates.h", "race_contact.h", "film_filters.h", "surface_heights.h", "dual.h",
+    "bearing.h", "ball.h", "rolling.h", "contact_rates.h", "race_contact.h", "film_filters.h", "surface_heights.h",
+    "dual.h",
 )  # fmt: skip
 
 

@@ -119,8 +119,8 @@ STEP = np.dtype(
     ]
 )  # fmt: skip
 BALL_STEP = _numbers(
-    x=1, y=1, history=(2,), rate_history=(2,), start=(2,), c=(2,), d=(2,), place=(2,), force=(2,), film=(2,),
-    ring=(3,), slopes=(3, 4), transit=(2,), height=(2,), height_rate=(2,), thickness=(2, 2),
+    x=1, y=1, history=(2,), rate_history=(2,), start=(2,), tried=(2,), follow=(2, 2), c=(2,), d=(2,), place=(2,),
+    force=(2,), film=(2,), ring=(3,), slopes=(3, 4), transit=(2,), height=(2,), height_rate=(2,), thickness=(2, 2),
 )  # fmt: skip
 
 

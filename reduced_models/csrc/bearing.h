@@ -159,7 +159,7 @@ const char *bearing_start(const Bearing *b, const BearingSettings *settings, dou
 const char *bearing_check(const Bearing *b, const double q[], double omega);
 
 /* Begins a step of length h, or of rest where it is 0, at whose end the shaft turns at omega. Balances all balls with the ring at q,
- * moving at v, as often as it takes to find the end of the step; gives the slopes of the force by both there, row by row; and moves
+ * moving at v, as often as it takes to find the end of the step (at rest from where they were balanced last); gives the slopes of the force by both there, row by row; and moves
  * the bearing to where it was pressed last. `work` holds the step from its begin to its accept. */
 void bearing_begin(const Bearing *b, const double state[], double work[], double h, double omega);
 const char *bearing_press(const Bearing *b, const double state[], double work[], const double q[], const double v[], double force[]);
@@ -175,6 +175,17 @@ int bearing_drive(const Bearing *b, double state[], double work[], double h, dou
 const char *bearing_rest(const Bearing *b, double state[], double work[], double omega, const double q[], double force[]);
 const char *bearing_rest_at(const Bearing *b, double state[], double work[], double omega, double angle, const double q[],
                             double force[]);
+
+/* A ball at rest: contact angles [rad], forces [N] and approaches [m] of its contacts, slopes of the forces by these [N/m], films over
+ * those of the tables, sums of both surface speeds over the speed of the shaft [m]; its speed about the shaft, and seen from the cage
+ * that about its own axis, both over that of the shaft; the angle of this axis from that of the shaft. */
+typedef struct {
+    double angle[2], load[2], approach[2], slope[2], factor[2], speed_sum[2], orbit, rotation, axis;
+} BallAtRest;
+
+/* All balls where they were pressed last, at rest. `geometric`, [balls][5][4], gets slopes of the forces on a ball (r, z), of that of the
+ * ring (r, z) and of its moment, by the places of the ball and of the inner groove centre, (r, z) each, without those by approaches. */
+void bearing_describe(const Bearing *b, const double state[], double work[], BallAtRest balls[], double geometric[]);
 
 /* ---- outputs ---- */
 

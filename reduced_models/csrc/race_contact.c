@@ -278,9 +278,9 @@ RaceForce race_force(const RaceStep *c, double u, double v)
 {
     const Race *race = c->race;
     StepFilters *f = c->filters;
-    RaceForce out = {0.0, 0.0, 0.0, 0.0};
+    RaceForce out = {0.0, 0.0, 0.0, 0.0, 0.0};
     double g_u, lift, root, x, per_x, weight, tau, e, t, here, there, per_made, share, share_u, slope;
-    double m0, me, mt, step, q0, qe, qt, more, carried, w, w_u;
+    double m0, me, mt, step, q0, qe, qt, more, carried, w, w_u, bent;
     const double g = gap_of(c, u, &g_u, &lift);
     int k = f->interval;
     root = sqrt(g);
@@ -327,13 +327,15 @@ RaceForce race_force(const RaceStep *c, double u, double v)
     if (w <= 0.0) {
         return out;
     }
-    w_u = g_u + mt + (0.5 * me * e + 1.5 * per_x * step) * g_u / g;
+    bent = 0.5 * me * e + 1.5 * per_x * step;
+    w_u = g_u + mt + bent * g_u / g;
     root = sqrt(w);
     share = race_cutoff(race, u, &share_u);
     slope = 1.5 * race->kn * root;
     out.force = race->kn * w * root;
     out.stiffness = share * slope * w_u + share_u * out.force;
     out.damping = share * slope * me * tau;
+    out.by_film = c->film == NULL ? 0.0 : share * slope * (1.0 + bent / g) * g_u * (g - u - lift);
     out.force *= share;
     return out;
 }

@@ -1,5 +1,4 @@
-/* Force of one ball on one race at the end of a time step: reduced_models.bearing.race_contact, without derivatives by the
- * film. Names and order of the arithmetic are those of the Python file. */
+/* Force of one ball on one race at the end of a time step: reduced_models.bearing.race_contact. Names and order of the arithmetic are those of the Python file. */
 #ifndef RACE_CONTACT_H
 #define RACE_CONTACT_H
 
@@ -46,9 +45,10 @@ typedef struct {
     double chain[];        /* [3][lags] what each lag has of the past, of the film at the end, of its hump */
 } StepFilters;
 
-/* The force and its slopes; `film` is the compression whose power 3/2 it is, below 0 where the surfaces have parted. */
+/* The force and its slopes, `by_film` that by the factor of the thickness; `film` is the compression whose power 3/2 it is, below 0
+ * where the surfaces have parted. */
 typedef struct {
-    double force, stiffness, damping, film;
+    double force, stiffness, damping, by_film, film;
 } RaceForce;
 
 /* A contact in a step: its law, speeds and filters. */
