@@ -87,7 +87,7 @@ def rest_states(model: BearingModel, motion: BallMotion, speed: float, angle: fl
     """States of the bearing at rest [rad], [m], [N], [N m]; those of films are 0."""
     made, counted = BallStates.of(model), counted_from(model)
     force = motion.rest(speed, angle, place)
-    (r, z), (e_r, e_z) = (motion.films.place - counted.place).T, counted.place[0] / np.hypot(*counted.place[0])
+    (r, z), (e_r, e_z) = (motion.places - counted.place).T, counted.place[0] / np.hypot(*counted.place[0])
     own = {"w": e_r * r + e_z * z, "a": e_r * z - e_z * r}
     balls = [
         [own[state.kind][k] if state.kind in own else 0.0 for state in ball] for k, ball in enumerate(made.balls)
@@ -113,7 +113,7 @@ def rates_in_time(
     end, angle = states.size - n * gains.size, float(states[0])
     if end == 1:  # dry balls are where they are at rest
         force = motion.rest(speed, angle, place)
-        rates[0] = speed * motion.films.cage[2]
+        rates[0] = speed * motion.cage
     else:  # directions, and places of balls, that the FMU does not have stay 0
         all_own = ("w", "a", "v", "v_a") if counted.inertia else ("w", "a")
         kinds = [state.kind for state in BallStates.of(model).balls[0]]

@@ -74,11 +74,11 @@ def _forces(model: BearingModel, time: _Floats, place: _Floats, velocity: _Float
     motion = model.motion()
     force, balls = np.zeros_like(place), np.zeros((time.size, model.bearing.balls, 2))
     force[0] = -motion.rest(float(speed[0]), START, place[0])
-    balls[0] = motion.films.force
+    balls[0] = motion.loads
     for k in range(1, time.size):
         dt = float(time[k] - time[k - 1])
         motion.begin(float(speed[k]), dt)
         force[k] = -motion.forces(place[k], velocity[k])[0]
         motion.accept()
-        balls[k] = motion.films.force
+        balls[k] = motion.loads
     return BearingTrial(time, place, velocity, speed, force, balls)

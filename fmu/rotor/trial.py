@@ -25,7 +25,6 @@ from reduced_models.rotor.supports import ContactMount
 _Floats = NDArray[np.float64]
 
 STEPS = 100
-NOW = 1  # entry of speeds of contacts: at the end of the last step
 TOLERANCE = 1e-11  # of the balance of a step
 RHO = 0.8  # of simulate_rotor
 PUSH = 1.5  # of the weight: forces that lift the rotor off
@@ -149,11 +148,11 @@ def _speeds(model: RotorModel, dt: float) -> tuple[float, float]:
 
 def _recorded(model: RotorModel, run: _Run, given: _Floats) -> RotorTrial:
     integrator = PythonSteps(run, TOLERANCE, 30)
-    forces, rolls, resisted = [[one.films.force.copy() for one in run.balls]], [_rolls(run)], [0.0]
+    forces, rolls, resisted = [[one.loads.copy() for one in run.balls]], [_rolls(run)], [0.0]
     for k in range(run.steps):
         middle = float(0.5 * (run.omega[k] + run.omega[k + 1]))
         integrator.advance(run._steps_at(middle), k, k + 1, lambda made: None)
-        forces.append([one.films.force.copy() for one in run.balls])
+        forces.append([one.loads.copy() for one in run.balls])
         rolls.append(_rolls(run))
         resisted.append(_slowed(model, run, given[k + 1], k + 1))
     d, v, _, _, force, _ = run.histories
@@ -197,7 +196,7 @@ def _slowed(model: RotorModel, run: _Run, given: _Floats, k: int) -> float:
 
 def _rolls(run: _Run) -> list[_Floats]:
     """Sums of both surface speeds at all contacts over the speed of the shaft [m], shape (balls, 2) each."""
-    return [one.films.speed_sum[:, NOW].reshape(-1, 2).copy() for one in run.balls]
+    return [one.speed_sums.copy() for one in run.balls]
 
 
 def _torque(

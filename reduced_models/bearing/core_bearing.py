@@ -77,7 +77,7 @@ class _FilmTablesStructure(ctypes.Structure):
 class HeightsStructure(ctypes.Structure):
     """`HeightTables` of ``surface_heights.h``."""
 
-    _fields_ = [("tables", c_int), ("rows", c_int), ("columns", c_int), ("heights", _DOUBLES)]
+    _fields_ = [("pages", c_int), ("rows", c_int), ("columns", c_int), ("heights", _DOUBLES)]
 
 
 class BearingStructure(ctypes.Structure):
@@ -99,27 +99,33 @@ class BearingStructure(ctypes.Structure):
     ]  # fmt: skip
 
 
-def _numbers(**members: int | tuple[int, ...]) -> np.dtype[Any]:
+def _numbers(**members: tuple[int, ...]) -> np.dtype[Any]:
     """Record of numbers, or of arrays of them, with these names and shapes."""
     return np.dtype([(name, np.float64, shape) for name, shape in members.items()])
 
 
-SETTINGS = _numbers(clearance=1, offset=1, cage_angle=1, film=1)
-HEAD = np.dtype([("settings", SETTINGS), *_numbers(h=1, steps=1, omega=1, angle=1, cage=(2,)).descr])
+SETTINGS = _numbers(clearance=(), offset=(), cage_angle=(), film=())
+HEAD = np.dtype([("settings", SETTINGS), *_numbers(h=(), steps=(), omega=(), angle=(), cage=(2,)).descr])
 BALL = _numbers(
     place=(2, 2), rate=(2, 2), factor=(2, 2), speed_sum=(2, 2), lift=(2,), force=(2,), film=(2,), cosine=(2,),
     sine=(2,), inertia=(5, 4),
 )  # fmt: skip
-FILM = _numbers(approach=1, rate=1, own=1, inlet=1, fast=1, entered=1)
-SURFACE = _numbers(angle=1, rotation=1, height=(2, 2), full=(2, 3), largest=(2,))
+FILM = _numbers(approach=(), rate=(), own=(), inlet=(), fast=(), entered=())
+FULL_FILM = _numbers(force=(), slope=(), approach=())
+SURFACE = np.dtype(
+    [
+        *_numbers(angle=(), rotation=(), height=(2, 2)).descr, ("full", FULL_FILM, (2,)),
+        *_numbers(largest=(2,)).descr,
+    ]
+)  # fmt: skip
 STEP = np.dtype(
     [
-        *_numbers(h=1, gain=1, omega=1, cage=1, angle=1, lift=1, bare=(len(FIVE),), force=(len(FIVE),)).descr,
-        ("row", np.int64), *_numbers(weight=1, slope=1).descr,
+        *_numbers(h=(), gain=(), omega=(), cage=(), angle=(), lift=(), bare=(5,), force=(5,)).descr,
+        ("row", np.int64), *_numbers(weight=(), slope=()).descr,
     ]
 )  # fmt: skip
 BALL_STEP = _numbers(
-    x=1, y=1, history=(2,), rate_history=(2,), start=(2,), tried=(2,), follow=(2, 2), c=(2,), d=(2,), place=(2,),
+    x=(), y=(), history=(2,), rate_history=(2,), start=(2,), tried=(2,), follow=(2, 2), c=(2,), d=(2,), place=(2,),
     force=(2,), film=(2,), ring=(3,), slopes=(3, 4), transit=(2,), height=(2,), height_rate=(2,), thickness=(2, 2),
 )  # fmt: skip
 
@@ -148,8 +154,8 @@ class CoreBearing:
         races = balls.inner, balls.outer
         self._kept: list[Any] = []
         self._lags = max(law.gains.shape[2] for law in races) - DIRECT
-        tables, rows, columns = balls.heights.shape
-        heights = HeightsStructure(max(tables - 1, 0), rows, columns, self._array(balls.heights))
+        pages, rows, columns = balls.heights.shape
+        heights = HeightsStructure(pages, rows, columns, self._array(balls.heights))
         self._kept.append(heights)
         self.structure = BearingStructure(
             directions=len(directions),

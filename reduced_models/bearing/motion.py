@@ -3,39 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import pi
+from ctypes import c_double, c_int
+from functools import partial
+from math import nan, pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, as_rows, require_instance, require_positive
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.jit import jit_exact_loop
-from reduced_models.bearing.ball import Balls, films_of
+from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.ball_steps import (
-    accept_balls,
-    begin_rest,
-    begin_step,
-    press_balls,
-    rest_balls,
-)
-from reduced_models.bearing.contact_heights import HEIGHT, find_heights
+from reduced_models.bearing.core_bearing import CoreBearing, pointer
 from reduced_models.bearing.equilibrium import angle_of
 from reduced_models.bearing.film_heights import heights_in_runs
-from reduced_models.bearing.freedoms import FIVE, directions_of
+from reduced_models.bearing.freedoms import directions_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
 
 _Floats = NDArray[np.float64]
 
 
-SETTLED = 1e-9  # of the largest height, by which heights at rest may still change
-MOST_TIMES = 60  # that they are looked up for it: a handful
-
-
 class BallMotion:
-    """Balls and films of a bearing in steps, each with its own speed of the shaft.
+    """Balls and films of a bearing in steps, each with its own speed of the shaft, by the C core.
 
     The ring moves in the first n of its five directions (`freedoms.FIVE`); in the others it is held at 0.
 
@@ -44,73 +34,113 @@ class BallMotion:
     balls : Balls
     directions : tuple of str
         In which the ring moves, as of `BearingMotion`.
+
+    Attributes
+    ----------
+    core : CoreBearing
+    state, work : ndarray
+        Of the bearing at the end of the last step, and of a step, which C writes: `CoreBearing` shows what is in
+        them.
+    loads : ndarray, shape (balls, 2)
+        Forces of all balls at the inner and the outer race, at the end of the last step accepted [N]; a view.
+    places : ndarray, shape (balls, 2)
+        Of their centres from that of the outer groove, outward and along the shaft, there [m]; a view.
+    speed_sums : ndarray, shape (balls, 2)
+        Sums of both surface speeds over the speed of the shaft, there [m]; a view.
     """
 
     def __init__(self, balls: Balls, directions: tuple[str, ...]) -> None:
-        self.balls, self.films, self.directions = balls, films_of(balls), directions
-        n = len(FIVE)
-        self._gain, self._moving = 0.0, len(directions)
-        self._out = np.zeros(n), np.zeros((n, n)), np.zeros((n, n))
+        self.balls, self.directions = balls, directions
+        self.core = core = CoreBearing(balls, directions)
+        self.state, self.work = core.start(), core.work()
+        self._head, self._tried = core.head(self.state), core.ball_steps(self.work)
+        self._surfaces = core.surfaces(self.state)
+        self.loads: _Floats = core.balls(self.state)["force"]
+        self.places: _Floats = core.balls(self.state)["place"][:, 0]
+        self.speed_sums: _Floats = core.balls(self.state)["speed_sum"][:, :, 0]
+        n = len(directions)
+        self._place, self._rate, self._force = np.zeros((3, n))
+        self._stiffness, self._damping = np.zeros((2, n, n))
+        self._own = own = core.address, pointer(self.state), pointer(self.work)
+        ring = map(pointer, (self._place, self._rate, self._force))
+        self._press = partial(core.library.bearing_press, *own, *ring)
+        slopes = map(pointer, (self._stiffness, self._damping))
+        self._slopes = partial(core.library.bearing_slopes, core.address, own[2], *slopes)
+        self._accept = partial(core.library.bearing_accept, *own)
 
     @property
     def angle(self) -> float:
         """Of the first ball, at the end of the last step accepted [rad]; the cage turns as the balls roll."""
-        return float(self.films.cage[1])
+        return float(self._head["angle"][0])
 
     @property
     def cage(self) -> float:
         """Speed of the cage over that of the shaft, there."""
-        return float(self.films.cage[2])
+        return float(self._head["cage"][0, 0])
+
+    @property
+    def largest(self) -> _Floats:
+        """Largest force that any ball has had at either race, shape (2,) [N]."""
+        return np.asarray(self._surfaces["largest"].max(axis=0))
+
+    @property
+    def full_films(self) -> NDArray[np.void]:
+        """Force [N], its slope [N/m] and the approach [m] there, of full films in place of elements.
+
+        Records of shape (balls, 2); a view, which may be written. A contact with a slope of 0 has its element.
+        """
+        return self._surfaces["full"]
 
     def approach(self, k: int, race: str) -> float:
         """Of ball `k` and a race, features left out, where `forces` was called last [m]."""
-        place, grooves = self.films.place[k], self.balls.grooves
+        ball, grooves = self._tried[k], self.balls.grooves
         if race == RACES[0]:
-            return float(np.hypot(*(self.films.tried[k, :2] - place)) - grooves.inner)
-        return float(np.hypot(*place) - grooves.outer)
+            return float(np.hypot(*(ball["c"] - ball["place"])) - grooves.inner)
+        return float(np.hypot(*ball["place"]) - grooves.outer)
 
     def rest(self, omega: float, angle: float, q: _Floats) -> _Floats:
         """Put balls and films at rest with the ring at `q`, shape (n,); force of the ring on them, shape (n,).
 
-        Films are those of the speed `omega` [rad/s]; the first ball is at `angle` [rad].
+        Films are those of the speed `omega` [rad/s]; the first ball is at `angle` [rad]. Not a number where a ball
+        finds no balance.
         """
-        place = np.array(q)  # for arrays that may only be read, kernels would be compiled a second time
-        begin_rest(self.balls, omega, angle, self.films)
-        for _ in range(MOST_TIMES):
-            rest_balls(self.balls, self.films, place, (*self._out, np.zeros(place.size)))
-            before = self.films.heights[:, HEIGHT].copy()
-            if self.balls.heights.shape[0] > 0:
-                find_heights(self.balls, self.films, angle, 0.0)
-            if _settled(before, self.films.heights[:, HEIGHT]):
-                break
-        self._gain = 0.0
-        return self._out[0][: self._moving].copy()
+        self._place[:] = q
+        given = *self._own, c_double(omega), c_double(angle), pointer(self._place), pointer(self._force)
+        return self._answer(self.core.library.bearing_rest_at(*given))
 
     def begin(self, omega: float, dt: float) -> None:
         """Begin a step of `dt` [s], at whose end the shaft turns at `omega` [rad/s]."""
-        begin_step(self.balls, omega, dt, self.films)
-        self._gain = 1.5 / dt
+        self.core.library.bearing_begin(*self._own, c_double(dt), c_double(omega))
 
     def forces(self, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats, _Floats]:
         """Force of the ring at `q`, moving at `v` at the end of the step, and its derivatives by both.
 
         Not a number where a ball finds no balance.
         """
-        n = self._moving
-        press_balls(self.balls, self.films, np.array(q), np.array(v), self._gain, self._out)
-        force, stiffness, damping = self._out
-        return force[:n].copy(), stiffness[:n, :n].copy(), damping[:n, :n].copy()
+        self._place[:], self._rate[:] = q, v
+        force = self._answer(self._press())
+        self._slopes()
+        return force, self._stiffness.copy(), self._damping.copy()
 
     def accept(self) -> None:
         """Move balls, films and cage to the end of the step, as `forces` was called last."""
-        accept_balls(self.balls, self.films, self._gain)
+        self._accept()
 
     def drive(self, omega: float, dt: float, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
-        """Forces (k, n) of the ring, and of all balls (k, balls, 2), over steps that end at `q` and `v` (k, n)."""
-        n, loads = self._moving, np.zeros((len(q), self.balls.number, 2))
-        force = np.zeros((len(q), n))
-        _drive(self.balls, self.films, (omega, dt, np.array(q), np.array(v)), self._out, (force, loads))
+        """Forces (k, n) of the ring, and of all balls (k, balls, 2), over steps that end at `q` and `v` (k, n).
+
+        Not numbers from where on a ball finds no balance.
+        """
+        steps, motion = len(q), [np.ascontiguousarray(x, np.float64) for x in (q, v)]
+        force, loads = np.zeros((steps, len(self.directions))), np.zeros((steps, self.balls.number, 2))
+        arrays = map(pointer, (*motion, force, loads))
+        given = *self._own, c_double(dt), c_double(omega), c_int(steps), *arrays
+        made = self.core.library.bearing_drive(*given)
+        force[made:], loads[made:] = nan, nan
         return force, loads
+
+    def _answer(self, why: bytes | None) -> _Floats:
+        return self._force.copy() if why is None else np.full(self._force.size, nan)
 
 
 class BearingMotion:
@@ -190,7 +220,7 @@ class BearingMotion:
         self._motion.begin(self._omega, self.dt)
 
     def drive(self, q: ArrayLike, v: ArrayLike) -> tuple[_Floats, _Floats]:
-        """Forces along a motion whose rows are the ends of the steps from here, compiled.
+        """Forces along a motion whose rows are the ends of the steps from here.
 
         Parameters
         ----------
@@ -229,25 +259,7 @@ def motion_of(bearing: BallBearing, speeds_rpm: list[float], directions: tuple[s
     return BallMotion(bearing.tables.balls(speeds)._replace(heights=heights), directions)
 
 
-def _settled(before: _Floats, heights: _Floats) -> bool:
-    return bool(np.abs(heights - before).max() <= SETTLED * np.abs(heights).max())
-
-
 def _finite(force: _Floats, q: _Floats) -> _Floats:
     if not np.isfinite(force).all():
         raise ConvergenceError(f"a ball finds no balance with the ring at {q.tolist()} m", None)
     return force
-
-
-@jit_exact_loop
-def _drive(balls, films, motion, pushed, out):
-    """Steps along a motion; the first has not begun, or is begun again."""
-    omega, dt, q, v = motion
-    for i in range(q.shape[0]):
-        begin_step(balls, omega, dt, films)
-        press_balls(balls, films, q[i], v[i], 1.5 / dt, pushed)
-        accept_balls(balls, films, 1.5 / dt)
-        for j in range(q.shape[1]):
-            out[0][i, j] = pushed[0][j]
-        for k in range(balls.number):
-            out[1][i, k, 0], out[1][i, k, 1] = films.force[k, 0], films.force[k, 1]

@@ -60,7 +60,7 @@ static int settle_heights(const Bearing *b, double state[])
 {
     double change = 0.0, most = 0.0;
     int k, race;
-    for (k = 0; b->heights != NULL && b->heights->tables > 0 && k < b->balls; k++) {
+    for (k = 0; b->heights != NULL && b->heights->pages > 0 && k < b->balls; k++) {
         BallSurface *surface = (BallSurface *)(void *)(state + shaft_place(b) + 1) + k;
         const double psi = head_of(state)->angle + two_pi * k / b->balls;
         for (race = 0; race < 2; race++) {

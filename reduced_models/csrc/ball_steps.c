@@ -109,7 +109,7 @@ double height_at(const Bearing *b, const double state[], int k, int race, double
 {
     const double force = ball_of(state, k)->force[race];
     double pressed;
-    if (b->heights->tables == 0) {
+    if (b->heights->pages == 0) {
         return 0.0;
     }
     pressed = force > 0.0 ? pow(force / b->race[race].kn, 2.0 / 3.0) : film_of(b, state, k, race)->approach;

@@ -7,8 +7,8 @@
  * of every ball its height where it is larger than the others and its tables at both races, in row 0 the tables of the races; 0 is
  * no table. Others are tables, with columns over the root of the compression in the last row. */
 typedef struct {
-    int tables, rows, columns; /* 0 tables: smooth */
-    const double *heights;     /* [1 + tables][rows][columns] m */
+    int pages, rows, columns; /* 0 pages: smooth */
+    const double *heights;    /* [pages][rows][columns] m */
 } HeightTables;
 
 /* A film that is solved outside: its force is straight about an approach without heights. Without a slope it is the element's. */

@@ -24,7 +24,6 @@ from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
 from ehlcontact.summary import span
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.contact_heights import FILM_APPROACH, FILM_FORCE, FILM_SLOPE
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
 from reduced_models.bearing.track_surface import TrackSurface, tracks_at
@@ -316,7 +315,7 @@ class _RunningFilm:
         self.spec, self._run, self._motion, self._submit = spec, run, motion, submit
         self._bearing: BallBearing = mount.ball_bearing
         self._first, self._last = spec.steps(run.dt)
-        self._given = motion.films.heights[spec.contact]
+        self._given = motion.full_films[spec.ball, RACES.index(spec.race)]
         self._rows: list[tuple[float, ...]] = []
         self._point: OperatingPoint | None = None
         self._scales: Scales
@@ -341,14 +340,14 @@ class _RunningFilm:
             last_force, last_approach = self._before
             trend = force - last_force - slope * (approach - last_approach)
             self._before = force, approach
-            self._given[FILM_FORCE] = force + trend
+            self._given["force"] = force + trend
 
     @property
     def is_away(self) -> bool:
         """Whether the film has to be solved where the ball is."""
         if not self._active:
             return False
-        off = abs(self._approach() - self._given[FILM_APPROACH]) * self._given[FILM_SLOPE]
+        off = abs(self._approach() - self._given["approach"]) * self._given["slope"]
         return bool(self._solves == 0 or off > CLOSE * self._load)
 
     def solve(self) -> None:
@@ -378,7 +377,7 @@ class _RunningFilm:
     def close(self) -> None:
         """Put the element back."""
         if self._active:
-            self._given[FILM_SLOPE] = 0.0
+            self._given["slope"] = 0.0
             self._submit(close_film, id(self))
 
     def history(self) -> ContactHistory:
@@ -392,15 +391,15 @@ class _RunningFilm:
 
     @property
     def _active(self) -> bool:
-        return bool(self._given[FILM_SLOPE] > 0.0)
+        return bool(self._given["slope"] > 0.0)
 
     @property
     def _model(self) -> tuple[float, float, float]:
         """Force of the film, its slope, and the approach where it was solved."""
-        return (*self._given[[FILM_FORCE, FILM_SLOPE, FILM_APPROACH]].tolist(),)
+        return tuple(self._given.tolist())
 
     def _give(self, force: float, slope: float, approach: float) -> None:
-        self._given[[FILM_FORCE, FILM_SLOPE, FILM_APPROACH]] = force, slope, approach
+        self._given["force"], self._given["slope"], self._given["approach"] = force, slope, approach
 
     def _approach(self) -> float:
         """Approach of ball and race, features left out, where `forces` was called last [m]."""
@@ -411,7 +410,7 @@ class _RunningFilm:
         spec, bearing, run = self.spec, self._bearing, self._run
         k, omega = spec.ball, float(run.omega[step])
         rpm = omega / RPM_TO_RAD_S
-        force, race = float(self._motion.films.force[k, RACES.index(spec.race)]), bearing.race(spec.race)
+        force, race = float(self._motion.loads[k, RACES.index(spec.race)]), bearing.race(spec.race)
         lightest = race.loads(rpm)[0]
         if not force > lightest:
             allowed = f"times at which ball {k} carries more than {lightest:.3g} N on the {spec.race} race"
@@ -430,13 +429,14 @@ class _RunningFilm:
         self._before = force, here
 
     def _record(self, step: int, solves: int) -> None:
-        films, k = self._motion.films, self.spec.ball
-        column = RACES.index(self.spec.race)
+        k, column = self.spec.ball, RACES.index(self.spec.race)
         film = (np.nan, np.nan, np.nan)
         if self._active:
             answer, unit = self._answer, self._scales.length
             film = answer.h_central * unit, answer.h_min * unit, answer.beside_h_min
-        self._rows.append((self._run.t[step], self._approach(), float(films.force[k, column]), *film, solves))
+        self._rows.append(
+            (self._run.t[step], self._approach(), float(self._motion.loads[k, column]), *film, solves)
+        )
 
 
 def _histories(running: Sequence[_RunningFilm]) -> tuple[ContactHistory, ...]:

@@ -17,8 +17,10 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.jit import inner, jit_exact_loop
-from reduced_models.bearing.ball_steps import accept_balls, begin_step, press_balls
+from reduced_models.bearing.ball import BallFilms, films_of
+from reduced_models.bearing.ball_steps import accept_balls, begin_rest, begin_step, press_balls, rest_balls
 from reduced_models.bearing.compiled_list import CompiledList
+from reduced_models.bearing.contact_heights import HEIGHT, find_heights
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.rotor.prepared_run import DISPLACEMENTS, PreparedRun
 from reduced_models.rotor.time_step import Steps, rounding_hint
@@ -70,7 +72,7 @@ class CompiledSteps:
         self._limits = tolerance * max(load, 1.0), run.farthest
         force = run.histories.force[0]
         self._balls = CompiledList(one.balls for one in run.balls)
-        self._films = CompiledList(one.films for one in run.balls)
+        self._films = CompiledList(_films_at_rest(run, b) for b in range(len(run.balls)))
         points, self._ties, _ = run.rotor.geometry
         moving, d = np.array([len(one.directions) for one in run.balls]), len(FIVE)
         named = np.concatenate([d * b + np.arange(count) for b, count in enumerate(moving.tolist())])
@@ -98,6 +100,8 @@ class CompiledSteps:
         made, how = run_block(steps, self._balls, self._films, self._rings, run.state, course, self._limits, out)
         rate[:] = v @ steps.B.T @ self._ties.T
         self.made = first + int(made)
+        for one, films in zip(run.balls, self._films, strict=True):
+            one.core.surfaces(one.state)["largest"][0] = films.largest
         lost = run.lost(first, self.made)
         if lost is not None:
             self.made = self.reached = lost[0]
@@ -116,6 +120,22 @@ class CompiledSteps:
 
     def rewind(self) -> None:
         """Nothing: a block is made as a whole."""
+
+
+def _films_at_rest(run: PreparedRun, b: int) -> BallFilms:
+    """Balls and films of bearing `b` where the run starts."""
+    balls, at, n = run.balls[b].balls, run.ball_directions[b], len(FIVE)
+    place, films = run.histories.motion[0, at] + run.shift[at], films_of(balls)
+    mount, out = run.rotor.ball_bearings[b], (np.zeros(n), np.zeros((n, n)), np.zeros((n, n)))
+    begin_rest(balls, float(run.omega[0]), mount.cage_angle, films)
+    for _ in range(60):
+        rest_balls(balls, films, place, (*out, np.zeros(place.size)))
+        before = films.heights[:, HEIGHT].copy()
+        if balls.heights.shape[0] > 0:
+            find_heights(balls, films, mount.cage_angle, 0.0)
+        if np.abs(before - films.heights[:, HEIGHT]).max() <= 1e-9 * np.abs(films.heights[:, HEIGHT]).max():
+            break
+    return films
 
 
 @jit_exact_loop

@@ -203,7 +203,7 @@ def _result(run: PreparedRun, made: int, status: Status) -> RotorResult:
     kept, histories = slice(0, made + 1), run.histories
     columns, approach, rate, force = _supports(run, kept)
     names, places = flat_nodes(run.rotor.nodes)
-    largest = np.array([one.films.largest for one in run.balls]).reshape(-1, 2)
+    largest = np.array([one.largest for one in run.balls]).reshape(-1, 2)
     return RotorResult(
         t=run.t[kept],
         speed_rpm=run.omega[kept] / RPM_TO_RAD_S,
@@ -261,7 +261,7 @@ def _warn_of_overload(run: PreparedRun) -> None:
     """Warn of balls that carried more than the atlas has."""
     slowest = float(law_speeds(run.omega / RPM_TO_RAD_S)[0])
     for mount, which, balls in zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, run.balls, strict=True):
-        for name, load in zip(RACES, balls.films.largest.tolist(), strict=True):
+        for name, load in zip(RACES, balls.largest.tolist(), strict=True):
             bearing = mount.ball_bearing
             most = np.inf if bearing.oil is None else bearing.race(name).loads(slowest)[1]
             if load > most:
@@ -273,7 +273,7 @@ def _warn_of_damping(run: PreparedRun) -> None:
     """Warn of starved bearings whose elements leave out damping below zero."""
     fastest = float(law_speeds(run.omega / RPM_TO_RAD_S)[-1])
     for mount, name, balls in zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, run.balls, strict=True):
-        words = damping_left_out(mount.ball_bearing, fastest, balls.films.largest)
+        words = damping_left_out(mount.ball_bearing, fastest, balls.largest)
         warn_of_damping_left_out(mount.ball_bearing, name, words, stacklevel=5)
 
 

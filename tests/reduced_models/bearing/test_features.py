@@ -21,12 +21,10 @@ from reduced_models import (
     Spall,
     simulate_rotor,
 )
-from reduced_models.bearing.ball_search import search_ball
 from reduced_models.bearing.contact_heights import looked_up
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.height_tables import filtered, track_radius
 from reduced_models.bearing.motion import BearingMotion
-from reduced_models.bearing.race_contact import row_of_speed
 
 DRY = BallBearing.catalogue("6205", clearance=15e-6)
 OILED = replace(DRY, oil=Lubricant.iso_vg(68, temperature=50.0))
@@ -319,18 +317,6 @@ def test_a_ball_that_a_pit_has_taken_from_both_races_is_found(load, length, dept
     )
     run = simulate_rotor(rotor, speed_rpm=1797.0, dt=1 / 48000, until=until)
     assert run.status == "converged" and run.t[-1] >= until
-
-
-@pytest.mark.parametrize("k", [0, 4])
-def test_the_search_for_a_ball_ends_where_newtons_method_does(k):
-    """A ball with load, and one without."""
-    motion = BearingMotion(LOST, 1797.0, 1e-5, directions=FIVE)
-    q, v = np.array([1e-6, -1.2e-5, 4e-5, 1e-4, -1e-4]), np.array([1e-3, -2e-3, 1e-3, 0.0, 0.0])
-    motion.forces(q, v)
-    balls, films = motion._motion.balls, motion._motion.films
-    found, c, omega = films.place[k].copy(), films.tried[k].copy(), films.omega[0]
-    search_ball(balls, omega, row_of_speed(balls.speeds, omega), films, k, tuple(c), 1.5e5)
-    np.testing.assert_allclose(films.place[k], found, atol=1e-10)
 
 
 @pytest.mark.parametrize("freedoms", [2, 5])

@@ -54,7 +54,7 @@ def test_a_planar_ring_rests_on_hertz_springs_and_centrifugal_forces(clearance):
     found, pressed = motion.rest(place), np.array(forces)
     assert pressed[:, 0].min() == 0.0 and pressed[:, 0].max() > 100.0
     assert found == pytest.approx(pressed[:, 0] @ np.column_stack([np.cos(psi), np.sin(psi)]), rel=1e-9)
-    np.testing.assert_allclose(motion._motion.films.force, pressed, rtol=0.0, atol=1e-9 * pressed.max())
+    np.testing.assert_allclose(motion._motion.loads, pressed, rtol=0.0, atol=1e-9 * pressed.max())
 
 
 def test_a_ring_that_cannot_tilt_rests_on_springs_between_groove_centres():
