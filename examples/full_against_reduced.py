@@ -8,12 +8,13 @@ warns that it was not made for this.
 """
 
 import sys
-from dataclasses import replace
 from math import pi, sqrt
 from typing import Any
 
+import numpy as np
+
 from ehlcontact import Grid, Lubricant, OperatingPoint, TransientContact
-from reduced_models import Atlas, JeffcottRotor, ScaledContact, simulate_rotor
+from reduced_models import Atlas, ScaledContact, jeffcott_rotor, simulate_rotor
 from reduced_models.rotor.baselines import dry_contact
 from reduced_models.rotor.decay import log_decrement
 from reduced_models.rotor.result import RotorResult
@@ -24,7 +25,7 @@ POINT = OperatingPoint.ball_bearing(
     OIL, ball_diameter=7.94e-3, pitch_diameter=39.04e-3, conformity=0.52, speed_rpm=3000, load=BALL
 )
 PRESSED = (0.0, (MASS + 0.2) * 9.81 - 2.0 * BALL)  # N on the disc beside its weight
-ROTOR = JeffcottRotor.vertical(
+ROTOR = jeffcott_rotor(
     disc_mass=MASS, journal_mass=0.2, shaft_stiffness=2e8, bearings=2, load=PRESSED, point=POINT
 )
 OMEGA = sqrt(2.0 * 1.5 * POINT.scales.stiffness / MASS)  # rad/s, about that of the rotor on its contacts
@@ -32,10 +33,9 @@ OMEGA = sqrt(2.0 * 1.5 * POINT.scales.stiffness / MASS)  # rad/s, about that of 
 
 def kicked(contact: Any, rest: float, periods: float, steps: int = 40) -> RotorResult:
     """The rotor starts from rest with a velocity; `steps` in a period."""
-    velocity = (0.0, KICK * rest * OMEGA)
-    start = replace(ROTOR.state_at([rest]), disc_velocity=velocity, journal_velocity=velocity)
+    start = ROTOR.rest_at([rest]), np.full(2, KICK * rest * OMEGA)  # disc and journal
     period = 2.0 * pi / OMEGA
-    return simulate_rotor(ROTOR, [contact], dt=period / steps, until=periods * period, start=start)
+    return simulate_rotor(ROTOR.on([contact]), dt=period / steps, until=periods * period, start=start)
 
 
 def full(periods: float = 8.0, n: int | None = None) -> RotorResult:

@@ -13,10 +13,10 @@ from ehlcontact.errors import InputError
 from ehlcontact.files import require_writable, write_bytes
 from fmu.archive import fmu_files, pack
 from fmu.models import Exported, FmuModel, fmu_model
+from fmu.rotor.model import RotorModel
 from fmu.sources import FMI_FILES
 from fmu.verification import Verification
 from fmu.verify import require_finite, require_verified
-from reduced_models import JeffcottRotor
 
 
 def export(
@@ -25,7 +25,6 @@ def export(
     *,
     speeds_rpm: Any = None,
     outside: str | Iterable[str] = (),
-    contacts: Sequence[Any] | None = None,
     speed_rpm: float | None = None,
     inertia: float | None = None,
     start: Any = None,
@@ -56,7 +55,9 @@ def export(
     nodes; outputs are the motions of these and of the supports. Supports are inside: the FMU then solves their
     forces in every step, by the steps of `simulate_rotor` and Newton's method. The forces of those that are
     `outside` are inputs, named and directed as in the FMU of a contact or a bearing, and the motions there
-    outputs. Masses, stiffness and dampers can be set before initialization.
+    outputs. Contacts are elements of any kind, in SI or as `ScaledContact`; their films start at rest, and of
+    those outside the FMU starts with the static force. Masses, stiffness and dampers can be set before
+    initialization.
 
     A `BearingSet` is a rotor too: ``set.rotor(load, mass=mass)``, its rigid shaft with all its bearings inside.
     Forces and moments at 0 are inputs, `shaft.force_x`, ..., `shaft.moment_y`, beside the load; the motion there,
@@ -67,7 +68,7 @@ def export(
 
     Parameters
     ----------
-    model : ContactElement, BallBearing, BearingSet, Rotor or JeffcottRotor
+    model : ContactElement, BallBearing, BearingSet or Rotor
     path : path-like
         File to write, ending in ``.fmu``.
     speeds_rpm : float or (float, float), optional
@@ -78,17 +79,15 @@ def export(
         Of a rotor or set: names of the supports whose forces are inputs, as in `RotorResult.columns`: "contact 0",
         ..., names of ball bearings ("bearing 0", ... where they have none). Variables of an FMU count from 1:
         those of "contact 0" are ``contact[1]``, those of the first ball bearing ``bearing[1]``.
-    contacts : sequence of ContactElement, optional
-        Of a `JeffcottRotor`: one per mount, in SI or as `ScaledContact`, of any kind; their films start at rest.
-        Of those that are `outside` the FMU starts with the static force; left out where all are.
     speed_rpm : float, optional
-        Of a `Rotor` or set: speed at the start [rev/min]; by default the highest of `speeds_rpm`, or 0.
+        Of a rotor or set: speed at the start [rev/min]; by default that of the rotor, the highest of `speeds_rpm`,
+        or 0.
     inertia : float, optional
-        Of a `Rotor` or set: polar moment of inertia [kg m2] of all that turns; the speed then follows from the
+        Of a rotor or set: polar moment of inertia [kg m2] of all that turns; the speed then follows from the
         torque of the motor and those of the bearings. By default the speed is an input.
     start : optional
-        Of a rotor: where it starts, a `RotorState` or displacements and velocities, shape (N,) each; by default in
-        static equilibrium (a `JeffcottRotor` without contacts inside: the journal at the origin, the shaft bent).
+        Of a rotor: where it starts, displacements and velocities, shape (N,) each; by default in static
+        equilibrium or, where all contacts are outside and without an element, with these at their offsets.
     load : float or sequence of float, optional
         Of a bearing: force on the inner ring [N], [N m], as of `BallBearing.equilibrium`, under which it starts at
         rest; by default the ring starts in the middle. Of a set: constant load on the shaft at 0, shape (5,), by
@@ -124,8 +123,8 @@ def export(
     Path
         The file.
 
-    Elements warn here where the speed of a `JeffcottRotor` lies outside their band, or they were made for another
-    contact; bearings under an oil supply where their elements leave out damping below zero.
+    Elements warn here where the speed of a rotor lies outside their band, or they were made for another contact;
+    bearings under an oil supply where their elements leave out damping below zero.
 
     Raises
     ------
@@ -153,7 +152,6 @@ def export(
         model,
         speeds_rpm=speeds_rpm,
         outside=outside,
-        contacts=contacts,
         speed_rpm=speed_rpm,
         inertia=inertia,
         start=start,
@@ -163,8 +161,8 @@ def export(
         lead=lead,
         model_name=model_name,
     )
-    if isinstance(model, JeffcottRotor):
-        model.check([element.copy() for element in made.elements], stacklevel=3)
+    if isinstance(made.source, RotorModel):
+        made.source.rotor.check_contacts(made.source.speed, stacklevel=3)
     return export_model(made, path, fmi=fmi, platforms=platforms, overwrite=overwrite, progress=progress)[0]
 
 

@@ -23,10 +23,10 @@ from fmu.rotor.model import RotorModel
 from fmu.rotor.variables import rotor_spec
 from fmu.spec import ModelSpec
 from fmu.verification import Verification
-from reduced_models import BallBearing, BearingSet, JeffcottRotor, Rotor
+from reduced_models import BallBearing, BearingSet, Rotor
 from reduced_models.bearing.freedoms import FIVE
 
-Exported = Element | BallBearing | BearingSet | Rotor | JeffcottRotor
+Exported = Element | BallBearing | BearingSet | Rotor
 
 
 class Keywords(TypedDict, total=False):
@@ -36,7 +36,6 @@ class Keywords(TypedDict, total=False):
     lead: float | None
     speeds_rpm: Any
     outside: str | Iterable[str]
-    contacts: Sequence[Any] | None
     speed_rpm: float | None
     inertia: float | None
     start: Any
@@ -52,7 +51,6 @@ _TAKEN: tuple[tuple[Any, str, set[str]], ...] = (
     (BallBearing, "a ball bearing", {"speeds_rpm", "load", "directions"}),
     (Rotor, "a Rotor", _ROTOR),
     (BearingSet, "a BearingSet", _ROTOR | {"load", "mass"}),
-    (JeffcottRotor, "a JeffcottRotor", {"contacts", "outside", "start"}),
 )
 
 
@@ -98,10 +96,7 @@ def fmu_model(model: Exported, **keywords: Unpack[Keywords]) -> FmuModel:
     if isinstance(model, BallBearing):
         bearing = BearingModel(model, given.pop("speeds_rpm", None), **given)
         return _made(bearing, bearing_spec(bearing, model_name, lead), compare_bearing, bearing_references)
-    if isinstance(model, JeffcottRotor):
-        rotor = RotorModel.jeffcott(model, **given)
-    else:
-        rotor = RotorModel(_on_set(model, given) if isinstance(model, BearingSet) else model, **given)
+    rotor = RotorModel(_on_set(model, given) if isinstance(model, BearingSet) else model, **given)
     return _made(rotor, rotor_spec(rotor, model_name, lead), compare_rotor, rotor_references)
 
 
@@ -125,7 +120,7 @@ def _require_taken(model: object, given: dict[str, Any]) -> None:
             for name in given.keys() - taken - _EVERY:
                 raise InputError(name, given[name], f"left out for {words}")
             return
-    allowed = "a contact element (linear, cubic, ..., wide), BallBearing, BearingSet, Rotor or JeffcottRotor"
+    allowed = "a contact element (linear, cubic, ..., wide), BallBearing, BearingSet or Rotor"
     raise InputError("model", type(model).__name__, allowed)
 
 

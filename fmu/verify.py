@@ -48,7 +48,7 @@ def verify(path: str | os.PathLike[str], model: Exported, **keywords: Unpack[Key
     ----------
     path : path-like
         The FMU.
-    model : ContactElement, BallBearing, BearingSet, Rotor or JeffcottRotor
+    model : ContactElement, BallBearing, BearingSet or Rotor
         What it should be.
     **keywords
         Those of its `export`, the start values of `lead` and of other options of the export apart.

@@ -38,7 +38,7 @@ from reduced_models.rotor.bearing_set import BearingSet as BearingSet
 from reduced_models.rotor.campbell import campbell as campbell
 from reduced_models.rotor.compare import compare as compare
 from reduced_models.rotor.control import rotor_to_control as rotor_to_control
-from reduced_models.rotor.jeffcott import JeffcottRotor as JeffcottRotor
+from reduced_models.rotor.jeffcott import jeffcott_rotor as jeffcott_rotor
 from reduced_models.rotor.linear_bearing import LinearBearing as LinearBearing
 from reduced_models.rotor.linearise import linearise as linearise
 from reduced_models.rotor.oscillator import simulate_oscillator as simulate_oscillator

@@ -4,27 +4,37 @@ from dataclasses import dataclass, field
 from functools import cached_property, singledispatch
 from typing import Any
 
-import numpy as np
-
 from fmu import verify
 from fmu.bearing.model import BearingModel
 from fmu.models import FmuModel, fmu_model
 from fmu.rotor.model import RotorModel
-from reduced_models import JeffcottRotor, Rotor
-from reduced_models.rotor.jeffcott import RotorState
+from reduced_models import Rotor, jeffcott_rotor
 
 
 @dataclass(frozen=True, eq=False)
 class Jeffcott:
-    """A Jeffcott rotor with contacts inside, or outside where there are none."""
+    """A Jeffcott rotor with contacts inside, or outside where there are none; settings of `jeffcott_rotor`."""
 
-    rotor: JeffcottRotor
+    settings: dict[str, Any]
     contacts: Any = None
-    start: RotorState | None = None
+    start: Any = None
+
+    @cached_property
+    def rotor(self) -> Rotor:
+        rotor = jeffcott_rotor(**self.settings)
+        return rotor if self.contacts is None else rotor.on(self.contacts)
 
     @cached_property
     def model(self) -> RotorModel:
-        return RotorModel.jeffcott(self.rotor, self.contacts, () if self.contacts else "all", self.start)
+        return RotorModel(self.rotor, () if self.contacts else "all", start=self.start)
+
+    def changed(self, **changes: Any) -> "Jeffcott":
+        """With other settings, its start left out."""
+        return Jeffcott(self.settings | changes, self.contacts)
+
+    def running(self) -> Rotor:
+        """The rotor on contacts of its own."""
+        return self.rotor.on([element.copy() for element in self.elements])
 
     @property
     def elements(self) -> tuple[Any, ...]:
@@ -35,11 +45,9 @@ class Jeffcott:
         return self.model.inner_step
 
     @property
-    def state(self) -> RotorState:
+    def state(self) -> tuple[Any, Any]:
         """Where it starts."""
-        planes = np.zeros((4, 2))
-        planes[:, list(self.rotor.axes)] = np.concatenate(self.model.motion).reshape(4, -1)
-        return RotorState(*planes)
+        return self.model.motion
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,8 +75,7 @@ def _(model: BearingModel):
 
 @given.register
 def _(model: Jeffcott):
-    supports = {"outside": "all"} if model.contacts is None else {"contacts": model.contacts}
-    return model.rotor, {**supports, "start": model.start}
+    return model.rotor, {"outside": "all" if model.contacts is None else (), "start": model.start}
 
 
 @given.register

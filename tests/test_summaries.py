@@ -55,7 +55,6 @@ from reduced_models import (
     ContactMount,
     ContactRecord,
     Disc,
-    JeffcottRotor,
     OilBalance,
     Rotor,
     Shaft,
@@ -65,6 +64,7 @@ from reduced_models import (
     campbell,
     compare,
     fit,
+    jeffcott_rotor,
     linearise,
     rotor_on_bearings,
     simulate_oscillator,
@@ -85,7 +85,6 @@ from reduced_models.fitting.result import ElementFit, FitResult, MemoryFit
 from reduced_models.fitting.sensitivity import Sensitivity, sensitivity
 from reduced_models.rotor.bearing_films import ContactHistory, FullFilm
 from reduced_models.rotor.campbell import Campbell
-from reduced_models.rotor.jeffcott import RotorState
 from reduced_models.rotor.linear_contact import impedance_about
 from reduced_models.rotor.linearise import LinearRotor
 from reduced_models.rotor.result import RotorResult
@@ -108,7 +107,7 @@ RETURNED = (
     *(Assumption, Assumptions, Film, FilmHistory, FilmWave, Instants, Interferogram, Scales, WaveTrack),
     *(ExcitationResult, SpeedResponseResult, Traction, Status, AtlasAnswer, FilterAnswer, BearingExcitation),
     *(BearingFriction, SetState, OilAndHeat, OilHistory, ElementFit, MemoryFit, Sensitivity, Campbell),
-    *(LinearRotor, RotorState, UnbalanceResponse, ContactHistory, EnvelopeSpectrum, OrderSpectrum),
+    *(LinearRotor, UnbalanceResponse, ContactHistory, EnvelopeSpectrum, OrderSpectrum),
     *(SteadyResult, ImpedanceResult, SimulationResult, BearingState, FitResult, RotorResult, VibrationRecord),
     *(Carreau, Eyring, LimitingShear, ContactElement, FullFilm, RossCallback),
     *(BearingModel, RotorModel, Verification, ReferenceCheck),
@@ -129,10 +128,10 @@ WITHOUT_PLOT = {
         ("BallBearing", "BearingSet", "LinearBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT
     ),
     **dict.fromkeys(("MeasuredPath", "ModalPath", "SystemPath", "RecordCase"), INPUT),
-    **dict.fromkeys(("JeffcottRotor", "Shaft", "Disc", "Support"), INPUT),
+    **dict.fromkeys(("Shaft", "Disc", "Support"), INPUT),
     **dict.fromkeys(("BearingModel", "RotorModel", "OilBalance"), INPUT),
     **dict.fromkeys(("Assumption", "Assumptions"), "words and one number each: print it"),
-    **dict.fromkeys(("RotorState", "BearingFriction", "OilAndHeat"), NUMBERS),
+    **dict.fromkeys(("BearingFriction", "OilAndHeat"), NUMBERS),
     **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),
     **dict.fromkeys(("InputError", "ConvergenceError", "OutsideValidityWarning", "BuildError"), KIND),
     **dict.fromkeys(("VerificationError", "Status"), KIND),
@@ -244,18 +243,18 @@ def films_of(film, run):
 def rotors(element, bearing):
     """Rotors on a contact and on bearings, and their results."""
     mount = ContactMount(angle=-np.pi / 2)
-    rotor = JeffcottRotor(
+    rotor = jeffcott_rotor(
         disc_mass=9.0, journal_mass=0.5, shaft_stiffness=5e6, mounts=(mount,), speed_rpm=3000.0, unbalance=1e-5,
         directions="y",
     )  # fmt: skip
-    run = simulate_rotor(rotor, [element], dt=1e-4, until=0.01)
-    linear = linearise(rotor, contacts=[impedance_about(element, 45.0)])
+    run = simulate_rotor(rotor.on([element]), dt=1e-4, until=0.01)
+    linear = linearise(rotor.on([impedance_about(element, 45.0)]))
     shaft, disc = Shaft(length=[0.1, 0.2], diameter=0.02, bore=[0.0, 0.01]), Disc(position=0.1, mass=2.0)
     supports = [Support(position=0.0, bearing=bearing, housing_mass=1.0, housing_stiffness=1e8)]
     supports.append(Support(position=0.3, bearing=bearing))
     whole = rotor_on_bearings(shaft, supports=supports, discs=[disc])
     return [
-        rotor, run, compare(run, run), linear, linear.modes()[0], rotor.static_equilibrium([element]), shaft, disc,
+        rotor, run, compare(run, run), linear, linear.modes()[0], shaft, disc,
         *supports, whole, Settling((0.5, 0.1, 0.001), 0.01),
     ]  # fmt: skip
 

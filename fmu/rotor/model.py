@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-import warnings
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,15 +16,14 @@ from ehlcontact.checks import as_column, require_instance, require_nonnegative, 
 from ehlcontact.errors import ConvergenceError, InputError
 from fmu.bearing.model import BearingModel
 from fmu.contact_variables import Element
-from fmu.rotor.parameters import Parameter, jeffcott_parameters, scales
+from fmu.rotor.parameters import parameters_of
 from fmu.steps import default_step, round_down
-from reduced_models import JeffcottRotor, OutsideValidityWarning, ScaledContact
+from reduced_models import ScaledContact
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
-from reduced_models.rotor.jeffcott import BODIES, RotorState
 from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.prepared_run import LEAST_STEPS
-from reduced_models.rotor.rotor import Rotor, Unbalance
+from reduced_models.rotor.rotor import Parameter, Rotor
 from reduced_models.rotor.supports import (
     BearingMount,
     ContactMount,
@@ -89,21 +87,19 @@ class RotorModel:
     Parameters
     ----------
     rotor : Rotor
-        Linear bearings stay inside, in its matrices; contacts are elements in SI.
+        Linear bearings stay inside, in its matrices; contacts are elements in SI, and None where all are outside
+        and none is known.
     outside : str or sequence of str
         Names of the supports whose forces are inputs; "all".
     speeds_rpm : float or (float, float), optional
         Of ball bearings inside, as of `BearingModel`.
     speed_rpm : float, optional
-        Speed at the start; the highest of the tables by default, or 0.
+        Speed at the start; by default that of the rotor, the highest of the tables, or 0.
     inertia : float, optional
         Polar moment of inertia [kg m2] of all that turns: the speed then follows from torques.
     start : (array_like, array_like), optional
-        Displacements and velocities to start from, shape (N,) each; equilibrium under the load by default.
-    parameters : tuple of Parameter, optional
-        That scale its matrices; factors by default.
-    rest : array_like, optional
-        Displacements at rest, where it is not the equilibrium on its supports.
+        Displacements and velocities to start from, shape (N,) each; by default equilibrium under the load, and
+        of a rotor whose contacts are not known the contacts at their offsets.
 
     Raises
     ------
@@ -118,15 +114,11 @@ class RotorModel:
     speed_rpm: float | None = None
     inertia: float | None = None
     start: Any = None
-    parameters: tuple[Parameter, ...] = ()
-    rest: Any = None
-    kind: str = field(default="Rotor")
 
     def __post_init__(self) -> None:
         require_instance("rotor", self.rotor, Rotor, "a Rotor")
         object.__setattr__(self, "outside", outside_names(supports_of(self.rotor), self.outside))
         object.__setattr__(self, "rotor", _with_elements(self.rotor, self.outside))
-        object.__setattr__(self, "parameters", self.parameters or scales(self.rotor))
         if self.inertia is not None:
             require_positive("inertia", self.inertia)
         self._check_size()
@@ -139,46 +131,6 @@ class RotorModel:
         _ = self.bearings
         require_nonnegative("speed_rpm", self.speed)
         _ = self.motion
-
-    @classmethod
-    def jeffcott(
-        cls,
-        rotor: JeffcottRotor,
-        contacts: Sequence[Any] | None = None,
-        outside: str | Iterable[str] = (),
-        start: RotorState | None = None,
-    ) -> Self:
-        """A Jeffcott rotor, whose contacts are inside, or outside where they are named; its own parameters.
-
-        Raises
-        ------
-        InputError
-            Contacts that do not fit the mounts, or do not carry the static load; no start.
-        """
-        if start is not None and not isinstance(start, RotorState):
-            raise InputError("start", start, "a RotorState, or left out")
-        if len(rotor.mounts) > MOST_SUPPORTS:
-            raise InputError("rotor.mounts", len(rotor.mounts), f"at most {MOST_SUPPORTS} in an FMU")
-        names = tuple(f"contact {i}" for i in range(len(rotor.mounts)))
-        chosen = outside_names(names, outside)
-        if contacts is None:
-            if set(chosen) != set(names):
-                raise InputError("contacts", None, f"one per mount, {len(names)}, or outside={names!r}")
-            elements: list[Any] = [None] * len(names)
-        else:
-            elements = jeffcott_elements(rotor, contacts)
-        whole = rotor.on(elements)
-        disc = whole.nodes[BODIES[0]]
-        turning = Unbalance(x=disc.get("x"), y=disc.get("y"), amount=rotor.unbalance)
-        return cls(
-            replace(whole, unbalances=(turning,)),
-            chosen,
-            speed_rpm=rotor.speed_rpm,
-            start=None if start is None else rotor.motion(start),
-            parameters=jeffcott_parameters(rotor),
-            rest=rotor.motion(jeffcott_rest(rotor, elements) if start is None else start)[0],
-            kind="JeffcottRotor",
-        )
 
     # ---- supports
 
@@ -242,6 +194,11 @@ class RotorModel:
         return _geometry(self.out, self.rotor.size).points
 
     @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Of the rotor, or factors of its matrices."""
+        return parameters_of(self.rotor)
+
+    @property
     def points(self) -> tuple[tuple[str, str, int], ...]:
         """Node, direction and degree of freedom of all named nodes."""
         return tuple((node, name, place) for node, at in self.rotor.nodes.items() for name, place in at.items())
@@ -251,8 +208,9 @@ class RotorModel:
     @property
     def speed(self) -> float:
         """Speed at the start [rev/min]."""
-        if self.speed_rpm is not None:
-            return self.speed_rpm
+        for speed in (self.speed_rpm, self.rotor.speed_rpm):
+            if speed is not None:
+                return speed
         return float(self.bearings[0].speeds[-1]) if self.bearings else 0.0
 
     @cached_property
@@ -260,13 +218,26 @@ class RotorModel:
         """Displacements and velocities at the start, shape (N,) each."""
         size = self.rotor.size
         if self.start is None:
-            q = self.rotor.equilibrium(self.speed) if self.rest is None else np.asarray(self.rest, float)
-            return q, np.zeros(size)
+            return self._rest(), np.zeros(size)
         try:
             q, v = self.start
         except (TypeError, ValueError):
             raise InputError("start", type(self.start).__name__, "displacements and velocities") from None
         return as_column("displacements", q, size=size), as_column("velocities", v, size=size)
+
+    def _rest(self) -> _Floats:
+        rotor = self.rotor
+        if not rotor.ball_bearings and all(mount.contact is None for mount in rotor.contacts):
+            return rotor.rest_at([mount.offset for mount in rotor.contacts])
+        if not (rotor.ball_bearings or rotor.load.any()):
+            raise InputError("static load", 0.0, "different from zero to press the contacts")
+        try:
+            return rotor.equilibrium(self.speed)
+        except ConvergenceError as error:
+            if rotor.ball_bearings:
+                raise
+            load = f"{rotor.load.tolist()} N"
+            raise InputError("contacts", str(error), f"ones that carry the static load {load}") from None
 
     def force(self, station: Station) -> _Floats:
         """Of a support outside at the start, as its own FMU gives it: of a contact, or on the inner ring."""
@@ -360,28 +331,6 @@ def outside_names(known: tuple[str, ...], outside: str | Iterable[str]) -> tuple
     return names
 
 
-def jeffcott_elements(rotor: JeffcottRotor, contacts: Sequence[Any]) -> list[Element]:
-    """Contacts of a Jeffcott rotor, checked, one per mount."""
-    if not isinstance(contacts, list | tuple):
-        raise InputError("contacts", type(contacts).__name__, "a list of contact elements, one per mount")
-    if len(contacts) != len(rotor.mounts):
-        raise InputError("contacts", len(contacts), f"one per mount, {len(rotor.mounts)}")
-    return [_element(f"contacts[{i}]", contact) for i, contact in enumerate(contacts)]
-
-
-def jeffcott_rest(rotor: JeffcottRotor, elements: list[Any]) -> RotorState:
-    """Static equilibrium; without contacts the journal at the origin and the shaft bent by the load."""
-    if None in elements:
-        return rotor.rest_state(np.zeros(len(rotor.axes)))
-    try:
-        with warnings.catch_warnings():  # about the speed, on which rest does not depend
-            warnings.simplefilter("ignore", OutsideValidityWarning)
-            return rotor.static_equilibrium([element.copy() for element in elements])
-    except ConvergenceError as error:
-        load = f"{rotor.static_load.tolist()} N"
-        raise InputError("contacts", str(error), f"ones that carry the static load {load}") from None
-
-
 def _geometry(stations: Sequence[Station], size: int) -> SupportGeometry:
     contacts = [station.mount for station in stations if isinstance(station.mount, ContactMount)]
     bearings = [station.mount for station in stations if isinstance(station.mount, BearingMount)]
@@ -393,11 +342,14 @@ def _geometry(stations: Sequence[Station], size: int) -> SupportGeometry:
 def _with_elements(rotor: Rotor, outside: str | Iterable[str]) -> Rotor:
     """The rotor with the contacts inside as elements in SI."""
     mounts: list[Any] = []
+    unknown = [f"contact {i}" for i, mount in enumerate(rotor.contacts) if mount.contact is None]
+    if not set(unknown) <= set(outside):
+        raise InputError("contacts", None, f"one per mount, {len(rotor.contacts)}, or outside={tuple(unknown)!r}")
     i = 0
     for mount in rotor.mounts:
         own: Any = mount
         if isinstance(mount, ContactMount):
-            if mount.contact is not None or f"contact {i}" not in outside:
+            if mount.contact is not None:
                 own = replace(mount, contact=_element(f"contacts[{i}]", mount.contact))
             i += 1
         mounts.append(own)

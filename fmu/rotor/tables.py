@@ -139,7 +139,7 @@ def _data(model: RotorModel, made: _Variables) -> str:
         "damping_matrix": none if sums else C,
         "stiffness_matrix": none if sums else K,
         "gyroscopic_matrix": rotor.gyroscopic if rotor.gyroscopic.any() else none,
-        "constant_load": constant_load(rotor, model.parameters),
+        "constant_load": constant_load(rotor),
         "points": np.concatenate([geometry.points, model.held]),
         "ties": geometry.normals.ravel(),
         "shift": np.concatenate([np.zeros(0), *(station.shift for station in model.inside)]),

@@ -78,7 +78,7 @@ class _Run(PreparedRun):
     def __init__(self, model: RotorModel, dt: float, course: SpeedProfile, given: _Floats, rows: _Floats) -> None:
         self._model, self._given, self._course, self._rows = model, given, course, rows
         inside = bool(model.inside) and not model.out and model.start is None
-        start = "static" if inside and model.rest is None else model.motion
+        start = "static" if inside else model.motion
         super().__init__(_rotor_inside(model), course, dt, len(given) - 1, start, RHO)
 
     def _begin(self, start: Any) -> _Floats:

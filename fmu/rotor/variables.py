@@ -46,7 +46,7 @@ def rotor_spec(model: RotorModel, model_name: str | None = None, force_lead: flo
     made.fill(between if force_lead is None else force_lead)
     bearings = ("bearing_support.c", *BEARING_SOURCES), ("bearing_support.h", *BEARING_HEADERS)
     return ModelSpec(
-        name=checked_name(model.kind if model_name is None else model_name),
+        name=checked_name("Rotor" if model_name is None else model_name),
         description=_description(model),
         sources=(*SOURCES, *(bearings[0] if model.bearings else ())),
         headers=(*HEADERS, *(bearings[1] if model.bearings else ())),
@@ -444,7 +444,7 @@ class _Variables(VariableList):
         self.first["PARAMETER"] = len(self.variables)
         for own in model.parameters:
             more: dict[str, Any] = {} if own.signed else {"minimum": 0.0}
-            self.add(own.name, "parameter", "fixed", own.text, unit=own.unit, start=own.start, **more)
+            self.add(own.name, "parameter", "fixed", own.text, unit=own.unit, start=own.value, **more)
         if model.inertia is not None:
             self.add(
                 "inertia", "parameter", "fixed", "Polar moment of inertia of all that turns",
@@ -470,7 +470,7 @@ def _description(model: RotorModel) -> str:
         *([f"{bearings} ball bearing{'s' * (bearings != 1)} inside"] if bearings else []),
         *([f"{len(model.out)} support{'s' * (len(model.out) != 1)} outside"] if model.out else []),
     ]
-    name = "Jeffcott rotor" if model.kind == "JeffcottRotor" else f"Rotor of {model.rotor.size} degrees of freedom"
+    name = f"Rotor of {model.rotor.size} degrees of freedom"
     left_out = [
         (station.name, one.damping_left_out)
         for station, one in zip(model.bearings_inside, model.bearings, strict=True)

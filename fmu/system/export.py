@@ -11,8 +11,7 @@ from typing import Any
 
 from ehlcontact.binaries import Platform, choose, this_machine
 from ehlcontact.binaries.libraries import Progress
-from ehlcontact.checks import require_instance, require_positive
-from ehlcontact.errors import InputError
+from ehlcontact.checks import require_positive
 from ehlcontact.files import write_bytes
 from fmu.archive import pack
 from fmu.contact_spec import checked_name
@@ -20,21 +19,17 @@ from fmu.export import export_model, free_target, require_version
 from fmu.lead import CONTACT, HELD_PARALLEL
 from fmu.models import fmu_model
 from fmu.system.check import SystemVerification
-from fmu.system.on_bearings import RotorOnBearings
-from fmu.system.on_contacts import RotorOnContacts
+from fmu.system.parts import RotorSystem
 from fmu.system.structure import Component, Connector, Wire, system_structure
-from reduced_models import JeffcottRotor, Rotor
+from reduced_models import Rotor
 
 ROTOR = "rotor"  # name of its component
 
-SystemModel = RotorOnContacts | RotorOnBearings
-
 
 def export_system(
-    rotor: Rotor | JeffcottRotor,
+    rotor: Rotor,
     path: str | os.PathLike[str],
     *,
-    contacts: Sequence[Any] | None = None,
     speeds_rpm: Any = None,
     speed_rpm: float | None = None,
     inertia: float | None = None,
@@ -55,28 +50,26 @@ def export_system(
     rolling torques of bearings go back too, the speed goes to them, and the input `torque` of the rotor is free.
 
     Nothing is written that is not verified: each FMU against what it was made from, the description against the
-    schema of the standard, and the whole against `simulate_rotor`: after a load step, or in a run at the speed
-    that it has.
+    schema of the standard, and the whole against `simulate_rotor`: in a run at the speed that it has, on
+    contacts after a load step.
 
     Parameters
     ----------
-    rotor : JeffcottRotor or Rotor
-        A `Rotor` on ball bearings; linear bearings stay inside.
+    rotor : Rotor
+        On ball bearings, or contacts that are elements, in SI or as `ScaledContact`; the same element may be there
+        twice, and its state stays. Linear bearings stay inside.
     path : path-like
         File to write, ending in ``.ssp``.
-    contacts : sequence of ContactElement, optional
-        Of a `JeffcottRotor`: one per mount, in SI or as `ScaledContact`; the same element may be there twice.
-        Their states stay.
     speeds_rpm, speed_rpm, inertia, start : optional
-        Of a `Rotor`, as of `export`.
+        As of `export`; `speeds_rpm` for ball bearings.
     fmi : int
         Of the FMUs, 2 or 3; the Open Simulation Platform takes 2.
     model_name : str, optional
         Name of the system.
     step : float, optional
-        Of the default experiment [s]; to be set by hand in Ecos. By default 1, 2 or 5 times a power of ten: one
-        that adds less than 5 % to the damping of a contact at the fastest vibration of the journal; of a rotor on
-        bearings a tenth of 1/w for its fastest vibration w on them.
+        Of the default experiment [s]; to be set by hand in Ecos. By default 1, 2 or 5 times a power of ten: at
+        most a tenth of 1/w for the fastest vibration w on the supports, and one that adds less than 5 % to the
+        damping of a contact there.
     lead : float
         Of the FMUs of the supports, as for `export`; that of the rotor, `force_lead`, follows from it.
         1.5 is for importers that step all components at once, 0.5 for those that step the rotor first.
@@ -91,8 +84,8 @@ def export_system(
     Raises
     ------
     InputError
-        Not one element in SI per mount, no load to start from or one that the supports do not carry, or what
-        `export` refuses.
+        A contact that is no element, no load to start from or one that the supports do not carry, or what `export`
+        refuses.
     BuildError
         No C compiler, or one that failed.
     VerificationError
@@ -100,7 +93,7 @@ def export_system(
     """
     keywords = {"speeds_rpm": speeds_rpm, "speed_rpm": speed_rpm, "inertia": inertia, "start": start}
     return export_verified_system(
-        system_model(rotor, contacts=contacts, **keywords),
+        RotorSystem.of(rotor, **keywords),
         path,
         fmi=fmi,
         model_name=model_name,
@@ -112,25 +105,8 @@ def export_system(
     )[0]
 
 
-def system_model(
-    rotor: Rotor | JeffcottRotor, *, contacts: Sequence[Any] | None = None, **keywords: Any
-) -> SystemModel:
-    """Rotor and supports of a system, checked."""
-    require_instance("rotor", rotor, Rotor | JeffcottRotor, "a Rotor or a JeffcottRotor")
-    given = {name: value for name, value in keywords.items() if value is not None}
-    if isinstance(rotor, JeffcottRotor):
-        for name, value in given.items():
-            raise InputError(name, value, "left out for a JeffcottRotor")
-        if contacts is None:
-            raise InputError("contacts", None, f"one per mount, {len(rotor.mounts)}")
-        return RotorOnContacts.of(rotor, contacts)
-    if contacts is not None:
-        raise InputError("contacts", len(contacts), "left out for a Rotor: its supports are in its mounts")
-    return RotorOnBearings.of(rotor, **given)
-
-
 def export_verified_system(
-    made: SystemModel,
+    made: RotorSystem,
     path: str | os.PathLike[str],
     *,
     fmi: int = 2,
@@ -163,7 +139,7 @@ def export_verified_system(
 class _System:
     """What goes into an archive."""
 
-    made: SystemModel
+    made: RotorSystem
     name: str
     step: float
     lead: float

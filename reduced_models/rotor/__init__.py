@@ -2,11 +2,11 @@
 
 | module | is responsible for |
 |---|---|
-| rotor | `Rotor`: matrices, supports, loads |
+| rotor | `Rotor`: matrices, supports, loads; `Unbalance`, `Parameter` |
 | supports | `ContactMount`, `BearingMount`: what a rotor stands on |
 | linear_bearing | `LinearBearing`: a bearing as stiffness and damping |
 | scaled_contact | the protocol of contacts; `ScaledContact` shows a dimensionless one in SI |
-| jeffcott | `JeffcottRotor`: such a rotor by its parameters |
+| jeffcott | `jeffcott_rotor`: such a rotor by its parameters |
 | parts | `Shaft`, `Disc`, `Support`: what a rotor on bearings is made of |
 | beam | rotating shaft element: its matrices |
 | bearing_set | `BearingSet`: pairs and other sets of ball bearings on one rigid shaft, their preload and growth |

@@ -53,7 +53,7 @@ class StaticContact:
 
     def __init__(self, mount: ContactMount) -> None:
         if not has_tangents(mount.contact):
-            allowed = "reduced elements, or start from rotor.state_at(approaches)"
+            allowed = "reduced elements, or start from rotor.rest_at(approaches)"
             raise InputError("contacts", "without static law", allowed)
         self._contact, self._offset, self._count = mount.contact, mount.offset, mount.count
 

@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from math import pi
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reduced_models.rotor.decay import Decrement, log_decrement
-from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
 from reduced_models.rotor.modes import RotorMode
 from reduced_models.rotor.result import RotorResult
+from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.simulate import simulate_rotor
+
+_Floats = NDArray[np.float64]
 
 LEFT_OUT = 1.0  # periods at the beginning of a decay that are not fitted: what is excited beside the mode
 
 
 def initial_velocity(
-    rotor: JeffcottRotor, rest: RotorState, mode: RotorMode, *, stiffness: float, load: float, load_share: float
-) -> RotorState:
-    """The state in static equilibrium with the velocities of a mode.
+    rotor: Rotor, mode: RotorMode, *, stiffness: float, load: float, load_share: float
+) -> _Floats:
+    """Velocities in the shape of a mode, shape (N,) [m/s].
 
     Parameters
     ----------
-    rotor : JeffcottRotor
-    rest : RotorState
+    rotor : Rotor
     mode : RotorMode
     stiffness : float
         Of one contact at the frequency of the mode [N/m].
@@ -34,15 +35,14 @@ def initial_velocity(
     load_share : float
         Amplitude of the load of a contact without damping, over `load`.
     """
-    along = np.abs(rotor.normals @ mode.journal.real[list(rotor.axes)]).max()
-    speed = mode.omega * load_share * load / (stiffness * float(along))
-    return RotorState(rest.disc, rest.journal, speed * mode.disc.real, speed * mode.journal.real)
+    shape = mode.shape.real
+    along = np.abs(rotor.support_rows @ shape).max()
+    return np.asarray(mode.omega * load_share * load / (stiffness * float(along)) * shape)
 
 
 def simulate_decay(
-    rotor: JeffcottRotor,
-    contacts: Sequence[Any],
-    start: RotorState,
+    rotor: Rotor,
+    start: tuple[_Floats, _Floats],
     mode: RotorMode,
     *,
     periods: float,
@@ -53,7 +53,7 @@ def simulate_decay(
     """Free motion over periods of a mode; arguments and errors as of `simulate_rotor`."""
     period = 2.0 * pi / mode.omega
     dt, until = period / steps_per_period, periods * 2.0 * pi / mode.omega
-    return simulate_rotor(rotor, contacts, dt=dt, until=until, start=start, tolerance=tolerance, callback=callback)
+    return simulate_rotor(rotor, dt=dt, until=until, start=start, tolerance=tolerance, callback=callback)
 
 
 def decay_decrement(run: RotorResult, mode: RotorMode) -> Decrement:

@@ -8,18 +8,21 @@ from math import ceil
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlcontact import Grid, OperatingPoint, TransientContact
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.status import Status
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import OutsideValidityWarning
-from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
 from reduced_models.rotor.linearise import linearise
 from reduced_models.rotor.result import RotorResult
+from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.scaled_contact import ScaledContact
-from reduced_models.rotor.settling import run_until_settled
+from reduced_models.rotor.settling import require_turning, run_until_settled
 from reduced_models.rotor.simulate import simulate_rotor
+
+_Floats = NDArray[np.float64]
 
 # Of the force balance on full films: at a third of it they take 2 to 3 solves per step in place of 2, and at ten
 # times as much the journal's velocity under a light unbalance shows it.
@@ -30,34 +33,29 @@ ELEMENT_TOLERANCE = 1e-9  # of the force balance on elements, which cost nothing
 LEAD_IN = (8.0, 3)
 
 
-def film_contacts(rotor: JeffcottRotor, point: OperatingPoint, grid: Grid) -> list[ScaledContact]:
-    """Films at rest under the load of the operating point, one for every mount."""
-    return [ScaledContact(TransientContact(point, grid=grid), point.scales) for _ in rotor.mounts]
+def on_films(rotor: Rotor, point: OperatingPoint, grid: Grid) -> Rotor:
+    """The rotor on films at rest under the load of the operating point."""
+    return rotor.on([ScaledContact(TransientContact(point, grid=grid), point.scales) for _ in rotor.contacts])
 
 
-def rest_on_films(rotor: JeffcottRotor, contacts: Sequence[ScaledContact]) -> RotorState:
-    """The rotor at rest on films that are at rest."""
-    return rotor.state_at([_approach_at_rest(contact) for contact in contacts])
+def rest_on_films(rotor: Rotor) -> _Floats:
+    """Displacements at rest on films that are at rest, shape (N,)."""
+    return rotor.rest_at([_approach_at_rest(mount.contact) for mount in rotor.contacts])
 
 
-def settled_run(rotor: JeffcottRotor, element: ContactElement, *, steps: int, revolutions: int) -> RotorResult:
+def settled_run(rotor: Rotor, element: ContactElement, *, steps: int, revolutions: int) -> RotorResult:
     """Settled revolutions with copies of an element in the contacts, from the orbit of the linearised rotor on."""
-    elements = [element.copy() for _ in rotor.mounts]
-    start = linearise(rotor, contacts=elements).orbit()
+    rotor = rotor.on([element.copy() for _ in rotor.contacts])
+    start = linearise(rotor).orbit()
     with warnings.catch_warnings():  # `contact_events` collects them, of the revolutions that are returned
         warnings.simplefilter("ignore", OutsideValidityWarning)
         return run_until_settled(
-            rotor,
-            elements,
-            steps=steps,
-            revolutions=revolutions,
-            start=start,
-            tolerance=ELEMENT_TOLERANCE,
+            rotor, steps=steps, revolutions=revolutions, start=start, tolerance=ELEMENT_TOLERANCE
         )
 
 
 def simulate_on_films(
-    rotor: JeffcottRotor,
+    rotor: Rotor,
     point: OperatingPoint,
     grid: Grid,
     element: ContactElement,
@@ -70,7 +68,8 @@ def simulate_on_films(
 
     Parameters
     ----------
-    rotor : JeffcottRotor
+    rotor : Rotor
+        Turning.
     point : OperatingPoint
         Of every contact.
     grid : Grid
@@ -91,22 +90,21 @@ def simulate_on_films(
     ConvergenceError
         As `simulate_rotor`.
     """
-    contacts = film_contacts(rotor, point, grid)
-    start: Any = rest_on_films(rotor, contacts)
+    turn = 60.0 / require_turning(rotor)
+    whole = on_films(rotor, point, grid)
+    start = rest_on_films(whole), np.zeros(rotor.size)
     try:
         orbit = settled_run(rotor, element, steps=steps, revolutions=1)
-        _lead(contacts, orbit, point.scales.time)
+        _lead([mount.contact for mount in whole.contacts], orbit, point.scales.time)
         start = orbit.displacement[-1], orbit.velocity[-1]
     except ConvergenceError as error:  # a motion so wild that no element, or no film, follows it: then from rest
         if getattr(error.result, "status", None) is Status.INTERRUPTED:
             raise KeyboardInterrupt from None
-        contacts = film_contacts(rotor, point, grid)
-    turn = 60.0 / rotor.speed_rpm
+        whole = on_films(rotor, point, grid)
     return simulate_rotor(
-        rotor,
-        contacts,
+        whole,
         dt=turn / steps,
-        until=revolutions * 60.0 / rotor.speed_rpm,
+        until=revolutions * turn,
         start=start,
         tolerance=FILM_TOLERANCE,
         callback=callback,

@@ -10,7 +10,7 @@ from typing import Any, Protocol, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_integer, require_nonnegative
+from ehlcontact.checks import as_column, require_instance, require_integer, require_nonnegative
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
@@ -24,7 +24,6 @@ from reduced_models.bearing.solved_balls import damping_left_out, warn_of_dampin
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
 from reduced_models.rotor.equilibrium import require_held
-from reduced_models.rotor.jeffcott import JeffcottRotor
 from reduced_models.rotor.linear_contact import ContactImpedance, LinearElement
 from reduced_models.rotor.linear_system import eigenmodes
 from reduced_models.rotor.modes import (
@@ -312,10 +311,9 @@ class LinearRotor(Summary):
 
 @takes(speed_rpm="rev/min")
 def linearise(
-    rotor: Rotor | JeffcottRotor,
+    rotor: Rotor,
     speed_rpm: float | None = None,
     *,
-    contacts: Sequence[Any] | None = None,
     passage: bool = True,
     signed_damping: bool = False,
 ) -> LinearRotor:
@@ -326,12 +324,11 @@ def linearise(
 
     Parameters
     ----------
-    rotor : Rotor or JeffcottRotor
+    rotor : Rotor
+        Its contacts are elements in SI, or impedances over omega [rad/s] to N/m, as `film_impedance` and
+        `impedance_about` make them.
     speed_rpm : float, optional
-        Of the shaft, for films, centrifugal and gyroscopic forces; by default that of a `JeffcottRotor`.
-    contacts : sequence, optional
-        Of a `JeffcottRotor`, one per mount: elements in SI, or impedances over omega [rad/s] to N/m, as
-        `film_impedance` and `impedance_about` make them.
+        Of the shaft, for films, centrifugal and gyroscopic forces; by default that of the rotor.
     passage : bool
         Ball bearings as means over a ball passage (as in `BallBearing.coefficients`, the load of a bearing being
         that with the balls as mounted); or with the balls as mounted.
@@ -343,17 +340,12 @@ def linearise(
     Raises
     ------
     InputError
-        A speed or a load that a bearing does not take, a contact without impedance, a wrong number of them.
+        A speed or a load that a bearing does not take, a contact without impedance.
     ConvergenceError
         The supports do not hold the rotor.
     """
-    if isinstance(rotor, JeffcottRotor):
-        speed_rpm = rotor.speed_rpm if speed_rpm is None else speed_rpm
-        rotor = rotor.on([] if contacts is None else contacts)
-    elif not isinstance(rotor, Rotor):
-        raise InputError("rotor", type(rotor).__name__, "a Rotor or JeffcottRotor")
-    elif contacts is not None:
-        raise InputError("contacts", len(contacts), "left out: those of a Rotor are in its mounts")
+    require_instance("rotor", rotor, Rotor, "a Rotor")
+    speed_rpm = rotor.speed_rpm if speed_rpm is None else speed_rpm
     if speed_rpm is None:
         raise InputError("speed_rpm", None, "given: that of the shaft")
     speed = require_nonnegative("speed_rpm", speed_rpm)

@@ -3,23 +3,31 @@
     M q'' + (C + omega G) q' + K q + B^T F(B q, B q') = load + unbalance
 
 with B q the motions at the supports and F their forces, which depend on the past where films have a memory.
-Where the matrices come from does not matter: `JeffcottRotor`, shaft and discs, ROSS, a reduction that keeps the
+Where the matrices come from does not matter: `jeffcott_rotor`, shaft and discs, ROSS, a reduction that keeps the
 degrees of freedom of the supports.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import pi
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, as_numbers, as_rows, require_finite, require_instance, require_integer
+from ehlcontact.checks import (
+    as_column,
+    as_numbers,
+    as_rows,
+    require_finite,
+    require_instance,
+    require_integer,
+    require_nonnegative,
+)
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
@@ -45,6 +53,8 @@ Matrices = tuple[_Floats, _Floats, _Floats]
 # m of a centre of mass: balanced rotors have some 1e-6, and no disc runs with more; and of a rotor of matrices, of
 # whose degrees of freedom it is not known what each moves.
 MOST_ECCENTRIC, MOST_OF_MATRICES = 0.01, 1.0
+MISSED = 1e-9  # distance from wanted approaches, over the largest, that rounding may leave
+MATRICES = ("mass", "damping", "stiffness")
 
 
 def require_unbalance(field: str, amount: float, mass: float, eccentric: float = MOST_ECCENTRIC) -> None:
@@ -89,6 +99,40 @@ class Unbalance:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Parameter:
+    """A number that is a factor of constant matrices; mass, damping, stiffness and load are sums of such products.
+
+    An FMU of the rotor has it as a parameter.
+
+    Parameters
+    ----------
+    name, unit, text : str
+        Of the parameter; the unit as FMI writes it.
+    value : float
+    parts : mapping of str to ndarray
+        What it is multiplied with in "mass", "damping" and "stiffness", shape (N, N), and "load", shape (N,).
+    positive, signed : bool
+        Whether it must be > 0, or may be < 0.
+    reason : str
+        Message for a value outside this range.
+    """
+
+    name: str
+    unit: str
+    text: str
+    value: float
+    parts: Mapping[str, _Floats] = field(default_factory=dict)
+    positive: bool = False
+    signed: bool = False
+    reason: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.reason:
+            allowed = f"finite and {'>' if self.positive else '>='} 0"
+            object.__setattr__(self, "reason", f"{self.name} must be {allowed}")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Rotor(Summary):
     """A linear rotor on supports, SI units.
 
@@ -105,6 +149,10 @@ class Rotor(Summary):
     unbalances : tuple of Unbalance
     nodes : mapping of str to mapping of str to int, optional
         Degrees of freedom by node and direction, as ``{"disc": {"x": 4, "y": 5}}``.
+    speed_rpm : float, optional
+        At which it runs unless another speed is given [rev/min].
+    parameters : tuple of Parameter
+        Of which mass, damping and stiffness are sums, as of `jeffcott_rotor`; by default none.
 
     Raises
     ------
@@ -120,6 +168,8 @@ class Rotor(Summary):
     load: _Floats = None  # type: ignore[assignment]
     unbalances: tuple[Unbalance, ...] = ()
     nodes: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    speed_rpm: float | None = None
+    parameters: tuple[Parameter, ...] = ()
 
     def _summary_lines(self) -> list[str]:
         bearings = [mount.bearing.name or "ball bearing" for mount in self.bearings]
@@ -158,6 +208,17 @@ class Rotor(Summary):
         object.__setattr__(self, "nodes", MappingProxyType(_Nodes(named)))
         for name, at in named.items():
             self._require_there(f"nodes[{name!r}]", tuple(at.values()))
+        if self.speed_rpm is not None:
+            require_nonnegative("speed_rpm", self.speed_rpm)
+        self._check_parameters()
+
+    def _check_parameters(self) -> None:
+        """Raise `InputError` for parameters of which the matrices are not the sums."""
+        for name in MATRICES if self.parameters else ():
+            parts = (own.value * own.parts[name] for own in self.parameters if name in own.parts)
+            if not np.allclose(sum(parts), getattr(self, name), rtol=1e-12, atol=0.0):
+                names = ", ".join(own.name for own in self.parameters)
+                raise InputError(name, "another matrix", f"the sum of the parts of {names}; or no parameters")
 
     def _check_mounts(self) -> None:
         if not self.mounts:
@@ -183,6 +244,33 @@ class Rotor(Summary):
                 raise InputError(field, places, allowed)
         if len(set(given)) < max(len(given), 1):
             raise InputError(field, places, allowed)
+
+    def on(self, contacts: Sequence[Any]) -> Self:
+        """The rotor with these contacts in its mounts.
+
+        Parameters
+        ----------
+        contacts : sequence
+            One per `ContactMount`, in SI: elements, full films in `ScaledContact`, or impedances for linear
+            responses.
+
+        Raises
+        ------
+        InputError
+            Not one contact per mount.
+        """
+        if not isinstance(contacts, list | tuple):
+            raise InputError("contacts", type(contacts).__name__, "a list of contacts, one per mount")
+        if len(contacts) != len(self.contacts):
+            raise InputError("contacts", len(contacts), f"one per mount, {len(self.contacts)}")
+        others = iter(contacts)
+        return replace(
+            self,
+            mounts=tuple(
+                replace(mount, contact=next(others)) if isinstance(mount, ContactMount) else mount
+                for mount in self.mounts
+            ),
+        )
 
     @property
     def size(self) -> int:
@@ -255,3 +343,60 @@ class Rotor(Summary):
         """
         _, _, stiffness = self.matrices(speed_rpm * RPM_TO_RAD_S)
         return equilibrium(self.mounts, self.load, stiffness, speed_rpm)
+
+    def approaches(self, displacements: ArrayLike) -> _Floats:
+        """Approach of every contact at displacements of shape (N,), shape (contacts,) [m]."""
+        moved = self._contact_rows @ as_column("displacements", displacements, size=self.size)
+        return np.asarray(moved + self._offsets)
+
+    def rest_at(self, approaches: ArrayLike) -> _Floats:
+        """Displacements at rest with given approaches of the contacts, the rotor bent by the load, shape (N,) [m].
+
+        Raises
+        ------
+        InputError
+            Not one approach per contact, approaches that no displacement gives, or a rotor that they do not hold.
+        """
+        wanted = as_column("approaches", approaches, size=len(self.contacts))
+        held = sorted({place for mount in self.contacts for place in mount.ends[0] if place is not None})
+        rows, moved = self._contact_rows[:, held], wanted - self._offsets
+        q = np.zeros(self.size)
+        q[held] = np.linalg.lstsq(rows, moved)[0]
+        miss = float(np.abs(rows @ q[held] - moved).max(initial=0.0))
+        if miss > MISSED * float(np.abs(wanted).max(initial=0.0)):
+            allowed = f"reachable by one position of the rotor (off by {miss:.3g} m)"
+            raise InputError("approaches", approaches, allowed)
+        free, stiffness = np.setdiff1d(np.arange(self.size), held), self.matrices(0.0)[2]
+        bent = stiffness[np.ix_(free, free)]
+        if free.size and np.linalg.matrix_rank(bent) < free.size:
+            raise InputError("approaches", approaches, "left out: contacts alone do not hold this rotor")
+        q[free] = np.linalg.solve(bent, (self.load - stiffness @ q)[free])
+        return q
+
+    def check_contacts(self, speed_rpm: float | None = None, *, stacklevel: int = 2) -> None:
+        """Let elements warn, once each, whose band does not hold a speed, or that were made for other contacts.
+
+        The points of the mounts count. `simulate_rotor` and `fmu.export` call it.
+
+        Parameters
+        ----------
+        speed_rpm : float, optional
+            By default that of the rotor.
+        stacklevel : int
+            Of the warnings.
+        """
+        speed = self.speed_rpm if speed_rpm is None else speed_rpm
+        for mount in self.contacts:
+            check = getattr(mount.contact, "check", None)
+            if check is not None:
+                omega = speed * RPM_TO_RAD_S if speed else None
+                check(mount.point, stacklevel=stacklevel + 1, omega=omega)
+
+    @property
+    def _contact_rows(self) -> _Floats:
+        """Approaches but for offsets from the displacements, shape (contacts, N)."""
+        return support_rows(self.contacts, self.size) if self.contacts else np.zeros((0, self.size))
+
+    @property
+    def _offsets(self) -> _Floats:
+        return np.array([mount.offset for mount in self.contacts])

@@ -1,10 +1,9 @@
-"""Steady state of a run: comparison of successive revolutions; runs of `JeffcottRotor` until it is reached."""
+"""Steady state of a run: comparison of successive revolutions; runs until it is reached."""
 
 from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,11 +13,10 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_integer
 from ehlcontact.errors import InputError
 from ehlcontact.results.picture import Panel, draw
-from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.decay import STILL
-from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
 from reduced_models.rotor.result import RotorResult
+from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.simulate import simulate_rotor
 
 _Floats = NDArray[np.float64]
@@ -142,29 +140,33 @@ def steps_per_revolution(result: RotorResult) -> int:
     return round(steps)
 
 
+def require_turning(rotor: Rotor) -> float:
+    """Speed of a rotor [rev/min]; raises `InputError` where it has none."""
+    if not rotor.speed_rpm:
+        raise InputError("speed_rpm", rotor.speed_rpm, "> 0: the rotor turns")
+    return rotor.speed_rpm
+
+
 def run_until_settled(
-    rotor: JeffcottRotor,
-    elements: Sequence[ContactElement],
+    rotor: Rotor,
     *,
     steps: int,
     revolutions: int,
-    start: RotorState | tuple[_Floats, _Floats],
+    start: tuple[_Floats, _Floats],
     tolerance: float = 1e-6,
 ) -> RotorResult:
     """Let a rotor on elements turn until it has settled, and return its last revolutions, from t = 0 on.
 
     Parameters
     ----------
-    rotor : JeffcottRotor
-        Turning.
-    elements : sequence of ContactElement
-        One per mount, in SI; copies of them run, at rest at the start. Whether the run stays in their validity box
-        is not reported here: see `contact_events` of the revolutions that are returned.
+    rotor : Rotor
+        Turning, on elements in SI; copies of them run, at rest at the start. Whether the run stays in their
+        validity box is not reported here: see `contact_events` of the revolutions that are returned.
     steps : int
         In a revolution.
     revolutions : int
         Returned; `settling` has whether they are settled.
-    start : RotorState or (ndarray, ndarray)
+    start : (ndarray, ndarray)
         Near the settled motion, as of `LinearRotor.orbit`.
     tolerance : float
         Of `simulate_rotor`.
@@ -176,19 +178,17 @@ def run_until_settled(
     """
     require_integer("steps", steps, "a whole number >= 8", 8)
     require_integer("revolutions", revolutions, "a whole number >= 1", 1)
-    contacts = [element.copy() for element in elements]
-    state = rotor.motion(start) if isinstance(start, RotorState) else start
-    approaches = rotor.on(contacts).support_rows @ state[0] + rotor.offsets
-    for contact, approach in zip(contacts, approaches.tolist(), strict=True):
+    speed = require_turning(rotor)
+    contacts = [mount.contact.copy() for mount in rotor.contacts]
+    for contact, approach in zip(contacts, rotor.approaches(start[0]).tolist(), strict=True):
         contact.rest(approach)
-    dt = 60.0 / rotor.speed_rpm / steps
+    rotor, state = rotor.on(contacts), start
+    dt = 60.0 / speed / steps
     turns, done = max(FIRST_REVOLUTIONS, revolutions + 1), 0
     while True:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", OutsideValidityWarning)
-            run = simulate_rotor(
-                rotor, contacts, dt=dt, until=turns * steps * dt, start=state, tolerance=tolerance
-            )
+            run = simulate_rotor(rotor, dt=dt, until=turns * steps * dt, start=state, tolerance=tolerance)
         done += turns
         change = settling(run).last_change
         if done >= MOST_REVOLUTIONS or (change is not None and change <= QUIET):

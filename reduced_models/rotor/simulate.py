@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from math import ceil
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import TransientContact
-from ehlcontact.checks import require_integer, require_positive
+from ehlcontact.checks import require_instance, require_integer, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
@@ -22,7 +22,6 @@ from reduced_models.bearing.solved_balls import damping_left_out, warn_of_dampin
 from reduced_models.elements.validity import OutsideValidityWarning, frequency_of
 from reduced_models.rotor.integrate_compiled import CompiledSteps
 from reduced_models.rotor.integrate_python import PythonSteps
-from reduced_models.rotor.jeffcott import JeffcottRotor, RotorState
 from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.nodes import flat_nodes
 from reduced_models.rotor.prepared_run import PreparedRun
@@ -42,8 +41,7 @@ Integrator = CompiledSteps | PythonSteps
 
 @takes(speed_rpm="rev/min", dt="s", until="s")
 def simulate_rotor(
-    rotor: Rotor | JeffcottRotor,
-    contacts: Sequence[Contact] | None = None,
+    rotor: Rotor,
     *,
     speed_rpm: float | SpeedProfile | None = None,
     dt: float,
@@ -68,15 +66,14 @@ def simulate_rotor(
 
     Parameters
     ----------
-    rotor : Rotor or JeffcottRotor
-    contacts : sequence of Contact, optional
-        Of a `JeffcottRotor`: one per mount, in SI (see `ScaledContact`); those with a memory each their own
-        object. They are left at the state of the end.
+    rotor : Rotor
+        Its contacts in SI (see `ScaledContact`), those with a memory each their own object; they are left at the
+        state of the end.
     speed_rpm : float or SpeedProfile, optional
-        Of the shaft [rev/min], constant or over time; by default that of a `JeffcottRotor`.
+        Of the shaft [rev/min], constant or over time; by default that of the rotor.
     dt, until : float
         Step and end [s]; the last step may pass `until` by less than dt.
-    start : "static", RotorState or (ndarray, ndarray)
+    start : "static" or (ndarray, ndarray)
         At rest in equilibrium; or displacements and velocities, of shape (N,) each, with the contacts in the state
         in which they are given, and bearings at rest there.
     tolerance : float, optional
@@ -100,7 +97,7 @@ def simulate_rotor(
     ------
     InputError
         A value outside its range, a speed that a bearing does not take, a step too long for the ball passage or
-        the turn of the shaft; a wrong number of contacts, or one with a memory in two mounts.
+        the turn of the shaft; a contact with a memory in two mounts.
     ConvergenceError
         A step found no balance, a contact in it did not converge, or a ring left its bearing; ``result`` holds the
         steps before.
@@ -111,16 +108,17 @@ def simulate_rotor(
     max_iterations = require_integer("max_iterations", max_iterations, "a whole number >= 1", 1)
     if tolerance is not None:
         require_positive("tolerance", tolerance)
-    whole, start = _whole_rotor(rotor, contacts, start)
+    require_instance("rotor", rotor, Rotor, "a Rotor")
+    speed_rpm = rotor.speed_rpm if speed_rpm is None else speed_rpm
     if speed_rpm is None:
-        if not isinstance(rotor, JeffcottRotor):
-            raise InputError("speed_rpm", None, "given: that of the shaft")
-        speed_rpm = rotor.speed_rpm
-    run = PreparedRun(whole, speed_rpm, dt, steps, start, rho_inf)
-    if run.balls and not whole.contacts:
+        raise InputError("speed_rpm", None, "given: that of the shaft")
+    _check_contacts(rotor)
+    rotor.check_contacts(0.0 if isinstance(speed_rpm, SpeedProfile) else speed_rpm, stacklevel=4)
+    run = PreparedRun(rotor, speed_rpm, dt, steps, start, rho_inf)
+    if run.balls and not rotor.contacts:
         integrator: Integrator = CompiledSteps(run, COMPILED_TOLERANCE if tolerance is None else tolerance)
     else:
-        allowed = default_tolerance(whole) if tolerance is None else tolerance
+        allowed = default_tolerance(rotor) if tolerance is None else tolerance
         integrator = PythonSteps(run, allowed, max_iterations)
     return integrate(run, integrator, callback)
 
@@ -165,24 +163,6 @@ def integrate(
     _warn_of_damping(run)
     _warn_of_contacts(run.rotor, result)
     return result
-
-
-def _whole_rotor(
-    rotor: Rotor | JeffcottRotor, contacts: Sequence[Contact] | None, start: Any
-) -> tuple[Rotor, Any]:
-    """The rotor with its contacts, and its start as displacements and velocities where it is a state."""
-    if isinstance(rotor, JeffcottRotor):
-        whole = rotor.on([] if contacts is None else contacts)
-        _check_contacts(whole)
-        rotor.check(contacts or (), stacklevel=5)
-        start = rotor.motion(start) if isinstance(start, RotorState) else start
-        return whole, start
-    if not isinstance(rotor, Rotor):
-        raise InputError("rotor", type(rotor).__name__, "a Rotor or JeffcottRotor")
-    if contacts is not None:
-        raise InputError("contacts", len(contacts), "left out: those of a Rotor are in its mounts")
-    _check_contacts(rotor)
-    return rotor, start
 
 
 def _check_contacts(rotor: Rotor) -> None:

@@ -93,7 +93,7 @@ def power(**changes):
 
 def jeffcott(**changes):
     parts = {"disc_mass": 2.0, "journal_mass": 0.3, "shaft_stiffness": 1e8}
-    return rm.JeffcottRotor.vertical(**(parts | changes))
+    return rm.jeffcott_rotor(bearings=1, **(parts | changes))
 
 
 MASKED = np.ma.masked_array(np.linspace(0.0, 1.0, 20), mask=[0] * 19 + [1])

@@ -19,7 +19,6 @@ from fmu.driver import Exchange
 from fmu.driver import Slave as DriverSlave
 from reduced_models import (
     FilmContact,
-    JeffcottRotor,
     SpringContact,
 )
 
@@ -55,8 +54,8 @@ BODIES = {
 TURNING = {"unbalance": 4e-5, "speed_rpm": 8000.0, **BODIES}
 HALF = radians(20.0)
 WEIGHT = 2.3 * 9.81
-VEE = JeffcottRotor.vee(half_angle=HALF, offset=1e-6, load=(0.0, WEIGHT - 4.0 * BALL * cos(HALF)), **TURNING)
-VERTICAL = JeffcottRotor.vertical(load=(0.0, WEIGHT - BALL), **TURNING)
+VEE = {"half_angle": HALF, "offset": 1e-6, "load": (0.0, WEIGHT - 4.0 * BALL * cos(HALF)), **TURNING}
+VERTICAL = {"bearings": 1, "load": (0.0, WEIGHT - BALL), **TURNING}
 
 
 @dataclass(frozen=True)

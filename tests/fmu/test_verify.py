@@ -10,7 +10,7 @@ import pytest
 from ehlcontact.errors import InputError
 from fmu import export, verify
 from fmu.comparison import film_motion, state_grid
-from reduced_models import BallBearing, BearingMount, JeffcottRotor, Rotor
+from reduced_models import BallBearing, BearingMount, Rotor, jeffcott_rotor
 
 
 def test_fmu_agrees_with_element(fmus, elements, any_kind):
@@ -164,8 +164,14 @@ def test_bad_element(fmus):
         verify(fmus["cubic"], "cubic")
 
 
-JEFFCOTT = JeffcottRotor.vertical(
-    disc_mass=2.0, journal_mass=0.3, shaft_stiffness=2e8, load=(0.0, -850.0), unbalance=4e-5, speed_rpm=8000.0
+JEFFCOTT = jeffcott_rotor(
+    bearings=1,
+    disc_mass=2.0,
+    journal_mass=0.3,
+    shaft_stiffness=2e8,
+    load=(0.0, -850.0),
+    unbalance=4e-5,
+    speed_rpm=8000.0,
 )
 BEARING = BallBearing.catalogue("6205")
 ROTOR = Rotor(mass=np.eye(2), stiffness=np.zeros((2, 2)), mounts=(BearingMount(bearing=BEARING, x=0, y=1),))
@@ -185,16 +191,19 @@ def test_fmu_of_another_kind(fmus, elements):
         (JEFFCOTT, {}, r"^contacts = None: must be one per mount, 1, or outside=\('contact 0',\)"),
         (
             JEFFCOTT,
-            {"contacts": [], "outside": ["contact 1"]},
+            {"outside": ["contact 1"]},
             r"^outside = 'contact 1': must be 'contact 0' \(its variables are contact\[1\]\), or 'all'$",
         ),
         (
-            JEFFCOTT,
-            {"contacts": ["cubic"], "outside": "all"},
+            JEFFCOTT.on(["cubic"]),
+            {"outside": "all"},
             r"^contacts\[0\] = 'str': must be a contact element",
         ),
-        (JEFFCOTT, {"speeds_rpm": 3000.0}, r"^speeds_rpm = 3000.0: must be left out for a JeffcottRotor"),
-        (ROTOR, {"contacts": ["cubic"]}, r"^contacts = \['cubic'\]: must be left out for a Rotor"),
+        (
+            JEFFCOTT,
+            {"outside": "all", "speeds_rpm": 3e3},
+            r"^speeds_rpm = 3000.0: must be left out: no ball bearing",
+        ),
         (ROTOR, {}, r"^speeds_rpm = None: must be those of the ball bearings inside, or outside=\('bearing 0',\)"),
         (
             ROTOR,
@@ -211,7 +220,7 @@ def test_fmu_of_another_kind(fmus, elements):
         (
             "cubic",
             {},
-            r"^model = 'str': must be a contact element .*, BallBearing, BearingSet, Rotor or JeffcottRotor",
+            r"^model = 'str': must be a contact element .*, BallBearing, BearingSet or Rotor",
         ),
     ],
 )

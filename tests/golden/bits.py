@@ -61,7 +61,6 @@ from reduced_models import (
     BallBearing,
     ContactRecord,
     Disc,
-    JeffcottRotor,
     ScaledContact,
     Shaft,
     SpeedProfile,
@@ -71,6 +70,7 @@ from reduced_models import (
     compare,
     fit,
     fit_memory,
+    jeffcott_rotor,
     linearise,
     rotor_on_bearings,
     simulate_oscillator,
@@ -97,8 +97,8 @@ BEARING = OperatingPoint.ball_bearing(
     load=300.0,
 )
 SIZES = {"disc_mass": 3.0, "journal_mass": 0.2, "shaft_stiffness": 2e6, "unbalance": 2e-5, "speed_rpm": 3000.0}
-UPRIGHT = JeffcottRotor.vertical(load=(0.0, -268.0), **SIZES)
-VEE = JeffcottRotor.vee(half_angle=0.35, bearings=1, load=(0.0, -500.0), **SIZES)
+UPRIGHT = jeffcott_rotor(bearings=1, load=(0.0, -268.0), **SIZES)
+VEE = jeffcott_rotor(half_angle=0.35, bearings=1, load=(0.0, -500.0), **SIZES)
 OIL = Lubricant.iso_vg(68, temperature=50.0)
 T = np.linspace(0.0, 1.0, 21)
 LEFT_OUT = {"seconds", "version", "law", "rotor", "element"}
@@ -378,9 +378,9 @@ def motions() -> Leaves:
         warnings.simplefilter("ignore")
         for model in ("wide", "memory", "cubic"):
             first, second = (atlas.element(BEARING, model, **at(model)) for _ in range(2))
-            runs[model] = simulate_rotor(UPRIGHT, [first], dt=2e-4, until=0.02)
+            runs[model] = simulate_rotor(UPRIGHT.on([first]), dt=2e-4, until=0.02)
             yield from named(f"rotor {model}", runs[model], ROTOR)
-            pair = simulate_rotor(VEE, [first, second], dt=2e-4, until=0.02)
+            pair = simulate_rotor(VEE.on([first, second]), dt=2e-4, until=0.02)
             yield from named(f"vee {model}", pair, ROTOR)
             dimensionless = atlas.element(PAPER, model, **at(model))
             for omega_n in (5.13, None):
@@ -389,9 +389,9 @@ def motions() -> Leaves:
                 )
                 yield from leaves(f"oscillator {model} {omega_n}", swing)
         full = TransientContact(BEARING, grid=Grid(n=64))
-        start = UPRIGHT.state_at([full.static_approach * BEARING.scales.length])
+        start = (UPRIGHT.rest_at([full.static_approach * BEARING.scales.length]), np.zeros(2))
         run = simulate_rotor(
-            UPRIGHT, [ScaledContact(full, BEARING.scales)], dt=2e-4, until=0.004, start=start, tolerance=1e-4
+            UPRIGHT.on([ScaledContact(full, BEARING.scales)]), dt=2e-4, until=0.004, start=start, tolerance=1e-4
         )
     yield from named("rotor full", run, ROTOR)
     yield from leaves("compared", compare(run, runs["memory"]).to_dict())
@@ -400,15 +400,15 @@ def motions() -> Leaves:
     wide = atlas.element(BEARING, "wide")
     film = film_impedance(impedance(BEARING, Omega=[0.0, 0.05, 0.25, 3.0, 12.0, 30.0]))
     for name, rotor, films in (
-        ("elements", VEE, [impedance_about(wide, rest) for rest in VEE.static_forces()]),
+        ("elements", VEE, [impedance_about(wide, 0.5 * abs(VEE.load.sum()) / np.cos(0.35))] * 2),
         ("full films", UPRIGHT, [film]),
     ):
-        linear = linearise(rotor, contacts=films)
+        linear = linearise(rotor.on(films))
         modes = [[mode.omega, mode.decrement, mode.support_share] for mode in linear.modes()]
         yield f"linear on {name}.modes", np.array(modes)
         yield f"linear on {name}.unbalance", linear.unbalance_response(rpm=[500.0, 3000.0, 9000.0]).amplitude
     # twice until it differs from the run before by rounding at most
-    yield "equilibrium", VEE.static_equilibrium([wide, wide.copy()]).journal
+    yield "equilibrium", VEE.on([wide, wide.copy()]).equilibrium()[2:]
 
 
 def bearings() -> Leaves:
@@ -503,15 +503,15 @@ def fmus() -> Leaves:
                 yield from fmu_steps(f"{name} {fmi}", path, contact, scale)
             closed = [made["wide in SI"], made["wide in SI"].copy()]
             for name, contacts in (("rotor alone", None), ("rotor", closed)):
-                supports = {"outside": "all"} if contacts is None else {"contacts": contacts}
-                path = export(VEE, Path(folder) / f"{name}{fmi}.fmu", fmi=fmi, **supports)
+                rotor, outside = (VEE, "all") if contacts is None else (VEE.on(contacts), ())
+                path = export(rotor, Path(folder) / f"{name}{fmi}.fmu", fmi=fmi, outside=outside)
                 yield from texts(f"{name} {fmi}", path)
                 for kind, dt in (("CoSimulation", 1e-5), ("ModelExchange", 1e-7)):
                     options = {"solver": "Euler", "stop_time": 200 * dt, "step_size": dt, "output_interval": dt}
                     found = simulate_fmu(str(path), fmi_type=kind, **options)
                     for column in found.dtype.names:
                         yield f"{name} {fmi} {kind}.{column}", np.asarray(found[column])
-            path = export_system(VEE, Path(folder) / f"system{fmi}.ssp", contacts=closed, fmi=fmi)
+            path = export_system(VEE.on(closed), Path(folder) / f"system{fmi}.ssp", fmi=fmi)
             yield from texts(f"system {fmi}", path)
 
 

@@ -20,9 +20,9 @@ from ehlcontact.store import read
 if TYPE_CHECKING:
     from fmu.models import FmuModel
     from fmu.system.check import SystemVerification
-    from fmu.system.export import SystemModel
+    from fmu.system.parts import RotorSystem
     from fmu.verification import Verification
-    from reduced_models import JeffcottRotor, Rotor
+    from reduced_models import Rotor
 
 WAYS = {"inside": ".fmu", "outside": ".fmu", "wired": ".ssp"}  # of --bearings: ending of the file
 
@@ -244,20 +244,20 @@ def _bearing_of(file: Path, keywords: dict[str, Any]) -> FmuModel:
 
 def _on_contacts(
     file: Path, contact: Path | None, *, system: bool, named: dict[str, Any]
-) -> FmuModel | SystemModel:
+) -> FmuModel | RotorSystem:
     """The rotor of a study, closed with an element from a file, or from the atlas."""
     from fmu.models import fmu_model
-    from fmu.system.export import system_model
+    from fmu.system.parts import RotorSystem
 
     rotor, element, place = _rotor_and_element(file, contact)
-    contacts = [element] * len(rotor.mounts)
+    rotor = rotor.on([element.copy()] * len(rotor.contacts))
     with o.called(contacts=place):
-        made = system_model(rotor, contacts=contacts) if system else fmu_model(rotor, contacts=contacts, **named)
-    rotor.check([element.copy()] * len(contacts))
+        made = RotorSystem.of(rotor) if system else fmu_model(rotor, **named)
+    rotor.check_contacts()
     return made
 
 
-def _rotor_and_element(file: Path, contact: Path | None) -> tuple[JeffcottRotor, Any, str]:
+def _rotor_and_element(file: Path, contact: Path | None) -> tuple[Rotor, Any, str]:
     """The rotor of a study, an element in SI, and where the latter is from."""
     from ehlcontact.cli.study.rotor import build_rotor
     from ehlcontact.cli.study.schema import load_study
@@ -282,11 +282,11 @@ def _rotor_and_element(file: Path, contact: Path | None) -> tuple[JeffcottRotor,
 
 def _on_bearings(
     file: Path, bearings: str, inertia: float | None, top_rpm: float | None, named: dict[str, Any]
-) -> FmuModel | SystemModel:
+) -> FmuModel | RotorSystem:
     """The rotor of a study on its whole bearings, at its speed, at rest under the load on them."""
     from fmu.models import fmu_model
     from fmu.rotor.model import ALL
-    from fmu.system.export import system_model
+    from fmu.system.parts import RotorSystem
 
     rotor, speed = _whole_rotor(file)
     top = speed if top_rpm is None else top_rpm
@@ -297,7 +297,7 @@ def _on_bearings(
         return fmu_model(rotor, outside=ALL, **turning, **named)
     speeds = sorted({speed, top})
     if bearings == "wired":
-        return system_model(rotor, speeds_rpm=speeds, **turning)
+        return RotorSystem.of(rotor, speeds_rpm=speeds, **turning)
     return fmu_model(rotor, speeds_rpm=speeds, **turning, **named)
 
 
@@ -320,17 +320,16 @@ def _whole_rotor(file: Path) -> tuple[Rotor, float]:
     return rotor, float(study.bearing.speed_rpm)
 
 
-def _about(model: FmuModel | SystemModel, system: bool) -> list[Row]:
+def _about(model: FmuModel | RotorSystem, system: bool) -> list[Row]:
     """What it is."""
     from fmu.bearing.model import BearingModel
     from fmu.rotor.model import RotorModel
-    from fmu.system.on_contacts import RotorOnContacts
 
     exported: Any = getattr(model, "made", None) or getattr(model, "source", model)
-    if isinstance(exported, RotorOnContacts):
-        return _on_contacts_row(exported.rotor.speed_rpm, exported.elements, "each an FMU, wired")
-    if isinstance(exported, RotorModel) and exported.elements:
-        return _on_contacts_row(exported.speed, exported.elements, "inside; their forces are outputs")
+    if isinstance(exported, RotorModel) and exported.rotor.contacts:
+        where = "each an FMU, wired" if system else "inside; their forces are outputs"
+        elements = [mount.contact for mount in exported.rotor.contacts]
+        return _on_contacts_row(exported.speed, elements, where)
     if isinstance(exported, RotorModel):
         where = (
             "each an FMU, wired" if system else "outside; their forces are inputs" if exported.out else "inside"
@@ -360,7 +359,7 @@ def _on_contacts_row(speed_rpm: float, elements: Any, where: str) -> list[Row]:
     ]
 
 
-def _advice(model: FmuModel | SystemModel, found: Any) -> list[Row]:
+def _advice(model: FmuModel | RotorSystem, found: Any) -> list[Row]:
     """Steps of a co-simulation."""
     step = getattr(found, "step", None)
     if step is not None:

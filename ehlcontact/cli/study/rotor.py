@@ -8,13 +8,14 @@ from math import cos, radians
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.impedance import impedance
 from ehlcontact.results import ImpedanceResult
 from ehlcontact.solver.grid import Grid
-from reduced_models import JeffcottRotor, OutsideValidityWarning, linearise
+from reduced_models import OutsideValidityWarning, Rotor, jeffcott_rotor, linearise
 from reduced_models.elements.base import ContactElement
 from reduced_models.fitting.memory_fit import OMEGAS
 from reduced_models.rotor.baselines import local_contact
@@ -22,12 +23,11 @@ from reduced_models.rotor.free_decay import initial_velocity, simulate_decay
 from reduced_models.rotor.full_films import (
     ELEMENT_TOLERANCE,
     FILM_TOLERANCE,
-    film_contacts,
+    on_films,
     rest_on_films,
     settled_run,
     simulate_on_films,
 )
-from reduced_models.rotor.jeffcott import RotorState
 from reduced_models.rotor.linear_contact import film_impedance, impedance_about
 from reduced_models.rotor.linearise import LinearRotor
 from reduced_models.rotor.modes import RotorMode
@@ -36,7 +36,7 @@ from reduced_models.rotor.result import RotorResult
 BELOW = 0.5  # of the rotor's frequency: the lowest one of the impedance, but for rest
 
 
-def build_rotor(study: Study, *, unbalance: bool = True) -> JeffcottRotor:
+def build_rotor(study: Study, *, unbalance: bool = True) -> Rotor:
     """Rotor of the study, pressed down so that every contact carries the load of the operating point."""
     r, ball = study.rotor, study.ball_load
     vee = r.arrangement == "vee"
@@ -44,20 +44,18 @@ def build_rotor(study: Study, *, unbalance: bool = True) -> JeffcottRotor:
     bearings = 2
     needed = bearings * ball * (2.0 * cos(half_angle) if vee else 1.0)
     weight = (r.disc_mass + r.journal_mass) * 9.81
-    settings: dict[str, Any] = {
-        "disc_mass": r.disc_mass,
-        "journal_mass": r.journal_mass,
-        "shaft_stiffness": r.shaft_stiffness,
-        "shaft_damping": r.shaft_damping,
-        "disc_damping": r.disc_damping,
-        "unbalance": r.unbalance if unbalance else 0.0,
-        "speed_rpm": study.bearing.speed_rpm,
-        "bearings": bearings,
-        "load": (0.0, weight - needed),
-    }
-    if vee:
-        return JeffcottRotor.vee(half_angle=half_angle, **settings)
-    return JeffcottRotor.vertical(**settings)
+    return jeffcott_rotor(
+        disc_mass=r.disc_mass,
+        journal_mass=r.journal_mass,
+        shaft_stiffness=r.shaft_stiffness,
+        shaft_damping=r.shaft_damping,
+        disc_damping=r.disc_damping,
+        unbalance=r.unbalance if unbalance else 0.0,
+        speed_rpm=study.bearing.speed_rpm,
+        bearings=bearings,
+        half_angle=half_angle if vee else None,
+        load=(0.0, weight - needed),
+    )
 
 
 def film_response(study: Study) -> ImpedanceResult:
@@ -89,7 +87,7 @@ def linear_rotors(
     """The rotor on the film, "full", and on every element, linearised about rest."""
     rotor, impedances = build_rotor(study), {"full": film_impedance(response)}
     impedances |= {name: impedance_about(element, study.ball_load) for name, element in elements.items()}
-    return {name: linearise(rotor, contacts=[one] * len(rotor.mounts)) for name, one in impedances.items()}
+    return {name: linearise(rotor.on([one] * len(rotor.mounts))) for name, one in impedances.items()}
 
 
 def kicked_mode(study: Study, response: ImpedanceResult) -> RotorMode:
@@ -130,10 +128,10 @@ def run_reduced(study: Study, element: ContactElement, halvings: int) -> RotorRe
 def run_decay_full(study: Study, halvings: int, callback: Callable[[int, int], None]) -> RotorResult:
     """Decay with the whole film in every contact."""
     response, rotor = film_response(study), build_rotor(study, unbalance=False)
-    mode, contacts = kicked_mode(study, response), film_contacts(rotor, study.point, _grid(study))
-    start = _kicked(study, rest_on_films(rotor, contacts), mode, response)
+    mode, whole = kicked_mode(study, response), on_films(rotor, study.point, _grid(study))
+    start = rest_on_films(whole), _kick(study, rotor, mode, response)
     settings = _decay_settings(study, halvings)
-    return simulate_decay(rotor, contacts, start, mode, tolerance=FILM_TOLERANCE, callback=callback, **settings)
+    return simulate_decay(whole, start, mode, tolerance=FILM_TOLERANCE, callback=callback, **settings)
 
 
 def run_decay_reduced(
@@ -141,14 +139,14 @@ def run_decay_reduced(
 ) -> RotorResult:
     """Decay after the same kick with an SI element in every contact, from its own rest."""
     rotor = build_rotor(study, unbalance=False)
-    elements = [element.copy() for _ in rotor.mounts]
+    rotor = rotor.on([element.copy() for _ in rotor.mounts])
     with warnings.catch_warnings():  # `contact_events` collects them
         warnings.simplefilter("ignore", OutsideValidityWarning)
-        rest = rotor.static_equilibrium(elements)
-        for contact, approach in zip(elements, rotor.approaches(rest.journal).tolist(), strict=True):
-            contact.rest(approach)
-        start, settings = _kicked(study, rest, mode, response), _decay_settings(study, halvings)
-        return simulate_decay(rotor, elements, start, mode, tolerance=ELEMENT_TOLERANCE, **settings)
+        rest = rotor.equilibrium()
+        for mount, approach in zip(rotor.contacts, rotor.approaches(rest).tolist(), strict=True):
+            mount.contact.rest(approach)
+        start, settings = (rest, _kick(study, rotor, mode, response)), _decay_settings(study, halvings)
+        return simulate_decay(rotor, start, mode, tolerance=ELEMENT_TOLERANCE, **settings)
 
 
 def _grid(study: Study) -> Grid:
@@ -161,8 +159,8 @@ def _decay_settings(study: Study, halvings: int) -> dict[str, Any]:
     return {"periods": study.rotor.decay_periods, "steps_per_period": steps}
 
 
-def _kicked(study: Study, rest: RotorState, mode: RotorMode, response: ImpedanceResult) -> RotorState:
-    """At rest with the velocities of the mode, as fast as the entry `kick` of the study has it."""
+def _kick(study: Study, rotor: Rotor, mode: RotorMode, response: ImpedanceResult) -> NDArray[np.float64]:
+    """Velocities of the mode, as fast as the entry `kick` of the study has it."""
     stiffness = float(abs(film_impedance(response)(np.array([mode.omega]))[0]))
     load, load_share = study.ball_load, study.rotor.kick
-    return initial_velocity(build_rotor(study), rest, mode, stiffness=stiffness, load=load, load_share=load_share)
+    return initial_velocity(rotor, mode, stiffness=stiffness, load=load, load_share=load_share)

@@ -19,7 +19,7 @@ from ehlcontact import (
 from ehlcontact.checks import as_column
 from ehlcontact.checks.frequency import dimensionless, radians_per_second
 from ehlcontact.checks.quantity import in_unit, takes
-from reduced_models import BallBearing, Disc, JeffcottRotor, Shaft, SpeedProfile, SpringContact
+from reduced_models import BallBearing, Disc, Shaft, SpeedProfile, SpringContact, jeffcott_rotor
 
 SIZES = {"N": (1.0, "load"), "kN": (1e3, "load"), "s": (1.0, "time"), "m": (1.0, "length"), "mm": (1e-3, "length")}
 TURNS = {"hertz": 2.0 * pi, "revolution / minute": pi / 30.0, "radian / second": 1.0, "1 / second": 1.0}
@@ -162,9 +162,10 @@ def test_a_bearing_and_a_rotor(Q):
     assert np.all(Shaft(length=Q([50, 60], "mm"), diameter=Q(20, "mm")).length == [0.05, 0.06])
     assert Disc(position=0.1, mass=Q(500, "g"), unbalance=Q(5, "g*mm")).unbalance == pytest.approx(5e-6, rel=1e-12)
     assert SpeedProfile.ramp(0.0, Q(50, "Hz"), Q(100, "ms")).speed_rpm[-1] == pytest.approx(3000.0, rel=1e-12)
-    rotor = JeffcottRotor.vertical(
-        disc_mass=Q(5, "kg"), journal_mass=0.5, shaft_stiffness=Q(5, "kN/mm"), speed_rpm=Q(50, "Hz")
+    rotor = jeffcott_rotor(
+        bearings=1, disc_mass=Q(5, "kg"), journal_mass=0.5, shaft_stiffness=Q(5, "kN/mm"), speed_rpm=Q(50, "Hz")
     )
-    assert rotor.shaft_stiffness == pytest.approx(5e6, rel=1e-12) and rotor.omega == pytest.approx(100 * pi)
+    assert rotor.stiffness[0, 0] == pytest.approx(5e6, rel=1e-12)
+    assert rotor.speed_rpm == pytest.approx(3000.0, rel=1e-12)
     with pytest.raises(InputError, match=r"^ball_diameter = 8.0 kilogram: .* into m$"):
         BallBearing(balls=9, ball_diameter=Q(8.0, "kg"), pitch_diameter=0.039)

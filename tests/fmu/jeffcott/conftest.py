@@ -6,17 +6,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reduced_models import JeffcottRotor
+from reduced_models import Rotor
 
 
-def names_of(rotor: JeffcottRotor) -> list[str]:
+def names_of(rotor: Rotor) -> list[str]:
     """Positions and velocities, as `motion_of` has them."""
-    axes = [("x", "y")[k] for k in rotor.axes]
-    return [f"{body}.{what}{axis}" for what in ("", "velocity_") for body in ("disc", "journal") for axis in axes]
+    return [
+        f"{body}.{what}{axis}" for what in ("", "velocity_") for body, at in rotor.nodes.items() for axis in at
+    ]
 
 
 @pytest.fixture
-def moving() -> Callable[[JeffcottRotor], list[str]]:
+def moving() -> Callable[[Rotor], list[str]]:
     """Names of positions and velocities."""
     return names_of
 

@@ -7,13 +7,12 @@ from xml.etree import ElementTree
 import fmpy
 import numpy as np
 import pytest
-from exported import Jeffcott, given, model_of, verified
+from exported import given, model_of, verified
 
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from fmu import VerificationError, export, sources, verify
 from reduced_models import OutsideValidityWarning, ScaledContact, simulate_rotor
-from reduced_models.rotor.jeffcott import RotorState
 
 SAYS_NOTHING = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 SCALES = Scales(force=850.0, length=1.31e-5, time=2.1e-5, a=1.1e-4, b=9e-4, pressure=1.6e9)
@@ -31,29 +30,29 @@ SCALES = Scales(force=850.0, length=1.31e-5, time=2.1e-5, a=1.1e-4, b=9e-4, pres
 )
 def test_contacts_that_do_not_fit_are_refused(rotors, elements, contacts, words, tmp_path):
     with pytest.raises(InputError) as caught:
-        export(rotors["alone"].rotor, tmp_path / "x.fmu", contacts=contacts(elements))
+        export(rotors["alone"].rotor.on(contacts(elements)), tmp_path / "x.fmu")
     assert all(word in str(caught.value) for word in words) and "\n" not in str(caught.value)
     assert not list(tmp_path.iterdir())
 
 
 def test_what_is_no_rotor_or_no_start_is_refused(rotors, elements, tmp_path):
     for rotor, start, word in (
-        (3.0, None, "JeffcottRotor"),
-        (rotors["alone"].rotor, 3.0, "RotorState"),
+        (3.0, None, "BearingSet or Rotor"),
+        (rotors["alone"].rotor, 3.0, "displacements and velocities"),
     ):
         with pytest.raises(InputError, match=word):
             export(rotor, tmp_path / "x.fmu", outside="all", start=start)
     rotor = rotors["alone"].rotor
-    with pytest.raises(InputError, match="at most 32"):
+    with pytest.raises(InputError, match=r"34 supports.: must be at most 128 in 32 supports"):
         export(replace(rotor, mounts=rotor.mounts * 17), tmp_path / "x.fmu", outside="all")
 
 
 @pytest.mark.parametrize("load", [(0.0, 5000.0), (1e5, 0.0)])
 def test_contacts_that_do_not_carry_the_load_are_refused(rotors, elements, load, tmp_path):
     """Pulled out of the vee upwards, or sideways beyond it."""
-    rotor = replace(rotors["alone"].rotor, load=load)
+    rotor = rotors["alone"].changed(load=load).rotor
     with pytest.raises(InputError, match="static load") as caught:
-        export(rotor, tmp_path / "x.fmu", contacts=[elements["cubic_si"]] * 2)
+        export(rotor.on([elements["cubic_si"]] * 2), tmp_path / "x.fmu")
     assert "\n" not in str(caught.value) and not list(tmp_path.iterdir())
 
 
@@ -115,15 +114,16 @@ def test_nothing_wrong_is_written(rotors, monkeypatch, tmp_path, name, file, old
 def test_verification_tells_another_rotor(unit, rotors):
     one = unit("cubic")
     assert verified(one.path, one.model).passes
-    rotor = one.model.rotor
-    for other in (replace(rotor, shaft_stiffness=1.001 * rotor.shaft_stiffness), replace(rotor, bearings=3)):
-        assert not verified(one.path, Jeffcott(other, one.model.contacts, one.model.state)).passes
+    stiffer = 1.001 * one.model.settings["shaft_stiffness"]
+    for change in ({"shaft_stiffness": stiffer}, {"bearings": 3}):
+        other = replace(one.model.changed(**change), start=one.model.state)
+        assert not verified(one.path, other).passes
     with pytest.raises(InputError, match=r"must be an FMU of .*2 supports outside.; it is one of"):
         verified(one.path, rotors["alone"])
     with pytest.raises(
         InputError, match=r"^contacts = None: must be one per mount, 2, or outside=\('contact 0', "
     ):
-        verify(one.path, rotor)
+        verify(one.path, rotors["alone"].rotor)
 
 
 @SAYS_NOTHING
@@ -142,30 +142,30 @@ def test_least_inner_step_is_declared(rotors):
 
 def test_elements_for_another_speed_say_so(rotors, elements, tmp_path):
     with pytest.warns(OutsideValidityWarning, match="133"):
-        export(rotors["alone"].rotor, tmp_path / "x.fmu", contacts=[elements["wide_si"]] * 2)
+        export(rotors["alone"].rotor.on([elements["wide_si"]] * 2), tmp_path / "x.fmu")
 
 
 @SAYS_NOTHING
 def test_dimensionless_contacts_in_their_scales(unit, rotors, elements, tmp_path):
     """As `simulate_rotor` takes them; the same FMU comes out, to the byte."""
     scaled = [ScaledContact(elements["cubic"], SCALES) for _ in range(2)]
-    path = export(rotors["cubic"].rotor, tmp_path / "x.fmu", contacts=scaled)
+    path = export(rotors["cubic"].rotor.on(scaled), tmp_path / "x.fmu")
     assert path.read_bytes() == unit("cubic").path.read_bytes()
 
 
 @SAYS_NOTHING
 def test_a_start_is_where_it_begins(rotors, tmp_path):
-    rest = rotors["alone"].state
-    start = RotorState(rest.disc + 1e-6, rest.journal - 2e-6, np.array([0.1, 0.2]), np.array([0.3, 0.4]))
+    rest, _ = rotors["alone"].state
+    start = rest + np.repeat([1e-6, -2e-6], 2), np.array([0.1, 0.2, 0.3, 0.4])
     path = export(rotors["alone"].rotor, tmp_path / "x.fmu", outside="all", start=start)
     starts = {v.name: v.start for v in fmpy.read_model_description(str(path)).modelVariables}
     found = [
         float(starts[f"{body}.{what}{axis}"])
-        for body in ("disc", "journal")
         for what in ("", "velocity_")
+        for body in ("disc", "journal")
         for axis in "xy"
     ]
-    assert found == [*start.disc, *start.disc_velocity, *start.journal, *start.journal_velocity]
+    assert found == np.concatenate(start).tolist()
 
 
 @SAYS_NOTHING
@@ -206,12 +206,13 @@ def test_spec_of_one_axis_names_no_other(rotors):
 @SAYS_NOTHING
 def test_without_a_load_nothing_stands(rotors, elements, tmp_path):
     """A rotor alone needs none."""
-    rotor = replace(rotors["alone"].rotor, gravity=(0.0, 0.0), load=(0.0, 0.0), unbalance=0.0, speed_rpm=0.0)
+    still = {"gravity": (0.0, 0.0), "load": (0.0, 0.0), "unbalance": 0.0, "speed_rpm": 0.0}
+    rotor = rotors["alone"].changed(**still).rotor
     assert export(rotor, tmp_path / "x.fmu", outside="all").exists()
     with pytest.raises(InputError, match="static load"):
-        export(rotor, tmp_path / "y.fmu", contacts=[elements["cubic_si"]] * 2)
+        export(rotor.on([elements["cubic_si"]] * 2), tmp_path / "y.fmu")
     state = rotors["cubic"].state
-    assert export(rotor, tmp_path / "z.fmu", contacts=[elements["cubic_si"]] * 2, start=state).exists()
+    assert export(rotor.on([elements["cubic_si"]] * 2), tmp_path / "z.fmu", start=state).exists()
 
 
 @SAYS_NOTHING
@@ -229,7 +230,6 @@ def test_it_is_much_faster_than_simulate_rotor(instance, rotors):
         for _ in range(steps):
             slave.step(dt)
         ours, began = perf_counter() - began, perf_counter()
-        contacts = [element.copy() for element in model.elements]
-        simulate_rotor(model.rotor, contacts, dt=dt, until=steps * dt)
+        simulate_rotor(model.running(), dt=dt, until=steps * dt)
         ratios.append((perf_counter() - began) / ours)
     assert max(ratios) > 5.0

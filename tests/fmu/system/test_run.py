@@ -3,15 +3,14 @@
 Ecos and the Open Simulation Platform are of the extra ``importers``.
 """
 
-import copy
-
 import numpy as np
 import pytest
 from other_masters import ecospy, libcosimpy, ours
 
-from fmu.system.export import export_verified_system, system_model
+from fmu.system.export import export_verified_system
 from fmu.system.master import SystemRun
-from reduced_models import JeffcottRotor, SpringContact, simulate_rotor
+from fmu.system.parts import RotorSystem
+from reduced_models import SpringContact, jeffcott_rotor, simulate_rotor
 
 STEP, UNTIL = 5e-6, 0.02  # s: one turn
 JOURNAL = ("journal.x", "journal.y")
@@ -23,8 +22,8 @@ def ecospy_with_its_parameter_set(*run):
 
 def reference(system):
     """Journal of `simulate_rotor` in half the steps, at the times of the systems."""
-    contacts = copy.deepcopy(system.contacts)
-    return simulate_rotor(system.rotor, contacts, dt=0.5 * STEP, until=UNTIL, tolerance=1e-9).journal[::2]
+    rotor = system.rotor.on([mount.contact.copy() for mount in system.rotor.contacts])
+    return simulate_rotor(rotor, dt=0.5 * STEP, until=UNTIL, tolerance=1e-9).journal[::2]
 
 
 @pytest.fixture(scope="module")
@@ -83,11 +82,12 @@ def test_error_goes_down_with_the_step(system, python, master):
 def test_default_step_leaves_the_damping(tmp_path):
     """A journal on one contact that hardly damps, its disc held by a soft shaft: the decay of its vibration."""
     element = SpringContact.cubic(1e8, 0.0, 0.0, 5.0, 3e-6, 9e-6, units="SI")
-    rotor = JeffcottRotor.vertical(
-        disc_mass=1e3, journal_mass=1.0, shaft_stiffness=1e4, gravity=(0.0, 0.0), load=(0.0, -500.0)
+    rotor = jeffcott_rotor(
+        bearings=1, disc_mass=1e3, journal_mass=1.0, shaft_stiffness=1e4, gravity=(0.0, 0.0), load=(0.0, -500.0)
     )
-    path, found = export_verified_system(system_model(rotor, contacts=[element]), tmp_path / "x.ssp")
-    y, w = rotor.static_equilibrium([element]).journal[1], 1e4  # rad/s
+    rotor = rotor.on([element])
+    path, found = export_verified_system(RotorSystem.of(rotor), tmp_path / "x.ssp")
+    (_, y), w = rotor.equilibrium(), 1e4  # rad/s
     with SystemRun(path.read_bytes(), {"rotor": {"journal.velocity_y": 1e-3 * abs(y) * w}}) as run:
         steps = round(20.0 * 2.0 * np.pi / w / found.step)
         rows = run.run(found.step, steps, [("rotor", "journal.y"), ("rotor", "journal.velocity_y")])
@@ -98,7 +98,7 @@ def test_default_step_leaves_the_damping(tmp_path):
 
 def test_default_step(system):
     """That of the archive, which the Open Simulation Platform takes."""
-    assert system_model(system.rotor, contacts=system.contacts).default_step() == STEP
+    assert RotorSystem.of(system.rotor).default_step() == STEP
     pytest.importorskip("libcosimpy")
     from libcosimpy.CosimExecution import CosimExecution
 

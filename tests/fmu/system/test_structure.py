@@ -8,16 +8,17 @@ from xml.etree import ElementTree
 
 import fmpy
 import pytest
-from exported import Jeffcott
+from rotor_twins import carried
 
 from ehlcontact.errors import InputError
 from fmu import VerificationError, export_system, verify_references
 from fmu.archive import pack
-from fmu.system.check import schema_findings, verify_system
-from fmu.system.export import export_verified_system, system_model
+from fmu.system.check import schema_findings
+from fmu.system.export import export_verified_system
+from fmu.system.parts import RotorSystem
 from fmu.system.structure import SSC, SSD, SSV
 from fmu.verify import verify
-from reduced_models import JeffcottRotor, SpringContact
+from reduced_models import SpringContact, jeffcott_rotor
 
 
 def description(path):
@@ -58,8 +59,8 @@ def test_components_are_the_fmus_that_lie_there(system, tmp_path):
         for parameter in component.iter(f"{{{SSV}}}Parameter"):
             assert known[parameter.attrib["name"]].causality == "input"
     assert list(there) == ["SystemStructure.ssd"]
-    for k, element in enumerate(system.contacts, start=1):
-        assert verify(tmp_path / f"contact_{k}.fmu", element).passes
+    for k, mount in enumerate(system.rotor.contacts, start=1):
+        assert verify(tmp_path / f"contact_{k}.fmu", mount.contact).passes
     assert all(verify_references(file).passes for file in tmp_path.glob("*.fmu"))
 
 
@@ -80,24 +81,18 @@ def test_it_starts_in_equilibrium(system):
         for component in description(system.path).iter(f"{{{SSD}}}Component")
         for parameter in component.iter(f"{{{SSV}}}Parameter")
     }
-    start = system.rotor.static_equilibrium(system.contacts)
-    carried = 0.0
-    for k, (u, mount) in enumerate(
-        zip(system.rotor.approaches(start.journal), system.rotor.mounts, strict=True), 1
-    ):
-        assert values[f"contact_{k}", "approach"] == u
-        carried = carried + system.rotor.bearings * values["rotor", f"contact[{k}].force"] * mount.normal
-    assert carried == pytest.approx(system.rotor.static_load, rel=1e-9)
+    rotor = system.rotor
+    for k, u in enumerate(rotor.approaches(rotor.equilibrium()), start=1):
+        assert values[f"contact_{k}", "approach"] == pytest.approx(u, rel=1e-14)
+    forces = [values["rotor", f"contact[{k}].force"] for k in (1, 2)]
+    assert forces == pytest.approx(carried(rotor), rel=1e-9)
 
 
 def test_same_input_same_bytes(parts, system, tmp_path):
     """Progress counts all libraries meanwhile."""
     told = []
     report = {"progress": lambda done, total: told.append((done, total))}
-    assert (
-        export_system(parts[0], tmp_path / "again.ssp", contacts=parts[1], **report).read_bytes()
-        == system.path.read_bytes()
-    )
+    assert export_system(parts["xy"], tmp_path / "again.ssp", **report).read_bytes() == system.path.read_bytes()
     assert told[-1][0] == told[-1][1] == 3
     assert told == sorted(told)
 
@@ -110,28 +105,29 @@ def test_units_are_explained(system):
 
 STEP = 5e-6  # s, the default of the system of the fixture
 ELEMENT = SpringContact.cubic(1e8, 0.0, 0.0, 100.0, 3e-6, 9e-6, units="SI")
-ROTOR = JeffcottRotor.vertical(disc_mass=40.0, journal_mass=1.0, shaft_stiffness=2e7)
+BODY = {"disc_mass": 40.0, "journal_mass": 1.0, "shaft_stiffness": 2e7, "bearings": 1}
+ROTOR = jeffcott_rotor(**BODY).on([ELEMENT])
 
 
 @pytest.mark.parametrize(
     ("change", "told"),
     [
         ({"rotor": 3}, "rotor"),
-        ({"contacts": [ELEMENT, ELEMENT]}, "contacts"),
-        ({"contacts": None}, "contacts"),
-        ({"contacts": ["wide"]}, r"contacts\[0\]"),
-        ({"contacts": [SpringContact.cubic(1.0, 0.0, 0.0, 0.01, 0.7, 1.0)]}, "SI"),
+        ({"rotor": ROTOR.on([None])}, r"contacts\[0\] = None: must be one per mount: see Rotor.on"),
+        ({"rotor": ROTOR.on(["wide"])}, r"contacts\[0\]"),
+        ({"rotor": ROTOR.on([SpringContact.cubic(1.0, 0.0, 0.0, 0.01, 0.7, 1.0)])}, "SI"),
+        ({"speeds_rpm": 3000.0}, "speeds_rpm = 3000.0: must be left out: the rotor has no ball bearing"),
         ({"path": "x.fmu"}, "ssp"),
         ({"path": "nowhere/x.ssp"}, "folder"),
         ({"model_name": " "}, "model_name"),
         ({"step": 0.0}, "step"),
         ({"step": float("nan")}, "step"),
         ({"fmi": 1}, "fmi"),
-        ({"rotor": dataclasses.replace(ROTOR, gravity=(0.0, 0.0))}, "load"),
+        ({"rotor": jeffcott_rotor(**BODY, gravity=(0.0, 0.0)).on([ELEMENT])}, "load"),
     ],
 )
 def test_bad_input(change, told, tmp_path):
-    given = {"rotor": ROTOR, "contacts": [ELEMENT], "path": "x.ssp"} | change
+    given = {"rotor": ROTOR, "path": "x.ssp"} | change
     given["path"] = tmp_path / given["path"]
     with pytest.raises(InputError, match=told) as caught:
         export_system(given.pop("rotor"), given.pop("path"), **given)
@@ -140,25 +136,25 @@ def test_bad_input(change, told, tmp_path):
 
 
 def test_a_load_that_nothing_carries(tmp_path):
-    lifted = dataclasses.replace(ROTOR, gravity=(0.0, 9.81))
+    lifted = jeffcott_rotor(**BODY, gravity=(0.0, 9.81)).on([ELEMENT])
     with pytest.raises(InputError, match="carry"):
-        export_system(lifted, tmp_path / "x.ssp", contacts=[ELEMENT])
+        export_system(lifted, tmp_path / "x.ssp")
 
 
 def test_a_file_that_is_there_stays(tmp_path):
     path = tmp_path / "x.ssp"
     path.write_text("mine")
     with pytest.raises(InputError, match="overwrite"):
-        export_system(ROTOR, path, contacts=[ELEMENT])
+        export_system(ROTOR, path)
     assert path.read_text() == "mine"
-    export_system(ROTOR, path, contacts=[ELEMENT], overwrite=True)
+    export_system(ROTOR, path, overwrite=True)
     assert zipfile.is_zipfile(path)
 
 
 def test_a_step_too_long_for_the_system_is_refused(tmp_path):
     """1e-4 s at a journal of 1e4 rad/s: the loop of any importer would blow up."""
     with pytest.raises(VerificationError, match=r"steps of 0\.0001 s"):
-        export_system(ROTOR, tmp_path / "x.ssp", contacts=[ELEMENT], step=1e-4)
+        export_system(ROTOR, tmp_path / "x.ssp", step=1e-4)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -178,15 +174,14 @@ def test_verification_finds_wrong_wires(system, wrong):
     else:
         text = text.replace('startConnector="contact[2].approach"', 'startConnector="approach"')
     there["SystemStructure.ssd"] = text.encode()
-    made = Jeffcott(system.rotor, system.contacts)
-    parts = system.rotor, made.elements, made.state, STEP
+    made = RotorSystem.of(system.rotor)
     content = pack(there)
     if wrong == "renamed":
         with pytest.raises(VerificationError, match="does not run"):
-            verify_system(content, *parts)
+            made.verify(content, STEP)
     else:
-        assert not verify_system(content, *parts).passes
-    right = verify_system(system.path.read_bytes(), *parts)
+        assert not made.verify(content, STEP).passes
+    right = made.verify(system.path.read_bytes(), STEP)
     assert right.passes and 0.0 < right.deviation < 1e-3
 
 
@@ -209,7 +204,6 @@ def test_contents_are_readable_as_a_plain_zip(system):
 )
 def test_default_step_runs_any_system(tmp_path, C1, journal_mass):
     """Contacts without damper, and with one that stops the journal at once; journals light and heavy."""
-    rotor = dataclasses.replace(ROTOR, journal_mass=journal_mass)
-    element = dataclasses.replace(ELEMENT, C1=C1)
-    _, found = export_verified_system(system_model(rotor, contacts=[element]), tmp_path / "x.ssp")
+    rotor = jeffcott_rotor(**(BODY | {"journal_mass": journal_mass})).on([dataclasses.replace(ELEMENT, C1=C1)])
+    _, found = export_verified_system(RotorSystem.of(rotor), tmp_path / "x.ssp")
     assert found.passes and found.deviation < 0.005

@@ -8,7 +8,7 @@ import pytest
 from balls import OF_6205
 
 from ehlcontact import InputError, Lubricant, OperatingPoint, read, save
-from reduced_models import ContactMount, JeffcottRotor, OutsideValidityWarning, ScaledContact, simulate_rotor
+from reduced_models import ContactMount, OutsideValidityWarning, ScaledContact, jeffcott_rotor, simulate_rotor
 from reduced_models.atlas.atlas_elements import damper_band
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.elements.design_point import DesignPoint
@@ -22,7 +22,7 @@ BODY = {"disc_mass": 40.0, "journal_mass": 2.0, "shaft_stiffness": 2.5e7, "load"
 
 
 def rotor(**changes):
-    return JeffcottRotor.vertical(**(BODY | {"unbalance": 8e-4, "speed_rpm": 3000.0} | changes))
+    return jeffcott_rotor(bearings=1, **(BODY | {"unbalance": 8e-4, "speed_rpm": 3000.0} | changes))
 
 
 @pytest.fixture(params=["wide", "memory", "cubic"])
@@ -99,28 +99,27 @@ def test_force_beyond_the_load_band_warns_though_approach_and_rate_are_inside(el
 
 def test_speed_of_a_rotor_is_checked_before_the_run(shipped):
     fast = shipped.element(POINT, "cubic", hz=25e3)  # of the contact's own band
-    for start in (lambda: simulate_rotor(rotor(), [fast.copy()], dt=1e-4, until=2e-4),
-                  lambda: rotor().check([fast.copy()]),
-                  lambda: rotor().static_equilibrium([fast.copy()])):  # fmt: skip
+    for start in (lambda: simulate_rotor(rotor().on([fast.copy()]), dt=1e-4, until=2e-4),
+                  lambda: rotor().on([fast.copy()]).check_contacts()):  # fmt: skip
         with pytest.warns(
             OutsideValidityWarning, match=r": 50 Hz \(fitted 23420 to 25940 Hz\); it is for the band"
         ):
             start()
     wrapped = ScaledContact(shipped.element(POINT.moes, "cubic", Omega=6.0), POINT.scales)
     with pytest.warns(OutsideValidityWarning, match=r": Omega 0\.01187 \(fitted Omega 5\."):
-        rotor().check([wrapped])
+        rotor().on([wrapped]).check_contacts()
     for model, at in (("cubic", {"rpm": 3000}), ("memory", {}), ("wide", {})):
-        rotor(speed_rpm=1000.0).check([shipped.element(POINT, model, **at)])
-    rotor(speed_rpm=0.0).check([fast])
+        rotor(speed_rpm=1000.0).on([shipped.element(POINT, model, **at)]).check_contacts()
+    rotor(speed_rpm=0.0).on([fast]).check_contacts()
 
 
 def test_operating_point_of_a_mount_is_checked(shipped):
     wide = shipped.element(POINT, "wide")
     with pytest.warns(OutsideValidityWarning, match="u_sum = 11.76 m/s"):
-        rotor(point=FASTER).check([wide])
-    vee = JeffcottRotor.vee(half_angle=0.35, point=THINNER, **BODY)
+        rotor(point=FASTER).on([wide]).check_contacts()
+    vee = jeffcott_rotor(half_angle=0.35, point=THINNER, **BODY)
     with pytest.warns(OutsideValidityWarning, match=r"eta0 = 0\.02") as told:
-        vee.check([wide.copy(), ScaledContact(shipped.element(POINT.moes, "wide"), POINT.scales)])
+        vee.on([wide.copy(), ScaledContact(shipped.element(POINT.moes, "wide"), POINT.scales)]).check_contacts()
     assert len(told) == 2
     with pytest.raises(InputError, match=r"^point = 'str'"):
         ContactMount(0.0, point="6205")

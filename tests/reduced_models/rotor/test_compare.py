@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from reduced_models import JeffcottRotor, compare, simulate_rotor
+from reduced_models import compare, jeffcott_rotor, simulate_rotor
 
 BODY = {"disc_mass": 20.0, "journal_mass": 1.0, "shaft_stiffness": 2e7, "shaft_damping": 200.0}
 
 
 @pytest.fixture
 def run(cubic, scales):
-    rotor = JeffcottRotor.vertical(**BODY, unbalance=1e-4, speed_rpm=6000.0, load=(0.0, -800.0))
-    return simulate_rotor(rotor, [cubic.to_si(scales)], dt=5e-5, until=0.02)
+    rotor = jeffcott_rotor(bearings=1, **BODY, unbalance=1e-4, speed_rpm=6000.0, load=(0.0, -800.0))
+    return simulate_rotor(rotor.on([cubic.to_si(scales)]), dt=5e-5, until=0.02)
 
 
 def test_a_run_equals_itself(run):

@@ -9,7 +9,6 @@ from rotor_twins import C, K, one_mass, spring
 from ehlcontact import InputError
 from reduced_models import SpringContact, linearise, simulate_rotor
 from reduced_models.rotor.decay import log_decrement
-from reduced_models.rotor.jeffcott import RotorState
 
 
 @pytest.mark.parametrize("delta", [-0.02, 0.0, 0.003, 0.03, 0.3, 1.0])
@@ -51,15 +50,12 @@ def test_decay_of_a_rotor_is_that_of_its_mode():
     """One mass on a linear contact, kicked and integrated, against the eigenvalue."""
     element = SpringContact.linear(K, C, low=1e-8, high=1e-4, units="SI")
     rotor = one_mass(unbalance=0.0)
-    mode = linearise(rotor, contacts=[spring]).modes()[0]
-    rest = rotor.static_equilibrium([element])
-    speed = 1e-3 * np.array([0.0, 1.0])
+    mode = linearise(rotor.on([spring])).modes()[0]
     run = simulate_rotor(
-        rotor,
-        [element],
+        rotor.on([element]),
         dt=2.0 * pi / mode.omega / 60,
         until=10 * 2.0 * pi / mode.omega,
-        start=RotorState(rest.disc, rest.journal, speed, speed),
+        start=(rotor.on([element]).equilibrium(), np.full(2, 1e-3)),
         tolerance=1e-12,
     )
     found = log_decrement(run.t[60:], run.journal[60:, 1], omega=mode.omega)

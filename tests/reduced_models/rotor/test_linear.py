@@ -4,15 +4,15 @@ from math import pi
 
 import numpy as np
 import pytest
-from rotor_twins import MASS, POINT, C, K, one_mass, spring
+from rotor_twins import MASS, POINT, C, K, carried, omega_of, one_mass, spring
 
 from ehlcontact import Grid, InputError, MoesPoint, impedance
-from reduced_models import Atlas, JeffcottRotor, SpringContact, linearise, simulate_rotor
+from reduced_models import Atlas, SpringContact, jeffcott_rotor, linearise, simulate_rotor
 from reduced_models.rotor.linear_contact import film_impedance, impedance_about
 
 
 def test_mode_of_one_mass():
-    mode = linearise(one_mass(), contacts=[spring]).modes()[0]
+    mode = linearise(one_mass().on([spring])).modes()[0]
     zeta, natural = 2.0 * C / (2.0 * np.sqrt(2.0 * K * MASS)), np.sqrt(2.0 * K / MASS)
     damped = natural * np.sqrt(1.0 - zeta**2)
     assert mode.omega == pytest.approx(damped, rel=1e-5) and mode.hz == pytest.approx(
@@ -26,13 +26,13 @@ def test_mode_of_one_mass():
 def test_response_of_one_mass():
     """Amplitude and phase of m e omega^2 sin(omega t) on one mass."""
     rotor, omega = one_mass(shaft_stiffness=1e16), np.array([50.0, 3000.0, 6400.0, 20000.0])
-    q = linearise(rotor, contacts=[spring]).unbalance_response(omega=omega).amplitude
+    q = linearise(rotor.on([spring])).unbalance_response(omega=omega).amplitude
     expected = 4e-5 * omega**2 * -1j / (2.0 * K + 2j * omega * C - MASS * omega**2)
     assert q.shape == (4, 2) and q[:, 1] == pytest.approx(expected, rel=1e-4)
 
 
 def test_the_frequency_of_an_unbalance_has_its_unit():
-    linear = linearise(one_mass(), contacts=[spring])
+    linear = linearise(one_mass().on([spring]))
     q = linear.unbalance_response(omega=2.0 * np.pi * 50.0).amplitude
     assert np.allclose(linear.unbalance_response(hz=50.0).amplitude, q, rtol=1e-12)
     assert np.allclose(linear.unbalance_response(rpm=[3000.0]).amplitude, q, rtol=1e-12)
@@ -47,7 +47,7 @@ def test_the_frequency_of_an_unbalance_has_its_unit():
 
 def test_shaft_and_contacts_share_the_strain_energy():
     """In series, each takes it in proportion to its flexibility where the journal weighs nothing."""
-    mode = linearise(one_mass(shaft_stiffness=2e8), contacts=[spring]).modes()[0]
+    mode = linearise(one_mass(shaft_stiffness=2e8).on([spring])).modes()[0]
     assert mode.support_share == pytest.approx(2e8 / (2e8 + 2.0 * K), rel=1e-3)
 
 
@@ -58,19 +58,19 @@ def test_a_mode_sees_the_impedance_of_its_own_frequency():
         w = np.asarray(omega)
         return np.asarray(K + 1j * w * C / (1.0 + (w / 3000.0) ** 2), dtype=complex)
 
-    mode = linearise(one_mass(), contacts=[falling]).modes()[0]
+    mode = linearise(one_mass().on([falling])).modes()[0]
     constant = linearise(
-        one_mass(), contacts=[lambda w: np.asarray(K + 1j * np.asarray(w) * C / (1 + (mode.omega / 3e3) ** 2))]
+        one_mass().on([lambda w: np.asarray(K + 1j * np.asarray(w) * C / (1 + (mode.omega / 3e3) ** 2))])
     )
     assert mode.eigenvalue == pytest.approx(constant.modes()[0].eigenvalue, rel=1e-9)
-    assert mode.decrement < 0.2 * linearise(one_mass(), contacts=[spring]).modes()[0].decrement
+    assert mode.decrement < 0.2 * linearise(one_mass().on([spring])).modes()[0].decrement
 
 
 def test_directions_of_a_vee():
-    rotor = JeffcottRotor.vee(
+    rotor = jeffcott_rotor(
         half_angle=0.35, disc_mass=2.0, journal_mass=0.3, shaft_stiffness=2e8, unbalance=4e-5, speed_rpm=3000
     )
-    modes = linearise(rotor, contacts=[spring, spring]).modes()
+    modes = linearise(rotor.on([spring, spring])).modes()
     assert len(modes) == 4 and [round(mode.vertical_share) for mode in modes[:2]] == [0, 1]
     stiffness = [4.0 * K * np.sin(0.35) ** 2, 4.0 * K * np.cos(0.35) ** 2]
     for mode, contacts in zip(modes, stiffness, strict=False):
@@ -82,20 +82,19 @@ def test_orbit_state_is_on_the_periodic_motion():
     """A linear contact that starts there has the same revolution at once, about its rest."""
     element = SpringContact.linear(K, C, low=1e-8, high=1e-4, units="SI")
     rotor = one_mass(disc_mass=1.5, journal_mass=0.5, shaft_stiffness=2e8)
-    rest = rotor.static_equilibrium([element])
-    load = float(rotor.static_forces()[0])
-    linear = linearise(rotor, contacts=[impedance_about(element, load)])
+    rest = rotor.on([element]).equilibrium()
+    load = float(carried(rotor)[0])
+    linear = linearise(rotor.on([impedance_about(element, load)]))
     run = simulate_rotor(
-        rotor,
-        [element],
+        rotor.on([element]),
         dt=0.02 / 400,
         until=0.04,
-        start=linear.orbit(rotor.motion(rest)[0]),
+        start=linear.orbit(rest),
         tolerance=1e-12,
         rho_inf=1.0,
     )
-    q = linear.unbalance_response(omega=rotor.omega).amplitude[0, 0]
-    expected = rest.disc[1] + (q * np.exp(1j * rotor.omega * run.t)).real
+    q = linear.unbalance_response(omega=omega_of(rotor)).amplitude[0, 0]
+    expected = rest[0] + (q * np.exp(1j * omega_of(rotor) * run.t)).real
     assert np.abs(run.disc[:, 1] - expected).max() < 2e-3 * abs(q)
 
 
@@ -119,7 +118,7 @@ def test_impedance_of_an_element_with_memory():
 
 def test_refused():
     with pytest.raises(InputError, match="one per mount"):
-        linearise(one_mass(), contacts=[spring, spring])
+        linearise(one_mass().on([spring, spring]))
     with pytest.raises(InputError, match="OperatingPoint"):
         film_impedance(impedance(MoesPoint(20, 5, 0.5), Omega=[0.0, 0.1], grid=Grid(n=32)))
 
@@ -127,10 +126,10 @@ def test_refused():
 def test_modes_on_elements_are_roots_with_the_memory_of_their_films():
     """Of the dynamic stiffness at the eigenvalue itself, beside the imaginary axis."""
     element = Atlas().wide(POINT, np.geomspace(0.2, 5.0, 8))
-    rotor = JeffcottRotor.vee(
+    rotor = jeffcott_rotor(
         half_angle=0.5, disc_mass=4.0, journal_mass=0.5, shaft_stiffness=5e7, shaft_damping=200.0, speed_rpm=3000.0
     )
-    at = linearise(rotor, contacts=[element, element.copy()])
+    at = linearise(rotor.on([element, element.copy()]))
     modes = at.modes(None)
     assert len(modes) == 4 and at.stable
     for mode in modes:

@@ -5,14 +5,15 @@ from math import cos, pi
 
 import numpy as np
 import pytest
+from rotor_twins import carried, moving, omega_of
 
 from ehlcontact import FreeVibration, Grid, InputError, MoesPoint, simulate
 from reduced_models import (
     ContactRecord,
-    JeffcottRotor,
     OutsideValidityWarning,
     ScaledContact,
     fit,
+    jeffcott_rotor,
     simulate_oscillator,
     simulate_rotor,
 )
@@ -95,7 +96,7 @@ def vee(load, **changes):
     """Rotor in two contacts, each of which carries `load` [N]."""
     down = 2.0 * 2.0 * load * cos(0.35) - 21.0 * 9.81
     settings = BODY | {"shaft_damping": 2e3, "disc_damping": 2e3, "load": (0.0, -down)} | changes
-    return JeffcottRotor.vee(half_angle=0.35, **settings)
+    return jeffcott_rotor(half_angle=0.35, **settings)
 
 
 def test_rotor_steps_of_nine_transits_have_the_damping_of_the_impedance(memory, scales):
@@ -106,15 +107,15 @@ def test_rotor_steps_of_nine_transits_have_the_damping_of_the_impedance(memory, 
     si = memory.to_si(scales)
     contacts = [si, si.copy()]
     assert period / steps / scales.time == pytest.approx(9.0, rel=0.01)
-    run = simulate_rotor(rotor, contacts, dt=period / steps, until=revolutions * period, tolerance=1e-10)
+    run = simulate_rotor(rotor.on(contacts), dt=period / steps, until=revolutions * period, tolerance=1e-10)
     assert run.status == "converged" and run.iterations.max() <= 3
-    turn = np.exp(-1j * rotor.omega * run.t[-steps:])
+    turn = np.exp(-1j * omega_of(rotor) * run.t[-steps:])
     for i, contact in enumerate(contacts):
         Z = (run.force[-steps:, i] * turn).sum() / (run.approach[-steps:, i] * turn).sum()
-        theirs = contact.impedance(omega=rotor.omega, load=run.force[0, i])[0]
+        theirs = contact.impedance(omega=omega_of(rotor), load=run.force[0, i])[0]
         assert Z.real == pytest.approx(theirs.real, rel=1e-3)
         assert Z.imag == pytest.approx(theirs.imag, rel=0.02)
-        assert Z.imag / rotor.omega > 6.0 * contact.impedance(omega=2.0 * pi / scales.time)[0].imag / (
+        assert Z.imag / omega_of(rotor) > 6.0 * contact.impedance(omega=2.0 * pi / scales.time)[0].imag / (
             2.0 * pi / scales.time
         )
 
@@ -128,7 +129,7 @@ def test_static_start_rests_every_contact(memory, scales):
     ):
         for contact in contacts:
             contact.advance(1e-5, 0.9 * scales.length, 0.3 * scales.rate)
-        run = simulate_rotor(rotor, contacts, dt=1e-4, until=1e-2)
+        run = simulate_rotor(rotor.on(contacts), dt=1e-4, until=1e-2)
         np.testing.assert_allclose(run.force, 1.2 * scales.force, rtol=1e-6)
         assert np.ptp(run.journal, axis=0).max() < 1e-12
 
@@ -136,16 +137,15 @@ def test_static_start_rests_every_contact(memory, scales):
 def test_one_memory_in_two_mounts_is_refused(memory, scales):
     si = memory.to_si(scales)
     with pytest.raises(InputError, match=r"contacts\[1\].*copy"):
-        simulate_rotor(vee(scales.force), [si, si], dt=1e-4, until=1e-3)
+        simulate_rotor(vee(scales.force).on([si, si]), dt=1e-4, until=1e-3)
 
 
 def test_kick_is_felt_at_once(memory, scales):
     """The first force is that of the film at rest with the rate of the start, not of a whole step."""
     rotor = vee(scales.force)
     contacts = [memory.to_si(scales), memory.to_si(scales)]
-    rest = rotor.static_equilibrium(contacts)
-    kick = replace(rest, journal_velocity=np.array([0.0, -0.02]))
-    run = simulate_rotor(rotor, contacts, dt=1e-4, until=2e-4, start=kick)
+    kick = rotor.on(contacts).equilibrium(), moving(rotor, journal=(0.0, -0.02))
+    run = simulate_rotor(rotor.on(contacts), dt=1e-4, until=2e-4, start=kick)
     dimensionless = run.rate[0, 0] / scales.rate
     g = memory.spring(memory.approach_at(1.0)) ** (2.0 / 3.0)
     assert run.force[0, 0] == pytest.approx(scales.force * (g + memory.gains[0] * dimensionless) ** 1.5, rel=1e-6)
@@ -156,21 +156,21 @@ def test_leaving_the_box_warns_once_per_run(memory, scales):
     rotor = vee(1.05 * scales.force, unbalance=1e-4, speed_rpm=4800.0)
     contacts = [slow.to_si(scales), memory.to_si(scales)]
     with pytest.warns(OutsideValidityWarning, match=r"Hz \(fitted") as told:
-        simulate_rotor(rotor, contacts, dt=2e-4, until=0.05)
+        simulate_rotor(rotor.on(contacts), dt=2e-4, until=0.05)
     assert len(told) == 1
 
 
 def test_a_rotor_runs_on_it(memory, scales):
     """A kicked journal: damped to the static equilibrium, the state moved from step to step only."""
-    rotor = JeffcottRotor.vertical(
-        disc_mass=20.0, journal_mass=1.0, shaft_stiffness=2e7, shaft_damping=200.0, load=(0.0, -1000.0)
+    rotor = jeffcott_rotor(
+        bearings=1, disc_mass=20.0, journal_mass=1.0, shaft_stiffness=2e7, shaft_damping=200.0, load=(0.0, -1000.0)
     )
     contact = memory.to_si(scales)
-    u = contact.approach_at(abs(float(rotor.static_load[0])) / rotor.bearings)
-    start = replace(rotor.rest_state(np.array([-u])), journal_velocity=np.array([0.0, 2e-3]))
+    u = contact.approach_at(float(carried(rotor)[0]))
+    start = rotor.rest_at([u]), moving(rotor, journal=(0.0, 2e-3))
     contact.rest(u)
     dt = 5.0 * scales.time
-    run = simulate_rotor(rotor, [contact], dt=dt, until=2000 * dt, start=start)
+    run = simulate_rotor(rotor.on([contact]), dt=dt, until=2000 * dt, start=start)
     assert run.status == "converged"
     first, last = (np.ptp(run.approach[part, 0]) for part in (slice(0, 200), slice(-200, None)))
     assert last < 0.5 * first and run.approach[-200:, 0].mean() == pytest.approx(u, rel=1e-3)

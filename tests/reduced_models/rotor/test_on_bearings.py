@@ -15,12 +15,12 @@ from ehlcontact.status import Status
 from reduced_models import (
     BallBearing,
     BearingMount,
-    JeffcottRotor,
     OutsideValidityWarning,
     Rotor,
     ScaledContact,
     SpeedProfile,
     Unbalance,
+    jeffcott_rotor,
     simulate_rotor,
 )
 from reduced_models.rotor.integrate_compiled import run_block
@@ -266,7 +266,7 @@ def test_films_that_are_solved_coarsely_are_balanced_as_coarsely():
     films = {tol: TransientContact(MoesPoint(20, 5, 0.5), grid=Grid(n=16), tol=tol) for tol in (3e-3, 0.3)}
     for tol, film in films.items():
         scaled = ScaledContact(film, SCALES)
-        rotor = JeffcottRotor.vertical(disc_mass=2.0, journal_mass=0.3, shaft_stiffness=1e8).on([scaled])
+        rotor = jeffcott_rotor(bearings=1, disc_mass=2.0, journal_mass=0.3, shaft_stiffness=1e8).on([scaled])
         assert default_tolerance(rotor) == pytest.approx(1e-6 * tol / 3e-3)
     with pytest.raises(ConvergenceError, match="a smaller tol of TransientContact, or a larger tolerance"):
         simulate_rotor(rotor, speed_rpm=0.0, dt=1e-5, until=1e-3, start=STILL, tolerance=1e-9, max_iterations=1)

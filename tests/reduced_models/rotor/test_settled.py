@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rotor_twins import SCALES, C, K, one_mass, run_of
+from rotor_twins import SCALES, C, K, omega_of, one_mass, run_of
 
 from ehlcontact import InputError
 from reduced_models import SpringContact
@@ -72,12 +72,12 @@ def test_part_of_a_run():
 def test_elements_turn_until_they_have_settled(damping):
     """From rest, not from the orbit: the shaft's damping alone takes many revolutions, and gets them."""
     element = SpringContact.linear(K, damping, low=1e-8, high=1e-4, units="SI")
-    rotor = replace(one_mass(), disc_mass=1.5, journal_mass=0.5, shaft_stiffness=2e8, shaft_damping=100.0)
-    start = rotor.static_equilibrium([element])
-    run = run_until_settled(rotor, [element], steps=STEPS, revolutions=2, start=start, tolerance=1e-10)
+    rotor = one_mass(disc_mass=1.5, journal_mass=0.5, shaft_stiffness=2e8, shaft_damping=100.0).on([element])
+    start = rotor.equilibrium(), np.zeros(2)
+    run = run_until_settled(rotor, steps=STEPS, revolutions=2, start=start, tolerance=1e-10)
     assert run.t.size == 2 * STEPS + 1 and run.t[0] == 0.0
     assert settling(run).last_change <= QUIET
-    swing = 4e-5 * rotor.omega**2 / (2.0 * K)
+    swing = 4e-5 * omega_of(rotor) ** 2 / (2.0 * K)
     assert np.ptp(run.journal[:, 1]) / 2.0 == pytest.approx(swing, rel=0.02)
 
 
@@ -87,9 +87,11 @@ def test_settling_needs_whole_revolutions():
         settling(replace(run, t=run.t * 1.01))
     with pytest.raises(InputError, match="turning"):
         settling(replace(run, speed_rpm=0.0 * run.t))
-    element, rotor = dry_contact(SCALES), one_mass()
+    rotor = one_mass().on([dry_contact(SCALES)])
     with pytest.raises(InputError, match="steps"):
-        run_until_settled(rotor, [element], steps=4, revolutions=2, start=rotor.rest_state(np.zeros(1)))
+        run_until_settled(rotor, steps=4, revolutions=2, start=np.zeros((2, 2)))
+    with pytest.raises(InputError, match=r"speed_rpm = 0: must be > 0"):
+        run_until_settled(replace(rotor, speed_rpm=0), steps=40, revolutions=2, start=np.zeros((2, 2)))
 
 
 def test_the_signal_that_settles_last_decides():

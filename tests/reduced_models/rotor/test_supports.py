@@ -10,9 +10,9 @@ from ehlcontact import InputError
 from reduced_models import (
     BearingMount,
     ContactMount,
-    JeffcottRotor,
     LinearBearing,
     SpringContact,
+    jeffcott_rotor,
     linearise,
     simulate_rotor,
     unbalance_response,
@@ -96,13 +96,16 @@ def test_a_contact_and_a_bearing_carry_together(block):
 
 def test_refused(block, film):
     contact = SpringContact.linear(2e7, 50.0, low=1e-9, high=1e-3, units="SI")
-    rotor = JeffcottRotor.vertical(disc_mass=1.0, journal_mass=0.1, shaft_stiffness=1e7)
+    rotor = jeffcott_rotor(bearings=1, disc_mass=1.0, journal_mass=0.1, shaft_stiffness=1e7)
     for call, match in (
-        (lambda: simulate_rotor(block(film), [contact], **RUN), "contacts = 1: must be left out"),
+        (lambda: block(film).on([contact]), "contacts = 1: must be one per mount, 0"),
         (lambda: simulate_rotor(block(film), dt=1e-5, until=1e-3), "speed_rpm = None: must be given"),
-        (lambda: simulate_rotor(rotor, dt=1e-5, until=1e-3), "contacts = 0: must be one per mount"),
+        (lambda: rotor.on([]), "contacts = 0: must be one per mount, 1"),
+        (lambda: rotor.on(contact), "contacts = 'SpringContact': must be a list of contacts"),
+        (lambda: simulate_rotor(rotor, dt=1e-5, until=1e-3), r"contacts\[0\] = 'NoneType': must be a Contact"),
+        (lambda: replace(rotor, stiffness=2.0 * rotor.stiffness), "stiffness = 'another matrix': must be the sum"),
         (lambda: linearise(block(film)), "speed_rpm = None: must be given"),
-        (lambda: linearise(rotor, contacts=[object()]), "contacts"),
+        (lambda: linearise(rotor.on([object()])), "contacts"),
         (lambda: BearingMount(bearing=1.0, x=0, y=1), "must be a BallBearing"),
     ):
         with pytest.raises(InputError, match=match):
