@@ -37,7 +37,7 @@ FARTHEST = 0.1  # of the ball diameter: largest displacement, which no ring in i
 LARGEST_TILT = 0.1  # rad
 # Sizes in numbers of the structures of ``bearing.h`` and ``ball.h``, which an FMU compares with its own
 HEAD_NUMBERS, BALL_NUMBERS, FILM_NUMBERS = 10, 46, 6
-STEP_NUMBERS, BALL_STEP_NUMBERS, FILTER_NUMBERS = 19, 49, 25
+STEP_NUMBERS, BALL_STEP_NUMBERS, FILTER_NUMBERS = 19, 69, 25
 
 
 def bearing_table(model: BearingModel, name: str = "bearing") -> str:

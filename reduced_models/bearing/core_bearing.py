@@ -125,9 +125,13 @@ STEP = np.dtype(
     ]
 )  # fmt: skip
 BALL_STEP = _numbers(
-    x=(), y=(), history=(2,), rate_history=(2,), start=(2,), tried=(2,), follow=(2, 2), c=(2,), d=(2,), place=(2,),
-    force=(2,), film=(2,), ring=(3,), slopes=(3, 4), transit=(2,), height=(2,), height_rate=(2,), thickness=(2, 2),
+    x=(), y=(), history=(2,), rate_history=(2,), start=(2,), tried=(2,), follow=(2, 2), inertia=(5, 4),
+    c=(2,), d=(2,), place=(2,), force=(2,), film=(2,), ring=(3,), slopes=(3, 4),
+    transit=(2,), height=(2,), height_rate=(2,), thickness=(2, 2),
 )  # fmt: skip
+AT_REST = _numbers(
+    angle=(2,), load=(2,), approach=(2,), slope=(2,), factor=(2,), speed_sum=(2,), orbit=(), rotation=(), axis=()
+)
 
 
 class CoreBearing:
@@ -281,10 +285,10 @@ def bearing_library() -> ctypes.CDLL:
         getattr(library, name).restype = c_size_t
     for name in ("bearing_start", "bearing_press", "bearing_rest", "bearing_rest_at"):
         getattr(library, name).restype = ctypes.c_char_p
-    for name in ("bearing_begin", "bearing_slopes", "bearing_accept"):
+    for name in ("bearing_begin", "bearing_slopes", "bearing_accept", "bearing_describe"):
         getattr(library, name).restype = None
     here = [ctypes.sizeof(kind) for kind in (BearingStructure, GroovesStructure, RaceStructure, HeightsStructure)]
-    here += [kind.itemsize for kind in (HEAD, BALL, FILM, SURFACE, STEP, BALL_STEP)]
+    here += [kind.itemsize for kind in (HEAD, BALL, FILM, SURFACE, STEP, BALL_STEP, AT_REST)]
     there = (c_size_t * len(here))()
     library.bearing_sizes(there)
     assert list(there) == here, f"structures of bearings have {list(there)} bytes in C, {here} in Python"

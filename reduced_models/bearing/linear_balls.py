@@ -25,7 +25,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reduced_models.bearing.ball import Balls
-from reduced_models.bearing.ball_steps import SLOPE
 from reduced_models.bearing.coefficients import stiffness_and_damping
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_contact import curve, film_cutoff, film_made
@@ -45,7 +44,7 @@ class LinearBalls(NamedTuple):
     outer: LinearFilm
     normals: _Floats  # (2, 2, positions * balls): inner and outer race; r and z
     geometric: _Floats  # (positions * balls, 5, 4) G of the balance and of the force of the ring
-    maps: _Floats  # (positions * balls, 3, n) of `ring_map`, for the n directions of the ring
+    maps: _Floats  # (positions * balls, 3, n) of `ring_maps`, for the n directions of the ring
     positions: int
     loss: Loss
     inertia: float  # of a ball [kg]
@@ -57,7 +56,7 @@ class LinearBalls(NamedTuple):
             np.concatenate([getattr(at, name) for at in equilibria])
             for name in ("force", "approach", "speed_sum", "angles", "geometric", "maps")
         )
-        slope = np.concatenate([at.found[:, SLOPE : SLOPE + 2] for at in equilibria])
+        slope = np.concatenate([at.balls["slope"] for at in equilibria])
         inner, outer = (
             LinearFilm.stack(
                 [

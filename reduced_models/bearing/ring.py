@@ -9,6 +9,7 @@ no first guess. The gyroscopic moment, which has no potential, is added then, in
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from ctypes import c_double
 from dataclasses import dataclass, replace
 from math import cos, degrees, pi
 
@@ -18,27 +19,16 @@ from numpy.typing import NDArray
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.hertz import elliptic_integrals, hertz_contact
 from ehlcontact.point import Geometry
-from reduced_models.bearing.ball import FAR, FREEDOMS, Balls, films_of, ring_map
-from reduced_models.bearing.ball_steps import (
-    ANGLE,
-    AXIS_ANGLE,
-    CLOSER,
-    ENTRIES,
-    LOAD,
-    ORBIT,
-    OWN_ROTATION,
-    SPEED_SUM,
-    begin_rest,
-    describe_balls,
-    press_balls,
-)
-from reduced_models.bearing.contact_angles import CONTROLS
-from reduced_models.bearing.contact_heights import HEIGHT
+from reduced_models.bearing.ball import Balls
+from reduced_models.bearing.contact_angles import CONTROLS, Grooves
+from reduced_models.bearing.core_bearing import AT_REST, CoreBearing, pointer, reason
 from reduced_models.bearing.equilibrium import GUESS, OPEN, equilibrium
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 
 _Floats = NDArray[np.float64]
+_Record = NDArray[np.void]
 
+FOLLOWED = 0.05  # step of a ring, over the distance of its groove centres, along which balls are followed
 SEATED = 1e-9  # least stiffness of a ring over its largest: below is rounding
 SMALLEST_SHARE = 0.02  # of the gyroscopic moments by which a search that fails may grow
 CARRIES = 1e-3  # force of a ball over the largest, above which it counts as one that carries
@@ -64,53 +54,72 @@ class StaticRing:
 
     def __init__(self, balls: Balls, angle: float, free: int, held: _Floats) -> None:
         self.balls, self.free, self.held = balls, free, held
-        self.size = len(PLANAR) if free == len(PLANAR) else FREEDOMS
+        self.size = n = len(PLANAR) if free == len(PLANAR) else len(FIVE)
         radius = balls.grooves.groove_circle
-        self.unit = np.array([1.0, 1.0, 1.0, 1.0 / radius, 1.0 / radius])[
-            :free
-        ]  # of a displacement, over a length
-        self.films = films_of(balls)
-        self.longest = FAR * (balls.grooves.inner + balls.grooves.outer)
-        n = self.size
-        self._whole = np.zeros(FREEDOMS), np.zeros((FREEDOMS, FREEDOMS)), np.zeros((FREEDOMS, FREEDOMS))
-        self.load, self.stiffness = self._whole[0][:n], self._whole[1][:n, :n]
-        self._still, self._pressed_at = np.zeros(n), np.full(n, np.nan)
+        # of a displacement, over a length
+        self.unit = np.array([1.0, 1.0, 1.0, 1.0 / radius, 1.0 / radius])[:free]
+        self.longest = FOLLOWED * (balls.grooves.inner + balls.grooves.outer)
+        self.load, self.stiffness = np.zeros(n), np.zeros((n, n))
+        self._place, self._still, self._damping = np.zeros(n), np.zeros(n), np.zeros((n, n))
+        self._pressed_at: bytes | None = None
+        self._core = core = CoreBearing(balls, FIVE[:n])
+        self._state, self._work = core.start(), core.work()
+        self._steps = core.ball_steps(self._work)
+        state, work = pointer(self._state), pointer(self._work)
+        self._begin = core.address, state, work, c_double(0.0), c_double(balls.omega)
+        self._press = core.address, state, work, pointer(self._place), pointer(self._still), pointer(self.load)
+        self._slopes = core.address, work, pointer(self.stiffness), pointer(self._damping)
         self.angle = angle
 
     @property
     def angle(self) -> float:
         """Of the first ball [rad]."""
-        return float(self.films.cage[0])
+        return float(self._core.head(self._state)["angle"][0])
 
     @angle.setter
     def angle(self, angle: float) -> None:
         """Turn the cage."""
-        begin_rest(self.balls, self.balls.omega, angle, self.films)
+        places, heights = self.places.copy(), self.heights.copy()
+        self._core.head(self._state)["angle"] = angle
+        self._core.library.bearing_begin(*self._begin)
+        self.places, self.heights[:] = places, heights
+
+    @property
+    def places(self) -> _Floats:
+        """Of all balls, from the outer groove centre, outward and along the shaft, shape (balls, 2) [m].
+
+        They are where each ball was pressed last, and where it is looked for; 0 for balls that have no place.
+        """
+        return self._steps["start"]
+
+    @places.setter
+    def places(self, places: _Floats | float) -> None:
+        """Look for balls there, wherever the ring is pressed next."""
+        self._steps["start"], self._steps["follow"] = places, 0.0
         self.changed()
 
     @property
     def heights(self) -> _Floats:
         """Of features at both contacts of every ball, shape (balls, 2) [m]; may be written."""
-        return self.films.heights[:, HEIGHT].reshape(-1, 2)
+        return self._steps["height"]
 
-    def with_inertia(self, whole: Balls, centrifugal: float, gyroscopic: float) -> None:
-        """Balls with a share of the centrifugal forces and of the gyroscopic moments of `whole`.
+    def with_inertia(self, centrifugal: float, gyroscopic: float) -> None:
+        """Give balls a share of their centrifugal forces and of their gyroscopic moments.
 
         Without any gyroscopic moment they run under outer race control.
         """
-        g = whole.grooves
-        control = g.control if gyroscopic > 0.0 else CONTROLS.index("outer")
-        part = g._replace(mass=centrifugal * g.mass, control=control, gyroscopic=gyroscopic * g.gyroscopic)
-        self.balls = whole if centrifugal == gyroscopic == 1.0 else whole._replace(grooves=part)
+        g, own = self.balls.grooves, self._core.structure
+        own.control = g.control if gyroscopic > 0.0 else CONTROLS.index("outer")
+        own.grooves.mass, own.grooves.gyroscopic = centrifugal * g.mass, gyroscopic * g.gyroscopic
         self.changed()
 
     def changed(self) -> None:
         """Balls or heights are no longer those with which it was pressed last."""
-        self._pressed_at[:] = np.nan
+        self._pressed_at = None
 
     def carried(self) -> float:
         """Forces of the ring on all balls where it was pressed last, added without their directions [N]."""
-        return float(self.films.force[:, 0].sum())
+        return float(self._steps["force"][:, 0].sum())
 
     def displacement(self, q: _Floats) -> _Floats:
         """Displacement, shape (n,) [m], [rad], from a scaled one of the directions that move."""
@@ -120,12 +129,12 @@ class StaticRing:
 
     def force(self, q: _Floats) -> _Floats:
         """Scaled forces of the ring on the balls, shape (free,) [N]."""
-        self._press(q)
+        self.press(self.displacement(q))
         return self.load[: self.free] * self.unit
 
     def tangent(self, q: _Floats) -> _Floats:
         """Their derivative, shape (free, free) [N/m]."""
-        self._press(q)
+        self.press(self.displacement(q))
         return self.stiffness[: self.free, : self.free] * np.outer(self.unit, self.unit)
 
     def press(self, displacement: _Floats) -> None:
@@ -136,24 +145,23 @@ class StaticRing:
         ConvergenceError
             A ball finds no balance.
         """
-        self._pressed_at[:] = displacement
-        press_balls(self.balls, self.films, self._pressed_at, self._still, 0.0, self._whole)
-        if not np.isfinite(self.load[0]):
-            ball = int(np.flatnonzero(~np.isfinite(self.films.place[:, 0]))[-1])
-            where = f"the ring at {displacement.tolist()} (m, rad)"
-            raise ConvergenceError(f"ball {ball} finds no balance with {where}", displacement)
+        place, library = displacement.tobytes(), self._core.library
+        if place == self._pressed_at:
+            return
+        self._pressed_at, self._place[:] = None, displacement
+        why = reason(library.bearing_press(*self._press))
+        if why is not None:
+            lost = np.flatnonzero(self.places[:, 0] == 0.0).tolist()
+            what = f"ball {lost[0]} finds no balance" if lost else why
+            raise ConvergenceError(f"{what} with the ring at {displacement.tolist()} (m, rad)", displacement)
+        library.bearing_slopes(*self._slopes)
+        self._pressed_at = place
 
-    def _press(self, q: _Floats) -> None:
-        """Press it at a scaled displacement, unless it was there last."""
-        displacement = self.displacement(q)
-        if not np.array_equal(displacement, self._pressed_at):
-            self.press(displacement)
-
-    def describe(self) -> tuple[_Floats, _Floats]:
-        """Quantities of all balls where they were pressed last: `found` and `geometric` of `RingEquilibrium`."""
-        found, geometric = np.zeros((self.balls.number, ENTRIES)), np.zeros((self.balls.number, 5, 4))
-        describe_balls(self.balls, self.films, found, geometric)
-        return found, geometric
+    def describe(self) -> tuple[_Record, _Floats]:
+        """All balls where they were pressed last: `balls` and `geometric` of `RingEquilibrium`."""
+        balls, geometric = np.zeros(self.balls.number, AT_REST), np.zeros((self.balls.number, 5, 4))
+        self._core.library.bearing_describe(*self._begin[:3], pointer(balls), pointer(geometric))
+        return balls, geometric
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,45 +171,45 @@ class RingEquilibrium:
     displacement: _Floats  # (n,) [m], [rad]
     load: _Floats  # (n,) [N], [N m], reactions of what is held included
     stiffness: _Floats  # (n, n)
-    found: _Floats  # (balls, ENTRIES), see `ball_steps`
-    geometric: _Floats  # (balls, 5, 4)
-    maps: _Floats  # (balls, 3, n) of `ring_map`
+    balls: _Record  # (balls,) of `AT_REST`
+    geometric: _Floats  # (balls, 5, 4) derivatives of `LinearBalls`
+    maps: _Floats  # (balls, 3, n) of `ring_maps`
 
     @property
     def angles(self) -> _Floats:
         """Contact angles, shape (balls, 2) [rad]: columns for inner and outer race, as of all following."""
-        return self.found[:, ANGLE : ANGLE + 2]
+        return self.balls["angle"]
 
     @property
     def force(self) -> _Floats:
         """Contact forces [N]."""
-        return self.found[:, LOAD : LOAD + 2]
+        return self.balls["load"]
 
     @property
     def approach(self) -> _Floats:
         """Mutual approaches [m]."""
-        return self.found[:, CLOSER : CLOSER + 2]
+        return self.balls["approach"]
 
     @property
     def speed_sum(self) -> _Floats:
         """Sum of both surface speeds over the speed of the shaft [m]."""
-        return self.found[:, SPEED_SUM : SPEED_SUM + 2]
+        return self.balls["speed_sum"]
 
     @property
     def orbit(self) -> _Floats:
         """Speed of every ball about the shaft, over that of the shaft, shape (balls,)."""
-        return self.found[:, ORBIT]
+        return self.balls["orbit"]
 
     @property
     def ball_rotation(self) -> _Floats:
         """Speed of every ball about its own axis, seen from the cage, over that of the shaft, shape (balls,)."""
-        return self.found[:, OWN_ROTATION]
+        return self.balls["rotation"]
 
     @property
     def spin_to_roll(self) -> _Floats:
         """Relative angular speed of both surfaces about their normal over that of rolling, with its sign."""
         inner, outer = self.angles.T
-        axis, rotation, orbit = self.found[:, AXIS_ANGLE], self.ball_rotation, self.orbit
+        axis, rotation, orbit = self.balls["axis"], self.ball_rotation, self.orbit
         by_i = (1.0 - orbit) * np.sin(inner) + rotation * np.sin(inner - axis)
         roll_i = (1.0 - orbit) * np.cos(inner) + rotation * np.cos(axis - inner)
         by_o = rotation * np.sin(outer - axis) - orbit * np.sin(outer)
@@ -235,18 +243,28 @@ def ring_equilibrium(ring: StaticRing, load: _Floats, first: _Floats | None = No
 def equilibrium_at(ring: StaticRing, displacement: _Floats) -> RingEquilibrium:
     """Balls in equilibrium with the ring held at a displacement, shape (n,) [m], [rad]."""
     ring.press(displacement)
-    balls, (found, geometric) = ring.balls, ring.describe()
-    maps = np.zeros((balls.number, 3, FREEDOMS))
-    for k in range(balls.number):
-        ring_map(balls.grooves, ring.angle + 2.0 * pi * k / balls.number, maps[k])
+    balls, geometric = ring.describe()
     return RingEquilibrium(
         displacement=displacement,
         load=ring.load.copy(),
         stiffness=ring.stiffness.copy(),
-        found=found,
+        balls=balls,
         geometric=geometric,
-        maps=maps[..., : ring.size],
+        maps=ring_maps(ring.balls.grooves, ring.angle, ring.balls.number)[..., : ring.size],
     )
+
+
+def ring_maps(grooves: Grooves, angle: float, balls: int) -> _Floats:
+    """Rows by which the ring's displacement moves c_r and c_z, and its tilt follows a moment: (balls, 3, 5).
+
+    The first ball is at an `angle` [rad]; c is the inner groove centre at a ball.
+    """
+    psi = angle + 2.0 * pi * np.arange(balls) / balls
+    cosine, sine, maps = np.cos(psi), np.sin(psi), np.zeros((balls, 3, len(FIVE)))
+    maps[:, 0, 0], maps[:, 0, 1], maps[:, 1, 2] = cosine, sine, 1.0
+    maps[:, 1, 3], maps[:, 1, 4] = grooves.groove_circle * sine, -grooves.groove_circle * cosine
+    maps[:, 2, 3], maps[:, 2, 4] = -sine, cosine
+    return maps
 
 
 def require_seated(stiffness: _Floats, load: _Floats, names: Sequence[str]) -> None:
@@ -327,21 +345,20 @@ def grow_gyroscopic(
     share : float
         Of the gyroscopic moments that it is for: 1 where the search succeeded.
     """
-    wholes = [ring.balls for ring in rings]
     planar = all(ring.size == len(PLANAR) for ring in rings)  # contact angles of 0: no gyroscopic moment
-    if planar or all(whole.omega == 0.0 for whole in wholes):
+    if planar or all(ring.balls.omega == 0.0 for ring in rings):
         return solve(None), 1.0
 
     def share(centrifugal: float, gyroscopic: float) -> None:
-        for ring, whole in zip(rings, wholes, strict=True):
-            ring.with_inertia(whole, centrifugal, gyroscopic)
+        for ring in rings:
+            ring.with_inertia(centrifugal, gyroscopic)
 
     share(1.0, 0.0)
     try:
         place = solve(None)
     except ConvergenceError:  # centrifugal forces bend the potential: from light balls to those that there are
         for ring in rings:
-            ring.films.place[:] = np.nan
+            ring.places = 0.0
         share(SMALLEST_SHARE, 0.0)
         place, found = _grow(rings, solve, lambda of: share(of, 0.0), solve(None), SMALLEST_SHARE)
         if found < 1.0:
@@ -361,13 +378,13 @@ def _grow(
     while done < 1.0:
         tried = min(done + step, 1.0)
         set_share(tried)
-        kept = [ring.films.place.copy() for ring in rings]
+        kept = [ring.places.copy() for ring in rings]
         try:
             place = solve(place)
         except ConvergenceError:
             step *= 0.5
             for ring, places in zip(rings, kept, strict=True):
-                ring.films.place[:], ring.films.follow[:] = places, 0.0
+                ring.places = places
             if step < SMALLEST_SHARE:
                 return place, done
         else:
@@ -375,16 +392,16 @@ def _grow(
     return place, 1.0
 
 
-def require_in_groove(found: _Floats, load: _Floats, one_way: bool) -> None:
+def require_in_groove(balls: _Record, load: _Floats, one_way: bool) -> None:
     """Raise `InputError` where a ball that both rings press leaves its groove.
 
-    `found` has shape (balls, ENTRIES), see `ball_steps`; with `one_way` balls carry at positive contact angles
-    only, as of an angular contact bearing.
+    `balls` are those of a `RingEquilibrium`; with `one_way` they carry at positive contact angles only, as of an
+    angular contact bearing.
     """
-    inner, outer = found[:, CLOSER], found[:, CLOSER + 1]
-    pressed = (inner + outer > 0.0) & (found[:, LOAD] > CARRIES * found[:, LOAD].max())
+    force = balls["load"][:, 0]
+    pressed = (balls["approach"].sum(axis=1) > 0.0) & (force > CARRIES * force.max())
     for k in np.flatnonzero(pressed).tolist():
-        angle = found[k, ANGLE : ANGLE + 2]
+        angle = balls["angle"][k]
         if np.abs(angle).max() > STEEPEST:
             steep = f"{degrees(np.abs(angle).max()):.3g} degrees at ball {k}"
             allowed = f"one whose contact angles stay below {degrees(STEEPEST):.3g} degrees (here {steep})"

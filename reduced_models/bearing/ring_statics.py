@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.ball_steps import ANGLE, LOAD
 from reduced_models.bearing.equilibrium import angle_of, direction_of
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import FIVE, PLANAR, bearing_load
@@ -82,7 +81,7 @@ def equilibrium_under(
     if turned is not None:
         first = at.displacement
         at = settle(bearing, ring.heights, (angle, turned), lambda: ring_equilibrium(ring, load, first))
-    require_in_grooves(bearing, at.found, load, speed)
+    require_in_grooves(bearing, at.balls, load, speed)
     return at
 
 
@@ -116,11 +115,11 @@ def state_of(bearing: BallBearing, at: RingEquilibrium, speed: float, angle: flo
     )
 
 
-def require_in_grooves(bearing: BallBearing, found: _Floats, load: _Floats, speed: float) -> None:
-    """Raise `InputError` for balls (balls, ENTRIES) of `ball_steps` beyond what grooves and races bear."""
-    require_in_groove(found, load, bearing.contact_angle is not None)
-    force = found[:, LOAD : LOAD + 2]
-    require_below_shoulders(bearing, found[:, ANGLE : ANGLE + 2], force, load)
+def require_in_grooves(bearing: BallBearing, balls: NDArray[np.void], load: _Floats, speed: float) -> None:
+    """Raise `InputError` for balls of a `RingEquilibrium` beyond what grooves and races bear."""
+    require_in_groove(balls, load, bearing.contact_angle is not None)
+    force = balls["load"]
+    require_below_shoulders(bearing, balls["angle"], force, load)
     field: tuple[str, Any] = "load", load.tolist()
     if not load.any() and bearing.clearance < 0.0:
         field = "clearance", bearing.clearance

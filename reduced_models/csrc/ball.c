@@ -97,20 +97,23 @@ static void settle_ball(const Search *s, const double b[2], const Pressed *p, co
 
 int balance_ball(const Search *s, const double start[2])
 {
-    static const double none[2] = {0.0}, none_by_place[5][4] = {{0.0}};
+    static const double none[2] = {0.0};
     const StepHead *step = s->step;
     const double *free = s->bearing->grooves.free_length, close = shared_by_forces(s->bearing) ? nearly_shared : nearly;
     const double most = longest * (free[INNER_RACE] + free[OUTER_RACE]), least = at_rest(s) ? 0.0 : 1.0;
-    const int most_steps = at_rest(s) ? MOST_AT_REST : MOST_BALL_STEPS, films = at_rest(s) && s->contact[INNER_RACE].film != NULL;
+    const int most_steps = at_rest(s) ? MOST_AT_REST : MOST_BALL_STEPS, films = s->contact[INNER_RACE].film != NULL;
+    const int renews = at_rest(s) && (films || (is_angular(s->bearing) && step->omega > 0.0));
     double reach = first_step, previous = HUGE_VAL, b[2] = {start[0], start[1]}, last[2] = {start[0], start[1]}, renewed[5][4];
+    BallStep *ball = s->ball;
     int i, j;
     for (i = 0; i < most_steps; i++) {
-        const double (*inertia)[4] = at_rest(s) ? none_by_place : s->inertia;
-        double size, move[2];
+        const double (*inertia)[4] = at_rest(s) ? (const double (*)[4])ball->inertia : s->inertia;
+        const int old = i % STALE == STALE - 1;
+        double size, allowed, move[2];
         Pressed p;
         Tangents t;
         if (i >= STALE - 1 && step->omega > 0.0 && !at_rest(s)) { /* a long search */
-            if (i % STALE == STALE - 1) {
+            if (old) {
                 renew_slopes(s, b, none, none, renewed);
             }
             inertia = (const double (*)[4])renewed;
@@ -132,10 +135,10 @@ int balance_ball(const Search *s, const double start[2])
             previous = HUGE_VAL;
             continue;
         }
-        if (films || (at_rest(s) && is_angular(s->bearing) && step->omega > 0.0)) { /* exact, of films too */
+        allowed = close * (least + p.inner.force + p.outer.force) + rounding * p.at.l[OUTER_RACE] * stiffness_of(s, &p);
+        if (renews && (old || size <= allowed)) { /* exact in the end, of films too */
             const double by_film[2] = {p.inner.by_film, p.outer.by_film};
-            renew_slopes(s, b, none, by_film, renewed);
-            inertia = (const double (*)[4])renewed;
+            renew_slopes(s, b, none, by_film, ball->inertia);
         }
         tangents(s, &p, inertia, &t);
         if (t.stiff <= 0.0 || fabs(t.det) <= singular * t.stiff * t.stiff) { /* nothing touches it */
@@ -146,7 +149,7 @@ int balance_ball(const Search *s, const double start[2])
             previous = HUGE_VAL;
             continue;
         }
-        if (size <= close * (least + p.inner.force + p.outer.force) + rounding * p.at.l[OUTER_RACE] * t.stiff) {
+        if (size <= allowed) {
             settle_ball(s, b, &p, &t, inertia);
             return 1;
         }

@@ -22,9 +22,9 @@ typedef struct {
 
 /* A ball in a step: direction to it, what its rates follow from, where it is looked for (0: it has not been placed). Then what it was balanced with last: c and d, its place, forces of its contacts, force of the
  * ring on it (r, z) and its moment, and their slopes by c and d, the ball following. At rest it is looked for where it was balanced
- * last, moved on with the groove centre, which was at `tried`, by its slopes `follow`. */
+ * last, moved on with the groove centre, which was at `tried`, by its slopes `follow`, and `inertia` has those of `renew_slopes`. */
 typedef struct {
-    double x, y, history[2], rate_history[2], start[2], tried[2], follow[2][2];
+    double x, y, history[2], rate_history[2], start[2], tried[2], follow[2][2], inertia[5][4];
     double c[2], d[2], place[2], force[2], film[2], ring[3], slopes[3][4];
     double transit[2], height[2], height_rate[2]; /* [race] of features */
     Thickness thickness[2];
@@ -185,6 +185,11 @@ typedef struct {
     double a[2], h[2], m[2], turn_rr, turn_rz, turn_zz, rr, rz, zr, zz, det, stiff;
 } Tangents;
 
+static inline double stiffness_of(const Search *s, const Pressed *p)
+{
+    return p->inner.stiffness + p->outer.stiffness + s->step->gain * (p->inner.damping + p->outer.damping) + s->heavy;
+}
+
 IN_PLACE void tangents(const Search *s, const Pressed *p, const double inertia[5][4], Tangents *t)
 {
     const double gain = s->step->gain, k_i = p->inner.stiffness, k_o = p->outer.stiffness, d_i = p->inner.damping, d_o = p->outer.damping;
@@ -205,7 +210,7 @@ IN_PLACE void tangents(const Search *s, const Pressed *p, const double inertia[5
     t->zr = -i_z * t->h[0] - t->turn_rz - o_z * t->m[0] + s_o * o_r * o_z + inertia[1][0];
     t->zz = -i_z * t->h[1] - t->turn_zz - o_z * t->m[1] - s_o * o_r * o_r + inertia[1][1] - s->heavy;
     t->det = t->rr * t->zz - t->rz * t->zr;
-    t->stiff = k_i + k_o + gain * (d_i + d_o) + s->heavy;
+    t->stiff = stiffness_of(s, p);
 }
 
 #endif

@@ -97,7 +97,7 @@ static int seek_place(const Search *s, double b[2])
     double reach = first_step;
     int i, j;
     for (i = 0; i < MOST_SEARCHED; i++) {
-        double size, stiff, by_film[2], slopes[5][4], d[2], cut;
+        double size, stiff, by_film[2], d[2], cut;
         Pressed p;
         Tangents t;
         press(s, b, &p);
@@ -112,8 +112,8 @@ static int seek_place(const Search *s, double b[2])
         }
         by_film[INNER_RACE] = p.inner.by_film;
         by_film[OUTER_RACE] = p.outer.by_film;
-        renew_slopes(s, b, none, by_film, slopes);
-        tangents(s, &p, (const double (*)[4])slopes, &t);
+        renew_slopes(s, b, none, by_film, s->ball->inertia);
+        tangents(s, &p, (const double (*)[4])s->ball->inertia, &t);
         if (stiff <= 0.0 || !(fabs(t.det) > singular * stiff * stiff)) { /* nothing touches it */
             for (j = 0; j < 2; j++) {
                 b[j] += reach * p.sum[j] / size;
@@ -219,7 +219,10 @@ int place_ball(const Search *s)
         return 1;
     }
     first_place(s, b);
-    if ((!at_rest(s) || seek_place(s, b)) && balance_ball(s, b)) {
+    if (at_rest(s)) {
+        return seek_place(s, b) && balance_ball(s, b);
+    }
+    if (balance_ball(s, b)) {
         return 1;
     }
     search_place(s, b);

@@ -32,6 +32,7 @@ void bearing_sizes(size_t sizes[])
     sizes[7] = sizeof(BallSurface);
     sizes[8] = sizeof(StepHead);
     sizes[9] = sizeof(BallStep);
+    sizes[10] = sizeof(BallAtRest);
 }
 
 static StepFilters *filters_in(const Bearing *b, double work[], int k, int race)
@@ -143,6 +144,7 @@ void bearing_begin(const Bearing *b, const double state[], double work[], double
         ball->y = sin(psi);
         memset(ball->tried, 0, sizeof ball->tried);
         memset(ball->follow, 0, sizeof ball->follow);
+        memset(ball->inertia, 0, sizeof ball->inertia);
         for (j = 0; j < 2; j++) {
             ball->history[j] = d.now * last->place[0][j] - d.before * last->place[1][j];
             ball->rate_history[j] = d.now * last->rate[0][j] - d.before * last->rate[1][j];

@@ -101,7 +101,7 @@ size_t bearing_state_size(const Bearing *b); /* in doubles */
 size_t bearing_work_size(const Bearing *b);
 
 /* Bytes of a bearing, its grooves, a race and tables of heights; of the head of a state, a ball, a film without its chain and a
- * surface; of the head of a step and a ball in it: for those who have these structures in another language. */
+ * surface; of the head of a step and a ball in it; of a ball at rest: for those who have these structures in another language. */
 void bearing_sizes(size_t sizes[]);
 
 /* Where the films of a ball stand in a state, and rows [directions] of the seat: force of the ring on the balls with the losses of

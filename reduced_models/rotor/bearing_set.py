@@ -267,8 +267,8 @@ class BearingSet(Summary):
         static = StaticRotor(mounts, load, np.zeros((len(FIVE), len(FIVE))), 0.0, {TILT_X: 0.0, TILT_Y: 0.0})
         q, _ = static.search()
         try:
-            for bearing, balls in zip(dry, static.bearings(q), strict=True):
-                require_in_grooves(bearing, balls.found, load[: Z + 1], 0.0)
+            for bearing, at in zip(dry, static.bearings(q), strict=True):
+                require_in_grooves(bearing, at.balls, load[: Z + 1], 0.0)
         except InputError as error:
             raise InputError("preload", preload, error.allowed) from None
         return float(q[Z])
@@ -583,9 +583,9 @@ class BearingSet(Summary):
         unit = np.array([1.0, 1.0, 1.0, 1.0 / circle, 1.0 / circle, 1.0])[free]  # of lengths, over displacements
         require_seated(slopes[np.ix_(free, free)] * np.outer(unit, unit), load, [NAMES[k] for k in free])
         bearings = static.bearings(q)
-        for k, (bearing, balls) in enumerate(zip(self.bearings, bearings, strict=True)):
+        for k, (bearing, at) in enumerate(zip(self.bearings, bearings, strict=True)):
             try:
-                require_in_grooves(bearing, balls.found, load, speed)
+                require_in_grooves(bearing, at.balls, load, speed)
             except InputError as error:
                 raise InputError(error.field, error.value, f"{error.allowed}, in bearing {k}") from None
         self._require_loaded([support for _, support in static.mounted], load, speed)

@@ -23,7 +23,6 @@ from ehlcontact.checks import require_instance, require_integer, require_nonnega
 from ehlcontact.errors import InputError
 from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.ball_states import PER_METRE, across_damping, bearing_system
-from reduced_models.bearing.ball_steps import LOAD, ORBIT
 from reduced_models.bearing.continuous_time import RestingBalls, bearing_rates, rates_with_cage
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.linear_balls import LinearBalls
@@ -195,7 +194,7 @@ class _Ring:
         seat = np.tile(self.force / PER_METRE, self.shape.seat)
         self.rest = np.concatenate([np.zeros(self.shape.of_balls), seat, np.zeros(int(cage_turns))])
         self._resting = RestingBalls(
-            place=self._static.films.place.copy(),
+            place=self._static.places.copy(),
             moved=held.maps[:, :2] @ r,
             across=np.array([across_damping(linear, k) for k in range(self.balls.number)]),
             inertia=linear.inertia,
@@ -224,9 +223,9 @@ class _Ring:
             self._static.angle = angle
             self._static.press(r)
             self._pressed[:] = self._static.load
-            found = self._static.describe()[0]
-            loads = found[:, LOAD] if found[:, LOAD].any() else None
-            turning = self.balls.omega * float(np.average(found[:, ORBIT], weights=loads))
+            balls = self._static.describe()[0]
+            loads = balls["load"][:, 0] if balls["load"].any() else None
+            turning = self.balls.omega * float(np.average(balls["orbit"], weights=loads))
         if self.shape.cage:
             rates[-1] = turning
 

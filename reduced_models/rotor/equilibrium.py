@@ -9,8 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models.bearing.ball import Balls
-from reduced_models.bearing.ball_steps import CLOSER
 from reduced_models.bearing.equilibrium import GUESS, OPEN
 from reduced_models.bearing.equilibrium import equilibrium as solve
 from reduced_models.bearing.freedoms import FIVE
@@ -32,10 +30,6 @@ _Floats = NDArray[np.float64]
 
 NOT_HELD = "one that presses balls in all directions: more preload, or a bearing of the other facing, holds it"
 HELD = 1e-12  # smallest stiffness of a rotor over its largest, beam included: below is rounding
-_NOTHING: tuple[Balls | None, _Floats] = (
-    None,
-    np.empty(0),
-)  # balls with their inertia, and motion of the ring
 
 
 class StaticSupport(Protocol):
@@ -73,16 +67,10 @@ class StaticBearing:
         bearing, self._name = mount.ball_bearing, name
         self.bearing, self._shift, self.speed = bearing, mount.shift, bearing.speed(speed_rpm)
         self.ring = static_ring(bearing, self.speed, mount.cage_angle, len(mount.directions))
-        self._pressed = _NOTHING
 
     def press(self, r: _Floats) -> None:
         """Balance all balls under this motion of the ring."""
-        balls, motion = self._pressed
-        if balls is self.ring.balls and np.array_equal(motion, r):
-            return
-        self._pressed = _NOTHING  # should a ball find no balance
         self.ring.press(r + self._shift)
-        self._pressed = self.ring.balls, r.copy()
 
     def force(self, r: _Floats) -> _Floats:
         """Forces and moments that the bearing carries, shape (n,) [N], [N m]."""
@@ -102,7 +90,7 @@ class StaticBearing:
     @property
     def closest(self) -> float:
         """Largest approach of a ball to the inner race where it was pressed last [m]."""
-        return float(self.ring.describe()[0][:, CLOSER].max())
+        return float(self.ring.describe()[0]["approach"][:, 0].max())
 
     def require_bearable(self, r: _Floats) -> None:
         """Raise `InputError` where a ball leaves its groove or carries more than the atlas has."""
