@@ -13,6 +13,7 @@ module            responsibility
 ``supply``        `OilLayer`: the oil that the surfaces carry to a contact
 ``asperities``    `Asperities`: rough surfaces that carry part of the load
 ``heat``          `Heat`: what the heating of a film needs of oil and surfaces
+``conditions``    `Conditions`: supply, heat, sliding and asperities as one; which of them go together
 ``traction``      `traction_curve`: traction over the slide-to-roll ratio
 ``side_flow``     `oil_passes`: films pass after pass of a track; closed form of thin layers
 ``shear_thinning`` `ShearThinning`: shear thinning of a film by sliding

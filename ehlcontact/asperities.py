@@ -15,7 +15,7 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import require_between, require_instance, require_positive
+from ehlcontact.checks import require_between, require_positive
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint, Point
@@ -162,8 +162,3 @@ def greenwood_tripp(ratio: ArrayLike, power: float = 2.5) -> Array:
     x = np.clip(np.asarray(ratio, dtype=float), PRESSED, NO_CONTACT)
     found = gamma(power + 1.0) / sqrt(2.0 * pi) * np.exp(-0.25 * x * x) * scipy.special.pbdv(-power - 1.0, x)[0]
     return np.where(x < NO_CONTACT, found, 0.0)
-
-
-def require_asperities(value: object) -> None:
-    """Raise `InputError` unless these are `Asperities`."""
-    require_instance("asperities", value, Asperities, "Asperities(rq, ...)")

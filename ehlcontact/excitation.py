@@ -103,7 +103,7 @@ def excitation(
     fine = grid_for_waves(moes, grid, 2.0 * pi / k.max())
     wider = wider_meshes(moes, Purpose.DAMPING, fine, solve=Solve.IMPEDANCE)
     meshes = (_resolving(mesh, k.max(), speed, scales) for mesh in wider)
-    steady = film_to_linearise(point, meshes, grid.deflection, None, threads)
+    steady = film_to_linearise(point, meshes, grid.deflection, threads)
     solved = held(steady, grid.deflection, threads)
     contact = LinearisedContact(solved)
     Z = contact.respond(moving, TOLERANCE)[0]

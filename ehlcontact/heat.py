@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import require_between, require_finite, require_instance
+from ehlcontact.checks import require_between, require_finite
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.oil import KELVIN, typical_temperature_slope
@@ -180,13 +180,3 @@ class Heat:
     def from_dict(cls, entries: Mapping[str, Any]) -> Heat:
         """Back from `to_dict`."""
         return cls(**entries)
-
-
-def heat_given(value: object) -> Heat | None:
-    """Heat that is asked for: True stands for ``Heat()``, None and False for none; else `InputError`."""
-    if value is None or value is False:
-        return None
-    found = Heat() if value is True else value
-    require_instance("thermal", found, Heat, "True or a Heat(slide_roll=..., ...)")
-    assert isinstance(found, Heat)
-    return found

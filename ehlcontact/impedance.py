@@ -26,8 +26,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks.frequency import by_name, dimensionless
 from ehlcontact.checks.machine import require_threads
+from ehlcontact.conditions import FLOODED, Conditions
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.heat import Heat, heat_given
+from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import ImpedanceResult, SteadyResult
@@ -111,8 +112,8 @@ def impedance(
     require_grid(grid)
     threads = require_threads("threads", threads)
     meshes = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
-    heat = heat_given(thermal)
-    steady = film_to_linearise(point, meshes, grid.deflection, supply, threads, heat)
+    conditions = Conditions.of(supply=supply, thermal=thermal).at(point)
+    steady = film_to_linearise(point, meshes, grid.deflection, threads, conditions)
     moving = np.maximum(w, NEAR_ZERO)
     solved = held(steady, grid.deflection, threads)
     contact = linearised(steady, solved)
@@ -120,8 +121,9 @@ def impedance(
     coarser = [other.respond(moving, TOLERANCE)[0] for other in coarser_contacts(steady, solved)]
     bars = response_error(moving, [Z, *coarser])
     # A front of full film is slow by itself
-    still = None if supply is None or heat is None else LinearisedContact(solved)
-    by_slow_oil = 0.0 if heat is None else slow_part(contact, moving, Z.imag / moving, still)
+    heated = conditions.heat is not None
+    still = LinearisedContact(solved) if heated and supply is not None else None
+    by_slow_oil = 0.0 if not heated else slow_part(contact, moving, Z.imag / moving, still)
     return ImpedanceResult(
         point=moes,
         scales=scales,
@@ -147,14 +149,13 @@ def film_to_linearise(
     point: Point,
     meshes: Iterable[Mesh],
     deflection: str,
-    supply: OilLayer | None,
     threads: int,
-    thermal: Heat | None = None,
+    conditions: Conditions = FLOODED,
 ) -> SteadyResult:
     """The film to linearise, on the first of the meshes whose region holds it."""
     for mesh in meshes:
         own = Grid(mesh.n, mesh.domain, deflection)
-        steady = solve_steady(point, grid=own, supply=supply, thermal=thermal, threads=threads, throw=False)
+        steady = solve_steady(point, grid=own, threads=threads, throw=False, **conditions.keywords)
         if steady.status not in (Status.OUT_OF_DOMAIN, Status.BEYOND_REGION):
             break
     if steady.status is Status.INTERRUPTED:

@@ -11,10 +11,10 @@ from math import log
 from typing import Any
 
 from ehlcontact.assumptions.film import LARGEST_SLIDE_ROLL
-from ehlcontact.checks import require_between, require_instance
+from ehlcontact.checks import require_between
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.traction_laws import Eyring, TractionLaw, require_law
-from ehlcontact.point import OperatingPoint, Point, Scales
+from ehlcontact.point import Scales
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,11 +58,3 @@ class ShearThinning:
     def from_dict(cls, entries: Mapping[str, Any]) -> ShearThinning:
         """Back from `to_dict`."""
         return cls(entries["slide_roll"], TractionLaw.from_dict(entries["law"]))
-
-
-def require_sliding(value: object, point: Point) -> None:
-    """Raise `InputError` unless this is a `ShearThinning`, at an operating point in SI."""
-    require_instance("sliding", value, ShearThinning, "a ShearThinning(slide_roll, law)")
-    if not isinstance(point, OperatingPoint):
-        allowed = "left out at a dimensionless point: stresses of an oil are in pascals"
-        raise InputError("sliding", type(value).__name__, allowed)

@@ -78,7 +78,7 @@ def speed_response(
     require_grid(grid)
     threads = require_threads("threads", threads)
     meshes = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
-    steady = film_to_linearise(point, meshes, grid.deflection, None, threads)
+    steady = film_to_linearise(point, meshes, grid.deflection, threads)
     solved = held(steady, grid.deflection, threads)
     moving = np.maximum(w, NEAR_ZERO)
     contact = LinearisedContact(solved)

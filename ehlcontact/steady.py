@@ -10,17 +10,18 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact.asperities import Asperities, AsperityNumbers, require_asperities
+from ehlcontact.asperities import Asperities, AsperityNumbers
 from ehlcontact.checks import require_choice, require_finite, require_instance, require_integer, require_positive
 from ehlcontact.checks.machine import require_threads
-from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.heat import Heat, heat_given
-from ehlcontact.point import MoesPoint, Point, Scales, require_solvable, scales_of
+from ehlcontact.conditions import FLOODED, Conditions
+from ehlcontact.errors import ConvergenceError
+from ehlcontact.heat import Heat
+from ehlcontact.point import Point, moes_point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
 from ehlcontact.results.asperity_contact import AsperityContact
 from ehlcontact.results.film_temperature import FilmTemperature
-from ehlcontact.shear_thinning import ShearThinning, require_sliding
+from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.attempts import METHODS, Method, attempts
 from ehlcontact.solver.balance import Balance
@@ -36,7 +37,7 @@ from ehlcontact.solver.mixed_film import MixedCycles
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
-from ehlcontact.supply import OilLayer, require_supply
+from ehlcontact.supply import OilLayer
 
 LARGEST_RESIDUAL = 0.1  # relative, of a converged film: what is solved is judged by the pressure
 COLD_PRESSURE, COLD_APPROACH = 1e-3, 1e-5  # of an isothermal film that is a start: its centre is within 1e-4
@@ -138,19 +139,7 @@ def solve_steady(
     require_instance("refine", refine, bool | np.bool_, "True or False")
     require_choice("method", method, tuple(METHODS))
     require_grid(grid)
-    heat = heat_given(thermal)
-    if heat is not None:
-        heat = heat.at(point)
-    if asperities is not None:
-        require_asperities(asperities)
-        if heat is not None:
-            raise InputError("asperities", "given", "left out with heat: that of asperity friction is not known")
-    if sliding is not None:
-        require_sliding(sliding, point)
-        others = {"supply": supply, "thermal": heat, "asperities": asperities}
-        for other in (name for name, value in others.items() if value is not None):
-            allowed = f"left out with {other}: it thins flooded, isothermal films of smooth surfaces"
-            raise InputError("sliding", "given", allowed)
+    conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding, asperities=asperities).at(point)
     threads = require_threads("threads", threads)
     if budget != inf:
         require_positive("budget", budget)
@@ -159,11 +148,8 @@ def solve_steady(
     else:
         balance = Balance.of_approach(require_finite("approach", approach))
         load = min(max(approach, 1.0), LARGEST_APPROACH) ** 1.5  # of a dry contact
-    moes, scales = require_solvable(point, load), scales_of(point)
-    require_supply(supply, moes, scales)
+    moes = require_solvable(point, load)
     cut_short = max_cycles < MAX_CYCLES  # the caller's own limit: nothing else is what was asked for
-    inputs: dict[str, Any] = {"supply": supply, "thermal": heat, "sliding": sliding, "scales": scales}
-    inputs["rough"] = None if asperities is None else (asperities, asperities.numbers(point))
     tried = []
     for attempt in attempts(
         moes,
@@ -175,7 +161,7 @@ def solve_steady(
         budget=budget if grid.n is None else inf,
     ):
         tried.append(attempt)
-        film = _Film(moes, attempt.mesh, attempt.method, grid.deflection, threads, **inputs)
+        film = _Film(point, attempt.mesh, attempt.method, grid.deflection, threads, conditions)
         attempt.status = film.run(balance=balance, tol=tol, most=max_cycles, watch=callback)
         attempt.error_estimate = film.error_estimate
         if attempt.is_better:
@@ -195,24 +181,21 @@ class _Film:
 
     def __init__(
         self,
-        point: MoesPoint,
+        point: Point,
         mesh: Mesh,
         method: Method,
         deflection: str,
         threads: int,
-        *,
-        supply: OilLayer | None = None,
-        thermal: Heat | None = None,
-        sliding: ShearThinning | None = None,
-        scales: Scales | None = None,
-        rough: tuple[Asperities, AsperityNumbers] | None = None,
+        conditions: Conditions = FLOODED,
     ) -> None:
-        self.rough = rough
-        self.mesh, self.method, self.supply, self.thermal, self.scales = mesh, method, supply, thermal, scales
-        self.sliding, self.thinned_share = sliding, nan
+        self.supply, self.thermal, self.sliding = conditions.supply, conditions.heat, conditions.sliding
+        given = conditions.asperities
+        self.rough = None if given is None else (given, given.numbers(point))
+        self.mesh, self.method, self.scales = mesh, method, scales_of(point)
+        self.thinned_share = nan
         self._make = partial(
             Multigrid,
-            point,
+            moes_point(point),
             mesh,
             deflection=deflection,
             sweep_factor=method.sweep_factor,
@@ -226,7 +209,8 @@ class _Film:
         self.temperature: FilmTemperature | None = None
         self.asperities: AsperityContact | None = None
         # whether the viscosity follows what the film does
-        self.follows = sliding is not None or (thermal is not None and thermal.temperature_slope != 0.0)
+        heat_changes_it = self.thermal is not None and self.thermal.temperature_slope != 0.0
+        self.follows = self.sliding is not None or heat_changes_it
 
     def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
         """Cycle, or take Newton steps, until the residuals say how it ended."""

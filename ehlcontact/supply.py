@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import nan
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_instance, require_nonnegative
+from ehlcontact.checks import as_column, require_nonnegative
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.jit import plain
@@ -127,13 +126,6 @@ class OilLayer:
     def from_dict(cls, entries: Mapping[str, Any]) -> OilLayer:
         """Back from `to_dict`."""
         return cls(**entries)
-
-
-def require_supply(supply: OilLayer | None, point: MoesPoint, scales: Scales | None) -> None:
-    """Raise `InputError` unless it is a layer that the point has a unit for, or None."""
-    if supply is not None:
-        require_instance("supply", supply, OilLayer, "an OilLayer(h, ...)")
-        supply.unit(point, scales, nan)
 
 
 def _thickness(name: str, value: Any) -> float | tuple[float, ...]:

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat, heat_given
+from ehlcontact.heat import Heat
 from ehlcontact.lubricant.traction_laws import Eyring, TractionLaw, require_law
 from ehlcontact.point import OperatingPoint
 from ehlcontact.results.traction import Traction, slide_rolls
@@ -54,7 +55,7 @@ def traction_curve(
     if not isinstance(point, OperatingPoint):
         allowed = "an OperatingPoint: a traction law has stresses in Pa, and a dimensionless point has no units"
         raise InputError("point", type(point).__name__, allowed)
-    given = heat_given(thermal)
+    given = Conditions.of(thermal=thermal).heat
     if given is None:
         return solve_steady(point, **options).traction(ratios, law)
     if not isinstance(law, Eyring):

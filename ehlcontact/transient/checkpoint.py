@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact.conditions import KEYWORDS
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
 from ehlcontact.results.film_temperature import FilmTemperature
@@ -36,7 +37,7 @@ from ehlcontact.version import __version__
 SAME = 1e-12  # of a time or a step: they differ by rounding only
 
 
-@stored("checkpoint of `simulate`")
+@stored("checkpoint of `simulate`", 2)
 @dataclass(frozen=True, slots=True, eq=False)
 class Checkpoint:
     """Content of the file: the run up to its last accepted state, and that state."""
@@ -91,8 +92,10 @@ class Checkpoint:
 
         same("version", self.version, __version__)
         ours = self.inputs
-        for name in ("point", "deflection", "supply", "thermal"):
+        for name in ("point", "deflection"):
             same(name, getattr(ours, name), getattr(asked, name))
+        for name, keyword in KEYWORDS.items():
+            same(keyword, getattr(ours.conditions, name), getattr(asked.conditions, name))
         for name in ("n", "domain"):
             same(name, getattr(ours.mesh, name), getattr(asked.mesh, name))
         for name in ("local_error", "tol"):
@@ -122,12 +125,13 @@ class Checkpoint:
     def _fits(self, level: Level) -> bool:
         """Whether all arrays have the shapes of each other and of the grid, and the state is one of numbers."""
         record, film, nx, field = self.record, self.film, level.nx + 1, level.P.shape
+        conditions = self.inputs.conditions
         steps, kept = record.numbers.shape[0], record.snapshot_T.size
         shapes: list[tuple[np.ndarray, tuple[int, ...]]] = [
             (record.numbers, (steps, len(COLUMNS))),
             *((profile, (steps, nx)) for profile in (record.film, record.pressure)),
-            (record.leaving, (steps, level.ny + 1 if self.inputs.supply is not None else 0)),
-            (record.heat, (steps, 3 if self.inputs.thermal is not None else 0)),
+            (record.leaving, (steps, level.ny + 1 if conditions.supply is not None else 0)),
+            (record.heat, (steps, 3 if conditions.heat is not None else 0)),
             *((array, shape) for array, shape in _of_heat(film.heat, field)),
             *((snapshots, (kept, nx, level.ny + 1)) for snapshots in (record.snapshot_H, record.snapshot_P)),
             *((array, field) for array in (film.P, film.mass, film.mass_before, *(P for _, P in film.past))),
@@ -137,7 +141,7 @@ class Checkpoint:
             unknowns = film.factors.free.size + 1
             sound &= film.factors.lu[0].shape == (unknowns, unknowns)
             sound &= film.factors.lu[1].shape == (unknowns,)
-        sound &= (film.heat is None) == (self.inputs.thermal is None)
+        sound &= (film.heat is None) == (conditions.heat is None)
         controlled = (self.control is not None) == (self.inputs.steps.local_error is not None)
         return sound and controlled and all(isfinite(x) for x in (self.scale, self.static_approach, film.u))
 

@@ -13,13 +13,11 @@ from typing import Self
 
 from ehlcontact.checks import require_instance, require_nonnegative, require_positive
 from ehlcontact.checks.machine import require_threads
+from ehlcontact.conditions import FLOODED, Conditions
 from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat, heat_given
-from ehlcontact.point import MoesPoint, Point, scales_of
+from ehlcontact.point import MoesPoint
 from ehlcontact.solver.mesh import Mesh
-from ehlcontact.supply import OilLayer, require_supply
 from ehlcontact.transient.bodies import Motion
-from ehlcontact.transient.features import Surface, require_surface
 from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.transient.time_step import default_tol
 
@@ -224,8 +222,7 @@ class RunInputs:
     snapshots: tuple[float, ...]  # times whose whole fields are kept
     deflection: str  # engine
     speed: SpeedHistory | None = None
-    supply: OilLayer | None = None  # None of a flooded inlet
-    thermal: Heat | None = None  # None at the temperature of the inlet
+    conditions: Conditions = FLOODED
 
 
 def even_step(until: float, dT: float) -> float:
@@ -254,24 +251,3 @@ def _period(motion: Motion, name: str, value: float) -> float:
     if period is None:
         raise InputError(name, value, f"left out: a {type(motion).__name__} has no period")
     return period
-
-
-def require_conditions(
-    point: Point, moes: MoesPoint, supply: OilLayer | None, thermal: Heat | bool | None, surface: Surface | None
-) -> Heat | None:
-    """Check what a film over time is given, and that it goes together; returns heat with the data of the oil.
-
-    `moes` is the dimensionless point.
-
-    Raises
-    ------
-    InputError
-        One of them is not what it should be, or the point has no data for it. A supply with a surface: no flow is
-        known in a partly filled gap over a feature.
-    """
-    require_supply(supply, moes, scales_of(point))
-    require_surface(surface)
-    if supply is not None and surface is not None:
-        raise InputError("surface", type(surface).__name__, "left out with a supply")
-    heat = heat_given(thermal)
-    return None if heat is None else heat.at(point)

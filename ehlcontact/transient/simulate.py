@@ -13,6 +13,7 @@ import numpy as np
 
 from ehlcontact.checks import require_instance
 from ehlcontact.checks.machine import require_threads
+from ehlcontact.conditions import Conditions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.heat import Heat
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
@@ -25,7 +26,7 @@ from ehlcontact.store import read
 from ehlcontact.supply import OilLayer
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
-from ehlcontact.transient.features import Dent, Surface, surface_height
+from ehlcontact.transient.features import Dent, Surface, require_surface, surface_height
 from ehlcontact.transient.prescribed import passed_over_note
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
@@ -37,7 +38,6 @@ from ehlcontact.transient.settings import (
     RunSettings,
     StepPlan,
     TimeSteps,
-    require_conditions,
     require_groups,
     snapshot_times,
 )
@@ -117,7 +117,8 @@ def simulate(
     moes = require_solvable(point, motion.largest_load)
     require_grid(grid)
     require_groups(time, keep, run)
-    heat = require_conditions(point, moes, supply, thermal, surface)
+    conditions = Conditions.of(supply=supply, thermal=thermal).at(point)
+    require_surface(surface, conditions)
     require_speed(speed, grid)
     reverses = speed is not None and speed.reverses
     wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load, reverses=reverses)
@@ -130,14 +131,14 @@ def simulate(
     steps = StepPlan.of(motion, time, unit, default_fixed_step(motion, surface, spacing, speed))
     _warn_of_steps(motion, speed, steps, scales)
     inputs = RunInputs(
-        moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed, supply, heat
+        moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed, conditions
     )
     if keep.checkpoint is not None:
         require_replaceable(keep.checkpoint, keep.restart)
     threads = require_threads("threads", run.threads)
 
     def film_on(mesh: Mesh) -> TransientFilm:
-        film = TransientFilm.under(supply, moes, scales, mesh, steps.tol, grid.deflection, threads, heat)
+        film = TransientFilm.under(conditions, moes, scales, mesh, steps.tol, grid.deflection, threads)
         if isinstance(surface, Roughness):
             way = steps.until if speed is None else speed.farthest(steps.until)
             surface.require_fit(film.level.X, film.level.Y, way)
@@ -232,7 +233,7 @@ def _first_inside(
 def _result(
     run: Run, inputs: RunInputs, scales: Scales | None, status: Status, seconds: float
 ) -> SimulationResult:
-    level, record = run.film.level, run.history.record(run.film.level)
+    level, record, supply = run.film.level, run.history.record(run.film.level), inputs.conditions.supply
     numbers: dict[str, Any] = record.columns()
     if numbers["T"].size > 2:
         columns = (numbers[name] for name in ("T", "approach", "rate", "acceleration"))
@@ -257,9 +258,9 @@ def _result(
         tol=inputs.steps.tol,
         film_error=run.film_error,
         seconds=seconds,
-        supply=inputs.supply,
-        layer=None if inputs.supply is None else level.inflow.copy(),
-        layer_behind=None if inputs.supply is None else record.leaving,
+        supply=supply,
+        layer=None if supply is None else level.inflow.copy(),
+        layer_behind=None if supply is None else record.leaving,
         temperature=run.film.temperature,
         **_heat(run.history, inputs),
     )
@@ -267,7 +268,7 @@ def _result(
 
 def _heat(history: History, inputs: RunInputs) -> dict[str, Any]:
     """Temperatures of a run with heat, a number per step."""
-    if inputs.thermal is None:
+    if inputs.conditions.heat is None:
         return {}
     found = np.array([entry.heat for entry in history.entries])
     return {"warmest_oil": found[:, 0], "warmest_surface": found[:, 1], "heat_balance": found[:, 2]}

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from ehlcontact.checks import require_finite, require_positive
 from ehlcontact.checks.machine import require_threads
+from ehlcontact.conditions import Conditions
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
@@ -21,8 +22,7 @@ from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, contact_text
 from ehlcontact.supply import OilLayer
-from ehlcontact.transient.features import Surface, surface_height, surface_step
-from ehlcontact.transient.settings import require_conditions
+from ehlcontact.transient.features import Surface, require_surface, surface_height, surface_step
 from ehlcontact.transient.time_step import DEFAULT_TOL
 from ehlcontact.transient.transient_film import FilmState, Step, TransientFilm
 
@@ -104,13 +104,14 @@ class TransientContact(Summary):
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         require_grid(grid)
-        heat = require_conditions(point, self.point, supply, thermal, surface)
+        conditions = Conditions.of(supply=supply, thermal=thermal).at(point)
+        require_surface(surface, conditions)
         self._surface, self._T = surface, 0.0
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)
         left: Step | None = None
         for mesh in wider_meshes(self.point, Purpose.CONTACT, grid, largest_load=load):
-            given = (supply, self.point, self.scales, mesh, tol, grid.deflection, threads, heat)
+            given = (conditions, self.point, self.scales, mesh, tol, grid.deflection, threads)
             self._film = TransientFilm.under(*given)
             self.n, self.domain = mesh.n, mesh.domain
             level = self._film.level

@@ -15,6 +15,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from ehlcontact.conditions import Conditions
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.heat import Heat
 from ehlcontact.point import MoesPoint, Scales
@@ -29,7 +30,6 @@ from ehlcontact.solver.level import Array, Level
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid, Supply
 from ehlcontact.status import Status
-from ehlcontact.supply import OilLayer
 from ehlcontact.transient.carried_oil import CarriedOil
 from ehlcontact.transient.features import SurfaceStep
 from ehlcontact.transient.heat_over_time import HeatOverTime, HeatState
@@ -122,23 +122,23 @@ class TransientFilm:
     @classmethod
     def under(
         cls,
-        supply: OilLayer | None,
+        conditions: Conditions,
         point: MoesPoint,
         scales: Scales | None,
         mesh: Mesh,
         tol: float,
         deflection: str,
         threads: int,
-        thermal: Heat | None = None,
     ) -> TransientFilm:
-        """Film under an oil supply, or flooded for None, that heats up with the data of `thermal`.
+        """Film under conditions, with the data of the oil.
 
         Raises
         ------
         ConvergenceError
             The flooded film, which the supply is given over, was not solved.
         """
-        heat = None if thermal is None or scales is None else (thermal, scales)
+        supply = conditions.supply
+        heat = None if conditions.heat is None or scales is None else (conditions.heat, scales)
         if supply is None:
             return cls(point, mesh, tol, deflection, threads, heat=heat)
         flooded = nan

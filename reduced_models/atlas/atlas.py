@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.assumptions import assumptions
 from ehlcontact.checks import as_column, as_numbers, require_choice, require_positive
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
+from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
@@ -35,7 +36,7 @@ from reduced_models.atlas.atlas_elements import (
 from reduced_models.atlas.conditions import Condition, Rows, under
 from reduced_models.atlas.film import HEAD, LOW
 from reduced_models.atlas.frequency_curve import FrequencyCurve
-from reduced_models.atlas.heat import Heated, rolling_heat
+from reduced_models.atlas.heat import Heated
 from reduced_models.atlas.other_oil import OtherOil
 from reduced_models.atlas.supply import Supplied
 from reduced_models.atlas.surface import opened, shipped_file
@@ -122,7 +123,7 @@ class Atlas:
             A point outside the box, or an oil of other laws: it names the axis and the box. What a table of
             supply or heat does not have.
         """
-        return self._answer(point, conditions_at(point, supply, thermal))
+        return self._answer(point, conditions_at(point, Conditions.of(supply=supply, thermal=thermal)))
 
     def over(
         self,
@@ -154,7 +155,7 @@ class Atlas:
             A point outside the box, the first one by its own numbers; other shapes; another oil. A layer in metres
             or one that the table of supply does not have; heat.
         """
-        if rolling_heat(thermal) is not None:
+        if Conditions.of(thermal=thermal).heat is not None:
             raise InputError("thermal", thermal, "left out: `at` takes it at an OperatingPoint, in SI")
         meta = self._table.metadata
         oil = float(meta["alpha"]) if alpha is None else alpha, float(meta["eta0"]) if eta0 is None else eta0
@@ -217,7 +218,7 @@ class Atlas:
         require_choice("model", model, MODELS)
         moes, scales = self._inside(point), scales_of(point)
         w = self._frequency(model, scales, Omega=Omega, omega=omega, hz=hz, rpm=rpm)
-        conditions = conditions_at(point, supply, thermal)
+        conditions = conditions_at(point, Conditions.of(supply=supply, thermal=thermal))
         if w is not None:
             return self._cubic(point, w, conditions)
         if model == "memory":
@@ -254,7 +255,8 @@ class Atlas:
         column, moes = as_column("loads", loads, least=2, increasing=True), self._inside(point)
         require_positive("loads[0]", float(column[0]))
         self.box.require_all_inside(_rows(moes, column), moes.alpha)
-        element = self._remembering(point, column, conditions_at(point, supply, thermal))
+        conditions = conditions_at(point, Conditions.of(supply=supply, thermal=thermal))
+        element = self._remembering(point, column, conditions)
         assert isinstance(element, FilmContact)
         return element
 
@@ -289,7 +291,8 @@ class Atlas:
         """
         moes, scales = self._inside(point), scales_of(point)
         unit = 1.0 if scales is None else 2.0 * scales.a / scales.time
-        lowest, most = self._speeds(point, supply, thermal)
+        given = Conditions.of(supply=supply, thermal=thermal)
+        lowest, most = self._speeds(point, given)
         inside = max(1.0 / USUAL_SPEEDS, lowest * (1.0 + INSIDE)), min(USUAL_SPEEDS, most * (1.0 - INSIDE))
         between = f"{lowest * unit:.4g} to {most * unit:.4g}"
         allowed = f"from {between}, with the speed of the point, {unit:.4g}, between"
@@ -302,20 +305,20 @@ class Atlas:
         for U in places.tolist():
             at = replace(moes, M=moes.M * U**-0.75, L=moes.L * U**0.25)
             own = at if isinstance(point, MoesPoint) else replace(point, u_sum=point.u_sum * U)
-            row = self._remembering(at, self._loads(at), conditions_at(own, supply, thermal), one_region=True)
+            row = self._remembering(at, self._loads(at), conditions_at(own, given), one_region=True)
             assert isinstance(row, FilmContact)
             assert row.omega_range is not None
             rows.append(row)
             slowest = max(slowest, U * row.omega_range[0])
         return speed_element(places, rows, (slowest, float(self._table.metadata["highest_omega"])), scales)
 
-    def _speeds(self, point: Point, supply: OilLayer | None, thermal: Heat | bool | None) -> tuple[float, float]:
+    def _speeds(self, point: Point, given: Conditions) -> tuple[float, float]:
         """Lowest and highest speed, over that of the point, at which the atlas and its tables have its load."""
         moes = self._inside(point)
         lowest, most = sorted((M / moes.M) ** (-4.0 / 3.0) for M in self.box.M)
         if moes.L > 0.0:
             most = min(most, (self.box.L[1] / moes.L) ** 4)
-        for condition in conditions_at(point, supply, thermal):
+        for condition in conditions_at(point, given):
             slow, fast = condition.speeds
             lowest, most = max(lowest, slow), min(most, fast)
         return lowest, most
@@ -452,8 +455,8 @@ class Atlas:
         }
 
 
-def conditions_at(point: Point, supply: OilLayer | None, thermal: Heat | bool | None) -> list[Condition]:
-    """Conditions at a point in the order in which they are applied; True stands for ``Heat()``.
+def conditions_at(point: Point, given: Conditions) -> list[Condition]:
+    """Conditions of the tables at a point, in the order in which they are applied.
 
     A supply comes last: its table is read at the layer over the film that heat leaves.
 
@@ -463,10 +466,10 @@ def conditions_at(point: Point, supply: OilLayer | None, thermal: Heat | bool | 
         A supply or heat that its table does not have.
     """
     conditions: list[Condition] = []
-    if (heat := rolling_heat(thermal)) is not None:
-        conditions.append(Heated(point, heat))
-    if supply is not None:
-        conditions.append(Supplied(point, supply))
+    if given.heat is not None:
+        conditions.append(Heated(point, given.heat))
+    if given.supply is not None:
+        conditions.append(Supplied(point, given.supply))
     return conditions
 
 

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from ehlcontact import Domain, Geometry, Grid, Heat, Lubricant, OperatingPoint
 from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import load_number, wilson_heating
-from ehlcontact.heat import MINERAL_OIL, heat_given
+from ehlcontact.heat import MINERAL_OIL
 from ehlcontact.hertz import hertz_contact
 from ehlcontact.impedance import TOLERANCE
 from ehlcontact.point import Point
@@ -237,20 +237,6 @@ RECIPE = HeatRecipe()
 def _ends() -> _Floats:
     """Smallest and largest coordinates of the contacts of the table, shape (2, 5)."""
     return shipped("heat").table.ends
-
-
-def rolling_heat(thermal: object) -> Heat | None:
-    """Heat that is asked for, as by `heat_given`, of pure rolling.
-
-    Raises
-    ------
-    InputError
-        Neither, nor a `Heat` that the table has.
-    """
-    heat = heat_given(thermal)
-    if heat is not None:
-        require_rolling(heat)
-    return heat
 
 
 def largest_load() -> float:

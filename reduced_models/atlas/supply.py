@@ -35,7 +35,6 @@ from ehlcontact.impedance import NEAR_ZERO
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density
 from ehlcontact.point import Point, moes_point, scales_of
-from ehlcontact.supply import require_supply
 from reduced_models.atlas.conditions import Change, Condition, Rows
 from reduced_models.atlas.film import HEAD, LOW, OVERSHOOT, published_films
 from reduced_models.atlas.frequency_curve import over_frequency
@@ -323,7 +322,7 @@ class Supplied(Condition):
     def __init__(self, point: Point, supply: OilLayer) -> None:
         require_uniform(supply)
         self.moes, self.scales, self.supply = moes_point(point), scales_of(point), supply
-        require_supply(supply, self.moes, self.scales)
+        supply.unit(self.moes, self.scales, np.nan)  # which names metres that are missing
         box = supply_box()
         for name in ("L", "kappa"):
             low, high = getattr(box, name)

@@ -27,8 +27,7 @@ from ehlcontact.heat import Heat
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
 from ehlcontact.supply import OilLayer
-from reduced_models.atlas.heat import rolling_heat
-from reduced_models.bearing.bearing_conditions import condition_lines, require_oil, require_speed, require_supply
+from reduced_models.bearing.bearing_conditions import condition_lines, conditions_of, require_oil, require_speed
 from reduced_models.bearing.bearing_tables import BearingTables
 from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.clearance import clearance_of_class
@@ -198,10 +197,7 @@ class BallBearing(Summary):
     def __post_init__(self) -> None:
         require_integer("balls", self.balls, "a whole number >= 3", 3)
         require_oil(self.oil)
-        require_supply(self)
-        object.__setattr__(self, "thermal", rolling_heat(self.thermal))
-        if self.thermal is not None and self.oil is None:
-            raise InputError("thermal", "Heat", "left out of a dry bearing, which has no films")
+        object.__setattr__(self, "thermal", conditions_of(self).heat)
         for name, rq in (("rq_ball", self.rq_ball), ("rq_race", self.rq_race)):
             require_roughness(name, rq)
         if self.cutoff_gap is not None:

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 from ehlcontact import Lubricant
 from ehlcontact.checks import require_instance, require_nonnegative
 from ehlcontact.checks.admissible_range import INPUTS
+from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
+from reduced_models.atlas.heat import require_rolling
 from reduced_models.atlas.supply import require_uniform
 
 if TYPE_CHECKING:
@@ -20,15 +22,20 @@ def require_oil(oil: Any) -> None:
         require_instance("oil", oil, Lubricant, "a Lubricant, as Lubricant.iso_vg(68, temperature=50.0)")
 
 
-def require_supply(bearing: BallBearing) -> None:
-    """Raise `InputError` for an oil supply that the bearing does not take."""
-    if bearing.supply is None:
-        return
-    require_uniform(bearing.supply)
-    if bearing.oil is None:
-        raise InputError("supply", supply_words(bearing), "left out of a dry bearing, which has no oil")
-    if bearing.supply.H is not None:
-        raise InputError("supply", "H", "h [m] or over_flooded: dry approaches differ from ball to ball")
+def conditions_of(bearing: BallBearing) -> Conditions:
+    """Supply and heat of all films of a bearing; raises `InputError` for those that it does not take."""
+    conditions = Conditions.of(supply=bearing.supply, thermal=bearing.thermal)
+    if conditions.supply is not None:
+        require_uniform(conditions.supply)
+        if bearing.oil is None:
+            raise InputError("supply", supply_words(bearing), "left out of a dry bearing, which has no oil")
+        if conditions.supply.H is not None:
+            raise InputError("supply", "H", "h [m] or over_flooded: dry approaches differ from ball to ball")
+    if conditions.heat is not None:
+        require_rolling(conditions.heat)
+        if bearing.oil is None:
+            raise InputError("thermal", "Heat", "left out of a dry bearing, which has no films")
+    return conditions
 
 
 def require_speed(bearing: BallBearing, speed_rpm: float) -> float:

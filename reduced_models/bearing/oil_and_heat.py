@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact import Heat, OilLayer, OperatingPoint, impedance
+from ehlcontact.conditions import Conditions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.lubricant import TractionLaw
 from ehlcontact.status import Status
@@ -353,25 +354,25 @@ def oil_and_heat(
     most = _heaviest_of(states)
     hz = np.array([at_rest.speed_rpm * RPM_TO_HZ, HIGH, *np.ravel(band).tolist()])
     points = [_point(_bearings(bearing)[most], states[most], column) for column in range(len(RACES))]
-    if thermal is not None:
-        thermal.at(points[0])  # which names data that are missing
+    given = Conditions.of(supply=supply, thermal=thermal)
+    given.at(points[0])  # which names data that are missing
 
-    def tabulated(**given: Any) -> Condition:
-        variant = _with(bearing, **given)
+    def tabulated(**one: Any) -> Condition:
+        variant = _with(bearing, **one)
         found = _states(variant.equilibrium(load, **under))
         return _tabulated(_bearings(variant), found, most, variant.coefficients(load, hz=hz, **under), law)
 
     small, beyond = bearing.coefficients(load, hz=hz, **under), ""
     flooded = _tabulated(_bearings(bearing), states, most, small, law)
     try:
-        tables = _from_tables(flooded, tabulated, states[most].heaviest, supply, thermal)
+        tables = _from_tables(flooded, tabulated, states[most].heaviest, given)
         if not solve:
-            bars = _bars(_bearings(bearing)[most], states[most], hz, tables, supply, thermal)
+            bars = _bars(_bearings(bearing)[most], states[most], hz, tables, given)
             return OilAndHeat(at_rest=at_rest, hz=hz, conditions=tables, refused={}, solved=False, error_bars=bars)
-        tabled, _ = _ratios(points, partial(_tabled_contact, _bearings(bearing)[most].atlas, hz), supply, thermal)
+        tabled, _ = _ratios(points, partial(_tabled_contact, _bearings(bearing)[most].atlas, hz), given)
     except InputError as error:
         beyond = str(error)
-    solved, refused = _ratios(points, partial(_solved_contact, hz), supply, thermal, callback)
+    solved, refused = _ratios(points, partial(_solved_contact, hz), given, callback)
     times = partial(_times, _bearings(bearing), states, flooded, law)
     if beyond:
         made = {key: times(one) for key, one in solved.items()}
@@ -406,18 +407,17 @@ def _from_tables(
     flooded: Condition,
     tabulated: Callable[..., Condition],
     heaviest: int,
-    supply: OilLayer | None,
-    thermal: Heat | None,
+    given: Conditions,
 ) -> dict[str, Condition]:
     """The conditions that are asked for, each of the bearing as a whole."""
     made = {FLOODED: flooded}
-    if thermal is not None:
-        made[HEAT] = tabulated(thermal=thermal)
-    if supply is not None:
-        made[LAYER] = tabulated(supply=supply)
-    if supply is not None and thermal is not None:
+    if given.heat is not None:
+        made[HEAT] = tabulated(thermal=given.heat)
+    if given.supply is not None:
+        made[LAYER] = tabulated(supply=given.supply)
+    if given.supply is not None and given.heat is not None:
         share = float((made[HEAT].h_central / flooded.h_central)[heaviest].mean())
-        made[BOTH] = made[HEAT].times(tabulated(supply=_over(supply, share)), flooded)
+        made[BOTH] = made[HEAT].times(tabulated(supply=_over(given.supply, share)), flooded)
     return made
 
 
@@ -426,14 +426,14 @@ def _bars(
     state: BearingState,
     hz: _Floats,
     made: Mapping[str, Condition],
-    supply: OilLayer | None,
-    thermal: Heat | None,
+    given: Conditions,
 ) -> dict[str, TableBars]:
     """Error bars under each condition, of the most loaded ball under its load with flooded films."""
     ball, found = state.heaviest, {}
     for key, one in made.items():
-        layer, heat = supply if key in (LAYER, BOTH) else None, thermal if key in (HEAT, BOTH) else None
-        races = [replace(race_at(bearing, state, ball, k), supply=layer, thermal=heat) for k in range(len(RACES))]
+        layer, heat = given.supply if key in (LAYER, BOTH) else None, given.heat if key in (HEAT, BOTH) else None
+        own = Conditions(layer, heat)
+        races = [replace(race_at(bearing, state, ball, k), conditions=own) for k in range(len(RACES))]
         found[key] = table_bars(races, state.force[ball].tolist(), state.speed_rpm, hz, one.stiffness)
     return found
 
@@ -478,22 +478,22 @@ def _point(bearing: Any, state: BearingState, column: int) -> OperatingPoint:
     return found
 
 
-_Contact = Callable[[OperatingPoint, OilLayer | None, Heat | None], tuple[tuple[float, float, float], _Complex]]
+_Contact = Callable[[OperatingPoint, Conditions], tuple[tuple[float, float, float], _Complex]]
 
 
 def _solved_contact(
-    hz: _Floats, point: OperatingPoint, supply: OilLayer | None, thermal: Heat | None
+    hz: _Floats, point: OperatingPoint, conditions: Conditions
 ) -> tuple[tuple[float, float, float], _Complex]:
     """Central and smallest film and moment of a contact, in units of its point, and its impedance [N/m]."""
-    one = impedance(point, hz=hz, supply=supply, thermal=thermal)
+    one = impedance(point, hz=hz, **conditions.keywords)
     return (one.h_central, one.h_min, one.moment), one.si.stiffness + 2j * np.pi * hz * one.si.damping
 
 
 def _tabled_contact(
-    atlas: str | None, hz: _Floats, point: OperatingPoint, supply: OilLayer | None, thermal: Heat | None
+    atlas: str | None, hz: _Floats, point: OperatingPoint, conditions: Conditions
 ) -> tuple[tuple[float, float, float], _Complex]:
     """The same from the tables."""
-    one = shared_atlas(atlas).at(point, supply=supply, thermal=thermal)
+    one = shared_atlas(atlas).at(point, **conditions.keywords)
     small = one.impedance(hz=hz).si
     return (one.h_central, one.h_min, one.moment), small.stiffness + 2j * np.pi * hz * small.damping
 
@@ -501,12 +501,11 @@ def _tabled_contact(
 def _ratios(
     points: list[OperatingPoint],
     contact: _Contact,
-    supply: OilLayer | None,
-    thermal: Heat | None,
+    given: Conditions,
     callback: Callable[[int, int, str], object] = lambda done, total, words: None,
 ) -> tuple[dict[str, Ratios], dict[str, str]]:
     """Ratios of the conditions that are asked for, of contacts found by `contact`, and why others have none."""
-    asked = {HEAT: thermal is not None, LAYER: supply is not None}
+    supply, asked = given.supply, {HEAT: given.heat is not None, LAYER: given.supply is not None}
     asked[BOTH] = all(asked.values())
     steps = iter(range(total := 2 * (1 + sum(asked.values()))))
 
@@ -514,7 +513,7 @@ def _ratios(
         found = []
         for race, point, layer in zip(RACES, points, layers, strict=True):
             callback(next(steps), total, f"{race} race, {words}")
-            found.append(contact(point, layer, heat))
+            found.append(contact(point, Conditions(layer, heat)))
         films, Z = zip(*found, strict=True)
         central, smallest, moment = np.array(films).T
         return SolvedBall(central, smallest, moment, Z[0] * Z[1] / (Z[0] + Z[1]))
@@ -528,7 +527,7 @@ def _ratios(
         share = made[HEAT].h_central if key == BOTH else np.ones(len(RACES))
         layers = [None if key == HEAT or supply is None else _over(supply, one) for one in share.tolist()]
         try:
-            found = solve(key, thermal if key == HEAT else None, layers).over(flooded)
+            found = solve(key, given.heat if key == HEAT else None, layers).over(flooded)
         except ConvergenceError as error:
             refused[key] = _reason(error)
             continue

@@ -21,14 +21,14 @@ from ehlcontact.assumptions import Assumptions
 from ehlcontact.assumptions.judge import ROUGHEST
 from ehlcontact.checks import require_nonnegative
 from ehlcontact.checks.admissible_range import LIMITS
+from ehlcontact.conditions import FLOODED, Conditions
 from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat
 from ehlcontact.hertz import hertz_contact, radius_ratio
-from ehlcontact.supply import OilLayer
 from reduced_models.atlas.answer import AtlasAnswer
 from reduced_models.atlas.atlas import Atlas
 from reduced_models.atlas.heat import ellipses, fastest
 from reduced_models.atlas.supply import heaviest_load, supply_box
+from reduced_models.bearing.bearing_conditions import conditions_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, speed_sum_per_omega
 from reduced_models.bearing.race_contact import film_cutoff
 from reduced_models.bearing.ring import RingEquilibrium
@@ -74,10 +74,8 @@ class Race:
         Sum of the surface speeds over the angular speed of the shaft [m].
     atlas : str or None
         File of another atlas than the shipped one.
-    supply : OilLayer or None
-        Layer ahead of the contact; None is flooded.
-    thermal : Heat or None
-        Films heat up; None is isothermal.
+    conditions : Conditions
+        Layer ahead of the contact, and heat of its film.
     """
 
     name: str
@@ -87,8 +85,7 @@ class Race:
     oil: Lubricant | None
     speed_sum: float
     atlas: str | None = None
-    supply: OilLayer | None = None
-    thermal: Heat | None = None
+    conditions: Conditions = FLOODED
 
     @cached_property
     def kn(self) -> float:
@@ -111,11 +108,11 @@ class Race:
         """That speed, and the table that ends there."""
         unit = self.point(1.0, 1.0)
         boxes = {"the atlas": shared_atlas(self.atlas).box}
-        if self.supply is not None:
+        if self.conditions.supply is not None:
             boxes["the table of oil supply"] = supply_box()
         ends = [((box.L[1] / unit.moes.L) ** POWER_OF_SPEED, table) for table, box in boxes.items()]
-        if self.thermal is not None:
-            ends.append((fastest(unit, self.thermal), "the table of heat"))
+        if self.conditions.heat is not None:
+            ends.append((fastest(unit, self.conditions.heat), "the table of heat"))
         most, table = min(ends)
         return float(most * (1.0 - INSIDE)), table
 
@@ -129,9 +126,10 @@ class Race:
         """Largest load [N] of a ball, and what ends there: the atlas at this speed, or elastic steel where dry."""
         if self.oil is not None:
             heaviest = self.loads(speed_rpm)[1]
-            supplied = heaviest if self.supply is None else heaviest_load(self.point(1.0, speed_rpm).moes)
-            if supplied < heaviest:
-                return supplied, "the end of the table of oil supply at this speed"
+            if self.conditions.supply is not None:
+                supplied = heaviest_load(self.point(1.0, speed_rpm).moes)
+                if supplied < heaviest:
+                    return supplied, "the end of the table of oil supply at this speed"
             return heaviest, "the end of the atlas at this speed"
         body = self.geometry
         unit = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure
@@ -158,7 +156,7 @@ class Race:
         reference = float(np.sqrt(low * high))
         with self._films_named(speed_rpm):
             found = shared_atlas(self.atlas).wide(
-                self.point(reference, speed_rpm), loads / reference, supply=self.supply, thermal=self.thermal
+                self.point(reference, speed_rpm), loads / reference, **self.conditions.keywords
             )
         return replace(found, inlet_saturation=0.0)
 
@@ -168,9 +166,10 @@ class Race:
         try:
             yield
         except InputError as error:
-            if self.supply is None or not error.field.startswith("approach"):
+            supply = self.conditions.supply
+            if supply is None or not error.field.startswith("approach"):
                 raise
-            h, r = self.supply.h, self.supply.over_flooded
+            h, r = supply.h, supply.over_flooded
             layer = f"{r:.4g} flooded films" if h is None else f"{1e6 * h:.4g} µm"
             allowed = (
                 f"another layer, or left out: on the {self.name} race at {speed_rpm:.4g} rev/min no element "
@@ -182,7 +181,7 @@ class Race:
     def answer(self, load: float, speed_rpm: float) -> AtlasAnswer:
         """Of the atlas for the contact under a load [N] at this speed."""
         at = self.point(load, speed_rpm)
-        return shared_atlas(self.atlas).at(at, supply=self.supply, thermal=self.thermal)
+        return shared_atlas(self.atlas).at(at, **self.conditions.keywords)
 
     def films(self, speed_rpm: float, load: _Floats, gap: _Floats) -> tuple[_Floats, _Floats, _Floats]:
         """Central and smallest film [m], and moment of the pressure [N m], under loads [N] at this speed.
@@ -211,12 +210,12 @@ class Race:
     def require_in_atlas(self) -> None:
         """Raise `InputError` for a conformity whose ellipse, or an oil, that the atlas does not have."""
         low, high = shared_atlas(self.atlas).box.kappa
-        if self.thermal is not None:
+        if self.conditions.heat is not None:
             low, high = max(low, ellipses()[0]), min(high, ellipses()[1])
         if not low <= self.geometry.kappa <= high:
             ends = [_conformity(self, kappa) for kappa in (low, high)]
             between = f"at least {ends[0]:.4f}" if ends[1] is None else f"between {ends[0]:.4f} and {ends[1]:.4f}"
-            table = "the atlas" if self.thermal is None else "the table of heat"
+            table = "the atlas" if self.conditions.heat is None else "the table of heat"
             allowed = f"{between}: its ellipse, a/b = {self.geometry.kappa:.4g}, lies outside {table}"
             raise InputError(f"conformity_{self.name}", self.conformity, f"{allowed} ({low:g} to {high:g})")
         self.element(min(self.highest_speed, SOME_SPEED))  # raises where the oil is none of the atlas
@@ -243,8 +242,7 @@ def race_of(bearing: Any, name: str) -> Race:
         oil=bearing.oil,
         speed_sum=speed_sum,
         atlas=bearing.atlas,
-        supply=bearing.supply,
-        thermal=bearing.thermal,
+        conditions=conditions_of(bearing),
     )
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import reduced_models.bearing.oil_and_heat as module
 from ehlcontact import Grid, Heat, InputError, Lubricant, OilLayer, impedance
+from ehlcontact.conditions import Conditions
 from reduced_models import BallBearing, BearingSet
 from reduced_models.bearing.oil_and_heat import BOTH, FLOODED, HEAT, HIGH, LAYER, oil_and_heat
 from reduced_models.bearing.race import shared_atlas
@@ -62,7 +63,7 @@ def test_error_bars_are_those_of_the_heaviest_balls_contacts():
     state, contacts = found.at_rest, []
     for column, force in enumerate(state.force[state.heaviest].tolist()):
         race = race_at(BEARING, state, state.heaviest, column)
-        answer = replace(race, thermal=Heat()).answer(force, 3000.0)
+        answer = replace(race, conditions=Conditions(heat=Heat())).answer(force, 3000.0)
         contacts.append(answer.impedance(hz=found.hz).si)
         bar = answer.si.error_bars["h_min"]
         assert found.error_bars[HEAT].h_min[column] == pytest.approx(bar, rel=1e-12)
@@ -115,7 +116,7 @@ def test_solved_contacts_correct_the_tables_of_preloaded_bearings(monkeypatch, m
     """Contacts as in the tables change nothing; errors of the tables with a layer are those of the bearing."""
     bearing, errors = made(), {}
 
-    def answered(point, *, hz, supply, thermal):
+    def answered(point, *, hz, supply=None, thermal=None):
         one = shared_atlas(None).at(point, supply=supply, thermal=thermal)
         Z = one.impedance(hz=hz).si
         off = errors if supply is not None else {}

@@ -1,0 +1,125 @@
+"""`Conditions`: what a film is under beside load and speed, made once from the keywords of a call.
+
+Oil supply, heat, sliding and asperities. Which of them go together is decided here, and nowhere else; what each
+does to a film is in `ehlcontact.solver`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import nan
+from typing import Any
+
+from ehlcontact.asperities import Asperities
+from ehlcontact.checks import require_instance
+from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat
+from ehlcontact.point import OperatingPoint, Point, moes_point, scales_of
+from ehlcontact.shear_thinning import ShearThinning
+from ehlcontact.supply import OilLayer
+
+KEYWORDS = {"supply": "supply", "heat": "thermal", "sliding": "sliding", "asperities": "asperities"}
+WANTED = {
+    "supply": (OilLayer, "an OilLayer(h, ...)"),
+    "heat": (Heat, "True or a Heat(slide_roll=..., ...)"),
+    "sliding": (ShearThinning, "a ShearThinning(slide_roll, law)"),
+    "asperities": (Asperities, "Asperities(rq, ...)"),
+}
+THINS = "it thins flooded, isothermal films of smooth surfaces"
+# The first is left out with the second, and why
+APART = {
+    ("asperities", "heat"): "left out with heat: that of asperity friction is not known",
+    ("sliding", "supply"): f"left out with supply: {THINS}",
+    ("sliding", "heat"): f"left out with thermal: {THINS}",
+    ("sliding", "asperities"): f"left out with asperities: {THINS}",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """Conditions of a film; by default it is flooded, at the temperature of the inlet, between smooth surfaces.
+
+    Parameters
+    ----------
+    supply : OilLayer, optional
+        Oil that the surfaces carry to the contact.
+    heat : Heat, optional
+        That of the film, with which its viscosity changes.
+    sliding : ShearThinning, optional
+        Shear thinning of the film.
+    asperities : Asperities, optional
+        They carry part of the load.
+
+    Raises
+    ------
+    InputError
+        One of them is not what it should be, or two do not go together.
+
+    Examples
+    --------
+    >>> Conditions.of(thermal=True).heat.slide_roll
+    0.0
+    """
+
+    supply: OilLayer | None = None
+    heat: Heat | None = None
+    sliding: ShearThinning | None = None
+    asperities: Asperities | None = None
+
+    def __post_init__(self) -> None:
+        for name, (kind, allowed) in WANTED.items():
+            if getattr(self, name) is not None:
+                require_instance(KEYWORDS[name], getattr(self, name), kind, allowed)
+        for (name, other), allowed in APART.items():
+            if getattr(self, name) is not None and getattr(self, other) is not None:
+                raise InputError(KEYWORDS[name], "given", allowed)
+
+    @classmethod
+    def of(
+        cls,
+        *,
+        supply: OilLayer | None = None,
+        thermal: Heat | bool | None = None,
+        sliding: ShearThinning | None = None,
+        asperities: Asperities | None = None,
+    ) -> Conditions:
+        """From the keywords of a call, of which ``thermal=True`` stands for ``Heat()``, and False for none.
+
+        Raises
+        ------
+        InputError
+            As of the class.
+        """
+        heat = Heat() if thermal is True else None if thermal is False else thermal
+        return cls(supply, heat, sliding, asperities)
+
+    @property
+    def keywords(self) -> dict[str, Any]:
+        """Those that are given, by the names that they have in a call."""
+        given = {keyword: getattr(self, name) for name, keyword in KEYWORDS.items()}
+        return {keyword: value for keyword, value in given.items() if value is not None}
+
+    def at(self, point: Point) -> Conditions:
+        """The same with the data of the oil of this point.
+
+        Raises
+        ------
+        InputError
+            A dimensionless point with conditions in SI; an oil without the data that heat takes.
+        """
+        if self.sliding is not None and not isinstance(point, OperatingPoint):
+            allowed = "left out at a dimensionless point: stresses of an oil are in pascals"
+            raise InputError("sliding", type(self.sliding).__name__, allowed)
+        if self.supply is not None:
+            self.supply.unit(moes_point(point), scales_of(point), nan)
+        if self.asperities is not None:
+            self.asperities.numbers(point)
+        return self if self.heat is None else replace(self, heat=self.heat.at(point))
+
+    def require_with_surface(self, surface: object) -> None:
+        """Raise `InputError` for a feature on the surfaces: no flow is known in a partly filled gap over one."""
+        if self.supply is not None:
+            raise InputError("surface", type(surface).__name__, "left out with a supply")
+
+
+FLOODED = Conditions()  # isothermal too, between smooth surfaces
