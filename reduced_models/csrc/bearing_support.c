@@ -165,3 +165,9 @@ void bearing_support_along(const void *own, const double state[], double work[],
         rates[i] = moving[i].d;
     }
 }
+
+void bearing_support(const Bearing *b, Support *support)
+{
+    const Support made = {b, b->directions, 0, 0, bearing_state_size(b), 1 + bearing_work_size(b), BEARING_SUPPORT};
+    *support = made;
+}

@@ -28,4 +28,7 @@ void bearing_support_along(const void *own, const double state[], double work[],
     bearing_support_start, bearing_support_rest, bearing_support_begin, bearing_support_press, bearing_support_slopes,         \
         bearing_support_accept, bearing_support_torque, bearing_support_show, bearing_support_evaluate, bearing_support_along
 
+/* The support of a bearing, for steps alone: without states of continuous time. */
+void bearing_support(const Bearing *bearing, Support *support);
+
 #endif

@@ -71,3 +71,29 @@ void invert(int n, const double a[], const double pivot[], double column[], doub
         }
     }
 }
+
+void add_product(int rows, int columns, double factor, const double a[], const double x[], double y[])
+{
+    const int n = columns;
+    int i, k;
+    for (i = 0; i + 4 <= rows; i += 4, a += 4 * n) { /* four sums, which do not wait for each other */
+        double first = 0.0, second = 0.0, third = 0.0, fourth = 0.0;
+        for (k = 0; k < n; k++) {
+            first += a[k] * x[k];
+            second += a[n + k] * x[k];
+            third += a[2 * n + k] * x[k];
+            fourth += a[3 * n + k] * x[k];
+        }
+        y[i] += factor * first;
+        y[i + 1] += factor * second;
+        y[i + 2] += factor * third;
+        y[i + 3] += factor * fourth;
+    }
+    for (; i < rows; i++, a += n) {
+        double sum = 0.0;
+        for (k = 0; k < n; k++) {
+            sum += a[k] * x[k];
+        }
+        y[i] += factor * sum;
+    }
+}

@@ -11,4 +11,7 @@ void substitute(int n, const double a[], const double pivot[], double x[]);
 /* The inverse, row by row, of a matrix of these factors; `column` is room for n numbers. */
 void invert(int n, const double a[], const double pivot[], double column[], double inverse[]);
 
+/* Adds `factor` times the product of a matrix, (rows, columns), and x to y. */
+void add_product(int rows, int columns, double factor, const double a[], const double x[], double y[]);
+
 #endif

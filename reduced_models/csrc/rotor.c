@@ -98,27 +98,17 @@ void rotor_take(const Rotor *r, const double carried[], double weight, double fo
 
 void rotor_accelerate(const Rotor *r, const double force[], double acceleration[])
 {
-    int i;
-    for (i = 0; i < r->freedoms; i++) {
-        acceleration[i] = product(&r->M_inverse[i * r->freedoms], force, r->freedoms) / r->mass;
-    }
+    memset(acceleration, 0, (size_t)r->freedoms * sizeof acceleration[0]);
+    add_product(r->freedoms, r->freedoms, 1.0 / r->mass, r->M_inverse, force, acceleration);
 }
 
 void rotor_resist(const Rotor *r, double omega, const double q[], const double v[], double force[])
 {
     const int n = r->freedoms;
-    int i, k;
-    for (i = 0; i < n; i++) {
-        const double *C = &r->C[i * n], *K = &r->K[i * n];
-        double damped = 0.0, bent = 0.0, turned = 0.0;
-        for (k = 0; k < n; k++) {
-            damped += C[k] * v[k];
-            bent += K[k] * q[k];
-        }
-        if (r->G != NULL) {
-            turned = r->mass * omega * product(&r->G[i * n], v, n);
-        }
-        force[i] -= r->damping * damped + turned + r->stiffness * bent;
+    add_product(n, n, -r->damping, r->C, v, force);
+    add_product(n, n, -r->stiffness, r->K, q, force);
+    if (r->G != NULL) {
+        add_product(n, n, -r->mass * omega, r->G, v, force);
     }
 }
 

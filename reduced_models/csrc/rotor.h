@@ -8,6 +8,7 @@
 #define ROTOR_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "support.h"
 
@@ -22,7 +23,8 @@ typedef struct {
     const double *phase;
     double inertia;                                      /* J; 0 where the speed is given */
     double rho;                                          /* spectral radius of steps at infinite frequency */
-    double floor, balanced, rested;                      /* N, and shares of the forces: what may be left of an imbalance, in steps, at rest */
+    double allowed;                                      /* N: what may be left of an imbalance in a step; 0: shares of the forces */
+    double floor, balanced, rested;                      /* N, and shares of the forces: what may be left of it, in steps, at rest */
     int held;                                            /* rows of B behind those of the points: held in equilibrium */
     const Support *const *support;
     const int *first;                                    /* first motion of each support */
@@ -90,8 +92,11 @@ double rotor_slowed(const Rotor *rotor, const double unbalance[], const double s
 const char *supports_start(const Rotor *rotor, const double *const parameters[], double state[]);
 /* Work of all supports, their forces on the points, and slopes of these by the points, velocities being `gain` times as much. */
 void supports_begin(const Rotor *rotor, const double state[], double work[], double h, double omega);
+/* `refused` becomes the support that has no force there. */
 const char *supports_press(const Rotor *rotor, const double state[], double work[], const double r[], const double v[],
-                           double carried[]);
+                           double carried[], int *refused);
+/* Motions of the supports where they were pressed last, their rates, and their forces: (3, motions). */
+const double *supports_pressed(const Rotor *rotor, const double work[]);
 const char *supports_rest(const Rotor *rotor, double state[], double work[], double omega, const double r[], const double v[],
                           double carried[]);
 void supports_slopes(const Rotor *rotor, double work[], double gain, double slopes[]);
@@ -117,5 +122,36 @@ typedef struct {
 void rotor_begin(const Rotor *rotor, const Acting *now, const Acting *end, double h, double state[], double work[]);
 /* A step of length h; torque and drag are those of its middle. */
 const char *rotor_step(const Rotor *rotor, const Acting *end, double h, double state[], double work[]);
+
+/* How the balance of a step was looked for: how often the supports were pressed, and the one that has no force there, or -1. */
+typedef struct {
+    int presses, refused;
+} Search;
+
+/* A step of length h to where these forces act on the freedoms, with the shaft turning at `omega` in its middle and at `after` at its
+ * end: what `rotor_step` does with its own. The angle of the shaft is left alone. */
+const char *rotor_move(const Rotor *rotor, const double applied[], double h, double omega, double after, double state[],
+                       double work[], Search *search);
+
+/* Steps of length h along a course of the shaft. */
+typedef struct {
+    int steps, made;        /* wanted; done */
+    Search search;          /* in the last step that was begun */
+    double h;
+    const double *omega;    /* (steps + 1): speed of the shaft at the start and at the end of every step */
+    const double *turning;  /* (steps, 2 unbalances): forces of the unbalances at the ends */
+    const double *farthest; /* (motions): a support that moved farther is lost, and the run ends there */
+    double *applied;        /* (freedoms): room */
+    /* At the ends: (steps, freedoms) twice; (steps, motions) without `shift`, rates, forces; (steps) presses. */
+    double *place, *velocity, *motion, *rate, *force;
+    int64_t *presses;
+} RotorRun;
+
+/* The rotor at the start of a run, with forces on the points and of the unbalances; its supports are in the state already.
+ * `motion` has displacements, velocities and accelerations. */
+void rotor_put(const Rotor *rotor, const double motion[], const double carried[], const double turning[], double state[]);
+
+/* The linear part of a step is made anew: matrices may have changed. */
+const char *rotor_run(const Rotor *rotor, RotorRun *run, double state[], double work[]);
 
 #endif

@@ -1,5 +1,5 @@
 /* Steps of a rotor by the generalised-alpha method (Chung and Hulbert 1993), everything linear condensed onto the points at which
- * supports act: reduced_models.rotor time_step, integrate_compiled. See rotor.h. */
+ * supports act: reduced_models.rotor.time_step. See rotor.h. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -61,7 +61,7 @@ static Condensed condensed(const Rotor *r, double state[])
 
 /* Room of a step, behind that of the supports. */
 typedef struct {
-    double *place, *inertial, *damped, *more, *r, *free, *history, *off, *step, *velocity, *carried, *pivot, *slopes, *system;
+    double *place, *inertial, *damped, *more, *late, *r, *free, *history, *off, *step, *velocity, *carried, *pivot, *slopes, *system, *applied;
 } Room;
 
 static Room room(const Rotor *r, double work[])
@@ -76,7 +76,8 @@ static Room room(const Rotor *r, double work[])
     room.inertial = room.place + n;
     room.damped = room.inertial + n;
     room.more = room.damped + n;
-    room.r = room.more + n;
+    room.late = room.more + n;
+    room.r = room.late + n;
     room.free = room.r + p;
     room.history = room.free + p;
     room.off = room.history + p;
@@ -86,6 +87,7 @@ static Room room(const Rotor *r, double work[])
     room.pivot = room.carried + p;
     room.slopes = room.pivot + p;
     room.system = room.slopes + p * p;
+    room.applied = room.system + n * n;
     return room;
 }
 
@@ -143,36 +145,36 @@ static const char *condense(const Rotor *r, const Method *m, double h, double om
     return NULL;
 }
 
-/* Places at the end of a step without forces of the supports there. */
+/* Places at the end of a step without forces of the supports there, and of the points what their rates follow from. */
 static void free_place(const Rotor *r, const Method *m, double omega, const double applied[], double state[], const Room *room)
 {
     const RotorLayout at = rotor_layout(r);
     const Condensed c = condensed(r, state);
     const double *d = state + at.place, *v = state + at.velocity, *a = state + at.acceleration;
-    const int n = r->freedoms;
+    const int n = r->freedoms, p = r->points;
     double *place = room->place;
     int i;
     for (i = 0; i < n; i++) {
-        const double late = m->velocity[1] * d[i] + m->velocity[2] * v[i] + m->velocity[3] * a[i];
         const double history = m->acceleration[1] * d[i] + m->acceleration[2] * v[i] + m->acceleration[3] * a[i];
+        room->late[i] = m->velocity[1] * d[i] + m->velocity[2] * v[i] + m->velocity[3] * a[i];
         room->inertial[i] = (1.0 - m->alpha_m) * history + m->alpha_m * a[i];
-        room->damped[i] = m->weight * late + m->alpha_f * v[i];
+        room->damped[i] = m->weight * room->late[i] + m->alpha_f * v[i];
         room->more[i] = m->alpha_f * d[i];
         place[i] = m->weight * applied[i] + m->alpha_f * state[at.applied + (size_t)i];
     }
     rotor_take(r, state + at.carried, m->alpha_f, place);
     rotor_resist(r, omega, room->more, room->damped, place);
-    for (i = 0; i < n; i++) {
-        place[i] -= r->mass * product(&r->M[i * n], room->inertial, n);
-    }
+    add_product(n, n, -r->mass, r->M, room->inertial, place);
     if (r->G != NULL) {
         substitute(n, c.factors, c.pivot, place);
-        return;
+    } else {
+        memcpy(room->more, place, (size_t)n * sizeof place[0]);
+        memset(place, 0, (size_t)n * sizeof place[0]);
+        add_product(n, n, 1.0, c.factors, room->more, place);
     }
-    memcpy(room->more, place, (size_t)n * sizeof place[0]);
-    for (i = 0; i < n; i++) {
-        place[i] = product(&c.factors[i * n], room->more, n);
-    }
+    memset(room->free, 0, 2 * (size_t)p * sizeof place[0]); /* the rates behind them */
+    add_product(p, n, 1.0, r->B, place, room->free);
+    add_product(p, n, 1.0, r->B, room->late, room->history);
 }
 
 /* As fmax of numbers, which compilers call a library for. */
@@ -197,10 +199,13 @@ static double size_of(const Rotor *r, const double applied[], const double state
 }
 
 /* Newton's method for D (r - free) + weight F = 0 from r; the points' rates are gain r + history. */
-static const char *balance(const Rotor *r, const Method *m, double size, double state[], double work[], const Room *room)
+static const char *balance(const Rotor *r, const Method *m, const double applied[], double state[], double work[], const Room *room,
+                           Search *search)
 {
     enum { MOST = 30 };
     const Condensed c = condensed(r, state);
+    const double allowed = r->allowed > 0.0 ? r->allowed : r->balanced * size_of(r, applied, state);
+    const double rounding = r->allowed > 0.0 ? 0.0 : by_rounding;
     const int p = r->points;
     double previous = HUGE_VAL;
     int n, i, k;
@@ -211,7 +216,8 @@ static const char *balance(const Rotor *r, const Method *m, double size, double 
         for (i = 0; i < p; i++) {
             room->velocity[i] = m->velocity[0] * room->r[i] + room->history[i];
         }
-        reason = supports_press(r, state, work, room->r, room->velocity, room->carried);
+        search->presses = n + 1;
+        reason = supports_press(r, state, work, room->r, room->velocity, room->carried, &search->refused);
         if (reason != NULL) {
             return reason;
         }
@@ -229,7 +235,7 @@ static const char *balance(const Rotor *r, const Method *m, double size, double 
         if (!isfinite(error)) {
             return no_number;
         }
-        if (error <= r->balanced * size + by_rounding * noise) {
+        if (error <= allowed + rounding * noise) {
             return NULL;
         }
         if (error > overshoot * previous) {
@@ -347,42 +353,31 @@ void rotor_begin(const Rotor *r, const Acting *now, const Acting *end, double h,
     shaft[SHAFT_MOVING] = 1.0;
 }
 
-const char *rotor_step(const Rotor *r, const Acting *end, double h, double state[], double work[])
+const char *rotor_move(const Rotor *r, const double applied[], double h, double omega, double after, double state[], double work[],
+                       Search *search)
 {
     const RotorLayout at = rotor_layout(r);
     const Condensed c = condensed(r, state);
     const Room own = room(r, work);
     const Method *m = c.method;
-    double *shaft = state + at.shaft, *past = state + at.past;
-    const double omega = shaft[SHAFT_SPEED], after = speed_after(r, end, h, shaft), middle = 0.5 * (omega + after);
-    const int n = r->freedoms, p = r->points;
+    const double *past = state + at.past;
+    const int p = r->points;
     const char *reason = NULL;
     int j;
-    if (!(after >= 0.0) && r->supports > 0) {
-        return "speed must be >= 0 rad/s";
-    }
-    shaft[SHAFT_SPIN] = (after - omega) / h;
-    turn(shaft, 0.5 * h * (omega + after));
-    shaft[SHAFT_SPEED] = after;
-    if (*c.h != h || (r->G != NULL && *c.omega != middle)) {
+    search->presses = 0;
+    search->refused = -1;
+    if (*c.h != h || (r->G != NULL && *c.omega != omega)) {
         *c.method = method_of(r->rho, h);
-        reason = condense(r, m, h, middle, state, &own);
+        reason = condense(r, m, h, omega, state, &own);
     }
     if (reason == NULL) {
-        double *applied = own.system; /* which rest alone uses otherwise */
-        rotor_swing(r, shaft[SHAFT_ANGLE], state + at.swing);
-        rotor_applied(r, end->given, end->unbalance, state + at.swing, after, shaft[SHAFT_SPIN], applied);
-        free_place(r, m, middle, applied, state, &own);
+        free_place(r, m, omega, applied, state, &own);
         for (j = 0; j < p; j++) {
-            const double *row = &r->B[j * n];
-            own.free[j] = product(row, own.place, n);
-            own.history[j] = m->velocity[1] * product(row, state + at.place, n) + m->velocity[2] * product(row, state + at.velocity, n)
-                             + m->velocity[3] * product(row, state + at.acceleration, n);
             own.r[j] = 3.0 * (past[j] - past[p + j]) + past[2 * p + j];
         }
         if (p > 0) {
             supports_begin(r, state, work, h, after);
-            reason = balance(r, m, size_of(r, applied, state), state, work, &own);
+            reason = balance(r, m, applied, state, work, &own, search);
         }
         if (reason == NULL && p > 0) {
             reason = supports_accept(r, state, work);
@@ -391,6 +386,25 @@ const char *rotor_step(const Rotor *r, const Acting *end, double h, double state
             reason = move_on(r, m, applied, state, &own);
         }
     }
+    return reason;
+}
+
+const char *rotor_step(const Rotor *r, const Acting *end, double h, double state[], double work[])
+{
+    const RotorLayout at = rotor_layout(r);
+    double *shaft = state + at.shaft, *applied = room(r, work).applied;
+    const double omega = shaft[SHAFT_SPEED], after = speed_after(r, end, h, shaft), middle = 0.5 * (omega + after);
+    const char *reason;
+    Search search;
+    if (!(after >= 0.0) && r->supports > 0) {
+        return "speed must be >= 0 rad/s";
+    }
+    shaft[SHAFT_SPIN] = (after - omega) / h;
+    turn(shaft, 0.5 * h * (omega + after));
+    shaft[SHAFT_SPEED] = after;
+    rotor_swing(r, shaft[SHAFT_ANGLE], state + at.swing);
+    rotor_applied(r, end->given, end->unbalance, state + at.swing, after, shaft[SHAFT_SPIN], applied);
+    reason = rotor_move(r, applied, h, middle, after, state, work, &search);
     if (r->inertia != 0.0) {
         shaft[SHAFT_RESISTED + 1] = shaft[SHAFT_RESISTED];
         shaft[SHAFT_RESISTED] = supports_torque(r, state)

@@ -84,7 +84,7 @@ void supports_begin(const Rotor *r, const double state[], double work[], double 
 }
 
 const char *supports_press(const Rotor *r, const double state[], double work[], const double points[], const double v[],
-                           double carried[])
+                           double carried[], int *refused)
 {
     const double *own = state + rotor_layout(r).supports;
     const Shared s = shared(r, work);
@@ -97,6 +97,7 @@ const char *supports_press(const Rotor *r, const double state[], double work[], 
         const char *reason =
             support->press(support->own, own, work, &s.motion[first], &s.rate[first], &s.force[first]);
         if (reason != NULL) {
+            *refused = i;
             return reason;
         }
         own += support->size;
@@ -104,6 +105,11 @@ const char *supports_press(const Rotor *r, const double state[], double work[], 
     }
     carry(r, s.force, carried);
     return NULL;
+}
+
+const double *supports_pressed(const Rotor *r, const double work[])
+{
+    return work + own_work(r, r->supports);
 }
 
 const char *supports_rest(const Rotor *r, double state[], double work[], double omega, const double points[], const double v[],

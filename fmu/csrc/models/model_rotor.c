@@ -66,6 +66,7 @@ static Rotor rotor_of(const Model *m)
     r.inertia = 0.0;
 #endif
     r.rho = 0.8;
+    r.allowed = 0.0;
     r.floor = FLOOR;
     r.balanced = 1e-10;
     r.rested = RESTED;
