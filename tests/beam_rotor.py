@@ -125,8 +125,8 @@ def still_run(rotor, speed_rpm, dt, until, start="static", rho_inf=0.8):
     for mount, at, balls in zip(rotor.ball_bearings, run.ball_directions, run.balls, strict=True):
         balls.rest(0.0, mount.cage_angle, run.histories.motion[0, at])
     integrator = CompiledSteps(run, 1e-9)
-    for first, end, steps in run.blocks():
-        integrator.advance(steps, first, end, lambda made: None)
+    for first, end, omega in run.blocks():
+        integrator.advance(omega, first, end, lambda made: None)
     return run.t, run.histories.displacement
 
 

@@ -151,7 +151,7 @@ def _recorded(model: RotorModel, run: _Run, given: _Floats) -> RotorTrial:
     forces, rolls, resisted = [[one.loads.copy() for one in run.balls]], [_rolls(run)], [0.0]
     for k in range(run.steps):
         middle = float(0.5 * (run.omega[k] + run.omega[k + 1]))
-        integrator.advance(run._steps_at(middle), k, k + 1, lambda made: None)
+        integrator.advance(middle, k, k + 1, lambda made: None)
         forces.append([one.loads.copy() for one in run.balls])
         rolls.append(_rolls(run))
         resisted.append(_slowed(model, run, given[k + 1], k + 1))

@@ -14,7 +14,6 @@
 | ball | compiled: one ball between two races, its residual with exact tangents, in time steps and at rest |
 | ball_search | compiled: places of balls from anywhere |
 | ball_steps | compiled: all balls of a bearing: time steps with their films, rest, the force of the ring |
-| compiled_list | `CompiledList`: bearings of any number in kernels that are compiled once |
 | ring | the inner ring on its balls in static equilibrium: `StaticRing`, `ring_equilibrium` |
 | ring_statics | loads that a bearing takes, its ring in equilibrium, the state for users |
 | shoulders | shoulders of the grooves, and contact ellipses that reach over them |

@@ -17,7 +17,7 @@
 | time_step | generalised-alpha step of a rotor, condensed onto its supports |
 | contact_steps | forces and tangent stiffness of all contacts in a step |
 | prepared_run | a rotor, its supports and their start as the arrays of a run |
-| integrate_compiled | steps of a rotor on ball bearings, compiled |
+| integrate_compiled | steps of a rotor on ball bearings, in C |
 | integrate_python | Newton loop of the same steps in Python, for supports other than ball bearings |
 | simulate | `simulate_rotor`: a rotor over time, from the rotor by arrays and steps to the result |
 | result | `RotorResult`: histories of a run |

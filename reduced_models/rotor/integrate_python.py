@@ -97,6 +97,8 @@ class PythonSteps:
         self, run: PreparedRun, tolerance: float, most: int, bearings: Sequence[RunningSupport] | None = None
     ) -> None:
         self._run, self._most, self._in_step = run, most, False
+        self._steps: Steps | None = None
+        self._steps_omega = 0.0
         self._points, self._normals, counts = run.rotor.geometry
         self._to_points = counts[:, None] * self._normals  # (m, n): forces of the points are force @ to_points
         d, force = run.histories.displacement[0], run.histories.force[0]
@@ -119,8 +121,8 @@ class PythonSteps:
             ]
         self._supports += zip(run.ball_directions, bearings, strict=True)
 
-    def advance(self, steps: Steps, first: int, end: int, progress: Callable[[int], None]) -> None:
-        """Make the steps of one block; `progress` takes the number of steps made, after each.
+    def advance(self, omega: float, first: int, end: int, progress: Callable[[int], None]) -> None:
+        """Make the steps of one block, of matrices at `omega`; `progress` takes the number made, after each.
 
         Raises
         ------
@@ -128,6 +130,9 @@ class PythonSteps:
             A step found no balance, or a contact in it did not converge, and the histories stay as they were; or
             the ring of a ball bearing left it.
         """
+        if self._steps is None or (self._run.rotor.changes_with_speed and omega != self._steps_omega):
+            self._steps, self._steps_omega = self._run.steps_at(omega), omega
+        steps = self._steps
         for i in range(first + 1, end + 1):
             self.reached = i
             self._step(steps, i)

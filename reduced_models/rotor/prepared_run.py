@@ -51,7 +51,7 @@ class PreparedRun:
     def __init__(
         self, rotor: Rotor, speed_rpm: float | SpeedProfile, dt: float, steps: int, start: Any, rho_inf: float
     ) -> None:
-        self.rotor, self.dt, self.steps, self._rho_inf = rotor, dt, steps, rho_inf
+        self.rotor, self.dt, self.steps, self.rho_inf = rotor, dt, steps, rho_inf
         self.t: _Floats = np.asarray(dt * np.arange(steps + 1), np.float64)
         course = shaft_course(rotor, speed_rpm, self.t)
         self.omega, self.angle, self.turning, self.at = course.omega, course.angle, course.turning, course.at
@@ -63,7 +63,7 @@ class PreparedRun:
         shifts = [np.zeros(len(rotor.contacts)), *(mount.shift for mount in rotor.ball_bearings)]
         self.shift = np.concatenate(shifts)
         self.histories = Histories.empty(steps + 1, rotor.size, len(rotor.geometry.normals))
-        gain = self._steps_at(self.omega[0]).velocity[0]
+        gain = self.steps_at(self.omega[0]).velocity[0]
         self.contacts = ContactSteps(rotor.contacts, dt, gain)
         self.state = self._begin(start)
 
@@ -99,23 +99,21 @@ class PreparedRun:
                 found.append((first + 1 + k, f"the ring of {name} has left it{how}"))
         return min(found, default=None)
 
-    def blocks(self) -> Iterator[tuple[int, int, Steps]]:
-        """Steps made before and after each block, and the step's matrices, of the speed in its middle."""
-        first, made_at, steps = 0, None, None
+    def blocks(self) -> Iterator[tuple[int, int, float]]:
+        """Steps made before and after each block, and the speed [rad/s] in its middle, of its matrices."""
+        first = 0
         while first < self.steps:
             end = min(first + LONGEST_BLOCK, self.steps)
             if self.rotor.changes_with_speed:
                 off = np.abs(self.omega[first : end + 1] - self.omega[first]) > SPEED_PER_BLOCK * self.omega.max()
                 end = first + max(int(np.argmax(off)), 1) if off.any() else end
-            middle = float(0.5 * (self.omega[first] + self.omega[end]))
-            if steps is None or (self.rotor.changes_with_speed and middle != made_at):
-                steps, made_at = self._steps_at(middle), middle
-            yield first, end, steps
+            yield first, end, float(0.5 * (self.omega[first] + self.omega[end]))
             first = end
 
-    def _steps_at(self, omega: float) -> Steps:
+    def steps_at(self, omega: float) -> Steps:
+        """The linear part of a step, with matrices at a speed [rad/s]."""
         rotor = self.rotor
-        return steps_of(rotor.matrices(omega), rotor.geometry.points, self.at, rotor.load, self.dt, self._rho_inf)
+        return steps_of(rotor.matrices(omega), rotor.geometry.points, self.at, rotor.load, self.dt, self.rho_inf)
 
     def _begin(self, start: Any) -> _Floats:
         """State and supports at the start, and the first entries of the histories."""

@@ -56,7 +56,7 @@ def simulate_rotor(
 
     Generalised-alpha steps (second order); everything linear is condensed onto the points at which supports act,
     so that each step solves only for their motion, by Newton's method with exact tangents, or secants for contacts
-    that have none. On ball bearings alone rotor, bearings, balls and films run in one compiled loop. Contacts run
+    that have none. On ball bearings alone rotor, bearings, balls and films run in one loop in C. Contacts run
     in Python; every evaluation starts each contact from its state at the start of the step.
 
     Elements warn, once: before the run where the rotor's speed lies outside their band, or a mount has the point
@@ -149,8 +149,8 @@ def integrate(
 
     status = Status.CONVERGED
     try:
-        for first, end, steps in run.blocks():
-            integrator.advance(steps, first, end, progress)
+        for first, end, omega in run.blocks():
+            integrator.advance(omega, first, end, progress)
     except KeyboardInterrupt:
         status = Status.INTERRUPTED
         integrator.rewind()

@@ -2,7 +2,6 @@
 
 from math import pi
 
-import numba
 import numpy as np
 import pytest
 from beam_rotor import NODES, beam, block
@@ -23,7 +22,6 @@ from reduced_models import (
     jeffcott_rotor,
     simulate_rotor,
 )
-from reduced_models.rotor.integrate_compiled import run_block
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.simulate import default_tolerance
 from reduced_models.rotor.speed_profile import turning_forces
@@ -163,15 +161,6 @@ def test_two_bearings_of_different_kinds(film, oil):
     assert run.ring_force.shape == (201, 2, 2)
     np.testing.assert_allclose(run.ring_force[0].sum(axis=0), [0.0, -1000.0], atol=1e-6)
     assert abs(run.ring[0, 0, 1] - run.ring[0, 1, 1]) > 1e-6
-
-
-@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
-def test_rotors_on_any_number_of_bearings_share_their_compilation(film):
-    compiled = []
-    for rotor in (block(film), beam(film)):
-        simulate_rotor(rotor, speed_rpm=RPM, dt=DT, until=DT)
-        compiled.append(len(run_block.signatures))
-    assert compiled[0] == compiled[1]
 
 
 def test_balls_beyond_the_atlas_warn(film):
