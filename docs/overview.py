@@ -67,7 +67,7 @@ def main() -> None:
 
     panel = axes[1, 1]
     told = found["rotor"]["decay"]["decrements"]
-    with h5py.File(RESULTS / "decay.h5", "r") as file:
+    with h5py.File(RESULTS / "decay.h5", "r", locking=False) as file:
         t, height = file["t"][...], file["journal"][:, 1]
     size = 1e9 * told["full"]["amplitude"]
     panel.plot(t * 1e3, 1e9 * (height - height[0]), label="full contacts")

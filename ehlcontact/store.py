@@ -204,7 +204,8 @@ def _read_json(path: str | os.PathLike[str]) -> tuple[Any, Any]:
 
 def _read_hdf5(path: str | os.PathLike[str]) -> tuple[Any, Any]:
     """Header and content of an HDF5 file."""
-    with h5py.File(path, "r") as file:
+    # Without a lock: some file systems (NFS) have none, and `save` replaces files in one move.
+    with h5py.File(path, "r", locking=False) as file:
         header = parse_json(text_of(file, HEADER)) if HEADER in file.attrs else None
         return header, _content(file) if isinstance(header, dict) else None
 

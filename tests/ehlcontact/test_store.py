@@ -2,6 +2,9 @@
 
 import json
 import os
+import shutil
+import subprocess
+import sys
 from dataclasses import dataclass, fields, replace
 from enum import StrEnum
 from math import pi
@@ -11,6 +14,7 @@ import h5py
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from programs import environment
 
 from ehlcontact import (
     FreeVibration,
@@ -338,3 +342,36 @@ def test_lost_member(tmp_path):
         del file["inner/table"]
     with pytest.raises(InputError, match="a complete file of a record"):
         read(path, Outer)
+
+
+NO_LOCKS = """
+#include <errno.h>
+int flock(int file, int operation) { (void)file; (void)operation; errno = ENOLCK; return -1; }
+"""
+READING = """
+import sys
+from ehlcontact import MoesPoint, read, save
+from reduced_models import Atlas
+result = read(sys.argv[1])
+print(float(result.h_central), Atlas().at(MoesPoint(100, 8, 0.5)).stiffness.min() > 0.0)
+save(result, sys.argv[2])
+print(float(read(sys.argv[2]).h_central))
+"""
+
+
+@pytest.mark.long
+@pytest.mark.skipif(sys.platform != "linux" or shutil.which("cc") is None, reason="a library is put before libc's")
+def test_a_file_system_without_locks(tmp_path, steady):
+    """As NFS without its lock service: results and the shipped atlas are read as anywhere else."""
+    (tmp_path / "no_locks.c").write_text(NO_LOCKS)
+    library = tmp_path / "no_locks.so"
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", library, tmp_path / "no_locks.c"], check=True)
+    film = steady(20, 5, 0.5, 32)
+    command = [sys.executable, "-c", READING, save(film, tmp_path / "film.h5"), tmp_path / "again.h5"]
+    found = subprocess.run(command, env=environment(LD_PRELOAD=str(library)), capture_output=True, text=True)
+    assert found.stderr == ""
+    assert found.stdout.splitlines() == [f"{film.h_central} True", f"{film.h_central}"]
+    refusal = "import h5py, sys; h5py.File(sys.argv[1], 'r')"
+    locked = [sys.executable, "-c", refusal, tmp_path / "film.h5"]
+    with_locks = subprocess.run(locked, env=environment(LD_PRELOAD=str(library)), capture_output=True, text=True)
+    assert "No locks available" in with_locks.stderr  # or the library was not there
