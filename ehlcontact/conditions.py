@@ -99,6 +99,11 @@ class Conditions:
         given = {keyword: getattr(self, name) for name, keyword in KEYWORDS.items()}
         return {keyword: value for keyword, value in given.items() if value is not None}
 
+    @property
+    def viscosity_follows(self) -> bool:
+        """Whether the viscosity of the oil follows from the film, with the data of the oil."""
+        return self.sliding is not None or (self.heat is not None and self.heat.temperature_slope != 0.0)
+
     def at(self, point: Point) -> Conditions:
         """The same with the data of the oil of this point.
 

@@ -36,7 +36,7 @@ from ehlcontact.results.impedance_result import SLOW
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.error_estimate import response_error
 from ehlcontact.solver.error_grids import settled_on_half
-from ehlcontact.solver.film_heat import FilmHeat, HeatedCycles
+from ehlcontact.solver.film_heat import FilmHeat, FollowedViscosity
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
 from ehlcontact.solver.linear_heat import HeatedPreconditioner, HeatedSystem, LinearHeat
@@ -193,7 +193,7 @@ def heat_of(film: SteadyResult, multigrid: Multigrid) -> FilmHeat | None:
         heat.walls[...] = found.surfaces.transpose(0, 2, 1)
         heat.rise[...] = found.mean.T - heat.walls.mean(axis=0)
     else:
-        HeatedCycles(multigrid, heat, multigrid.cycle).settle(Balance.of_load(), COARSE_CYCLES)
+        FollowedViscosity(multigrid, heat).settle(Balance.of_load(), COARSE_CYCLES)
     return heat
 
 

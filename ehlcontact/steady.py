@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from math import inf, nan
 from typing import Any
 
 import numpy as np
 
-from ehlcontact.asperities import Asperities, AsperityNumbers
+from ehlcontact.asperities import Asperities
 from ehlcontact.checks import require_choice, require_finite, require_instance, require_integer, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.conditions import FLOODED, Conditions
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.heat import Heat
-from ehlcontact.point import Point, moes_point, require_solvable, scales_of
+from ehlcontact.point import Point, Scales, moes_point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SteadyResult
 from ehlcontact.results.asperity_contact import AsperityContact
@@ -25,15 +25,13 @@ from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.acceleration import AcceleratedCycles
 from ehlcontact.solver.attempts import METHODS, Method, attempts
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.effects import CyclesWithEffects, Effect, effects_of
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
-from ehlcontact.solver.film_heat import FilmHeat, HeatedCycles
-from ehlcontact.solver.film_thinning import FilmThinning
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.mesh import Mesh
-from ehlcontact.solver.mixed_film import MixedCycles
 from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
@@ -188,11 +186,7 @@ class _Film:
         threads: int,
         conditions: Conditions = FLOODED,
     ) -> None:
-        self.supply, self.thermal, self.sliding = conditions.supply, conditions.heat, conditions.sliding
-        given = conditions.asperities
-        self.rough = None if given is None else (given, given.numbers(point))
-        self.mesh, self.method, self.scales = mesh, method, scales_of(point)
-        self.thinned_share = nan
+        self.point, self.conditions, self.mesh, self.method = point, conditions, mesh, method
         self._make = partial(
             Multigrid,
             moes_point(point),
@@ -206,181 +200,92 @@ class _Film:
         self.scale = self.multigrid.finest.dry_residual()
         self.track = IterationHistory()
         self.error_estimate: ErrorEstimate | None = None
-        self.temperature: FilmTemperature | None = None
-        self.asperities: AsperityContact | None = None
-        # whether the viscosity follows what the film does
-        heat_changes_it = self.thermal is not None and self.thermal.temperature_slope != 0.0
-        self.follows = self.sliding is not None or heat_changes_it
+        self.of_effects: dict[str, dict[str, Any]] = {}  # fields and numbers of what conditions made of the film
 
-    def run(self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None) -> Status:
-        """Cycle, or take Newton steps, until the residuals say how it ended."""
-        if self.rough is not None:
-            return self._run_mixed(self.rough, balance, tol, most, watch)
-        if self.sliding is not None:
-            return self._run_sliding(self.sliding, balance, tol, most, watch)
-        if self.thermal is None:
-            return self._run_cold(balance, tol, most, watch)
-        assert self.scales is not None
-        point = self.multigrid.point
-        status = self._run_cold(balance, tol, most, watch)
-        if not status.ok:
-            return status
-        mg = self.multigrid
-        cold, heat = mg.finest.central_film(), FilmHeat(mg.finest, self.thermal.numbers(point, self.scales))
-        if self.follows:
-            self.track = IterationHistory()
-            status = self._solve(balance, tol, most, watch, heat)
-        with np.errstate(over="ignore", invalid="ignore"):  # of a film that ran away: its status says so
-            heat.solve()
-            balanced = heat.balance()
-        self.temperature = FilmTemperature(
-            inputs=self.thermal,
-            mean=heat.mean.T.copy(),
-            surfaces=heat.walls.transpose(0, 2, 1).copy(),
-            film_share=mg.finest.central_film() / cold,
-            thermal_load=self.thermal.load(point, self.scales),
-            balance=balanced,
-        )
-        return status
-
-    def _run_mixed(
-        self,
-        rough: tuple[Asperities, AsperityNumbers],
-        balance: Balance,
-        tol: float,
-        most: int,
-        watch: Callable[[int, float], None] | None,
+    def run(
+        self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None = None
     ) -> Status:
-        """The film that shares the load with asperities, from that between smooth surfaces."""
-        status = self._run_cold(balance, tol, most, watch)
-        if not status.ok:
-            return status
-        mg, self.track = self.multigrid, IterationHistory()
-        level, (inputs, numbers) = mg.finest, rough
-        smooth, cycles = level.central_film(), MixedCycles(mg, numbers, mg.cycle)
-        cycles.start()
-        try:
-            status = self._settle(self._goal(tol, most), balance, cycles.step, watch)
-        except KeyboardInterrupt:
-            status = Status.INTERRUPTED
-        self.asperities = AsperityContact(
-            inputs=inputs,
-            pressure=cycles.pressure.T.copy(),
-            load_share=level.asperity_load / level.force(),
-            film_over_rq=level.central_film() / numbers.rq,
-            film_share=level.central_film() / smooth,
-        )
-        return status
-
-    def _run_sliding(
-        self,
-        sliding: ShearThinning,
-        balance: Balance,
-        tol: float,
-        most: int,
-        watch: Callable[[int, float], None] | None,
-    ) -> Status:
-        """The film that sliding thins, from the Newtonian one."""
-        assert self.scales is not None
-        mg = self.multigrid
-        status = self._run_cold(balance, tol, most, watch)
-        if not status.ok:
-            return status
-        newtonian, self.track = mg.finest.central_film(), IterationHistory()
-        thinning = FilmThinning(mg, sliding.law, sliding.log_newton(mg.point.eta0, self.scales))
-        status = self._solve(balance, tol, most, watch, thinning)
-        self.thinned_share = mg.finest.central_film() / newtonian
-        return status
-
-    def _run_cold(
-        self, balance: Balance, tol: float, most: int, watch: Callable[[int, float], None] | None
-    ) -> Status:
-        """The film at the temperature of the inlet."""
-        if self.supply is None:
-            return self._solve(balance, tol, most, watch)
-        flooded = nan
-        if self.supply.needs_flooded:
-            status = self._solve(balance, tol, most, None)
-            if not status.ok:
-                return status
-            flooded = self.multigrid.finest.central_film()
-            self.track = IterationHistory()
-        self.multigrid = self._make(supply=self.supply.lines(self.multigrid.point, self.scales, flooded))
-        return self._solve(balance, tol, most, watch)
-
-    def _solve(
-        self,
-        balance: Balance,
-        tol: float,
-        most: int,
-        watch: Callable[[int, float], None] | None,
-        heat: FilmHeat | FilmThinning | None = None,
-    ) -> Status:
-        """From full multigrid, or with `heat` (or thinning) from the film at the temperature of the inlet."""
-        mg = self.multigrid
-        if balance.weight == 0.0:
-            mg.u = balance.rhs
-        goal = self._goal(tol, most)
-        if self.follows and heat is None:  # a start, and the film that the heated one is held against
-            goal = goal._replace(approach=COLD_APPROACH, pressure=max(tol, COLD_PRESSURE))
-        try:
-            return self._run(goal, balance, watch, heat)
-        except KeyboardInterrupt:
-            return Status.INTERRUPTED
-
-    def _goal(self, tol: float, most: int) -> StoppingCriteria:
-        return StoppingCriteria(
+        """Cycle, or take Newton steps, until the residuals say how it ended: without effects, then with them."""
+        goal = StoppingCriteria(
             self.scale, LARGEST_RESIDUAL, most, LOAD_TOLERANCE, APPROACH_TOLERANCE, pressure=tol
         )
-
-    @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a film that runs away: its status says so
-    def _settle(
-        self,
-        goal: StoppingCriteria,
-        balance: Balance,
-        advance: Callable[[Balance], float],
-        watch: Callable[[int, float], None] | None,
-    ) -> Status:
-        """Advance until the residuals say how it ended; then estimate the error."""
-        mg = self.multigrid
-        status = iterate(mg, balance, advance, goal, self.track, watch)
-        if status.ok:
-            oil = balance.shifted(-balance.weight * mg.finest.asperity_load)  # coarser grids carry no asperities
-            self.error_estimate = estimate_error(mg, oil)
+        start = goal
+        if self.conditions.viscosity_follows:  # what follows from the film is then held against it
+            start = goal._replace(approach=COLD_APPROACH, pressure=max(tol, COLD_PRESSURE))
+        if (supply := self.conditions.supply) is not None:
+            flooded = nan
+            if supply.needs_flooded:
+                status = self._solve(start, balance)
+                if not status.ok:
+                    return status
+                flooded = self.multigrid.finest.central_film()
+            lines = supply.lines(self.multigrid.point, scales_of(self.point), flooded)
+            self.multigrid = self._make(supply=lines)
+        effects = effects_of(self.conditions, self.point, self.multigrid)
+        changing = [effect for effect in effects.values() if effect.changes_film]
+        status = self._solve(start, balance, watch, judged=not changing)
+        if status.ok and effects:
+            before = self.multigrid.finest.central_film()
+            if changing:
+                status = self._solve(goal, balance, watch, changing, judged=True)
+            self.of_effects = {name: effect.result(before) for name, effect in effects.items()}
         return status
 
     @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a film that runs away: its status says so
-    def _run(
+    def _solve(
         self,
         goal: StoppingCriteria,
         balance: Balance,
-        watch: Callable[[int, float], None] | None,
-        heat: FilmHeat | FilmThinning | None,
+        watch: Callable[[int, float], None] | None = None,
+        effects: Sequence[Effect] = (),
+        judged: bool = False,
     ) -> Status:
-        mg = self.multigrid
-        # With close lines cycles need the better start, which raises the load by cycles on the grid of half the
-        # intervals; where those fail, in stiff oil, Newton steps do with the other one.
-        if heat is None:
-            mg.full_multigrid(balance, nested=not self.method.newton)
-            if self.method.newton:
-                mg.cycle(balance)
-        if heat is None:
-            advance = NewtonKrylov(mg).step if self.method.newton else AcceleratedCycles(mg).step
-        else:
-            cycles = HeatedCycles(mg, heat, NewtonKrylov(mg).step if self.method.newton else mg.cycle)
-            cycles.start(balance)
-            advance = cycles.step
-        status = iterate(mg, balance, advance, goal, self.track, watch)
-        if status.ok and (heat is not None or not self.follows):
-            self.error_estimate = estimate_error(mg, balance)
+        """From full multigrid, or with `effects` from the film without them.
+
+        The error of a film that is `judged` is estimated.
+        """
+        mg, self.track = self.multigrid, IterationHistory()
+        if balance.weight == 0.0:
+            mg.u = balance.rhs
+        try:
+            advance = self._started_with(effects, balance) if effects else self._started(balance)
+            status = iterate(mg, balance, advance, goal, self.track, watch)
+            if status.ok and judged:
+                # coarser grids carry no asperities
+                oil = balance.shifted(-balance.weight * mg.finest.asperity_load)
+                self.error_estimate = estimate_error(mg, oil)
+        except KeyboardInterrupt:
+            return Status.INTERRUPTED
         return status
+
+    def _started(self, balance: Balance) -> Callable[[Balance], float]:
+        """Full multigrid, and what is to follow it.
+
+        With close lines cycles need the better start, which raises the load by cycles on the grid of half the
+        intervals; where those fail, in stiff oil, Newton steps do with the other one.
+        """
+        mg = self.multigrid
+        mg.full_multigrid(balance, nested=not self.method.newton)
+        if not self.method.newton:
+            return AcceleratedCycles(mg).step
+        mg.cycle(balance)
+        return NewtonKrylov(mg).step
+
+    def _started_with(self, effects: Sequence[Effect], balance: Balance) -> Callable[[Balance], float]:
+        """Start of effects, and what is to follow it."""
+        mg = self.multigrid
+        cycles = CyclesWithEffects(mg, effects, NewtonKrylov(mg).step if self.method.newton else mg.cycle)
+        cycles.start(balance)
+        return cycles.step
 
     def result(self, status: Status, seconds: float) -> SteadyResult:
         """Result of the solve."""
         mg, level, track = self.multigrid, self.multigrid.finest, self.track
+        conditions, scales = self.conditions, scales_of(self.point)
+        thinned = self.of_effects.get("sliding", {"film_share": nan})
         return SteadyResult(
             point=mg.point,
-            scales=self.scales,
+            scales=scales,
             domain=self.mesh.domain,
             n=self.mesh.n,
             X=level.X.copy(),
@@ -400,13 +305,25 @@ class _Film:
             status=status,
             error_estimate=self.error_estimate,
             seconds=seconds,
-            supply=self.supply,
-            temperature=self.temperature,
-            asperities=self.asperities,
-            sliding=self.sliding,
-            thinned_share=None if self.sliding is None else self.thinned_share,
+            supply=conditions.supply,
+            temperature=self._temperature(scales),
+            asperities=self._asperities(),
+            sliding=conditions.sliding,
+            thinned_share=None if conditions.sliding is None else thinned["film_share"],
             **_content(level),
         )
+
+    def _temperature(self, scales: Scales | None) -> FilmTemperature | None:
+        """Temperatures of a film with heat."""
+        found, heat = self.of_effects.get("heat"), self.conditions.heat
+        if found is None or heat is None or scales is None:
+            return None
+        return FilmTemperature(inputs=heat, thermal_load=heat.load(self.multigrid.point, scales), **found)
+
+    def _asperities(self) -> AsperityContact | None:
+        """Asperities beside a film."""
+        found, inputs = self.of_effects.get("asperities"), self.conditions.asperities
+        return None if found is None or inputs is None else AsperityContact(inputs=inputs, **found)
 
 
 def _content(level: Level) -> dict[str, Any]:

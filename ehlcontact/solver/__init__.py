@@ -21,11 +21,12 @@ module           responsibility
 ``multigrid``    full-approximation-scheme cycle and full multigrid
 ``acceleration`` Anderson acceleration of V cycles
 ``linear``       linearised film: operator, preconditioner, Krylov solution
-``mixed_film``   cycles of a film beside asperities that carry part of the load
+``effects``      `Effect`: what conditions make of a film, any of them beside the others; cycles with them
+``mixed_film``   pressure of asperities that carry part of the load beside a film
 ``linear_heat``  linearised film with temperatures that follow a vibration
 ``linear_fronts``  its fronts of full film, where oil runs short
 ``film_thinning`` shear thinning of a film by sliding
-``film_heat``    temperatures of a film: energy equation; cycles after which the viscosity follows them
+``film_heat``    temperatures of a film: energy equation; viscosity that follows them after a cycle
 ``newton``       Newton steps on the finest grid
 ``iterate``      iteration of cycles or Newton steps until convergence or failure
 ================ ==========================================================================================

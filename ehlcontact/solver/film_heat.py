@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import inf
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 import scipy
@@ -105,6 +105,11 @@ class FilmHeat:
         return self.numbers.slide_roll == 0.0 and self.numbers.walls[0] == self.numbers.walls[1]
 
     @property
+    def changes_film(self) -> bool:
+        """Whether the viscosity falls with temperature."""
+        return self.numbers.exponent != 0.0
+
+    @property
     def mean(self) -> Array:
         """Mean temperature over the film."""
         return self.rise + self.walls.mean(axis=0)
@@ -176,6 +181,21 @@ class FilmHeat:
         left = t.pressed + slid + work - sum(self.into_walls(t)) - carried
         weights = self.level.force_weights
         return float(abs(np.vdot(weights, left)) / np.vdot(weights, t.pressed + slid + np.abs(work)))
+
+    @np.errstate(over="ignore", invalid="ignore")  # of a film that ran away: its status says so
+    def result(self, before: float) -> dict[str, Any]:
+        """Temperatures of the film as it is, as `described`."""
+        self.solve()
+        return self.described(before)
+
+    def described(self, before: float) -> dict[str, Any]:
+        """Fields and numbers of a `FilmTemperature`; the central film without heat was `before`."""
+        return {
+            "mean": self.mean.T.copy(),
+            "surfaces": self.walls.transpose(0, 2, 1).copy(),
+            "film_share": self.level.central_film() / before,
+            "balance": self.balance(),
+        }
 
     def terms(self) -> Terms:
         """Terms at the present state of the level (eqs. 2 to 5)."""
@@ -285,23 +305,32 @@ class FilmHeat:
         return Sliding(power * stress, power * np.minimum(slope, 0.0), power * by_log)
 
 
-class FollowedFilm(Protocol):
+class ViscositySource(Protocol):
     """What changes the viscosity of a film: `FilmHeat`, or `film_thinning.FilmThinning`."""
+
+    @property
+    def changes_film(self) -> bool:
+        """Whether the viscosity is another one."""
 
     def solve(self, rounds: int = ..., /) -> Array:
         """What ``Flow.heat`` becomes at the present film."""
 
+    def result(self, before: float) -> dict[str, Any]:
+        """Fields and numbers of a result; the central film without it was `before`."""
 
-class HeatedCycles:
-    """Cycles or Newton steps after each of which the viscosity follows the temperatures; `step` stands for one.
+
+class FollowedViscosity:
+    """Effect of heat or sliding (`effects.Effect`): the viscosity follows them after a cycle or a Newton step.
 
     A cycle at given viscosity leaves little. How fast the viscosity settles depends on what pressure and film make
     of it: a change comes back from the inlet by a fifth, with the other sign, and from where the pressure ends by
     half, with its own. So changes are combined as in `acceleration`.
     """
 
-    def __init__(self, multigrid: Multigrid, heat: FollowedFilm, advance: Callable[[Balance], float]) -> None:
-        self.multigrid, self.heat, self._advance = multigrid, heat, advance
+    slow = True  # what falls slowly is not the cycles' part
+
+    def __init__(self, multigrid: Multigrid, heat: ViscositySource) -> None:
+        self.multigrid, self.heat = multigrid, heat
         self._rounds = ROUNDS if isinstance(heat, FilmHeat) and heat.even else SLIDING_ROUNDS
         self._rough = inf  # what sliding thins follows any film
         if isinstance(heat, FilmHeat):
@@ -309,7 +338,12 @@ class HeatedCycles:
         self._last: tuple[Array, Array] | None = None  # what the heating became, and its change
         self._differences: list[tuple[Array, Array]] = []  # of both, from cycle to cycle
 
-    def start(self, balance: Balance) -> None:
+    @property
+    def changes_film(self) -> bool:
+        """Whether the viscosity is another one."""
+        return self.heat.changes_film
+
+    def start(self, balance: Balance, advance: Callable[[Balance], float]) -> None:
         """Full multigrid with what the isothermal film, which is on the levels, would heat, less some of it.
 
         From the isothermal pressure itself cycles on fine grids diverge where the pressure ends. Temperatures
@@ -319,32 +353,33 @@ class HeatedCycles:
         self.multigrid.full_multigrid(balance)
         starved = bool(self.multigrid.finest.inflow.size)
         for _ in range(FRONT_CYCLES if starved else 0):
-            if self._advance(balance) < self._rough:
+            if advance(balance) < self._rough:
                 break
         if starved or self._rough == inf:
             self.follow()
 
     def settle(self, balance: Balance, cycles: int) -> None:
-        """So many of them from a film that is near; viscosity and temperatures belong together at last."""
+        """So many cycles from a film that is near; viscosity and temperatures belong together at last."""
         assert isinstance(self.heat, FilmHeat)
         self.heat.solve()
         self.follow()
         for _ in range(cycles):
-            self.step(balance)
+            self.multigrid.sweep_factor = self.multigrid.least_sweep_factor
+            self.follow(self.multigrid.cycle(balance))
         self.heat.solve()
         self.heat.set_viscosity(self.multigrid)
 
-    def step(self, balance: Balance) -> float:
-        """One of them; returns the largest change of P."""
-        self.multigrid.sweep_factor = (
-            self.multigrid.least_sweep_factor
-        )  # what falls slowly is not the cycles' part
-        change = self._advance(balance)
+    def follow(self, change: float = 0.0) -> float:
+        """Viscosity of the present temperatures, and residuals with it, but after a rough cycle; returns 0."""
         if change < self._rough:
-            self.follow()
-        return change
+            self._renew()
+        return 0.0
 
-    def follow(self) -> None:
+    def result(self, before: float) -> dict[str, Any]:
+        """Fields and numbers of a result; the central film without it was `before`."""
+        return self.heat.result(before)
+
+    def _renew(self) -> None:
         """Viscosity of the present temperatures; residuals with it."""
         mg = self.multigrid
         before = mg.finest.fields.flow.heat

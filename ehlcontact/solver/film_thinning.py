@@ -7,6 +7,8 @@ it the ratio of stress to shear rate.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 class FilmThinning:
-    """Viscosities of the film on the finest level of a multigrid, for `HeatedCycles`.
+    """Viscosities of the film on the finest level of a multigrid, for `FollowedViscosity`.
 
     Parameters
     ----------
@@ -31,6 +33,8 @@ class FilmThinning:
     def __init__(self, multigrid: Multigrid, law: TractionLaw, log_newton: float) -> None:
         self.multigrid, self.law, self.log_newton = multigrid, law, log_newton
 
+    changes_film = True
+
     def solve(self, rounds: int = 1) -> Array:
         """What ``Flow.heat`` becomes at the present P and H (eq. 8); the flow across is set too (eq. 9)."""
         level = self.multigrid.finest
@@ -41,3 +45,7 @@ class FilmThinning:
         wet = level.P > 0.0
         self.multigrid.set_aside(np.where(wet, along - across, 0.0))
         return np.where(wet, along / (cold + level.law.q), 0.0)
+
+    def result(self, before: float) -> dict[str, Any]:
+        """Share that it leaves of the central film without it, `before`."""
+        return {"film_share": self.multigrid.finest.central_film() / before}

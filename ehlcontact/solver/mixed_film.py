@@ -8,6 +8,7 @@ cycle, with under-relaxation where it carries much of the load.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +23,8 @@ FIRST_SHARE = 0.5  # of the load: largest change of what asperities carry in one
 LEAST_STEP = 0.05
 
 
-class MixedCycles:
-    """Multigrid cycles, each followed by an update of the asperities' pressure; `step` does one.
+class AsperityPressure:
+    """Effect of asperities (`effects.Effect`): their pressure follows the gap after every cycle.
 
     Attributes
     ----------
@@ -31,36 +32,41 @@ class MixedCycles:
         Of the asperities, over the Hertz pressure.
     """
 
-    def __init__(
-        self, multigrid: Multigrid, numbers: AsperityNumbers, advance: Callable[[Balance], float]
-    ) -> None:
-        self.multigrid, self.numbers, self._advance = multigrid, numbers, advance
+    changes_film, slow = True, False
+
+    def __init__(self, multigrid: Multigrid, numbers: AsperityNumbers) -> None:
+        self.multigrid, self.numbers = multigrid, numbers
         self.pressure = np.zeros_like(multigrid.finest.P)
         self._last = 0.0  # change of their load in the last update, without relaxation
         self._step = 1.0
 
-    def start(self) -> None:
+    def start(self, balance: Balance, advance: Callable[[Balance], float]) -> None:
         """Set the asperities' pressure from the film on the finest level."""
-        self._follow()
+        self.follow()
 
-    def step(self, balance: Balance) -> float:
-        """One cycle; returns the largest change of either pressure."""
-        change = self._advance(balance)
-        return max(change, self._follow())
-
-    def _follow(self) -> float:
+    def follow(self, change: float = 0.0) -> float:
         """Update the asperities' pressure from the present gap, with relaxation, and then the film."""
         mg, level = self.multigrid, self.multigrid.finest
-        change = self.numbers.unit * greenwood_tripp(level.H / self.numbers.rq) - self.pressure
-        more = float(np.vdot(level.force_weights, change))
+        own = self.numbers.unit * greenwood_tripp(level.H / self.numbers.rq) - self.pressure
+        more = float(np.vdot(level.force_weights, own))
         given_way = self._last - more  # change of the residual load: Aitken's factor
         if self._last * given_way > 0.0:
             self._step = float(np.clip(self._step * self._last / given_way, LEAST_STEP, 1.0))
         if abs(more) > FIRST_SHARE:
             self._step = min(self._step, FIRST_SHARE / abs(more))
         self._last = more
-        self.pressure += self._step * change
+        self.pressure += self._step * own
         level.asperity_load = float(np.vdot(level.force_weights, self.pressure))
         level.film_shift = level.deflection(self.pressure).copy()
         level.update(mg.u)
-        return self._step * float(np.abs(change).max())
+        return self._step * float(np.abs(own).max())
+
+    def result(self, before: float) -> dict[str, Any]:
+        """Fields and numbers of an `AsperityContact`; the central film between smooth surfaces was `before`."""
+        level = self.multigrid.finest
+        return {
+            "pressure": self.pressure.T.copy(),
+            "load_share": level.asperity_load / level.force(),
+            "film_over_rq": level.central_film() / self.numbers.rq,
+            "film_share": level.central_film() / before,
+        }

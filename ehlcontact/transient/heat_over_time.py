@@ -185,14 +185,7 @@ class HeatOverTime(FilmHeat):
 
     def at_rest(self, cold: float) -> FilmTemperature:
         """Temperatures of a steady film whose central film would be `cold` without heat."""
-        return FilmTemperature(
-            inputs=self._inputs,
-            mean=self.mean.T.copy(),
-            surfaces=self.walls.transpose(0, 2, 1).copy(),
-            film_share=self.level.central_film() / cold,
-            thermal_load=self._load,
-            balance=self.balance(),
-        )
+        return FilmTemperature(inputs=self._inputs, thermal_load=self._load, **self.described(cold))
 
     def numbers_of_record(self) -> tuple[float, float, float]:
         """Warmest oil and surface [K above the inlet], and the balance of energy over the heat made."""

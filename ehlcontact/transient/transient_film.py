@@ -22,9 +22,10 @@ from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse_newton import Factors
+from ehlcontact.solver.effects import CyclesWithEffects
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
-from ehlcontact.solver.film_heat import HeatedCycles
+from ehlcontact.solver.film_heat import FollowedViscosity
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Array, Level
 from ehlcontact.solver.mesh import Mesh
@@ -211,7 +212,7 @@ class TransientFilm:
         self.scale = max(self.level.central_film(), SMALLEST_SCALE)
         step = self._solve(balance, 2 * STEP_CYCLES)
         if self.heat is not None and step.status.ok:
-            cold, cycles = self.level.central_film(), HeatedCycles(mg, self.heat, mg.cycle)
+            cold, cycles = self.level.central_film(), self._heated(self.heat)
             cycles.start(balance)
             self.level.film_shift = surface
             step = self._solve(balance, 2 * STEP_CYCLES, cycles.step)
@@ -286,7 +287,7 @@ class TransientFilm:
         else:
             moved = 0.5 * dT * (self._speed + self._next_speed)
             self.heat.begin(dT, partial(_known, dT, ratio), moved, self.turned, source)
-            cycles = HeatedCycles(mg, self.heat, mg.cycle)
+            cycles = self._heated(self.heat)
             level.update(mg.u)
             cycles.follow()
             step = self._solve(balance, STEP_CYCLES, cycles.step)
@@ -298,6 +299,10 @@ class TransientFilm:
         if self._beyond is not None:
             self._beyond = self._beyond.moved(way, self.turned, level.leaving())
         return step
+
+    def _heated(self, heat: HeatOverTime) -> CyclesWithEffects:
+        """Cycles after which the viscosity follows the temperatures."""
+        return CyclesWithEffects(self.multigrid, [FollowedViscosity(self.multigrid, heat)], self.multigrid.cycle)
 
     def _solve(self, balance: Balance, most: int, advance: Callable[[Balance], float] | None = None) -> Step:
         """Cycle until the residual, the balance and the last changes of u and force are below tolerance."""

@@ -26,7 +26,8 @@ from ehlcontact import (
 )
 from ehlcontact.impedance import LinearisedContact, heat_of, held, slow_part
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.film_heat import FilmHeat, HeatedCycles
+from ehlcontact.solver.effects import CyclesWithEffects
+from ehlcontact.solver.film_heat import FilmHeat, FollowedViscosity
 from ehlcontact.solver.linear_heat import LinearHeat
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
@@ -123,7 +124,7 @@ def force_on_a_ramp(given, near, rate, r=None):
     heat.rise[...], heat.walls[...], heat.rate, heat.near = steady.rise, steady.walls, rate, near
     solved.finest.rhs[...] = rate * near.mass
     solved.finest.update(solved.u)
-    cycles = HeatedCycles(solved, heat, solved.cycle)
+    cycles = CyclesWithEffects(solved, [FollowedViscosity(solved, heat)], solved.cycle)
     for _ in range(15):
         cycles.step(balance)
     return solved.finest.force()
