@@ -10,10 +10,9 @@ from dataclasses import dataclass, field
 from math import log
 from typing import Any
 
-from ehlcontact.assumptions.film import LARGEST_SLIDE_ROLL
 from ehlcontact.checks import require_between
 from ehlcontact.errors import InputError
-from ehlcontact.lubricant.traction_laws import Eyring, TractionLaw, require_law
+from ehlcontact.lubricant.traction_laws import LARGEST_SLIDE_ROLL, Eyring, TractionLaw, require_law
 from ehlcontact.point import Scales
 
 

@@ -8,6 +8,7 @@ from ehlcontact.assumptions.contact import BY_FORMULA, NO_SI, Contact
 from ehlcontact.assumptions.table import Assumption
 from ehlcontact.film_formulas import flooding_distance, gupta_heating, starved_film, wilson_heating
 from ehlcontact.hertz import shape_factor
+from ehlcontact.lubricant.traction_laws import LARGEST_SLIDE_ROLL
 from ehlcontact.solver.domain import Domain
 
 LEAST_HEATING_FACTOR = 0.9  # a film a tenth too thick: what the tolerance of an oil's grade leaves open anyway
@@ -15,7 +16,6 @@ EYRING_STRESS = 5e6  # Pa, mineral oils, 2 to 10; Johnson and Tevaarwerk, Proc. 
 # At the Eyring stress the flow under pressure is a tenth above Newton's, 3 (x cosh x - sinh x)/x^3 (Conry, Wang
 # and Cusano, J. Tribology 109 (1987) 648-654); the film is then 3 % thinner (Grubin's inlet, docs/assumptions.md).
 LARGEST_STRESS = 1.0
-LARGEST_SLIDE_ROLL = 2.0  # one surface stands still; beyond, the surfaces run against each other
 # Time in contact, none above the first and all of it below the other: Tallian, ASLE Trans. 10 (1967) 418-439
 LEAST_LAMBDA, MIXED_LAMBDA = 3.0, 1.0
 SMOOTH_SCATTER = "on the safe side: the contact flattens long waves of a roughness measured outside it"

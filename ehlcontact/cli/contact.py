@@ -13,7 +13,6 @@ import typer
 from ehlcontact.asperities import Asperities
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.assumptions.contact import KnownFilm
-from ehlcontact.assumptions.film import LARGEST_SLIDE_ROLL
 from ehlcontact.checks import require_between
 from ehlcontact.checks.admissible_range import INPUTS, Given
 from ehlcontact.cli import entries as e
@@ -25,6 +24,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.heat import RANGES, Heat
 from ehlcontact.hertz import most_loaded_ball
 from ehlcontact.lubricant import Eyring, LimitingShear, Lubricant, TractionLaw
+from ehlcontact.lubricant.traction_laws import LARGEST_SLIDE_ROLL
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
 from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.supply import OilLayer

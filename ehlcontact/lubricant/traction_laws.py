@@ -21,6 +21,7 @@ from ehlcontact.checks.quantity import fields_take
 Array = NDArray[np.float64]
 
 STRESS = Quantity("Pa", (1e5, 1e9), (5e5, 1e9), {"MPa": 1e6})  # Eyring's, of oils: 2 to 10 MPa
+LARGEST_SLIDE_ROLL = 2.0  # one surface stands still; beyond, the surfaces run against each other
 LITTLE = -18.0  # ln of a stress over Eyring's, below which asinh equals its argument
 STRAIGHT = 20.0  # the same, above which asinh is a logarithm
 

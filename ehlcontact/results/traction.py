@@ -13,12 +13,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.assumptions.film import LARGEST_SLIDE_ROLL
 from ehlcontact.checks import as_column
 from ehlcontact.errors import InputError
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import TractionLaw, log_viscosity
-from ehlcontact.lubricant.traction_laws import require_law
+from ehlcontact.lubricant.traction_laws import LARGEST_SLIDE_ROLL, require_law
 from ehlcontact.origin import Origin
 from ehlcontact.point import Scales
 from ehlcontact.quantities import NUMBER, Quantity
