@@ -133,6 +133,25 @@ typedef struct {
 const char *rotor_move(const Rotor *rotor, const double applied[], double h, double omega, double after, double state[],
                        double work[], Search *search);
 
+/* The same in parts, for a caller that finds the balance itself. First what the points would do without forces of the supports at the
+ * end: of a place r there the rate is gain r + history, and the forces balance where stiffness (r - free) + weight F = 0. Then the
+ * step ends with the points at r, where `reaction`, of the points on what moves them, has brought them; F is `carried`. */
+typedef struct {
+    double gain, weight;
+    const double *free, *history, *stiffness; /* (points), (points), (points, points) */
+} FreeStep;
+
+const char *rotor_free_step(const Rotor *rotor, const double applied[], double h, double omega, double state[], double work[],
+                            FreeStep *step);
+const char *rotor_end_step(const Rotor *rotor, const double applied[], const double r[], const double reaction[],
+                           const double carried[], double state[], double work[]);
+
+/* Lets the linear part of the next step be made anew: matrices have changed. */
+void rotor_renew(const Rotor *rotor, double state[]);
+
+/* From places to rates in a step of length h. */
+double rotor_gain(double rho, double h);
+
 /* Steps of length h along a course of the shaft. */
 typedef struct {
     int steps, made;        /* wanted; done */
@@ -147,11 +166,10 @@ typedef struct {
     int64_t *presses;
 } RotorRun;
 
-/* The rotor at the start of a run, with forces on the points and of the unbalances; its supports are in the state already.
+/* The rotor at the start of a run, with forces on the points and on the freedoms; its supports are in the state already.
  * `motion` has displacements, velocities and accelerations. */
-void rotor_put(const Rotor *rotor, const double motion[], const double carried[], const double turning[], double state[]);
+void rotor_put(const Rotor *rotor, const double motion[], const double carried[], const double applied[], double state[]);
 
-/* The linear part of a step is made anew: matrices may have changed. */
 const char *rotor_run(const Rotor *rotor, RotorRun *run, double state[], double work[]);
 
 #endif

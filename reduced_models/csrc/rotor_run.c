@@ -24,9 +24,10 @@ void rotor_sizes(size_t sizes[])
     sizes[0] = sizeof(Rotor);
     sizes[1] = sizeof(RotorRun);
     sizes[2] = sizeof(Support);
+    sizes[3] = sizeof(FreeStep);
 }
 
-void rotor_put(const Rotor *r, const double motion[], const double carried[], const double turning[], double state[])
+void rotor_put(const Rotor *r, const double motion[], const double carried[], const double applied[], double state[])
 {
     const RotorLayout at = rotor_layout(r);
     const size_t n = (size_t)r->freedoms, p = (size_t)r->points;
@@ -34,7 +35,7 @@ void rotor_put(const Rotor *r, const double motion[], const double carried[], co
     size_t i, j;
     memcpy(state + at.place, motion, 3 * n * sizeof state[0]);
     memcpy(state + at.carried, carried, p * sizeof state[0]);
-    apply(r, turning, state + at.applied);
+    memcpy(state + at.applied, applied, n * sizeof state[0]);
     for (j = 0; j < p; j++) {
         past[j] = 0.0;
         for (i = 0; i < n; i++) {
@@ -67,7 +68,6 @@ static int record(const Rotor *r, const RotorRun *run, int step, const double st
 const char *rotor_run(const Rotor *r, RotorRun *run, double state[], double work[])
 {
     int lost = 0;
-    state[rotor_layout(r).step] = 0.0; /* the length: the linear part is made anew */
     for (run->made = 0; run->made < run->steps && !lost; run->made++) {
         const double *omega = run->omega + run->made;
         const char *reason;

@@ -1,5 +1,5 @@
 /* Steps of a rotor by the generalised-alpha method (Chung and Hulbert 1993), everything linear condensed onto the points at which
- * supports act: reduced_models.rotor.time_step. See rotor.h. */
+ * supports act: reduced_models.rotor.core_rotor. See rotor.h. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -264,22 +264,59 @@ static const char *balance(const Rotor *r, const Method *m, const double applied
     return "the forces of the supports find no balance: a shorter inner_step can help";
 }
 
-/* To the end of a step, where the points are at room->r under the forces room->carried. */
-static const char *move_on(const Rotor *r, const Method *m, const double applied[], double state[], const Room *room)
+/* ---- a step, in parts and whole ---- */
+
+void rotor_renew(const Rotor *r, double state[])
+{
+    *condensed(r, state).h = 0.0;
+}
+
+double rotor_gain(double rho, double h)
+{
+    return method_of(rho, h).velocity[0];
+}
+
+const char *rotor_free_step(const Rotor *r, const double applied[], double h, double omega, double state[], double work[],
+                            FreeStep *step)
+{
+    const Condensed c = condensed(r, state);
+    const Room own = room(r, work);
+    const Method *m = c.method;
+    if (*c.h != h || (r->G != NULL && *c.omega != omega)) {
+        const char *reason;
+        *c.method = method_of(r->rho, h);
+        reason = condense(r, m, h, omega, state, &own);
+        if (reason != NULL) {
+            return reason;
+        }
+    }
+    free_place(r, m, omega, applied, state, &own);
+    step->gain = m->velocity[0];
+    step->weight = m->weight;
+    step->free = own.free;
+    step->history = own.history;
+    step->stiffness = c.D;
+    return NULL;
+}
+
+const char *rotor_end_step(const Rotor *r, const double applied[], const double place[], const double reaction[],
+                           const double carried[], double state[], double work[])
 {
     const RotorLayout at = rotor_layout(r);
     const Condensed c = condensed(r, state);
+    const Room own = room(r, work);
+    const Method *m = c.method;
     double *d = state + at.place, *v = state + at.velocity, *a = state + at.acceleration, *past = state + at.past;
     const int n = r->freedoms, p = r->points;
     int i, j, finite = 1;
     for (j = 0; j < p; j++) {
-        const double push = m->weight * room->carried[j];
+        const double push = m->weight * reaction[j];
         for (i = 0; i < n; i++) {
-            room->place[i] -= push * c.columns[j * n + i];
+            own.place[i] -= push * c.columns[j * n + i];
         }
     }
     for (i = 0; i < n; i++) {
-        const double old = d[i], rate = v[i], new = room->place[i];
+        const double old = d[i], rate = v[i], new = own.place[i];
         d[i] = new;
         v[i] = m->velocity[0] * new + (m->velocity[1] * old + m->velocity[2] * rate + m->velocity[3] * a[i]);
         a[i] = m->acceleration[0] * new + m->acceleration[1] * old + m->acceleration[2] * rate + m->acceleration[3] * a[i];
@@ -287,9 +324,35 @@ static const char *move_on(const Rotor *r, const Method *m, const double applied
         finite &= isfinite(d[i]) && isfinite(v[i]) && isfinite(a[i]);
     }
     memmove(past + p, past, 2 * (size_t)p * sizeof past[0]);
-    memcpy(past, room->r, (size_t)p * sizeof past[0]);
-    memcpy(state + at.carried, room->carried, (size_t)p * sizeof past[0]);
+    memcpy(past, place, (size_t)p * sizeof past[0]);
+    memcpy(state + at.carried, carried, (size_t)p * sizeof past[0]);
     return finite ? NULL : no_number;
+}
+
+const char *rotor_move(const Rotor *r, const double applied[], double h, double omega, double after, double state[], double work[],
+                       Search *search)
+{
+    const RotorLayout at = rotor_layout(r);
+    const Room own = room(r, work);
+    const double *past = state + at.past;
+    const int p = r->points;
+    const char *reason;
+    FreeStep step;
+    int j;
+    search->presses = 0;
+    search->refused = -1;
+    reason = rotor_free_step(r, applied, h, omega, state, work, &step);
+    if (reason == NULL && p > 0) {
+        for (j = 0; j < p; j++) {
+            own.r[j] = 3.0 * (past[j] - past[p + j]) + past[2 * p + j];
+        }
+        supports_begin(r, state, work, h, after);
+        reason = balance(r, condensed(r, state).method, applied, state, work, &own, search);
+    }
+    if (reason == NULL && p > 0) {
+        reason = supports_accept(r, state, work);
+    }
+    return reason == NULL ? rotor_end_step(r, applied, own.r, own.carried, own.carried, state, work) : reason;
 }
 
 /* ---- the shaft ---- */
@@ -351,42 +414,6 @@ void rotor_begin(const Rotor *r, const Acting *now, const Acting *end, double h,
     }
     memcpy(before, applied, (size_t)r->freedoms * sizeof before[0]);
     shaft[SHAFT_MOVING] = 1.0;
-}
-
-const char *rotor_move(const Rotor *r, const double applied[], double h, double omega, double after, double state[], double work[],
-                       Search *search)
-{
-    const RotorLayout at = rotor_layout(r);
-    const Condensed c = condensed(r, state);
-    const Room own = room(r, work);
-    const Method *m = c.method;
-    const double *past = state + at.past;
-    const int p = r->points;
-    const char *reason = NULL;
-    int j;
-    search->presses = 0;
-    search->refused = -1;
-    if (*c.h != h || (r->G != NULL && *c.omega != omega)) {
-        *c.method = method_of(r->rho, h);
-        reason = condense(r, m, h, omega, state, &own);
-    }
-    if (reason == NULL) {
-        free_place(r, m, omega, applied, state, &own);
-        for (j = 0; j < p; j++) {
-            own.r[j] = 3.0 * (past[j] - past[p + j]) + past[2 * p + j];
-        }
-        if (p > 0) {
-            supports_begin(r, state, work, h, after);
-            reason = balance(r, m, applied, state, work, &own, search);
-        }
-        if (reason == NULL && p > 0) {
-            reason = supports_accept(r, state, work);
-        }
-        if (reason == NULL) {
-            reason = move_on(r, m, applied, state, &own);
-        }
-    }
-    return reason;
 }
 
 const char *rotor_step(const Rotor *r, const Acting *end, double h, double state[], double work[])

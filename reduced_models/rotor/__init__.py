@@ -14,7 +14,7 @@
 | nodes | degrees of freedom by node and direction |
 | equilibrium | static equilibrium of a rotor on its supports |
 | speed_profile | `SpeedProfile`: the speed of a shaft over time, and the forces that turn with it |
-| time_step | generalised-alpha step of a rotor, condensed onto its supports |
+| core_rotor | `CoreRotor`: a rotor as the C core has it, its steps condensed onto its supports |
 | contact_steps | forces and tangent stiffness of all contacts in a step |
 | prepared_run | a rotor, its supports and their start as the arrays of a run |
 | integrate_compiled | steps of a rotor on ball bearings, in C |

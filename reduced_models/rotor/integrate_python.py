@@ -1,6 +1,6 @@
-"""Newton loop of the generalised-alpha step in Python, for supports other than ball bearings: films, elements.
+"""Newton loop of a rotor's step in Python, for supports other than ball bearings: films, elements.
 
-The step is that of `time_step`. Its balance is found on the displacements of the points at which supports act, by
+The step is that of `core_rotor`. Its balance is found on the displacements of the points at which supports act, by
 Newton's method or, for contacts without tangents, secants.
 """
 
@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
 from reduced_models.bearing.motion import BallMotion
+from reduced_models.rotor.core_rotor import CoreRotor, FreeStep
 from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.scaled_contact import has_tangents
-from reduced_models.rotor.time_step import Steps, free_displacement, move_to, rounding_hint
 
 _Floats = NDArray[np.float64]
 
@@ -97,11 +97,11 @@ class PythonSteps:
         self, run: PreparedRun, tolerance: float, most: int, bearings: Sequence[RunningSupport] | None = None
     ) -> None:
         self._run, self._most, self._in_step = run, most, False
-        self._steps: Steps | None = None
-        self._steps_omega = 0.0
-        self._points, self._normals, counts = run.rotor.geometry
+        self._core, self._matrices_at = CoreRotor(run.rotor, run.dt, run.rho_inf), math.nan
+        _, self._normals, counts = run.rotor.geometry
         self._to_points = counts[:, None] * self._normals  # (m, n): forces of the points are force @ to_points
         d, force = run.histories.displacement[0], run.histories.force[0]
+        self._core.put(run.state, force @ self._to_points, run.applied(0))
         _, _, K = run.rotor.matrices(run.omega[0])
         carried = np.abs(self._normals.T @ (counts * force)).max(initial=0.0)
         turning, load = np.abs(run.turning).max(initial=0.0), np.abs(run.rotor.load).sum()
@@ -130,33 +130,29 @@ class PythonSteps:
             A step found no balance, or a contact in it did not converge, and the histories stay as they were; or
             the ring of a ball bearing left it.
         """
-        if self._steps is None or (self._run.rotor.changes_with_speed and omega != self._steps_omega):
-            self._steps, self._steps_omega = self._run.steps_at(omega), omega
-        steps = self._steps
+        if math.isnan(self._matrices_at) or (self._run.rotor.changes_with_speed and omega != self._matrices_at):
+            self._core.take_matrices(omega)
+            self._matrices_at = omega
         for i in range(first + 1, end + 1):
             self.reached = i
-            self._step(steps, i)
+            self._step(i)
             self.made = i
             lost = self._run.lost(i - 1, i)
             if lost is not None:
                 raise ConvergenceError(lost[1], None)
             progress(i)
 
-    def _step(self, steps: Steps, i: int) -> None:
+    def _step(self, i: int) -> None:
         """Make step `i` of the run, counted from 1."""
-        run = self._run
-        turning, force, share = run.turning, run.histories.force, 1.0 - steps.weight
-        free = free_displacement(steps, run.state, turning[i], turning[i - 1])
-        free -= (share * (force[i - 1] @ self._to_points)) @ steps.columns
-        _, by_d, by_v, by_a = steps.velocity
-        past_rate = by_d * run.state[0] + by_v * run.state[1] + by_a * run.state[2]
+        run, core = self._run, self._core
+        step = core.free_step(run.applied(i))
         for _, support in self._supports:
             support.begin(run.omega[i])
-        q_free, point_rate = self._points @ free, self._points @ past_rate
-        q, r, r_rate, found, count = self._balance(steps, q_free, point_rate, self._predict(steps, i, q_free))
-        new = free + (steps.D @ (q - q_free)) @ steps.columns
-        move_to(steps, run.state, new)
-        for history, value in zip(run.histories, (new, run.state[1], r, r_rate, found, count), strict=True):
+        q, r, r_rate, found, count = self._balance(step, self._predict(step, i))
+        # by what brings the points there: rotor and supports stay together where the balance leaves an imbalance
+        core.end_step(q, (step.stiffness @ (step.free - q)) / step.weight, found @ self._to_points)
+        d, v, run.state[2] = core.motion
+        for history, value in zip(run.histories, (d, v, r, r_rate, found, count), strict=True):
             history[i] = value
         self._in_step = False  # last: Ctrl-C may come between any two lines
 
@@ -166,7 +162,7 @@ class PythonSteps:
             for _, support in self._supports:
                 support.rewind()
 
-    def _predict(self, steps: Steps, i: int, q_free: _Floats) -> _Floats:
+    def _predict(self, step: FreeStep, i: int) -> _Floats:
         """Place of the points from extrapolated motions and forces, tied together by the slopes.
 
         Extrapolating the force alone fails where a support is stiffer than the inertia in a step, the motion
@@ -176,21 +172,19 @@ class PythonSteps:
         slopes = np.zeros((r.size, r.size))
         for columns, support in self._supports:
             slopes[columns, columns] = support.expected(r[columns], rate[columns])
-        right = steps.D @ q_free - steps.weight * ((force - slopes @ r) @ self._to_points)
-        return np.asarray(np.linalg.solve(self._system(steps, slopes), right), dtype=np.float64)
+        right = step.stiffness @ step.free - step.weight * ((force - slopes @ r) @ self._to_points)
+        return np.asarray(np.linalg.solve(self._system(step, slopes), right), dtype=np.float64)
 
-    def _balance(
-        self, steps: Steps, q_free: _Floats, point_rate: _Floats, q: _Floats
-    ) -> tuple[_Floats, _Floats, _Floats, _Floats, int]:
-        """Newton's method for ``D (q - q_free) + weight F = 0``: points, motions, rates, forces, evaluations."""
+    def _balance(self, step: FreeStep, q: _Floats) -> tuple[_Floats, _Floats, _Floats, _Floats, int]:
+        """Newton's method for ``D (q - free) + weight F = 0``: points, motions, rates, forces, evaluations."""
         error, previous, last = math.inf, math.inf, q
         force, slopes = np.zeros(len(self._normals)), np.zeros((len(self._normals), len(self._normals)))
         for iteration in range(1, self._most + 1):
-            r, rate = self._normals @ q, self._normals @ (steps.velocity[0] * q + point_rate)
+            r, rate = self._normals @ q, self._normals @ (step.gain * q + step.history)
             self._in_step = True
             for columns, support in self._supports:
                 force[columns], slopes[columns, columns] = support.at(r[columns], rate[columns])
-            residual = steps.D @ (q - q_free) + steps.weight * (force @ self._to_points)
+            residual = step.stiffness @ (q - step.free) + step.weight * (force @ self._to_points)
             error = float(np.linalg.norm(residual))
             left = LEFT_BY_FILMS if iteration == self._most and self._has_films else 1.0
             if error <= left * self._allowed:
@@ -203,9 +197,9 @@ class PythonSteps:
                 q = 0.5 * (q + last)  # a kink lies between
                 continue
             previous, last = error, q
-            q = q - np.linalg.solve(self._system(steps, slopes), residual)
+            q = q - np.linalg.solve(self._system(step, slopes), residual)
         found = f"force imbalance {error:.3g} N above {self._allowed:.3g} N in {iteration} iterations"
-        hint = rounding_hint(steps, q, self._allowed, self._scale)
+        hint = self._core.rounding_hint(q, self._allowed, self._scale)
         if not hint and self._has_films:
             hint = (
                 ": the force of a contact that is solved in every step is good to its own tolerance; take a "
@@ -213,8 +207,8 @@ class PythonSteps:
             )
         raise ConvergenceError(found + hint, None)
 
-    def _system(self, steps: Steps, slopes: _Floats) -> _Floats:
-        return np.asarray(steps.D + steps.weight * (self._to_points.T @ slopes @ self._normals))
+    def _system(self, step: FreeStep, slopes: _Floats) -> _Floats:
+        return np.asarray(step.stiffness + step.weight * (self._to_points.T @ slopes @ self._normals))
 
 
 def _extrapolated(history: _Floats, n: int) -> _Floats:

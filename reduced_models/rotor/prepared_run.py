@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +13,10 @@ from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BallMotion, motion_of
 from reduced_models.rotor.contact_steps import ContactSteps
+from reduced_models.rotor.core_rotor import rotor_gain
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.speed_profile import SpeedProfile, shaft_course
 from reduced_models.rotor.supports import AXIAL
-from reduced_models.rotor.time_step import Histories, Steps, steps_of
 
 _Floats = NDArray[np.float64]
 
@@ -25,6 +25,24 @@ SPEED_PER_BLOCK = 2e-3  # change of the speed, over the highest, at which gyrosc
 FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no clearance is as large
 DISPLACEMENTS = 3  # of the motions of a ring; tilts follow
 LEAST_STEPS = 16  # per turn of the shaft and per ball passage, on ball bearings
+
+
+class Histories(NamedTuple):
+    """Histories of a run, from the start (entry 0) on: k entries."""
+
+    displacement: _Floats  # (k, N)
+    velocity: _Floats  # (k, N)
+    motion: _Floats  # (k, directions of all supports)
+    rate: _Floats
+    force: _Floats
+    evaluations: NDArray[np.int64]  # (k,) of every support in the step
+
+    @classmethod
+    def empty(cls, entries: int, size: int, directions: int) -> Self:
+        """Room for a run, all zero."""
+        d, v = np.zeros((2, entries, size))
+        r, rate, force = np.zeros((3, entries, directions))
+        return cls(d, v, r, rate, force, np.zeros(entries, np.int64))
 
 
 class PreparedRun:
@@ -42,8 +60,8 @@ class PreparedRun:
         All contacts; they come first among the motions of the supports.
     balls : tuple of BallMotion
         Balls and films of every ball bearing.
-    state : ndarray, shape (4, N)
-        Displacement, velocity and acceleration; room.
+    state : ndarray, shape (3, N)
+        Displacement, velocity and acceleration at the start.
     histories : Histories
         With its first entry.
     """
@@ -63,8 +81,7 @@ class PreparedRun:
         shifts = [np.zeros(len(rotor.contacts)), *(mount.shift for mount in rotor.ball_bearings)]
         self.shift = np.concatenate(shifts)
         self.histories = Histories.empty(steps + 1, rotor.size, len(rotor.geometry.normals))
-        gain = self.steps_at(self.omega[0]).velocity[0]
-        self.contacts = ContactSteps(rotor.contacts, dt, gain)
+        self.contacts = ContactSteps(rotor.contacts, dt, rotor_gain(dt, rho_inf))
         self.state = self._begin(start)
 
     @property
@@ -110,10 +127,9 @@ class PreparedRun:
             yield first, end, float(0.5 * (self.omega[first] + self.omega[end]))
             first = end
 
-    def steps_at(self, omega: float) -> Steps:
-        """The linear part of a step, with matrices at a speed [rad/s]."""
-        rotor = self.rotor
-        return steps_of(rotor.matrices(omega), rotor.geometry.points, self.at, rotor.load, self.dt, self.rho_inf)
+    def applied(self, step: int) -> _Floats:
+        """Forces on the freedoms at the end of a step but for contacts and ball bearings, shape (N,) [N]."""
+        return self.rotor.load + self.at @ self.turning[step]
 
     def _begin(self, start: Any) -> _Floats:
         """State and supports at the start, and the first entries of the histories."""
@@ -129,11 +145,11 @@ class PreparedRun:
             force[at] = balls.rest(self.omega[0], mount.cage_angle, r[at] + self.shift[at])
         M, C, K = rotor.matrices(self.omega[0])
         carried = geometry.points.T @ (geometry.normals.T @ (geometry.counts * force))
-        net = rotor.load + self.at @ self.turning[0] - carried
+        net = self.applied(0) - carried
         a = np.linalg.solve(M, net - C @ v - K @ d)
         for history, value in zip(self.histories, (d, v, r, rate, force), strict=False):
             history[0] = value
-        return np.array([d, v, a, np.zeros(rotor.size)])
+        return np.array([d, v, a])
 
     def _start(self, start: Any) -> tuple[_Floats, _Floats]:
         size = self.rotor.size
