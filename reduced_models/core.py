@@ -16,7 +16,7 @@ from ehlcontact.binaries import BuildError, build_library, this_machine
 
 CSRC = Path(__file__).parent / "csrc"
 NAME = "ehlcontact_core"
-EXPORTED = ("-fvisibility=default",)  # FMUs hide all but their interface; here Python calls every function
+EXPORTED = ("-fvisibility=default", "-fno-semantic-interposition")  # FMUs hide functions; Python calls every one
 
 _once = Lock()
 

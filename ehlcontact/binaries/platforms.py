@@ -14,7 +14,11 @@ ALL = "all"
 ARCHITECTURES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
 # For all: no symbol is seen from outside that is not marked, and no rounding depends on the machine. No vectors:
 # loops are short, and a vector waits for numbers that were just written one by one.
-COMMON = ("-std=c99", "-O3", "-fno-tree-vectorize", "-fvisibility=hidden", "-ffp-contract=off", "-shared", "-s")
+COMMON = (
+    "-std=c99", "-O3", "-fno-tree-vectorize", "-fvisibility=hidden", "-shared", "-s",
+    # No code reads errno or floating-point exceptions: roots and choices of the same value cost less without.
+    "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math",
+)  # fmt: skip
 # A missing function is an error when linking, not in an importer.
 LINUX = ("-fPIC", "-Wl,-z,defs")
 

@@ -36,7 +36,7 @@ FILM_UNIT = 2.0**-24  # of the logarithms of films, for small files: far below w
 FARTHEST = 0.1  # of the ball diameter: largest displacement, which no ring in its bearing reaches
 LARGEST_TILT = 0.1  # rad
 # Sizes in numbers of the structures of ``bearing.h`` and ``ball.h``, which an FMU compares with its own
-HEAD_NUMBERS, BALL_NUMBERS, FILM_NUMBERS = 10, 46, 6
+HEAD_NUMBERS, BALL_NUMBERS, FILM_NUMBERS = 10, 46, 7
 STEP_NUMBERS, BALL_STEP_NUMBERS, FILTER_NUMBERS = 19, 69, 25
 
 

@@ -110,7 +110,7 @@ BALL = _numbers(
     place=(2, 2), rate=(2, 2), factor=(2, 2), speed_sum=(2, 2), lift=(2,), force=(2,), film=(2,), cosine=(2,),
     sine=(2,), inertia=(5, 4),
 )  # fmt: skip
-FILM = _numbers(approach=(), rate=(), own=(), inlet=(), fast=(), entered=())
+FILM = _numbers(approach=(), rate=(), own=(), inlet=(), fast=(), entered=(), interval=())
 FULL_FILM = _numbers(force=(), slope=(), approach=())
 SURFACE = np.dtype(
     [

@@ -54,8 +54,8 @@ void leave_ball(const Search *s, const double b[2], const Pressed *p)
 /* A ball that is balanced but for an imbalance that moves it a last bit: its place, forces and slopes, the ball following. */
 static void settle_ball(const Search *s, const double b[2], const Pressed *p, const Tangents *t, const double inertia[5][4])
 {
-    const double i_r = p->at.cosine[INNER_RACE], i_z = p->at.sine[INNER_RACE], d_i = p->inner.damping, det = t->det;
-    const double move[2] = {(t->rz * p->sum[1] - t->zz * p->sum[0]) / det, (t->zr * p->sum[0] - t->rr * p->sum[1]) / det};
+    const double i_r = p->at.cosine[INNER_RACE], i_z = p->at.sine[INNER_RACE], d_i = p->inner.damping, per_det = 1.0 / t->det;
+    const double move[2] = {(t->rz * p->sum[1] - t->zz * p->sum[0]) * per_det, (t->zr * p->sum[0] - t->rr * p->sum[1]) * per_det};
     /* by c and d: of the balance; then of the force of the ring, in which b follows c */
     const double w[2][4] = {
         {i_r * t->a[0] + t->turn_rr + inertia[0][2], i_r * t->a[1] + t->turn_rz + inertia[0][3], d_i * i_r * i_r, d_i * i_r * i_z},
@@ -68,7 +68,7 @@ static void settle_ball(const Search *s, const double b[2], const Pressed *p, co
     BallStep *ball = s->ball;
     int i, j;
     for (j = 0; j < 4; j++) {
-        const double follow_r = (t->rz * w[1][j] - t->zz * w[0][j]) / det, follow_z = (t->zr * w[0][j] - t->rr * w[1][j]) / det;
+        const double follow_r = (t->rz * w[1][j] - t->zz * w[0][j]) * per_det, follow_z = (t->zr * w[0][j] - t->rr * w[1][j]) * per_det;
         for (i = 0; i < 3; i++) {
             double own = i < 2 ? w[i][j] : 0.0;
             if (j < 2) {
@@ -153,10 +153,15 @@ int balance_ball(const Search *s, const double start[2])
             settle_ball(s, b, &p, &t, inertia);
             return 1;
         }
-        move[0] = (t.rz * p.sum[1] - t.zz * p.sum[0]) / t.det;
-        move[1] = (t.zr * p.sum[0] - t.rr * p.sum[1]) / t.det;
         {
-            const double cut = fmin(1.0, most / sqrt(move[0] * move[0] + move[1] * move[1]));
+            const double per_det = 1.0 / t.det;
+            double cut = 1.0, length;
+            move[0] = (t.rz * p.sum[1] - t.zz * p.sum[0]) * per_det;
+            move[1] = (t.zr * p.sum[0] - t.rr * p.sum[1]) * per_det;
+            length = move[0] * move[0] + move[1] * move[1];
+            if (length > most * most) {
+                cut = most / sqrt(length);
+            }
             for (j = 0; j < 2; j++) {
                 last[j] = b[j];
                 b[j] += cut * move[j];

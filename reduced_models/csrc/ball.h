@@ -194,8 +194,9 @@ IN_PLACE void tangents(const Search *s, const Pressed *p, const double inertia[5
 {
     const double gain = s->step->gain, k_i = p->inner.stiffness, k_o = p->outer.stiffness, d_i = p->inner.damping, d_o = p->outer.damping;
     const double i_r = p->at.cosine[INNER_RACE], i_z = p->at.sine[INNER_RACE], o_r = p->at.cosine[OUTER_RACE], o_z = p->at.sine[OUTER_RACE];
-    const double s_i = p->inner.force / p->at.l[INNER_RACE], s_o = p->outer.force / p->at.l[OUTER_RACE];
-    const double t_i = (i_r * p->e[1] - i_z * p->e[0]) / p->at.l[INNER_RACE], t_o = (o_r * p->v[1] - o_z * p->v[0]) / p->at.l[OUTER_RACE];
+    const double per_i = 1.0 / p->at.l[INNER_RACE], per_o = 1.0 / p->at.l[OUTER_RACE];
+    const double s_i = p->inner.force * per_i, s_o = p->outer.force * per_o;
+    const double t_i = (i_r * p->e[1] - i_z * p->e[0]) * per_i, t_o = (o_r * p->v[1] - o_z * p->v[0]) * per_o;
     t->a[0] = k_i * i_r - d_i * t_i * i_z;
     t->a[1] = k_i * i_z + d_i * t_i * i_r;
     t->h[0] = t->a[0] + d_i * gain * i_r;

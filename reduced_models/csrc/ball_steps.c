@@ -97,11 +97,11 @@ static void begin_contact(const Bearing *b, const Ball *old, int race, double ra
     const double middle = old->speed_sum[race][0] + 0.5 * change, end = old->speed_sum[race][0] + change;
     ball->thickness[race].factor = old->factor[race][0] + ratio * (old->factor[race][0] - old->factor[race][1]);
     ball->thickness[race].lift = old->lift[race];
-    c->filters->interval = 0;
-    race_at_rest(c);
     if (speed > 0.0 && step->h > 0.0) {
         c->transit = c->race->contact_length_factor / (middle * speed);
         race_prepare(c, step->h);
+    } else {
+        race_at_rest(c);
     }
     ball->transit[race] = speed > 0.0 ? c->race->contact_length_factor / (end * speed) : 0.0;
 }

@@ -7,7 +7,7 @@
 #include "film_filters.h"
 
 enum { MOST_FILM_STEPS = 100 };
-static const double found = 1e-7;       /* of g: last step of Newton's method for the film */
+static const double left = 1e-14;       /* of g: what Newton's method for the film may leave, which is of the square of its last step */
 static const double rigid_slope = -2.0; /* of ln F over ln h of a film between surfaces that hardly deform */
 static const double few_lags = 0.5;     /* see poisson_shares */
 
@@ -106,7 +106,7 @@ double race_gap(const Race *race, SpeedRow at, const Thickness *film, double u, 
         step = (u - (1.0 - f) * g - f * v) * per_stretch;
         v += step;
         g += *slope * step;
-        if (fabs(step) <= found * g) {
+        if (step * step * fabs(1.0 - f) <= left * g * g) {
             break;
         }
     }
@@ -202,6 +202,8 @@ void race_prepare(const RaceStep *c, double dt)
     if (race->nodes == 0) {
         return;
     }
+    f->interval = (int)before->interval;
+    f->weighed = -1;
     middle = gap_of(c, before->approach + 0.5 * dt * before->rate, &slope, &lift);
     span = dt / (c->transit * sqrt(middle));
     p = race->inlet_rate;
@@ -221,15 +223,13 @@ void race_prepare(const RaceStep *c, double dt)
         humps[j] = 6.0 * (r.r1 - r.r2);
     }
     pass_on(lags, before->chain, poisson, held);
-    f->weighed = -1;
 }
 
 void race_at_rest(const RaceStep *c)
 {
     StepFilters *filters = c->filters;
-    const int interval = filters->interval;
     memset(filters, 0, sizeof *filters + 3 * (size_t)c->race->lags * sizeof filters->chain[0]);
-    filters->interval = interval;
+    filters->interval = (int)c->before->interval;
     filters->weighed = -1;
 }
 
@@ -355,6 +355,7 @@ double race_accept(const RaceStep *c, double u, double v, FilmState *after)
     g = gap_of(c, u, &slope, &lift);
     e = c->transit * sqrt(g) * v;
     s = f->s[0] + f->s[1] * e + f->s[2] * t;
+    after->interval = f->interval;
     after->own = e;
     after->inlet = s;
     after->fast = f->y[0] + f->y[1] * e + f->y[2] * t;

@@ -34,6 +34,7 @@ typedef struct {
 /* What a contact remembers from step to step: doubles alone, `lags` of them at the end. */
 typedef struct {
     double approach, rate, own, inlet, fast, entered;
+    double interval; /* of the curve at the approach */
     double chain[];
 } FilmState;
 

@@ -89,7 +89,7 @@ IN_PLACE Rolling roll(const Bearing *bearing, const Dual b[2], const Dual c[2], 
     static const double least_cosine = 0.45, least_drive = 0.1, of_outer = 0.01;
     const Grooves *grooves = &bearing->grooves;
     const double g = grooves->ball / grooves->pitch; /* the axis of the ball is at an angle whose tangent is `slope` */
-    Dual s[2], c_i, s_i, c_o, s_o, per_i, per_o, slope, r_i, r_o, by_i, by_o, per_both;
+    Dual s[2], c_i, s_i, c_o, s_o, per_i, per_o, slope, r_i, r_o, per_r, by_i, by_o, per_both;
     Rolling at;
     at.l[INNER_RACE] = inner_span(b, c, s);
     at.l[OUTER_RACE] = outer_span(b);
@@ -99,9 +99,14 @@ IN_PLACE Rolling roll(const Bearing *bearing, const Dual b[2], const Dual c[2], 
     s_i = at.sine[INNER_RACE] = mul(s[1], per_i);
     c_o = at.cosine[OUTER_RACE] = mul(b[0], per_o);
     s_o = at.sine[OUTER_RACE] = mul(b[1], per_o);
-    if (c_i.x <= 0.0 && s_i.x == 0.0 && s_i.d == 0.0 && s_o.x == 0.0 && s_o.d == 0.0) {
-        c_i = number(1.0); /* a ball beyond the inner groove centre: on no inclined contact nothing spins */
-    } else if (c_i.x < least_cosine) {
+    if (s[1].x == 0.0 && s[1].d == 0.0 && b[1].x == 0.0 && b[1].d == 0.0) { /* on no inclined contact nothing spins */
+        at.axis = at.spin = at.share = number(0.0);
+        at.drive = number(2.0 / (1.0 - g * g));
+        at.orbit = number(0.5 * (1.0 - g));
+        at.speed_sum[INNER_RACE] = at.speed_sum[OUTER_RACE] = number(0.5 * grooves->pitch * (1.0 - g * g));
+        return at;
+    }
+    if (c_i.x < least_cosine) {
         c_i = number(least_cosine);
         s_i = number((s_i.x >= 0.0 ? 1.0 : -1.0) * sqrt(1.0 - least_cosine * least_cosine));
     }
@@ -122,8 +127,9 @@ IN_PLACE Rolling roll(const Bearing *bearing, const Dual b[2], const Dual c[2], 
     }
     r_i = plus(times(-g, c_i), 1.0);
     r_o = plus(times(g, c_o), 1.0);
-    by_i = at_least(over(add(c_i, mul(slope, s_i)), r_i), least_drive);
-    by_o = at_least(over(add(c_o, mul(slope, s_o)), r_o), least_drive);
+    per_r = over(number(1.0), mul(r_i, r_o));
+    by_i = at_least(mul(add(c_i, mul(slope, s_i)), mul(r_o, per_r)), least_drive);
+    by_o = at_least(mul(add(c_o, mul(slope, s_o)), mul(r_i, per_r)), least_drive);
     at.axis = slope;
     at.drive = add(by_i, by_o);
     per_both = over(number(1.0), at.drive);
