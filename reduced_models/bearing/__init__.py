@@ -11,9 +11,7 @@
 | freedoms | degrees of freedom of the ring: names, units, loads |
 | core_bearing | `CoreBearing`: a bearing as the C core has it, views of its state |
 | contact_angles | compiled: groove centres, contact angles, rolling and race control of a ball |
-| ball | compiled: one ball between two races, its residual with exact tangents, in time steps and at rest |
-| ball_search | compiled: places of balls from anywhere |
-| ball_steps | compiled: all balls of a bearing: time steps with their films, rest, the force of the ring |
+| ball | `Balls`: tables, grooves and inertia of a bearing; the law of a ball, which the C core has |
 | ring | the inner ring on its balls in static equilibrium: `StaticRing`, `ring_equilibrium` |
 | ring_statics | loads that a bearing takes, its ring in equilibrium, the state for users |
 | shoulders | shoulders of the grooves, and contact ellipses that reach over them |
@@ -21,7 +19,7 @@
 | measured_order | contact angle and clearance from a measured defect order |
 | race | one contact: geometry, oil, element at a speed; the only module that imports the atlas |
 | race_table | load over deflection of a race and its memory gains, tabulated over approach and speed |
-| race_contact | compiled: time step of one ball on one race: filters once, force and tangents per iteration |
+| race_contact | compiled: static law of a ball on a race, for continuous time |
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load |
 | linear_balls | all balls about static equilibrium: impedance at complex frequencies |
@@ -31,7 +29,7 @@
 | height_tables | heights of features, filtered by the contact, as tables over the angle and the load |
 | elastic_heights | heights of spalls and dents, from elastic contacts over them |
 | film_heights | these tables filtered by the film, for runs of bearings in oil |
-| contact_heights | heights of all contacts in a time step, looked up in these tables, compiled |
+| contact_heights | heights of contacts, looked up in these tables by the C core |
 | track_surface | `TrackSurface`: features that pass a contact, as the surface of a full film |
 | excitation | forces of features on a fixed ring, as spectral lines over orders of the shaft |
 | ball_states | balls and films about static equilibrium as matrices of first order |

@@ -12,7 +12,7 @@ inner contact does or the outer one carries all other forces. A ball with inerti
 rings that are held along the shaft and cannot tilt a ball moves along its outer contact alone.
 
 Films follow the angles and speeds of their ball at once; the cage turns at the mean speed of the balls by their
-loads, as in `ball_steps`. Places are counted from rest, so that small changes keep their digits.
+loads, as in steps. Places are counted from rest, so that small changes keep their digits.
 """
 
 from __future__ import annotations
@@ -24,14 +24,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.jit import jit_exact
-from reduced_models.bearing.ball import FREEDOMS, Balls, ring_map
+from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.contact_angles import ball_forces, film_factors, inner_span, rolling
+from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.race_contact import curve, film_curve, film_cutoff, film_made, gain, row_of_speed
 from reduced_models.elements.film_filters import DIRECT, filter_rates
 from reduced_models.elements.film_law import interval
 
 _Floats = NDArray[np.float64]
 
+FREEDOMS = len(FIVE)
 SMALL_STEP = 1e-14  # of the rates, that ends the search for w': rounding
 MOST_STEPS = 60  # of it: a handful
 CAGE_ROUNDS = 3  # evaluations that find the speed of a cage and the forces that it depends on, a thousandth each
@@ -147,6 +149,16 @@ def _rates_in_balance(inner, outer, normal, moving, pushed, across):
 
 
 @jit_exact
+def _ring_map(g, psi, out):
+    """Rows by which the ring's displacement moves c_r and c_z, and its tilt follows a moment: (3, 5)."""
+    c, s = cos(psi), sin(psi)
+    out[:] = 0.0
+    out[0, 0], out[0, 1] = c, s
+    out[1, 2], out[1, 3], out[1, 4] = 1.0, g.groove_circle * s, -g.groove_circle * c
+    out[2, 3], out[2, 4] = -s, c
+
+
+@jit_exact
 def bearing_rates(balls, rest, angle, cage, states, q, v, rates, force):
     """Fill the rates of all balls' states and the force of the ring at `q`, moving at `v`, on the balls.
 
@@ -165,7 +177,7 @@ def bearing_rates(balls, rest, angle, cage, states, q, v, rates, force):
     carried, driven, free = 0.0, 0.0, 0.0
     for k in range(balls.number):
         psi, at = angle + 2.0 * pi * k / balls.number, k * (first + size_i + size_o)
-        ring_map(g, psi, rows)
+        _ring_map(g, psi, rows)
         turned[0, 0], turned[0, 1] = -sin(psi), cos(psi)
         turned[1, 3], turned[1, 4] = g.groove_circle * cos(psi), g.groove_circle * sin(psi)
         m_r, m_z, d_r, d_z = 0.0, 0.0, 0.0, 0.0

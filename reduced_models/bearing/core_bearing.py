@@ -130,7 +130,16 @@ BALL_STEP = _numbers(
     transit=(2,), height=(2,), height_rate=(2,), thickness=(2, 2),
 )  # fmt: skip
 AT_REST = _numbers(
-    angle=(2,), load=(2,), approach=(2,), slope=(2,), factor=(2,), speed_sum=(2,), orbit=(), rotation=(), axis=()
+    angle=(2,),
+    load=(2,),
+    approach=(2,),
+    compression=(2,),
+    slope=(2,),
+    factor=(2,),
+    speed_sum=(2,),
+    orbit=(),
+    rotation=(),
+    axis=(),
 )
 
 
@@ -158,9 +167,8 @@ class CoreBearing:
         races = balls.inner, balls.outer
         self._kept: list[Any] = []
         self._lags = max(law.gains.shape[2] for law in races) - DIRECT
-        pages, rows, columns = balls.heights.shape
-        heights = HeightsStructure(pages, rows, columns, self._array(balls.heights))
-        self._kept.append(heights)
+        heights = heights_structure(balls.heights)
+        self._kept += [balls.heights, heights]
         self.structure = BearingStructure(
             directions=len(directions),
             direction=(c_int * len(FIVE))(*map(FIVE.index, directions)),
@@ -266,6 +274,12 @@ class CoreBearing:
         )
 
 
+def heights_structure(heights: _Floats) -> HeightsStructure:
+    """Tables of heights as C has them; the caller keeps the array."""
+    assert heights.flags.c_contiguous
+    return HeightsStructure(*heights.shape, heights.ctypes.data_as(_DOUBLES))
+
+
 def pointer(array: NDArray[Any]) -> c_void_p:
     """Pointer to the numbers of an array without gaps, as C functions take it; the caller keeps the array."""
     assert array.flags.c_contiguous
@@ -283,6 +297,8 @@ def bearing_library() -> ctypes.CDLL:
     library = core.library()
     for name in ("bearing_state_size", "bearing_work_size"):
         getattr(library, name).restype = c_size_t
+    for name in ("table_height", "contact_height"):
+        getattr(library, name).restype = c_double
     for name in ("bearing_start", "bearing_press", "bearing_rest", "bearing_rest_at"):
         getattr(library, name).restype = ctypes.c_char_p
     for name in ("bearing_begin", "bearing_slopes", "bearing_accept", "bearing_describe"):

@@ -30,7 +30,7 @@ from ehlcontact.checks.admissible_range import LIMITS
 from ehlcontact.dry_contact import elastic_contact
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.hertz import hertz_contact
-from reduced_models.bearing.contact_heights import ANGLE_NOW, RAISED, ROTATION, TABLE, height_of
+from reduced_models.bearing.contact_heights import RAISED, ROTATION, TABLE, contact_height
 from reduced_models.bearing.elastic_heights import Track, highest_touch
 from reduced_models.bearing.features import BallDiameter, Defect, Feature, Indentation, Spall, Waves
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -126,17 +126,16 @@ def settle(
         The heights do not settle.
     """
     heights = bearing.tables.heights
-    turned = np.zeros((1 + bearing.balls, 3))
-    turned[0, ANGLE_NOW] = angles[1]
     kn = np.array([bearing.race(name).kn for name in RACES])
     for _ in range(MOST_TIMES):
         at = solve()
-        turned[1:, ANGLE_NOW] = angles[1] * getattr(at, "ball_rotation", heights[0, 0, ROTATION])
+        own = np.broadcast_to(angles[1] * getattr(at, "ball_rotation", heights[0, 0, ROTATION]), len(found))
         pressed = np.where(at.force > 0.0, (np.maximum(at.force, 0.0) / kn) ** (2.0 / 3.0), at.approach)
-        new = np.empty_like(found)
+        new = np.empty(found.shape)
         for k, race in np.ndindex(*found.shape):
-            psi = angles[0] + 2.0 * pi * k / bearing.balls
-            new[k, race] = height_of(heights, k, race, psi, turned, float(pressed[k, race] - found[k, race]))
+            psi, turned = angles[0] + 2.0 * pi * k / bearing.balls, (angles[1], float(own[k]))
+            compression = float(pressed[k, race] - found[k, race])
+            new[k, race] = contact_height(heights, k, race, psi, turned, compression)
         change = new - found
         if np.abs(change).max() <= SETTLED * np.abs(new).max():
             return at

@@ -27,7 +27,6 @@ from numpy.typing import ArrayLike, NDArray
 from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.coefficients import stiffness_and_damping
 from reduced_models.bearing.loss import Loss, response
-from reduced_models.bearing.race_contact import curve, film_cutoff, film_made
 from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.bearing.ring import RingEquilibrium
 from reduced_models.elements.film_filters import DIRECT
@@ -52,18 +51,12 @@ class LinearBalls(NamedTuple):
     @classmethod
     def of(cls, balls: Balls, equilibria: Sequence[RingEquilibrium], loss: Loss, inertia: float) -> LinearBalls:
         """From where the ring stands at each position."""
-        force, approach, speed_sum, angles, geometric, maps = (
+        records, angles, geometric, maps = (
             np.concatenate([getattr(at, name) for at in equilibria])
-            for name in ("force", "approach", "speed_sum", "angles", "geometric", "maps")
+            for name in ("balls", "angles", "geometric", "maps")
         )
-        slope = np.concatenate([at.balls["slope"] for at in equilibria])
         inner, outer = (
-            LinearFilm.stack(
-                [
-                    _about(law, balls.omega, *row)
-                    for row in zip(force[:, j], approach[:, j], slope[:, j], speed_sum[:, j], strict=True)
-                ]
-            )
+            LinearFilm.stack([_about(law, balls.omega, j, ball) for ball in records])
             for j, law in enumerate((balls.inner, balls.outer))
         )
         normals = np.stack([np.cos(angles.T), np.sin(angles.T)], axis=1)
@@ -141,24 +134,24 @@ def small_film(
     law: RaceForceTable, transit: float, speed_row: tuple[int, float], g: float, slope: float, stiffness: float
 ) -> LinearFilm:
     """Linear law of a film of dry compression `g` [m], whose static force has this slope and `stiffness` [N/m]."""
-    root = np.sqrt(g)
-    rows = law.gains[speed_row[0]]
-    if speed_row[1] > 0.0:
-        rows = rows + speed_row[1] * (law.gains[speed_row[0] + 1] - rows)
+    root, (row, weight) = np.sqrt(g), speed_row
+    rows, film_made = law.gains[row], law.film_made[row]
+    if weight > 0.0:
+        rows = rows + weight * (law.gains[row + 1] - rows)
+        film_made = film_made + weight * (law.film_made[row + 1] - film_made)
     x = law.log_kn + 1.5 * np.log(g)
-    gains = np.array([np.interp(x, law.x, column) for column in rows.T])
+    gains, made = (
+        np.array([np.interp(x, law.x, column) for column in rows.T]),
+        float(np.interp(x, law.x, film_made)),
+    )
     rates = FilterRates(gains.size - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
-    made = film_made(law, speed_row, float(x))
     return LinearFilm(stiffness, slope, transit * root, gains, rates, made)
 
 
-def _about(
-    law: RaceForceTable, omega: float, force: float, u: float, slope: float, speed_sum: float
-) -> LinearFilm:
-    """Linear law of one contact under its static force, whose derivative by the approach is `slope`."""
+def _about(law: RaceForceTable, omega: float, race: int, ball: np.void) -> LinearFilm:
+    """Linear law of the contact of a ball of `RingEquilibrium` with a race."""
+    slope, g = float(ball["slope"][race]), float(ball["compression"][race])
     if law.x.size == 0:
         return LinearFilm(slope, 0.0, 0.0, np.zeros(0), None)
-    share = film_cutoff(u, law.cutoff_gap)[0]
-    g = (force / (share * law.kn)) ** (2.0 / 3.0) if share > 0.0 else curve(u, 0, 0.0, law, 0)[0]
-    by_film = share * 1.5 * law.kn * np.sqrt(g)
-    return small_film(law, law.contact_length_factor / (speed_sum * omega), (0, 0.0), g, by_film, slope)
+    transit = law.contact_length_factor / (float(ball["speed_sum"][race]) * omega)
+    return small_film(law, transit, (0, 0.0), g, 1.5 * float(ball["load"][race]) / g, slope)

@@ -17,7 +17,7 @@ instead, and are not in it. With gains >= 0 no vibration gains energy.
 
 from __future__ import annotations
 
-from math import exp, expm1, pi
+from math import pi
 from typing import NamedTuple
 
 import numpy as np
@@ -26,7 +26,6 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_nonnegative
 from ehlcontact.errors import InputError
-from ehlcontact.jit import inner, jit_exact_loop
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -35,7 +34,6 @@ LARGEST_LOSS = 0.2  # twice that of joints of steel; beyond, the filters would n
 BAND = (5.0, 5000.0)  # Hz, within which the loss factor holds
 FILTERS, BEYOND = 8, 3.0  # poles, and by which ratio they go beyond the ends of the band
 SAMPLES = 200  # frequencies at which the gains are fitted
-RAW, BEFORE, PAST, HELD = 0, 1, 2, 3  # rows of the states: force tried, that of the last end, of the past; all y_k
 
 
 class Loss(NamedTuple):
@@ -43,14 +41,6 @@ class Loss(NamedTuple):
 
     gains: _Floats  # (n,) g_k
     rates: _Floats  # (n,) p_k [1/s]
-
-
-class Seat(NamedTuple):
-    """Bearing seat: states and work of the filters of its losses over time steps."""
-
-    rows: _Floats  # (3 + n, directions) forces [N]; see above
-    lift: _Floats  # (1,) what a force at the end of the step becomes, over it
-    step: _Floats  # (3, n) of a step: what is left of y_k, and what the forces at both ends make of it
 
 
 def require_loss_factor(factor: float) -> None:
@@ -70,74 +60,7 @@ def loss_of(factor: float) -> Loss:
     return Loss(gains, rates)
 
 
-def loss_state_of(loss: Loss, directions: int = 2) -> Seat:
-    """States for forces along so many directions, all zero."""
-    n = loss.gains.size
-    return Seat(np.zeros((HELD + n, directions)), np.ones(1), np.zeros((3, n)))
-
-
 def response(loss: Loss, s: _Complex) -> _Complex:
     """Factor of a force of exp(s t), of the shape of `s`."""
     s = np.asarray(s, complex)[..., None]
     return np.asarray(1.0 + (loss.gains * s / (s + loss.rates)).sum(axis=-1))
-
-
-@inner
-@jit_exact_loop
-def begin_loss(loss, dt, state):
-    """Work out a step: the force runs straight from its start to its end."""
-    rows, step = state.rows, state.step
-    state.lift[0] = 1.0
-    rows[PAST] = 0.0
-    for k in range(loss.gains.size):
-        mu = loss.rates[k] * dt
-        left = exp(-mu)
-        mean = -expm1(-mu) / mu
-        step[0, k], step[1, k], step[2, k] = left, mean - left, 1.0 - mean
-        state.lift[0] += loss.gains[k] * mean
-        for j in range(rows.shape[1]):
-            rows[PAST, j] += loss.gains[k] * (left * rows[HELD + k, j] + step[1, k] * rows[BEFORE, j])
-
-
-@inner
-@jit_exact_loop
-def rest_loss(state):
-    """Put the filters at rest under the force tried last."""
-    for k in range(BEFORE, state.rows.shape[0]):
-        for j in range(state.rows.shape[1]):
-            state.rows[k, j] = 0.0 if k == PAST else state.rows[RAW, j]
-
-
-@inner
-@jit_exact_loop
-def hold_still(state):
-    """Make the step one in which nothing is lost."""
-    state.lift[0] = 1.0
-    state.rows[PAST] = 0.0
-
-
-@inner
-@jit_exact_loop
-def apply_loss(state, force, stiffness, damping):
-    """Turn the force of the balls at the end of the step, and its tangents, into those with losses."""
-    if state.step.shape[1] == 0:
-        return
-    for j in range(force.size):
-        state.rows[RAW, j] = force[j]
-        force[j] = state.lift[0] * force[j] - state.rows[PAST, j]
-        for k in range(force.size):
-            stiffness[j, k] *= state.lift[0]
-            damping[j, k] *= state.lift[0]
-
-
-@inner
-@jit_exact_loop
-def accept_loss(state):
-    """Move on to the end of the step, with the force that was tried last."""
-    rows, step = state.rows, state.step
-    for k in range(step.shape[1]):
-        for j in range(rows.shape[1]):
-            fed = step[1, k] * rows[BEFORE, j] + step[2, k] * rows[RAW, j]
-            rows[HELD + k, j] = step[0, k] * rows[HELD + k, j] + fed
-    for j in range(rows.shape[1]):
-        rows[BEFORE, j] = rows[RAW, j]

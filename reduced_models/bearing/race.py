@@ -1,6 +1,6 @@
 """`Race`: contact of a ball with one race: geometry, oil, films and element from the atlas at a speed.
 
-Tables for the compiled kernels are in `race_table`, forces in time steps in `race_contact`.
+Tables for the C core are in `race_table`, forces in time steps in ``race_contact.c``.
 """
 
 from __future__ import annotations
@@ -30,7 +30,6 @@ from reduced_models.atlas.heat import ellipses, fastest
 from reduced_models.atlas.supply import heaviest_load, supply_box
 from reduced_models.bearing.bearing_conditions import conditions_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, speed_sum_per_omega
-from reduced_models.bearing.race_contact import film_cutoff
 from reduced_models.bearing.ring import RingEquilibrium
 from reduced_models.elements.film_contact import FilmContact
 
@@ -147,7 +146,7 @@ class Race:
         """Contact element for all loads of the atlas at this speed, in SI.
 
         It goes through the same loads in N at every speed, but for its ends: so K and C change smoothly with it.
-        Its inlet does not saturate: so the contacts of a bearing have it (`race_contact`).
+        Its inlet does not saturate: so the contacts of a bearing have it (``race_contact.c``).
         """
         low, high = self.loads(speed_rpm)
         first, last = PER_DECADE * log10(low) + NEAR, PER_DECADE * log10(high) - NEAR
@@ -314,8 +313,8 @@ def films_under(bearing: Any, speed_rpm: float, at: RingEquilibrium) -> dict[str
             gap = (load / nominal.kn) ** (2.0 / 3.0) - at.approach[own, column]
             h_central[own, column], h_min[own, column], moment[own, column] = race.films(speed_rpm, load, gap)
             if bearing.cutoff_gap is not None:
-                carries = [film_cutoff(u, bearing.cutoff_gap)[0] for u in at.approach[own, column].tolist()]
-                moment[own, column] *= carries
+                compression = at.balls["compression"][own, column]
+                moment[own, column] *= load / (nominal.kn * compression**1.5)
             # power m u/Rx of every film over the speed of the shaft, u = u_sum/2
             power = 0.5 * at.speed_sum[own, column] * moment[own, column]
             torque += float(power.sum()) / race.geometry.radius_x

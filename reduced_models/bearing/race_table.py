@@ -1,6 +1,6 @@
 """Load over deflection of one ball on one race, and gains of its film memory, as tables in SI; a row per speed.
 
-The force at the end of a time step is computed from them in `race_contact`. The law is that of
+The force at the end of a time step is computed from them in ``race_contact.c``. The law is that of
 `reduced_models.elements.film_law` without its reference load, in N and m:
 
     F = k_n (g(u) + m)_+^(3/2),    g = (F_s/k_n)^(2/3) = u + h_s

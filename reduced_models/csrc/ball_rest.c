@@ -117,6 +117,7 @@ void bearing_describe(const Bearing *b, const double state[], double work[], Bal
             by_film[race] = contact->by_film;
             at->angle[race] = atan2(p.at.sine[race], p.at.cosine[race]);
             at->approach[race] = p.at.l[race] - free_length(&s, race);
+            at->compression[race] = fmax(0.0, contact->film);
             at->slope[race] = contact->stiffness;
             at->factor[race] = p.at.factor[race];
             at->speed_sum[race] = p.at.speed_sum[race];

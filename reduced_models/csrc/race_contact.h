@@ -1,4 +1,13 @@
-/* Force of one ball on one race at the end of a time step: reduced_models.bearing.race_contact. Names and order of the arithmetic are those of the Python file. */
+/* Force of one ball on one race at the end of a time step. The equations are those of reduced_models.elements.film_law without
+ * saturation of the inlet. The filters are then linear in the own rate e at the end of the step and the travel t of the approach:
+ * `race_prepare` reduces them, once a step, to two times three numbers for each of two nodes of the gains,
+ *
+ *     m = m_0 + m_e e + m_t t + (q_0 + q_e e + q_t t)/G,
+ *
+ * the second for what the chain holds of earlier films and of the middle of the step, with G, the film that the inlet makes, at the
+ * load of the end. So `race_force`, which every iteration calls, evaluates the curve g(u) and a few products. The length of the step
+ * in own time, and G of the film made within it, have to be known before its end: they are taken at the middle, extrapolated from
+ * the start. Elements take the mean of both ends. Both are of second order. */
 #ifndef RACE_CONTACT_H
 #define RACE_CONTACT_H
 

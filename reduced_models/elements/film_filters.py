@@ -2,7 +2,7 @@
 
 The filter of surface heights by a contact is another one: `reduced_models.bearing.height_tables`, `film_heights`.
 
-Elements (`reduced_models.elements.film_law`) and bearings (`reduced_models.bearing.race_contact`) have the same
+Elements (`reduced_models.elements.film_law`) and bearings (``race_contact.c``) have the same
 filters of the own rate i: an inlet lag s, a fast lag y, and a chain of lags q_1 ... which the film from the inlet
 enters. Over a step of `span` in own time the input of a lag of rate p is
 

@@ -11,7 +11,7 @@ from ehlcontact.dry_contact import ElasticContact, elastic_contact
 from ehlcontact.hertz import shape_factor
 from ehlcontact.solver.deflection.coefficients import influence_coefficients
 from reduced_models import BallBearing, Indentation, Spall
-from reduced_models.bearing.contact_heights import looked_up
+from reduced_models.bearing.contact_heights import table_height
 from reduced_models.bearing.height_tables import filtered, track_radius
 
 KAPPA = 0.14
@@ -82,7 +82,7 @@ def test_tables_of_defects_are_those_of_elastic_contacts(defect):
         for place in np.linspace(-3.5e-4, 0.0, 4):
             force = twin(body.kappa, lambda X, a=a, x=place, r=raised, d=d: (defect.height(x + a * X) + d - r) / r)
             expected = raised * force ** (2.0 / 3.0) - d
-            found = looked_up(bearing.tables.heights, 1, defect.angle + place / radius, d)
+            found = table_height(bearing.tables.heights, 1, defect.angle + place / radius, d)
             off.append(abs(found - expected) / defect.depth)
             strip_off.append(
                 abs(np.interp(place, spacing * np.arange(-400, 400), strip) - expected) / defect.depth

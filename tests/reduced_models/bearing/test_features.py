@@ -21,7 +21,7 @@ from reduced_models import (
     Spall,
     simulate_rotor,
 )
-from reduced_models.bearing.contact_heights import looked_up
+from reduced_models.bearing.contact_heights import table_height
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.height_tables import filtered, track_radius
 from reduced_models.bearing.motion import BearingMotion
@@ -161,7 +161,7 @@ def test_waves_are_filtered_by_the_length_of_the_contact():
         for load in (50.0, 300.0, 1500.0):
             approach = (load / kn) ** (2.0 / 3.0)
             k = waves * sqrt(2.0 * strip * approach) / radius
-            found = looked_up(bearing.tables.heights, 1, 0.0, approach) / 1e-9
+            found = table_height(bearing.tables.heights, 1, 0.0, approach) / 1e-9
             assert found == pytest.approx(np.sinc(k / pi), abs=0.01), (waves, load)
 
 

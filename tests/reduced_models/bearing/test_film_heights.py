@@ -9,7 +9,7 @@ import pytest
 from ehlcontact import Lubricant
 from reduced_models import BallBearing, BallDiameter, BallWaviness, RaceWaviness, Spall
 from reduced_models.atlas.waves import contact_filter
-from reduced_models.bearing.contact_heights import looked_up
+from reduced_models.bearing.contact_heights import table_height
 from reduced_models.bearing.film_heights import heights_in_runs, mean_film_speed
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.height_tables import track_radius
@@ -43,7 +43,7 @@ def test_waves_have_the_filter_of_their_film(track, length):
         ratio = contact_filter(point, wavelength=2.0 * pi * radius / (n * point.scales.a)).ratio[0]
         ratio = ratio.conj() if track == "inner" else ratio
         for angle in np.linspace(0.0, 2.0 * pi / n, 5):
-            found = looked_up(heights, table, angle, point.scales.length) / AMPLITUDE
+            found = table_height(heights, table, angle, point.scales.length) / AMPLITUDE
             assert found == pytest.approx((ratio * np.exp(1j * n * angle)).real, abs=0.01)
 
 

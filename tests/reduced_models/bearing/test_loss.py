@@ -1,17 +1,14 @@
 """Loss factor of rings and fits: what the filters are, and that time and frequency have the same ones."""
 
-from itertools import pairwise
 from math import pi
 
-import numba
 import numpy as np
 import pytest
 from beam_rotor import block
 
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingMotion, linearise, simulate_rotor
-from reduced_models.bearing import loss as loss_room
-from reduced_models.bearing.loss import BAND, loss_of, loss_state_of, response
+from reduced_models.bearing.loss import BAND, loss_of, response
 from reduced_models.rotor.decay import log_decrement
 
 RPM = 3000.0
@@ -30,22 +27,21 @@ def test_one_loss_factor_in_the_band(factor):
 
 
 def test_a_step_is_the_filters_over_a_straight_force():
-    """Against a fine Euler walk of y' = p (F - y)."""
-    loss, dt, ends = loss_of(0.2), 3e-4, np.array([[10.0, -20.0], [25.0, 4.0], [21.0, 9.0]])
-    seat = loss_state_of(loss)
-    seat.rows[0] = ends[0]
-    loss_room.rest_loss(seat)
-    y = np.tile(ends[0], (loss.rates.size, 1))
-    for start, end in pairwise(ends):
-        loss_room.begin_loss(loss, dt, seat)
-        force, K, C = end.copy(), np.eye(2), 2.0 * np.eye(2)
-        loss_room.apply_loss(seat, force, K, C)
-        loss_room.accept_loss(seat)
-        fine = 20000
+    """Against a fine Euler walk of y' = p (F - y), F the force of the same motion without losses."""
+    loss, dt, fine = loss_of(0.2), 3e-4, 20000
+    q, still = np.array([[0.0, -9e-6], [2e-6, -12e-6], [1e-6, -10e-6]]), np.zeros((2, 2))
+    bare, lossy = (BearingMotion(BallBearing.catalogue("6205", loss_factor=one), 0.0, dt) for one in (0.0, 0.2))
+    start = bare.rest(q[0])
+    np.testing.assert_allclose(lossy.rest(q[0]), start, rtol=1e-12)
+    tangents = [it.forces(q[1], still[0])[1] for it in (bare, lossy)]
+    mu = loss.rates * dt
+    np.testing.assert_allclose(tangents[1], (1.0 + loss.gains @ (-np.expm1(-mu) / mu)) * tangents[0], rtol=1e-9)
+    forces = np.vstack([start, bare.drive(q[1:], still)[0]])
+    y, found = np.tile(start, (loss.rates.size, 1)), lossy.drive(q[1:], still)[0]
+    for before, after, force in zip(forces, forces[1:], found, strict=False):
         for share in (np.arange(fine) + 0.5) / fine:
-            y += dt / fine * loss.rates[:, None] * (start + share * (end - start) - y)
-        np.testing.assert_allclose(force, end + loss.gains @ (end - y), rtol=1e-4)
-        np.testing.assert_allclose((K, C), (seat.lift[0] * np.eye(2), 2.0 * seat.lift[0] * np.eye(2)))
+            y += dt / fine * loss.rates[:, None] * (before + share * (after - before) - y)
+        np.testing.assert_allclose(force, after + loss.gains @ (after - y), rtol=1e-4)
 
 
 def test_loss_factor_of_the_coefficients(dry, oil):
@@ -99,28 +95,6 @@ def test_large_motions_lose_energy_too():
     put_in = np.abs(work[0][trips]).sum()
     assert abs(work[0][trips].sum()) < 1e-3 * put_in
     assert 0.02 * put_in < work[1][trips].sum() < 0.2 * put_in
-
-
-@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="kernels are plain Python already")
-def test_compiled_and_plain_are_twins():
-    loss, force = loss_of(0.1), np.array([30.0, -100.0])
-    ends = []
-    for plain in (False, True):
-        names = ("rest_loss", "begin_loss", "apply_loss", "accept_loss", "hold_still")
-        kernels = {n: getattr(loss_room, n).py_func if plain else getattr(loss_room, n) for n in names}
-        seat, at = loss_state_of(loss), (force.copy(), np.eye(2), np.eye(2))
-        kernels["hold_still"](seat)
-        kernels["apply_loss"](seat, *at)
-        np.testing.assert_array_equal(at[0], force)
-        kernels["rest_loss"](seat)
-        for _ in range(3):
-            kernels["begin_loss"](loss, 1e-4, seat)
-            at = (1.1 * force, np.eye(2), np.eye(2))
-            kernels["apply_loss"](seat, *at)
-            kernels["accept_loss"](seat)
-        ends.append((*at, seat.rows))
-    for one, other in zip(*ends, strict=True):
-        np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-13)
 
 
 @pytest.mark.parametrize("factor", [-0.01, 0.3, float("nan")])

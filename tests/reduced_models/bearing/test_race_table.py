@@ -2,33 +2,20 @@
 
 from dataclasses import replace
 from math import inf
-from typing import NamedTuple
 
-import numba
 import numpy as np
 import pytest
+from core_races import CoreRace
 from scipy.integrate import solve_ivp
 
 from ehlcontact.errors import InputError
-from reduced_models.bearing import race_contact as contact_room
-from reduced_models.bearing.ball import films_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import shared_atlas
-from reduced_models.bearing.race_contact import (
-    APPROACH,
-    HELD,
-    accept_contact,
-    contact_force,
-    curve,
-    film_cutoff,
-    prepare_filters,
-    row_of_speed,
-)
 from reduced_models.bearing.race_table import tabulate_race
-from reduced_models.elements.film_filters import CHAIN, DIRECT
 from reduced_models.elements.film_law import static
 
 SPEEDS = (1000.0, 3000.0, 9000.0)
+APPROACH = 0  # of a contact, in its state
 
 
 def exact(element, u):
@@ -37,14 +24,19 @@ def exact(element, u):
     return g * element.scales.length, slope
 
 
+def contact(film, law):
+    """The contact of the C core with this law."""
+    return CoreRace(film.tables.balls(3000.0)._replace(inner=law, outer=law))
+
+
 @pytest.mark.parametrize("race", ["inner", "outer"])
 def test_the_table_is_the_curve(film, race):
     """From a gap of 3 mm to eight times the heaviest load of the atlas."""
     element = film.element(race, 3000.0)
     law, last = tabulate_race([element]), 0
-    highest = element.approach_at(8.0 * element.load_range[1])
+    own, highest = contact(film, law), element.approach_at(8.0 * element.load_range[1])
     for u in np.concatenate([-np.geomspace(3e-3, 1e-9, 3000), np.linspace(0.0, highest, 3000)]):
-        g, slope, last = curve(u, 0, 0.0, law, last)
+        g, slope, last = own.curve(u, k=last)
         wanted, wanted_slope = exact(element, u)
         assert abs(g - wanted) < (1e-9 if u < 0.0 else 1e-10) * wanted
         assert abs(slope - wanted_slope) < 1e-6 * wanted_slope
@@ -53,11 +45,12 @@ def test_the_table_is_the_curve(film, race):
 
 def test_beyond_the_table_it_goes_on(film):
     law = tabulate_race([film.element("inner", 3000.0)])
+    own = contact(film, law)
     for end, step in ((law.u[0, 0], -1e-12), (law.u[0, -1], 1e-12)):
-        inside, outside = (curve(end + s, 0, 0.0, law, 0) for s in (-step, step))
+        inside, outside = (own.curve(end + s) for s in (-step, step))
         assert outside[0] == pytest.approx(inside[0], rel=1e-6)
-    assert 0.0 < curve(2.0 * law.u[0, 0], 0, 0.0, law, 0)[0] < law.cells[0, 0, 0, 0]
-    far, farther = (curve(law.u[0, -1] + s, 0, 0.0, law, 0)[0] for s in (1e-4, 2e-4))
+    assert 0.0 < own.curve(2.0 * law.u[0, 0])[0] < law.cells[0, 0, 0, 0]
+    far, farther = (own.curve(law.u[0, -1] + s)[0] for s in (1e-4, 2e-4))
     assert farther - far == pytest.approx(1e-4, rel=0.01)
 
 
@@ -83,7 +76,7 @@ def test_elements_of_one_race_hold_all_its_loads(film):
 
 def row_at(balls, rpm):
     """Row of the tables at a speed, and weight of the next."""
-    return row_of_speed(balls.speeds, rpm * RPM_TO_RAD_S)
+    return CoreRace(balls).row(rpm * RPM_TO_RAD_S)
 
 
 def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
@@ -93,25 +86,26 @@ def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
         assert sum(row_at(many, speed)) == row
         one = film.tables.balls(speed)
         for approach in u:
-            ours = curve(approach, *row_at(many, speed), many.inner, 0)[0]
-            assert ours == pytest.approx(curve(approach, 0, 0.0, one.inner, 0)[0], rel=1e-9)
+            ours = CoreRace(many).curve(approach, row_at(many, speed))[0]
+            assert ours == pytest.approx(CoreRace(one).curve(approach)[0], rel=1e-9)
 
 
 def test_between_speeds_films_grow_as_they_should(film):
     """Half way between two speeds of a law it is within 1 % of the law of that speed, and nowhere does it jump."""
     coarse, own = film.tables.balls((2500.0, 3500.0)), film.tables.balls(3000.0)
     for u in (2e-6, 5e-6, 8e-6):
-        film_there = curve(u, *row_at(coarse, 3000.0), coarse.inner, 0)[0] - u
-        assert film_there == pytest.approx(curve(u, 0, 0.0, own.inner, 0)[0] - u, rel=0.01)
+        film_there = CoreRace(coarse).curve(u, row_at(coarse, 3000.0))[0] - u
+        assert film_there == pytest.approx(CoreRace(own).curve(u)[0] - u, rel=0.01)
     many = film.tables.balls(SPEEDS)
     below, above = (row_at(many, 3000.0 * (1.0 + s)) for s in (-1e-9, 1e-9))
     assert below[0] == 0 and above[0] == 1
     pressed = []
     for row in (below, above):
-        films = films_of(many)
-        films.state[0, APPROACH] = 5e-6
-        prepare_filters(many.inner, transit(many), row, None, 2e-5, films, 0)
-        pressed.append(contact_force(many.inner, transit(many), row, None, films, 0, 5.1e-6, 3e-3))
+        held = CoreRace(many)
+        held.state[APPROACH] = 5e-6
+        held.prepare(transit(many), 2e-5, row)
+        force = held.force(5.1e-6, 3e-3)
+        pressed.append((force.force, force.stiffness, force.damping))
     np.testing.assert_allclose(pressed[0], pressed[1], rtol=1e-6)
 
 
@@ -122,27 +116,14 @@ def transit(balls):
     return balls.inner.contact_length_factor / u_sum
 
 
-class Films(NamedTuple):
-    """States and work of one contact."""
-
-    state: np.ndarray
-    work: np.ndarray
-    interval: np.ndarray
-    poisson: np.ndarray
-    share: np.ndarray
-
-
-def race_forces(law, transit, u, v, dt):
+def race_forces(contact, transit, u, v, dt):
     """Force at the end of every step from rest at u[0], by the reduced filters of a race."""
-    lags = law.gains.shape[2] - DIRECT
-    sizes = (1, CHAIN + lags + 1), (1, HELD + 3 * lags)
-    films = Films(*map(np.zeros, sizes), np.zeros((1, 2), np.int64), np.zeros(lags + 3), np.zeros(lags + 3))
-    films.state[0, APPROACH] = u[0]
-    forces = []
+    contact.state[:], forces = 0.0, []
+    contact.state[APPROACH] = u[0]
     for place, rate in zip(u[1:], v[1:], strict=True):
-        prepare_filters(law, transit, (0, 0.0), None, dt, films, 0)
-        forces.append(contact_force(law, transit, (0, 0.0), None, films, 0, place, rate)[0])
-        accept_contact(law, transit, (0, 0.0), None, films, 0, place, rate)
+        contact.prepare(transit, dt)
+        forces.append(contact.force(place, rate).force)
+        contact.accept(place, rate)
     return np.array(forces)
 
 
@@ -150,7 +131,7 @@ def test_reduced_filters_converge_to_the_law_in_continuous_time(film):
     """Of second order, over a return of half the approach. The law is `film_rates`, integrated to 1e-9."""
     element = film.element("inner", 3000.0)
     scales, law = element.scales, tabulate_race([element])
-    transit = law.contact_length_factor * scales.time / (2.0 * scales.a)
+    own, transit = contact(film, law), law.contact_length_factor * scales.time / (2.0 * scales.a)
     start, swing, omega, end = (
         element.approach_at(100.0),
         0.25 * element.approach_at(100.0),
@@ -171,7 +152,7 @@ def test_reduced_filters_converge_to_the_law_in_continuous_time(film):
     for steps in (60, 120, 240):
         t = np.linspace(0.0, span, steps + 1)
         u, v = motion(t)
-        force = race_forces(law, transit, u, v, t[1])
+        force = race_forces(own, transit, u, v, t[1])
         wanted = [element.continuous(solved.sol(time), *motion(time))[0] for time in t[1:]]
         errors.append(np.abs(force - wanted).max() / np.ptp(wanted))
     assert np.ptp(wanted) > 50.0 and errors[-1] < 1e-3
@@ -183,36 +164,15 @@ def test_films_that_squeeze_are_refused(film):
         tabulate_race([replace(film.element("inner", 3000.0), inlet_saturation=0.2)])
 
 
-def test_fading():
-    assert film_cutoff(-1.0, inf) == (1.0, 0.0)
-    assert film_cutoff(-0.4e-6, 1e-6) == (1.0, 0.0)
-    assert film_cutoff(-1.1e-6, 1e-6) == (0.0, 0.0)
+def test_fading(film):
+    def cutoff(u, gap):
+        return contact(film, film.tables.law("inner", [3000.0])._replace(cutoff_gap=gap)).cutoff(u)
+
+    assert cutoff(-1.0, inf) == (1.0, 0.0)
+    assert cutoff(-0.4e-6, 1e-6) == (1.0, 0.0)
+    assert cutoff(-1.1e-6, 1e-6) == (0.0, 0.0)
     for u in (-0.6e-6, -0.9e-6):
-        share, slope = film_cutoff(u, 1e-6)
+        share, slope = cutoff(u, 1e-6)
         assert 0.0 < share < 1.0
-        assert slope == pytest.approx(
-            (film_cutoff(u + 1e-12, 1e-6)[0] - film_cutoff(u - 1e-12, 1e-6)[0]) / 2e-12, rel=1e-5
-        )
-
-
-@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="kernels are plain Python already")
-def test_compiled_and_plain_are_twins(film, monkeypatch):
-    """A contact over two steps, all its kernels as plain Python."""
-    balls = film.tables.balls(3000.0)
-    names = "_at", "gain", "_lag", "_weigh", "_add", "_made_at", "film_made", "curve", "film_curve", "film_cutoff"
-    steps = "prepare_filters", "contact_force", "accept_contact"
-
-    def run():
-        films, law, forces = films_of(balls), balls.inner, []
-        for u in (4e-6, 4.1e-6):
-            given = law, transit(balls), (0, 0.0), (1.02, 0.0)
-            contact_room.prepare_filters(*given, 2e-5, films, 0)
-            forces += contact_room.contact_force(*given, films, 0, u, 2e-3)
-            forces.append(contact_room.accept_contact(*given, films, 0, u, 2e-3))
-        return np.array(forces), films.state
-
-    compiled = run()
-    for name in (*names, *steps):
-        monkeypatch.setattr(contact_room, name, getattr(contact_room, name).py_func)
-    for ours, plain in zip(compiled, run(), strict=True):
-        np.testing.assert_allclose(ours, plain, rtol=1e-11, atol=1e-15)
+        ends = [cutoff(u + step, 1e-6)[0] for step in (1e-12, -1e-12)]
+        assert slope == pytest.approx((ends[0] - ends[1]) / 2e-12, rel=1e-5)

@@ -23,7 +23,7 @@ from reduced_models import (
     simulate_rotor,
 )
 from reduced_models.bearing import track_surface
-from reduced_models.bearing.contact_heights import height_of
+from reduced_models.bearing.contact_heights import contact_height
 from reduced_models.bearing.height_tables import track_radius
 from reduced_models.bearing.track_surface import TrackSurface, tracks_at
 from reduced_models.rotor import bearing_films
@@ -135,11 +135,9 @@ def test_surface_is_what_the_height_tables_have(smooth, race, psi):
     surface = TrackSurface(tracks_at(bearing, 2, race, (psi, shaft), rates), s.a, s.length)
     X, T = np.array([[0.0, 0.5]]), 0.8
     here = surface(X, np.zeros((1, 1)), T)[0]
-    turned = np.zeros((1 + bearing.balls, 3))
-    turned[0, 0] = shaft + rates[1] * T
-    turned[1:, 0] = bearing.orders.bsf * turned[0, 0]
-    column = ("inner", "outer").index(race)
-    table = height_of(bearing.tables.heights, 2, column, psi + rates[0] * T, turned, 0.0)
+    turned = shaft + rates[1] * T
+    at = psi + rates[0] * T, (turned, bearing.orders.bsf * turned)
+    table = contact_height(bearing.tables.heights, 2, ("inner", "outer").index(race), *at, 0.0)
     assert -here[0] * s.length + 5e-7 == pytest.approx(table, abs=1e-8)
     later = surface(X, np.zeros((1, 1)), T + 0.5)[0]
     assert later[1] == pytest.approx(here[0], abs=1e-6 / s.length * 1e-3)

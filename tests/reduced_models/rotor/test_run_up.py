@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from core_races import CoreRace
 from programs import script
 
 from reduced_models import (
@@ -16,17 +17,16 @@ from reduced_models import (
 )
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
-from reduced_models.bearing.race_contact import row_of_speed
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.speed_profile import law_speeds, turning_forces
 
 RANGE = np.array([500.0, 9000.0])
 
 
-def test_the_highest_speed_of_the_tables_holds_above_it():
-    speeds = np.array([100.0, 200.0, 400.0])
-    assert row_of_speed(speeds, 900.0) == (1, 1.0) == row_of_speed(speeds, 400.0)
-    assert row_of_speed(speeds, 200.0) == (0, 1.0) or row_of_speed(speeds, 200.0) == (1, 0.0)
+def test_the_highest_speed_of_the_tables_holds_above_it(film):
+    row = CoreRace(film.tables.balls([1000.0, 2000.0, 4000.0])).row
+    assert row(9000.0 * RPM_TO_RAD_S) == (1, 1.0) == row(4000.0 * RPM_TO_RAD_S)
+    assert row(2000.0 * RPM_TO_RAD_S) in ((0, 1.0), (1, 0.0))
 
 
 def test_forces_at_rest_do_not_jump_where_laws_change(film):
