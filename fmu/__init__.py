@@ -8,7 +8,7 @@ module                   responsibility
 ``contact_spec``         `contact_spec`: specification of the FMU of a contact element, with or without film memory
 ``lead``                 `Lead`: the parameter `lead` of contacts, `force_lead` of rotors
 ``steps``                default communication step of a contact; advice on longer ones
-``models``               kinds of models and their keywords; `FmuModel`: specification, references, comparison
+``models``               kinds of models and their keywords; `FmuModel`: specification and references
 ``export``               `export`: model, files, verification, FMU file
 ``archive``              files of an FMU, and the zip archive of them
 ``model_description``    `ModelSpec` to ``modelDescription.xml`` and the other XML of FMI 2.0 and 3.0
@@ -20,7 +20,6 @@ module                   responsibility
 ``fmu_file``             an FMU file, unpacked, and instances of it
 ``isolated``             work with an FMU's library in a child process, with limits
 ``driver``               one instance of an FMU, driven through fmpy
-``comparison``           FMU and Python element: forces, tangents and derivatives
 ``verification``         `Verification`: result of a comparison
 ``verify``               `verify`: an FMU against fmpy's rules and the Python element, also before it is written
 ``bearing/``             FMU of a ball bearing whose inner ring is moved from outside

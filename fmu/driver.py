@@ -81,10 +81,13 @@ class _Instance:
         return bool(self.raw.getBoolean([self.reference[name]])[0])
 
     def read(self, *names: str) -> list[float]:
-        """Read real variables, and Booleans as 0 and 1."""
-        real = [name for name in names if self.types[name] != "Boolean"]
+        """Read real variables, Booleans as 0 and 1, and partial derivatives, as "force / rate"."""
+        real = [name for name in names if self.types.get(name) not in ("Boolean", None)]
         found = dict(zip(real, self.get(*real), strict=True)) if real else {}
-        return [found[name] if name in found else float(self.flag(name)) for name in names]
+        for name in names:
+            if name not in found:
+                found[name] = self.gradient(*name.split(" / ")) if " / " in name else float(self.flag(name))
+        return [found[name] for name in names]
 
     def gradient(self, unknown: str, known: str) -> float:
         """Partial derivative of one variable by another."""

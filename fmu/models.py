@@ -4,25 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import cache, partial
 from typing import Any, TypedDict, Unpack
 
 import numpy as np
 
 from ehlcontact.errors import InputError
-from fmu.bearing.comparison import bearing_references, compare_bearing
 from fmu.bearing.model import BearingModel
+from fmu.bearing.references import bearing_references, bearing_trials
 from fmu.bearing.variables import bearing_spec
-from fmu.comparison import compare_film, compare_spring
 from fmu.contact_spec import contact_spec
-from fmu.contact_variables import Element, Film
+from fmu.contact_variables import Element
 from fmu.lead import HELD_PARALLEL
-from fmu.references.contact_references import contact_references
+from fmu.references.contact_references import contact_references, contact_trials
 from fmu.references.series import References
-from fmu.rotor.comparison import compare_rotor, rotor_references
 from fmu.rotor.model import RotorModel
+from fmu.rotor.references import rotor_references
 from fmu.rotor.variables import rotor_spec
 from fmu.spec import ModelSpec
-from fmu.verification import Verification
 from reduced_models import BallBearing, BearingSet, Rotor
 from reduced_models.bearing.freedoms import FIVE
 
@@ -67,16 +66,16 @@ class FmuModel:
     elements : tuple of ContactElement
         Contacts that the FMU computes.
     references : callable
-        Reference inputs and results, computed in Python.
-    compare : callable
-        Comparison of two instances, for co-simulation and for model exchange, with the Python model.
+        Inputs and results in Python, for the files in the FMU.
+    trials : callable
+        Those on which the FMU is compared.
     """
 
     source: Any
     spec: ModelSpec
     elements: tuple[Element, ...]
     references: Callable[[], References]
-    compare: Callable[[Any, Any], Verification]
+    trials: Callable[[], References]
 
 
 def fmu_model(model: Exported, **keywords: Unpack[Keywords]) -> FmuModel:
@@ -92,12 +91,17 @@ def fmu_model(model: Exported, **keywords: Unpack[Keywords]) -> FmuModel:
     model_name, lead = given.pop("model_name", None), given.pop("lead", None)
     if isinstance(model, Element):
         spec = contact_spec(model, model_name, HELD_PARALLEL if lead is None else lead)
-        return _made(model, spec, compare_film if isinstance(model, Film) else compare_spring, contact_references)
+        written, compared = (partial(make, model, spec) for make in (contact_references, contact_trials))
+        return FmuModel(model, spec, (model,), written, compared)
     if isinstance(model, BallBearing):
         bearing = BearingModel(model, given.pop("speeds_rpm", None), **given)
-        return _made(bearing, bearing_spec(bearing, model_name, lead), compare_bearing, bearing_references)
+        spec = bearing_spec(bearing, model_name, lead)
+        trials = cache(partial(bearing_trials, bearing, spec))
+        return FmuModel(bearing, spec, (), lambda: bearing_references(trials()), trials)
     rotor = RotorModel(_on_set(model, given) if isinstance(model, BearingSet) else model, **given)
-    return _made(rotor, rotor_spec(rotor, model_name, lead), compare_rotor, rotor_references)
+    spec = rotor_spec(rotor, model_name, lead)
+    trials = cache(partial(rotor_references, rotor, spec))
+    return FmuModel(rotor, spec, rotor.elements, trials, trials)
 
 
 def _on_set(bearings: BearingSet, given: dict[str, Any]) -> Rotor:
@@ -122,13 +126,3 @@ def _require_taken(model: object, given: dict[str, Any]) -> None:
             return
     allowed = "a contact element (linear, cubic, ..., wide), BallBearing, BearingSet or Rotor"
     raise InputError("model", type(model).__name__, allowed)
-
-
-def _made(source: Any, spec: ModelSpec, compare: Any, references: Any) -> FmuModel:
-    return FmuModel(
-        source,
-        spec,
-        (source,) if isinstance(source, Element) else getattr(source, "elements", ()),
-        references=lambda: references(source, spec),
-        compare=lambda slave, exchange: compare(slave, exchange, source, spec),
-    )

@@ -17,6 +17,7 @@ from fmu.isolated import isolated, require_path
 from fmu.lead import CONTACT, ROTOR
 from fmu.models import Exported, FmuModel, Keywords, fmu_model
 from fmu.references.check import check_references
+from fmu.references.series import References, visit, walk
 from fmu.spec import ModelSpec, Variable
 from fmu.verification import Verification
 
@@ -79,7 +80,31 @@ def verify_opened(file: FmuFile, model: FmuModel) -> Verification:
     known = _known_variables(file, model.spec)
     found = (*findings(file.path), *_declarations(model.spec, known))
     with file.running() as (slave, exchange):
-        return replace(model.compare(slave, exchange), findings=found)
+        return replace(compare(slave, exchange, model.trials()), findings=found)
+
+
+def compare(slave: Any, exchange: Any, trials: References) -> Verification:
+    """What instances for co-simulation and, unless it is None, model exchange make of the trials of a model."""
+    assert trials.steps is not None
+    found = [trials.steps.differences(walk(slave, trials))]
+    slave.raw.terminate()
+    compared = [trials.steps]
+    if exchange is not None and trials.points is not None:
+        found.append(trials.points.differences(visit(exchange, trials)))
+        compared.append(trials.points)
+    largest: dict[str, float] = {}
+    flags = 0
+    for trial, gaps in zip(compared, found, strict=True):
+        for name, gap in gaps.items():
+            field = trial.fields[name]
+            if field == "flags":
+                flags += int((gap > 0.0).sum())
+            else:
+                largest[field] = max(largest.get(field, 0.0), float(gap.max()))
+    numbers: Any = largest
+    return Verification(
+        states=trials.steps.time.size, outside=trials.outside, parted=trials.parted, flags=flags, **numbers
+    )
 
 
 def _known_variables(file: FmuFile, spec: ModelSpec) -> dict[str, Any]:

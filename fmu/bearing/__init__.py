@@ -9,6 +9,6 @@ module          responsibility
 ``places``      from where places of balls at contact angles are counted, and their damping across
 ``continuous``  states of the bearing, and their rates in Python
 ``trial``       a run of the ring with lift-off, and its forces in Python
-``comparison``  comparison of the FMU with that run; references stored in the FMU
+``references``  that run and states in model exchange, as references of the FMU
 ==============  ==============================================================================
 """

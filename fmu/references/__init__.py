@@ -3,8 +3,8 @@
 ======================  =======================================================================
 module                  responsibility
 ======================  =======================================================================
-``series``              `References`: inputs and results, row by row, for each FMI interface
-``contact_references``  references of a contact element, computed by the element in Python
+``series``              `References`: inputs and results, row by row, for each FMI interface; differences from them
+``contact_references``  those of a contact element, computed by the element in Python
 ``files``               files in ``extra/org.fmi-standard.fmi-ls-ref/`` of an FMU
 ``check``               `verify_references`: an FMU against the references inside it
 ======================  =======================================================================

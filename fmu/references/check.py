@@ -12,12 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.summary import Summary
-from fmu.comparison import each_over, floored
 from fmu.description_rules import findings
 from fmu.fmu_file import FmuFile, opened
 from fmu.isolated import isolated, require_path
 from fmu.references.files import POINTS, STEPS, changed_files, read_references
-from fmu.references.series import References, Trial, rows_of, walk
+from fmu.references.series import References, Trial, visit, walk
 from fmu.verification import findings_text
 
 _Floats = NDArray[np.float64]
@@ -127,7 +126,7 @@ def _interfaces(file: FmuFile, references: References) -> tuple[tuple[str, ...],
     with file.running() as (slave, exchange):
         cases: tuple[tuple[str, Trial | None, Any, Callable[[Any, References], _Floats]], ...] = (
             (STEPS, references.steps, slave, walk),
-            (POINTS, references.points, exchange, _visit),
+            (POINTS, references.points, exchange, visit),
         )
         for name, trial, instance, run in cases:
             if instance is None:
@@ -144,30 +143,8 @@ def _interfaces(file: FmuFile, references: References) -> tuple[tuple[str, ...],
     return tuple(findings), tuple(interfaces)
 
 
-def _visit(exchange: Any, references: References) -> _Floats:
-    """Derivatives and outputs at the points for model exchange, shape (rows, variables)."""
-    trial = references.points
-    assert trial is not None
-    derivatives = [unknown.variable for unknown in exchange.description.derivatives]
-    states = [variable.derivative.name for variable in derivatives]
-    places = {variable.name: k for k, variable in enumerate(derivatives)}
-    others = [name for name in trial.unknowns if name not in places]
-    exchange.start()
-    found = []
-    for row in rows_of(trial):
-        x = np.array([row.pop(name) for name in states])
-        rates = exchange.place(x, **row)
-        read = dict(zip(others, exchange.read(*others), strict=True))
-        found.append([rates[places[name]] if name in places else read[name] for name in trial.unknowns])
-    return np.array(found)
-
-
 def _compared(name: str, trial: Trial, found: _Floats) -> Interface:
-    worst = (-1.0, "", 0.0)
-    for column, (variable, expected) in zip(found.T, trial.unknowns.items(), strict=True):
-        size = floored(expected, np.abs(expected).max())
-        each = each_over(np.abs(column - expected), size)
-        at = int(np.argmax(each))
-        if each[at] > worst[0]:
-            worst = (float(each[at]), variable, float(trial.time[at]))
-    return Interface(name, trial.time.size, tuple(trial.unknowns), *worst)
+    gaps = trial.differences(found)
+    worst = max(gaps, key=lambda variable: gaps[variable].max())
+    at = int(np.argmax(gaps[worst]))
+    return Interface(name, trial.time.size, tuple(gaps), float(gaps[worst][at]), worst, float(trial.time[at]))

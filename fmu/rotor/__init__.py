@@ -9,6 +9,6 @@ module          responsibility
 ``tables``      constants and C tables
 ``laws``        supports inside, a C file for each that differs
 ``trial``       a run by the steps of `simulate_rotor`, with inputs as the FMU has them
-``comparison``  comparison of the FMU with that; references stored in the FMU
+``references``  that run and states along it, as references of the FMU
 ==============  ==============================================================================================
 """

@@ -23,8 +23,8 @@ from ehlcontact import Lubricant
 from fmu import export, verify
 from fmu.archive import content_guid
 from fmu.bearing.model import BearingModel
-from fmu.comparison import film_motion, state_grid
 from fmu.contact_spec import contact_spec
+from fmu.references.contact_references import film_motion, state_grid
 from fmu.rotor.laws import law_names, laws_of
 from fmu.sources import SOURCE_FOLDERS, source_files, standard_folder, standard_headers
 from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings

@@ -9,7 +9,7 @@ import pytest
 
 from ehlcontact.errors import InputError
 from fmu import export, verify
-from fmu.comparison import film_motion, state_grid
+from fmu.references.contact_references import film_motion, state_grid
 from reduced_models import BallBearing, BearingMount, Rotor, jeffcott_rotor
 
 
@@ -76,30 +76,30 @@ def test_units_are_compared(fmus, elements):
 
 
 @pytest.mark.parametrize(
-    ("part", "column", "field"),
+    ("name", "field"),
     [
-        ("values", 0, "force"),
-        ("values", 1, "tangents"),
-        ("values", 2, "tangents"),
-        ("partials", 0, "derivatives"),
-        ("partials", 1, "derivatives"),
-        ("flags", slice(3), "flags"),
+        ("force", "force"),
+        ("stiffness", "tangents"),
+        ("damping", "tangents"),
+        ("force / approach", "derivatives"),
+        ("force / rate", "derivatives"),
+        ("outside_validity", "flags"),
     ],
 )
-def test_whatever_an_fmu_gets_wrong_is_told(fmus, elements, monkeypatch, part, column, field):
+def test_whatever_an_fmu_gets_wrong_is_told(fmus, elements, monkeypatch, name, field):
     """Each output by itself; all else is as it should be."""
-    comparison = importlib.import_module("fmu.comparison")
-    run = comparison.run
+    verification = importlib.import_module("fmu.verify")
+    walk = verification.walk
 
-    def slightly_wrong(*arguments):
-        outputs = dict(zip(("values", "partials", "flags"), run(*arguments), strict=True))
-        if part == "flags":
-            outputs[part][column] = ~outputs[part][column]
+    def slightly_wrong(slave, trials):
+        outputs, column = walk(slave, trials), list(trials.steps.unknowns).index(name)
+        if field == "flags":
+            outputs[:3, column] = 1.0 - outputs[:3, column]
         else:
-            outputs[part][:, column] *= 1.0 + 1e-9
-        return tuple(outputs.values())
+            outputs[:, column] *= 1.0 + 1e-9
+        return outputs
 
-    monkeypatch.setattr(comparison, "run", slightly_wrong)
+    monkeypatch.setattr(verification, "walk", slightly_wrong)
     found = verify(fmus["cubic"], elements["cubic"])
     wrong = {"force": 1e-9, "tangents": 1e-9, "derivatives": 1e-9, "flags": 3}
     assert not found.passes and found.findings == ()

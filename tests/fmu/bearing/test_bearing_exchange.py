@@ -13,9 +13,9 @@ from fmpy.fmi1 import FMICallException
 from fmpy.sundials import CVodeSolver
 from scipy.integrate import solve_ivp
 
-from fmu.bearing.comparison import knowns_of
 from fmu.bearing.continuous import rates_in_time, state_points
 from fmu.bearing.places import counted_from
+from fmu.bearing.references import knowns_of
 from fmu.bearing.trial import START
 from fmu.bearing.variables import FORCES, RATES, BallStates
 from fmu.description_rules import findings

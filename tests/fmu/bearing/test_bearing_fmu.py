@@ -14,8 +14,8 @@ from mass_on_bearing import decay, in_one_run
 
 from ehlcontact import InputError, OilLayer
 from fmu import export, verify_references
-from fmu.bearing.comparison import largest_difference
 from fmu.bearing.model import BearingModel
+from fmu.bearing.references import force_scales
 from fmu.bearing.tables import _curve, _halved, _race
 from fmu.bearing.trial import START, bearing_trial
 from fmu.bearing.variables import FORCES, RATES
@@ -81,6 +81,11 @@ def test_forces_are_those_of_python(made, name, fmi):
         assert found.passes and found.rates > 0.0
         page = (Path(one.folder) / "documentation" / "index.html").read_text(encoding="utf-8")
         assert "for co-simulation and model exchange;" in page
+
+
+def largest_difference(found, trial):
+    """Of forces and moments from those of a trial, over the largest of each kind."""
+    return float((np.abs(found - trial.force) / force_scales(trial)).max())
 
 
 def test_clearance_offset_and_film_are_parameters(made):

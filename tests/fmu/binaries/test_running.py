@@ -18,8 +18,8 @@ from ehlcontact.binaries.compiler import compilers
 from fmu.archive import content_guid
 from fmu.bearing.trial import bearing_trial
 from fmu.bearing.variables import RATES, bearing_spec
-from fmu.comparison import film_motion
 from fmu.contact_spec import contact_spec
+from fmu.references.contact_references import film_motion
 from fmu.sources import compiled, source_files, standard_folder
 from reduced_models.bearing.race import RACES
 

@@ -1,4 +1,4 @@
-"""A ring with five degrees of freedom: published bearings, exact tangents, the planar bearing too."""
+"""Rings at contact angles, in five directions: published bearings, exact tangents; a radial load in two."""
 
 from math import acos, atan2, cos, degrees, pi, radians, sin
 

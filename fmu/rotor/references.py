@@ -1,8 +1,7 @@
-"""The FMU of a rotor beside the rotor, and the references inside it."""
+"""Reference inputs and results of the FMU of a rotor: a run-up with lift-off, and its equations along it."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,15 +10,14 @@ from numpy.typing import NDArray
 from fmu.bearing.continuous import rates_in_time, rest_states
 from fmu.bearing.places import counted_from
 from fmu.bearing.variables import FORCES
-from fmu.comparison import each_over, film_rates_at
 from fmu.contact_variables import Element, Film
 from fmu.lead import ROTOR
-from fmu.references.series import References, Trial, walk
+from fmu.references.contact_references import film_rates_at
+from fmu.references.series import References, Trial
 from fmu.rotor.model import RotorModel
 from fmu.rotor.trial import RotorTrial, rotor_trial
 from fmu.rotor.variables import force_rows
 from fmu.spec import ModelSpec
-from fmu.verification import Verification
 from reduced_models.bearing.race import RACES
 
 _Floats = NDArray[np.float64]
@@ -31,38 +29,9 @@ FILM = 0.02  # size of the states of films there, over their nominal values
 ABOUT = "The speed rises, unbalances grow, forces lift the rotor off; steps of simulate_rotor, in Python"
 
 
-def compare_rotor(slave: Any, exchange: Any, model: RotorModel, spec: ModelSpec) -> Verification:
-    """Compare a rotor, in a run-up with lift-off, and its equations at states of that run."""
-    trial = _trial(model)
-    references = _references(trial, model, spec)
-    ours = walk(slave, references)
-    slave.raw.terminate()
-    assert references.steps is not None
-    histories = np.array(list(references.steps.unknowns.values())).T
-    gaps = np.abs(ours - histories).max(axis=0) / sizes(histories)
-    found = Verification(states=len(ours), parted=trial.parted, motion=float(gaps.max()))
-    if exchange is None:
-        return found
-    return replace(found, rates=_compare_points(exchange, model, spec))
-
-
-def sizes(histories: _Floats) -> _Floats:
-    """What each output moves in a run, or where it stands."""
-    return np.asarray(
-        np.maximum(np.maximum(np.ptp(histories, axis=0), 1e-3 * np.abs(histories).max(axis=0)), 1e-12)
-    )
-
-
 def rotor_references(model: RotorModel, spec: ModelSpec) -> References:
-    """Reference inputs and results of the FMU of a rotor."""
-    return _references(_trial(model), model, spec)
-
-
-def _trial(model: RotorModel) -> RotorTrial:
-    return rotor_trial(model, force_rows(model).tobytes())
-
-
-def _references(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> References:
+    """References inside the FMU of a rotor; it is compared on the same."""
+    trial = rotor_trial(model, force_rows(model).tobytes())
     inputs = {v.name: trial.inputs[:, k] for k, v in enumerate(spec.inputs)}
     settings = {ROTOR.name: ROTOR.at_end, "inner_step": model.inner_step}
     if model.inertia is not None:
@@ -70,8 +39,15 @@ def _references(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> Refere
     if model.start is not None:
         names = [state.name for state in spec.states[: 2 * model.rotor.size]]
         settings |= dict(zip(names, [*trial.displacement[0], *trial.velocity[0]], strict=True))
-    steps = Trial(trial.time, inputs, _results(trial, model, spec))
-    return References(steps, _points(trial, model, spec), settings, TOLERANCE, ABOUT)
+    results = _results(trial, model, spec)
+    sizes = {name: _moved(values) for name, values in results.items()}
+    steps = Trial(trial.time, inputs, results, sizes, dict.fromkeys(results, "motion"))
+    return References(steps, _points(trial, model, spec), settings, TOLERANCE, ABOUT, parted=trial.parted)
+
+
+def _moved(history: _Floats) -> float:
+    """What an output moves in a run, or where it stands."""
+    return max(float(np.ptp(history)), 1e-3 * float(np.abs(history).max()), 1e-12)
 
 
 def _results(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> dict[str, Any]:
@@ -176,7 +152,9 @@ def _points(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> Trial:
     unknowns = dict(zip((f"der({name})" for name in named), np.array(rows).T, strict=True))
     if model.inertia is not None and any(bearing.bearing.oil is not None for bearing in bearings):
         unknowns = {name: values for name, values in unknowns.items() if not _is_driven(name, model, spec)}
-    return Trial(np.arange(at.size, dtype=float), knowns, unknowns)
+    sizes = _rate_sizes(unknowns, model, named)
+    fields = dict.fromkeys(unknowns, "rates")
+    return Trial(np.arange(at.size, dtype=float), knowns, unknowns, sizes, fields)
 
 
 def _is_driven(name: str, model: RotorModel, spec: ModelSpec) -> bool:
@@ -209,45 +187,18 @@ def _accelerations(
     return found[:size], float(found[size])
 
 
-def _compare_points(exchange: Any, model: RotorModel, spec: ModelSpec) -> float:
-    """Largest difference of rates in model exchange, over the largest of their kind."""
-    points = _points(_trial(model), model, spec)
-    names = [v.name for v in spec.states]
-    exchange.start()
-    ours = []
-    for k in range(points.time.size):
-        row = {name: float(values[k]) for name, values in points.knowns.items()}
-        x = np.array([row.pop(name) for name in names])
-        ours.append(exchange.place(x, **row))
-    worst = 0.0
+def _rate_sizes(rates: dict[str, Any], model: RotorModel, names: list[str]) -> dict[str, float]:
+    """What differences of rates are measured by: the largest of a kind, or what balances within it."""
+    size = model.rotor.size
+    load = max(float(np.abs(model.rotor.load).max()), 1.0) / float(np.diag(model.rotor.mass).max())
+    least = {"velocity": 0.0, "acceleration": load}
+    largest = dict(least)
+    kinds = {}
     for j, name in enumerate(names):
-        wanted = points.unknowns.get(f"der({name})")
-        if wanted is not None:
-            size = _size_of(points, model, spec, j)
-            worst = max(worst, float(each_over(np.abs(np.array(ours)[:, j] - wanted), size).max()))
-    return worst
-
-
-def _size_of(points: Trial, model: RotorModel, spec: ModelSpec, j: int) -> _Floats:
-    """What a difference of a rate is measured by: the largest of its kind, or what balances within it."""
-    names, size = [v.name for v in spec.states], model.rotor.size
-    known = [points.unknowns.get(f"der({name})") for name in names]
-    length = points.time.size
-    if j < 2 * size:
-        kind = range(0, size) if j < size else range(size, 2 * size)
-        largest = max(float(np.abs(one).max()) for k in kind if (one := known[k]) is not None)
-        if j >= size:
-            load = max(float(np.abs(model.rotor.load).max()), 1.0)
-            largest = max(largest, load / float(np.diag(model.rotor.mass).max()))
-        return np.full(length, largest)
-    label = names[j].rpartition(".")[0].partition("[")[0]
-    kind_name = names[j].rpartition(".")[2].partition("[")[0]
-    alike = [
-        float(np.abs(one).max())
-        for k, one in enumerate(known)
-        if one is not None
-        and k >= 2 * size
-        and names[k].startswith(label)
-        and names[k].rpartition(".")[2].partition("[")[0] == kind_name
-    ]
-    return np.full(length, max([*alike, 1e-300]))
+        if f"der({name})" not in rates:
+            continue
+        support, _, own = name.rpartition(".")
+        kind = f"{support.partition('[')[0]}.{own.partition('[')[0]}"
+        kinds[f"der({name})"] = kind = [*least, kind][min(j // size, 2)]
+        largest[kind] = max(largest.get(kind, 1e-300), float(np.abs(rates[f"der({name})"]).max()))
+    return {name: largest[kind] for name, kind in kinds.items()}
