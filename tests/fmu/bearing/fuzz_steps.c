@@ -1,5 +1,5 @@
-/* Random bearings and motions, meant to run under sanitizers: numbers of balls, directions, race control, inertia, clearance and losses
- * are drawn, rings vibrate with lift-off, blows and jumps of the speed, in steps that change. A number that is not finite must come
+/* Random bearings and motions, meant to run under sanitizers: numbers of balls, directions, race control, inertia, clearance, losses and
+ * heights of races and balls are drawn, full films take the place of elements, rings vibrate with lift-off, blows and jumps of the speed, in steps that change. A number that is not finite must come
  * with a reason, and a step that is refused must leave the state as it was. bearing_data.h has the tables. Arguments: number of steps,
  * seed. Prints steps, those refused, and how often a ball lost its load. */
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "bearing.h"
 #include "bearing_data.h"
 
-enum { PER_BEARING = 2500, MOST_BALLS = 24 };
+enum { PER_BEARING = 2500, MOST_BALLS = 24, PLACES = 64, COLUMNS = 6 };
 static const double slow = 2e-4; /* s, in which half of a motion is there */
 
 static unsigned long long seed = 1;
@@ -40,6 +40,30 @@ static int all_finite(const double x[], size_t n)
     return i == n;
 }
 
+/* Waves on one race, and on some balls, which are larger than others. */
+static const HeightTables *drawn_heights(int balls)
+{
+    static double pages[2][PLACES + 1][COLUMNS];
+    static const HeightTables heights = {2, PLACES + 1, COLUMNS, &pages[0][0][0]};
+    const double size = pow(10.0, uniform(-9.0, -6.5));
+    const int waves = 1 + any(9);
+    int i, j;
+    memset(pages, 0, sizeof pages);
+    pages[0][0][1 + any(2)] = 1.0;
+    for (i = 1; i <= balls; i++) {
+        pages[0][i][0] = uniform(-1.0, 1.0) * 1e-7;
+        pages[0][i][1] = any(2);
+        pages[0][i][2] = any(2);
+    }
+    for (i = 0; i < PLACES; i++) {
+        for (j = 0; j < COLUMNS; j++) {
+            pages[1][i][j] = size * cos(6.28 * waves * i / PLACES) / (1.0 + j);
+        }
+    }
+    pages[1][PLACES][0] = COLUMNS / sqrt(2e-5);
+    return &heights;
+}
+
 static Bearing drawn(void)
 {
     static const int most[3] = {2, 3, 5};
@@ -50,6 +74,7 @@ static Bearing drawn(void)
     b.directions = b.grooves.axial != 0.0 ? 5 : most[any(3)];
     b.inertia = any(3) == 0 ? b.grooves.mass : 0.0;
     b.filters = any(2) == 0 ? 0 : b.filters;
+    b.heights = any(2) == 0 ? NULL : drawn_heights(b.balls);
     return b;
 }
 
@@ -104,6 +129,17 @@ static void check_rates(const Bearing *b, const double state[], double work[], c
     free(rates);
 }
 
+/* Puts a full film in the place of an element, about what this carries, or the element back. */
+static void exchange_film(const Bearing *b, double state[])
+{
+    const int k = any(b->balls), race = any(2);
+    BallSurface *surface = (BallSurface *)(void *)(state + shaft_place(b) + 1) + k;
+    FullFilm *film = &surface->full[race];
+    film->slope = film->slope > 0.0 ? 0.0 : pow(10.0, uniform(6.0, 8.0));
+    film->force = ball_of(state, k)->force[race];
+    film->approach = film_of(b, state, k, race)->approach - surface->height[race][0];
+}
+
 int main(int argc, char **argv)
 {
     const long count = argc > 1 ? atol(argv[1]) : 1000;
@@ -140,6 +176,9 @@ int main(int argc, char **argv)
             }
             if (any(500) == 0) {
                 v[0] = any(2) == 0 ? NAN : 0.01;
+            }
+            if (b.heights != NULL && any(100) == 0) {
+                exchange_film(&b, state);
             }
             memcpy(kept, state, size * sizeof *state);
             bearing_begin(&b, state, work, h, omega);
