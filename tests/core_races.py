@@ -4,11 +4,11 @@ from ctypes import POINTER, Structure, byref, c_double, c_int, c_void_p
 
 import numpy as np
 
-from reduced_models.bearing.core_bearing import CoreBearing, RaceStructure, pointer
+from reduced_models.bearing.core_bearing import FILM, NUMBER, CoreBearing, RaceStructure, pointer
 from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.elements.film_filters import DIRECT
 
-FILTERS, STATE = 25, 6  # numbers of `StepFilters` and `FilmState`, their chains left out
+FILTERS, STATE = 25, FILM.itemsize // NUMBER  # numbers of filters and states, chains left out
 
 
 class SpeedRow(Structure):
@@ -20,7 +20,7 @@ class SpeedRow(Structure):
 class RaceForce(Structure):
     """Force and its slopes."""
 
-    _fields_ = [(name, c_double) for name in ("force", "stiffness", "damping", "by_film", "film")]
+    _fields_ = [(name, c_double) for name in ("force", "stiffness", "damping", "by_film", "film", "lift")]
 
 
 class _RaceStep(Structure):

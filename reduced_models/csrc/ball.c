@@ -136,6 +136,9 @@ int balance_ball(const Search *s, const double start[2])
             continue;
         }
         allowed = close * (least + p.inner.force + p.outer.force) + rounding * p.at.l[OUTER_RACE] * stiffness_of(s, &p);
+        if (at_rest(s) && films && size <= allowed) {
+            press(s, b, &p); /* begins with its films as they are: now their slopes are exact too */
+        }
         if (renews && (old || size <= allowed)) { /* exact in the end, of films too */
             const double by_film[2] = {p.inner.by_film, p.outer.by_film};
             renew_slopes(s, b, none, by_film, ball->inertia);

@@ -138,7 +138,7 @@ typedef struct {
 static inline RaceForce contact_force(const Search *s, int race, double u, double v)
 {
     const FullFilm *full = s->surface != NULL ? &s->surface->full[race] : NULL;
-    RaceForce out = {0.0, 0.0, 0.0, 0.0, 0.0};
+    RaceForce out = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     if (full == NULL || full->slope == 0.0) {
         return race_force(&s->contact[race], u + s->ball->height[race], v + s->ball->height_rate[race]);
     }
@@ -169,6 +169,10 @@ IN_PLACE void press(const Search *s, const double b[2], Pressed *p)
                              cosine[INNER_RACE] * p->e[0] + sine[INNER_RACE] * p->e[1]);
     p->outer = contact_force(s, OUTER_RACE, p->at.l[OUTER_RACE] - free[OUTER_RACE],
                              cosine[OUTER_RACE] * p->v[0] + sine[OUTER_RACE] * p->v[1]);
+    if (at_rest(s)) { /* films are looked for where they were found */
+        ball->thickness[INNER_RACE].lift = p->inner.lift;
+        ball->thickness[OUTER_RACE].lift = p->outer.lift;
+    }
     p->sum[0] = p->at.sum[0] + p->inner.force * cosine[INNER_RACE] - p->outer.force * cosine[OUTER_RACE];
     p->sum[1] = p->at.sum[1] + p->inner.force * sine[INNER_RACE] - p->outer.force * sine[OUTER_RACE];
     for (j = 0; j < 2 && s->heavy > 0.0; j++) {

@@ -278,11 +278,12 @@ RaceForce race_force(const RaceStep *c, double u, double v)
 {
     const Race *race = c->race;
     StepFilters *f = c->filters;
-    RaceForce out = {0.0, 0.0, 0.0, 0.0, 0.0};
+    RaceForce out = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     double g_u, lift, root, x, per_x, weight, tau, e, t, here, there, per_made, share, share_u, slope;
     double m0, me, mt, step, q0, qe, qt, more, carried, w, w_u, bent;
     const double g = gap_of(c, u, &g_u, &lift);
     int k = f->interval;
+    out.lift = lift;
     root = sqrt(g);
     if (race->nodes == 0) {
         out.force = race->kn * g * root;

@@ -56,9 +56,9 @@ typedef struct {
 } StepFilters;
 
 /* The force and its slopes, `by_film` that by the factor of the thickness; `film` is the compression whose power 3/2 it is, below 0
- * where the surfaces have parted. */
+ * where the surfaces have parted; `lift` as in Thickness. */
 typedef struct {
-    double force, stiffness, damping, by_film, film;
+    double force, stiffness, damping, by_film, film, lift;
 } RaceForce;
 
 /* A contact in a step: its law, speeds and filters. */
