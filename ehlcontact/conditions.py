@@ -25,14 +25,13 @@ WANTED = {
     "sliding": (ShearThinning, "a ShearThinning(slide_roll, law)"),
     "asperities": (Asperities, "Asperities(rq, ...)"),
 }
-THINS = "it thins flooded, isothermal films of smooth surfaces"
+THINS = "it thins isothermal films of smooth surfaces"
 # The first is left out with the second, and why
 APART = {
-    ("asperities", "heat"): "left out with heat: that of asperity friction is not known",
-    ("sliding", "supply"): f"left out with supply: {THINS}",
     ("sliding", "heat"): f"left out with thermal: {THINS}",
     ("sliding", "asperities"): f"left out with asperities: {THINS}",
 }
+FRICTION = "left out with heat of sliding: that of asperity friction is not known"
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +72,8 @@ class Conditions:
         for (name, other), allowed in APART.items():
             if getattr(self, name) is not None and getattr(self, other) is not None:
                 raise InputError(KEYWORDS[name], "given", allowed)
+        if self.asperities is not None and self.heat is not None and self.heat.slide_roll != 0.0:
+            raise InputError("asperities", "given", FRICTION)
 
     @classmethod
     def of(

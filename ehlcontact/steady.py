@@ -83,13 +83,15 @@ def solve_steady(
         the region.
     thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up, and its viscosity follow: ``Heat()`` takes the data of the oil. The isothermal film
-        is solved first, under the same supply. By default the film has the temperature of the inlet.
+        of smooth surfaces is solved first, under the same supply. By default the film has the temperature of the
+        inlet.
     asperities : Asperities, optional
         Let them carry part of the load where the film is thin, as ``result.asperities`` says. The film between
-        smooth surfaces is solved first. By default the surfaces are smooth.
+        smooth surfaces is solved first. By default the surfaces are smooth. With heat, in pure rolling alone: the
+        friction of asperities has no heat here.
     sliding : ShearThinning, optional
-        Shear thinning of the film by sliding (docs/traction.md). The Newtonian film is solved first. By
-        default the film is that of pure rolling.
+        Shear thinning of the film by sliding (docs/traction.md), under a supply too. The Newtonian film is solved
+        first. By default the film is that of pure rolling.
     approach : float, optional
         Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
         force it takes.

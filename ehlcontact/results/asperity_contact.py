@@ -30,7 +30,7 @@ class AsperityContact:
     film_over_rq : float
         Central film over `inputs.rq`; the lambda ratio of other results has the smallest film.
     film_share : float
-        Central film over that between smooth surfaces, on the same grid.
+        Central film over that between smooth surfaces, and without heat, on the same grid.
     """
 
     inputs: Asperities

@@ -26,7 +26,7 @@ class FilmTemperature:
     surfaces : ndarray, shape (2, nx + 1, ny + 1)
         Of both surfaces, the faster one first.
     film_share : float
-        Central film over that without heat, on the same grid.
+        Central film over that without heat, and between smooth surfaces, on the same grid.
     thermal_load : float
         Q = -d eta0/dT u_mean^2/k.
     balance : float

@@ -333,7 +333,8 @@ class FollowedViscosity:
         self.multigrid, self.heat = multigrid, heat
         self._rounds = ROUNDS if isinstance(heat, FilmHeat) and heat.even else SLIDING_ROUNDS
         self._rough = inf  # what sliding thins follows any film
-        if isinstance(heat, FilmHeat):
+        self._heats = isinstance(heat, FilmHeat)
+        if self._heats:
             self._rough = FRONT_ROUGH if multigrid.finest.inflow.size else ROUGH
         self._last: tuple[Array, Array] | None = None  # what the heating became, and its change
         self._differences: list[tuple[Array, Array]] = []  # of both, from cycle to cycle
@@ -397,7 +398,7 @@ class FollowedViscosity:
         """The combination of what was remembered whose change would be smallest, in the mean."""
         changes = [c for _, c in self._differences]
         products = [[float(np.vdot(a, b)) for b in changes] for a in changes]
-        fine = self.multigrid.finest.inflow.size and np.abs(change).max() < FRONT_FINE
+        fine = self._heats and self.multigrid.finest.inflow.size and np.abs(change).max() < FRONT_FINE
         if fine or not changes or not np.isfinite(products).all():
             return heat
         shares = np.linalg.lstsq(products, [float(np.vdot(c, change)) for c in changes], rcond=None)[0]

@@ -19,6 +19,7 @@ from ehlcontact import (
 )
 from ehlcontact.asperities import greenwood_tripp
 from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat
 from ehlcontact.hertz import hertz_contact
 from ehlcontact.solver.level import Level
 
@@ -147,6 +148,29 @@ def test_the_share_without_a_solve(mixed):
     assert share == pytest.approx(mixed.asperities.load_share, rel=0.3)
 
 
+HEATED = [(3000.0, 480.0), (3000.0, 100.0), (10_000.0, 480.0), (500.0, 200.0), (6000.0, 1000.0)]
+
+
+@pytest.mark.parametrize(("speed", "load"), HEATED)
+def test_asperities_beside_a_film_that_heats_up(speed, load):
+    """Smooth surfaces, and an oil that heat hardly changes: each alone. Energy and load are closed."""
+    point, rough = ball(speed, load), Asperities(0.1e-6)
+    both = solve_steady(point, grid=GRID, asperities=rough, thermal=True)
+    warm, cold = (solve_steady(point, grid=GRID, thermal=t) for t in (True, None))
+    smooth = solve_steady(point, grid=GRID, asperities=Asperities(1e-9), thermal=True)
+    assert smooth.h_central == pytest.approx(warm.h_central, rel=1e-6)
+    assert smooth.temperature.mean == pytest.approx(warm.temperature.mean, rel=1e-5, abs=1e-9)
+    faint = solve_steady(point, grid=GRID, asperities=rough, thermal=Heat(temperature_slope=1e-7))
+    alone = solve_steady(point, grid=GRID, asperities=rough)
+    assert faint.h_central == pytest.approx(alone.h_central, rel=1e-5)
+    assert faint.asperities.load_share == pytest.approx(alone.asperities.load_share, rel=1e-4, abs=1e-12)
+    assert both.force == pytest.approx(1.0, abs=1e-6)
+    assert both.temperature.balance < 1e-6
+    assert both.temperature.film_share == both.asperities.film_share
+    assert both.asperities.load_share >= alone.asperities.load_share
+    assert warm.h_central <= both.h_central * (1.0 + 1e-6) and warm.h_central < cold.h_central
+
+
 def test_a_film_is_kept_with_its_asperities(mixed, tmp_path):
     again = read(save(mixed, tmp_path / "film.h5"))
     assert np.array_equal(again.asperities.pressure, mixed.asperities.pressure)
@@ -170,6 +194,10 @@ def test_a_film_thinner_than_the_model_says_so():
         ("m4 = -1.0", lambda: Asperities.from_moments(1e-14, 1e-3, -1.0)),
         ("pressure = 1000000000000.0", lambda: Asperities(1e-7).gap(1e12, MODULUS)),
         ("asperities = 'float'", lambda: solve_steady(ball(), asperities=1e-7)),
+        (
+            "asperities = 'given': must be left out with heat of sliding",
+            lambda: solve_steady(ball(), asperities=Asperities(1e-7), thermal=Heat(slide_roll=0.1)),
+        ),
         (
             "left out at a dimensionless point",
             lambda: solve_steady(MoesPoint(20, 10, 1), asperities=Asperities(1e-7)),

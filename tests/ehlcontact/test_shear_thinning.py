@@ -10,6 +10,8 @@ from scipy.optimize import brentq
 
 from ehlcontact import (
     Asperities,
+    Domain,
+    Geometry,
     Grid,
     Heat,
     InputError,
@@ -134,6 +136,28 @@ def test_film_falls_with_sliding():
     assert newton.thinned_share == pytest.approx(1.0, abs=2e-5)
 
 
+STARVED = [(60.0, 6.0), (40.0, 8.0), (200.0, 2.0), (100.0, 1.0), (200.0, 6.0)]  # N, m/s
+
+
+@pytest.mark.parametrize(("load", "speed"), STARVED)
+def test_starved_films_are_thinned(load, speed):
+    """Much oil, little sliding, thin layers: the flooded film, the Newtonian one, the layer; no oil is lost."""
+    point = OperatingPoint(Geometry.ball_bearing(7.94e-3, 38.5e-3, 0.52), OIL, load, speed)
+    grid = Grid(128, Domain(x_in=-9.0))
+
+    def film(slide=0.1, r=None, tol=1e-5):
+        supply = None if r is None else OilLayer(over_flooded=r)
+        sliding = None if slide is None else ShearThinning(slide)
+        return solve_steady(point, grid=grid, supply=supply, sliding=sliding, tol=tol)
+
+    flooded, starved = film(), film(r=0.8, tol=1e-7)
+    assert film(r=1.5).thinned_share - 1.0 == pytest.approx(flooded.thinned_share - 1.0, rel=0.1)
+    assert film(slide=0.0, r=0.8).h_central == pytest.approx(film(slide=None, r=0.8).h_central, rel=3e-6)
+    assert abs(film(r=0.4).thinned_share - 1.0) < 0.02 * abs(flooded.thinned_share - 1.0)
+    weights = np.r_[0.5, np.ones(starved.Y.size - 2), 0.0]
+    assert weights @ starved.layer_behind == pytest.approx(weights @ starved.layer, rel=1e-8)
+
+
 def test_result(tmp_path):
     """Stored and shown; its traction is that of its own sliding."""
     again = read(save(thin(), tmp_path / "thin.h5"))
@@ -159,10 +183,6 @@ test_bad_input = refusals(
     (lambda: solve_steady(DISC, sliding=0.1), "sliding = 'float': must be a ShearThinning"),
     (lambda: solve_steady(MoesPoint(20.0, 10.0, 1.0), sliding=ShearThinning(0.1)), "sliding = .*pascals"),
     (lambda: solve_steady(DISC, sliding=ShearThinning(0.1), thermal=Heat()), "sliding = 'given': .*thermal"),
-    (
-        lambda: solve_steady(DISC, sliding=ShearThinning(0.1), supply=OilLayer(1e-6)),
-        "sliding = 'given': .*supply",
-    ),
     (
         lambda: solve_steady(DISC, sliding=ShearThinning(0.1), asperities=Asperities(1e-7)),
         "sliding = .*asperities",
