@@ -26,6 +26,7 @@ TOLERANCE = 1e-6  # of references
 REFERENCE_POINTS = 2  # with ball bearings
 EVERY = 20  # steps of the trial between states for model exchange
 FILM = 0.02  # size of the states of films there, over their nominal values
+TURNED = 0.1  # rad, of the cage from rest
 ABOUT = "The speed rises, unbalances grow, forces lift the rotor off; steps of simulate_rotor, in Python"
 
 
@@ -51,7 +52,6 @@ def _moved(history: _Floats) -> float:
 
 
 def _results(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> dict[str, Any]:
-    size = model.rotor.size
     states = [v.name for v in spec.states]
     results = dict(zip(states, [*trial.displacement.T, *trial.velocity.T], strict=False))
     first = next(
@@ -75,86 +75,93 @@ def _results(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> dict[str,
     for b, station in enumerate(model.bearings_inside):
         results |= {f"{station.label}.largest_load_{race}": trial.load[:, b, k] for k, race in enumerate(RACES)}
     turning = {"angle": trial.angle} | ({} if model.inertia is None else {"speed": trial.speed})
-    assert size
     return results | turning
 
 
 # ---- continuous time
 
 
-class Felt(NamedTuple):
-    """A support in a state: forces of the rotor on it, rates of its states, and their sizes."""
+class _SupportsInside:
+    """Supports inside a rotor at states of their own away from rest: rates of these, and forces of the rotor."""
 
-    force: _Floats
+    def __init__(self, model: RotorModel, spec: ModelSpec) -> None:
+        self._model = model
+        self._nominal = np.array([state.nominal or 1.0 for state in spec.states])
+        self._made = [(bearing, bearing.motion(), counted_from(bearing)) for bearing in model.bearings]
+
+    def states_at(self, place: _Floats, rate: _Floats, omega: float, first: int, n: int) -> _Motion:
+        """States, rates and force on the rotor at its displacements and velocities.
+
+        The states begin with number `first` of all; `n` decides how they are moved.
+        """
+        size, bearings = place.size, iter(self._made)
+        states, rates, force = [], [], np.zeros(size)
+        for station in self._model.inside:
+            rows = station.mount.rows(size)
+            ring, speed = rows @ place + station.shift, rows @ rate
+            if station.is_contact:
+                own, change, carried = _contact_at(station.mount.contact, ring, speed, n)
+            else:
+                model, motion, counted = next(bearings)
+                rest = rest_states(model, motion, omega, station.mount.cage_angle, ring)
+                own = rest + self._nominal[first : first + rest.size] * _moved_states(rest.size, n)
+                own[0] = rest[0] + TURNED
+                change, pushed = rates_in_time(model, motion, own, ring, speed, omega, counted)
+                carried = -pushed
+            first += own.size
+            states.append(own)
+            rates.append(change)
+            force -= station.count * rows.T @ carried
+        return _Motion(np.concatenate([np.empty(0), *states]), np.concatenate([np.empty(0), *rates]), force)
+
+
+class _Motion(NamedTuple):
+    """States of supports, their rates, and the forces of supports on the rotor."""
+
+    states: _Floats
     rates: _Floats
-    scales: _Floats
+    force: _Floats
 
 
-def _contact(element: Element, states: _Floats, u: float, v: float) -> Felt:
+def _moved_states(count: int, n: int) -> _Floats:
+    return np.asarray(FILM * np.cos((1.0 + np.arange(count)) * n))
+
+
+def _contact_at(element: Element, ring: _Floats, speed: _Floats, n: int) -> tuple[_Floats, _Floats, _Floats]:
+    """States of a contact, their rates and its force."""
+    states, (u, v) = _moved_states(element.state_count, n), (float(ring[0]), float(speed[0]))
     if isinstance(element, Film):
         force, rates = film_rates_at(element, states, u, v)
-        return Felt(np.array([force]), rates, np.full(rates.size, 1e3 * element.law.fast_rate / element._units[2]))
-    return Felt(np.array([float(element.force(u, v))]), np.empty(0), np.empty(0))
+    else:
+        force, rates = float(element.force(u, v)), np.empty(0)
+    return states, rates, np.array([force])
 
 
 def _points(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> Trial:
     """States of the trial with films away from rest: derivatives there."""
-    rotor, size = model.rotor, model.rotor.size
-    at = np.arange(EVERY, len(trial.time), EVERY)
+    rotor, forces, turns = model.rotor, force_rows(model), model.inertia is not None
+    steps = np.arange(EVERY, len(trial.time), EVERY)
     if model.bearings:  # some 300 states and rates each: 6 kB in an FMU
-        at = at[:REFERENCE_POINTS]
-    M = rotor.mass
-    bearings = list(model.bearings)
-    motions = [bearing.motion() for bearing in bearings]
-    counted = [counted_from(bearing) for bearing in bearings]
-    named = [state.name for state in spec.states]
-    nominal = np.array([state.nominal or 1.0 for state in spec.states])
-    forces = force_rows(model)
-    rows, states = [], []
-    for n in at:
+        steps = steps[:REFERENCE_POINTS]
+    supports, rows, states = _SupportsInside(model, spec), [], []
+    for n in steps.tolist():
         q, v, omega = trial.displacement[n], trial.velocity[n], float(trial.speed[n])
-        angle = float(trial.angle[n])
-        inputs = trial.inputs[n]
+        angle, inputs = float(trial.angle[n]), trial.inputs[n]
         _, C, K = rotor.matrices(omega)
-        net = rotor.load + inputs[: len(forces)] @ forces - C @ v - K @ q
-        x = [q, v, [angle], *([[omega]] if model.inertia is not None else [])]
-        rates: list[Any] = [v, None, [omega], *([[0.0]] if model.inertia is not None else [])]
-        drag, b = 0.0, 0
-        first = sum(map(len, x))
-        for station in model.inside:
-            mount = station.mount
-            place, rate = mount.rows(size) @ q + station.shift, mount.rows(size) @ v
-            if station.is_contact:
-                count = mount.contact.state_count
-                films = FILM * np.cos((1.0 + np.arange(count)) * n)
-                felt = _contact(mount.contact, films, float(place[0]), float(rate[0]))
-            else:
-                own = rest_states(bearings[b], motions[b], omega, mount.cage_angle, place)
-                count = own.size
-                films = own + FILM * nominal[first : first + count] * np.cos((1.0 + np.arange(count)) * n)
-                films[0] = own[0] + 0.1
-                rates_of, force = rates_in_time(bearings[b], motions[b], films, place, rate, omega, counted[b])
-                felt = Felt(-force, rates_of, np.abs(rates_of))
-                b += 1
-            x.append(films)
-            rates.append(felt.rates)
-            net = net - station.count * mount.rows(size).T @ felt.force
-            first += count
-        a, alpha = _accelerations(model, net, inputs, angle, omega, drag)
-        rates[1] = a
-        if model.inertia is not None:
-            rates[3] = [alpha]
-        states.append(np.concatenate(x))
-        rows.append(np.concatenate([np.asarray(one, float) for one in rates]))
-    assert M.size
-    knowns = dict(zip(named, np.array(states).T, strict=True))
-    knowns |= {v.name: trial.inputs[at, k] for k, v in enumerate(spec.inputs)}
-    unknowns = dict(zip((f"der({name})" for name in named), np.array(rows).T, strict=True))
-    if model.inertia is not None and any(bearing.bearing.oil is not None for bearing in bearings):
+        own = np.concatenate([q, v, [angle], [omega] if turns else []])
+        inside = supports.states_at(q, v, omega, own.size, n)
+        net = rotor.load + inputs[: len(forces)] @ forces - C @ v - K @ q + inside.force
+        a, alpha = _accelerations(model, net, inputs, angle, omega)
+        rows.append(np.concatenate([v, a, [omega], [alpha] if turns else [], inside.rates]))
+        states.append(np.concatenate([own, inside.states]))
+    names = [state.name for state in spec.states]
+    knowns = dict(zip(names, np.array(states).T, strict=True))
+    knowns |= {v.name: trial.inputs[steps, k] for k, v in enumerate(spec.inputs)}
+    unknowns = dict(zip((f"der({name})" for name in names), np.array(rows).T, strict=True))
+    if turns and any(bearing.bearing.oil is not None for bearing in model.bearings):
         unknowns = {name: values for name, values in unknowns.items() if not _is_driven(name, model, spec)}
-    sizes = _rate_sizes(unknowns, model, named)
-    fields = dict.fromkeys(unknowns, "rates")
-    return Trial(np.arange(at.size, dtype=float), knowns, unknowns, sizes, fields)
+    number, fields = np.arange(steps.size, dtype=float), dict.fromkeys(unknowns, "rates")
+    return Trial(number, knowns, unknowns, _rate_sizes(unknowns, model, names), fields)
 
 
 def _is_driven(name: str, model: RotorModel, spec: ModelSpec) -> bool:
@@ -164,7 +171,7 @@ def _is_driven(name: str, model: RotorModel, spec: ModelSpec) -> bool:
 
 
 def _accelerations(
-    model: RotorModel, net: _Floats, inputs: _Floats, angle: float, omega: float, drag: float
+    model: RotorModel, net: _Floats, inputs: _Floats, angle: float, omega: float
 ) -> tuple[_Floats, float]:
     """Of the rotor, and of its shaft, at once: the centre of mass of an unbalance moves with both."""
     rotor, size = model.rotor, model.rotor.size
@@ -183,7 +190,7 @@ def _accelerations(
     whole = np.zeros((size + 1, size + 1))
     whole[:size, :size], whole[size, size] = rotor.mass, model.inertia
     whole[:size, size] = whole[size, :size] = -w
-    found = np.linalg.solve(whole, np.append(net, turning[0] - turning[1:].sum() - drag))
+    found = np.linalg.solve(whole, np.append(net, turning[0] - turning[1:].sum()))
     return found[:size], float(found[size])
 
 

@@ -177,8 +177,9 @@ class Rotor(Summary):
         on = [f"{len(bearings)} bearings: {', '.join(bearings)}"] if bearings else []
         on += [f"{len(contacts)} contacts"] if contacts else []
         amounts = ", ".join(f"{1e6 * abs(unbalance.amount):.4g}" for unbalance in self.unbalances)
+        speed = "" if self.speed_rpm is None else f", {self.speed_rpm:.5g} rev/min"
         return [
-            f"{len(self.mass)} degrees of freedom on {' and '.join(on)}",
+            f"{len(self.mass)} degrees of freedom on {' and '.join(on)}{speed}",
             f"nodes {', '.join(self.nodes)}" if self.nodes else "nodes without names",
             f"unbalances {amounts} g mm" if amounts else "no unbalance",
         ]
