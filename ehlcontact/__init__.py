@@ -38,6 +38,7 @@ module            responsibility
 ``status``        how a solve or a run ended, with advice
 ``summary``       `Summary`: what results and elements show at the prompt and in notebooks
 ``jit``           the numba decorators of the library
+``kernel_cache``  compiled kernels on disk: checked before they are used, or done without
 ``lanes``         eight neighbouring numbers at a time, for kernels
 ``elementary``    exponential and logarithm, likewise
 ``cli/``          the command line; stands above all packages

@@ -9,6 +9,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import platform
 import re
 import stat
 import tempfile
@@ -16,6 +17,8 @@ import time
 import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +27,11 @@ from ehlcontact.errors import InputError
 LARGEST_TEXT = 2**28  # bytes of a JSON or TOML file: a hundred times the largest of ours; /dev/zero has no end
 DEEPEST = 50  # levels of nested JSON: ours have six, and Python writes and compares some hundred at most
 LONGEST_INTEGER = 300  # digits: what is longer is no float any more
-STALE = 5.0  # seconds without a write after which no process is writing a file any more
-_TEMPORARY = re.compile(r"\.[0-9a-f]{12}\.tmp")
+STALE = 5.0  # seconds without a write after which no process of another machine is writing a file any more
+# A file that is being written: whose place it will take, machine and process that write, and a number of its own.
+_TEMPORARY = re.compile(
+    r"\.(?P<target>[0-9a-f]{8})(?P<machine>[0-9a-f]{8})(?P<process>[0-9a-f]{8})[0-9a-f]{8}\.tmp"
+)
 _LONE_SURROGATE = re.compile("[\ud800-\udfff]")
 
 
@@ -52,8 +58,8 @@ def replacing(path: str | os.PathLike[str], field: str = "path") -> Iterator[Pat
     try:
         target = Path(os.path.realpath(path))
         in_place = _is_device(target)
-        # not tempfile: it makes files that only their owner may read; the name is short, so that a long one fits
-        temporary = target if in_place else target.with_name(f".{uuid.uuid4().hex[:12]}.tmp")
+        # not tempfile: it makes files that only their owner may read
+        temporary = target if in_place else temporary_for(target)
         if not in_place:
             temporary.touch(exist_ok=False)
     except OSError as error:
@@ -66,6 +72,7 @@ def replacing(path: str | os.PathLike[str], field: str = "path") -> Iterator[Pat
             with temporary.open("rb+") as stream:
                 os.fsync(stream.fileno())
             os.replace(temporary, target)
+            remove_leftovers(target.parent, target)
     except OSError as error:
         raise InputError(field, str(path), f"a file that can be written ({error.strerror or error})") from None
     finally:
@@ -74,12 +81,48 @@ def replacing(path: str | os.PathLike[str], field: str = "path") -> Iterator[Pat
                 temporary.unlink(missing_ok=True)
 
 
-def remove_leftovers(folder: Path) -> None:
-    """Remove files that `replacing` was writing to in this folder when its process was killed."""
+def temporary_for(target: Path) -> Path:
+    """Name beside a file for what takes its place; short, so that a long one fits."""
+    own = f"{_short_hash(target.name)}{_machine()}{os.getpid():08x}{uuid.uuid4().hex[:8]}"
+    return target.with_name(f".{own}.tmp")
+
+
+def remove_leftovers(folder: Path, target: Path | None = None) -> None:
+    """Remove files that were being written, to take the place of `target` or of any, when a process was killed."""
     for path in folder.glob(".*.tmp"):
+        parts = _TEMPORARY.fullmatch(path.name)
+        if parts is None or (target is not None and parts["target"] != _short_hash(target.name)):
+            continue
         with suppress(OSError):
-            if _TEMPORARY.fullmatch(path.name) and time.time() - path.stat().st_mtime > STALE:
+            if _is_abandoned(path, parts["machine"], int(parts["process"], 16)):
                 path.unlink()
+
+
+def _is_abandoned(path: Path, machine: str, process: int) -> bool:
+    """Whether the process that wrote a file is gone; of another machine's, whether nothing was written lately."""
+    if machine != _machine() or os.name != "posix":
+        return time.time() - path.stat().st_mtime > STALE
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return True
+    except OSError:  # of another user
+        pass
+    return False
+
+
+@cache
+def _machine() -> str:
+    """Where a number names a process: this machine, or this container of it."""
+    try:
+        names = os.stat("/proc/self/ns/pid").st_ino
+    except OSError:
+        names = 0
+    return _short_hash(f"{platform.node()} {names}")
+
+
+def _short_hash(text: str) -> str:
+    return sha256(text.encode("utf-8", "surrogateescape")).hexdigest()[:8]
 
 
 def write_text(path: str | os.PathLike[str], text: str, field: str = "path") -> Path:

@@ -6,61 +6,15 @@ Not ``fastmath=True``: it would fold away the tests for NaN and infinity that th
 from __future__ import annotations
 
 import gc
-import re
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import cache, cached_property, partial, update_wrapper
-from hashlib import sha256
-from pathlib import Path
+from functools import cached_property, partial, update_wrapper
 from typing import Any
 
-import numba
 from numba import njit
 from numba.core import event
-from numba.core.caching import FunctionCache
-from numba.core.sigutils import normalize_signature
 
-_PACKAGES = "ehlcontact", "reduced_models", "fmu"
-_IMPORT = re.compile(r"^(?:from|import) ([\w.]+)", re.MULTILINE)
-
-
-@cache
-def _source(module: str) -> tuple[bytes, tuple[str, ...]]:
-    """Digest of the source of a loaded module, and which of our modules it imports as it is loaded."""
-    file = getattr(sys.modules.get(module), "__file__", None)
-    text = Path(file).read_text("utf-8") if file and Path(file).is_file() else ""
-    names = dict.fromkeys(_IMPORT.findall(text))
-    return sha256(text.encode()).digest(), tuple(name for name in names if name.partition(".")[0] in _PACKAGES)
-
-
-@cache
-def sources(module: str) -> str:
-    """Digest of the sources of a module and of all of ours that it imports, by others too, as it is loaded."""
-    found: dict[str, bytes] = {}
-    names = [module]
-    while names:
-        if (name := names.pop()) not in found:
-            found[name], more = _source(name)
-            names += more
-    return sha256(b"".join(found[name] for name in sorted(found))).hexdigest()[:16]
-
-
-class _Cache(FunctionCache):
-    """Numba's cache of compiled kernels, renewed after a change of any source that a kernel depends on.
-
-    Numba looks at the kernel's own file alone. Kernels that it calls, types and constants of other files may have
-    changed since: results are wrong then, or the cache cannot be read because a class is no longer there.
-    """
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        # compared before anything else is read
-        self._cache_file._version = f"{numba.__version__} {sources(self._py_func.__module__)}"
-        found = super().load_overload(sig, target_context)
-        # Two processes that save one kernel for different types within a millisecond may leave an index that names
-        # the file of the other's: numba numbers files by what was in the index.
-        same = found is not None and tuple(found.signature.args) == tuple(normalize_signature(sig)[0])
-        return found if same else None
+from ehlcontact.kernel_cache import KernelCache
 
 
 class _Inner:
@@ -107,7 +61,7 @@ def jit_exact(kernel: Any = None, **options: Any) -> Any:
     compiler: Any = njit
     found = compiler(kernel, error_model="numpy", no_cfunc_wrapper=True, **options)  # no kernel is a C callback
     if hasattr(found, "py_func"):
-        found._cache = _Cache(found.py_func)
+        found._cache = KernelCache(found.py_func)
     return found
 
 

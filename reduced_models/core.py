@@ -13,6 +13,8 @@ from pathlib import Path
 from threading import Lock
 
 from ehlcontact.binaries import BuildError, build_library, this_machine
+from ehlcontact.binaries.cache import cache_folder
+from ehlcontact.kernel_cache import warn_not_kept
 
 CSRC = Path(__file__).parent / "csrc"
 NAME = "ehlcontact_core"
@@ -39,11 +41,14 @@ def _loaded() -> ctypes.CDLL:
     content = build_library(sources, [name for name in sources if name.endswith(".c")], NAME, EXPORTED)
     target = this_machine()
     assert target is not None  # else nothing was built
+    if cache_folder() is None:
+        warn_not_kept("no folder of caches can be written to")
     # Loaded from a file of its own, which systems other than Windows do without afterwards.
-    with tempfile.TemporaryDirectory(prefix="ehlcontact-c-", ignore_cleanup_errors=True) as folder:
-        file = Path(folder) / f"{NAME}{target.suffix}"
-        try:
+    try:
+        with tempfile.TemporaryDirectory(prefix="ehlcontact-c-", ignore_cleanup_errors=True) as folder:
+            file = Path(folder) / f"{NAME}{target.suffix}"
             file.write_bytes(content)
             return ctypes.CDLL(str(file))
-        except OSError as error:
-            raise BuildError(f"the C core cannot be loaded from {folder}: {error}") from None
+    except OSError as error:
+        reason = f"the C core cannot be loaded from a temporary file: {error}"
+        raise BuildError(f"{reason}; TMPDIR names another folder for it") from None

@@ -204,7 +204,9 @@ def _compile(work: Work, target: Platform, compiler: Compiler) -> bytes:
                 raise BuildError(f"the C compiler made no library: {' '.join(line)}")
             found = library.read_bytes()
     except OSError as error:
-        raise BuildError(f"no room to compile in {tempfile.gettempdir()} ({error.strerror or error})") from None
+        # `tempfile.gettempdir` would raise, too, where there is none; then the reason has the names of all
+        place = tempfile.tempdir or "TMPDIR"
+        raise BuildError(f"no room to compile in {place} ({error.strerror or error})") from None
     if compiler.is_zig:
         _mark_built(target, compiler)
     return found

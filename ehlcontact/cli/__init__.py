@@ -65,13 +65,6 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         code = execute(arguments)
         if arguments is None:  # all is said and done: what is left, the end of Python, is no longer interrupted
             signal.signal(signal.SIGINT, signal.SIG_IGN)
-    except RuntimeError as error:
-        if "cannot cache" not in str(error):
-            raise
-        from ehlcontact.cli.output import USAGE, complain, no_cache
-
-        complain(no_cache("none of them can be written to"))  # numba looked for one as the library was imported
-        code = USAGE
     except KeyboardInterrupt:  # between one guard and the next
         sys.stderr.write(NOTHING_COMPUTED)
         code = INTERRUPTED

@@ -6,8 +6,6 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
-from pathlib import Path
-from traceback import extract_tb
 from typing import Annotated
 
 import typer
@@ -29,7 +27,7 @@ from ehlcontact.cli.commands import (
     validate,
     verify,
 )
-from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, StdoutError, complain, no_cache, watched_stdout
+from ehlcontact.cli.output import FAILED, INTERRUPTED_LINE, USAGE, StdoutError, complain, watched_stdout
 from ehlcontact.cli.usage import by_option, command_of, epilog, usage_line
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.process.early_interrupt import INTERRUPTED
@@ -103,9 +101,6 @@ def execute(arguments: Sequence[str] | None = None) -> int:
         complain(str(InputError("stdout", str(error), "able to take the output")))
         return USAGE
     except OSError as error:  # no room for temporary files, no more processes: no fault of the input, nor of ours
-        if _of_cache(error):
-            complain(no_cache(error.strerror or str(error)))
-            return USAGE
         if isinstance(error, FileNotFoundError) and not _in_a_folder():
             complain(str(InputError("working folder", "a folder that is gone", "there: change to another")))
             return USAGE
@@ -129,13 +124,6 @@ def _in_a_folder() -> bool:
     except FileNotFoundError:
         return False
     return True
-
-
-def _of_cache(error: OSError) -> bool:
-    """Whether numba raised it, as it kept what it had compiled."""
-    return any(
-        Path(frame.filename).parts[-2:] == ("core", "caching.py") for frame in extract_tb(error.__traceback__)
-    )
 
 
 def _invoke(given: list[str]) -> int:

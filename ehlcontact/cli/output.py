@@ -36,13 +36,6 @@ def complain(text: str) -> None:
     to_stderr(f"ehlcontact: {one_line(text)}")
 
 
-def no_cache(reason: str) -> str:
-    """The line for compiled code that numba finds no room for."""
-    folder = os.environ.get("NUMBA_CACHE_DIR")
-    places = folder or "__pycache__ beside the library, then ~/.cache/numba"
-    return str(InputError("NUMBA_CACHE_DIR", folder, f"a folder with room for compiled code ({places}: {reason})"))
-
-
 def say(text: str, json_to: str | None = None) -> None:
     """Say one line on stdout, unless JSON goes there."""
     if json_to != STDOUT:

@@ -2,12 +2,16 @@
 
 import json
 import os
+import signal
 import stat
+import subprocess
+import sys
 
 import h5py
 import numpy as np
 import pytest
 from argument_groups import grouped
+from programs import environment
 
 from ehlcontact import HarmonicLoad, InputError, MoesPoint, files, save, simulate
 from ehlcontact.store import LAYOUT, put, set_text, take, text_of
@@ -134,14 +138,52 @@ def test_a_text_without_end(tmp_path, monkeypatch):
 
 
 def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
-    old, fresh = tmp_path / ".0123456789ab.tmp", tmp_path / ".ba9876543210.tmp"
-    mine = tmp_path / ".notes.tmp", tmp_path / "0123456789ab.tmp", tmp_path / ".0123456789ab.tmp.txt"
-    for path in (old, fresh, *mine):
+    """Of this machine, by its process; of others, by the time of the last write."""
+    mine = tmp_path / ".notes.tmp", tmp_path / "0123456789ab.tmp", tmp_path / f".{'0' * 32}.tmp.txt"
+    ended = subprocess.run(
+        [sys.executable, "-c", "import os; print(os.getpid())"], capture_output=True, check=True
+    )
+    here = files.temporary_for(tmp_path / "y.txt").name
+    gone = tmp_path / f"{here[:17]}{int(ended.stdout):08x}{here[25:]}"
+    elsewhere = tmp_path / f".{'0' * 32}.tmp", tmp_path / f".{'1' * 32}.tmp"
+    for path in (gone, *elsewhere, *mine):
         path.write_text("some")
-        if path != fresh:
+        if path not in (gone, elsewhere[0]):
             os.utime(path, (0.0, 0.0))
     with files.replacing(tmp_path / "x.txt") as temporary:  # somebody is at it
+        os.utime(temporary, (0.0, 0.0))
         files.remove_leftovers(tmp_path)
         temporary.write_text("new")
-    assert names(tmp_path) == sorted([fresh.name, "x.txt", *(path.name for path in mine)])
+    assert names(tmp_path) == sorted(["x.txt", *(path.name for path in (elsewhere[0], *mine))])
     files.remove_leftovers(tmp_path / "nowhere")
+
+
+KILLED = """
+import os, signal, sys
+from ehlcontact import FreeVibration, Grid, KeepSettings, MoesPoint, TimeSteps, simulate
+replaced = []
+def killed(temporary, target, replace=os.replace):
+    replaced.append(target)
+    if [str(path) for path in replaced].count(sys.argv[1]) == 3:
+        os.kill(os.getpid(), signal.SIGKILL)
+    replace(temporary, target)
+if "--kill" in sys.argv:
+    os.replace = killed
+restart = sys.argv[1] if os.path.exists(sys.argv[1]) else None
+keep = KeepSettings(checkpoint=sys.argv[1], checkpoint_every=0.0, restart=restart)
+time = TimeSteps(until=0.3, dt=0.05)
+simulate(MoesPoint(20, 5, 0.5), FreeVibration(Omega_n=5.0), grid=Grid(n=16), time=time, keep=keep)
+"""
+
+
+@pytest.mark.long
+@pytest.mark.skipif(os.name != "posix", reason="kill -9")
+def test_the_next_run_of_a_checkpoint_removes_what_a_killed_one_was_writing(tmp_path):
+    path = tmp_path / "run.h5"
+    other = files.temporary_for(tmp_path / "other.h5")  # of another file, whose next run removes it
+    other.touch()
+    for options, code in ((["--kill"], -signal.SIGKILL), ([], 0)):
+        run = subprocess.run([sys.executable, "-c", KILLED, path, *options], env=environment(), check=False)
+        assert run.returncode == code
+        assert len(names(tmp_path)) == (3 if options else 2)
+    assert names(tmp_path) == sorted([other.name, "run.h5"])

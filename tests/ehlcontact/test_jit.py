@@ -12,7 +12,7 @@ import pytest
 from numba import njit
 from numba.core.errors import TypingError
 
-from ehlcontact import jit
+from ehlcontact import kernel_cache
 
 CALLEE = """
 from typing import NamedTuple
@@ -38,7 +38,7 @@ def caller(given):
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
 def test_kernels_of_other_sources_are_not_read(tmp_path, monkeypatch):
     """Another file has changed, whose kernel was called and whose class is no longer there."""
-    monkeypatch.setattr(jit, "_PACKAGES", ("kernel_callee", "ehlcontact"))
+    monkeypatch.setattr(kernel_cache, "_PACKAGES", ("kernel_callee", "ehlcontact"))
     monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / "kernel_caller.py").write_text(CALLER)
     found, read = [], []
@@ -47,8 +47,8 @@ def test_kernels_of_other_sources_are_not_read(tmp_path, monkeypatch):
         for name in ("kernel_callee", "kernel_caller"):
             monkeypatch.delitem(sys.modules, name, raising=False)
         importlib.invalidate_caches()
-        jit.sources.cache_clear()
-        jit._source.cache_clear()
+        kernel_cache.sources.cache_clear()
+        kernel_cache._source.cache_clear()
         caller = importlib.import_module("kernel_caller").caller
         found.append(caller(getattr(sys.modules["kernel_callee"], kind)(1.0)))
         read.append(sum(caller.stats.cache_hits.values()))
@@ -59,7 +59,7 @@ def test_kernels_of_other_sources_are_not_read(tmp_path, monkeypatch):
 @pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
 def test_kernels_saved_under_the_name_of_another_are_not_read(tmp_path, monkeypatch):
     """As two processes leave them that save one kernel for different types at the same time."""
-    monkeypatch.setattr(jit, "_PACKAGES", ("twice", "ehlcontact"))
+    monkeypatch.setattr(kernel_cache, "_PACKAGES", ("twice", "ehlcontact"))
     monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / "twice.py").write_text("from ehlcontact.jit import jit\n\n@jit\ndef twice(x):\n    return x + x\n")
     read = []

@@ -4,6 +4,7 @@ import ctypes
 
 import pytest
 
+from ehlcontact import kernel_cache
 from ehlcontact.binaries import BuildError
 from reduced_models import core
 
@@ -42,6 +43,31 @@ def test_a_library_that_the_system_refuses_is_named(afresh, monkeypatch):
     monkeypatch.setattr(core, "build_library", lambda *_: b"not a library")
     with pytest.raises(BuildError, match=r"^the C core cannot be loaded from "):
         core.library()
+
+
+def test_no_temporary_folder(afresh, monkeypatch):
+    """Nothing to load the library from, and nothing to compile it in."""
+
+    def none(*_, **__):
+        raise FileNotFoundError(2, "No usable temporary directory found in ['/none']")
+
+    monkeypatch.setattr("tempfile.mkdtemp", none)
+    with pytest.raises(BuildError, match=r"^the C core cannot be loaded .*No usable temporary .*TMPDIR names"):
+        core.library()
+    monkeypatch.setattr("tempfile.gettempdir", none)
+    monkeypatch.setattr("ehlcontact.binaries.cache.recall", lambda key: None)
+    with pytest.raises(BuildError, match=r"^no room to compile in \S+ \(No usable temporary directory found"):
+        core.library()
+
+
+@pytest.mark.filterwarnings("always")
+def test_without_a_cache_there_is_a_warning(afresh, monkeypatch):
+    kept = core.build_library({"x.c": b"int x(void) { return 1; }"}, ["x.c"], core.NAME, core.EXPORTED)
+    monkeypatch.setattr(core, "build_library", lambda *_: kept)
+    monkeypatch.setenv("EHLCONTACT_CACHE", "/dev/null/none")
+    monkeypatch.setattr(kernel_cache, "_given", set())
+    with pytest.warns(RuntimeWarning, match=r"compiled code is not kept.*EHLCONTACT_CACHE"):
+        assert core.library().x() == 1
 
 
 def test_the_command_line_says_so_in_one_line(monkeypatch, capsys):

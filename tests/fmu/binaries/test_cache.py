@@ -75,7 +75,15 @@ def test_a_damaged_entry_is_not_believed(kept, compiled):
     build()
     (entry,) = kept.iterdir()
     whole = entry.read_bytes()
-    damaged = (b"", whole[:-1], whole[:-1] + b"X", b"X" + whole[1:], bytes(len(whole)))
+    damaged = (
+        b"",
+        whole[:-1],
+        whole[:20],
+        whole[:-1] + b"X",
+        b"X" + whole[1:],
+        bytes(len(whole)),
+        bytes(range(256)),
+    )
     for content in damaged:
         entry.write_bytes(content)
         assert build() == b"library"
