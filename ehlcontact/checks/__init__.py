@@ -5,7 +5,9 @@ module               responsibility
 ==================== ==========================================================================================
 ``inputs``           numbers, arrays, choices: returned as plain Python or numpy objects
 ``frequency``        frequencies, named with their unit, exactly one given
-``quantity``         numbers with a unit, such as those of pint, converted to SI
+``quantity``         what arguments of a call are: quantities with a unit, as of pint, put into SI; flags
+``kinds``            other kinds of arguments: objects of a class, sequences of them, callbacks, paths, names
+``parts``            ranges of the parts of machines: shafts, discs, bearings, supports, records
 ``machine``          number of threads, at most the cores of the machine
 ``admissible_range`` ranges of SI and Moes inputs, and the unit that a value outside was probably given in
 ==================== ==========================================================================================
@@ -19,6 +21,7 @@ from ehlcontact.checks.inputs import (
     require_between,
     require_choice,
     require_finite,
+    require_flag,
     require_instance,
     require_integer,
     require_names,
@@ -35,6 +38,7 @@ __all__ = [
     "require_between",
     "require_choice",
     "require_finite",
+    "require_flag",
     "require_instance",
     "require_integer",
     "require_names",

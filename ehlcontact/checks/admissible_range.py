@@ -9,8 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import pi
-from typing import NamedTuple
+from numbers import Number
+from typing import Any, NamedTuple
 
+import numpy as np
+
+from ehlcontact.checks.inputs import as_numbers, require_number
 from ehlcontact.errors import InputError
 
 MADE_FOR = "what the solvers are made for"
@@ -20,18 +24,24 @@ class Quantity(NamedTuple):
     """What a number with a unit can be, what it usually is, and the units it may have been given in instead."""
 
     unit: str
-    limits: tuple[float, float]  # beyond them it is no rolling contact
+    limits: tuple[float, float]  # beyond them it is no rolling contact, and no part of a machine
     usual: tuple[float, float]  # where a corrected value has to lie to be suggested
     others: Mapping[str, float] = {}  # other unit: its size in `unit`
+    zero: bool = False  # 0 leaves it out
+    signed: bool = False  # limits and usual values are magnitudes, of which the lower limit is 0
+    shifts: Mapping[str, float] = {}  # other unit of the same size: what is to be added, as for K
 
     def slip(self, value: float) -> str:
         """The unit that an unusual value betrays, and what it is then; empty if none makes it usual."""
         low, high = self.usual
-        if low <= value <= high:
+        size = abs(value) if self.signed else value
+        if low <= size <= high:
             return ""
-        for other, size in self.others.items():
-            if low <= value * size <= high:
-                return f"in {other}? then {value * size:.4g} {self.unit}".rstrip()
+        corrected = {unit: value * its for unit, its in self.others.items()}
+        corrected |= {unit: value + shift for unit, shift in self.shifts.items()}
+        for other, then in corrected.items():
+            if low <= (abs(then) if self.signed else then) <= high:
+                return f"in {other}? then {then:.4g} {self.unit}".rstrip()
         return ""
 
     def in_unit(self, unit: str) -> Quantity:
@@ -39,15 +49,34 @@ class Quantity(NamedTuple):
         size = self.others[unit]
         others = {other: its / size for other, its in self.others.items() if other != unit}
         limits, usual = ((ends[0] / size, ends[1] / size) for ends in (self.limits, self.usual))
-        return Quantity(unit, limits, usual, {self.unit: 1.0 / size, **others})
+        return self._replace(unit=unit, limits=limits, usual=usual, others={self.unit: 1.0 / size, **others})
+
+    @property
+    def allowed(self) -> str:
+        """The limits in words."""
+        low, high = (-self.limits[1], self.limits[1]) if self.signed else self.limits
+        return f"{'0, or ' if self.zero else ''}between {low:g} and {high:g} {self.unit}".rstrip()
 
     def require(self, field: str, value: float) -> None:
         """Raise `InputError` with the guess if `value` lies outside the limits."""
-        low, high = self.limits
-        if not low <= value <= high:
+        low, high = (-self.limits[1], self.limits[1]) if self.signed else self.limits
+        if not (low <= value <= high or (self.zero and value == 0.0)):
             guess = self.slip(value)
-            allowed = f"between {low:g} and {high:g} {self.unit}".rstrip() + (f" ({guess})" if guess else "")
-            raise InputError(field, value, allowed)
+            raise InputError(field, value, self.allowed + (f" ({guess})" if guess else ""))
+
+    def take(self, field: str, value: Any, number: bool) -> Any:
+        """The value, a `number` or an array, or raise `InputError`: no number, or one outside the limits."""
+        if number or isinstance(value, Number | str) or not hasattr(value, "__len__"):
+            self.require(field, require_number(field, value, f"a number {self.allowed}"))
+            return value
+        array = as_numbers(field, value)
+        low, high = (-self.limits[1], self.limits[1]) if self.signed else self.limits
+        bad = ~((array >= low) & (array <= high) | (self.zero & (array == 0.0)))
+        if bad.any():
+            place = np.unravel_index(int(np.argmax(bad)), bad.shape)
+            many = array.size > 1
+            self.require(f"{field}[{', '.join(map(str, place))}]" if many else field, float(array[place]))
+        return value
 
 
 # Lengths: from the balls of a watch to the pitch circle of a wind turbine's main bearing. Moduli: from soft rubber

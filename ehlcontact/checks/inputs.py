@@ -3,22 +3,46 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
+from decimal import Decimal
 from numbers import Integral, Real
 from types import UnionType
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks.quantity import has_quantity
 from ehlcontact.errors import InputError
 
 Array = NDArray[np.float64]
 
+MASKED, TEXT = type(np.ma.masked), (str, bytes, bytearray)
+
+
+def is_quantity(value: object) -> bool:
+    """Whether `value` brings a unit of its own."""
+    return hasattr(value, "m_as") or (hasattr(value, "to_base_units") and hasattr(value, "magnitude"))
+
+
+def has_quantity(value: object) -> bool:
+    """Whether `value` is one, or holds one anywhere: a list, an array of objects."""
+    if isinstance(value, np.ndarray):
+        return value.dtype.kind == "O" and any(map(has_quantity, value.flat))
+    if not isinstance(value, list | tuple):
+        return is_quantity(value)
+    plain = {kind for kind in set(map(type, value)) if kind in (float, int, str)}  # most lists hold nothing else
+    return any(has_quantity(one) for one in value if type(one) not in plain)
+
+
+def require_flag(field: str, value: object) -> bool:
+    """Return `value` as a bool, or raise `InputError`: 0 and "no" would be taken for what they are not."""
+    if not isinstance(value, bool | np.bool_):
+        raise InputError(field, value, "True or False")
+    return bool(value)
+
 
 def require_positive(field: str, value: object) -> float:
     """Return `value` as a float, or raise `InputError` unless it is finite and > 0."""
-    number = _as_float(field, value, "a finite number > 0")
+    number = require_number(field, value, "a finite number > 0")
     if not (math.isfinite(number) and number > 0.0):
         raise InputError(field, number, "a finite number > 0")
     return number
@@ -26,7 +50,7 @@ def require_positive(field: str, value: object) -> float:
 
 def require_nonnegative(field: str, value: object) -> float:
     """Return `value` as a float, or raise `InputError` unless it is finite and >= 0."""
-    number = _as_float(field, value, "a finite number >= 0")
+    number = require_number(field, value, "a finite number >= 0")
     if not (math.isfinite(number) and number >= 0.0):
         raise InputError(field, number, "a finite number >= 0")
     return number
@@ -34,7 +58,7 @@ def require_nonnegative(field: str, value: object) -> float:
 
 def require_finite(field: str, value: object) -> float:
     """Return `value` as a float, or raise `InputError` unless it is finite."""
-    number = _as_float(field, value, "a finite number")
+    number = require_number(field, value, "a finite number")
     if not math.isfinite(number):
         raise InputError(field, number, "a finite number")
     return number
@@ -45,12 +69,12 @@ def as_float(field: str, value: object) -> float:
 
     For calls within a time step: a float costs 0.1 us.
     """
-    return value if type(value) is float else _as_float(field, value, "a number")
+    return value if type(value) is float else require_number(field, value, "a number")
 
 
 def require_between(field: str, value: object, low: float, high: float) -> float:
     """Return `value` as a float, or raise `InputError` unless it is a number from `low` to `high`."""
-    number = _as_float(field, value, f"a number between {low:g} and {high:g}")
+    number = require_number(field, value, f"a number between {low:g} and {high:g}")
     if not low <= number <= high:
         raise InputError(field, number, f"between {low:g} and {high:g}")
     return number
@@ -161,24 +185,33 @@ def as_numbers(field: str, values: ArrayLike, allowed: str = "numbers") -> Array
     if np.ma.is_masked(values):  # numpy would take what is behind the mask
         raise InputError(field, "a masked array", f"{allowed}, without a masked one")
     try:
-        if all(map(_is_number, _entries(values))) and (given := np.asarray(values)).dtype.kind in "fiuO":
-            return np.array(given, dtype=np.float64)
+        if _all_numbers(values):
+            return np.array(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         pass
     raise InputError(field, type(values).__name__, allowed)
 
 
-def _entries(values: object) -> Iterator[object]:
-    """Entries of nested sequences; numpy would make numbers of True among them, and text of numbers."""
-    if isinstance(values, list | tuple) or (isinstance(values, np.ndarray) and values.dtype.kind == "O"):
-        for one in values:
-            yield from _entries(one)
-    elif not isinstance(values, np.ndarray) or values is np.ma.masked:
-        yield values
+def _all_numbers(values: object) -> bool:
+    """Whether nested sequences, arrays and columns of tables hold numbers alone.
 
-
-def _is_number(value: object) -> bool:
-    return not isinstance(value, bool | np.bool_ | str | bytes) and value is not np.ma.masked
+    numpy would make numbers of True, and of text in lists, objects and buffers.
+    """
+    if isinstance(values, np.ndarray):
+        if values.dtype.kind != "O":
+            return values.dtype.kind in "fiu"
+        return all(map(_all_numbers, values.flat))
+    if isinstance(values, list | tuple):
+        kinds = set(map(type, values)) - {float, int}
+        return not kinds or all(_all_numbers(one) for one in values if type(one) in kinds)
+    if isinstance(values, memoryview):
+        return not isinstance(values.obj, TEXT) and _all_numbers(np.asarray(values))
+    if isinstance(values, (*TEXT, bool, MASKED)):
+        return False
+    if isinstance(values, Real | Decimal):
+        return True
+    array = np.asarray(values)  # a column of a table, an array of another library
+    return (array.ndim > 0 or array.dtype.kind != "O") and _all_numbers(array)
 
 
 def _require_finite_entries(field: str, array: Array) -> None:
@@ -188,7 +221,8 @@ def _require_finite_entries(field: str, array: Array) -> None:
         raise InputError(f"{field}[{at}]", float(array.flat[int(np.argmax(bad))]), "a finite number")
 
 
-def _as_float(field: str, value: object, allowed: str) -> float:
+def require_number(field: str, value: object, allowed: str) -> float:
+    """Return `value` as a float, which may be infinite or not a number, or raise `InputError` with `allowed`."""
     # numbers.Real holds Python's and numpy's numbers, and bool, which is no number to a user
     if isinstance(value, bool) or not isinstance(value, Real):
         raise InputError(field, value, allowed)

@@ -1,9 +1,9 @@
-"""Quantities with a unit, such as those of `pint`, as inputs in SI.
+"""What the arguments of a call are: quantities with a unit, such as those of `pint`, ranges, flags.
 
-Duck typed, so that nothing has to be installed: what has ``m_as(unit)``, or ``to_base_units`` and ``to(unit)``
-with a ``magnitude``. Dimensionless inputs refuse them.
-Frequencies keep their meaning, which libraries of units lose: 50 Hz are 3000 rev/min and 314 rad/s, and 1/s is
-refused, for it may be either.
+`takes` and `fields_take` declare it once, by the names of arguments. Quantities are duck typed, so that nothing
+has to be installed: what has ``m_as(unit)``, or ``to_base_units`` and ``to(unit)`` with a ``magnitude``.
+Dimensionless inputs refuse them. Frequencies keep their meaning, which libraries of units lose: 50 Hz are
+3000 rev/min and 314 rad/s, and 1/s is refused, for it may be either.
 """
 
 from __future__ import annotations
@@ -11,10 +11,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from functools import wraps
-from inspect import signature
+from inspect import Parameter, signature
 from math import pi
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, ParamSpec, Protocol, TypeVar
 
+from ehlcontact.checks.inputs import has_quantity, is_quantity, require_flag
 from ehlcontact.errors import InputError
 
 P = ParamSpec("P")
@@ -27,14 +28,15 @@ _PER_SECOND = re.compile(r"hertz|hz", re.IGNORECASE)
 _TURNING = re.compile(r"rad|rev|rpm|turn|cycle|degree", re.IGNORECASE)
 
 
-def is_quantity(value: object) -> bool:
-    """Whether `value` brings a unit of its own."""
-    return hasattr(value, "m_as") or (hasattr(value, "to_base_units") and hasattr(value, "magnitude"))
+class Kind(Protocol):
+    """What an argument is: numbers of a range, objects of a class, a path."""
 
+    @property
+    def unit(self) -> str:
+        """SI unit in which the call has it; empty of what is no quantity."""
 
-def has_quantity(value: object) -> bool:
-    """Whether `value` is one, or a list that begins with one."""
-    return is_quantity(value) or (isinstance(value, list | tuple) and bool(value) and has_quantity(value[0]))
+    def take(self, field: str, value: Any, number: bool) -> Any:
+        """The value, or raise `InputError`; `number`: a single number, no array."""
 
 
 def in_unit(field: str, value: Any, unit: str) -> Any:
@@ -46,6 +48,11 @@ def in_unit(field: str, value: Any, unit: str) -> Any:
         A quantity of another kind, or a frequency of which it is not said whether it is turns or radians.
     """
     if isinstance(value, list | tuple) and has_quantity(value):
+        for k, one in enumerate(value):
+            if not has_quantity(one):  # of which unit is it?
+                raise InputError(
+                    f"{field}[{k}]", one, f"a quantity in {unit} as the others, or all of them numbers"
+                )
         return [in_unit(f"{field}[{k}]", one, unit) for k, one in enumerate(value)]
     if not is_quantity(value):
         return value
@@ -56,43 +63,71 @@ def in_unit(field: str, value: Any, unit: str) -> Any:
         raise InputError(field, _Shown(value), f"a number, or a quantity that can be put into {allowed}") from None
 
 
-def takes(**units: str) -> Callable[[Callable[P, Result]], Callable[P, Result]]:
-    """Let a call take quantities for its arguments in SI: ``takes(load="N")``.
+def takes(**kinds: str | Kind) -> Callable[[Callable[P, Result]], Callable[P, Result]]:
+    """Let a call take quantities for its arguments in SI, and refuse what its arguments are not.
+
+    ``takes(load="N", density=DENSITY, folder=FOLDER)``. An argument that is annotated as a bool is a flag, which
+    needs no entry.
 
     Parameters
     ----------
-    **units : str
-        Unit of each argument, by its name, in which the call itself has it.
+    **kinds : str or Kind
+        Of each argument, by its name: the unit in which the call itself has it, or its kind with unit and range.
     """
 
     def decorate(call: Callable[P, Result]) -> Callable[P, Result]:
-        names = tuple(signature(call).parameters)
+        parameters = signature(call).parameters
+        names = tuple(parameters)
+        units = {name: kind if isinstance(kind, str) else kind.unit for name, kind in kinds.items()}
+        checks = {
+            name: _check_of(kind, parameters[name]) for name, kind in kinds.items() if not isinstance(kind, str)
+        }
+        checks |= {name: require_flag for name, one in parameters.items() if one.annotation in ("bool", bool)}
 
-        def take(name: str, value: Any) -> Any:
-            return in_unit(name, value, units[name]) if name in units else value
+        def convert(name: str, value: Any) -> Any:
+            return in_unit(name, value, units[name]) if units.get(name) else value
+
+        def check(name: str, value: Any) -> Any:
+            return checks[name](name, value) if name in checks else value
+
+        def each(
+            change: Callable[[str, Any], Any], args: tuple[Any, ...], kwargs: dict[str, Any]
+        ) -> tuple[tuple[Any, ...], dict[str, Any]]:
+            given = [change(name, value) for name, value in zip(names, args, strict=False)]
+            return (*given, *args[len(names) :]), {name: change(name, value) for name, value in kwargs.items()}
 
         @wraps(call)
-        def converted(*args: P.args, **kwargs: P.kwargs) -> Result:
-            if not any(map(has_quantity, (*args, *kwargs.values()))):
-                return call(*args, **kwargs)
-            given: list[Any] = list(args)
-            given[: len(names)] = [take(name, value) for name, value in zip(names, args, strict=False)]
-            named: Any = {name: take(name, value) for name, value in kwargs.items()}
-            return call(*given, **named)
+        def taken(*args: P.args, **kwargs: P.kwargs) -> Result:
+            given: Any = args, kwargs
+            if any(map(has_quantity, (*args, *kwargs.values()))):
+                given = each(convert, *given)
+            if checks:
+                given = each(check, *given)
+            return call(*given[0], **given[1])
 
-        return converted
+        return taken
 
     return decorate
 
 
-def fields_take(**units: str) -> Callable[[type[Result]], type[Result]]:
+def fields_take(**kinds: str | Kind) -> Callable[[type[Result]], type[Result]]:
     """`takes` for the fields of a class."""
 
     def decorate(cls: type[Result]) -> type[Result]:
-        setattr(cls, "__init__", takes(**units)(cls.__init__))  # noqa: B010
+        setattr(cls, "__init__", takes(**kinds)(cls.__init__))  # noqa: B010
         return cls
 
     return decorate
+
+
+def _check_of(kind: Kind, parameter: Parameter) -> Callable[[str, Any], Any]:
+    """Check of one argument; None is what leaves it out where that is its default."""
+    number = parameter.annotation in ("float", "float | None", float)
+
+    def check(name: str, value: Any) -> Any:
+        return None if value is None and parameter.default is None else kind.take(name, value, number)
+
+    return check
 
 
 class _Shown:

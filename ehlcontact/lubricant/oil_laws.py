@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from ehlcontact.checks import require_choice, require_finite, require_nonnegative, require_positive
 from ehlcontact.checks.admissible_range import INPUTS
+from ehlcontact.checks.parts import TEMPERATURE
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.elementary import exponential, logarithm
 from ehlcontact.errors import InputError
@@ -44,7 +45,7 @@ class FluidLaw(NamedTuple):
     d: float  # 5.9e8 Pa / p_h
 
 
-@fields_take(eta0="Pa s", alpha="1/Pa", temperature_slope="1/K", temperature="degrees Celsius")
+@fields_take(eta0="Pa s", alpha="1/Pa", temperature_slope="1/K", temperature=TEMPERATURE)
 @dataclass(frozen=True, slots=True)
 class Lubricant:
     """Oil at inlet temperature; `iso_vg` makes one from its grade.

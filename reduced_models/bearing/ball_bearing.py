@@ -12,15 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact import Lubricant
 from ehlcontact.checks import (
+    parts,
     require_choice,
     require_finite,
     require_instance,
     require_integer,
     require_names,
     require_nonnegative,
-    require_positive,
 )
 from ehlcontact.checks.frequency import by_name, radians_per_second
+from ehlcontact.checks.kinds import NAME
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
@@ -76,8 +77,9 @@ SUPPLIES = ("h", "over_flooded")  # units of an oil supply that is the same at a
 
 @stored("ball bearing")
 @fields_take(
-    ball_diameter="m", pitch_diameter="m", clearance="m", rq_ball="m", rq_race="m", cutoff_gap="m",
-    youngs_modulus="Pa", density="kg/m3", contact_angle="rad", shoulder_inner="m", shoulder_outer="m",
+    ball_diameter=parts.BALL_DIAMETER, pitch_diameter=parts.PITCH_DIAMETER, clearance=parts.CLEARANCE,
+    rq_ball="m", rq_race="m", cutoff_gap=parts.GAP, youngs_modulus=parts.MODULUS, density=parts.DENSITY,
+    contact_angle="rad", shoulder_inner=parts.SHAFT_DIAMETER, shoulder_outer=parts.SHAFT_DIAMETER, name=NAME,
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class BallBearing(Summary):
@@ -200,11 +202,7 @@ class BallBearing(Summary):
         object.__setattr__(self, "thermal", conditions_of(self).heat)
         for name, rq in (("rq_ball", self.rq_ball), ("rq_race", self.rq_race)):
             require_roughness(name, rq)
-        if self.cutoff_gap is not None:
-            require_positive("cutoff_gap", self.cutoff_gap)
-        require_positive("density", self.density)
         require_loss_factor(self.loss_factor)
-        require_instance("ball_inertia", self.ball_inertia, bool, "True or False")
         require_choice("race_control", self.race_control, CONTROLS)
         if self.contact_angle is not None:
             require_contact_angle(self.contact_angle)

@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import (
+    parts,
     require_choice,
     require_finite,
     require_instance,
     require_integer,
     require_names,
-    require_nonnegative,
-    require_positive,
 )
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
@@ -33,7 +32,7 @@ ONE_TURN = 2.0 * pi  # rad, of a place: more are degrees
 MOST_WAVES = 100_000  # around a race or a ball
 
 
-@fields_take(amplitude="m", phase="rad")
+@fields_take(amplitude=parts.HEIGHT, phase="rad")
 @dataclass(frozen=True, kw_only=True)
 class RaceWaviness:
     """Waves around a race: ``amplitude cos(waves theta - phase)``, theta from the x axis with the shaft at 0.
@@ -65,7 +64,7 @@ class RaceWaviness:
         _require_waves(self)
 
 
-@fields_take(amplitude="m", phase="rad")
+@fields_take(amplitude=parts.HEIGHT, phase="rad")
 @dataclass(frozen=True, kw_only=True)
 class BallWaviness:
     """Waves around a ball in the plane of its rolling: ``amplitude cos(waves theta - phase)`` at the inner race.
@@ -97,7 +96,7 @@ class BallWaviness:
         _require_waves(self)
 
 
-@fields_take(excess="m")
+@fields_take(excess=parts.EXCESS)
 @dataclass(frozen=True, kw_only=True)
 class BallDiameter:
     """A ball that is larger than the others, or smaller.
@@ -120,10 +119,9 @@ class BallDiameter:
 
     def __post_init__(self) -> None:
         require_integer("ball", self.ball, "a whole number >= 0", 0)
-        require_finite("excess", self.excess)
 
 
-@fields_take(angle="rad", length="m", depth="m", edge="m")
+@fields_take(angle="rad", length=parts.TRACK, depth=parts.HEIGHT, edge=parts.EDGE)
 @dataclass(frozen=True, kw_only=True)
 class Spall:
     """A pit across the whole track of a race or a ball, of constant depth between its edges.
@@ -162,7 +160,7 @@ class Spall:
 
     def __post_init__(self) -> None:
         _require_place(self)
-        if require_nonnegative("edge", self.edge) > 0.5 * self.length:
+        if self.edge > 0.5 * self.length:
             raise InputError("edge", self.edge, f"at most half of the length, {0.5 * self.length:g} m")
 
     def height(self, x: _Floats) -> _Floats:
@@ -173,7 +171,7 @@ class Spall:
         return -self.depth * np.clip(inside / self.edge, 0.0, 1.0)
 
 
-@fields_take(angle="rad", length="m", depth="m", rim="m")
+@fields_take(angle="rad", length=parts.TRACK, depth=parts.HEIGHT, rim=parts.RIM)
 @dataclass(frozen=True, kw_only=True)
 class Indentation:
     """A dent that a hard particle has left: a smooth pit with raised rims, across the whole track.
@@ -206,7 +204,6 @@ class Indentation:
 
     def __post_init__(self) -> None:
         _require_place(self)
-        require_nonnegative("rim", self.rim)
 
     def height(self, x: _Floats) -> _Floats:
         """Height [m] at distances x [m] from its middle along the track."""
@@ -254,13 +251,10 @@ def _require_place(feature: Defect) -> None:
         require_integer("ball", feature.ball, "a whole number >= 0", 0)
     if not abs(require_finite("angle", feature.angle)) <= ONE_TURN:
         raise InputError("angle", feature.angle, f"between {-ONE_TURN:.4g} and {ONE_TURN:.4g} rad (in degrees?)")
-    require_positive("length", feature.length)
-    require_positive("depth", feature.depth)
 
 
 def _require_waves(feature: Waves) -> None:
     if require_integer("waves", feature.waves, f"a whole number from 1 to {MOST_WAVES}", 1) > MOST_WAVES:
         raise InputError("waves", feature.waves, f"a whole number from 1 to {MOST_WAVES}")
-    require_positive("amplitude", feature.amplitude)
     if not abs(require_finite("phase", feature.phase)) <= MOST_TURNS:
         raise InputError("phase", feature.phase, f"between {-MOST_TURNS:.3g} and {MOST_TURNS:.3g} rad")

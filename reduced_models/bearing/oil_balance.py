@@ -27,7 +27,8 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_between, require_instance, require_positive
+from ehlcontact.checks import as_column, parts, require_between, require_instance
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.film_formulas import film_of_layer, layer_sharpness
 from ehlcontact.jit import plain
@@ -65,6 +66,7 @@ def lost_share(ratio: Any, sharpness: Any, growth: Any) -> Any:
     return (starved**3 + aside**3) ** (1.0 / 3.0)
 
 
+@fields_take(load=parts.FORCE, speed_rpm=parts.SPEED, feed=parts.FEED)
 @dataclass(frozen=True, kw_only=True, eq=False)
 class OilBalance(Summary):
     """Balance of the oil on the tracks of a ball bearing under a radial load at a speed. SI units.
@@ -112,7 +114,6 @@ class OilBalance(Summary):
             raise InputError("oil", None, "given to the bearing: a dry one has no oil balance")
         if self.bearing.supply is not None:
             raise InputError("supply", "given to the bearing", "left out: the balance finds it (`lasting_supply`)")
-        require_positive("speed_rpm", self.speed_rpm)
         if np.shape(self.load) != (2,):
             raise InputError("load", self.load, "(Fx, Fy): the balance is for radial loads")
         require_between("feed", self.feed, 0.0, 1.0)
@@ -182,9 +183,9 @@ class OilBalance(Summary):
         full, sharpness, growth = self._contacts
         return float(passes * layer * lost_share(layer / full, sharpness, growth).sum())
 
+    @takes(layer=parts.LAYER)
     def feed_for(self, layer: float) -> float:
         """Feed that keeps a layer [m] for good [m3/s]."""
-        require_positive("layer", layer)
         lost = (1.0 - self.returned) * self.loss_rate(layer)
         return 0.5 * lost * self.track_length * self.track_width
 

@@ -8,7 +8,8 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, require_instance
+from ehlcontact.checks import as_column, parts, require_flag
+from ehlcontact.checks.kinds import Object, Objects
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.freedoms import facing_signs
@@ -25,7 +26,12 @@ LEAST_SUPPORTS = 2  # planar bearings hold no tilt
 SAME = 1e-6  # of the shaft's length: positions nearer than that are one
 
 
-@takes(gravity="m/s2")
+@takes(
+    shaft=Object(Shaft, "a Shaft"),
+    supports=Objects(Support, "a Support"),
+    discs=Objects(Disc, "a Disc"),
+    gravity=parts.GRAVITY,
+)
 def rotor_on_bearings(
     shaft: Shaft,
     *,
@@ -69,23 +75,18 @@ def rotor_on_bearings(
     InputError
         A position beside the shaft, supports at one place, or a journal without any mass.
     """
-    require_instance("shaft", shaft, Shaft, "a Shaft")
     pull = np.zeros(3)
     pull[: np.size(gravity)] = as_column("gravity", gravity, size=3 if np.size(gravity) == 3 else 2)
-    for k, disc in enumerate(discs):
-        require_instance(f"discs[{k}]", disc, Disc, "a Disc")
-    for k, support in enumerate(supports):
-        require_instance(f"supports[{k}]", support, Support, "a Support")
     least = 1 if any(isinstance(support.bearing, BearingSet) for support in supports) else LEAST_SUPPORTS
     if len(supports) < least:
         raise InputError("number of supports", len(supports), f"at least {LEAST_SUPPORTS}, or one BearingSet")
-    for name, parts in (("discs", [d.position for d in discs]), ("supports", [s.position for s in supports])):
-        for k, position in enumerate(parts):
+    for name, places in (("discs", [d.position for d in discs]), ("supports", [s.position for s in supports])):
+        for k, position in enumerate(places):
             if not -SAME * shaft.end <= position <= (1.0 + SAME) * shaft.end:
                 raise InputError(f"{name}[{k}].position", position, f"between 0 and {shaft.end:g} m")
     needed = pull[2] != 0.0 or any(one.needs_axial for one in supports) or any(any(d.load[2:]) for d in discs)
     if axial is not None:
-        require_instance("axial", axial, bool, "True or False")
+        require_flag("axial", axial)
         if needed and not axial:
             raise InputError("axial", axial, "True: a bearing or a load needs axial motion")
     if (needed or axial) and shaft.density == 0.0:

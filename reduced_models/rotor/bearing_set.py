@@ -27,15 +27,15 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.assumptions import Assumptions
 from ehlcontact.checks import (
     as_column,
+    parts,
     require_choice,
-    require_finite,
     require_instance,
     require_integer,
     require_names,
-    require_nonnegative,
     require_positive,
 )
 from ehlcontact.checks.frequency import by_name, radians_per_second
+from ehlcontact.checks.kinds import NAME, Objects
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.store import stored
@@ -60,14 +60,16 @@ ARRANGEMENTS = {"back to back": FACINGS, "face to face": FACINGS[::-1], "tandem"
 # Distance of bearings side by side over their ball diameter: widths of spindle bearings are 1.6 to 1.9 of them
 SIDE_BY_SIDE = 1.8
 FADED = 0.01  # forces of a bearing with films over those of the most loaded one, below which it is unloaded
-FARTHEST = 10.0  # m, of a bearing from the origin: millimetres are meant beyond
 X, Y, Z, TILT_X, TILT_Y, OUTER_RING = range(len(FIVE) + 1)  # degrees of freedom of a set as a rotor
 NAMES = (*FIVE, "z of the outer rings on the spring")
 VERTICAL = -0.5 * pi  # rad, of the first ball where no load says where it stands
 
 
 @stored("set of ball bearings")
-@fields_take(positions="m", offsets="m", spring="N")
+@fields_take(
+    bearings=Objects(BallBearing, "a BallBearing"), positions=parts.PLACE, offsets=parts.OFFSET,
+    spring=parts.PRELOAD, name=NAME,
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class BearingSet(Summary):
     """Ball bearings on one rigid shaft. SI units; axes of the shaft as in `BallBearing`.
@@ -113,8 +115,6 @@ class BearingSet(Summary):
     def __post_init__(self) -> None:
         bearings = tuple(self.bearings)
         require_integer("number of bearings", len(bearings), "at least 2", 2)
-        for k, bearing in enumerate(bearings):
-            require_instance(f"bearings[{k}]", bearing, BallBearing, "a BallBearing")
         offsets = tuple(self.offsets) or (0.0,) * len(bearings)
         kept = {"bearings": bearings, "facings": self.facings, "positions": self.positions, "offsets": offsets}
         for name, values in kept.items():
@@ -123,10 +123,7 @@ class BearingSet(Summary):
             object.__setattr__(self, name, tuple(values))
         for k, bearing in enumerate(bearings):
             facing_signs(self.facings[k])
-            if abs(require_finite(f"positions[{k}]", self.positions[k])) > FARTHEST:
-                raise InputError(f"positions[{k}]", self.positions[k], f"at most {FARTHEST:g} m from 0 (in mm?)")
             require_offset(f"offsets[{k}]", offsets[k], bearing.ball_diameter)
-        require_nonnegative("spring", self.spring)
         if self.sprung is None and self.spring > 0.0:
             object.__setattr__(self, "sprung", self.facings[-1])
         if self.sprung is not None:
@@ -137,10 +134,9 @@ class BearingSet(Summary):
             for k, offset in enumerate(offsets):
                 if self.facings[k] == self.sprung and offset != 0.0:
                     raise InputError(f"offsets[{k}]", offset, "0 of a bearing on the spring, which takes it up")
-        require_instance("may_lift_off", self.may_lift_off, bool, "True or False")
 
     @classmethod
-    @takes(distance="m", preload="N", offset="m", spring="N")
+    @takes(distance=parts.DISTANCE, preload=parts.PRELOAD, offset=parts.OFFSET, spring=parts.PRELOAD)
     def pair(
         cls,
         bearing: BallBearing,
@@ -193,8 +189,7 @@ class BearingSet(Summary):
         require_instance("other", both[1], BallBearing, "a BallBearing")
         if distance is None:
             distance = SIDE_BY_SIDE * 0.5 * (both[0].ball_diameter + both[1].ball_diameter)
-        apart = 0.5 * require_nonnegative("distance", distance)
-        half = 0.5 * require_finite("offset", 0.0 if offset is None else offset)
+        apart, half = 0.5 * distance, 0.5 * (0.0 if offset is None else offset)
         pair = cls(
             bearings=both,
             facings=ARRANGEMENTS[arrangement],
@@ -206,7 +201,7 @@ class BearingSet(Summary):
         return pair if preload is None else pair.preloaded(preload)
 
     @classmethod
-    @takes(distance="m")
+    @takes(distance=parts.DISTANCE)
     def tandem(
         cls, bearing: BallBearing, count: int = 2, *, distance: float | None = None, **options: Any
     ) -> Self:
@@ -224,13 +219,11 @@ class BearingSet(Summary):
         """
         require_instance("bearing", bearing, BallBearing, "a BallBearing")
         require_integer("count", count, "a whole number >= 2", 2)
-        step = (
-            SIDE_BY_SIDE * bearing.ball_diameter if distance is None else require_nonnegative("distance", distance)
-        )
+        step = SIDE_BY_SIDE * bearing.ball_diameter if distance is None else distance
         positions = (step * (np.arange(count) - 0.5 * (count - 1))).tolist()
         return cls(bearings=(bearing,) * count, facings=(FACINGS[0],) * count, positions=positions, **options)
 
-    @takes(preload="N")
+    @takes(preload=parts.PRELOAD)
     def preloaded(self, preload: float) -> Self:
         """The set with the offsets with which bearings of both facings press each other.
 
@@ -273,7 +266,7 @@ class BearingSet(Summary):
             raise InputError("preload", preload, error.allowed) from None
         return float(q[Z])
 
-    @takes(growth="m")
+    @takes(growth=parts.OFFSET)
     def grown(self, growth: float) -> Self:
         """The set with a shaft that has become longer than its housing, or with a longer spacer inside.
 
@@ -288,7 +281,6 @@ class BearingSet(Summary):
         InputError
             A growth that leaves play in a preloaded set; it says how much does.
         """
-        require_finite("growth", growth)
         places = np.array(self.positions)
         length = float(np.ptp(places))
         if length == 0.0:

@@ -12,14 +12,8 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import (
-    as_column,
-    as_numbers,
-    require_finite,
-    require_integer,
-    require_nonnegative,
-    require_positive,
-)
+from ehlcontact.checks import as_column, as_numbers, require_finite, require_integer, require_nonnegative
+from ehlcontact.checks import parts as ranges
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, span
@@ -34,20 +28,17 @@ from reduced_models.rotor.supports import BearingMount, require_bearing
 _Floats = NDArray[np.float64]
 
 DENSITY = 7800.0  # kg/m3 of steel, as of the balls
-# m, beyond which no rotor on ball bearings goes: along the shaft, and across it. Millimetres are meant there.
-LONGEST, WIDEST = 100.0, 10.0
 RING_SECTION = 0.75  # of an outer ring, over the ball diameter squared: 6205 has 0.7, 6305 0.8
 ROUNDING = 1e-9  # share by which a polar inertia may pass that of a disc without thickness
+MOST_ELEMENTS = 1000
+ELEMENTS = f"a whole number from 1 to {MOST_ELEMENTS}"
+WIDEST_GYRATION = 10.0  # m, radius of gyration of a disc
 
 
-def _metres(field: str, value: float, largest: float) -> float:
-    """A length > 0 that is none in millimetres."""
-    if require_positive(field, value) > largest:
-        raise InputError(field, value, f"at most {largest:g} m (in mm? then {1e-3 * value:g} m)")
-    return float(value)
-
-
-@fields_take(length="m", diameter="m", bore="m", youngs_modulus="Pa", density="kg/m3", damping_time="s")
+@fields_take(
+    length=ranges.SHAFT_LENGTH, diameter=ranges.SHAFT_DIAMETER, bore=ranges.BORE, youngs_modulus=ranges.MODULUS,
+    density=ranges.DENSITY_OR_NONE, damping_time=ranges.DAMPING_TIME,
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Shaft(Summary):
     """A round shaft, of one section or several from left to right, bending and shearing as a Timoshenko beam.
@@ -102,24 +93,16 @@ class Shaft(Summary):
             column = as_column(
                 name, np.full(lengths.size, given[0]) if given.size == 1 else given, size=lengths.size
             )
-            for k, value in enumerate(column.tolist()):
-                field = f"{name}[{k}]" if lengths.size > 1 else name
-                if name == "bore":
-                    require_nonnegative(field, value)
-                else:
-                    _metres(field, value, LONGEST if name == "length" else WIDEST)
             object.__setattr__(self, name, column)
         if np.any(self.bore >= self.diameter):
             raise InputError("bore", self.bore.tolist(), f"below the diameter {self.diameter.tolist()}")
-        require_positive("youngs_modulus", self.youngs_modulus)
         if not -1.0 < require_finite("poisson_ratio", self.poisson_ratio) <= 0.5:
             raise InputError("poisson_ratio", self.poisson_ratio, "above -1 and at most 0.5")
-        for name in ("density", "damping_time"):
-            require_nonnegative(name, getattr(self, name))
-        require_integer("elements", self.elements, "a whole number >= 1", 1)
+        if require_integer("elements", self.elements, ELEMENTS, 1) > MOST_ELEMENTS:
+            raise InputError("elements", self.elements, ELEMENTS)
 
     @classmethod
-    @takes(stiffness="N/m", span="m", damping="N s/m")
+    @takes(stiffness=ranges.STIFFNESS, span=ranges.SHAFT_LENGTH, damping=ranges.DAMPING)
     def jeffcott(cls, stiffness: float, span: float, *, damping: float = 0.0) -> Self:
         """Shaft without mass that only bends, of given stiffness in the middle between bearings at its ends.
 
@@ -130,9 +113,9 @@ class Shaft(Summary):
         span : float
             Its length [m].
         """
-        k, length = require_positive("stiffness", stiffness), require_positive("span", span)
+        k, length = float(stiffness), float(span)
         inertia = k * length**3 / (48.0 * cls.youngs_modulus)
-        time = require_nonnegative("damping", damping) / k
+        time = damping / k
         diameter = (64.0 * inertia / pi) ** 0.25
         return cls(length=length, diameter=diameter, density=0.0, shear=False, damping_time=time, elements=1)
 
@@ -153,8 +136,8 @@ class Shaft(Summary):
 
 
 @fields_take(
-    position="m", mass="kg", diametral_inertia="kg m2", polar_inertia="kg m2", unbalance="kg m", phase="rad",
-    damping="N s/m", load="N",
+    position=ranges.PLACE, mass=ranges.MASS, diametral_inertia=ranges.INERTIA, polar_inertia=ranges.INERTIA,
+    unbalance="kg m", phase="rad", damping=ranges.DAMPING, load=ranges.FORCE,
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class Disc(Summary):
@@ -194,10 +177,12 @@ class Disc(Summary):
         ]
 
     def __post_init__(self) -> None:
-        require_finite("position", self.position)
-        require_positive("mass", self.mass)
-        for name in ("diametral_inertia", "polar_inertia", "unbalance", "damping"):
-            require_nonnegative(name, getattr(self, name))
+        require_nonnegative("unbalance", self.unbalance)
+        most = WIDEST_GYRATION**2 * self.mass
+        for name in ("diametral_inertia", "polar_inertia"):
+            if (inertia := getattr(self, name)) > most:
+                guess = f" ({slip})" if (slip := ranges.INERTIA._replace(usual=(0.0, most)).slip(inertia)) else ""
+                raise InputError(name, inertia, f"at most {most:g} kg m2, (10 m)^2 times the mass{guess}")
         if self.polar_inertia > 2.0 * self.diametral_inertia * (1.0 + ROUNDING):
             most = 2.0 * self.diametral_inertia
             raise InputError(
@@ -209,7 +194,10 @@ class Disc(Summary):
         object.__setattr__(self, "load", tuple(as_column("load", self.load, size=size).tolist()))
 
     @classmethod
-    @takes(position="m", diameter="m", width="m", bore="m", density="kg/m3")
+    @takes(
+        position=ranges.PLACE, diameter=ranges.SHAFT_DIAMETER, width=ranges.SHAFT_DIAMETER, bore=ranges.BORE,
+        density=ranges.DENSITY,
+    )  # fmt: skip
     def cylinder(
         cls,
         *,
@@ -231,8 +219,7 @@ class Disc(Summary):
         **others
             Unbalance, phase, damping and load, as of the class.
         """
-        outer, thick = _metres("diameter", diameter, WIDEST), _metres("width", width, WIDEST)
-        hole, rho = require_nonnegative("bore", bore), require_positive("density", density)
+        outer, thick, hole, rho = float(diameter), float(width), float(bore), float(density)
         if hole >= outer:
             raise InputError("bore", bore, f"below the diameter, {outer:g} m")
         mass = rho * 0.25 * pi * (outer**2 - hole**2) * thick
@@ -252,8 +239,9 @@ class Seat(NamedTuple):
 
 
 @fields_take(
-    position="m", cage_angle="rad", journal_mass="kg", housing_mass="kg", housing_stiffness="N/m",
-    housing_damping="N s/m", offset="m", preload="N", preload_stiffness="N/m", outer_ring_mass="kg",
+    position=ranges.PLACE, cage_angle="rad", journal_mass=ranges.MASS_OR_NONE, housing_mass=ranges.MASS,
+    housing_stiffness=ranges.STIFFNESS, housing_damping=ranges.DAMPING, offset="m", preload=ranges.PRELOAD,
+    preload_stiffness=ranges.STIFFNESS_OR_NONE, outer_ring_mass=ranges.MASS,
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Support(Summary):
@@ -322,7 +310,6 @@ class Support(Summary):
         return [*lines, f"in a housing of {self.housing_mass:.4g} kg on springs of {springs}"]
 
     def __post_init__(self) -> None:
-        require_finite("position", self.position)
         facing_signs(self.facing)
         if isinstance(self.bearing, BearingSet):
             own = {"facing": FACINGS[0], "offset": 0.0, "preload": None}
@@ -337,21 +324,16 @@ class Support(Summary):
                 bearing=seat.bearing, x=0, y=1, z=z, tilt_x=tilt_x, tilt_y=tilt_y, cage_angle=self.cage_angle,
                 facing=seat.facing, offset=seat.offset, arm=seat.arm,
             )  # fmt: skip
-        require_nonnegative("journal_mass", self.journal_mass)
         if (self.housing_mass is None) != (self.housing_stiffness is None):
             missing = "housing_mass" if self.housing_mass is None else "housing_stiffness"
             raise InputError(missing, None, "given: a housing has a mass and springs")
         if self.housing_mass is not None:
-            require_positive("housing_mass", self.housing_mass)
-            for name, check in (("housing_stiffness", require_positive), ("housing_damping", require_nonnegative)):
+            for name in ("housing_stiffness", "housing_damping"):
                 given = np.atleast_1d(as_numbers(name, getattr(self, name)))
                 size = 3 if given.size == 3 else 2
                 column = as_column(name, np.full(size, given[0]) if given.size == 1 else given, size=size)
-                for k, value in enumerate(column.tolist()):
-                    check(f"{name}[{k}]", value)
                 object.__setattr__(self, name, column)
         if self.preload is not None:
-            require_nonnegative("preload", self.preload)
             if self.preload == self.preload_stiffness == 0.0 and getattr(self.bearing, "contact_angle", None):
                 allowed = "> 0: nothing else keeps an angular contact bearing together whose outer ring is free"
                 raise InputError("preload", self.preload, allowed)
@@ -359,9 +341,6 @@ class Support(Summary):
                 raise InputError("offset", self.offset, "left out beside preload: the outer ring gives way to it")
         if self.spring is not None and self.housing_mass is not None:
             raise InputError("preload", self.spring, "left out with a housing, whose springs hold it along z")
-        require_nonnegative("preload_stiffness", self.preload_stiffness)
-        if self.outer_ring_mass is not None:
-            require_positive("outer_ring_mass", self.outer_ring_mass)
 
     @property
     def seats(self) -> tuple[Seat, ...]:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.constants import g
 
-from ehlcontact.checks import as_column, require_instance, require_integer
+from ehlcontact.checks import as_column, require_flag, require_instance, require_integer
 from ehlcontact.checks.frequency import is_given, one, radians_per_second
 from ehlcontact.errors import InputError
 from reduced_models.bearing.ball_bearing import BallBearing
@@ -389,7 +389,7 @@ def _is_axial(
     needed = any(support.needs_axial for support in supports.values())
     needed = needed or any(np.size(force) > len(PLANAR) for force in (loads or {}).values())
     if axial is not None:
-        require_instance("axial", axial, bool, "True or False")
+        require_flag("axial", axial)
         if needed and not axial:
             raise InputError("axial", axial, "True: a bearing or a load needs axial motion")
     five = bool(needed if axial is None else axial)

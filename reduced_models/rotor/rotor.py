@@ -23,11 +23,11 @@ from ehlcontact.checks import (
     as_column,
     as_numbers,
     as_rows,
+    parts,
     require_finite,
-    require_instance,
     require_integer,
-    require_nonnegative,
 )
+from ehlcontact.checks.kinds import Objects
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
@@ -54,6 +54,7 @@ Matrices = tuple[_Floats, _Floats, _Floats]
 # whose degrees of freedom it is not known what each moves.
 MOST_ECCENTRIC, MOST_OF_MATRICES = 0.01, 1.0
 MISSED = 1e-9  # distance from wanted approaches, over the largest, that rounding may leave
+SYMMETRIC = 1e-6  # of the largest entry, by which matrices of another program may be off
 MATRICES = ("mass", "damping", "stiffness")
 
 
@@ -72,7 +73,7 @@ class _Nodes(dict[str, Mapping[str, int]]):
         raise InputError("node", name, f"one of {', '.join(self)}" if self else "none: the rotor has no names")
 
 
-@fields_take(amount="kg m", phase="rad")
+@fields_take(amount=parts.UNBALANCE, phase="rad")
 @dataclass(frozen=True, kw_only=True)
 class Unbalance:
     """Mass times eccentricity [kg m] at two degrees of freedom; `phase` [rad] ahead of the shaft's angle.
@@ -132,6 +133,11 @@ class Parameter:
             object.__setattr__(self, "reason", f"{self.name} must be {allowed}")
 
 
+@fields_take(
+    mounts=Objects((BearingMount, ContactMount), "a BearingMount or ContactMount"),
+    unbalances=Objects(Unbalance, "an Unbalance"), parameters=Objects(Parameter, "a Parameter"),
+    speed_rpm=parts.SPEED_OR_NONE,
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Rotor(Summary):
     """A linear rotor on supports, SI units.
@@ -192,14 +198,17 @@ class Rotor(Summary):
             object.__setattr__(self, name, matrix)
             if matrix.shape != (size, size):
                 raise InputError(f"shape of {name}", matrix.shape, f"({size}, {size}), as that of mass")
+        for name, sign, kind in (("mass", 1.0, "symmetric"), ("gyroscopic", -1.0, "skew symmetric")):
+            matrix = getattr(self, name)
+            apart = np.abs(matrix - sign * matrix.T).max()
+            if apart > SYMMETRIC * np.abs(matrix).max():
+                raise InputError(name, f"a matrix off by {apart:.3g}", f"{kind}, as inertia makes it")
         if np.linalg.eigvalsh(0.5 * (self.mass + self.mass.T)).min() <= 0.0:
             raise InputError(
                 "mass", "a matrix that is not positive definite", "one with inertia in every direction"
             )
         load = as_column("load", np.zeros(size) if self.load is None else self.load, size=size)
         object.__setattr__(self, "load", load)
-        object.__setattr__(self, "mounts", tuple(self.mounts))
-        object.__setattr__(self, "unbalances", tuple(self.unbalances))
         self._check_mounts()
         for i, unbalance in enumerate(self.unbalances):
             self._require_there(f"unbalances[{i}]", (unbalance.x, unbalance.y))
@@ -209,8 +218,6 @@ class Rotor(Summary):
         object.__setattr__(self, "nodes", MappingProxyType(_Nodes(named)))
         for name, at in named.items():
             self._require_there(f"nodes[{name!r}]", tuple(at.values()))
-        if self.speed_rpm is not None:
-            require_nonnegative("speed_rpm", self.speed_rpm)
         self._check_parameters()
 
     def _check_parameters(self) -> None:
@@ -226,7 +233,6 @@ class Rotor(Summary):
             raise InputError("mounts", (), "at least one support")
         taken: list[tuple[Any, ...]] = []
         for i, mount in enumerate(self.mounts):
-            require_instance(f"mounts[{i}]", mount, Mount, "a BearingMount or ContactMount")
             for end in mount.ends:
                 self._require_there(f"mounts[{i}]", end)
             if isinstance(mount, BearingMount):

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, require_nonnegative, require_positive
+from ehlcontact.checks import as_column, parts, require_nonnegative
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.quantities import SPEED, TIME
 from ehlcontact.results.table import Display, QuantityTable
@@ -22,7 +22,7 @@ _Floats = NDArray[np.float64]
 SPEED_RATIO = 1.25  # of neighbouring speeds at which laws are made
 
 
-@fields_take(t="s", speed_rpm="rev/min")
+@fields_take(t="s", speed_rpm=parts.SPEED_OR_NONE)
 @dataclass(frozen=True, eq=False)
 class SpeedProfile(QuantityTable):
     """Speed of the shaft over time, straight between given times.
@@ -47,22 +47,19 @@ class SpeedProfile(QuantityTable):
     def __post_init__(self) -> None:
         object.__setattr__(self, "t", as_column("t", self.t, least=2, increasing=True))
         object.__setattr__(self, "speed_rpm", as_column("speed_rpm", self.speed_rpm, size=self.t.size))
-        for k, speed in enumerate(self.speed_rpm.tolist()):
-            require_nonnegative(f"speed_rpm[{k}]", speed)
         require_nonnegative("t[0]", float(self.t[0]))
 
     @classmethod
-    @takes(speed_rpm="rev/min")
+    @takes(speed_rpm=parts.SPEED_OR_NONE)
     def constant(cls, speed_rpm: float) -> SpeedProfile:
         """One speed all the time."""
-        return cls(np.array([0.0, 1.0]), np.full(2, require_nonnegative("speed_rpm", speed_rpm)))
+        return cls(np.array([0.0, 1.0]), np.full(2, speed_rpm))
 
     @classmethod
-    @takes(first_rpm="rev/min", last_rpm="rev/min", seconds="s")
+    @takes(first_rpm=parts.SPEED_OR_NONE, last_rpm=parts.SPEED_OR_NONE, seconds=parts.SECONDS)
     def ramp(cls, first_rpm: float, last_rpm: float, seconds: float) -> SpeedProfile:
         """From one speed to another at a constant rate: a run-up, or a coast-down."""
-        ends = require_nonnegative("first_rpm", first_rpm), require_nonnegative("last_rpm", last_rpm)
-        return cls(np.array([0.0, require_positive("seconds", seconds)]), np.array(ends))
+        return cls(np.array([0.0, seconds]), np.array([first_rpm, last_rpm]))
 
     def at(self, t: _Floats) -> tuple[_Floats, _Floats, _Floats]:
         """Speed [rad/s], angle of the shaft [rad] and angular acceleration [rad/s2]."""

@@ -16,14 +16,9 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import (
-    as_column,
-    require_instance,
-    require_integer,
-    require_nonnegative,
-    require_positive,
-)
-from ehlcontact.checks.quantity import fields_take
+from ehlcontact.checks import as_column, parts, require_integer
+from ehlcontact.checks.kinds import DONE, FOLDER, NAME, Count, Object, Objects, Text
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.content_store import key_of
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.executors import executor_for, results_of
@@ -48,12 +43,18 @@ LEAD = 0.1  # s of a simulation before its record, in which the transient of the
 FINER, COARSEST = 4, 48_000.0  # least steps per sample and per s: a mass on its contacts swings at some kHz
 TILT_INERTIA, TILT_STIFFNESS = 1e-3, 1e5  # kg m2, N m/rad: a stiff shaft holds the ring against tilts
 SUFFIX = ".h5"
+MOST_SAMPLES = 1e8  # of a record: 400 MB
+LONGEST_LABEL = 100  # letters: a part of a file name
 LOCATION = "test_bearing"  # of bearing and sensor, in the words of bearing-datasets
 PARTS = {"inner": "inner", "outer": "outer"}  # fault types; others are of a ball
 BALL = "rolling_element"
 
 
-@fields_take(speed_rpm="rev/min", mass="kg", seconds="s", rate="Hz")
+@fields_take(
+    bearing=Object(BallBearing, "a BallBearing"), path=Object(ModalPath, "a ModalPath"), load=parts.FORCE,
+    speed_rpm=parts.SPEED, mass=parts.MASS, noise=parts.NOISE, seconds=parts.SECONDS, rate=parts.RATE,
+    label=Text(LONGEST_LABEL),
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RecordCase(Summary):
     """Inputs of a synthetic record: a mass on a bearing with features, a transfer path to a sensor, noise.
@@ -99,18 +100,15 @@ class RecordCase(Summary):
     rate: float = 12_000.0
 
     def __post_init__(self) -> None:
-        require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
-        require_instance("path", self.path, ModalPath, "a ModalPath")
         load = as_column("load", self.load, least=2)
         if load.size > 3:
             raise InputError("load", load.tolist(), "two or three forces [N]")
         object.__setattr__(self, "load", tuple(load.tolist()))
-        require_instance("label", self.label, str, "text of letters, digits, - and _")
         if not self.label or not self.label.replace("-", "").replace("_", "").isalnum():
             raise InputError("label", self.label, "letters, digits, - and _")
-        for name in ("speed_rpm", "mass", "seconds", "rate"):
-            require_positive(name, getattr(self, name))
-        require_nonnegative("noise", self.noise)
+        if self.seconds * self.rate > MOST_SAMPLES:
+            allowed = f"at most {MOST_SAMPLES / self.rate:g} s at {self.rate:g} Hz, {MOST_SAMPLES:g} samples"
+            raise InputError("seconds", self.seconds, allowed)
         require_integer("seed", self.seed, "a whole number >= 0", 0)
         require_sampling(self.bearing, self.speed_rpm, self.rate)
         passage = 1.0 / self.bearing.frequencies(self.speed_rpm).bpfo
@@ -201,6 +199,7 @@ OWN_COLUMNS = {
 
 
 @stored("vibration record")
+@fields_take(rate=parts.RATE, columns=Object(dict, "a dict"))
 @dataclass(frozen=True, eq=False, kw_only=True)
 class VibrationRecord(QuantityTable):
     """A labelled signal.
@@ -222,6 +221,8 @@ class VibrationRecord(QuantityTable):
     DISPLAY: ClassVar[Display] = Display(rows="sample", panels=("signal",), first=0)
 
     def __post_init__(self) -> None:
+        signal = as_column("signal", self.signal).astype(np.float32)
+        object.__setattr__(self, "signal", signal)
         if self.signal.ndim != 1 or self.signal.size != self.columns.get("n_samples"):
             raise InputError("signal", self.signal.shape, f"{self.columns.get('n_samples')} samples")
 
@@ -234,6 +235,7 @@ class VibrationRecord(QuantityTable):
         ]
 
 
+@takes(case=Object(RecordCase, "a RecordCase"))
 def make_record(case: RecordCase) -> VibrationRecord:
     """Simulate a case and record it.
 
@@ -255,6 +257,13 @@ def make_record(case: RecordCase) -> VibrationRecord:
     return VibrationRecord(signal=signal, rate=case.rate, columns=columns)
 
 
+@takes(
+    cases=Objects(RecordCase, "a RecordCase"),
+    folder=FOLDER,
+    processes=Count(1, 1024),
+    scheduler=NAME,
+    progress=DONE,
+)
 def make_records(
     cases: Sequence[RecordCase],
     folder: str | Path,
@@ -326,6 +335,7 @@ def _tried(case: RecordCase) -> VibrationRecord | str:
         return str(error)
 
 
+@takes(records=Objects(VibrationRecord, "a VibrationRecord"), folder=FOLDER, title=NAME)
 def write_dataset(records: Sequence[VibrationRecord], folder: str | Path, *, title: str = "") -> Path:
     """Write records as a data set that `bearing_datasets.open(name, root)` reads; the folder's name is its name.
 

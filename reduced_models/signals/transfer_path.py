@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, as_numbers, require_positive
+from ehlcontact.checks import as_column, as_numbers, parts, require_positive
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, span
@@ -64,7 +64,7 @@ def _faded_out(values: _Floats, fade: int) -> _Floats:
     return np.concatenate([values, values[-1] * 0.5 * (1.0 + np.cos(np.pi * (np.arange(fade) + 1.0) / fade))])
 
 
-@fields_take(hz="Hz", mass="kg")
+@fields_take(hz=parts.NATURAL, mass=parts.MODAL_MASS)
 @dataclass(frozen=True, eq=False)
 class ModalPath(TransferPath):
     """Modes of a grounded structure: ``A(f) = sum of -w^2/(m (w0^2 - w^2 + 2i zeta w0 w))``, ``w = 2 pi f``.
@@ -97,14 +97,12 @@ class ModalPath(TransferPath):
         for name, column in (("damping", damping), ("mass", mass)):
             if column.size != hz.size:
                 raise InputError(name, column.tolist(), f"{hz.size} numbers, as many as hz")
-        if not (hz > 0.0).all():
-            raise InputError("hz", hz.tolist(), "> 0")
         if not (damping > 0.0).all():
             raise InputError("damping", damping.tolist(), "> 0: poles left of the imaginary axis")
         if not (damping < 1.0).all():
             raise InputError("damping", damping.tolist(), "below 1, ratios to critical damping (in per cent?)")
-        if not mass.all():
-            raise InputError("mass", mass.tolist(), "not 0")
+        if not mass.all() or (mass < 0.0).all():
+            raise InputError("mass", mass.tolist(), "not 0, and of one mode at least > 0")
         _require_decay("damping", damping.tolist(), self.decay_time)
 
     def _summary_lines(self) -> list[str]:
@@ -130,7 +128,7 @@ class ModalPath(TransferPath):
         return np.asarray((-(at**2) / (mass * (w0**2 - at**2 + 2j * damping * w0 * at))).sum(axis=-1))
 
 
-@fields_take(hz="Hz")
+@fields_take(hz=parts.RATE._replace(zero=True))
 @dataclass(frozen=True, eq=False)
 class MeasuredPath(TransferPath):
     """Measured response, linear between its frequencies in real and imaginary part; 0 below the first.

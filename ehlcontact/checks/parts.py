@@ -1,0 +1,61 @@
+"""Ranges of the parts of machines: shafts, discs, bearings, supports, records; each with the slips of its unit.
+
+What lies outside is no part of a rotor on rolling bearings: from spindles of dentists to wind turbines.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+from ehlcontact.checks.admissible_range import INPUTS, Quantity
+
+MM, UM = {"mm": 1e-3}, {"um": 1e-6, "nm": 1e-9, "mm": 1e-3}
+ANY = 1e15  # of what has no range of its own: what is larger is a mistake, and overflows where it is squared
+
+# Shafts and discs
+SHAFT_LENGTH = Quantity("m", (1e-6, 100.0), (5e-3, 20.0), MM)
+SHAFT_DIAMETER = Quantity("m", (1e-6, 10.0), (1e-3, 3.0), MM)
+BORE = Quantity("m", (1e-6, 10.0), (5e-4, 3.0), MM, zero=True)
+PLACE = Quantity("m", (0.0, 100.0), (1e-3, 20.0), MM, signed=True)  # along a shaft
+MODULUS = Quantity("Pa", INPUTS["e1"].limits, INPUTS["e1"].usual, INPUTS["e1"].others)
+DENSITY = Quantity("kg/m3", (50.0, 25e3), (500.0, 23e3), {"g/cm3": 1e3, "kg/mm3": 1e9})
+DENSITY_OR_NONE = DENSITY._replace(zero=True)  # 0: without mass
+MASS = Quantity("kg", (1e-6, 1e6), (1e-3, 1e5), {"g": 1e-3, "t": 1e3})
+MASS_OR_NONE = MASS._replace(zero=True)
+INERTIA = Quantity("kg m2", (1e-15, 1e7), (1e-9, 1e5), {"kg mm2": 1e-6, "g mm2": 1e-9}, zero=True)
+UNBALANCE = Quantity("kg m", (0.0, 1e5), (1e-9, 10.0), {"g mm": 1e-6}, signed=True)
+TURN = Quantity("rad", (0.0, 2.0 * pi), (0.0, 2.0 * pi), {"degrees": pi / 180.0}, signed=True)
+TURNS = Quantity("rad", (0.0, 4.0 * pi), (0.0, 4.0 * pi), {"degrees": pi / 180.0}, signed=True)
+DAMPING_TIME = Quantity("s", (1e-15, 10.0), (1e-9, 0.1), {"us": 1e-6, "ms": 1e-3}, zero=True)
+
+# Supports
+STIFFNESS = Quantity("N/m", (1e-3, 1e15), (1e3, 1e12), {"N/um": 1e6, "N/mm": 1e3})
+STIFFNESS_OR_NONE = STIFFNESS._replace(zero=True)
+DAMPING = Quantity("N s/m", (1e-12, 1e12), (1e-2, 1e7), {"N s/mm": 1e3}, zero=True)
+FORCE = Quantity("N", (0.0, 1e8), (0.0, 1e7), {"mN": 1e-3}, signed=True)
+PRELOAD = Quantity("N", (1e-6, 1e8), (0.1, 1e6), {"kN": 1e3, "mN": 1e-3}, zero=True)
+GRAVITY = Quantity("m/s2", (0.0, 1e3), (0.0, 100.0), {"mm/s2": 1e-3}, signed=True)
+OFFSET = Quantity("m", (0.0, 0.1), (1e-9, 1e-3), UM, signed=True)  # along a shaft, of rings
+
+# Bearings
+BALL_DIAMETER, PITCH_DIAMETER, SPEED = INPUTS["ball_diameter"], INPUTS["pitch_diameter"], INPUTS["speed_rpm"]
+SPEED_OR_NONE = Quantity("rev/min", (0.0, SPEED.limits[1]), SPEED.usual, SPEED.others)
+CONFORMITY = Quantity("", (0.5, 10.0), (0.503, 0.8), {"%": 0.01})
+CLEARANCE = Quantity("m", (0.0, 0.01), (1e-9, 1e-3), UM, signed=True)
+GAP = Quantity("m", (1e-9, 0.01), (1e-8, 1e-4), UM)  # beyond which a film carries nothing
+LAYER = Quantity("m", (1e-12, 1e-2), (1e-9, 1e-3), UM)  # of oil
+DISTANCE = Quantity("m", (0.0, 10.0), (2e-3, 5.0), MM)  # of the planes of two bearings
+HEIGHT = Quantity("m", (1e-13, 0.1), (1e-9, 1e-3), UM)  # of a feature of a race or a ball
+EXCESS = Quantity("m", (0.0, 0.01), (1e-9, 1e-4), UM, signed=True)
+TRACK = Quantity("m", (1e-9, 100.0), (1e-5, 1.0), {"mm": 1e-3, "um": 1e-6})  # lengths along a track
+RIM = HEIGHT._replace(zero=True)
+EDGE = TRACK._replace(zero=True)
+TEMPERATURE = Quantity("degrees Celsius", (-100.0, 250.0), (5.0, 200.0), shifts={"K": -273.15})
+
+# Signals and runs
+SECONDS = Quantity("s", (1e-9, 1e7), (1e-3, 1e5), {"ms": 1e-3, "us": 1e-6})
+RATE = Quantity("Hz", (1e-3, 1e9), (10.0, 1e7), {"kHz": 1e3})
+NOISE = Quantity("m/s2", (1e-12, 1e6), (1e-6, 1e4), {"g": 9.81}, zero=True)
+NATURAL = Quantity("Hz", (1e-3, 1e9), (0.1, 1e6), {"kHz": 1e3})
+MODAL_MASS = Quantity("kg", (0.0, 1e9), (1e-6, 1e6), {"g": 1e-3}, signed=True)
+FEED = Quantity("m3/s", (1e-24, 1.0), (1e-18, 1e-3), {"mm3/s": 1e-9}, zero=True)
