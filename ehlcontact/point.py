@@ -20,6 +20,7 @@ from math import inf, pi, sqrt
 
 from ehlcontact.checks import require_finite, require_nonnegative, require_positive
 from ehlcontact.checks.admissible_range import INPUTS, Given, require_admissible
+from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import expected_film, film_to_moes, load_number, moes_pressure
@@ -253,6 +254,9 @@ class Scales:
         return self.length / self.time
 
 
+OIL = Object(Lubricant, "a Lubricant")
+
+
 @fields_take(load="N", u_sum="m/s")
 @dataclass(frozen=True, slots=True)
 class OperatingPoint:
@@ -303,7 +307,7 @@ class OperatingPoint:
         object.__setattr__(self, "scales", scales)
 
     @classmethod
-    @takes(ball_diameter="m", pitch_diameter="m", speed_rpm="rev/min", load="N")
+    @takes(lubricant=OIL, ball_diameter="m", pitch_diameter="m", speed_rpm="rev/min", load="N")
     def ball_bearing(
         cls,
         lubricant: Lubricant,
@@ -338,7 +342,7 @@ class OperatingPoint:
         return cls(geometry, lubricant, load, u_sum)
 
     @classmethod
-    @takes(ball_diameter="m", entrainment_speed="m/s", load="N")
+    @takes(lubricant=OIL, ball_diameter="m", entrainment_speed="m/s", load="N")
     def ball_on_flat(
         cls,
         lubricant: Lubricant,

@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.asperities import Asperities
-from ehlcontact.checks import require_choice, require_finite, require_instance, require_integer, require_positive
+from ehlcontact.checks import require_choice, require_finite, require_integer, require_positive
+from ehlcontact.checks.kinds import Callback, Object
 from ehlcontact.checks.machine import require_threads
+from ehlcontact.checks.quantity import takes
 from ehlcontact.conditions import FLOODED, Conditions
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.heat import Heat
@@ -46,6 +48,7 @@ MAX_CYCLES = 80  # of V cycles: films of the box take up to 18
 LARGEST_APPROACH = 1e9  # beyond all that is solved, and its power still a number
 
 
+@takes(grid=Object(Grid, "a Grid"), callback=Callback("cycles, residual"))
 @one_blas_thread()
 def solve_steady(
     point: Point,
@@ -136,7 +139,6 @@ def solve_steady(
     started = time.perf_counter()
     require_integer("max_cycles", max_cycles, "a whole number > 0", 1)
     require_positive("tol", tol)
-    require_instance("refine", refine, bool | np.bool_, "True or False")
     require_choice("method", method, tuple(METHODS))
     require_grid(grid)
     conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding, asperities=asperities).at(point)

@@ -32,7 +32,7 @@ from typing import Any, TypeVar, Union, cast, get_args, get_origin, get_type_hin
 import h5py
 import numpy as np
 
-from ehlcontact.checks import require_instance
+from ehlcontact.checks.kinds import FILE, shown
 from ehlcontact.errors import InputError
 from ehlcontact.files import is_file, parse_json, read_text, write_bytes
 from ehlcontact.version import __version__
@@ -95,6 +95,7 @@ def save(record: Any, path: str | os.PathLike[str], field: str = "path") -> Path
     InputError
         No object that can be saved; the folder does not exist or cannot be written to.
     """
+    FILE.take(field, path, False)
     return write_bytes(path, content_of(record), field)
 
 
@@ -134,7 +135,9 @@ def read(path: str | os.PathLike[str], kind: type[T] = object, field: str = "fil
         No such file; none of this library; truncated or damaged; of another class or format than wanted. The
         message names the file and what is wrong with it.
     """
-    require_instance(field, path, str | os.PathLike, "the name of a file")
+    if not isinstance(kind, type):
+        raise InputError("kind", shown(kind), "a class of results, elements or bearings")
+    FILE.take(field, path, False)
     name, wanted = str(path), _wanted(kind)
     reader = _read_hdf5 if _is_hdf5(path) else _read_json
     try:

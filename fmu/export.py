@@ -9,6 +9,8 @@ from typing import Any
 
 from ehlcontact.binaries import choose, this_machine
 from ehlcontact.binaries.libraries import Progress
+from ehlcontact.checks.kinds import FILE, PROGRESS
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.files import require_writable, write_bytes
 from fmu.archive import fmu_files, pack
@@ -19,6 +21,7 @@ from fmu.verification import Verification
 from fmu.verify import require_finite, require_verified
 
 
+@takes(path=FILE, progress=PROGRESS)
 def export(
     model: Exported,
     path: str | os.PathLike[str],
@@ -172,6 +175,7 @@ def require_version(fmi: object) -> None:
         raise InputError("fmi", fmi, "2 or 3")
 
 
+@takes(path=FILE, progress=PROGRESS)
 def export_model(
     model: FmuModel,
     path: str | os.PathLike[str],

@@ -101,6 +101,8 @@ def choose(names: str | Iterable[str] | None, fmi: int) -> tuple[Platform, ...]:
     """
     if names is None:
         return (_own(fmi),)
+    if not isinstance(names, Iterable):
+        raise InputError("platforms", names, f"{', '.join(_known(fmi))} or {ALL}")
     asked = [names] if isinstance(names, str) else list(names)
     wanted: set[str] = set()
     for name in asked:

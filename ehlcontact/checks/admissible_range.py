@@ -30,6 +30,8 @@ class Quantity(NamedTuple):
     zero: bool = False  # 0 leaves it out
     signed: bool = False  # limits and usual values are magnitudes, of which the lower limit is 0
     shifts: Mapping[str, float] = {}  # other unit of the same size: what is to be added, as for K
+    most: int = 10**9  # numbers of an array
+    slips: bool = False  # a value within the limits is refused that another unit would make a usual one
 
     def slip(self, value: float) -> str:
         """The unit that an unusual value betrays, and what it is then; empty if none makes it usual."""
@@ -63,15 +65,22 @@ class Quantity(NamedTuple):
         if not (low <= value <= high or (self.zero and value == 0.0)):
             guess = self.slip(value)
             raise InputError(field, value, self.allowed + (f" ({guess})" if guess else ""))
+        if self.slips and (guess := self.slip(value)):
+            low, high = self.usual
+            raise InputError(field, value, f"in {self.unit}, usually between {low:g} and {high:g} ({guess})")
 
     def take(self, field: str, value: Any, number: bool) -> Any:
         """The value, a `number` or an array, or raise `InputError`: no number, or one outside the limits."""
-        if number or isinstance(value, Number | str) or not hasattr(value, "__len__"):
+        if number or isinstance(value, Number) or not hasattr(value, "__len__"):
             self.require(field, require_number(field, value, f"a number {self.allowed}"))
             return value
-        array = as_numbers(field, value)
+        array = as_numbers(field, value, f"numbers {self.allowed}")
+        if array.size > self.most:
+            raise InputError(f"length of {field}", array.size, f"at most {self.most}")
         low, high = (-self.limits[1], self.limits[1]) if self.signed else self.limits
         bad = ~((array >= low) & (array <= high) | (self.zero & (array == 0.0)))
+        if self.slips:
+            bad |= np.vectorize(lambda one: bool(self.slip(one)), otypes=[bool])(array)
         if bad.any():
             place = np.unravel_index(int(np.argmax(bad)), bad.shape)
             many = array.size > 1

@@ -197,6 +197,8 @@ def _all_numbers(values: object) -> bool:
 
     numpy would make numbers of True, and of text in lists, objects and buffers.
     """
+    if isinstance(values, (*TEXT, bool, MASKED)) or np.ma.is_masked(values):
+        return False
     if isinstance(values, np.ndarray):
         if values.dtype.kind != "O":
             return values.dtype.kind in "fiu"
@@ -206,8 +208,6 @@ def _all_numbers(values: object) -> bool:
         return not kinds or all(_all_numbers(one) for one in values if type(one) in kinds)
     if isinstance(values, memoryview):
         return not isinstance(values.obj, TEXT) and _all_numbers(np.asarray(values))
-    if isinstance(values, (*TEXT, bool, MASKED)):
-        return False
     if isinstance(values, Real | Decimal):
         return True
     array = np.asarray(values)  # a column of a table, an array of another library

@@ -15,7 +15,6 @@ from ehlcontact.checks.inputs import TEXT, require_integer
 from ehlcontact.errors import InputError
 
 LONGEST_NAME = 255  # bytes of a name in a folder, on every usual file system
-MOST_SPEEDS = 10_000  # of a list, each of which takes a solve
 
 
 @dataclass(frozen=True)
@@ -135,6 +134,8 @@ class Count:
 
 
 FILE, FOLDER, NAME = PathName("a file"), PathName("a folder"), Text()
+PROGRESS = Callback("libraries compiled, libraries in all")
+STEPS = Count(3, 10_000_000)  # of a table of a function
 DONE = Callback("done, of")  # progress of a task in many parts
 
 

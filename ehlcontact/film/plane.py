@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import require_finite, require_instance, require_positive
+from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
@@ -239,7 +240,7 @@ class Interferogram(QuantityTable):
         return np.maximum(np.abs(along), np.abs(across)) < 0.5
 
 
-@takes(wavelength="m", phase="rad")
+@takes(film=Object(Film, "a Film"), wavelength="m", phase="rad")
 def interferogram(
     film: Film, wavelength: float, refractive_index: float = 1.5, phase: float = 0.0
 ) -> Interferogram:

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 from math import exp, log
 
 from ehlcontact.checks import require_finite, require_integer
+from ehlcontact.checks.kinds import Object
+from ehlcontact.checks.parts import LARGEST_LOAD
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import lightness
 from ehlcontact.point import MoesPoint
@@ -52,6 +55,7 @@ class Domain:
                 raise InputError(name, getattr(self, name), "between 1.2 and 100 (beyond the Hertz ellipse)")
 
     @classmethod
+    @takes(largest_load=LARGEST_LOAD)
     def for_load(cls, largest_load: float = 1.0) -> Domain:
         """Return the default region, widened with the Hertz ellipse of the largest load to come (static 1)."""
         growth = max(largest_load, 1.0) ** (1.0 / 3.0) - 1.0
@@ -60,6 +64,7 @@ class Domain:
         return cls(-4.5 - growth, 1.5 + 3.0 * growth, 3.0 + 2.0 * growth)
 
     @classmethod
+    @takes(point=Object(MoesPoint, "a MoesPoint"))
     def for_point(cls, point: MoesPoint, largest_load: float = 1.0) -> Domain:
         """Return the default region of a contact, widened for a load that will rise and for a light one."""
         domain, light = cls.for_load(largest_load), lightness(log(point.load_number))

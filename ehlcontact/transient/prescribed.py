@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ehlcontact.checks import as_column, require_positive
 from ehlcontact.checks.frequency import by_name, fields_by_name
+from ehlcontact.checks.kinds import STEPS, Callback
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint
@@ -149,6 +150,7 @@ class PrescribedLoad(Tabulated, UnderLoad):
         return cls(times / scales.time, values / scales.force, Omega_n=Omega_n)
 
     @classmethod
+    @takes(load=Callback("T"), steps=STEPS)
     @by_name(4, "given as Omega_n, dimensionless", omega_n="Omega_n, dimensionless")
     def from_function(
         cls, load: Callable[[float], float], until: float, steps: int = 1000, Omega_n: float | None = None

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive
+from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 
@@ -26,6 +27,7 @@ FEWEST_SAMPLES = 4  # of a map along either direction, which a cubic spline need
 MOST_SAMPLES = 20_000_000  # of a made map: 160 MB, and three times that while it is made
 
 
+@fields_take()
 @dataclass(frozen=True, slots=True, eq=False)
 class Roughness:
     """Rough surface that enters the contact from ``X0 + speed T`` on, with a smooth front.

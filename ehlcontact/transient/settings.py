@@ -12,7 +12,9 @@ from math import ceil, inf
 from typing import Self
 
 from ehlcontact.checks import require_instance, require_nonnegative, require_positive
+from ehlcontact.checks.kinds import Callback
 from ehlcontact.checks.machine import require_threads
+from ehlcontact.checks.quantity import fields_take
 from ehlcontact.conditions import FLOODED, Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
@@ -130,6 +132,7 @@ class KeepSettings:
         require_nonnegative("checkpoint_every", self.checkpoint_every)
 
 
+@fields_take(callback=Callback("time, end"))
 @dataclass(frozen=True, slots=True)
 class RunSettings:
     """How a run is carried out; its numbers do not depend on it.

@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.checks import require_instance
+from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.machine import require_threads
+from ehlcontact.checks.quantity import takes
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.heat import Heat
@@ -49,6 +51,13 @@ BY_MOTION, HISTORY_ONLY, UNATTENDED = TimeSteps(), KeepSettings(), RunSettings()
 LARGEST_MISMATCH = 0.01  # of the kappa of a feature, over that of the contact
 
 
+@takes(
+    grid=Object(Grid, "a Grid"),
+    time=Object(TimeSteps, "a TimeSteps"),
+    keep=Object(KeepSettings, "a KeepSettings"),
+    run=Object(RunSettings, "a RunSettings"),
+    speed=Object(SpeedHistory, "a SpeedHistory"),
+)
 @one_blas_thread()
 def simulate(
     point: Point,

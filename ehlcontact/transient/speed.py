@@ -19,7 +19,8 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlcontact.checks import require_instance, require_positive
+from ehlcontact.checks import require_finite, require_instance, require_positive
+from ehlcontact.checks.kinds import STEPS, Callback
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint
@@ -82,6 +83,7 @@ class SpeedHistory:
         return cls(times / scales.time, speeds / point.u_sum)
 
     @classmethod
+    @takes(speed=Callback("T"), steps=STEPS)
     def from_function(cls, speed: Callable[[float], float], until: float, steps: int = 1000) -> Self:
         """Sample a function of T on [0, until]."""
         T = np.linspace(0.0, require_positive("until", until), steps + 1)
@@ -93,6 +95,7 @@ class SpeedHistory:
 
     def way(self, T: float) -> float:
         """Way of the surfaces, the integral of U from 0 to T."""
+        T = require_finite("T", T)
         times, speeds = self._table
         i = int(np.clip(np.searchsorted(times, T, side="right") - 1, 0, times.size - 1))
         whole = np.diff(times[: i + 1]) @ (0.5 * (speeds[:i] + speeds[1 : i + 1]))

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Annotated
 
-from ehlcontact.checks import require_finite, require_positive
+from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.conditions import Conditions
-from ehlcontact.errors import ConvergenceError
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
@@ -203,7 +203,10 @@ class TransientContact(Summary):
 
     @one_blas_thread()
     def restore_state(self, state: ContactState) -> None:
-        """Return to a saved state."""
+        """Return to a saved state; raises `InputError` for one of another contact."""
+        require_instance("state", state, ContactState, "what save_state made")
+        if state.P.shape != self._film.level.P.shape:
+            raise InputError("state", f"of {state.P.shape} nodes", f"one of this grid, {self._film.level.P.shape}")
         self._film.restore_state(state)
         self._T = state.T
         self.force = self._film.level.force()

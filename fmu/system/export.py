@@ -12,6 +12,8 @@ from typing import Any
 from ehlcontact.binaries import Platform, choose, this_machine
 from ehlcontact.binaries.libraries import Progress
 from ehlcontact.checks import require_positive
+from ehlcontact.checks.kinds import FILE, PROGRESS
+from ehlcontact.checks.quantity import takes
 from ehlcontact.files import write_bytes
 from fmu.archive import pack
 from fmu.contact_spec import checked_name
@@ -26,6 +28,7 @@ from reduced_models import Rotor
 ROTOR = "rotor"  # name of its component
 
 
+@takes(path=FILE, progress=PROGRESS)
 def export_system(
     rotor: Rotor,
     path: str | os.PathLike[str],
@@ -105,6 +108,7 @@ def export_system(
     )[0]
 
 
+@takes(path=FILE, progress=PROGRESS)
 def export_verified_system(
     made: RotorSystem,
     path: str | os.PathLike[str],

@@ -21,7 +21,7 @@ from ehlcontact.checks import (
     require_nonnegative,
 )
 from ehlcontact.checks.frequency import by_name, radians_per_second
-from ehlcontact.checks.kinds import NAME
+from ehlcontact.checks.kinds import FILE, NAME
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
@@ -80,6 +80,7 @@ SUPPLIES = ("h", "over_flooded")  # units of an oil supply that is the same at a
     ball_diameter=parts.BALL_DIAMETER, pitch_diameter=parts.PITCH_DIAMETER, clearance=parts.CLEARANCE,
     rq_ball="m", rq_race="m", cutoff_gap=parts.GAP, youngs_modulus=parts.MODULUS, density=parts.DENSITY,
     contact_angle="rad", shoulder_inner=parts.SHAFT_DIAMETER, shoulder_outer=parts.SHAFT_DIAMETER, name=NAME,
+    atlas=FILE,
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class BallBearing(Summary):

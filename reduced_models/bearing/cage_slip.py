@@ -12,10 +12,12 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike
 
-from ehlcontact.checks import require_nonnegative
+from ehlcontact.checks import parts
+from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant import TractionLaw
+from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.sliding import WIDEST, SlidingContact, oiled_state, sliding_contact
 
@@ -56,7 +58,13 @@ class _Ball:
         return self.inner.traction(slip + apart) - self.outer.traction(slip) + self.driving
 
 
-@takes(drag="N", speed_rpm="rev/min")
+@takes(
+    bearing=Object(BallBearing, "a BallBearing"),
+    load="N",
+    drag=parts.PRELOAD,
+    speed_rpm=parts.SPEED,
+    law=Object(TractionLaw, "a traction law, as Eyring"),
+)
 def cage_slip(bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionLaw, drag: float = 0.0) -> float:
     """How much slower the cage turns than it would if balls rolled at the middle of their contacts, relative.
 
@@ -82,7 +90,6 @@ def cage_slip(bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionL
     InputError
         A drag that the loaded balls cannot carry: the cage slides; a load with an axial part; a dry bearing.
     """
-    require_nonnegative("drag", drag)
     if np.size(load) != 2:
         raise InputError("load", np.size(load), "(Fx, Fy): the balance of cage and balls is for radial loads")
     state = oiled_state(bearing, load, speed_rpm, law)

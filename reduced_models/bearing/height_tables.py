@@ -149,6 +149,9 @@ def track_radius(bearing: BallBearing, name: str) -> float:
     return 0.5 * (bearing.pitch_diameter + side * bearing.ball_diameter * cos(bearing.free_angle))
 
 
+PLACES_OF_A_DEFECT = 65  # at which depths of defects that overlap are added
+
+
 def require_features_fit(bearing: BallBearing) -> None:
     """Raise `InputError` for features that do not fit on the bearing, or are too fine for a table."""
     for one in bearing.features:
@@ -168,6 +171,24 @@ def require_features_fit(bearing: BallBearing) -> None:
             raise InputError("length", one.length, f"from {least:.2g} to {track:.4g} m, the track {where}")
         if one.depth > deepest:
             raise InputError("depth", one.depth, f"at most {deepest:.4g} m, a ball's radius")
+    _require_shallow(bearing)
+
+
+def _require_shallow(bearing: BallBearing) -> None:
+    """Raise `InputError` for defects of one surface that are deeper together than a ball's radius."""
+    for race, ball in {(one.race, one.ball) for one in bearing.features if isinstance(one, Spall | Indentation)}:
+        there = [one for one in bearing.features if isinstance(one, Spall | Indentation)]
+        there = [one for one in there if (one.race, one.ball) == (race, ball)]
+        _, track, deepest = defect_limits(bearing, race)
+        for one in there:
+            x = one.angle / (2.0 * pi) * track + np.linspace(-0.5, 0.5, PLACES_OF_A_DEFECT) * one.length
+            whole = np.zeros(x.size)
+            for other in there:
+                away = x - other.angle / (2.0 * pi) * track
+                whole += other.height(away - track * np.rint(away / track))
+            if -whole.min() > deepest:
+                allowed = f"at most {deepest:.4g} m together, a ball's radius, where defects of a surface overlap"
+                raise InputError("depth", float(-whole.min()), allowed)
 
 
 def defect_limits(bearing: BallBearing, race: str | None) -> tuple[float, float, float]:

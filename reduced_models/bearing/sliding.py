@@ -17,12 +17,16 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact import Heat, OperatingPoint
+from ehlcontact.checks import parts
+from ehlcontact.checks.kinds import Object
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import wilson_heating
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import LimitingShear, TractionLaw, log_viscosity
 from ehlcontact.lubricant.traction_laws import require_law
 from ehlcontact.summary import Summary
+from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES, Race
@@ -144,6 +148,12 @@ class BearingFriction(Summary):
         return self.skf_rolling + self.skf_sliding
 
 
+@takes(
+    bearing=Object(BallBearing, "a BallBearing"),
+    load="N",
+    speed_rpm=parts.SPEED,
+    law=Object(TractionLaw, "a traction law, as Eyring"),
+)
 def bearing_friction(
     bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionLaw, heat: bool = True
 ) -> BearingFriction:

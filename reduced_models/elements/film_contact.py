@@ -475,7 +475,10 @@ class FilmContact(ContactElement):
 
     def restore_state(self, state: object) -> None:
         """Go back to a saved state; `set_speed` still gives the speed at the end of the next step."""
-        size, saved = self._state.size, np.asarray(state, float)
+        size, saved = self._state.size, as_column("state", state)  # type: ignore[arg-type]
+        whole = size if self.speeds is None else len(self.save_state())  # type: ignore[arg-type]
+        if saved.size != whole:
+            raise InputError("state", f"of {saved.size} numbers", f"one that save_state made, of {whole}")
         self._state[:] = saved[:size]
         if self.speeds is not None:
             speed, pace, film, slowed = saved[size : size + 4].tolist()

@@ -11,6 +11,7 @@ import scipy
 from numpy.typing import NDArray
 
 from ehlcontact import Domain, Grid, impedance
+from ehlcontact.checks.kinds import shown
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from ehlcontact.process.blas import one_blas_thread
@@ -169,6 +170,8 @@ def fit_memory(
         Data that do not go together; see `Target.of`.
     """
     taken = as_records(records)
+    if response is not None and not all(hasattr(response, name) for name in ("Omega", "stiffness", "damping")):
+        raise InputError("response", shown(response), "an ImpedanceResult, or None")
     if response is None:
         response = impedance_of(taken)
     target = Target.of(response, taken)

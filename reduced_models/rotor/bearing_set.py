@@ -67,8 +67,8 @@ VERTICAL = -0.5 * pi  # rad, of the first ball where no load says where it stand
 
 @stored("set of ball bearings")
 @fields_take(
-    bearings=Objects(BallBearing, "a BallBearing"), positions=parts.PLACE, offsets=parts.OFFSET,
-    spring=parts.PRELOAD, name=NAME,
+    bearings=Objects(BallBearing, "a BallBearing"), facings=Objects(str, "+z or -z"), positions=parts.SET_PLACE,
+    offsets=parts.OFFSET, spring=parts.PRELOAD, name=NAME,
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class BearingSet(Summary):
@@ -115,7 +115,9 @@ class BearingSet(Summary):
     def __post_init__(self) -> None:
         bearings = tuple(self.bearings)
         require_integer("number of bearings", len(bearings), "at least 2", 2)
-        offsets = tuple(self.offsets) or (0.0,) * len(bearings)
+        for name in ("positions", "offsets"):
+            object.__setattr__(self, name, tuple(as_column(name, getattr(self, name), least=0).tolist()))
+        offsets = self.offsets or (0.0,) * len(bearings)
         kept = {"bearings": bearings, "facings": self.facings, "positions": self.positions, "offsets": offsets}
         for name, values in kept.items():
             if len(values) != len(bearings):
@@ -189,6 +191,7 @@ class BearingSet(Summary):
         require_instance("other", both[1], BallBearing, "a BallBearing")
         if distance is None:
             distance = SIDE_BY_SIDE * 0.5 * (both[0].ball_diameter + both[1].ball_diameter)
+        _require_apart(distance, *both)
         apart, half = 0.5 * distance, 0.5 * (0.0 if offset is None else offset)
         pair = cls(
             bearings=both,
@@ -220,6 +223,7 @@ class BearingSet(Summary):
         require_instance("bearing", bearing, BallBearing, "a BallBearing")
         require_integer("count", count, "a whole number >= 2", 2)
         step = SIDE_BY_SIDE * bearing.ball_diameter if distance is None else distance
+        _require_apart(step, bearing, bearing)
         positions = (step * (np.arange(count) - 0.5 * (count - 1))).tolist()
         return cls(bearings=(bearing,) * count, facings=(FACINGS[0],) * count, positions=positions, **options)
 
@@ -683,3 +687,10 @@ def _coefficients(linear: LinearRotor, omega: _Floats) -> tuple[_Floats, _Floats
         return _ring_following(np.sum([move.T @ Z @ move for move, Z in parts], axis=0))
 
     return stiffness_and_damping(impedance, omega)
+
+
+def _require_apart(distance: float, one: BallBearing, other: BallBearing) -> None:
+    """Raise `InputError` for planes of balls that are nearer than balls beside each other."""
+    least = 0.5 * (one.ball_diameter + other.ball_diameter)
+    if distance < least:
+        raise InputError("distance", distance, f"at least {least:g} m, balls beside each other")

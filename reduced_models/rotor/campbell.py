@@ -12,7 +12,8 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_integer, require_positive
+from ehlcontact.checks import as_column, parts, require_integer, require_positive
+from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.quantities import FREQUENCY, HERTZ, NUMBER, PER_SECOND, SPEED
@@ -184,7 +185,7 @@ def _sides(off: _Floats) -> tuple[int, int]:
     return int((off > 0.0).all(axis=0).sum()), int((off <= 0.0).all(axis=0).sum())
 
 
-@takes(speeds_rpm="rev/min")
+@takes(rotor=Object(Rotor, "a Rotor"), speeds_rpm=parts.SPEEDS)
 def campbell(
     rotor: Rotor,
     speeds_rpm: ArrayLike,

@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import require_nonnegative
+from ehlcontact.checks.kinds import Object
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.results.picture import Panel, draw
 from ehlcontact.results.table import frame_of
@@ -143,6 +145,7 @@ class Comparison(Summary):
         return max((value for value in figures if value is not None), default=None)
 
 
+@takes(full=Object(RotorResult, "a RotorResult"), reduced=Object(RotorResult, "a RotorResult"), discard="s")
 def compare(full: RotorResult, reduced: RotorResult, *, discard: float = 0.0) -> Comparison:
     """Compare two runs over the time they share.
 

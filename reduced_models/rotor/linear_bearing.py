@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, as_numbers
+from ehlcontact.checks import as_column, as_numbers, parts
+from ehlcontact.checks.kinds import NAME
+from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
 from reduced_models.bearing.freedoms import FIVE, PLANAR
@@ -16,6 +18,7 @@ from reduced_models.bearing.freedoms import FIVE, PLANAR
 _Floats = NDArray[np.float64]
 
 
+@fields_take(speeds_rpm=parts.SPEEDS, name=NAME)
 @dataclass(frozen=True, eq=False)
 class LinearBearing(Summary):
     """A bearing given by its stiffness and damping, constant or tabulated over the speed of the shaft.

@@ -10,8 +10,9 @@ from typing import Any, Protocol, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_instance, require_integer, require_nonnegative
+from ehlcontact.checks import as_column, parts, require_instance, require_integer, require_nonnegative
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
+from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.summary import Summary
@@ -309,7 +310,7 @@ class LinearRotor(Summary):
         return [(complex(values[j]), vectors[:, j]) for j in near]
 
 
-@takes(speed_rpm="rev/min")
+@takes(rotor=Object(Rotor, "a Rotor"), speed_rpm=parts.SPEEDS)
 def linearise(
     rotor: Rotor,
     speed_rpm: float | None = None,

@@ -27,7 +27,7 @@ from ehlcontact.checks import (
     require_finite,
     require_integer,
 )
-from ehlcontact.checks.kinds import Objects
+from ehlcontact.checks.kinds import NAME, Object, Objects, shown
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
@@ -99,6 +99,7 @@ class Unbalance:
             raise InputError("phase", self.phase, "between -2 pi and 2 pi; angles are in radians")
 
 
+@fields_take(name=NAME, unit=NAME, text=NAME, value=parts.ANY, parts=Object(Mapping, "a mapping"), reason=NAME)
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Parameter:
     """A number that is a factor of constant matrices; mass, damping, stiffness and load are sums of such products.
@@ -214,6 +215,8 @@ class Rotor(Summary):
             self._require_there(f"unbalances[{i}]", (unbalance.x, unbalance.y))
             whole = float(np.trace(self.mass))
             require_unbalance(f"unbalances[{i}].amount", unbalance.amount, whole, MOST_OF_MATRICES)
+        if not isinstance(self.nodes, Mapping) or not all(isinstance(at, Mapping) for at in self.nodes.values()):
+            raise InputError("nodes", shown(self.nodes), 'as {"disc": {"x": 4, "y": 5}}')
         named = {name: MappingProxyType(dict(at)) for name, at in self.nodes.items()}
         object.__setattr__(self, "nodes", MappingProxyType(_Nodes(named)))
         for name, at in named.items():

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import TransientContact
-from ehlcontact.checks import require_instance, require_integer, require_positive
+from ehlcontact.checks import parts, require_instance, require_integer, require_positive
+from ehlcontact.checks.kinds import Callback, Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
@@ -39,7 +40,14 @@ MOST_STEPS = 20_000_000  # of a run: every step is kept in memory, 3 GB of twent
 Integrator = CompiledSteps | PythonSteps
 
 
-@takes(speed_rpm="rev/min", dt="s", until="s")
+@takes(
+    rotor=Object(Rotor, "a Rotor"),
+    speed_rpm="rev/min",
+    dt="s",
+    until="s",
+    callback=Callback("step, steps"),
+    rho_inf=parts.SHARE,
+)
 def simulate_rotor(
     rotor: Rotor,
     *,
@@ -103,8 +111,6 @@ def simulate_rotor(
         steps before.
     """
     steps = steps_until(dt, until)
-    if not 0.0 <= rho_inf <= 1.0:
-        raise InputError("rho_inf", rho_inf, "between 0 and 1")
     max_iterations = require_integer("max_iterations", max_iterations, "a whole number >= 1", 1)
     if tolerance is not None:
         require_positive("tolerance", tolerance)

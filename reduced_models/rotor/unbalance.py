@@ -8,7 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlcontact.checks import as_column
+from ehlcontact.checks import as_column, parts
+from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -17,7 +18,7 @@ from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
 
-@takes(speeds_rpm="rev/min")
+@takes(rotor=Object(Rotor, "a Rotor"), speeds_rpm=parts.SPEEDS)
 def unbalance_response(
     rotor: Rotor, speeds_rpm: ArrayLike, *, passage: bool = True, signed_damping: bool = False
 ) -> UnbalanceResponse:

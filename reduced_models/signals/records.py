@@ -353,15 +353,15 @@ def write_dataset(records: Sequence[VibrationRecord], folder: str | Path, *, tit
     """
     import json
 
+    names = [record.columns["signal_id"] for record in records]
+    if not names or len(set(names)) < len(names):
+        raise InputError("records", names[:3], "at least one, each of them once")
     try:
         import pyarrow
         from pyarrow import parquet
     except ImportError:
         raise InputError("pyarrow", None, "installed: pip install 'ehlcontact[records]'") from None
     folder = Path(folder)
-    names = [record.columns["signal_id"] for record in records]
-    if not names or len(set(names)) < len(names):
-        raise InputError("records", names[:3], "at least one, each of them once")
     if folder.exists() and any(folder.iterdir()):
         raise InputError("folder", str(folder), "new or empty")
     (folder / "signals").mkdir(parents=True, exist_ok=True)

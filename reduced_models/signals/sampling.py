@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_numbers, require_choice, require_integer, require_positive
+from ehlcontact.checks import as_column, as_numbers, parts, require_choice, require_integer, require_positive
+from ehlcontact.checks.kinds import NAME, Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.rotor.result import RotorResult
@@ -76,7 +77,7 @@ def require_sampling(bearing: BallBearing, speed_rpm: float, rate: float) -> Non
         raise InputError("rate", rate, allowed)
 
 
-@takes(rate="Hz")
+@takes(run=Object(RotorResult, "a RotorResult"), node=NAME, rate=parts.RATE)
 def node_acceleration(run: RotorResult, node: str, rate: float) -> _Floats:
     """Accelerations x, y of a node [m/s2] at an output rate, shape (samples, 2).
 
@@ -94,7 +95,9 @@ def node_acceleration(run: RotorResult, node: str, rate: float) -> _Floats:
     return sampled(savgol_filter(rates, STENCIL, STENCIL - 1, deriv=1, delta=dt, axis=0), dt, rate)
 
 
-@takes(rate="Hz")
+@takes(
+    run=Object(RotorResult, "a RotorResult"), path=Object(TransferPath, "a path, as ModalPath"), rate=parts.RATE
+)
 def housing_acceleration(
     run: RotorResult, path: TransferPath, rate: float, *, bearing: int = 0, axis: str = "y"
 ) -> _Floats:
@@ -132,9 +135,18 @@ def housing_acceleration(
     return sampled(path.acceleration(pushed, 1.0 / dt), dt, rate)
 
 
+@takes(t="s", speed_rpm=parts.SPEEDS._replace(most=10**9))
 def shaft_angle(t: ArrayLike, speed_rpm: ArrayLike) -> _Floats:
-    """Angle of the shaft [rad] at times [s], 0 at the first; speeds [rev/min] are straight between them."""
-    times, speed = np.asarray(t, float), np.broadcast_to(np.asarray(speed_rpm, float), np.shape(t)) * pi / 30.0
+    """Angle of the shaft [rad] at times [s], 0 at the first; speeds [rev/min] are straight between them.
+
+    Raises
+    ------
+    InputError
+        Times that do not increase; speeds that are neither one nor as many.
+    """
+    times, given = as_column("t", t, increasing=True), as_numbers("speed_rpm", speed_rpm)
+    one = np.full(times.size, given) if given.ndim == 0 else given
+    speed = as_column("speed_rpm", one, size=times.size) * pi / 30.0
     turned = 0.5 * (speed[1:] + speed[:-1]) * np.diff(times)
     return np.concatenate([[0.0], np.cumsum(turned)])
 

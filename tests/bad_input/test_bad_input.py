@@ -16,7 +16,7 @@ from datetime import date
 from pathlib import Path
 
 import pytest
-from bad_input import files
+from bad_input import files, kinds
 from bad_input.calls import CALLS, full_contact
 from bad_input.commands import COMMANDS, ELEMENT, FILM, OTHER, RECORD, STUDY, at, bearing, steady
 from bad_input.fields import FIELDS, INF, NAMED, NAN
@@ -49,6 +49,7 @@ from reduced_models import Atlas, BallBearing, SpringContact
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.usefixtures("quiet")
 
+NAMED_FIRST = "^(length of |shape of )?{}[^=]* = .*: must be "
 SECONDS = 2.0  # of the processor
 SAMPLE = [
     ("init", STUDY),
@@ -309,6 +310,33 @@ def test_fields(function, good, bad):
     for field, values in bad.items():
         for value in values:
             assert_named(field, lambda change: function(**(good | change)), {field: value})
+
+
+@pytest.mark.parametrize(
+    ("call", "bad"), kinds.ARGUMENTS, ids=lambda part: ",".join(part)[:60] if isinstance(part, dict) else ""
+)
+def test_kinds(call, bad, tmp_path, monkeypatch):
+    """Units, flags, columns, lists, paths, callbacks: one line, with the name of the argument in front."""
+    monkeypatch.chdir(tmp_path)
+    for field, values in bad.items():
+        for value in values:
+            with pytest.raises(InputError, match=NAMED_FIRST.format(re.escape(field))) as caught:
+                call(**{field: value})
+            assert "\n" not in str(caught.value), value
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", kinds.CALLS)
+def test_kinds_together(name):
+    call, field = kinds.CALLS[name]
+    with pytest.raises(InputError, match=NAMED_FIRST.format(re.escape(field))):
+        call()
+
+
+def test_guesses_of_units():
+    for call, field, guess in kinds.GUESSES:
+        with pytest.raises(InputError, match=rf"^{re.escape(field)}.* = .*: must be .*\(in {re.escape(guess)}\)"):
+            call()
 
 
 @pytest.mark.parametrize(("field", "call"), NAMED)

@@ -276,7 +276,7 @@ def test_run_up_and_coast_down_of_an_overhung_rotor(film):
             lambda b: jeffcott(b, supports=pair(b, b, span=0.0, journal_mass=1.0)),
         ),
         (r"supports\[0\].journal_mass = 0.0: must be > 0 on a shaft", lambda b: jeffcott(b, supports=pair(b, b))),
-        (r"discs\[0\] = 'float': must be a Disc", lambda b: jeffcott(b, discs=[2.0])),
+        (r"discs\[0\] = 2.0: must be a Disc", lambda b: jeffcott(b, discs=[2.0])),
         (r"length of gravity = 4", lambda b: jeffcott(b, gravity=(0.0, 0.0, 0.0, -9.81))),
         (r"seconds = 0.0: must be", lambda b: SpeedProfile.ramp(500.0, 9000.0, 0.0)),
     ],
@@ -289,9 +289,15 @@ def test_bad_input(dry, match, make):
 test_millimetres_are_no_metres = refusals(
     (
         lambda: Shaft(length=300, diameter=0.025),
-        r"length = 300.0: must be at most 100 m \(in mm\? then 0.3 m\)",
+        r"length = 300.0: must be between 1e-06 and 100 m \(in mm\? then 0.3 m\)",
     ),
-    (lambda: Shaft(length=[0.1, 0.2], diameter=[0.02, 25]), r"diameter\[1\] = 25.0: must be at most 10 m"),
-    (lambda: Disc.cylinder(position=0.1, diameter=200, width=0.03), r"diameter = 200: must be at most 10 m"),
-    (lambda: Disc.cylinder(position=0.1, diameter=0.2, width=30), r"width = 30: must be .* then 0.03 m\)"),
+    (
+        lambda: Shaft(length=[0.1, 0.2], diameter=[0.02, 25]),
+        r"diameter\[1\] = 25.0: must be between 1e-06 and 10 m \(in mm\? then 0.025 m\)",
+    ),
+    (
+        lambda: Disc.cylinder(position=0.1, diameter=200, width=0.03),
+        r"diameter = 200.0: must be between 1e-06 and 10 m",
+    ),
+    (lambda: Disc.cylinder(position=0.1, diameter=0.2, width=30), r"width = 30.0: must be .* then 0.03 m\)"),
 )
