@@ -36,7 +36,8 @@ WIDEST_GYRATION = 10.0  # m, radius of gyration of a disc
 
 
 @fields_take(
-    length=ranges.SHAFT_LENGTH, diameter=ranges.SHAFT_DIAMETER, bore=ranges.BORE, youngs_modulus=ranges.SHAFT_MODULUS,
+    length=ranges.SHAFT_LENGTH, diameter=ranges.SHAFT_DIAMETER, bore=ranges.BORE,
+    youngs_modulus=ranges.SHAFT_MODULUS,
     density=ranges.DENSITY_OR_NONE, damping_time=ranges.DAMPING_TIME,
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
