@@ -63,7 +63,6 @@ class _Ball:
     load="N",
     drag=parts.PRELOAD,
     speed_rpm=parts.SPEED,
-    law=Object(TractionLaw, "a traction law, as Eyring"),
 )
 def cage_slip(bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionLaw, drag: float = 0.0) -> float:
     """How much slower the cage turns than it would if balls rolled at the middle of their contacts, relative.

@@ -152,7 +152,6 @@ class BearingFriction(Summary):
     bearing=Object(BallBearing, "a BallBearing"),
     load="N",
     speed_rpm=parts.SPEED,
-    law=Object(TractionLaw, "a traction law, as Eyring"),
 )
 def bearing_friction(
     bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionLaw, heat: bool = True

@@ -98,7 +98,7 @@ def test_without_pyarrow_one_line(files, tmp_path, monkeypatch):
     ("changes", "word"),
     [
         ({"label": "a/b"}, "label"),
-        ({"label": 3}, "label = 'int'"),
+        ({"label": 3}, "label = 3: must be text"),
         ({"load": (0.0,)}, "load"),
         ({"load": (0.0, 1.0, 2.0, 3.0)}, "two or three"),
         ({"noise": -1.0}, "noise"),
