@@ -97,7 +97,9 @@ class PathName:
             max((len(part.encode("utf-8", "surrogateescape")) for part in PurePath(name).parts), default=0)
             > LONGEST_NAME
         ):
-            raise InputError(field, name, f"the name of {self.what}, at most {LONGEST_NAME} bytes long")
+            raise InputError(
+                field, name, f"the name of {self.what} that can be written, at most {LONGEST_NAME} bytes"
+            )
         return value
 
 

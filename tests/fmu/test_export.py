@@ -10,9 +10,10 @@ import pytest
 from programs import shell_script
 
 import fmu.spec
+from ehlcontact import binaries
 from ehlcontact.binaries.compiler import compilers
 from ehlcontact.errors import InputError
-from fmu import BuildError, VerificationError, archive, binaries, export, verify
+from fmu import BuildError, VerificationError, archive, export, verify
 from fmu.contact_spec import contact_spec
 from fmu.export import export_model
 from fmu.models import fmu_model
