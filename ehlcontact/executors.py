@@ -14,6 +14,7 @@ import sys
 import tempfile
 import threading
 import time
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager, suppress
@@ -28,6 +29,7 @@ Work = TypeVar("Work")
 THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 ATTEMPTS = 3  # at a task whose worker dies
 CONNECT_SECONDS = 10
+WORKER_SECONDS = 5.0  # after which a scheduler without a worker is worth a warning
 TICK = 0.05  # seconds between looks at processes that are to end
 
 
@@ -197,8 +199,12 @@ def executor_for(
     threads: int | None = None,
     scheduler: str | None = None,
     report: Callable[[tuple[Any, ...], Any], None] | None = None,
+    waiting: Callable[[], object] = lambda: None,
 ) -> Iterator[Executor]:
     """Executor of processes of this machine, or of the Dask cluster at an address; nothing outlives the block.
+
+    The block begins once a worker of the cluster is there. A scheduler may be without one for long, as where its
+    workers are jobs in a queue: after some seconds there is a `RuntimeWarning`.
 
     Parameters
     ----------
@@ -206,6 +212,8 @@ def executor_for(
         As in `ProcessExecutor`; without effect on a cluster.
     scheduler : str, optional
         Address of a Dask scheduler.
+    waiting : callable, optional
+        Called again and again until there is a worker; what it raises ends the wait.
 
     Raises
     ------
@@ -225,9 +233,30 @@ def executor_for(
         raise _no_scheduler(scheduler, error) from None
     with client, client.get_executor(retries=ATTEMPTS, pure=False) as executor:
         try:
+            _await_worker(client, scheduler, waiting)
             yield executor
         finally:
             executor.shutdown(wait=False)  # a cluster that is left may go on for a long time
+
+
+def _await_worker(client: Any, scheduler: str, waiting: Callable[[], object]) -> None:
+    """Wait until there is a worker.
+
+    A first task is submitted, for some clusters start workers only then; it may also wait for tasks of others.
+    """
+    first, begin, warned = client.submit(int, pure=False), time.monotonic(), False
+    try:
+        while not first.done():
+            waiting()
+            if not warned and time.monotonic() - begin > WORKER_SECONDS:
+                if client.nthreads():
+                    return
+                text = f"no worker is connected to {scheduler}: nothing begins until one is"
+                warnings.warn(text, RuntimeWarning, stacklevel=4)
+                warned = True
+            time.sleep(TICK)
+    finally:
+        first.cancel()
 
 
 def require_scheduler(scheduler: str) -> None:

@@ -53,8 +53,8 @@ def script(path):
 
 
 @contextmanager
-def dask_cluster(folder):
-    """Address of a scheduler, and the processes of it and of two workers, ended at exit; files in `folder`."""
+def dask_cluster(folder, workers=2):
+    """Address of a scheduler, and the processes of it and of its workers, ended at exit; files in `folder`."""
     silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment(ROOT / "tests")}
     file, processes = folder / "scheduler.json", []
 
@@ -69,7 +69,7 @@ def dask_cluster(folder):
             assert processes[0].poll() is None and time.monotonic() < deadline
             time.sleep(0.05)
         address = json.loads(file.read_text())["address"]
-        for _ in range(2):
+        for _ in range(workers):
             start("dask_worker", address, "--nthreads", 1, "--no-nanny", "--local-directory", folder)
         yield address, processes
     finally:

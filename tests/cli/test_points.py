@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from programs import dask_cluster
+from programs import begin, dask_cluster
 from stub_tasks import StubTasks, Threads
 from tiny_study import STUDY
 
@@ -455,6 +455,22 @@ def test_no_cluster_at_that_address(refused, tmp_path):
     words = ("--scheduler = 'tcp://127.0.0.1:1'", "Dask scheduler")
     refused(words, "run", file, "-o", tmp_path / "out", "--scheduler", "tcp://127.0.0.1:1")
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.long
+def test_a_cluster_without_workers(tmp_path):
+    """A warning after seconds, and nothing is counted as begun."""
+    pytest.importorskip("distributed")
+    file, out = tmp_path / "s.toml", tmp_path / "out"
+    file.write_text(with_lists())
+    with dask_cluster(tmp_path, workers=0) as (scheduler, _):
+        process = begin("run", file, "-o", out, "--scheduler", scheduler)
+        said = next(line for line in process.stderr if "whole study" not in line)
+        process.send_signal(signal.SIGINT)
+        _, end = process.communicate(timeout=60)
+    assert said == f"ehlcontact: warning: no worker is connected to {scheduler}: nothing begins until one is\n"
+    assert process.returncode == 130 and "interrupted" in end and "Traceback" not in end
+    assert "  begun " not in (out / "run.log").read_text()
 
 
 def test_points_of_a_document_without_a_bearing():

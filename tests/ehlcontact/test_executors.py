@@ -8,7 +8,9 @@ import threading
 import time
 
 import pytest
+from programs import dask_cluster
 
+from ehlcontact import executors
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.executors import ProcessExecutor, WorkerDiedError, executor_for, results_of
 from ehlcontact.process import worker
@@ -106,3 +108,37 @@ def test_a_worker_ends_when_its_parent_is_killed():
     while alive(pid):
         assert time.monotonic() < until
         time.sleep(0.02)
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("always")
+def test_a_scheduler_whose_workers_come_late(tmp_path, monkeypatch):
+    """A warning, and the wait goes on until there is one, or it is ended."""
+    pytest.importorskip("distributed")
+    monkeypatch.setattr(executors, "WORKER_SECONDS", 0.5)
+    late = []
+
+    def interrupted():
+        if time.monotonic() - started > 2.0:
+            raise KeyboardInterrupt
+
+    def begin(address):
+        if not late and time.monotonic() - started > 2.0:
+            module = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--no-nanny", "--no-dashboard"]
+            late.append(subprocess.Popen(module, cwd=tmp_path, stderr=subprocess.DEVNULL))
+
+    with dask_cluster(tmp_path, workers=0) as (address, _):
+        words, started = f"no worker is connected to {address}", time.monotonic()
+        with pytest.warns(RuntimeWarning, match=words) as given, pytest.raises(KeyboardInterrupt):
+            with executor_for(1, scheduler=address, waiting=interrupted):
+                raise AssertionError
+        assert len(given) == 1
+        started = time.monotonic()
+        with (
+            pytest.warns(RuntimeWarning, match=words),
+            executor_for(1, scheduler=address, waiting=lambda: begin(address)) as cluster,
+        ):
+            assert cluster.submit(math.sqrt, 4.0).result() == 2.0
+        for worker_of_it in late:
+            worker_of_it.kill()
+            worker_of_it.wait()

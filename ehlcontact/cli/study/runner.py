@@ -277,13 +277,18 @@ def run_points(points: Sequence[Point], root: Path, share: Share, log: Log, *, f
     if gone := withdraw(root, [point.name for point in points], bool(scheduler.todo)) if final else ():
         log.line("removed", f"{', '.join(gone)}: of what the study was; made again in the end")
     with progressing() as shown, _interruptions() as interruptions:
+
+        def waiting() -> None:
+            if interruptions():
+                raise KeyboardInterrupt
+
         scheduler.show(shown)
         with executor_for(share.jobs, share.threads, report=scheduler.report) as here:
             assert isinstance(here, ProcessExecutor)
             if share.cluster is None:
                 _run(scheduler, here, here, share, interruptions)
             else:
-                with executor_for(share.jobs, scheduler=share.cluster) as there:
+                with executor_for(share.jobs, scheduler=share.cluster, waiting=waiting) as there:
                     _run(scheduler, here, there, share, interruptions)
         scheduler.finish()
     return scheduler
