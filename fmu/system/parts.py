@@ -272,16 +272,16 @@ class RotorSystem:
         return np.asarray(run.displacement[: STEPS + 1] @ rows.T + shift)
 
     def _push(self) -> dict[tuple[str, str], float]:
-        """Force [N] by node and direction that comes at the start, on the heaviest node."""
+        """Force [N] by node and direction that comes at the start, on the heaviest node away from the supports."""
         rotor = self.made.rotor
         if self.made.bearings_out or not rotor.nodes:
             return {}
         load = {k: sum(float(rotor.load[at[k]]) for at in rotor.nodes.values() if k in at) for k in PLANE}
         along = {"x": load["x"] - load["y"], "y": load["x"] + load["y"]}
+        held = {place for mount in rotor.mounts for end in mount.ends for place in end}
         masses = {node: max(rotor.mass[at, at] for at in places.values()) for node, places in rotor.nodes.items()}
-        node = max(masses, key=lambda node: masses[node])
-        places = rotor.nodes[node]
-        return {(node, k): LOAD_STEP * along[k] for k in PLANE if k in places}
+        node = max(masses, key=lambda node: (held.isdisjoint(rotor.nodes[node].values()), masses[node]))
+        return {(node, k): LOAD_STEP * along[k] for k in PLANE if k in rotor.nodes[node]}
 
 
 def _arms(station: Station) -> list[float]:
