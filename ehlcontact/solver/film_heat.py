@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ehlcontact.heat import HeatNumbers
 from ehlcontact.lubricant.traction_laws import STRAIGHT, log_sinh_law
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.kernels.heat import sweep
+from ehlcontact.solver.kernels.heat import sweep, warm_walls
 from ehlcontact.solver.kernels.reynolds import FILM_FLOOR
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.multigrid import Multigrid
@@ -32,9 +32,6 @@ SETTLED = 1e-9  # change of the temperatures in one round, over the largest
 ROUGHLY = 1e-6  # the same of a sweep between cycles
 MOST_ROUNDS, MOST_SWEEPS = 100, 50
 ROUNDS, SLIDING_ROUNDS = 1, 3  # after a cycle, whose film changes by more
-# Of the change of the surfaces that a round takes where sliding heats, which falls with temperature, or where they
-# differ, and heat goes from one to the other
-WALL_SHARE = 0.5
 LARGE_CHANGE, STEP = 0.3, 0.8  # of the heating in a cycle, over itself, of which it takes this share
 ROUGH = 0.5  # change of the pressure in a cycle, above which the temperatures stay: they would be those of no film
 FRONT_ROUGH, FRONT_CYCLES = (
@@ -117,7 +114,6 @@ class FilmHeat:
     def solve(self, rounds: int = MOST_ROUNDS) -> Array:
         """Temperatures at the present P, film and flow; returns what ``Flow.heat`` becomes by them (eqs. 8, 9)."""
         t, n = self.terms(), self.numbers
-        share = 1.0 if self.even else WALL_SHARE
         enough = SETTLED if rounds == MOST_ROUNDS else ROUGHLY
         for _ in range(rounds):
             before = np.concatenate([self.rise[None], self.walls])
@@ -127,8 +123,13 @@ class FilmHeat:
                 given = t.heat_along, t.heat_across, t.exchange + t.storage - slope, made, t.share
                 if sweep(*given, self.rise) <= enough * np.abs(self.rise).max():
                     break
-            for k, heat in enumerate(self.into_walls(t)):
-                self.walls[k] += share * (n.walls[k] * self.passed_on(k, heat) - self.walls[k])
+            given = enumerate(self.into_walls(t))
+            lacking = np.array([n.walls[k] * self.passed_on(k, heat) - self.walls[k] for k, heat in given])
+            if not self.even:
+                # of a change of the mean: heat that is not made, but for what the rise makes up
+                made = 0.5 * slope * t.exchange / np.where(t.wet, t.exchange + t.storage - slope, 1.0)
+                warm_walls(self.now, made, t.exchange / 12.0, lacking)
+            self.walls += lacking
             after = np.concatenate([self.rise[None], self.walls])
             if np.abs(after - before).max() <= SETTLED * np.abs(after).max():
                 break
@@ -257,6 +258,11 @@ class FilmHeat:
     def released(self, t: Terms) -> Array | float:
         """Heat of oil from which a front of full film has receded: none in a steady film."""
         return 0.0
+
+    @property
+    def now(self) -> Array:
+        """Rise of each surface by a unit of heat at as many nodes upstream, in K, (2, nx + 1)."""
+        return np.array([wall * self.memory[0] for wall in self.numbers.walls])
 
     def passed_on(self, k: int, heat: Array) -> Array:
         """Heat given to a surface, upstream of each node, over the root of the distance (eq. 7)."""

@@ -28,11 +28,11 @@ from ehlcontact.solver.film_heat import (
     BY_SLIDING,
     INNER,
     NET,
-    WALL_SHARE,
     FilmHeat,
     at_nodes,
     divergence,
 )
+from ehlcontact.solver.kernels.heat import warm_walls
 from ehlcontact.solver.linear import CROSS, SPARSE_LU, LinearFilm, Preconditioner, stencil_matrix
 from ehlcontact.solver.linear_fronts import LinearFronts
 
@@ -89,6 +89,10 @@ class LinearHeat:
             self._storage *= t.share
             self._storage_of_walls = np.where(t.wet, self.rate * n.convection * level.oil, 0.0)
             self._turns = (1.0 - t.share) * (heat.ahead | t.wet)
+        # Heat that each surface takes more when both are warmer by 1, but for what the oil carries
+        kept = self._warmer - self._storage_of_walls
+        own = np.where(t.wet, t.exchange - self._warmer + self._storage, 1.0)
+        self._by_mean = 0.5 * t.exchange * kept / own
         self._factorise()
         self._memories = [_memory(level.nx, level.hx, omega / speed) for speed in heat.speeds]
 
@@ -207,10 +211,10 @@ class LinearHeat:
             straight = straight + self._turns * fronts.comes(c.heat_along, c.heat_across, heat.rise)
             straight -= np.where(self._turns > 0.0, c.share * came, 0.0)
         through = c.exchange / 12.0 * (heat.walls[1] - heat.walls[0])
-        share = 1.0 if heat.even else WALL_SHARE
+        now = np.array([wall * memory[0] for wall, memory in zip(n.walls, self._memories, strict=True)])
         walls, rise = np.zeros((2, *source.shape), complex), np.zeros(source.shape, complex)
         for _ in range(MOST_ROUNDS):
-            wall, before = walls.mean(axis=0), walls.copy()
+            wall = walls.mean(axis=0)
             warmed = (self._warmer - self._storage_of_walls) * wall
             rhs = source + warmed - n.convection * _with(t.along, t.across, wall)
             rise.ravel()[self._nodes] = self._lu.solve(rhs.ravel()[self._nodes].astype(complex))
@@ -218,9 +222,12 @@ class LinearHeat:
             if self._fronts is not None:
                 half += 0.5 * self._turns * self._fronts.comes(t.heat_along, t.heat_across, rise)
             cross = through + t.exchange / 12.0 * (walls[1] - walls[0])
-            for k, given in enumerate((half + cross, half - cross)):
-                walls[k] += share * (n.walls[k] * (given @ self._memories[k]) - walls[k])
-            if np.abs(walls - before).max() <= SETTLED * np.abs(walls).max():
+            given = enumerate((half + cross, half - cross))
+            lacking = np.array([n.walls[k] * (one @ self._memories[k]) - walls[k] for k, one in given])
+            if not heat.even:
+                warm_walls(now, self._by_mean, t.exchange / 12.0, lacking)
+            walls += lacking
+            if np.abs(lacking).max() <= SETTLED * np.abs(walls).max():
                 return rise, walls
         raise ConvergenceError("temperatures of the surfaces do not converge: the film is too thin", None)
 

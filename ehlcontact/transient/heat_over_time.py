@@ -226,6 +226,14 @@ class HeatOverTime(FilmHeat):
         ahead = ~np.logical_or.accumulate(self.level.P > 0.0, axis=1)
         return np.where(ahead & ~t.wet, -self._step[1], 0.0)
 
+    @property
+    def now(self) -> Array:
+        """As of a steady film, by the heat of this step alone."""
+        if self._step is None:
+            return super().now / sqrt(self.level.speed)
+        pairs = zip(self.numbers.walls, (self._now[0], self._now[-1]), strict=True)
+        return np.array([wall * now[0] for wall, now in pairs])
+
     def passed_on(self, k: int, heat: Array) -> Array:
         """Rise of a surface by heat given to it, upstream of each node and earlier (eq. 11)."""
         if self._step is None:

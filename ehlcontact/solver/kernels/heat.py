@@ -1,4 +1,4 @@
-"""Sweeps of the energy equation of a film: upwind, over the nodes under pressure (docs/heat.md, eq. 5)."""
+"""Energy equation of a film: upwind sweeps over the nodes under pressure, and the surfaces beside it (docs/heat.md)."""
 
 from ehlcontact.jit import jit_loop
 
@@ -41,3 +41,41 @@ def sweep(along, across, exchange, source, share, rise):
                 largest = max(largest, abs(new - rise[j, i]))
                 rise[j, i] = new
     return largest
+
+
+@jit_loop
+def warm_walls(memory, by_mean, across, change):
+    """Changes of the temperatures of both surfaces that make up for what they lack, line by line from the inlet.
+
+    A change of the mean of both changes the heat that each takes, and their difference moves heat from one to the
+    other, the more the thinner the film is: as the surfaces keep heat downstream, all of it is a triangular system.
+
+    Parameters
+    ----------
+    memory : array (2, nx + 1)
+        Rise of each surface by a unit of heat at as many nodes upstream.
+    by_mean : array (ny + 1, nx + 1)
+        Heat that each surface takes more when the mean of both is warmer by 1.
+    across : array (ny + 1, nx + 1)
+        Heat from one to the other when they differ by 1.
+    change : array (2, ny + 1, nx + 1)
+        What they lack; overwritten with the changes.
+    """
+    first, second = memory
+    lines, nodes = by_mean.shape
+    for j in range(lines):
+        one, two = change[0, j], change[1, j]
+        for i in range(nodes):
+            half, through = 0.5 * by_mean[j, i], across[j, i]
+            if half == 0.0 and through == 0.0:
+                continue
+            # one = one + first[0] (half (one + two) + through (two - one)), likewise two, with through negative
+            a, b = 1.0 - first[0] * (half - through), -first[0] * (half + through)
+            c, d = -second[0] * (half + through), 1.0 - second[0] * (half - through)
+            size = a * d - b * c
+            x, y = (d * one[i] - b * two[i]) / size, (a * two[i] - c * one[i]) / size
+            to_one, to_two = half * (x + y) + through * (y - x), half * (x + y) - through * (y - x)
+            one[i], two[i] = x, y
+            for k in range(1, nodes - i):
+                one[i + k] += first[k] * to_one
+                two[i + k] += second[k] * to_two
