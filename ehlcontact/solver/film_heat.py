@@ -123,8 +123,9 @@ class FilmHeat:
                 given = t.heat_along, t.heat_across, t.exchange + t.storage - slope, made, t.share
                 if sweep(*given, self.rise) <= enough * np.abs(self.rise).max():
                     break
-            given = enumerate(self.into_walls(t))
-            lacking = np.array([n.walls[k] * self.passed_on(k, heat) - self.walls[k] for k, heat in given])
+            lacking = np.array(
+                [n.walls[k] * self.passed_on(k, heat) - self.walls[k] for k, heat in enumerate(self.into_walls(t))]
+            )
             if not self.even:
                 # of a change of the mean: heat that is not made, but for what the rise makes up
                 made = 0.5 * slope * t.exchange / np.where(t.wet, t.exchange + t.storage - slope, 1.0)

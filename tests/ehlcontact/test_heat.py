@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from balls import LARGE
-from scipy import sparse
+from scipy import linalg, sparse
 from scipy.sparse.linalg import spsolve
 
 from ehlcontact import (
@@ -27,6 +27,7 @@ from ehlcontact.film_formulas import wilson_heating
 from ehlcontact.impedance import held
 from ehlcontact.lubricant import MineralOil
 from ehlcontact.solver.film_heat import FilmHeat
+from ehlcontact.solver.kernels.heat import warm_walls
 from ehlcontact.solver.level import Level
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
@@ -249,6 +250,59 @@ def test_neighbouring_films_lie_on_one_line():
 def test_bodies_of_different_material_settle_in_pure_rolling():
     film = solve_steady(bearing(4000.0), grid=SMALL, thermal=Heat(effusivity=(13_000.0, 1_500.0)))
     assert film.cycles < 10
+
+
+STEEL_GLASS = (13_000.0, 1_500.0)
+
+
+def disc(speed, load=20.0):
+    """A steel ball on a glass disc."""
+    oil = Lubricant(0.1154, 2.34e-8, temperature=34.0, temperature_slope=0.05)
+    glass = {"e1": 2.1e11, "e2": 7e10, "nu2": 0.21}
+    return OperatingPoint.ball_on_flat(oil, ball_diameter=19.05e-3, entrainment_speed=speed, load=load, **glass)
+
+
+def test_surfaces_exchange_heat_however_thin_the_film():
+    """Of .2 um, where rounds at given exchange grow; against a dense solve of each line."""
+    point = disc(0.2)
+    film = solve_steady(point, grid=SMALL, thermal=Heat(effusivity=STEEL_GLASS))
+    assert film.status.ok
+    level = held(film).finest
+    heat = FilmHeat(level, film.temperature.inputs.numbers(point.moes, point.scales))
+    exchange = heat.terms().exchange / 12.0
+    assert heat.now[1, 0] * exchange.max() > 2.0  # the gain of such a round
+    rng = np.random.default_rng(1)
+    by_mean, lacking = -exchange * rng.random(exchange.shape), rng.normal(size=(2, *exchange.shape))
+    found = lacking.copy()
+    warm_walls(heat.now, by_mean, exchange, found)
+    one, two = (linalg.toeplitz(w, np.zeros(level.nx + 1)) for w in heat.now)
+    for j in (0, level.ny // 2):
+        same, other = np.diag(0.5 * by_mean[j] - exchange[j]), np.diag(0.5 * by_mean[j] + exchange[j])
+        matrix = np.block([[one @ same, one @ other], [two @ other, two @ same]])
+        expected = linalg.solve(np.eye(matrix.shape[0]) - matrix, lacking[:, j].ravel())
+        np.testing.assert_allclose(found[:, j].ravel(), expected, rtol=1e-10, atol=1e-10)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("speed", np.geomspace(0.05, 3.0, 8))
+def test_steel_on_glass_at_all_speeds(speed):
+    """Films of 75 nm to 1 um: as thin as Wilson and Sheu have them, within what warm glass adds."""
+    found = solve_steady(disc(speed), refine=False, thermal=Heat(effusivity=STEEL_GLASS))
+    heat = found.temperature
+    assert found.status.ok
+    assert heat.balance < 1e-6
+    assert heat.film_share < 1.0
+    assert heat.film_share == pytest.approx(wilson_heating(heat.thermal_load), rel=0.03)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("pair", [STEEL_GLASS, (13_000.0, 13_000.0), (1_500.0, 1_500.0), (13_000.0, 11_000.0)])
+@pytest.mark.parametrize(("speed", "slide", "load"), [(0.1, 1.0, 20.0), (0.4, -0.5, 50.0), (3.0, -1.0, 20.0)])
+def test_films_that_slide_settle_between_all_surfaces(pair, speed, slide, load):
+    found = solve_steady(disc(speed, load), refine=False, thermal=Heat(slide, effusivity=pair))
+    assert found.status.ok
+    assert found.temperature.balance < 1e-6
+    assert 0.5 < found.temperature.film_share < 1.0
 
 
 @pytest.mark.slow

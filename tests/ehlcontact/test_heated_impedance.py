@@ -24,7 +24,7 @@ from ehlcontact import (
     save,
     solve_steady,
 )
-from ehlcontact.impedance import LinearisedContact, heat_of, held, slow_part
+from ehlcontact.impedance import NEAR_ZERO, TOLERANCE, LinearisedContact, heat_of, held, slow_part
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.effects import CyclesWithEffects
 from ehlcontact.solver.film_heat import FilmHeat, FollowedViscosity
@@ -260,6 +260,20 @@ class Known:
 def test_what_slow_oil_adds_is_seen_at_low_frequencies_alone():
     omega, damping = np.array([1e-4, 0.1, 0.1, 0.2, 1.0]), np.array([5.0, 0.54, 0.44, 0.9, 0.1])
     np.testing.assert_allclose(slow_part(Known(), omega, damping), [4.5, 0.0, 0.06, 0.0, 0.0])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("speed", "slide"), [(0.1, -1.0), (0.2, 0.5)])
+def test_thin_films_that_slide_on_glass_vibrate_to_tolerance(speed, slide):
+    """Where surfaces exchange more heat than they keep; K at rest is that of neighbouring films."""
+    oil = Lubricant(0.1154, 2.34e-8, temperature=34.0, temperature_slope=0.05)
+    glass = {"e1": 2.1e11, "e2": 7e10, "nu2": 0.21}
+    point = OperatingPoint.ball_on_flat(oil, ball_diameter=19.05e-3, entrainment_speed=speed, load=5.0, **glass)
+    given = {"grid": GRID, "thermal": replace(PAIR, slide_roll=slide)}
+    found = impedance(point, Omega=[0.0, 0.05, 1.0, 10.0], **given)
+    assert (found.residual < TOLERANCE * np.minimum(1.0, np.maximum(found.Omega, NEAR_ZERO))).all()
+    forces = [solve_steady(point, approach=found.approach + du, tol=1e-8, **given).force for du in (STEP, -STEP)]
+    assert found.stiffness[0] == pytest.approx((forces[0] - forces[1]) / (2.0 * STEP), rel=5e-4)
 
 
 def test_what_is_refused():

@@ -1,4 +1,4 @@
-"""Energy equation of a film: upwind sweeps over the nodes under pressure, and the surfaces beside it (docs/heat.md)."""
+"""Energy equation of a film, upwind over the nodes under pressure, and of its surfaces (docs/heat.md)."""
 
 from ehlcontact.jit import jit_loop
 
@@ -48,7 +48,7 @@ def warm_walls(memory, by_mean, across, change):
     """Changes of the temperatures of both surfaces that make up for what they lack, line by line from the inlet.
 
     A change of the mean of both changes the heat that each takes, and their difference moves heat from one to the
-    other, the more the thinner the film is: as the surfaces keep heat downstream, all of it is a triangular system.
+    other, the more the thinner the film is. As surfaces carry heat downstream, all of it is a triangular system.
 
     Parameters
     ----------
