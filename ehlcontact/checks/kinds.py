@@ -129,7 +129,7 @@ class Count:
 
     def take(self, field: str, value: Any, number: bool) -> Any:
         """The value, or raise `InputError`."""
-        allowed = f"a whole number from {self.low} to {self.high}"
+        allowed = f"a whole number >= {self.low} and <= {self.high}"
         if require_integer(field, value, allowed, self.low) > self.high:
             raise InputError(field, value, allowed)
         return value

@@ -17,6 +17,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from ehlcontact.checks.kinds import FOLDER
 from ehlcontact.cli.numerals import spelled
 from ehlcontact.errors import InputError, printable
 from ehlcontact.files import require_writable, require_writable_folder, write_text
@@ -71,6 +72,7 @@ def check_place(folder: Path) -> None:
     InputError
         A file stands there or above it, or the folder above cannot be written to.
     """
+    FOLDER.take("--output", folder, False)
     above = next(path for path in (folder, *folder.absolute().parents) if os.path.lexists(path))
     if not above.is_dir():
         raise InputError("--output", str(folder), f"a folder that can be made; {above} is a file")

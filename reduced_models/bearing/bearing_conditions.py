@@ -41,11 +41,12 @@ def conditions_of(bearing: BallBearing) -> Conditions:
 def require_speed(bearing: BallBearing, speed_rpm: float) -> float:
     """The speed [rev/min] where the bearing can run at it; raises `InputError` where not."""
     speed = require_nonnegative("speed_rpm", speed_rpm)
+    if speed > 0.0:
+        INPUTS["speed_rpm"].require("speed_rpm", speed)
     if bearing.oil is None:
         return speed
     if speed == 0.0:
         raise InputError("speed_rpm", speed, "> 0 for a bearing with oil: without rolling there is no film")
-    INPUTS["speed_rpm"].require("speed_rpm", speed)
     if speed > bearing.highest_speed:
         ending = bearing.tables.end[1]
         allowed = f"at most {bearing.highest_speed:.5g}, where {ending} ends for this bearing and oil"

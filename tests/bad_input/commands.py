@@ -348,6 +348,9 @@ COMMANDS = [
     (("reproduce", "--n", "0"), ("--n = 0", "between 16 and 2048")),
     (("reproduce", "-o", RECORD), ("--output = 'record.h5'", "folder")),
     # atlas build
+    (("atlas", "build", "-o", "new.h5", "--draws", "1000000000"), ("--draws = 1000000000", "<= 10000000")),
+    (("bearing", "6205", "--radial", "500", "--speed-rpm", "1e9"), ("--speed-rpm", "1e+06 rev/min")),
+    (("validate", STUDY, "-o", "x" * 300), ("--output", "at most 255 bytes")),
     (("atlas", "build", "-o", "a.txt"), ("--output = 'a.txt'", ".h5")),
     (("atlas", "build", "-o", "none/a.h5"), ("--output", "folder that exists")),
     ((*ATLAS, "--draws", "many"), ("--draws = 'many'", "whole number")),

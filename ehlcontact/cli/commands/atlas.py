@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ehlcontact.checks import require_choice, require_integer
+from ehlcontact.checks.kinds import Count
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import check_apart, complain
 from ehlcontact.cli.progress import progress
@@ -17,6 +18,8 @@ from ehlcontact.process.early_interrupt import INTERRUPTED
 
 HELP = "Build the tables of solved contacts that elements are taken from."
 group = typer.Typer(no_args_is_help=True, help=HELP)
+
+MOST_DRAWS = 10_000_000  # of a sample: years of solves
 
 
 @group.callback(help=HELP)
@@ -67,8 +70,9 @@ def build(
     out.check(beside={"--output": (path, (".h5",))})
     check_apart({"--output": path, "--work": folder})
     numbers = {"draws": draws, "light_draws": light_draws, "seed": seed}
+    among = Count(0, MOST_DRAWS)
     sample = {
-        name: require_integer(f"--{name.replace('_', '-')}", value, "a whole number >= 0", 0)
+        name: among.take(f"--{name.replace('_', '-')}", value, True)
         for name, value in numbers.items()
         if value is not None
     }
