@@ -394,7 +394,7 @@ def cluster(stub, monkeypatch):
             return super().submit(fn, *args, **kwargs)
 
     @contextmanager
-    def either(processes, threads=None, scheduler=None, report=None):
+    def either(processes, threads=None, scheduler=None, report=None, waiting=None):
         with (Threads if scheduler is None else Cluster)(processes) as executor:
             yield executor
 
