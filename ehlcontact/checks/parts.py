@@ -40,7 +40,6 @@ OFFSET = Quantity("m", (0.0, 0.1), (1e-9, 1e-3), UM, signed=True)  # along a sha
 # Bearings
 BALL_DIAMETER, PITCH_DIAMETER, SPEED = INPUTS["ball_diameter"], INPUTS["pitch_diameter"], INPUTS["speed_rpm"]
 SPEED_OR_NONE = Quantity("rev/min", (0.0, SPEED.limits[1]), SPEED.usual, SPEED.others)
-CLEARANCE = Quantity("m", (0.0, 0.01), (1e-9, 1e-3), UM, signed=True)
 GAP = Quantity("m", (1e-9, 0.01), (1e-8, 1e-4), UM)  # beyond which a film carries nothing
 LAYER = Quantity("m", (1e-12, 1e-2), (1e-9, 1e-3), UM)  # of oil
 DISTANCE = Quantity("m", (0.0, 10.0), (2e-3, 5.0), MM)  # of the planes of two bearings
@@ -53,7 +52,6 @@ TEMPERATURE = Quantity("degrees Celsius", (-100.0, 250.0), (5.0, 200.0), shifts=
 
 # Signals and runs
 SPEEDS = Quantity("rev/min", SPEED.limits, SPEED.usual, SPEED.others, signed=True, most=MOST_SPEEDS)
-TIMES = Quantity("s", (0.0, 1e9), (0.0, 1e6), signed=True)
 SECONDS = Quantity("s", (1e-9, 1e7), (1e-3, 1e5), {"ms": 1e-3, "us": 1e-6})
 RATE = Quantity("Hz", (1e-3, 1e9), (10.0, 1e7), {"kHz": 1e3})
 NOISE = Quantity("m/s2", (1e-12, 1e6), (1e-6, 1e4), {"g": 9.81}, zero=True)

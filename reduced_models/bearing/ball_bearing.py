@@ -77,7 +77,7 @@ SUPPLIES = ("h", "over_flooded")  # units of an oil supply that is the same at a
 
 @stored("ball bearing")
 @fields_take(
-    ball_diameter=parts.BALL_DIAMETER, pitch_diameter=parts.PITCH_DIAMETER, clearance=parts.CLEARANCE,
+    ball_diameter=parts.BALL_DIAMETER, pitch_diameter=parts.PITCH_DIAMETER, clearance="m",
     rq_ball="m", rq_race="m", cutoff_gap=parts.GAP, youngs_modulus=parts.MODULUS, density=parts.DENSITY,
     contact_angle="rad", shoulder_inner=parts.SHAFT_DIAMETER, shoulder_outer=parts.SHAFT_DIAMETER, name=NAME,
     atlas=FILE,
