@@ -31,7 +31,7 @@ BY_RISE, BY_PRESSURE, BY_SLIDING = 0.6, 12.0 / 175.0, 0.4  # temperature that th
 SETTLED = 1e-9  # change of the temperatures in one round, over the largest
 ROUGHLY = 1e-6  # the same of a sweep between cycles
 MOST_ROUNDS, MOST_SWEEPS = 100, 50
-ROUNDS, SLIDING_ROUNDS = 1, 3  # after a cycle, whose film changes by more
+ROUNDS = 1  # after a cycle, whose film changes by more
 LARGE_CHANGE, STEP = 0.3, 0.8  # of the heating in a cycle, over itself, of which it takes this share
 ROUGH = 0.5  # change of the pressure in a cycle, above which the temperatures stay: they would be those of no film
 FRONT_ROUGH, FRONT_CYCLES = (
@@ -338,7 +338,6 @@ class FollowedViscosity:
 
     def __init__(self, multigrid: Multigrid, heat: ViscositySource) -> None:
         self.multigrid, self.heat = multigrid, heat
-        self._rounds = ROUNDS if isinstance(heat, FilmHeat) and heat.even else SLIDING_ROUNDS
         self._rough = inf  # what sliding thins follows any film
         self._heats = isinstance(heat, FilmHeat)
         if self._heats:
@@ -357,7 +356,7 @@ class FollowedViscosity:
         From the isothermal pressure itself cycles on fine grids diverge where the pressure ends. Temperatures
         follow after a cycle: what full multigrid leaves on such grids is far from any film.
         """
-        self.multigrid.set_heat(START * self.heat.solve(self._rounds))
+        self.multigrid.set_heat(START * self.heat.solve(ROUNDS))
         self.multigrid.full_multigrid(balance)
         starved = bool(self.multigrid.finest.inflow.size)
         for _ in range(FRONT_CYCLES if starved else 0):
@@ -391,7 +390,7 @@ class FollowedViscosity:
         """Viscosity of the present temperatures; residuals with it."""
         mg = self.multigrid
         before = mg.finest.fields.flow.heat
-        heat = self.heat.solve(self._rounds)
+        heat = self.heat.solve(ROUNDS)
         change = heat - before
         large = bool(np.abs(change).max() > LARGE_CHANGE * np.abs(heat).max())
         if self._last is not None and not large:
