@@ -142,7 +142,7 @@ def test_a_condition_without_a_film_ends_with_exit_code_1(call, monkeypatch):
     class Starved:
         status = Status.STARVED
 
-    def solved(point, *, hz, supply, thermal):
+    def solved(point, *, hz, supply=None, thermal=None):
         if supply is None:
             return impedance(point, hz=hz, grid=Grid(48))
         raise ConvergenceError("steady solve starved: raise n", Starved())
