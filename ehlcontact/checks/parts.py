@@ -20,7 +20,7 @@ MODULUS = INPUTS["e1"]
 SHAFT_MODULUS = MODULUS._replace(limits=(MODULUS.limits[0], 1e20))  # next to infinite: a rigid shaft
 DENSITY = Quantity("kg/m3", (1e-15, 25e3), (500.0, 23e3), {"g/cm3": 1e3}, slips=True)  # next to 0: no inertia
 DENSITY_OR_NONE = DENSITY._replace(zero=True)  # 0: without mass
-MASS = Quantity("kg", (1e-6, 1e6), (1e-3, 1e5), {"g": 1e-3, "t": 1e3})
+MASS = Quantity("kg", (1e-9, 1e6), (1e-3, 1e5), {"g": 1e-3, "t": 1e3})
 MASS_OR_NONE = MASS._replace(zero=True)
 INERTIA = Quantity("kg m2", (1e-15, 1e7), (1e-9, 1e5), {"kg mm2": 1e-6, "g mm2": 1e-9}, zero=True)
 FILM = Quantity("m", (0.0, 1e-2), (1e-9, 1e-4), UM, signed=True)  # a gap, of rough surfaces below 0 too
@@ -41,7 +41,7 @@ OFFSET = Quantity("m", (0.0, 0.1), (1e-9, 1e-3), UM, signed=True)  # along a sha
 BALL_DIAMETER, PITCH_DIAMETER, SPEED = INPUTS["ball_diameter"], INPUTS["pitch_diameter"], INPUTS["speed_rpm"]
 SPEED_OR_NONE = Quantity("rev/min", (0.0, SPEED.limits[1]), SPEED.usual, SPEED.others)
 GAP = Quantity("m", (1e-9, 0.01), (1e-8, 1e-4), UM)  # beyond which a film carries nothing
-LAYER = Quantity("m", (1e-12, 1e-2), (1e-9, 1e-3), UM)  # of oil
+LAYER = Quantity("m", (1e-15, 1e-2), (1e-9, 1e-3), UM)  # of oil
 DISTANCE = Quantity("m", (0.0, 10.0), (2e-3, 5.0), MM)  # of the planes of two bearings
 HEIGHT = Quantity("m", (1e-13, 0.1), (1e-9, 1e-3), UM)  # of a feature of a race or a ball
 EXCESS = Quantity("m", (0.0, 0.01), (1e-9, 1e-4), UM, signed=True)

@@ -212,7 +212,7 @@ def _warn_of_shape(surface: Surface | None, kappa: float) -> None:
             f"kappa = {surface.kappa:.4g} of the surface is not that of the contact, {kappa:.4g}: what it takes "
             f"for round is {surface.kappa / kappa:.3g} times as long across as along, in metres",
             RuntimeWarning,
-            stacklevel=4,
+            stacklevel=5,
         )
 
 
@@ -222,7 +222,7 @@ def _warn_of_steps(motion: Motion, speed: SpeedHistory | None, steps: StepPlan, 
         return
     T = np.linspace(0.0, steps.until, round(steps.until / steps.dT) + 1)
     if note := passed_over_note((motion, speed), T, None if scales is None else scales.time):
-        warnings.warn(note, RuntimeWarning, stacklevel=4)
+        warnings.warn(note, RuntimeWarning, stacklevel=5)
 
 
 def _first_inside(

@@ -46,7 +46,7 @@ def test_catalogue_and_dimensions_are_the_same():
         ("clearance = nan: must be a finite number", {"clearance": float("nan")}),
         ("oil = 'int': must be a Lubricant", {"oil": 68}),
         ("rq_ball = -1.0: must be a finite number >= 0", {"rq_ball": -1.0}),
-        ("cutoff_gap = 0.0: must be a finite number > 0", {"cutoff_gap": 0.0}),
+        ("cutoff_gap = 0.0: must be between 1e-09 and 0.01 m", {"cutoff_gap": 0.0}),
         ("youngs_modulus = 206.0: .*GPa", {"youngs_modulus": 206.0}),
         ("poisson_ratio = 0.6: must be between 0 and 0.5", {"poisson_ratio": 0.6}),
     ],

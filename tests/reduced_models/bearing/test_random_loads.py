@@ -97,7 +97,7 @@ def test_contact_ellipses_end_at_the_shoulders(race):
     with pytest.raises(InputError, match=f"load = .*below the shoulder of the {race} race .*at ball"):
         bearing.equilibrium((0.0, 0.0, 1.0001 * most))
     with pytest.raises(InputError, match=f"shoulder_{race} = .*: must be between .* m, the bottom of the groove"):
-        BallBearing(**sizes, **{f"shoulder_{race}": 1e3 * diameter})
+        BallBearing(**sizes, **{f"shoulder_{race}": 3.0 * diameter})
 
 
 def test_preloaded_ring_that_is_held_tilted_without_a_load():

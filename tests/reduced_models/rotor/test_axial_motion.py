@@ -193,7 +193,7 @@ PLACES = {"x": 0, "y": 1, "z": 2, "tilt_x": 3, "tilt_y": 4}
         (lambda: BearingMount(bearing=LIGHT, **PLACES, offset=5.0), ("offset", "in µm? then 5e-06 m")),
         (lambda: BearingMount(bearing=LIGHT, **PLACES, housing=(5, 6)), ("housing", "(x, y, z)")),
         (lambda: BearingMount(bearing=LIGHT, **PLACES, cage_angle=90.0), ("cage_angle", "radians")),
-        (lambda: motor(LIGHT, preload=-5.0), ("preload", ">= 0")),
+        (lambda: motor(LIGHT, preload=-5.0), ("preload", "0, or between")),
         (lambda: motor(LIGHT, preload=0.0), ("preload = 0", "angular contact bearing together")),
         (lambda: motor(LIGHT, preload=5.0, offset=1e-6), ("offset", "left out beside preload")),
         (lambda: floating(preload=5.0), ("preload", "nothing holds a shaft")),

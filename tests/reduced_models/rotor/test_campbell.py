@@ -2,6 +2,7 @@
 
 import pickle
 from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -245,14 +246,17 @@ def test_bad_figures(film, block):
         short.plot()
 
 
-def test_a_mode_that_stops_to_oscillate(film, block):
-    """Damping that grows with the speed."""
-    rotor = block(film, gyroscopic=np.diag([0.0, 500.0]))
-    assert len(linearise(rotor, 300.0).modes()) == 2
-    (left,) = linearise(rotor, 3000.0).modes()
-    assert abs(left.shape[0]) == pytest.approx(1.0, rel=1e-15)
+def test_a_mode_that_stops_to_oscillate(film, block, monkeypatch):
+    """Damped far beyond critical damping at the second speed: dampers that know the speed, say."""
+    module = import_module("reduced_models.rotor.campbell")
+    damped = block(film, damping=np.diag([0.0, 1.5e5]))
+    (left,) = linearise(damped, 3000.0).modes()
+    assert abs(left.shape[0]) == pytest.approx(1.0, rel=1e-12)
+    monkeypatch.setattr(
+        module, "linearise", lambda rotor, rpm, **how: linearise(damped if rpm > 300.0 else rotor, rpm, **how)
+    )
     with pytest.raises(ConvergenceError, match=r"only 1 of 2 modes oscillate at 3000 rev/min: ask for fewer"):
-        campbell(rotor, [300.0, 3000.0])
+        campbell(block(film), [300.0, 3000.0])
 
 
 def test_no_unbalance(film, block):
