@@ -7,10 +7,11 @@ same: places are counted from where a ball is on the line between both groove ce
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fmu.bearing.model import BearingModel
 from reduced_models.bearing.ball_states import ACROSS
-from reduced_models.bearing.continuous_time import RestingBalls
+from reduced_models.bearing.core_bearing import ORIGIN
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import small_film
 
@@ -23,8 +24,8 @@ def rolling_speed_sum(model: BearingModel) -> float:
     return float(0.5 * bearing.pitch_diameter * (1.0 - bearing.gamma**2))
 
 
-def counted_from(model: BearingModel) -> RestingBalls:
-    """Of all balls alike."""
+def counted_from(model: BearingModel) -> NDArray[np.void]:
+    """Records of `ORIGIN`, shape (balls,), of all balls alike."""
     balls = model.balls
     g, bearing = balls.grooves, model.bearing
     radial = g.radial + (0.5 * bearing.clearance if bearing.contact_angle is None else 0.0)
@@ -37,5 +38,6 @@ def counted_from(model: BearingModel) -> RestingBalls:
             slope = 1.5 * law.kn * np.sqrt(film)
             about = small_film(law, transit, (len(law.gains) - 1, 0.0), film, slope, slope)
             across += ACROSS * float(about.state_space().D[0, 1])
-    n = balls.number
-    return RestingBalls(np.tile(place, (n, 1)), np.zeros((n, 2)), np.full(n, across), balls.inertia)
+    origins = np.zeros(balls.number, ORIGIN)
+    origins["place"], origins["across"] = place, across
+    return origins

@@ -90,8 +90,14 @@ def bearing_table(model: BearingModel, name: str = "bearing") -> str:
         "most_load": _numbers([bearing.race(race).heaviest(fastest)[0] for race in RACES]),
         "largest_place": c_double(FARTHEST * bearing.ball_diameter),
         "largest_tilt": c_double(LARGEST_TILT),
+        "origin": f"{name}_origin",
     }
     lines += [c_table(f"{name}_{part}", values) for part, values in tables.items()]
+    origins = ", ".join(
+        _fields({"place": _numbers(at["place"]), "across": c_double(float(at["across"]))})
+        for at in counted_from(model)
+    )
+    lines.append(f"static const BallOrigin {name}_origin[] = {{{origins}}};")
     return "\n".join([*lines, f"static const Bearing {name} = {_fields(fields)};", ""])
 
 
@@ -141,7 +147,7 @@ def _race(name: str, law: RaceForceTable) -> tuple[str, dict[str, str]]:
 
 
 def _grooves(model: BearingModel) -> dict[str, str]:
-    g, at = model.balls.grooves, counted_from(model)
+    g = model.balls.grooves
     clearance = model.bearing.clearance if model.bearing.contact_angle is None else 0.0
     numbers = {
         "radial": g.radial,
@@ -154,12 +160,10 @@ def _grooves(model: BearingModel) -> dict[str, str]:
         "mass": g.mass,
         "gyroscopic": g.gyroscopic,
         "cosine": g.cosine,
-        "across": at.across[0],
     }
     pairs = {
         "free_length": (g.inner, g.outer),
         "spin_moment": (g.inner_spin_moment, g.outer_spin_moment),
-        "place": at.place[0],
     }
     found = {name: c_double(float(value)) for name, value in numbers.items()}
     return found | {name: _numbers(pair) for name, pair in pairs.items()}

@@ -7,8 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu.bearing.continuous import rates_in_time, rest_states
-from fmu.bearing.places import counted_from
+from fmu.bearing.continuous import rates_of
 from fmu.bearing.variables import FORCES
 from fmu.contact_variables import Element, Film
 from fmu.lead import ROTOR
@@ -87,7 +86,7 @@ class _SupportsInside:
     def __init__(self, model: RotorModel, spec: ModelSpec) -> None:
         self._model = model
         self._nominal = np.array([state.nominal or 1.0 for state in spec.states])
-        self._made = [(bearing, bearing.motion(), counted_from(bearing)) for bearing in model.bearings]
+        self._made = [rates_of(bearing) for bearing in model.bearings]
 
     def states_at(self, place: _Floats, rate: _Floats, omega: float, first: int, n: int) -> _Motion:
         """States, rates and force on the rotor at its displacements and velocities.
@@ -102,12 +101,11 @@ class _SupportsInside:
             if station.is_contact:
                 own, change, carried = _contact_at(station.mount.contact, ring, speed, n)
             else:
-                model, motion, counted = next(bearings)
-                rest = rest_states(model, motion, omega, station.mount.cage_angle, ring)
+                in_time = next(bearings)
+                rest = in_time.rest(omega, station.mount.cage_angle, ring)
                 own = rest + self._nominal[first : first + rest.size] * _moved_states(rest.size, n)
                 own[0] = rest[0] + TURNED
-                change, pushed = rates_in_time(model, motion, own, ring, speed, omega, counted)
-                carried = -pushed
+                change, carried = in_time.at(omega, own, ring, speed)
             first += own.size
             states.append(own)
             rates.append(change)

@@ -3,14 +3,14 @@
 | module | is responsible for |
 |---|---|
 | ball_bearing | `BallBearing`: inputs, and what can be asked of it |
-| grooves | checks of dimensions; grooves, balls and race control for the kernels |
+| grooves | checks of dimensions; grooves, balls and race control for the C core |
 | bearing_conditions | oil, supply and heat: which go together; speeds of films |
 | bearing_tables | `BearingTables`: races, elements, tables and heights, made once |
 | catalogue | dimensions by name, with their sources |
 | clearance | radial clearance by class and bore |
 | freedoms | degrees of freedom of the ring: names, units, loads |
 | core_bearing | `CoreBearing`: a bearing as the C core has it, views of its state |
-| contact_angles | compiled: groove centres, contact angles, rolling and race control of a ball |
+| contact_angles | `Grooves`; the law of contact angles, rolling and race control, which the C core has |
 | ball | `Balls`: tables, grooves and inertia of a bearing; the law of a ball, which the C core has |
 | ring | the inner ring on its balls in static equilibrium: `StaticRing`, `ring_equilibrium` |
 | ring_statics | loads that a bearing takes, its ring in equilibrium, the state for users |
@@ -19,7 +19,6 @@
 | measured_order | contact angle and clearance from a measured defect order |
 | race | one contact: geometry, oil, element at a speed; the only module that imports the atlas |
 | race_table | load over deflection of a race and its memory gains, tabulated over approach and speed |
-| race_contact | compiled: static law of a ball on a race, for continuous time |
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load |
 | linear_balls | all balls about static equilibrium: impedance at complex frequencies |
@@ -33,7 +32,7 @@
 | track_surface | `TrackSurface`: features that pass a contact, as the surface of a full film |
 | excitation | forces of features on a fixed ring, as spectral lines over orders of the shaft |
 | ball_states | balls and films about static equilibrium as matrices of first order |
-| continuous_time | derivatives of the states of balls and films, compiled |
+| continuous_time | `BearingRates`: derivatives of the states of balls and films, by the C core |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
 | equilibrium_result | `BearingState`: a bearing in static equilibrium, ball by ball |
 | set_result | `SetState`: a `BearingSet` in static equilibrium, bearing by bearing |

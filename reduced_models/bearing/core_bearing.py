@@ -44,7 +44,6 @@ class GroovesStructure(ctypes.Structure):
         ("gyroscopic", c_double),
         ("spin_moment", c_double * 2),
         ("cosine", c_double),
-        ("place", c_double * 2), ("across", c_double),
     ]  # fmt: skip
 
 
@@ -96,6 +95,7 @@ class BearingStructure(ctypes.Structure):
         ("most_speed", c_double), ("most_load", c_double * 2),
         ("largest_place", c_double), ("largest_tilt", c_double),
         ("heights", POINTER(HeightsStructure)),
+        ("origin", c_void_p), ("cage_held", c_int),
     ]  # fmt: skip
 
 
@@ -141,6 +141,10 @@ AT_REST = _numbers(
     rotation=(),
     axis=(),
 )
+ORIGIN = _numbers(place=(2,), moved=(2,), across=())  # see `BallOrigin` of ``bearing.h``
+# Each number has its derivative with it
+RING_MOTION = _numbers(q=(5, 2), v=(5, 2), omega=(2,))
+BALL_OUTPUTS = _numbers(load=(2, 2), factor=(2, 2), speed_sum=(2, 2), angle=(2, 2), film=(2,))
 
 
 class CoreBearing:
@@ -194,6 +198,11 @@ class CoreBearing:
         self._has_oil = balls.inner.x.size > 0
         self.state_size = int(self.library.bearing_state_size(self.address))
         self.work_size = int(self.library.bearing_work_size(self.address))
+
+    def count_from(self, origins: _Record) -> None:
+        """Count the places of balls in continuous time from records of `ORIGIN`, shape (balls,)."""
+        self._origins = origins.copy()
+        self.structure.origin = pointer(self._origins)
 
     def start(self) -> _Floats:
         """State of a bearing whose balls have not been placed: with the films that it has, the cage at 0."""
@@ -299,12 +308,15 @@ def bearing_library() -> ctypes.CDLL:
         getattr(library, name).restype = c_size_t
     for name in ("table_height", "contact_height"):
         getattr(library, name).restype = c_double
-    for name in ("bearing_start", "bearing_press", "bearing_rest", "bearing_rest_at"):
+    for name in ("bearing_start", "bearing_press", "bearing_rest", "bearing_rest_at", "bearing_rates"):
         getattr(library, name).restype = ctypes.c_char_p
-    for name in ("bearing_begin", "bearing_slopes", "bearing_accept", "bearing_describe"):
+    for name in (
+        "bearing_begin", "bearing_slopes", "bearing_accept", "bearing_describe", "bearing_states_of_step",
+    ):  # fmt: skip
         getattr(library, name).restype = None
     here = [ctypes.sizeof(kind) for kind in (BearingStructure, GroovesStructure, RaceStructure, HeightsStructure)]
     here += [kind.itemsize for kind in (HEAD, BALL, FILM, SURFACE, STEP, BALL_STEP, AT_REST)]
+    here += [kind.itemsize for kind in (ORIGIN, RING_MOTION, BALL_OUTPUTS)]
     there = (c_size_t * len(here))()
     library.bearing_sizes(there)
     assert list(there) == here, f"structures of bearings have {list(there)} bytes in C, {here} in Python"

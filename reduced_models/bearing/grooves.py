@@ -9,7 +9,7 @@ import numpy as np
 
 from ehlcontact.checks import require_finite
 from ehlcontact.errors import InputError
-from reduced_models.bearing.contact_angles import CONTROLS, HARRIS, Grooves
+from reduced_models.bearing.contact_angles import CONTROLS, Grooves
 from reduced_models.bearing.kinematics import ball_mass
 from reduced_models.bearing.race import RACES
 from reduced_models.bearing.ring import free_clearance, groove_distance, spin_moment_factor
@@ -43,7 +43,7 @@ def grooves_of(bearing: BallBearing) -> Grooves:
         pitch=bearing.pitch_diameter,
         mass=ball_mass(bearing.ball_diameter, bearing.density),
         control=CONTROLS.index(bearing.race_control),
-        gyroscopic=-1.0 if bearing.race_control == CONTROLS[HARRIS] else 1.0,
+        gyroscopic=-1.0 if bearing.race_control == "harris" else 1.0,
         inner_spin_moment=moments[0],
         outer_spin_moment=moments[1],
         cosine=table_cosine(bearing),

@@ -37,11 +37,13 @@ int bearing_states(const Bearing *b)
     return FIRST_OF_BALLS + b->balls * ball_states(b) + b->filters * b->directions;
 }
 
-/* Unit vector along the line between both grooves of a ring in the middle; across is that turned to the left. */
-static void along_middle(const Grooves *g, double e[2])
+/* Unit vector from the outer groove centre to the origin of a ball; across is that turned to the left. Returns their distance. */
+static double along_origin(const BallOrigin *origin, double e[2])
 {
-    e[0] = g->place[0] / g->free_length[OUTER_RACE];
-    e[1] = g->place[1] / g->free_length[OUTER_RACE];
+    const double length = sqrt(origin->place[0] * origin->place[0] + origin->place[1] * origin->place[1]);
+    e[0] = origin->place[0] / length;
+    e[1] = origin->place[1] / length;
+    return length;
 }
 
 /* A vector of the plane of a ball by its parts along that line and across it, and back. */
@@ -58,12 +60,11 @@ static void from_plane(const double e[2], const Dual x[2], Dual own[2])
 }
 
 /* Place of a ball in steps, along and across. */
-static void own_place(const Bearing *b, const Ball *ball, Dual own[2])
+static void own_place(const BallOrigin *origin, const Ball *ball, Dual own[2])
 {
-    const Grooves *g = &b->grooves;
-    const Dual x[2] = {number(ball->place[0][0] - g->place[0]), number(ball->place[0][1] - g->place[1])};
+    const Dual x[2] = {number(ball->place[0][0] - origin->place[0]), number(ball->place[0][1] - origin->place[1])};
     double e[2];
-    along_middle(g, e);
+    along_origin(origin, e);
     from_plane(e, x, own);
 }
 
@@ -77,8 +78,8 @@ void bearing_states_of_step(const Bearing *b, const double state[], double state
         const Dual rate[2] = {number(ball->rate[0][0]), number(ball->rate[0][1])};
         Dual own[4];
         double e[2];
-        along_middle(&b->grooves, e);
-        own_place(b, ball, own);
+        along_origin(&b->origin[k], e);
+        own_place(&b->origin[k], ball, own);
         from_plane(e, rate, own + 2);
         for (j = 0; j < own_n; j++) {
             *states++ = own[j < n ? j : 2 + j - n].x;
@@ -96,18 +97,19 @@ void bearing_states_of_step(const Bearing *b, const double state[], double state
 
 /* ---- places ---- */
 
-/* Inner groove centre at a ball: its place, how far the ring has moved it, its velocity as the ball sees it; rows of forces. */
+/* Inner groove centre at a ball: its place, how far the ring has moved it from where it is with the ball at its origin, its velocity as
+ * the ball sees it; rows of forces. */
 typedef struct {
     Dual c[2], moved[2], d[2], rows[MOST_DIRECTIONS][3];
 } GrooveCentre;
 
 static GrooveCentre groove_centre(const Bearing *b, const BearingSettings *settings, const RingMotion *ring, Dual angle, Dual cage, int k)
 {
-    const double psi = angle.x + two_pi * k / b->balls, x = cos(psi), y = sin(psi);
+    const double psi = angle.x + two_pi * k / b->balls, x = cos(psi), y = sin(psi), *from = b->origin[k].moved;
     GrooveCentre g;
     int i, j;
-    g.moved[0] = number(0.0);
-    g.moved[1] = number(settings->offset);
+    g.moved[0] = number(-from[0]);
+    g.moved[1] = number(settings->offset - from[1]);
     g.d[0] = g.d[1] = number(0.0);
     for (j = 0; j < b->directions; j++) {
         double rows[3], turned[3];
@@ -123,8 +125,8 @@ static GrooveCentre groove_centre(const Bearing *b, const BearingSettings *setti
             }
         }
     }
-    g.c[0] = plus(g.moved[0], b->grooves.radial - 0.5 * (settings->clearance - b->grooves.clearance));
-    g.c[1] = plus(g.moved[1], b->grooves.axial);
+    g.c[0] = plus(g.moved[0], b->grooves.radial - 0.5 * (settings->clearance - b->grooves.clearance) + from[0]);
+    g.c[1] = plus(g.moved[1], b->grooves.axial + from[1]);
     return g;
 }
 
@@ -149,27 +151,27 @@ static BallPlace ball_place(const Bearing *bearing, const Race races[2], const B
                             Dual cage, int k, const Dual own[2])
 {
     const Grooves *g = &bearing->grooves;
-    const double outer_length = g->free_length[OUTER_RACE];
-    const Dual zero[2] = {number(g->place[0]), number(g->place[1])};
+    const BallOrigin *origin = &bearing->origin[k];
+    const Dual zero[2] = {number(origin->place[0]), number(origin->place[1])};
     BallPlace p;
     Dual b[2], s[2], x[2], y[2], span[2], across, dry[2], l_i, l_o, more_o, more_i;
-    double rest_i, e[2];
+    double rest_i, rest_o, e[2];
     int j, race;
     p.centre = groove_centre(bearing, settings, ring, angle, cage, k);
-    along_middle(g, e);
+    rest_o = along_origin(origin, e);
     to_plane(e, own, x);
-    for (j = 0; j < 2; j++) { /* at rest the ball is at `place`, the inner spring s; both grow by x and y */
+    for (j = 0; j < 2; j++) { /* at its origin the ball is at `zero`, the inner spring s; both grow by x and y */
         b[j] = add(x[j], zero[j]);
         y[j] = sub(p.centre.moved[j], x[j]);
     }
-    s[0] = number(g->radial - 0.5 * (settings->clearance - g->clearance) - g->place[0]);
-    s[1] = number(g->axial - g->place[1]);
+    s[0] = number(g->radial - 0.5 * (settings->clearance - g->clearance) + origin->moved[0] - zero[0].x);
+    s[1] = number(g->axial + origin->moved[1] - zero[1].x);
     rest_i = sqrt(s[0].x * s[0].x + s[1].x * s[1].x);
     l_i = inner_span(b, p.centre.c, span);
     l_o = root(dot(b, b));
-    more_o = add(times(2.0 * outer_length, own[0]), add(mul(own[0], own[0]), mul(own[1], own[1])));
+    more_o = add(times(2.0 * rest_o, own[0]), add(mul(own[0], own[0]), mul(own[1], own[1])));
     more_i = add(times(2.0, dot(s, y)), dot(y, y));
-    p.u[OUTER_RACE] = over(more_o, plus(l_o, outer_length));
+    p.u[OUTER_RACE] = plus(over(more_o, plus(l_o, rest_o)), rest_o - g->free_length[OUTER_RACE]);
     p.u[INNER_RACE] = plus(over(more_i, plus(l_i, rest_i)), rest_i - g->free_length[INNER_RACE]);
     across = add(add(cross(zero, s), cross(x, p.centre.c)), cross(zero, p.centre.moved));
     if (p.centre.c[0].x < b[0].x) { /* beyond the groove, along its wall */
@@ -322,7 +324,7 @@ static const char *ball_rates(const Instant *at, Dual angle, Dual cage, int k, D
     Between between;
     double e[2];
     int race, j;
-    along_middle(&b->grooves, e);
+    along_origin(&b->origin[k], e);
     for (j = 0; j < ball_states(b); j++) {
         rates[j] = number(0.0);
     }
@@ -338,7 +340,7 @@ static const char *ball_rates(const Instant *at, Dual angle, Dual cage, int k, D
         own[0] = states[0];
         own[1] = n > 1 ? states[1] : number(0.0);
     } else {
-        own_place(b, last, own);
+        own_place(&b->origin[k], last, own);
         rest_place(b, at->races, &head->settings, at->ring, angle, k, own);
     }
     *p = ball_place(b, at->races, &head->settings, at->ring, angle, cage, k, own);
@@ -353,7 +355,7 @@ static const char *ball_rates(const Instant *at, Dual angle, Dual cage, int k, D
     o = normal;
     o[0] = p->rolls.cosine[OUTER_RACE];
     o[1] = p->rolls.sine[OUTER_RACE];
-    between.across = b->grooves.across;
+    between.across = b->origin[k].across;
     between.cosine = p->cosine;
     between.sine = p->sine;
     between.moving[0] = dot(o, p->centre.d);
@@ -472,7 +474,7 @@ const char *bearing_rates(const Bearing *b, double state[], double work[], const
         }
         reason = bearing_rest_at(b, state, work, ring->omega.x, states[CAGE_ANGLE].x, q, any);
     }
-    for (i = 0; i < CAGE_ROUNDS && reason == NULL; i++) { /* the cage turns as the balls carry, which move with it */
+    for (i = 0; i < (b->cage_held ? 1 : CAGE_ROUNDS) && reason == NULL; i++) { /* the cage turns as the balls carry, which move with it */
         reason = rates_at(&at, cage, states, rates, force, balls);
         cage = rates[CAGE_ANGLE];
     }

@@ -33,6 +33,9 @@ void bearing_sizes(size_t sizes[])
     sizes[8] = sizeof(StepHead);
     sizes[9] = sizeof(BallStep);
     sizes[10] = sizeof(BallAtRest);
+    sizes[11] = sizeof(BallOrigin);
+    sizes[12] = sizeof(RingMotion);
+    sizes[13] = sizeof(BallOutputs);
 }
 
 static StepFilters *filters_in(const Bearing *b, double work[], int k, int race)

@@ -25,8 +25,13 @@ typedef struct {
     double gyroscopic;              /* factor of the gyroscopic moment: 1, or -1 of HARRIS_CONTROL */
     double spin_moment[2];          /* of friction, over the dry compression squared */
     double cosine;                  /* of the contact angle that the tables are for */
-    double place[2], across;        /* where a ball is counted from in continuous time; its damping there [N s/m] */
 } Grooves;
+
+/* What a ball is counted from in continuous time [m]: its place, and how far the inner groove centre is there from its free place; its
+ * damping across its outer contact [N s/m]. */
+typedef struct {
+    double place[2], moved[2], across;
+} BallOrigin;
 
 /* Films over load, for outputs alone: logarithms of central and smallest film and of the moment, even in that of the load. */
 typedef struct {
@@ -49,6 +54,8 @@ typedef struct {
     double most_speed, most_load[2];       /* of the tables */
     double largest_place, largest_tilt;    /* of a ring in its bearing */
     const HeightTables *heights;           /* of features; NULL: the state has no `BallSurface` */
+    const BallOrigin *origin;              /* [balls] */
+    int cage_held;                         /* in continuous time: whether the cage stands still */
 } Bearing;
 
 typedef struct {
@@ -101,7 +108,8 @@ size_t bearing_state_size(const Bearing *b); /* in doubles */
 size_t bearing_work_size(const Bearing *b);
 
 /* Bytes of a bearing, its grooves, a race and tables of heights; of the head of a state, a ball, a film without its chain and a
- * surface; of the head of a step and a ball in it; of a ball at rest: for those who have these structures in another language. */
+ * surface; of the head of a step and a ball in it; of a ball at rest; of an origin, a motion and outputs of a ball: for those who have these
+ * structures in another language. */
 void bearing_sizes(size_t sizes[]);
 
 /* Where the films of a ball stand in a state, and rows [directions] of the seat: force of the ring on the balls with the losses of
@@ -212,13 +220,22 @@ int ball_outputs(const Bearing *b, int wet, Dual omega, const BallOutputs *ball,
 /* Torque that the films take from the shaft, in such outputs. */
 double bearing_torque(const Bearing *b, const double outputs[]);
 
-/* ---- continuous time: reduced_models.bearing.continuous_time ---- */
+/* ---- continuous time ---- Both contacts of a ball have the force
+ *
+ *     F = share k_n (g(u) + c tau u' + sum g_j x_j)_+^(3/2)
+ *
+ * with g_j/G for the states of the chain (film_law.h). A ball without inertia has its rate b' from the balance of both contact forces
+ * along their normals, centrifugal force and friction that turns its axis: the minimum of a convex function, for both forces rise with
+ * their rates. Along the outer contact that rate lies above the one at which this contact lets go, and below the one at which the inner
+ * contact does or the outer one carries all other forces. A ball with inertia m has b' as a state. Between rings that are held along the
+ * shaft and cannot tilt a ball moves along its outer contact alone. Films follow the angles and speeds of their ball at once; the cage turns
+ * at the mean speed of the balls by their loads, as in steps. Places are counted from an origin, so that small changes keep their digits. */
 
 typedef struct {
     Dual q[MOST_DIRECTIONS], v[MOST_DIRECTIONS], omega; /* of the inner ring, in the order of the bearing's directions; of the shaft */
 } RingMotion;
 
-/* The states: angle of the cage; of every ball its place (along the line between the groove centres of a ring in the middle, and
+/* The states: angle of the cage; of every ball its place from its origin (along the line from the outer groove centre to there, and
  * across it where the contact angle varies), with inertia its rate likewise, of a dry ball without inertia nothing, and the films of
  * its inner and outer contact: inlet, fast, chain; the filters of the losses. */
 enum { CAGE_ANGLE, FIRST_OF_BALLS };

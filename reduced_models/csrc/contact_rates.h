@@ -1,5 +1,4 @@
-/* One contact and the balance of a ball in continuous time: reduced_models.bearing.continuous_time. Names and order of the
- * arithmetic are those of the Python file; every number has its change along one direction with it. */
+/* One contact and the balance of a ball in continuous time; every number has its change along one direction with it. */
 #ifndef CONTACT_RATES_H
 #define CONTACT_RATES_H
 

@@ -61,7 +61,8 @@ static inline Dual dry_compression(const Race *race, Dual approach)
     return chained(g, slope, approach);
 }
 
-/* The vector along the inner spring: its groove never pulls a ball inward. Returns its length. */
+/* The vector along the inner spring: its groove, half a circle with straight walls beyond it, never pulls a ball inward, however far the
+ * ring has left it, and the potential stays convex. Returns its length. */
 IN_PLACE Dual inner_span(const Dual b[2], const Dual c[2], Dual s[2])
 {
     static const double tiny = 1e-20;
@@ -86,6 +87,9 @@ static inline Dual at_least(Dual value, double least)
 /* Angles and speeds of a ball; `dry` are the dry compressions of both contacts where the races share by forces, else NULL. */
 IN_PLACE Rolling roll(const Bearing *bearing, const Dual b[2], const Dual c[2], const Dual dry[2])
 {
+    /* Least cosine of a contact angle with which a ball rolls (63 degrees): none that carries runs so steeply, and one that the inner
+     * ring has left by a tenth of a millimetre has no place on it at which it would roll. Cosine between the axis of a ball and the cone
+     * of a contact that drives it, from which on it slips. W_i/W_o below which inner race control fades. */
     static const double least_cosine = 0.45, least_drive = 0.1, of_outer = 0.01;
     const Grooves *grooves = &bearing->grooves;
     const double g = grooves->ball / grooves->pitch; /* the axis of the ball is at an angle whose tangent is `slope` */

@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_instance, require_integer, require_nonnegative
 from ehlcontact.errors import InputError
-from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.ball_states import PER_METRE, across_damping, bearing_system
-from reduced_models.bearing.continuous_time import RestingBalls, bearing_rates, rates_with_cage
+from reduced_models.bearing.continuous_time import BearingRates
+from reduced_models.bearing.core_bearing import ORIGIN
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.ring import equilibrium_at
@@ -184,50 +184,29 @@ class _Ring:
 
     def __init__(self, mount: BearingMount, speed: float, r: _Floats, cage_turns: bool) -> None:
         bearing, rpm = mount.ball_bearing, mount.ball_bearing.speed(speed)
-        self._static, self._angle = static_ring(bearing, rpm, mount.cage_angle, r.size), mount.cage_angle
-        held = equilibrium_at(self._static, r)
+        static = static_ring(bearing, rpm, mount.cage_angle, r.size)
+        held = equilibrium_at(static, r)
         linear = linear_balls(bearing, rpm, [held])
-        self.balls: Balls = self._static.balls
         self.shape = _shape_of(linear)._replace(cage=cage_turns)
         self.force = held.load.copy()
-        self._pressed = self.force.copy()
-        seat = np.tile(self.force / PER_METRE, self.shape.seat)
-        self.rest = np.concatenate([np.zeros(self.shape.of_balls), seat, np.zeros(int(cage_turns))])
-        self._resting = RestingBalls(
-            place=self._static.places.copy(),
-            moved=held.maps[:, :2] @ r,
-            across=np.array([across_damping(linear, k) for k in range(self.balls.number)]),
-            inertia=linear.inertia,
-        )
+        origins = np.zeros(static.balls.number, ORIGIN)
+        origins["place"], origins["moved"] = static.places, held.maps[:, :2] @ r
+        origins["across"] = [across_damping(linear, k) for k in range(origins.size)]
+        self._omega = static.balls.omega
+        self._rates = BearingRates(static.balls, FIVE[: r.size], origins, cage_held=not cage_turns)
+        seat = np.tile(self.force, self.shape.seat)
+        self._rest = np.concatenate([[mount.cage_angle], np.zeros(self.shape.of_balls), seat])
+        # in the order of `BearingRates` the cage comes first, and a seat is in N
+        self.size = self._rest.size - 1 + cage_turns
+        self._moving = np.roll(np.arange(self._rest.size), -1)[: self.size]
+        self._unit = np.repeat([1.0, PER_METRE, 1.0], [self.shape.of_balls, seat.size, cage_turns])
 
     def rates(self, x: _Floats, r: _Floats, v: _Floats) -> tuple[_Floats, _Floats]:
         """Rates of the states `x`, which are differences from rest; force of the ring on the balls."""
-        states, rates = self.rest + x, np.zeros(x.size)
-        self._press(states, r, v, rates)
-        gains, poles = self.balls.loss
-        seat = slice(self.shape.of_balls, x.size - self.shape.cage)
-        lost = self._pressed - PER_METRE * states[seat].reshape(-1, self.force.size)
-        rates[seat] = (poles[:, None] * lost).ravel() / PER_METRE
-        return rates, self._pressed + gains @ lost
-
-    def _press(self, states: _Floats, r: _Floats, v: _Floats, rates: _Floats) -> None:
-        """Set the force on the balls, and the rates of their states."""
-        angle = self._angle + (states[-1] if self.shape.cage else 0.0)
-        if self.shape.of_balls:
-            given = states, r, v, rates, self._pressed
-            if self.shape.cage:
-                turning = rates_with_cage(self.balls, self._resting, angle, *given)
-            else:
-                turning = bearing_rates(self.balls, self._resting, angle, 0.0, *given)
-        else:
-            self._static.angle = angle
-            self._static.press(r)
-            self._pressed[:] = self._static.load
-            balls = self._static.describe()[0]
-            loads = balls["load"][:, 0] if balls["load"].any() else None
-            turning = self.balls.omega * float(np.average(balls["orbit"], weights=loads))
-        if self.shape.cage:
-            rates[-1] = turning
+        states = self._rest.copy()
+        states[self._moving] += self._unit * x
+        rates, force = self._rates.at(self._omega, states, r, v)
+        return rates[self._moving] / self._unit, force
 
 
 def _shape_of(balls: LinearBalls) -> _Shape:
@@ -259,7 +238,7 @@ class _Motion:
         net = force - self._damping @ v - self._stiffness @ q
         at = 2 * size
         for own, ring in zip(self._places, self.rings, strict=True):
-            here = slice(at, at + ring.rest.size)
+            here = slice(at, at + ring.size)
             out[here], pushed = ring.rates(x[here], r[own], r_rate[own])
             net -= self._to_rings[own].T @ (pushed - ring.force)
             at = here.stop

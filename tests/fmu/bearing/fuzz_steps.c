@@ -69,14 +69,20 @@ static const HeightTables *drawn_heights(int balls)
 static Bearing drawn(void)
 {
     static const int most[3] = {2, 3, 5};
+    static BallOrigin origins[MOST_BALLS];
     static int bearings = 0;
     Bearing b = bearing;
+    int k;
     b.balls = 3 + any(MOST_BALLS - 2);
     b.control = any(4);
     b.grooves.gyroscopic = b.control == HARRIS_CONTROL ? -1.0 : 1.0;
     b.directions = b.grooves.axial != 0.0 ? 5 : most[any(3)];
     b.inertia = any(3) == 0 ? b.grooves.mass : 0.0;
     b.filters = any(2) == 0 ? 0 : b.filters;
+    for (k = 0; k < b.balls; k++) {
+        origins[k] = bearing.origin[0];
+    }
+    b.origin = origins;
     b.heights = ++bearings % 2 == 0 ? NULL : drawn_heights(b.balls);
     return b;
 }

@@ -13,7 +13,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.sundials import CVodeSolver
 from scipy.integrate import solve_ivp
 
-from fmu.bearing.continuous import rates_in_time, state_points
+from fmu.bearing.continuous import rates_of, state_points
 from fmu.bearing.places import counted_from
 from fmu.bearing.references import knowns_of
 from fmu.bearing.trial import START
@@ -52,7 +52,7 @@ def approaches(one, states, place):
     own = states[1 : 1 + len(BallStates.of(one.model).balls[0]) * bearing.balls].reshape(bearing.balls, -1).T
     if place.size == 2:
         return np.array([cos * place[0] + sin * place[1] - 0.5 * bearing.clearance - own[0], own[0]])
-    g, at = one.model.motion().balls.grooves, counted_from(one.model).place[0]
+    g, at = one.model.motion().balls.grooves, counted_from(one.model)["place"][0]
     e, f = at / np.hypot(*at), np.array([-at[1], at[0]]) / np.hypot(*at)
     ball = at[:, None] + np.outer(e, own[0]) + np.outer(f, own[1])
     tilt = g.groove_circle * (sin * place[3] - cos * place[4])
@@ -104,7 +104,7 @@ def test_equations_are_those_of_python(made, name, fmi):
                 rounding = np.zeros(of_ball.sum())
                 if len(one.model.directions) == 5:
                     load = max(model.get(f"ball[{ball}].load_inner", f"ball[{ball}].load_outer"))
-                    rounding[:2] = np.finfo(float).eps * load / counted_from(one.model).across[0]
+                    rounding[:2] = np.finfo(float).eps * load / counted_from(one.model)["across"][0]
                 assert np.all(error[of_ball] <= 1e-12 * largest[of_ball] + rounding)
                 assert np.all(error[of_ball] <= 1e-11 * np.abs(points.rates[k][of_ball]))
     assert pressed > 20 or "dry" in name
@@ -206,11 +206,8 @@ def test_states_at_the_start_follow_from_the_inputs(made, name, states):
             assert np.array(exact)[part] == pytest.approx(difference[part], rel=1e-5, abs=1e-6 * size)
         model.raw.exitInitializationMode()
         values = np.array(model.get(*states_of(one)))
-        counted = counted_from(one.model)
-        _, force = rates_in_time(
-            one.model, one.model.motion(), values, place, 0.0 * place, given["speed"], counted
-        )
-        assert model.get(*forces_of(one)) == pytest.approx(force, rel=1e-9, abs=1e-6)
+        _, pushed = rates_of(one.model).at(given["speed"], values, place, 0.0 * place)
+        assert model.get(*forces_of(one)) == pytest.approx(-pushed, rel=1e-9, abs=1e-6)
         model.free()
 
 

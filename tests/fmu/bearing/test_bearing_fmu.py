@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from bearing_fmus import RPM, ExportedBearing, bearing
+from core_races import CoreRace
 from exported import verified
 from fmpy.fmi1 import FMICallException
 from mass_on_bearing import decay, in_one_run
@@ -21,7 +22,6 @@ from fmu.bearing.trial import START, bearing_trial
 from fmu.bearing.variables import FORCES, RATES
 from fmu.driver import Slave
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.race_contact import curve
 
 # Largest difference over the largest force. Planar balls are found by both to rounding; those at angles in Python
 # to first order from 1e-6 of the forces, which counts where centrifugal forces do.
@@ -389,7 +389,8 @@ def test_powers_of_a_curve_that_are_zero():
 
 def test_the_curve_of_a_layer_that_runs_dry():
     """Within an interval it bends: one polynomial is 9e-5 of it off, and there are more, with gains as before."""
-    law = bearing("6305", supply=OilLayer(3e-7)).tables.law("inner", [2000.0, 5000.0])
+    balls = bearing("6305", supply=OilLayer(3e-7)).tables.balls([2000.0, 5000.0])
+    law, core = balls.inner, CoreRace(balls)
     halved, place = _halved(law)
     powers, first = _curve(halved, place)
     assert halved.x.size > law.x.size
@@ -400,7 +401,7 @@ def test_the_curve_of_a_layer_that_runs_dry():
             k = np.searchsorted(u, at) - 1
             first_of, end = first[row * (u.size - 1) + k : row * (u.size - 1) + k + 2]
             s = 2.0 * (at - u[k]) / (u[k + 1] - u[k]) - 1.0
-            expected = curve(at, row, 0.0, law, 0)[0]
+            expected = core.curve(at, (row, 0.0))[0]
             assert np.polyval(powers[first_of:end][::-1], s) == pytest.approx(expected, rel=2e-9)
         for gains, before in zip(halved.gains[row].T, law.gains[row].T, strict=True):
             np.testing.assert_allclose(gains, np.interp(halved.x, law.x, before), rtol=1e-10, atol=1e-14)
