@@ -29,11 +29,11 @@ class Compiler:
     is_zig: bool = False
 
 
-def compilers(target: Platform) -> list[Compiler]:
+def compilers(target: Platform, any_of_them: bool = False) -> list[Compiler]:
     """Compilers for a platform, in the order of preference.
 
-    For this machine's binary: ``EHLCONTACT_CC`` (a command line) and no other where it is set, else the system's
-    ``cc``, ``gcc`` or ``clang``, then zig. For any other: zig.
+    For this machine's binary: ``EHLCONTACT_CC`` (a command line), where it is set, and no other unless
+    `any_of_them` will do; then the system's ``cc``, ``gcc`` or ``clang``, then zig. For any other: zig.
 
     Raises
     ------
@@ -45,8 +45,9 @@ def compilers(target: Platform) -> list[Compiler]:
     found = []
     if target is this_machine():
         chosen = os.environ.get(COMPILER_VARIABLE, "").strip()
-        if chosen:
-            return [_compiler(_words(chosen))]
+        found += [_compiler(_words(chosen))] if chosen else []
+        if chosen and not any_of_them:
+            return found
         # A cc on Windows may be of many makes, each with libraries of its own that the binary would need.
         name = None if target.system == "windows" else next(filter(shutil.which, SYSTEM), None)
         found += [_compiler((name,))] if name else []

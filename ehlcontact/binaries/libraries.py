@@ -112,7 +112,7 @@ def build_library(
     target, work = this_machine(), Work(sources, units, identifier, flags)
     if target is None:
         raise BuildError(f"C code is not built for this machine, {platform.system()} {platform.machine()}")
-    tried = compilers(target)
+    tried = compilers(target, any_of_them=True)
     for compiler in tried[:-1]:
         try:
             return _made(work, target, compiler)[0]

@@ -18,6 +18,7 @@ from ehlcontact.checks.inputs import as_numbers, require_number
 from ehlcontact.errors import InputError
 
 MADE_FOR = "what the solvers are made for"
+ROUNDED = 1e-12  # of a limit
 
 
 class Quantity(NamedTuple):
@@ -56,12 +57,17 @@ class Quantity(NamedTuple):
     @property
     def allowed(self) -> str:
         """The limits in words."""
-        low, high = (-self.limits[1], self.limits[1]) if self.signed else self.limits
+        low, high = self._ends()
         return f"{'0, or ' if self.zero else ''}between {low:g} and {high:g} {self.unit}".rstrip()
+
+    def _ends(self) -> tuple[float, float]:
+        """Limits, wider by what the conversion of a number at an end may round."""
+        low, high = (-self.limits[1], self.limits[1]) if self.signed else self.limits
+        return low - ROUNDED * abs(low), high + ROUNDED * abs(high)
 
     def require(self, field: str, value: float) -> None:
         """Raise `InputError` with the guess if `value` lies outside the limits."""
-        low, high = (-self.limits[1], self.limits[1]) if self.signed else self.limits
+        low, high = self._ends()
         if not (low <= value <= high or (self.zero and value == 0.0)):
             guess = self.slip(value)
             raise InputError(field, value, self.allowed + (f" ({guess})" if guess else ""))
@@ -77,7 +83,7 @@ class Quantity(NamedTuple):
         array = as_numbers(field, value, f"numbers {self.allowed}")
         if array.size > self.most:
             raise InputError(f"length of {field}", array.size, f"at most {self.most}")
-        low, high = (-self.limits[1], self.limits[1]) if self.signed else self.limits
+        low, high = self._ends()
         bad = ~((array >= low) & (array <= high) | (self.zero & (array == 0.0)))
         if self.slips:
             bad |= np.vectorize(lambda one: bool(self.slip(one)), otypes=[bool])(array)

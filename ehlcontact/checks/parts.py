@@ -20,8 +20,9 @@ MODULUS = INPUTS["e1"]
 SHAFT_MODULUS = MODULUS._replace(limits=(MODULUS.limits[0], 1e20))  # next to infinite: a rigid shaft
 DENSITY = Quantity("kg/m3", (1e-15, 25e3), (500.0, 23e3), {"g/cm3": 1e3}, slips=True)  # next to 0: no inertia
 DENSITY_OR_NONE = DENSITY._replace(zero=True)  # 0: without mass
-MASS = Quantity("kg", (1e-9, 1e6), (1e-3, 1e5), {"g": 1e-3, "t": 1e3})
+MASS = Quantity("kg", (1e-6, 1e6), (1e-3, 1e5), {"g": 1e-3, "t": 1e3})
 MASS_OR_NONE = MASS._replace(zero=True)
+RING_MASS = MASS._replace(limits=(1e-9, MASS.limits[1]))  # next to nothing: the ring follows its bearing
 INERTIA = Quantity("kg m2", (1e-15, 1e7), (1e-9, 1e5), {"kg mm2": 1e-6, "g mm2": 1e-9}, zero=True)
 FILM = Quantity("m", (0.0, 1e-2), (1e-9, 1e-4), UM, signed=True)  # a gap, of rough surfaces below 0 too
 PRESSURE = Quantity("Pa", (1e-3, 1e13), (1e5, 1e11), {"GPa": 1e9, "MPa": 1e6})

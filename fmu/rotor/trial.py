@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.checks.parts import SPEED
 from fmu.bearing.model import BearingModel
 from fmu.bearing.tables import film_logarithms
 from fmu.rotor.model import RotorModel
@@ -143,6 +144,7 @@ def _speeds(model: RotorModel, dt: float) -> tuple[float, float]:
     if model.bearings:
         return float(model.bearings[0].speeds[0]), float(model.bearings[0].speeds[-1])
     first = model.speed if model.speed > 0.0 else 60.0 / (TURN * dt)
+    first = min(first, SPEED.limits[1] / (1.0 + RISE))
     return first, (1.0 + RISE) * first
 
 

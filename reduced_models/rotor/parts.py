@@ -242,7 +242,7 @@ class Seat(NamedTuple):
 @fields_take(
     position=ranges.PLACE, cage_angle="rad", journal_mass=ranges.MASS_OR_NONE, housing_mass=ranges.MASS,
     housing_stiffness=ranges.STIFFNESS, housing_damping=ranges.DAMPING, offset="m", preload=ranges.PRELOAD,
-    preload_stiffness=ranges.STIFFNESS_OR_NONE, outer_ring_mass=ranges.MASS,
+    preload_stiffness=ranges.STIFFNESS_OR_NONE, outer_ring_mass=ranges.RING_MASS,
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Support(Summary):
