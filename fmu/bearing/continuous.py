@@ -50,12 +50,8 @@ class StatePoints:
 
 def state_points(model: BearingModel, count: int = POINTS, seed: int = 2) -> StatePoints:
     """States about rest under the start values of the inputs, moved at random; rates and forces there."""
-    rng, made, in_time, n = (
-        np.random.default_rng(seed),
-        BallStates.of(model),
-        rates_of(model),
-        len(model.directions),
-    )
+    rng, in_time, n = np.random.default_rng(seed), rates_of(model), len(model.directions)
+    made = BallStates.of(model)
     kinds = np.array([one.kind for ball in made.balls for one in ball], str)
     sizes = np.array([CLOSER * one.nominal for ball in made.balls for one in ball])
     sizes[kinds == "a"] *= ASIDE

@@ -155,7 +155,7 @@ class BearingModel:
 
     @cached_property
     def balls(self) -> Balls:
-        """Grooves, races and losses of the bearing, as the kernels in Python have them."""
+        """Grooves, races and losses of the bearing, as the core in Python has them."""
         return self.motion().balls
 
     def motion(self) -> BallMotion:

@@ -82,6 +82,7 @@ def indicators(model, count):
 def test_equations_are_those_of_python(made, name, fmi):
     """To rounding where balls carry load; elsewhere to the error of the cubics in Python.
 
+    Both have ``bearing_rates``: what differs are tables, parameters and states that an FMU was made with.
     At contact angles little damps a ball across its contacts: rounding of the forces is over that damping.
     """
     one = made(name, fmi)
