@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.coefficients import stiffness_and_damping
+from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.bearing.ring import RingEquilibrium
@@ -67,15 +68,18 @@ class LinearBalls(NamedTuple):
         s = np.asarray(s, complex)[..., None]
         inner, _, by_b = self._tangents(s)
         G, n = self.geometric, self.normals[0]
-        condensed = np.empty((*s.shape[:-1], len(G), 3, 2), complex)
-        for j in range(2):
+        directions = self.maps.shape[-1]
+        rows, columns = (1, 1) if directions == len(PLANAR) else (3, 2)  # x and y move grooves outward alone
+        condensed = np.empty((*s.shape[:-1], len(G), rows, columns), complex)
+        for j in range(columns):
             pressed = inner * (n[0] * n[j]), inner * (n[1] * n[j]), 0.0  # no moment by the normal force
             moved = _solve(by_b, (G[:, 0, 2 + j] + pressed[0], G[:, 1, 2 + j] + pressed[1]))
-            for i in range(3):
+            for i in range(rows):
                 own = G[:, 2 + i, 2 + j] + pressed[i]
                 condensed[..., i, j] = own - self._carried(inner, moved, i)
-        directions = self.maps.shape[-1]
-        weights = np.einsum("kmi,klj->kmlij", self.maps, self.maps[:, :2]).reshape(-1, directions * directions)
+        weights = np.einsum("kmi,klj->kmlij", self.maps[:, :rows], self.maps[:, :columns]).reshape(
+            -1, directions * directions
+        )
         Z = condensed.reshape(*s.shape[:-1], -1) @ weights
         share = response(self.loss, s[..., 0]) / self.positions
         return np.asarray(Z.reshape(*s.shape[:-1], directions, directions) * share[..., None, None])
