@@ -63,9 +63,14 @@ SANITIZE = ["-g", "-O1", "-fsanitize=address,undefined,float-divide-by-zero", "-
     [
         ("lossy", 2000),
         *(pytest.param(name, 8000, marks=pytest.mark.long) for name in ("range", "angular")),
-        *(
-            pytest.param(name, 100_000, marks=pytest.mark.slow)
-            for name in ("lossy", "angular", "thin five", "five dry")
+        *(pytest.param(name, 100_000, marks=pytest.mark.slow) for name in ("lossy", "thin five", "five dry")),
+        pytest.param(
+            *("angular", 100_000),
+            marks=[
+                pytest.mark.slow,
+                # 1084 refused; without heights 106, of which 100 are motions that are not finite
+                pytest.mark.xfail(strict=True, reason="one bearing of forty with unequal balls finds no balance"),
+            ],
         ),
     ],
 )
