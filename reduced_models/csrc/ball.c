@@ -28,7 +28,7 @@ void renew_slopes(const Search *s, const double b[2], const double force[2], con
     }
 }
 
-void press_anew(const Search *s, const double b[2], Pressed *p)
+void press_ball(const Search *s, const double b[2], Pressed *p)
 {
     press(s, b, p);
 }
@@ -142,7 +142,7 @@ int balance_ball(const Search *s, const double start[2])
         }
         allowed = close * (least + p.inner.force + p.outer.force) + rounding * p.at.l[OUTER_RACE] * stiffness_of(s, &p);
         if (at_rest(s) && films && size <= allowed) {
-            press_anew(s, b, &p); /* begins with its films as they are: now their slopes are exact too */
+            press_ball(s, b, &p); /* begins with its films as they are: now their slopes are exact too */
         }
         if (renews && (old || size <= allowed)) { /* exact in the end, of films too */
             const double by_film[2] = {p.inner.by_film, p.outer.by_film};

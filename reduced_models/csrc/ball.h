@@ -218,7 +218,7 @@ IN_PLACE void tangents(const Search *s, const Pressed *p, const double inertia[5
     t->stiff = stiffness_of(s, p);
 }
 
-/* `press`, in one place of the code: where a search is rare, its size counts. */
-void press_anew(const Search *s, const double b[2], Pressed *p);
+/* `press`, not compiled in place: for searches, which are rare, so that FMUs are smaller. */
+void press_ball(const Search *s, const double b[2], Pressed *p);
 
 #endif

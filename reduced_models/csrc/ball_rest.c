@@ -110,7 +110,7 @@ void bearing_describe(const Bearing *b, const double state[], double work[], Bal
         Search s;
         Pressed p;
         search_of(b, state, work, k, races, &s);
-        press_anew(&s, s.ball->place, &p);
+        press_ball(&s, s.ball->place, &p);
         for (race = 0; race < 2; race++) {
             const RaceForce *contact = race == INNER_RACE ? &p.inner : &p.outer;
             force[race] = at->load[race] = contact->force;

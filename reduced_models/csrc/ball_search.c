@@ -76,7 +76,7 @@ static void search_along(const Search *s, const double d[2], int arc, const Pres
         Pressed now;
         double along;
         move_along(b, d, t, arc, moved, direction);
-        press_anew(s, moved, &now);
+        press_ball(s, moved, &now);
         along = now.sum[0] * direction[0] + now.sum[1] * direction[1];
         if ((t == 1.0 && hypot(now.sum[0], now.sum[1]) < 0.5 * size) || fabs(along) <= roughly * slope) {
             break;
@@ -100,7 +100,7 @@ static int seek_place(const Search *s, double b[2])
         double size, stiff, by_film[2], d[2], cut;
         Pressed p;
         Tangents t;
-        press_anew(s, b, &p);
+        press_ball(s, b, &p);
         size = hypot(p.sum[0], p.sum[1]);
         stiff = p.inner.stiffness + p.outer.stiffness;
         if (!isfinite(size)) {
@@ -145,7 +145,7 @@ static double push_along(const Search *s, double length, double far, double b[2]
         Pressed p;
         b[0] = length * c;
         b[1] = length * z;
-        press_anew(s, b, &p);
+        press_ball(s, b, &p);
         along = p.sum[0] * c + p.sum[1] * z;
         across = p.sum[1] * c - p.sum[0] * z;
         if (across == 0.0) { /* exactly, of balls between grooves in one plane, which stay in it */
@@ -204,7 +204,7 @@ int place_ball(const Search *s)
     if (lies_between(s)) {
         Pressed p;
         first_place(s, b);
-        press_anew(s, b, &p);
+        press_ball(s, b, &p);
         leave_ball(s, b, &p);
         return 1;
     }
