@@ -120,6 +120,16 @@ class MoesPoint:
         """
         return self.expected_film ** (2.0 / 3.0)
 
+    @property
+    def moes(self) -> MoesPoint:
+        """The point itself: an `OperatingPoint` has its own."""
+        return self
+
+    @property
+    def scales(self) -> Scales:
+        """Units of its results, which have none: all 1."""
+        return NO_UNITS
+
     def to_dict(self) -> dict[str, float | str]:
         """All fields, for storage."""
         return asdict(self)
@@ -253,6 +263,34 @@ class Scales:
         """delta_H u_sum/(2a), unit of du/dT [m/s]."""
         return self.length / self.time
 
+    @property
+    def acceleration(self) -> float:
+        """delta_H (u_sum/(2a))^2, unit of d2u/dT2 [m/s2]."""
+        return self.length / self.time**2
+
+    @property
+    def mass(self) -> float:
+        """(f0/delta_H)(2a/u_sum)^2, unit of a mass: it is 1/Omega_n^2 [kg]."""
+        return self.stiffness * self.time**2
+
+    @property
+    def frequency(self) -> float:
+        """u_sum/(2a), unit of Omega [rad/s]."""
+        return 1.0 / self.time
+
+    @property
+    def hertz(self) -> float:
+        """u_sum/(4 pi a): frequency at Omega = 1 [Hz]."""
+        return 1.0 / (2.0 * pi * self.time)
+
+    @property
+    def surface_speed(self) -> float:
+        """u_sum/2, mean speed of the surfaces [m/s]."""
+        return self.a / self.time
+
+
+NO_UNITS = Scales(1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
+
 
 OIL = Object(Lubricant, "a Lubricant")
 
@@ -369,6 +407,12 @@ class OperatingPoint:
         speed = require_positive("entrainment_speed", entrainment_speed)
         INPUTS["entrainment_speed"].require("entrainment_speed", speed)
         return cls(geometry, lubricant, load, 2.0 * speed)
+
+    def to_dict(self) -> dict[str, float | str]:
+        """Load, speed, bodies and oil, and the Moes numbers that they make, ready for JSON."""
+        body = {"radius_x": self.geometry.radius_x, "radius_y": self.geometry.radius_y}
+        body["e_reduced"] = self.geometry.e_reduced
+        return {"load": self.load, "u_sum": self.u_sum, **body, **self.moes.to_dict()}
 
     @takes(mass="kg")
     def Omega_n(self, mass: float) -> float:

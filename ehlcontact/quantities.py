@@ -3,21 +3,22 @@
 A class declares a quantity where it declares the field or property that holds it ::
 
     h_min: Annotated[float, LENGTH]
-    stiffness: Annotated[Array, STIFFNESS.over("Omega")]
+    stiffness: Annotated[Array, STIFFNESS.over("omega")]
 
-`ehlcontact.results.table` makes values in SI (``.si``), tables, dictionaries, axis labels and figures of that.
+`scaled` takes all of them from Moes units to SI, or back. `ehlcontact.results.table` makes tables, dictionaries,
+axis labels and figures.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache
 from math import pi
 from typing import Any, get_type_hints
 
 from ehlcontact.errors import InputError
-from ehlcontact.point import Scales
+from ehlcontact.point import MoesPoint, Point, Scales
 
 
 @dataclass(frozen=True)
@@ -30,55 +31,55 @@ class Quantity:
         In SI, "" for a pure number.
     moes : str
         Unit of the dimensionless value.
-    to_si : callable, optional
-        SI value of a dimensionless value at `Scales`; None for what has no unit, or is in SI already.
+    scale : str
+        Name of the SI value of the dimensionless unit in `Scales`; "" for what has no unit, or is in SI already.
     dims : tuple of str
         Dimensions of an array in their order. A quantity named like its only dimension is its coordinate.
     listed : bool
         Whether `to_dict` has it.
-    si_name : str
-        Name in SI; by default the lower-case name.
     only_si : bool
         Dimensionless it is 1, or stands elsewhere: tables and dictionaries have it in SI only.
     """
 
     unit: str
     moes: str = ""
-    to_si: Callable[[Any, Scales], Any] | None = None
+    scale: str = ""
     dims: tuple[str, ...] = ()
     listed: bool = True
-    si_name: str = ""
     only_si: bool = False
 
     def over(self, dims: str, *, listed: bool = True) -> Quantity:
         """The same quantity as an array over `dims`, names separated by spaces."""
         return replace(self, dims=tuple(dims.split()), listed=listed)
 
-    def in_si_only(self, si_name: str = "") -> Quantity:
-        """The same quantity for tables and dictionaries in SI only."""
-        return replace(self, only_si=True, si_name=si_name)
+    def in_si_only(self) -> Quantity:
+        """The quantity for tables and dictionaries in SI only."""
+        return replace(self, only_si=True)
+
+    def size(self, scales: Scales) -> float:
+        """SI value of the dimensionless unit."""
+        return float(getattr(scales, self.scale)) if self.scale else 1.0
 
     def in_si(self, value: Any, scales: Scales) -> Any:
         """SI value of a dimensionless one; None stays None."""
-        return value if value is None or self.to_si is None else self.to_si(value, scales)
+        return value if value is None or not self.scale else value * self.size(scales)
 
 
 NUMBER = Quantity("")
-LENGTH = Quantity("m", "delta_H", lambda value, s: value * s.length)
-ALONG = Quantity("m", "a", lambda value, s: value * s.a)
-ACROSS = Quantity("m", "b", lambda value, s: value * s.b)
-TIME = Quantity("s", "2a/u_sum", lambda value, s: value * s.time)
-FREQUENCY = Quantity("rad/s", "u_sum/(2a)", lambda value, s: value / s.time)
-SURFACE_SPEED = Quantity("m/s", "u_sum/2", lambda value, s: value * (s.a / s.time))
-RATE = Quantity("m/s", "delta_H u_sum/(2a)", lambda value, s: value * s.rate)
-ACCELERATION = Quantity("m/s2", "delta_H (u_sum/(2a))^2", lambda value, s: value * (s.rate / s.time))
-FORCE = Quantity("N", "f0", lambda value, s: value * s.force)
-MOMENT = Quantity("N m", "f0 a", lambda value, s: value * s.moment)
-PRESSURE = Quantity("Pa", "p_h", lambda value, s: value * s.pressure)
-STIFFNESS = Quantity("N/m", "f0/delta_H", lambda value, s: value * s.stiffness)
-DAMPING = Quantity("N s/m", "f0/delta_H 2a/u_sum", lambda value, s: value * s.damping)
-# Of a natural frequency: the mass that has it (eq. 5)
-MASS = Quantity("kg", "u_sum/(2a)", lambda value, s: s.stiffness * (s.time / value) ** 2)
+LENGTH = Quantity("m", "delta_H", "length")
+ALONG = Quantity("m", "a", "a")
+ACROSS = Quantity("m", "b", "b")
+TIME = Quantity("s", "2a/u_sum", "time")
+FREQUENCY = Quantity("rad/s", "u_sum/(2a)", "frequency")
+SURFACE_SPEED = Quantity("m/s", "u_sum/2", "surface_speed")
+RATE = Quantity("m/s", "delta_H u_sum/(2a)", "rate")
+ACCELERATION = Quantity("m/s2", "delta_H (u_sum/(2a))^2", "acceleration")
+FORCE = Quantity("N", "f0", "force")
+MOMENT = Quantity("N m", "f0 a", "moment")
+PRESSURE = Quantity("Pa", "p_h", "pressure")
+STIFFNESS = Quantity("N/m", "f0/delta_H", "stiffness")
+DAMPING = Quantity("N s/m", "f0/delta_H 2a/u_sum", "damping")
+MASS = Quantity("kg", "f0/delta_H (2a/u_sum)^2", "mass")
 # Units without a dimensionless counterpart
 HERTZ = Quantity("Hz")
 RADIAN = Quantity("rad")
@@ -136,16 +137,65 @@ def _declared(hint: Any) -> Quantity | None:
     return next((data for data in getattr(hint, "__metadata__", ()) if isinstance(data, Quantity)), None)
 
 
+def scaled(record: Any, scales: Scales, *, back: bool = False) -> dict[str, Any]:
+    """Fields of a dataclass in Moes units whose units are those of `scales`, in SI by their names.
+
+    Dataclasses in it, and dictionaries by names of its quantities, are taken with their own quantities.
+
+    Parameters
+    ----------
+    record : dataclass
+    scales : Scales
+    back : bool
+        From SI to Moes units.
+    """
+    own = getattr(record, "_quantities", None)
+    declared = quantities_of(type(record)) if own is None else own()
+    found: dict[str, Any] = {}
+    for name, value in ((f.name, getattr(record, f.name)) for f in fields(record)):
+        if value is None:
+            continue
+        if name in declared:
+            if declared[name].scale:
+                found[name] = _in_units(value, declared[name], scales, back)
+        elif isinstance(value, Mapping) and declared.keys() & value.keys():
+            found[name] = {
+                key: _in_units(one, declared[key], scales, back) if key in declared else one
+                for key, one in value.items()
+            }
+        elif is_dataclass(value) and _declares(value.__class__) and (inner := scaled(value, scales, back=back)):
+            found[name] = replace(value, **inner)  # type: ignore[type-var]
+    return found
+
+
+def _in_units(value: Any, quantity: Quantity, scales: Scales, back: bool) -> Any:
+    size = quantity.size(scales)
+    return value / size if back else value * size
+
+
+@cache
+def _declares(cls: Any) -> bool:
+    """Whether a class declares a quantity, without a look at annotations of classes that it does not import."""
+    return any("Annotated" in str(vars(base).get("__annotations__", "")) for base in cls.__mro__)
+
+
+def in_hertz(point: Point, omega: Any) -> Any:
+    """Frequency [Hz] of an angular frequency of a result; raises `InputError` at a `MoesPoint`."""
+    if isinstance(point, MoesPoint):
+        raise InputError("hz", "asked for", "omega at a dimensionless point, which has no seconds")
+    return omega / (2.0 * pi)
+
+
 def si_quantities(declared: Mapping[str, Quantity]) -> dict[str, tuple[str, Quantity]]:
     """Own name and SI quantity of those that have a unit, by their SI name; frequencies in Hz too."""
     found: dict[str, tuple[str, Quantity]] = {}
     for name, quantity in declared.items():
-        if quantity.to_si is None:
+        if not quantity.scale:
             continue
         dims = tuple(si_dimension(dim) for dim in quantity.dims)
-        found[quantity.si_name or name.lower()] = name, replace(quantity, dims=dims)
+        found[name.lower()] = name, replace(quantity, dims=dims)
         if name == "Omega":
-            found["hz"] = name, replace(HERTZ, dims=dims, to_si=lambda value, s: value / s.time / (2.0 * pi))
+            found["hz"] = name, replace(HERTZ, dims=dims, scale="hertz")
     return found
 
 

@@ -12,23 +12,24 @@ from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
 from enum import Enum
 from math import prod
 from textwrap import fill
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.point import Scales
+from ehlcontact.point import MoesPoint, OperatingPoint, Point, Scales, moes_point
 from ehlcontact.quantities import (
     Quantity,
     quantities_of,
     require_scales,
+    scaled,
     si_dimension,
     si_quantities,
     words,
 )
 from ehlcontact.results.picture import Map, Panel, draw
-from ehlcontact.summary import LINES, WIDTH, Summary
+from ehlcontact.summary import LINES, WIDTH, Summary, contact_text
 
 Array = NDArray[Any]
 
@@ -161,7 +162,8 @@ class QuantityTable(Summary):
 
     def _declared(self) -> Mapping[str, Quantity]:
         """Quantities of tables and figures by name."""
-        return {name: one for name, one in self._quantities().items() if not one.only_si}
+        si = self._in_si()
+        return {name: one for name, one in self._quantities().items() if si or not one.only_si}
 
     def _display(self) -> Display:
         return self.DISPLAY
@@ -310,6 +312,49 @@ class QuantityTable(Summary):
         """Words and unit of an axis; no words where several quantities share it: the legend has them."""
         units = {self._unit(name) for name in names}
         return words(names[0]) if len(names) == 1 else "", units.pop() if len(units) == 1 else ""
+
+
+class PointTable(QuantityTable):
+    """Base of results at a point, in its units: SI of an `OperatingPoint`, Moes units of a `MoesPoint`."""
+
+    __slots__ = ()
+    if TYPE_CHECKING:
+        # A dataclass with fields, of which `point` is the one that all have
+        __dataclass_fields__: ClassVar[dict[str, Any]]
+
+        @property
+        def point(self) -> Point:
+            """The contact."""
+
+    def in_units_of(self, point: Point) -> Self:
+        """The result in the units of a point: in SI at the `OperatingPoint` that has the Moes numbers of its own.
+
+        Raises
+        ------
+        InputError
+            The point is another one.
+        """
+        moes = moes_point(point)
+        if moes != self.point.moes:
+            raise InputError(
+                "point", contact_text(moes, None), f"that of the result, {contact_text(self.point.moes, None)}"
+            )
+        own = self.dimensionless
+        return own if moes is point else replace(own, point=point, **scaled(own, point.scales))
+
+    @property
+    def dimensionless(self) -> Self:
+        """The result in Moes units, at the `MoesPoint` of its point."""
+        if isinstance(self.point, MoesPoint):
+            return self
+        changes = scaled(self, self.point.scales, back=True)
+        return replace(self, point=self.point.moes, **changes)
+
+    def _in_si(self) -> bool:
+        return isinstance(self.point, OperatingPoint)
+
+    def _about(self) -> dict[str, Any]:
+        return {**super()._about(), "units": "SI" if self._in_si() else "Moes"}
 
 
 class ScaledTable(QuantityTable):

@@ -110,9 +110,10 @@ class SimulationResult(ScaledTable, Origin):
         Of the steady state under load 1, over the dry approach; in SI [m].
     static_load : float
         1; in SI [N].
-    Omega, Omega_n : float or None
-        Of a harmonic load, and of bodies with inertia (eq. 5). In SI ``omega`` [rad/s] and ``hz``, and their
-        ``mass`` [kg].
+    Omega : float or None
+        Of a harmonic load; in SI ``omega`` [rad/s] and ``hz``.
+    mass : float or None
+        Of bodies with inertia (eq. 5), 1/Omega_n^2; in SI [kg].
     status : Status
     tol : float or None
         Residual at which its steps counted as solved, relative to the central film at rest.
@@ -186,9 +187,10 @@ class SimulationResult(ScaledTable, Origin):
         return getattr(self.motion, "Omega", None)
 
     @property
-    def Omega_n(self) -> Annotated[float | None, MASS.in_si_only("mass")]:
-        """Natural frequency of the motion (eq. 5), None without inertia; in SI the mass."""
-        return getattr(self.motion, "Omega_n", None)
+    def mass(self) -> Annotated[float | None, MASS.in_si_only()]:
+        """Mass of the bodies (eq. 5), 1/Omega_n^2; None without inertia."""
+        Omega_n: float | None = getattr(self.motion, "Omega_n", None)
+        return None if Omega_n is None else 1.0 / Omega_n**2
 
     @property
     def supply_behind(self) -> OilLayer:
