@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import hypot, inf, pi, sin
 from typing import Any, ClassVar
 
-from ehlcontact.checks import require_finite, require_positive
+from ehlcontact.checks import require_choice, require_finite, require_positive
 from ehlcontact.checks.frequency import dimensionless, fields_by_name, is_given, one
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
@@ -19,6 +19,7 @@ STEPS_PER_PERIOD = 80
 # Of bodies and loads, in 1/T: below, nothing moves while a bearing turns a thousand times; above, it is hundreds
 # of times faster than any body on a film. A frequency beyond was given in other units, or with another mass.
 SLOWEST, FASTEST = 1e-6, 1e3
+STARTS = {"closing": 1.0, "opening": -1.0}  # sign of the first rate of a free vibration
 
 
 def _require_frequency(field: str, value: object) -> None:
@@ -48,24 +49,32 @@ class FreeVibration(UnderLoad):
         Displacement from static equilibrium (units of the dry approach).
     rate : float, optional
         Initial rate du/dT; by default 0 with an offset, else 0.1 times the dry angular frequency.
+    start : {"closing", "opening"}, optional
+        Sign of the default rate: the bodies approach first (closing, the default), or separate first (opening, as
+        in the paper). With a rate its sign says it, with an offset alone the bodies start at rest.
     """
 
     Omega_n: float
     offset: float = 0.0
     rate: float | None = None
+    start: str | None = field(default=None, compare=False)  # `rate` has its sign
     kind: ClassVar[str] = "free"
 
     def __post_init__(self) -> None:
         _require_frequency("Omega_n", self.Omega_n)
         if abs(require_finite("offset", self.offset)) > 2.0:
             raise InputError("offset", self.offset, "between -2 and 2 dry approaches")
+        sign = 1.0 if self.start is None else STARTS[require_choice("start", self.start, tuple(STARTS))]
         if self.rate is None:
-            rate = 0.1 * SMALL_VIBRATION * self.Omega_n if self.offset == 0.0 else 0.0
+            rate = 0.1 * sign * SMALL_VIBRATION * self.Omega_n if self.offset == 0.0 else 0.0
             object.__setattr__(self, "rate", rate)
         if abs(require_finite("rate", self.rate)) > 2.0 * SMALL_VIBRATION * self.Omega_n:
             raise InputError("rate", self.rate, "within +-2 dry approaches times the dry angular frequency")
         if self.offset == 0.0 and self.rate == 0.0:
             raise InputError("offset", self.offset, "nonzero, or rate nonzero: nothing would move")
+        if self.start is not None and self.initial_rate * sign <= 0.0:
+            allowed = "left out with an offset alone, which starts at rest, or with the sign of the rate"
+            raise InputError("start", self.start, allowed)
 
     @classmethod
     @takes(mass="kg", offset="m", rate="m/s")
@@ -78,10 +87,11 @@ class FreeVibration(UnderLoad):
         hz: float | None = None,
         offset: float = 0.0,
         rate: float | None = None,
+        start: str | None = None,
     ) -> FreeVibration:
         """The same in SI: of a mass [kg], or of one whose small dry vibrations have a frequency [rad/s] or [Hz].
 
-        `offset` is in m and `rate` in m/s.
+        `offset` is in m and `rate` in m/s; `start` as above.
 
         Raises
         ------
@@ -96,7 +106,8 @@ class FreeVibration(UnderLoad):
         else:
             Omega_n = one("frequency", dimensionless(scales.time, omega=omega, hz=hz)) / SMALL_VIBRATION
         at_start = None if rate is None else require_finite("rate", rate) / scales.rate
-        return cls(Omega_n=Omega_n, offset=require_finite("offset", offset) / scales.length, rate=at_start)
+        displaced = require_finite("offset", offset) / scales.length
+        return cls(Omega_n=Omega_n, offset=displaced, rate=at_start, start=start)
 
     @property
     def period(self) -> float:

@@ -210,6 +210,8 @@ COMMANDS = [
     (free("--amplitude", "0.2"), ("--amplitude", "0.2", "--harmonic")),
     (free("--Omega-n", "2"), ("--Omega-n", "2.0", "--harmonic or --ramp")),
     (harmonic("--rate", "0.1"), ("--rate", "0.1", "--free")),
+    (harmonic("--start", "opening"), ("--start", "opening", "--free")),
+    (free("--start", "up"), ("--start", "up", "closing, opening")),
     (harmonic("--amplitude", "1.5"), ("amplitude", "1.5", "below 1")),
     (harmonic("--until", "-1"), ("until", "-1.0", "> 0")),
     (harmonic("--dt", "nan"), ("dt", "nan", "> 0")),

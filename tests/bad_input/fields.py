@@ -191,6 +191,10 @@ FIELDS = [  # function, good arguments, bad values of some
 NAMED = [  # what the message names is no argument, or depends on two of them
     ("offset", lambda: FreeVibration(Omega_n=5.0, offset=0.0, rate=0.0)),
     ("rate", lambda: FreeVibration(Omega_n=1.0, rate=2.6)),
+    ("start", lambda: FreeVibration(Omega_n=1.0, start="backwards")),
+    ("start", lambda: FreeVibration(Omega_n=1.0, start=-1)),
+    ("start", lambda: FreeVibration(Omega_n=1.0, rate=0.1, start="opening")),
+    ("start", lambda: FreeVibration(Omega_n=1.0, offset=0.1, start="opening")),
     ("Omega_n", lambda: PrescribedLoad(T, 1.0 + T, Omega_n=0.0)),
     ("values", lambda: PrescribedLoad(T, 1.0 - T)),
     ("values", lambda: PrescribedLoad([0.0, 1.0, 2.0, 3.0], ["a"] * 4)),

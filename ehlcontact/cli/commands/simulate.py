@@ -73,6 +73,12 @@ class MotionOptions(o.Options):
         float | None, typer.Option("--offset", help="Initial displacement in dry approaches, for --free.")
     ] = None
     rate: Annotated[float | None, typer.Option("--rate", help="Initial rate du/dT, for --free.")] = None
+    start: Annotated[
+        str | None,
+        typer.Option(
+            "--start", metavar="WAY", help="Sign of the first rate of --free: closing, the default, or opening."
+        ),
+    ] = None
     amplitude: Annotated[
         float | None, typer.Option("--amplitude", help="Of --harmonic, over the static load; 0.1 by default.")
     ] = None
@@ -98,7 +104,7 @@ class MotionOptions(o.Options):
             return self._in_hz(name, value, point)
         if self.free is not None:
             with o.called(Omega_n="--free"):
-                return FreeVibration(Omega_n=self.free, offset=self.offset or 0.0, rate=self.rate)
+                return self._free(self.free)
         if self.harmonic is not None:
             with o.called(Omega="--harmonic"):
                 return HarmonicLoad(Omega=self.harmonic, amplitude=self._amplitude, Omega_n=self.Omega_n)
@@ -112,10 +118,12 @@ class MotionOptions(o.Options):
         """The motion of a frequency in Hz; whatever else is said of it is dimensionless here too."""
         with o.called(Omega=f"{name}, dimensionless", Omega_n=f"{name}, as Omega_n dimensionless"):
             if name == "--free-hz":
-                Omega_n = FreeVibration.at(point, hz=hz).Omega_n
-                return FreeVibration(Omega_n=Omega_n, offset=self.offset or 0.0, rate=self.rate)
+                return self._free(FreeVibration.at(point, hz=hz).Omega_n)
             Omega = HarmonicLoad.at(point, hz=hz).Omega
             return HarmonicLoad(Omega=Omega, amplitude=self._amplitude, Omega_n=self.Omega_n)
+
+    def _free(self, Omega_n: float) -> FreeVibration:
+        return FreeVibration(Omega_n=Omega_n, offset=self.offset or 0.0, rate=self.rate, start=self.start)
 
     @property
     def _amplitude(self) -> float:
@@ -126,6 +134,7 @@ class MotionOptions(o.Options):
         owners = {
             "--offset": (self.offset, ("--free",)),
             "--rate": (self.rate, ("--free",)),
+            "--start": (self.start, ("--free",)),
             "--amplitude": (self.amplitude, ("--harmonic",)),
             "--Omega-n": (self.Omega_n, ("--harmonic", "--ramp")),
         }

@@ -15,6 +15,8 @@ from ehlcontact.cli.paper.data import FIRST_VALLEY, paper_films, paper_fits
 from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.runs import CASES, FREE, HARMONIC
 from ehlcontact.film_formulas import wijnant_approach
+from ehlcontact.transient.motion import FreeVibration
+from ehlcontact.transient.result import SimulationResult
 
 Numbers = Callable[[Fits], dict[str, Any]]
 OUTSIDE = (0.5, 1.0, 1.5, 2.5)  # approaches at which springs are compared in numbers
@@ -94,6 +96,28 @@ def films_at_rest(fits: Fits) -> dict[str, Any]:
     return theirs | {"ours": {"h_min/h_c at rest": float(run.h_min[0] / run.h_central[0])}}
 
 
+def periods(*cases: str) -> Numbers:
+    """Periods of free vibrations about the approach at rest, beside that of the dry contact."""
+
+    def numbers(fits: Fits) -> dict[str, Any]:
+        values: dict[str, Any] = {}
+        for case in cases:
+            run, motion = fits.runs.cases[case], CASES[case].motion
+            assert isinstance(motion, FreeVibration)
+            values[f"case {case}"] = {"period of the dry contact": motion.period, "period": period(run)}
+        return values
+
+    return numbers
+
+
+def period(run: SimulationResult) -> float:
+    """Mean period of a vibration about the approach at rest."""
+    d = run.approach - run.static_approach
+    k = np.flatnonzero(d[:-1] * d[1:] < 0.0)
+    crossed = run.T[k] - d[k] * (run.T[k + 1] - run.T[k]) / (d[k + 1] - d[k])
+    return float(2.0 * (crossed[-1] - crossed[0]) / (crossed.size - 1))
+
+
 def first_turns(fits: Fits) -> dict[str, Any]:
     """When the central film first turns for good."""
     run = fits.runs.cases["2"]
@@ -151,14 +175,15 @@ FIGURES = {
         PaperFigure(
             5,
             ("2", "3"),
-            f"Approach of two free vibrations. {ROOTS.format(3)}",
-            CURVES,
+            f"Approach of two free vibrations, which begin by opening. {ROOTS.format(3)}",
+            f"{CURVES} Its section 4 gives the period of the dry contact, 5.13/Ω_n.",
             p.approaches(3, "2", "3"),
+            periods("2", "3"),
         ),
         PaperFigure(
             6,
             ("2",),
-            f"Central and minimum film, {CASES['2'].title}.",
+            f"Central and minimum film, {CASES['2'].title}, which begins by opening.",
             f"{CURVES} Its text sees the first valley of the central film close to T = {FIRST_VALLEY:g}; a turn "
             f"counts here if its height is {100 * TURN:.0f} % of the film's range.",
             p.film("2"),

@@ -19,39 +19,47 @@ from reduced_models.rotor.oscillator import OscillatorResult
 BEYOND = 0.25  # of the range of a motion that an element of the paper reaches beyond it on either side
 PAPER_METHOD, STIFF_METHOD = "RK23", "Radau"  # Bogacki and Shampine as in the paper, and a stiff integrator
 
+# Part of a record that is fitted: its last two thirds, all of it, or from one T to another.
+Window = str | tuple[float, float]
+LATE, WHOLE = "last two thirds", "whole record"
+ROUNDING = 1e-9  # of sums of time steps: a sample on the end of a window lies inside
+
 
 @dataclass
 class Fits:
     """Elements of the cases, each fitted once."""
 
     runs: Runs
-    _fits: dict[tuple[str, str, bool], ElementFit | str] = field(default_factory=dict)
+    _fits: dict[tuple[str, str, Window], ElementFit | str] = field(default_factory=dict)
 
     def record(self, case: str) -> ContactRecord:
         """History of a case that converged."""
         return ContactRecord.from_result(self.runs.cases[case])
 
-    def fit(self, case: str, model: str = "cubic", whole: bool = False) -> FitResult | None:
-        """Fit of the last two thirds or of the whole record; None if there is no record or no contact."""
-        found = self._fitted(case, model, whole)
+    def fit(self, case: str, model: str = "cubic", window: Window = LATE) -> FitResult | None:
+        """Fit of a part of the record; None if there is no record or no contact."""
+        found = self._fitted(case, model, window)
         return found if isinstance(found, FitResult) else None
 
-    def refusal(self, case: str, model: str = "cubic", whole: bool = False) -> str | None:
+    def refusal(self, case: str, model: str = "cubic", window: Window = LATE) -> str | None:
         """Why there is no fit."""
-        found = self._fitted(case, model, whole)
+        found = self._fitted(case, model, window)
         return found if isinstance(found, str) else None
 
-    def _fitted(self, case: str, model: str, whole: bool) -> ElementFit | str:
-        key = (case, model, whole)
+    def _fitted(self, case: str, model: str, window: Window) -> ElementFit | str:
+        key = (case, model, window)
         if key not in self._fits:
             self._fits[key] = self._refused_or_fitted(*key)
         return self._fits[key]
 
-    def _refused_or_fitted(self, case: str, model: str, whole: bool) -> ElementFit | str:
+    def _refused_or_fitted(self, case: str, model: str, window: Window) -> ElementFit | str:
         if case not in self.runs.cases:
             return "no simulation"
         record = self.record(case)
-        span = (float(record.T[0]), float(record.T[-1])) if whole else None
+        if isinstance(window, str):
+            span = (float(record.T[0]), float(record.T[-1])) if window == WHOLE else None
+        else:
+            span = window[0] - ROUNDING, window[1] + ROUNDING
         try:
             return fit(record, model, span)
         except InputError as error:

@@ -35,6 +35,17 @@ def test_free_vibration_defaults():
     assert motion.largest_load >= 1.15 - 1e-12
 
 
+def test_free_vibration_starts_by_closing_or_opening():
+    closing, opening = (FreeVibration(Omega_n=5.13, start=start) for start in ("closing", "opening"))
+    assert closing == FreeVibration(Omega_n=5.13) == FreeVibration(Omega_n=5.13, rate=-opening.rate)
+    assert opening.rate == -closing.rate and opening.size == closing.size
+    assert opening.largest_load == closing.largest_load
+    assert FreeVibration(Omega_n=5.13, rate=-0.2, start="opening").rate == -0.2
+    in_seconds = FreeVibration.at(SI, mass=0.2, start="opening")
+    assert in_seconds.rate == -FreeVibration.at(SI, mass=0.2).rate
+    assert opening.to_dict() == {"kind": "free", "Omega_n": 5.13, "offset": 0.0, "rate": opening.rate}
+
+
 def test_harmonic_load():
     motion = HarmonicLoad(Omega=pi, amplitude=0.2)
     assert motion.period == pytest.approx(2.0)
