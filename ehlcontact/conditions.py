@@ -122,10 +122,5 @@ class Conditions:
             self.asperities.numbers(point)
         return self if self.heat is None else replace(self, heat=self.heat.at(point))
 
-    def require_with_surface(self, surface: object) -> None:
-        """Raise `InputError` for a feature on the surfaces: no flow is known in a partly filled gap over one."""
-        if self.supply is not None:
-            raise InputError("surface", type(surface).__name__, "left out with a supply")
-
 
 FLOODED = Conditions()  # isothermal too, between smooth surfaces

@@ -31,6 +31,7 @@ LIGHT = 128  # lines of the smallest chunk of a light kernel: with fewer it is d
 # Lines of a block of local passes: more than they reach beyond it, so that every other one is apart. Side lobes of
 # a long contact lie across all lines, which are one block there: of several, cycles leave a hundred times more.
 BLOCK = 24
+SLOW_FRONT = 0.1  # speed below which differences carry a feature: what steps before have moved is no flow
 STARVED_SHARE = 0.2  # layer over flooded film, below which a film that is not positive is for want of oil
 
 
@@ -93,10 +94,10 @@ class Level:
             h_coef=np.zeros((NEIGHBOURS, *shape)),
         )
         self.rhs = np.zeros(shape)
-        # Where oil runs short: the layer that enters, what the surfaces carry through the face behind each node,
-        # what its cell holds, and right-hand sides with both
+        # Where oil runs short: the layer that enters, what differences make a full gap carry too much of a feature
+        # and what the surfaces carry through the face behind each node, what its cell holds, and right-hand sides
         self.inflow = np.zeros(0)
-        self.carried, self.stored, self.supplied = (np.zeros((0, 0)) for _ in range(3))
+        self.excess, self.carried, self.stored, self.supplied = (np.zeros((0, 0)) for _ in range(4))
         self.film_shift: Array | float = 0.0
         self.asperity_load = 0.0  # that is carried beside the film
         self.c_t = 0.0
@@ -139,7 +140,7 @@ class Level:
             self.inflow = np.zeros(0)
             return
         if not self.carried.size:
-            self.carried, self.stored, self.supplied = (np.zeros_like(self.rhs) for _ in range(3))
+            self.excess, self.carried, self.stored, self.supplied = (np.zeros_like(self.rhs) for _ in range(4))
         self.inflow = layer
 
     def empty_inlet(self, u: float) -> None:
@@ -161,9 +162,9 @@ class Level:
         return bool(self.inflow.size) and self.inflow.max() < STARVED_SHARE * self.expected_film
 
     @property
-    def supply_arrays(self) -> tuple[Array, Array, Array, Array, Array]:
+    def supply_arrays(self) -> tuple[Array, ...]:
         """What the passes along the cavitation boundary carry a supply with, or go without one."""
-        return self.rhs, self.inflow, self.carried, self.stored, self.given
+        return self.rhs, self.inflow, self.excess, self.carried, self.stored, self.given
 
     @property
     def oil(self) -> Array:
@@ -181,7 +182,22 @@ class Level:
         full = np.zeros_like(m)
         full[:, 1:-1] = (2.0 * m[:, 2:] + 5.0 * m[:, 1:-1] - m[:, :-2]) / 6.0
         full[:, 0] = (2.0 * m[:, 0] + 5.0 * m[:, 1] - m[:, 2]) / 6.0
-        return full
+        return full - self.excess if mass is None and self.inflow.size else full
+
+    def carry_exactly(self, content: Array, history: Array, rate: Array) -> None:
+        """Let films pass on a `content` of the gap as it moves, where oil runs short.
+
+        A feature much deeper than the film would lose some of it by differences, the more the less smooth it is:
+        ``d(content)/dX + d(content)/dT`` is to be `rate`, and what is off is taken out of the flow of a full gap,
+        so that no oil is lost; not where the surfaces all but stand. `history` as of `transport`. That flow is
+        known but for a constant on each line: its mean is that of a derivative, 0.
+        """
+        self.excess[...] = 0.0
+        if self.speed < SLOW_FRONT:
+            return
+        off = np.cumsum(self.transport(content, history) - rate, axis=1) * (self.hx / self.speed)
+        off -= off.mean(axis=1, keepdims=True)
+        self.excess[...] = off * self.full_flow(self.density())
 
     def leaving(self) -> Array:
         """Layer that the surfaces carry away on each line, shape (ny + 1,); empty where the inlet is flooded.
@@ -286,7 +302,7 @@ class Level:
     def _carry_supply(self) -> None:
         f = self.fields
         if self.inflow.size:
-            given = (f.P, f.flow, self.rhs, self.inflow, self.stencil, self.c_t)
+            given = (f.P, f.flow, self.rhs, self.inflow, self.excess, self.stencil, self.c_t)
             written = (self.carried, self.stored, self.supplied)
             self.team.run(supply.carry_supply, self.ny, *given, *written, least=LIGHT)
 

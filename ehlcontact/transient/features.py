@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import require_finite, require_nonnegative, require_positive
-from ehlcontact.conditions import FLOODED, Conditions
 from ehlcontact.errors import InputError
 
 Array = NDArray[np.float64]
@@ -40,8 +39,8 @@ class SurfaceStep(NamedTuple):
     rate: Array  # (U d/dX + d/dT) G at the end: what passing film sees; 0 in pure rolling
 
 
-def require_surface(surface: object, conditions: Conditions = FLOODED) -> None:
-    """Raise `InputError` unless this is None, or can be called with X, Y and T, and goes with the conditions."""
+def require_surface(surface: object) -> None:
+    """Raise `InputError` unless this is None, or can be called with X, Y and T."""
     if surface is None:
         return
     fits = callable(surface) and not isinstance(surface, type)
@@ -55,7 +54,6 @@ def require_surface(surface: object, conditions: Conditions = FLOODED) -> None:
     if not fits:
         name = getattr(surface, "__name__", None) or type(surface).__name__
         raise InputError("surface", name, "a feature such as Dent(...), a function of X, Y and T, or None")
-    conditions.require_with_surface(surface)
 
 
 def surface_height(surface: Surface | None, X: Array, Y: Array, T: float) -> Array | float:

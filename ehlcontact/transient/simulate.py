@@ -87,7 +87,7 @@ def simulate(
     supply : OilLayer, optional
         Oil that the surfaces carry to the contact, the same at all times, as in `solve_steady`. What leaves is
         ``result.layer_behind``. By default the inlet is flooded up to the border of the region. Where the surfaces
-        turn back, they bring back what has left. Not together with `surface`.
+        turn back, they bring back what has left.
     thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up: oil and surfaces store heat, and its viscosity follows in every step (docs/heat.md).
         By default the film has the temperature of the inlet.
@@ -100,7 +100,7 @@ def simulate(
     surface : callable, optional
         Feature G(X, Y, T) added to the gap, even in Y: `Dent`, `TransverseRidge`, `Waviness`, `Roughness`, or a
         function of one's own. At rest for T <= 0. One made for another `kappa` gives a warning. With a `speed` it
-        is called with the way of the surfaces, int U dT, in the place of T. Not together with `supply`.
+        is called with the way of the surfaces, int U dT, in the place of T. Under a `supply` the layer lies on it.
     keep : KeepSettings
         Snapshots of whole fields, checkpoints, restart.
     run : RunSettings
@@ -127,7 +127,7 @@ def simulate(
     require_grid(grid)
     require_groups(time, keep, run)
     conditions = Conditions.of(supply=supply, thermal=thermal).at(point)
-    require_surface(surface, conditions)
+    require_surface(surface)
     require_speed(speed, grid)
     reverses = speed is not None and speed.reverses
     wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load, reverses=reverses)

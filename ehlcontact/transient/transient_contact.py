@@ -52,7 +52,6 @@ class TransientContact(Summary):
         Oil that the surfaces carry to the contact, as in `simulate`; by default the inlet is flooded.
     surface : callable, optional
         Height added to the gap, as in `simulate`, over the time since this contact was made; it rests on it.
-        Not together with `supply`.
     thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up, as in `simulate`.
     largest_load : float
@@ -105,7 +104,7 @@ class TransientContact(Summary):
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         require_grid(grid)
         conditions = Conditions.of(supply=supply, thermal=thermal).at(point)
-        require_surface(surface, conditions)
+        require_surface(surface)
         self._surface, self._T = surface, 0.0
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)

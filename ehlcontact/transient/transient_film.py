@@ -207,6 +207,7 @@ class TransientFilm:
             self.heat.rest()
         mg.full_multigrid(balance)
         self.level.film_shift = surface
+        self.level.excess[...] = 0.0
         self.level.update_film(mg.u)
         # full multigrid may still overlap in the centre
         self.scale = max(self.level.central_film(), SMALLEST_SCALE)
@@ -280,8 +281,11 @@ class TransientFilm:
             # A feature much deeper than the film is carried exactly: the differences would leave a multiple of
             # its fourth derivative as a source, which eats up the film at its rim.
             known = _known(dT, ratio, surface.at_start, surface.at_previous_start)
-            source = level.density() * (level.transport(surface.height, known) - surface.rate)
-            level.rhs -= source
+            if level.inflow.size:
+                level.carry_exactly(surface.height, known, surface.rate)
+            else:
+                source = level.density() * (level.transport(surface.height, known) - surface.rate)
+                level.rhs -= source
         if self.heat is None:
             step = self._solve(balance, STEP_CYCLES)
         else:

@@ -480,10 +480,6 @@ def test_what_does_not_go_together():
     for solve in (solve_steady, TransientContact, lambda point, **given: simulate(point, SHAKEN, **given)):
         with pytest.raises(InputError, match=r"an OilLayer\(h, ...\)"):
             solve(CIRCLE, supply=1e-7)
-    with pytest.raises(InputError, match="left out with a supply"):
-        simulate(CIRCLE, SHAKEN, supply=OilLayer(H=0.5), surface=lambda X, Y, T: 0.0 * X)
-    with pytest.raises(InputError, match="left out with a supply"):
-        TransientContact(CIRCLE, supply=OilLayer(H=0.5), surface=lambda X, Y, T: 0.0 * X)
     near = Grid(64, Domain(-2.0, 1.5, 2.0))
     with pytest.raises(ConvergenceError, match="full film begins ahead of the computed region") as beyond:
         solve_steady(CIRCLE, grid=near, supply=OilLayer(H=1.0))

@@ -131,7 +131,7 @@ def relax_boundary(first, last, P, H, flow, supply, law, stencil, c_t, self_defl
     `P` and, there and on the next lines, `flow` are written, and what `supply` holds (for `carry_line`); `nodes`,
     `couplings` and `marks` are work space.
     """
-    rhs, inflow, carried, stored, supplied = supply
+    rhs, inflow, excess, carried, stored, supplied = supply
     width = P.shape[1]
     reach = reach_of(width - 1)
     mark_boundary(first, last, P, reach, marks)
@@ -157,7 +157,7 @@ def relax_boundary(first, last, P, H, flow, supply, law, stencil, c_t, self_defl
                 continue
             j, i = node // width, node % width
             if j != line:
-                carry_line(j, width - 1, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied)
+                carry_line(j, width - 1, P, flow, rhs, inflow, excess, stencil, c_t, carried, stored, supplied)
                 line = j
             own = total_flow(j, i, flow, stencil) + film
             res = supplied[j, i] - operator_at(j, i, P, flow, stencil, c_t)

@@ -45,11 +45,11 @@ def solve_behind(j, front, P, flow, supplied, stencil, c_t, least, factors, chan
 @jit_loop
 def settle_line(j, P, flow, supply, stencil, c_t, least, factors, changes):
     """Move the fronts of line j, with the pressure behind them, to where they belong."""
-    rhs, inflow, carried, stored, supplied = supply
+    rhs, inflow, excess, carried, stored, supplied = supply
     stop = P.shape[1] - 1
     former = 0
     for _ in range(MOVES):
-        carry_line(j, stop, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied)
+        carry_line(j, stop, P, flow, rhs, inflow, excess, stencil, c_t, carried, stored, supplied)
         places, i, behind = 0, 2, 2
         while i < stop:
             if flow.open[j, i - 1] <= 0.0:

@@ -26,6 +26,9 @@ What changes in time is the oil stored in the cells, dS/dT beside dQ/dX:
 
 So while the front passes a cell, what is stored is that cell full less what the layer had brought into it, to
 second order, and it is continuous when nodes fill up. That makes the damping of starved contacts converge.
+
+A feature that moves with the surfaces is carried exactly (`transient.transient_film`): the flow of a full gap is
+then G less what the differences of the feature are off, C, an input at the faces. All balances hold with G - C.
 """
 
 from ehlcontact.jit import jit_loop, jit_node
@@ -87,7 +90,7 @@ def front_weight(step):
 
 
 @jit_node
-def carry_line(j, stop, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied):
+def carry_line(j, stop, P, flow, rhs, inflow, excess, stencil, c_t, carried, stored, supplied):
     """`carry_supply` on line j, before node `stop`.
 
     Inlined: of a kernel that several call, the process that compiles it may run another copy than later ones do,
@@ -95,10 +98,10 @@ def carry_line(j, stop, P, flow, rhs, inflow, stencil, c_t, carried, stored, sup
     """
     h = 1.0 / stencil.inv_hx
     weight = front_weight(c_t * h)
-    full = full_flow(j, 0, flow.mass)
+    full = full_flow(j, 0, flow.mass) - excess[j, 0]
     carries = min(inflow[j], full)  # Q
     carried[j, 0] = carries
-    short = full - carries  # of a full gap before this node
+    short = full + excess[j, 0] - carries  # of the G before this node
     partly = False  # the node before is; not the border, over which oil may flow back
     behind_full = False
     back = 0.0  # pressed into the node before, from this one
@@ -106,7 +109,7 @@ def carry_line(j, stop, P, flow, rhs, inflow, stencil, c_t, carried, stored, sup
         if flow.open[j, i] != 1.0:
             flow.open[j, i] = 1.0
             update_along(j, i, flow)
-        full_before, full, mass = full, full_flow(j, i, flow.mass), flow.mass[j, i]
+        full_before, full, mass = full, full_flow(j, i, flow.mass) - excess[j, i], flow.mass[j, i]
         fills = P[j, i] > 0.0
         passed, oil = full, mass
         share = own_share(carries, full, mass, behind_full)
@@ -125,22 +128,25 @@ def carry_line(j, stop, P, flow, rhs, inflow, stencil, c_t, carried, stored, sup
         else:
             supplied[j, i] = rhs[j, i] + stencil.inv_hx * short - c_t * (mass - 0.5 * carries - share * full)
             oil = 0.5 * carries + share * passed
+        supplied[j, i] -= stencil.inv_hx * excess[j, i]
         stored[j, i] = oil
         partly, behind_full = not fills, fills
         back = h * stencil.cx * flow.along[j, i] * P[j, i + 1]
         carries = full if fills else passed
-        short = full - carries
+        short = full + excess[j, i] - carries
         carried[j, i] = carries
 
 
 @jit_loop
-def carry_supply(first, last, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied):
+def carry_supply(first, last, P, flow, rhs, inflow, excess, stencil, c_t, carried, stored, supplied):
     """Flow through the faces of lines `first` to `last` - 1, from the inlet on, and right-hand sides with it.
 
     Parameters
     ----------
     inflow : array (ny + 1,)
         The layer that enters.
+    excess : array (ny + 1, nx + 1)
+        C of the face behind each node.
     carried : array (ny + 1, nx + 1)
         Q through the face behind each node, written; ``flow.open`` and ``flow.along`` likewise.
     stored : array (ny + 1, nx + 1)
@@ -150,7 +156,7 @@ def carry_supply(first, last, P, flow, rhs, inflow, stencil, c_t, carried, store
         P = 0 are those of nodes that fill up.
     """
     for j in range(first, last):
-        carry_line(j, P.shape[1] - 1, P, flow, rhs, inflow, stencil, c_t, carried, stored, supplied)
+        carry_line(j, P.shape[1] - 1, P, flow, rhs, inflow, excess, stencil, c_t, carried, stored, supplied)
 
 
 @jit_loop
