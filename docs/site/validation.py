@@ -1,6 +1,6 @@
 """The page of validation: this library beside what others published, from numbers that were measured and kept.
 
-    python tests/golden/regenerate.py validation   # solve everything anew: about a minute
+    python tests/golden/regenerate.py validation   # solve everything anew: two minutes
     python docs/site/validation.py                 # docs/validation.md from it
 
 What others published stands in the tests, which hold the library to it; here it is only read from there.
@@ -13,7 +13,8 @@ import inspect
 import json
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -24,6 +25,7 @@ GOLDEN = ROOT / "tests" / "golden" / "golden.json"
 FILMS = "tests/ehlcontact/test_literature.py"
 BEARINGS = "tests/reduced_models/bearing/test_literature.py"
 Row = dict[str, Any]
+TENTH = 0.1  # of the reference, and ten times it: between them a difference is told in per cent
 
 
 def module(path: str) -> ModuleType:
@@ -39,9 +41,10 @@ def module(path: str) -> ModuleType:
     return found
 
 
-def row(case: str, quantity: str, ours: float, theirs: float) -> Row:
-    """One line of a table."""
-    return {"case": case, "quantity": quantity, "ours": float(ours), "theirs": float(theirs)}
+def row(case: str, quantity: str, ours: float, theirs: float, reason: str = "") -> Row:
+    """One line of a table, with the reason of a difference where it is known."""
+    found = {"case": case, "quantity": quantity, "ours": float(ours), "theirs": float(theirs)}
+    return found | ({"reason": reason} if reason else {})
 
 
 def solvers() -> list[Row]:
@@ -95,27 +98,146 @@ def formulas() -> list[Row]:
     return rows
 
 
-def cubics() -> list[Row]:
-    """Cubics fitted to six motions at M = 200, L = 10, kappa = 0.5, compared by their identifiable quantities.
+@cache
+def fits() -> Any:
+    """The paper's cases on n = 128, as `ehlcontact reproduce` has them."""
+    from ehlcontact.cli.paper.fits import Fits
+    from ehlcontact.cli.paper.runs import CASES, compute
 
-    Nonato and Cavalca, *J. Sound Vib.* 329 (2010) 4656-4671, Tables 3 and 5. The three stiffness coefficients of a
-    cubic scatter from motion to motion. The approach at the static load and the tangent there do not scatter; the
-    paper prints the damping with two digits. This library: n = 128, record and window by default.
-    `ehlcontact reproduce` compares all tables and figures of the paper.
+    with tempfile.TemporaryDirectory() as folder:
+        return Fits(compute(Path(folder), 128, list(CASES), static=False))
+
+
+OTHER_MESH = "mesh and region of the paper are not known"
+LINE = "a line misses 25 % of the force: C1 depends on the window"
+UNCERTAIN = "three coefficients are not identifiable from a motion of 10 %"
+ONE_DIGIT = "printed with two digits"
+SIGNED = "signed sum of what the line misses: depends on the window"
+NEAR_ZERO = "near zero by construction; the paper does not name its case"
+
+
+def table_1() -> list[Row]:
+    """A straight line and a damper, free vibrations.
+
+    Nonato and Cavalca, *J. Sound Vib.* 329 (2010) 4656-4671: M = 200, L = 10, kappa = 0.5; this library with n =
+    128. `ehlcontact reproduce` has all tables and figures with their notes. The paper does not say in which
+    direction its vibrations begin. Its Fig. 6 has the first valley of the central film close to T = 1, so they
+    begin by opening (`FreeVibration(..., start="opening")`); when they begin by closing, K1 is 0.6 % above the
+    printed values. Whole records. Not explained are C1 of case 3, which Table 3 prints as .015 for the same
+    motion, and the second error, which the paper does not define; here it is that of eq. 13 for the acceleration.
     """
-    from ehlcontact import Grid, simulate
-    from reduced_models import ContactRecord, fit
+    from ehlcontact.cli.paper.data import paper_fits
+    from ehlcontact.cli.paper.fits import WHOLE
 
-    tests, rows = module(FILMS), []
-    for name, (motion, (k1, k2, k3, c1)) in tests.CUBICS.items():
-        found = fit(ContactRecord.from_result(simulate(tests.POINT, motion, grid=Grid(n=128))), model="cubic")
-        root, tangent = tests.oracles.spring_root_and_tangent(k1, k2, k3)
-        for quantity, ours, theirs in (
-            ("approach at load 1", found.root, root),
-            ("tangent there", found.tangent, tangent),
-            ("C1", found.parameters["C1"], c1),
-        ):
-            rows.append(row(f"Table {name}", quantity, ours, theirs))
+    rows = []
+    for case in ("1", "2", "3"):
+        paper, ours = paper_fits()[1, case], fits().fit(case, "linear", WHOLE)
+        name = f"Table 1, case {case}"
+        rows.append(row(name, "K1", ours.parameters["K1"], paper.K1, OTHER_MESH))
+        rows.append(row(name, "C1", ours.parameters["C1"], paper.C1, "not explained" if case == "3" else LINE))
+        rows.append(row(name, "e of the force", -ours.e_f, paper.e_f, SIGNED))
+        rows.append(row(name, "e of the acceleration", -ours.e_acc, paper.e_second, "not explained"))
+    return rows
+
+
+def table_2() -> list[Row]:
+    """The seven-term polynomial, and without one of its terms.
+
+    Errors of case 2 by eq. 13, signed sums that least squares makes nearly zero whatever the fit. In order of the
+    size of the error of the force, the stiffness terms K1, K2 and K3 come before all dampers here and in the
+    paper.
+    """
+    from ehlcontact.cli.paper.data import paper_sensitivity
+
+    rows, ours = [], {one.removed: one for one in fits().sensitivity("2").rows}
+    for removed, (force, acceleration) in paper_sensitivity().items():
+        name = "Table 2, all terms" if removed is None else f"Table 2, without {removed}"
+        rows.append(row(name, "e of the force", -ours[removed].e_f, force, NEAR_ZERO))
+        rows.append(row(name, "e of the acceleration", -ours[removed].e_acc, acceleration, NEAR_ZERO))
+    return rows
+
+
+def cubics(number: int, cases: Sequence[str]) -> list[Row]:
+    """Cubics of a table: what can be identified, and their coefficients."""
+    from ehlcontact.cli.paper.data import paper_fits
+
+    rows = []
+    for case in cases:
+        paper, ours = paper_fits()[number, case], fits().fit(case)
+        name = f"Table {number}" if case == "validation" else f"Table {number}, case {case}"
+        rows.append(row(name, "approach at load 1", ours.root, paper.root, OTHER_MESH))
+        rows.append(row(name, "tangent there", ours.tangent, paper.tangent, OTHER_MESH))
+        rows.append(row(name, "C1", ours.parameters["C1"], paper.C1, ONE_DIGIT))
+        for key in ("K1", "K2", "K3"):
+            rows.append(row(name, key, ours.parameters[key], getattr(paper, key), UNCERTAIN))
+    return rows
+
+
+def table_3() -> list[Row]:
+    """Cubics fitted to free vibrations, which begin by opening.
+
+    The three stiffness coefficients scatter from motion to motion, in the paper as here: their 95 % intervals are
+    as wide as the coefficients. The approach at the static load and the tangent there do not scatter; the paper's
+    are computed from its coefficients. Window by default: the last two thirds of the record.
+    """
+    return cubics(3, ("1", "2", "3"))
+
+
+def table_4() -> list[Row]:
+    """A straight line and a damper, harmonic loads.
+
+    The paper does not state its window. Over whole periods C1 of case 4 is .015, as in Table 5; a window of no
+    whole number of periods, T = 0.05 to 2.40, gives the printed C1 of all three cases within 6 %, and K1 within
+    .3 %. These are two free numbers for three targets: suggestive, and no proof.
+    """
+    from ehlcontact.cli.paper.data import paper_fits
+    from ehlcontact.cli.paper.fits import WHOLE
+    from ehlcontact.cli.paper.tables import UNEVEN
+
+    rows = []
+    for case in ("4", "5", "6"):
+        paper, name = paper_fits()[4, case], f"Table 4, case {case}"
+        whole, uneven = (fits().fit(case, "linear", window) for window in (WHOLE, UNEVEN))
+        window = "T = {:.2f} to {:.2f}".format(*UNEVEN)
+        rows.append(row(name, "K1, whole periods", whole.parameters["K1"], paper.K1, OTHER_MESH))
+        rows.append(row(name, f"K1, {window}", uneven.parameters["K1"], paper.K1, OTHER_MESH))
+        rows.append(row(name, "C1, whole periods", whole.parameters["C1"], paper.C1, LINE))
+        rows.append(row(name, f"C1, {window}", uneven.parameters["C1"], paper.C1, "window chosen for these"))
+        rows.append(row(name, "e of the force, whole periods", -whole.e_f, paper.e_f, SIGNED))
+    return rows
+
+
+def table_5() -> list[Row]:
+    """Cubics fitted to harmonic loads; as Table 3."""
+    return cubics(5, ("4", "5", "6"))
+
+
+def table_6() -> list[Row]:
+    """A cubic fitted to a load ramp.
+
+    M = 58.07, L = 4.62, kappa = 1, load from 1 to 3.67 in T = 1.69, on [-5, 3] x [-4, 4]; the whole record to T =
+    5.6. Only its beginning is near load 1.
+    """
+    return cubics(6, ("validation",))
+
+
+def figures() -> list[Row]:
+    """What the text says of two pictures.
+
+    The period of the vibrations is that of the dry contact, 5.13/Omega_n, in section 4 of the paper. Of Fig. 6 it
+    says that the central film stays constant at first and has its first valley close to T = 1, the time in which
+    the film goes from the edge of the contact to its centre. A turn counts here where it has 20 % of the range of
+    the film.
+    """
+    from ehlcontact.cli.paper.data import FIRST_VALLEY
+    from ehlcontact.cli.paper.figures import first_turns, periods
+
+    rows = []
+    for case, found in periods("2", "3")(fits()).items():
+        dry, reason = found["period of the dry contact"], "K of the film is above that of the dry contact"
+        rows.append(row(f"Fig. 5, {case}", "period", found["period"], dry, reason))
+    valley, reason = first_turns(fits())["ours"]["first valley, T"], "read from a picture, close to 1"
+    rows.append(row("Fig. 6, case 2", "T of the first valley of the central film", valley, FIRST_VALLEY, reason))
     return rows
 
 
@@ -177,7 +299,13 @@ class Section(NamedTuple):
 SECTIONS = {
     "solvers": Section("Steady films of other solvers", solvers, FILMS),
     "formulas": Section("Published fits of films", formulas, FILMS),
-    "cubics": Section("The paper's cubics", cubics, FILMS),
+    "table 1": Section("The paper's Table 1", table_1, FILMS),
+    "table 2": Section("The paper's Table 2", table_2, "tests/cli/test_reproduce.py"),
+    "table 3": Section("The paper's Table 3", table_3, FILMS),
+    "table 4": Section("The paper's Table 4", table_4, "tests/cli/test_reproduce.py"),
+    "table 5": Section("The paper's Table 5", table_5, FILMS),
+    "table 6": Section("The paper's Table 6", table_6, FILMS),
+    "figures": Section("The paper's Figs. 5 and 6", figures, FILMS),
     "bearings": Section("Dry ball bearings", bearings, BEARINGS),
     "fmus": Section("FMUs and their elements", fmus, "tests/fmu/test_verify.py"),
 }
@@ -190,13 +318,19 @@ def cells(found: Row) -> str:
     if theirs == 0.0:
         return f"| {case} | {found['quantity']} | {ours:.1e} |"
     share = f"{100.0 * (ours / theirs - 1.0):+.2f}\u00a0%"
-    return f"| {case} | {found['quantity']} | {ours:.5g} | {theirs:.5g} | {share} |"
+    if not TENTH < ours / theirs < 1.0 / TENTH:
+        share = f"{ours / theirs:.2g} times"
+    reason = f" {found['reason']} |" if "reason" in found else ""
+    return f"| {case} | {found['quantity']} | {ours:.5g} | {theirs:.5g} | {share} |{reason}"
 
 
 def table(rows: list[Row]) -> str:
     """As markdown, with the largest difference below the table."""
     if all(r["theirs"] == 0.0 for r in rows):
         head, last = "| case | quantity | this library |\n|---|---|---|", ""
+    elif "reason" in rows[0]:
+        head = "| case | quantity | this library | printed | difference | reason |\n|---|---|---|---|---|---|"
+        last = ""
     else:
         head = "| case | quantity | this library | reference | difference |\n|---|---|---|---|---|"
         far = max(rows, key=lambda r: abs(r["ours"] / r["theirs"] - 1.0))

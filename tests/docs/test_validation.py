@@ -30,12 +30,17 @@ def test_every_section_has_its_test(validation):
 def test_published_numbers_are_those_of_the_tests(validation, data):
     """They stand once: what a test is changed to is seen here."""
     tests = validation.module(validation.FILMS)
-    found = {(r["case"], r["quantity"]): r["theirs"] for r in data["cubics"]}
-    for name, (_, (k1, k2, k3, c1)) in tests.CUBICS.items():
+    tables = [r for k in range(1, 7) for r in data[f"table {k}"]]
+    found = {(r["case"], r["quantity"]): r["theirs"] for r in tables}
+    cases = {f"Table {name.replace('.', ', case ')}": printed for name, (_, printed) in tests.CUBICS.items()}
+    for case, (k1, k2, k3, c1) in (cases | {"Table 6": tests.RAMP_CUBIC}).items():
         root, tangent = tests.oracles.spring_root_and_tangent(k1, k2, k3)
-        assert found[f"Table {name}", "C1"] == c1
-        assert found[f"Table {name}", "approach at load 1"] == pytest.approx(root, rel=1e-12)
-        assert found[f"Table {name}", "tangent there"] == pytest.approx(tangent, rel=1e-12)
+        assert [found[case, name] for name in ("K1", "K2", "K3", "C1")] == [k1, k2, k3, c1]
+        assert found[case, "approach at load 1"] == pytest.approx(root, rel=1e-12)
+        assert found[case, "tangent there"] == pytest.approx(tangent, rel=1e-12)
+    for name, (_, (k1, c1)) in tests.LINEAR.items():
+        case = f"Table {name.replace('.', ', case ')}"
+        assert found[case, "K1"] == k1 and c1 in (None, found[case, "C1"])
     approaches = {row[-1] for row in tests.PUBLIC.values()} | {0.8700}
     assert approaches == {r["theirs"] for r in data["solvers"] if r["quantity"] == "approach"}
 
@@ -45,3 +50,12 @@ def test_differences_are_of_the_right_sign(validation):
     assert "+10.00\u00a0%" in validation.cells(row)
     assert validation.table([row, row | {"case": "c", "ours": 0.8}]).endswith("Farthest off: b of c, -20.00 %.")
     assert validation.cells(row | {"theirs": 0.0}) == "| a | b | 1.1e+00 |"
+    assert validation.cells(row | {"reason": "mesh"}).endswith("+10.00\u00a0% | mesh |")
+    assert "30 times" in validation.cells(row | {"ours": 30.0})
+
+
+def test_every_difference_from_the_paper_has_a_reason(data):
+    for section in (*(f"table {k}" for k in range(1, 7)), "figures"):
+        assert data[section] and all(row["reason"] for row in data[section])
+    unexplained = [(r["case"], r["quantity"]) for r in data["table 1"] if r["reason"] == "not explained"]
+    assert ("Table 1, case 3", "C1") in unexplained and len(unexplained) == 4
