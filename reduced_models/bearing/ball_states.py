@@ -41,7 +41,7 @@ ACROSS = 1e-9
 
 def across_damping(balls: LinearBalls, k: int) -> float:
     """Damping that ball `k` has across its outer contact [N s/m]; of one with inertia none is needed."""
-    films = (race.state_space(k).D[0, 1] for race in (balls.inner, balls.outer))
+    films = (balls.films.state_space(race, k).D[0, 1] for race in range(2))
     return 0.0 if balls.inertia else ACROSS * float(sum(films))
 
 
@@ -50,14 +50,8 @@ def ball_system(balls: LinearBalls, k: int) -> tuple[_Floats, _Floats, _Floats]:
 
     Directions are along and across its outer contact; the map from the ring to them, shape (3, n), comes last.
     """
-    (n_r, n_z), inner = balls.normals[1, :, k], balls.normals[0, :, k]
-    outward = np.array([[n_r, n_z], [-n_z, n_r]])
-    both, whole = np.kron(np.eye(2), outward), np.eye(5)
-    whole[:4, :4] = both
-    G = whole @ balls.geometric[k] @ both.T
-    maps = np.concatenate([outward @ balls.maps[k, :2], balls.maps[k, 2:]])
-    n_i, n_o = outward @ inner, np.array([1.0, 0.0])
-    film_i, film_o = balls.inner.state_space(k), balls.outer.state_space(k)
+    G, maps, (n_i, n_o) = balls.geometric[k], balls.maps[k], balls.normals[..., k]
+    film_i, film_o = balls.films.state_space(0, k), balls.films.state_space(1, k)
     (k_i, d_i), (k_o, d_o) = film_i.D[0], film_o.D[0]
     own = 4 if balls.inertia else 2
     if film_i.A.size == 0 and not balls.inertia:

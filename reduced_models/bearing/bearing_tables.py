@@ -47,7 +47,7 @@ class BearingTables:
         self._elements: dict[tuple[str, float], FilmContact] = {}
         self._balls: dict[tuple[float, ...], Balls] = {}
 
-    @property
+    @cached_property
     def end(self) -> tuple[float, str]:
         """Highest speed [rev/min] at which both races have films, and what ends there."""
         return min(race.end for race in self.races.values())

@@ -28,7 +28,6 @@ from reduced_models.elements.film_filters import DIRECT
 _Floats = NDArray[np.float64]
 _Record = NDArray[np.void]
 
-_DOUBLES = POINTER(c_double)
 NUMBER = np.dtype(np.float64).itemsize
 
 
@@ -57,8 +56,8 @@ class RaceStructure(ctypes.Structure):
         ("lags", c_int),
         ("nodes", c_int),
         ("first", POINTER(c_int)),
-        ("x", _DOUBLES), ("u", _DOUBLES), ("curve", _DOUBLES), ("cells", _DOUBLES),
-        ("gains", _DOUBLES), ("made", _DOUBLES),
+        ("x", c_void_p), ("u", c_void_p), ("curve", c_void_p), ("cells", c_void_p),
+        ("gains", c_void_p), ("made", c_void_p),
     ]  # fmt: skip
 
 
@@ -68,7 +67,7 @@ class _FilmTablesStructure(ctypes.Structure):
     _fields_ = [
         ("nodes", c_int),
         ("first", c_double * 2), ("step", c_double * 2), ("rolling_radius", c_double * 2),
-        ("table", _DOUBLES),
+        ("table", c_void_p),
         ("roughness", c_double),
     ]  # fmt: skip
 
@@ -76,7 +75,7 @@ class _FilmTablesStructure(ctypes.Structure):
 class HeightsStructure(ctypes.Structure):
     """`HeightTables` of ``surface_heights.h``."""
 
-    _fields_ = [("pages", c_int), ("rows", c_int), ("columns", c_int), ("heights", _DOUBLES)]
+    _fields_ = [("pages", c_int), ("rows", c_int), ("columns", c_int), ("heights", c_void_p)]
 
 
 class BearingStructure(ctypes.Structure):
@@ -87,8 +86,8 @@ class BearingStructure(ctypes.Structure):
         ("balls", c_int), ("lags", c_int), ("speeds", c_int), ("filters", c_int),
         ("control", c_int),
         ("inertia", c_double),
-        ("speed", _DOUBLES),
-        ("filter_gains", _DOUBLES), ("filter_rates", _DOUBLES),
+        ("speed", c_void_p),
+        ("filter_gains", c_void_p), ("filter_rates", c_void_p),
         ("grooves", GroovesStructure),
         ("race", RaceStructure * 2),
         ("films", _FilmTablesStructure),
@@ -258,11 +257,11 @@ class CoreBearing:
         first //= NUMBER
         return numbers[first : first + self.number * kind.itemsize // NUMBER].view(kind)
 
-    def _array(self, values: _Floats) -> Any:
+    def _array(self, values: _Floats) -> c_void_p:
         """Pointer to an array, which is kept."""
         values = np.ascontiguousarray(values, np.float64)
         self._kept.append(values)
-        return values.ctypes.data_as(_DOUBLES)
+        return pointer(values)
 
     def _race(self, law: RaceForceTable) -> RaceStructure:
         return RaceStructure(
@@ -285,8 +284,7 @@ class CoreBearing:
 
 def heights_structure(heights: _Floats) -> HeightsStructure:
     """Tables of heights as C has them; the caller keeps the array."""
-    assert heights.flags.c_contiguous
-    return HeightsStructure(*heights.shape, heights.ctypes.data_as(_DOUBLES))
+    return HeightsStructure(*heights.shape, pointer(heights))
 
 
 def pointer(array: NDArray[Any]) -> c_void_p:

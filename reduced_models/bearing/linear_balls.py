@@ -7,6 +7,9 @@ the inner groove centre c, and the force P of the ring (`ball`),
     R_b = G_b - Z_i n_i n_i^T - Z_o n_o n_o^T - m s^2,    R_c = G_c + Z_i n_i n_i^T,
     dP = (P_c - P_b R_b^-1 R_c) dc.
 
+Both contacts are nearly on one line, along which films are far stiffer than G. So equations are those along and
+across the outer contact: elimination of the place along it leaves what acts across without a small difference.
+
 G has what follows the place of the ball without memory: the direction of both forces (Q/l), inertia of its orbit
 and spin, film over entrainment speed. m is the mass of a ball where it has inertia towards the rings. The states
 behind Z, as matrices of first order: `ball_states`.
@@ -19,14 +22,14 @@ ring where one load puts it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.coefficients import stiffness_and_damping
-from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.bearing.ring import RingEquilibrium
@@ -37,14 +40,14 @@ _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
 
-class LinearBalls(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class LinearBalls:
     """All balls of a bearing about static equilibrium, at one position of the cage or at several."""
 
-    inner: LinearFilm  # of all contacts, (positions * balls,)
-    outer: LinearFilm
-    normals: _Floats  # (2, 2, positions * balls): inner and outer race; r and z
-    geometric: _Floats  # (positions * balls, 5, 4) G of the balance and of the force of the ring
-    maps: _Floats  # (positions * balls, 3, n) of `ring_maps`, for the n directions of the ring
+    films: LinearFilm  # of all contacts, (2, positions * balls): inner and outer race
+    normals: _Floats  # (2, 2, positions * balls): inner and outer race; along and across the outer contact
+    geometric: _Floats  # (positions * balls, 5, 4) G of the balance and of the force of the ring, along and across
+    maps: _Floats  # (positions * balls, 3, n) of `ring_maps`, along and across, for the n directions of the ring
     positions: int
     loss: Loss
     inertia: float  # of a ball [kg]
@@ -56,106 +59,139 @@ class LinearBalls(NamedTuple):
             np.concatenate([getattr(at, name) for at in equilibria])
             for name in ("balls", "angles", "geometric", "maps")
         )
-        inner, outer = (
-            LinearFilm.stack([_about(law, balls.omega, j, ball) for ball in records])
-            for j, law in enumerate((balls.inner, balls.outer))
-        )
-        normals = np.stack([np.cos(angles.T), np.sin(angles.T)], axis=1)
-        return cls(inner, outer, normals, geometric, maps, len(equilibria), loss, inertia)
+        films = [_about(law, balls.omega, j, records) for j, law in enumerate((balls.inner, balls.outer))]
+        turned = angles.T - angles[:, 1]
+        normals = np.stack([np.cos(turned), np.sin(turned)], axis=1)
+        frame, outward = np.zeros((len(records), 5, 5)), _outward(angles[:, 1])
+        frame[:, :2, :2] = frame[:, 2:4, 2:4] = outward
+        frame[:, 4, 4] = 1.0
+        geometric, maps = frame @ geometric @ frame[:, :4, :4].swapaxes(1, 2), frame[:, 2:, 2:] @ maps
+        return cls(LinearFilm.stack(films), normals, geometric, maps, len(equilibria), loss, inertia)
 
     def impedance(self, s: ArrayLike) -> _Complex:
         """Of the ring at frequencies s [1/s] of exp(s t), shape of `s` + (n, n)."""
-        s = np.asarray(s, complex)[..., None]
-        inner, _, by_b = self._tangents(s)
-        G, n = self.geometric, self.normals[0]
-        directions = self.maps.shape[-1]
-        rows, columns = (1, 1) if directions == len(PLANAR) else (3, 2)  # x and y move grooves outward alone
-        condensed = np.empty((*s.shape[:-1], len(G), rows, columns), complex)
-        for j in range(columns):
-            pressed = inner * (n[0] * n[j]), inner * (n[1] * n[j]), 0.0  # no moment by the normal force
-            moved = _solve(by_b, (G[:, 0, 2 + j] + pressed[0], G[:, 1, 2 + j] + pressed[1]))
-            for i in range(rows):
-                own = G[:, 2 + i, 2 + j] + pressed[i]
-                condensed[..., i, j] = own - self._carried(inner, moved, i)
-        weights = np.einsum("kmi,klj->kmlij", self.maps[:, :rows], self.maps[:, :columns]).reshape(
-            -1, directions * directions
-        )
-        Z = condensed.reshape(*s.shape[:-1], -1) @ weights
-        share = response(self.loss, s[..., 0]) / self.positions
-        return np.asarray(Z.reshape(*s.shape[:-1], directions, directions) * share[..., None, None])
+        s = np.asarray(s, complex)
+        flat = s.reshape(-1, 1)
+        _, tangents = self._tangents(flat)
+        condensed = _eliminated(tangents, len(self._acting))
+        by_row = condensed.reshape(-1, *condensed.shape[2:]) @ self._weights
+        Z = by_row.sum(axis=0) * response(self.loss, flat)
+        return np.asarray(Z.reshape(*s.shape, *self.maps.shape[2:], -1))
 
     def force_of_heights(self, s: _Complex, inner: _Complex, outer: _Complex) -> _Complex:
         """Force of every ball on the ring, shape (k, contacts, n), by heights at both of its contacts at exp(s t).
 
         `s` has the shape (k,), heights broadcast against (k, contacts).
         """
-        inner_z, outer_z, by_b = self._tangents(s[:, None])
-        n_i, n_o = self.normals
-        by_inner, by_outer = inner_z * inner, outer_z * outer
-        pressed = [by_inner * n_i[j] for j in range(2)]
-        moved = _solve(by_b, tuple(by_outer * n_o[j] - pressed[j] for j in range(2)))
-        P = np.stack(
-            [self._carried(inner_z, moved, i) + (pressed[i] if i < 2 else 0.0) for i in range(3)], axis=-1
+        films, tangents = self._tangents(s[:, None])
+        by_inner, by_outer = (
+            heights * film * rows[:, None, None]
+            for heights, film, rows in zip((inner, outer), films, self._pressed, strict=True)
         )
-        P *= -response(self.loss, s)[:, None, None]
-        return np.asarray(np.einsum("kci,cij->kcj", P, self.maps.astype(complex)))
+        balls = len(self._acting)
+        forces = _eliminated(np.concatenate([tangents[:, :balls], by_inner - by_outer], axis=1), balls)[:, 0]
+        forces *= -response(self.loss, s)[:, None]
+        return np.asarray(np.einsum("ikc,cij->kcj", forces, self.maps[:, self._rows].astype(complex)))
 
-    def _tangents(self, s: _Complex) -> tuple[_Complex, _Complex, list[_Complex]]:
-        """Impedances of all contacts at s, shape (..., 1), and R_b by rows; all of shape (..., contacts)."""
-        inner, outer = (np.asarray(race.impedance(s)) for race in (self.inner, self.outer))
-        n_i, n_o = self.normals
+    def _tangents(self, s: _Complex) -> tuple[_Complex, _Complex]:
+        """Impedances of all contacts at s, shape (k, 1): (2, k, contacts); and the equations of all balls.
+
+        Their rows are the balance of a ball and the force of the ring on it, their columns b and c, shape (rows,
+        columns, k, contacts): along the directions that act.
+        """
+        films = np.moveaxis(np.asarray(self.films.impedance(s[..., None])), -2, 0)
+        (inner, outer), (by_inner, by_outer) = films, self._stretched
+        tangents = self._fixed + by_inner * inner + by_outer * outer
         lost = inner + outer == 0.0  # nothing touches the ball: it carries nothing
         own = self.inertia * s * s + lost
-        by_b = [
-            self.geometric[:, i, j]
-            - inner * (n_i[i] * n_i[j])
-            - outer * (n_o[i] * n_o[j])
-            - (own if i == j else 0.0)
-            for i in range(2)
-            for j in range(2)
-        ]
-        return inner, outer, by_b
+        for j in range(len(self._acting)):
+            tangents[j, j] -= own
+        return films, tangents
 
-    def _carried(self, inner: _Complex, moved: tuple[_Complex, _Complex], i: int) -> _Complex:
-        """Component `i` of P_b times a motion of the balls."""
-        G, n = self.geometric, self.normals[0]
-        found = G[:, 2 + i, 0] * moved[0] + G[:, 2 + i, 1] * moved[1]
-        return found - inner * n[i] * (n[0] * moved[0] + n[1] * moved[1]) if i < 2 else found
+    @cached_property
+    def _acting(self) -> list[int]:
+        """Directions along and across in which anything acts: nothing does across in a planar ring."""
+        along = [np.abs(self.normals[:, 1]), np.abs(self.maps[:, 1]), np.abs(self.geometric[:, 0::2, 1::2])]
+        return [0, 1] if any(part.any() for part in along) else [0]
+
+    @cached_property
+    def _rows(self) -> list[int]:
+        """Rows of `maps` along which the ring has a force on a ball: directions that act, and a moment."""
+        return [*self._acting, *([2] if self.maps[:, 2].any() else [])]
+
+    @cached_property
+    def _pressed(self) -> _Floats:
+        """Rows of the equations by a unit force of both contacts, shape (2, rows, contacts)."""
+        balls = len(self._acting)
+        rows = np.zeros((2, balls + len(self._rows), len(self.maps)))
+        rows[:, :balls] = self.normals[:, self._acting]
+        rows[0, balls : 2 * balls] = rows[0, :balls]  # no moment by the normal force
+        return rows
+
+    @cached_property
+    def _stretched(self) -> _Floats:
+        """Equations by a unit impedance of both contacts, shape (2, rows, columns, 1, contacts)."""
+        n = self.normals[:, self._acting]
+        stretch = np.concatenate([-n, n * [[[1.0]], [[0.0]]]], axis=1)  # the outer groove stands still
+        return np.asarray(self._pressed[:, :, None, None] * stretch[:, None, :, None])
+
+    @cached_property
+    def _fixed(self) -> _Floats:
+        """Equations without films and inertia, shape (rows, columns, 1, contacts)."""
+        acting = np.array(self._acting)
+        rows, columns = [*acting, *(2 + np.array(self._rows))], [*acting, *(2 + acting)]
+        return np.asarray(np.moveaxis(self.geometric[:, rows][:, :, columns], 0, -1)[:, :, None])
+
+    @cached_property
+    def _weights(self) -> _Complex:
+        """Impedance of the ring by the entries of all balls, shape (rows * columns, contacts, n * n)."""
+        n = self.maps.shape[2]
+        weights = np.einsum("kmi,klj->mlkij", self.maps[:, self._rows], self.maps[:, self._acting])
+        return np.asarray(weights.reshape(-1, len(self.maps), n * n) / self.positions, complex)
 
     def coefficients(self, omega: _Floats) -> tuple[_Floats, _Floats]:
         """Stiffness [N/m] and damping [N s/m], shape (k, n, n), at angular frequencies [rad/s], shape (k,)."""
         return stiffness_and_damping(self.impedance, omega)
 
 
-def _solve(matrix: list[_Complex], right: tuple[_Complex, ...]) -> tuple[_Complex, _Complex]:
-    """Solve 2 x 2 equations, the matrix by rows."""
-    rr, rz, zr, zz = matrix
-    det = rr * zz - rz * zr
-    return (zz * right[0] - rz * right[1]) / det, (rr * right[1] - zr * right[0]) / det
+def _outward(angle: _Floats) -> _Floats:
+    """Directions along and across outer contacts, as rows over r and z, shape (contacts, 2, 2)."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.moveaxis(np.array([[cosine, sine], [-sine, cosine]]), -1, 0)
+
+
+def _eliminated(equations: _Complex, count: int) -> _Complex:
+    """The other equations after elimination of the first `count` unknowns, shape (rows, columns, ...)."""
+    for _ in range(count):
+        equations = equations[1:, 1:] - equations[1:, :1] * (equations[:1, 1:] / equations[:1, :1])
+    return equations
 
 
 def small_film(
-    law: RaceForceTable, transit: float, speed_row: tuple[int, float], g: float, slope: float, stiffness: float
+    law: RaceForceTable,
+    transit: float | _Floats,
+    speed_row: tuple[int, float],
+    g: float | _Floats,
+    slope: float | _Floats,
+    stiffness: float | _Floats,
 ) -> LinearFilm:
-    """Linear law of a film of dry compression `g` [m], whose static force has this slope and `stiffness` [N/m]."""
+    """Linear law of films of dry compressions `g` [m], whose static force has this slope and `stiffness` [N/m]."""
     root, (row, weight) = np.sqrt(g), speed_row
     rows, film_made = law.gains[row], law.film_made[row]
     if weight > 0.0:
         rows = rows + weight * (law.gains[row + 1] - rows)
         film_made = film_made + weight * (law.film_made[row + 1] - film_made)
     x = law.log_kn + 1.5 * np.log(g)
-    gains, made = (
-        np.array([np.interp(x, law.x, column) for column in rows.T]),
-        float(np.interp(x, law.x, film_made)),
-    )
-    rates = FilterRates(gains.size - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
-    return LinearFilm(stiffness, slope, transit * root, gains, rates, made)
+    gains = np.stack([np.interp(x, law.x, column) for column in rows.T], axis=-1)
+    rates = FilterRates(len(rows.T) - DIRECT, law.lag_rate, law.inlet_rate, law.fast_rate)
+    return LinearFilm(stiffness, slope, transit * root, gains, rates, np.interp(x, law.x, film_made))
 
 
-def _about(law: RaceForceTable, omega: float, race: int, ball: np.void) -> LinearFilm:
-    """Linear law of the contact of a ball of `RingEquilibrium` with a race."""
-    slope, g = float(ball["slope"][race]), float(ball["compression"][race])
+def _about(law: RaceForceTable, omega: float, race: int, balls: NDArray[np.void]) -> LinearFilm:
+    """Linear law of the contacts of all balls of `RingEquilibrium` with a race."""
+    slope, g = balls["slope"][:, race], balls["compression"][:, race]
     if law.x.size == 0:
-        return LinearFilm(slope, 0.0, 0.0, np.zeros(0), None)
-    transit = law.contact_length_factor / (float(ball["speed_sum"][race]) * omega)
-    return small_film(law, transit, (0, 0.0), g, 1.5 * float(ball["load"][race]) / g, slope)
+        none = np.zeros(slope.size)
+        return LinearFilm(slope, none, none, none[:, None][:, :0], None, none)
+    transit = law.contact_length_factor / (balls["speed_sum"][:, race] * omega)
+    return small_film(law, transit, (0, 0.0), g, 1.5 * balls["load"][:, race] / g, slope)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -34,27 +35,29 @@ class SolvedContacts:
 
     Parameters
     ----------
-    contacts : sequence of (Race, float)
-        Race and load [N] of each; one lighter than the atlas knows carries nothing.
+    contacts : sequence of sequence of (Race, float)
+        Race and load [N] of each contact with the inner and the outer race; one lighter than the atlas knows
+        carries nothing.
     speed_rpm : float
         Of the shaft [rev/min].
     """
 
-    def __init__(self, contacts: Sequence[tuple[Race, float]], speed_rpm: float) -> None:
+    def __init__(self, contacts: Sequence[Sequence[tuple[Race, float]]], speed_rpm: float) -> None:
         keys, found = [], {}
-        for race, load in contacts:
+        for race, load in (contact for column in contacts for contact in column):
             sizes = load, race.geometry.radius_x, race.speed_sum
             keys.append(tuple(float(f"{size:.{ALIKE}g}") for size in sizes))
             rounded = keys[-1][0]
             if keys[-1] not in found and rounded > race.loads(speed_rpm)[0]:
                 found[keys[-1]] = race.answer(rounded, speed_rpm)
         self.answers: list[AtlasAnswer] = list(found.values())
-        self._of = np.array([list(found).index(key) if key in found else len(found) for key in keys])
+        places = [list(found).index(key) if key in found else len(found) for key in keys]
+        self._of = np.reshape(places, (len(contacts), -1))
         self._curves = _Curves(self.answers) if found else None
 
     def impedance(self, s: ArrayLike) -> _Complex:
-        """Z [N/m] at s [1/s] of exp(s t), shape of `s`, whose last axis is 1, with that of the contacts."""
-        s = np.asarray(s, complex)
+        """Z [N/m] at s [1/s] of exp(s t), shape of `s`, whose last axes are (1, 1), with that of the contacts."""
+        s = np.asarray(s, complex)[..., 0]
         Z = np.zeros((*s.shape[:-1], len(self.answers) + 1), complex)
         if self._curves is not None:
             K, C = self._curves.at(np.abs(s.imag))
@@ -111,8 +114,8 @@ def with_solved_contacts(
         )
         races = races_at_angles(bearing, name, angles, speeds)
         loads = force[:, column].tolist()
-        columns.append(SolvedContacts(list(zip(races, loads, strict=True)), speed_rpm))
-    return small._replace(inner=columns[0], outer=columns[1])  # type: ignore[arg-type]
+        columns.append(list(zip(races, loads, strict=True)))
+    return replace(small, films=SolvedContacts(columns, speed_rpm))  # type: ignore[arg-type]
 
 
 def signed_damping(
@@ -131,9 +134,8 @@ def signed_damping(
 
 def require_frequencies(solved: Any, omega: _Floats) -> None:
     """Raise `InputError` above the highest frequency that the atlas has of solved contacts."""
-    for contacts in (solved.inner, solved.outer):
-        for one in contacts.answers:
-            one.impedance(omega=omega.max())
+    for answer in solved.films.answers:
+        answer.impedance(omega=omega.max())
 
 
 def damping_left_out(bearing: Any, speed_rpm: float, force: _Floats) -> str:

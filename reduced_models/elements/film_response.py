@@ -80,8 +80,12 @@ class FilterRates:
         s = np.asarray(s, complex)[..., None]
         s = np.where(np.abs(s) < SMALL_OMEGA, 1j * SMALL_OMEGA, s)
         inlet = 1.0 / (1.0 + s / self.inlet_rate)
-        chain = (1.0 / (1.0 + s / self.lag_rate)) ** np.arange(1, self.lags + 1)
-        return np.concatenate([np.ones_like(s), inlet, 1.0 / (1.0 + s / self.fast_rate), inlet * chain], axis=-1)
+        lag = 1.0 / (1.0 + s / self.lag_rate)
+        response = np.empty((*s.shape[:-1], DIRECT + self.lags), complex)
+        response[..., 0:1], response[..., 1:2], response[..., 2:3] = 1.0, inlet, 1.0 / (1.0 + s / self.fast_rate)
+        for k in range(DIRECT, DIRECT + self.lags):  # each lag is fed by the one before it, the first by the inlet
+            response[..., k : k + 1] = lag * (inlet if k == DIRECT else response[..., k - 1 : k])
+        return response
 
     @one_blas_thread()
     def passive(self, gains: ArrayLike) -> bool:
@@ -176,7 +180,7 @@ class StateSpace(NamedTuple):
 
 
 class LinearFilm(NamedTuple):
-    """Contacts about rest, shape S: () of one contact, (k,) of k contacts with the same filters."""
+    """Contacts about rest, shape S: () of one contact, (k,) of k contacts with one set of filters."""
 
     stiffness: float | _Floats  # S, slope of the static force
     slope: float | _Floats  # S, dF/dm
@@ -187,7 +191,7 @@ class LinearFilm(NamedTuple):
 
     @classmethod
     def stack(cls, contacts: Sequence[LinearFilm]) -> LinearFilm:
-        """Contacts with the same filters as one, shape (k,)."""
+        """Contacts with one set of filters, shape (k,) + S of k of shape S."""
         stiffness, slope, tau, gains, rates, made = zip(*contacts, strict=True)
         return cls(np.array(stiffness), np.array(slope), np.array(tau), np.array(gains), rates[0], np.array(made))
 

@@ -135,12 +135,11 @@ def _signals(field: str, given: Signals, letter: str, size: int) -> dict[str, in
 
 
 class _Shape(NamedTuple):
-    """How many states a bearing has: its balls, lags of both films (none: dry), filters of its seat."""
+    """How many states a bearing has: its balls, lags of each film (none: dry), filters of its seat."""
 
     moving: int  # directions of the ring
     balls: int
-    inner: int
-    outer: int
+    lags: int
     seat: int
     inertia: float  # of a ball
     cage: bool = False  # its angle, which turns as the balls roll
@@ -149,12 +148,12 @@ class _Shape(NamedTuple):
     def own(self) -> tuple[str, ...]:
         """States of a ball's own place."""
         names = ("w", "v") if self.moving == len(PLANAR) else ("w", "a", "vw", "va")
-        return names if self.inertia else names[: len(names) // 2] if self.inner else ()
+        return names if self.inertia else names[: len(names) // 2] if self.lags else ()
 
     @property
     def of_balls(self) -> int:
         """States of all balls."""
-        return self.balls * (len(self.own) + sum(lags + FILTERS for lags in (self.inner, self.outer) if lags))
+        return self.balls * (len(self.own) + (2 * (FILTERS + self.lags) if self.lags else 0))
 
     @property
     def directions(self) -> tuple[str, ...]:
@@ -168,9 +167,8 @@ def _states(size: int, bearings: Sequence[_Shape]) -> list[str]:
     for b, shape in enumerate(bearings):
         for k in range(shape.balls):
             names += [f"b{b}_{k}_{one}" for one in shape.own]
-            for race, count in zip(("i", "o"), (shape.inner, shape.outer), strict=True):
-                lags = [f"q{j}" for j in range(1, count + 1)]
-                names += [f"b{b}_{k}_{race}_{one}" for one in (("s", "y", *lags) if count else ())]
+            filters = ["s", "y", *(f"q{j}" for j in range(1, shape.lags + 1))] if shape.lags else []
+            names += [f"b{b}_{k}_{race}_{own}" for race in ("i", "o") for own in filters]
         names += [f"b{b}_seat_{one}{k}" for k in range(1, shape.seat + 1) for one in shape.directions]
         names += [f"b{b}_cage"] if shape.cage else []
     return names
@@ -211,8 +209,8 @@ class _Ring:
 
 def _shape_of(balls: LinearBalls) -> _Shape:
     """States of a bearing."""
-    inner, outer = (0 if film.rates is None else film.rates.lags for film in (balls.inner, balls.outer))
-    return _Shape(balls.maps.shape[-1], len(balls.maps), inner, outer, balls.loss.gains.size, balls.inertia)
+    lags = 0 if balls.films.rates is None else balls.films.rates.lags
+    return _Shape(balls.maps.shape[-1], len(balls.maps), lags, balls.loss.gains.size, balls.inertia)
 
 
 class _Motion:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.results import ImpedanceResult
@@ -74,12 +74,13 @@ class ContactImpedance:
     def __init__(self, impedance: Impedance, count: int) -> None:
         self._impedance, self._count = impedance, count
 
-    def impedance(self, s: complex) -> _Complex:
-        """Impedance of all contacts, shape (1, 1) [N/m]: K + s C with K and C at the frequency of `s` [1/s]."""
-        omega = max(s.imag, TINY_OMEGA)
-        Z = complex(self._impedance(np.array([omega]))[0])
-        impedance = Z if s == 1j * omega else Z.real + s * Z.imag / omega
-        return np.array([[self._count * impedance]])
+    def impedance(self, s: ArrayLike) -> _Complex:
+        """Impedance of all contacts [N/m] at s [1/s], shape of `s` + (1, 1): K + s C, both at its frequency."""
+        s = np.asarray(s, complex)
+        omega = np.maximum(s.imag, TINY_OMEGA)
+        Z = np.asarray(self._impedance(omega.ravel()), complex).reshape(s.shape)
+        impedance = np.where(s == 1j * omega, Z, Z.real + s * Z.imag / omega)
+        return np.asarray(self._count * impedance[..., None, None])
 
 
 class LinearElement:
@@ -96,8 +97,9 @@ class LinearElement:
     def __init__(self, space: StateSpace, count: int) -> None:
         self.space = StateSpace(space.A, space.B, count * space.C, count * space.D)
 
-    def impedance(self, s: complex) -> _Complex:
-        """Impedance of all elements, shape (1, 1) [N/m], at s [1/s]."""
+    def impedance(self, s: ArrayLike) -> _Complex:
+        """Impedance of all elements [N/m] at s [1/s], shape of `s` + (1, 1)."""
         A, driven, C, D = self.space
-        moved = np.array([[1.0], [s]])
-        return np.asarray(C @ np.linalg.solve(s * np.eye(len(A)) - A, driven @ moved) + D @ moved)
+        rate = np.asarray(s, complex)[..., None, None]
+        moved = np.concatenate([np.ones_like(rate), rate], axis=-2)
+        return np.asarray(C @ np.linalg.solve(rate * np.eye(len(A)) - A, driven @ moved) + D @ moved)

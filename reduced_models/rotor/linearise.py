@@ -59,8 +59,8 @@ VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 class LinearSupport(Protocol):
     """A support about static equilibrium."""
 
-    def impedance(self, s: complex) -> _Complex:
-        """Forces over its motions, shape (directions, directions) [N/m], at s [1/s] of exp(s t)."""
+    def impedance(self, s: ArrayLike) -> _Complex:
+        """Forces over its motions [N/m] at s [1/s] of exp(s t), shape of `s` + (directions, directions)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,21 +120,22 @@ class LinearRotor(Summary):
         """Mass, damping with the gyroscopic part, and stiffness; linear bearings are in them."""
         return self.rotor.matrices(self.speed_rpm * RPM_TO_RAD_S)
 
-    def support_impedance(self, s: complex) -> _Complex:
-        """Part of contacts and ball bearings in `dynamic_stiffness`, shape (N, N) [N/m], at s [1/s]."""
+    def support_impedance(self, s: ArrayLike) -> _Complex:
+        """Part of contacts and ball bearings in `dynamic_stiffness` [N/m] at s [1/s], shape of `s` + (N, N)."""
         rows = self._rows
-        Z, first = np.zeros((len(rows), len(rows)), complex), 0
+        Z, first = np.zeros((*np.shape(s), len(rows), len(rows)), complex), 0
         supports: tuple[LinearSupport, ...] = (*self.contacts, *self.balls)
         for support in supports:
             impedance = support.impedance(s)
-            here = slice(first, first + len(impedance))
-            Z[here, here], first = impedance, here.stop
+            here = slice(first, first + impedance.shape[-1])
+            Z[..., here, here], first = impedance, here.stop
         return np.asarray(rows.T @ Z @ rows)
 
-    def dynamic_stiffness(self, s: complex) -> _Complex:
-        """Forces over displacements, shape (N, N), at s [1/s] of exp(s t)."""
+    def dynamic_stiffness(self, s: ArrayLike) -> _Complex:
+        """Forces over displacements [N/m] at s [1/s] of exp(s t), shape of `s` + (N, N)."""
         M, C, K = self.matrices
-        return np.asarray(s * s * M + s * C + K + self.support_impedance(s))
+        rate = np.asarray(s, complex)[..., None, None]
+        return np.asarray(rate * rate * M + rate * C + K + self.support_impedance(s))
 
     def modes(self, count: int | None = DEFAULT_MODES) -> tuple[RotorMode, ...]:
         """Modes that oscillate, the slowest first; None: all.

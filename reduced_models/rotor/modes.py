@@ -159,16 +159,16 @@ def eigenvectors(matrices: Matrices, impedance: _Complex, omega: float) -> tuple
 
 
 def refine_root(
-    dynamic: Callable[[complex], _Complex], s: complex, q: _Complex, tolerance: float = CONVERGED
+    dynamic: Callable[[_Complex], _Complex], s: complex, q: _Complex, tolerance: float = CONVERGED
 ) -> tuple[complex, _Complex]:
-    """Newton's method for T(s) q = 0 from near a root; `dynamic` gives T."""
+    """Newton's method for T(s) q = 0 from near a root; `dynamic` gives T at several s, shape (k,)."""
     size, fixed = len(q), q.conj() / np.vdot(q, q)
     system, residual = np.zeros((size + 1, size + 1), complex), np.zeros(size + 1, complex)
     moved = inf
     for _ in range(MOST_ROUNDS):
         step = PROBE * abs(s)
-        T = dynamic(s)
-        slope = (dynamic(s + step) - dynamic(s - step)) / (2.0 * step)
+        T, before, after = dynamic(np.array([s, s - step, s + step]))
+        slope = (after - before) / (2.0 * step)
         system[:size, :size], system[:size, size], system[size, :size] = T, slope @ q, fixed
         residual[:size] = T @ q
         change = np.linalg.solve(system, -residual)

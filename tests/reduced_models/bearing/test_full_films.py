@@ -120,6 +120,6 @@ def test_contacts_at_angles_of_a_7205(ball, race):
     Omega = np.array([0.05, 0.5, pi])
     solved, omega = impedance(point, Omega=Omega, grid=Grid(n=128)).si, Omega / point.scales.time
     small = LinearBalls.of(bearing.tables.balls(rpm), [at], loss_of(0.0), 0.0)
-    Z = (small.inner, small.outer)[column].impedance(1j * omega[:, None])[:, ball]
+    Z = small.films.impedance(1j * omega[:, None, None])[:, column, ball]
     full = solved.stiffness + 1j * omega * solved.damping
     assert np.all(np.abs(Z - full) < 0.03 * np.abs(full))

@@ -1,5 +1,6 @@
 """Balls with inertia towards the rings: against scipy, against balls without, in time as in frequency."""
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -64,7 +65,7 @@ def test_small_motions_in_time_have_the_impedance(oil, oiled):
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
     t = dt * np.arange(1, periods * per_period + 1)
     balls = linear_balls(still, RPM, [at])
-    Z, massless = (b.impedance(1j * omega) for b in (balls, balls._replace(inertia=0.0)))
+    Z, massless = (b.impedance(1j * omega) for b in (balls, replace(balls, inertia=0.0)))
     run = still_motion(bearing, RPM, dt)
     start = run.rest(at.displacement)
     rise = np.minimum(1.0, t * hz / 20.0)[:, None]  # free balls would swing on for ever
@@ -86,7 +87,7 @@ def test_small_motions_at_contact_angles_have_the_impedance(oil, oiled):
     small = linear_balls(bearing, RPM, [equilibrium_at(static_ring(bearing, RPM, 0.3, 5), place)])
     hz, size, periods, per_period = 15e3, 1e-11, 40, 100
     omega, dt = 2.0 * pi * hz, 1.0 / (hz * per_period)
-    Z, massless = (b.impedance(1j * omega) for b in (small, small._replace(inertia=0.0)))
+    Z, massless = (b.impedance(1j * omega) for b in (small, replace(small, inertia=0.0)))
     motion = motion_of(bearing, [RPM], FIVE)
     start, seen = motion.rest(RPM * RPM_TO_RAD_S, 0.3, place), np.zeros(5, complex)
     for i in range(1, periods * per_period + 1):

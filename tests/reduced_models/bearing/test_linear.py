@@ -22,7 +22,7 @@ def test_a_contact_has_the_impedance_of_its_element(film, race, load):
     at = equilibrium_under(film, np.array([0.0, -5.0 * load]), RPM, -pi / 2.0)
     column = ("inner", "outer").index(race)
     k = int(np.argmax(at.force[:, column]))
-    found = getattr(linear_balls(film, RPM, [at]), race).impedance(1j * omega[:, None])[:, k]
+    found = linear_balls(film, RPM, [at]).films.impedance(1j * omega[:, None, None])[:, column, k]
     expected = element.impedance(load=at.force[k, column], omega=omega)
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 

@@ -49,7 +49,7 @@ def test_linearize_is_the_state_space(film, block, cutoff_gap):
     """The nonlinear block, by differences of 1e-5 um (and um/s)."""
     rotor = block(BallBearing.catalogue("6205", oil=film.oil, cutoff_gap=cutoff_gap))
     at = linearise(rotor, RPM, passage=False)
-    assert (cutoff_gap is None) == bool(np.all(at.balls[0].inner.slope > 0.0))  # the top balls are let go
+    assert (cutoff_gap is None) == bool(np.all(at.balls[0].films.slope[0] > 0.0))  # the top balls are let go
     exact, moving = at.to_control(), rotor_to_control(rotor, RPM, cage_turns=False)
     rest = np.zeros(moving.nstates)
     rates = moving.dynamics(0.0, rest, np.zeros(2))
@@ -130,7 +130,7 @@ def test_states_of_losses_and_of_balls_with_inertia(oil, block, oiled, changes, 
 def test_a_dry_ball_vibrates_on_its_two_contacts(block):
     at = linearise(block(BallBearing.catalogue("6205", ball_inertia=True, clearance=-4e-6)), RPM, passage=False)
     contact = at.balls[0]
-    bounce = np.sqrt((contact.inner.stiffness + contact.outer.stiffness) / contact.inertia).max()
+    bounce = np.sqrt(contact.films.stiffness.sum(axis=0) / contact.inertia).max()
     assert np.linalg.eigvals(at.to_control().A).imag.max() == pytest.approx(bounce, rel=0.02)
     assert 30e3 < bounce / (2.0 * np.pi) < 45e3
 
