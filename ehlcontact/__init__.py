@@ -17,6 +17,7 @@ module            responsibility
 ``traction``      `traction_curve`: traction over the slide-to-roll ratio
 ``side_flow``     `oil_passes`: films pass after pass of a track; closed form of thin layers
 ``shear_thinning`` `ShearThinning`: shear thinning of a film by sliding
+``linearised_film``  steady films to linearise, on the finest and on coarser meshes
 ``impedance``     `impedance`: K and C over frequency from the linearised steady state
 ``speed_response`` `speed_response`: force over a change of speed, likewise
 ``excitation``    `excitation`: force of waves on a surface, likewise

@@ -26,15 +26,8 @@ from ehlcontact.checks import as_numbers, require_positive
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, is_given
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.errors import InputError
-from ehlcontact.impedance import (
-    LARGEST_OMEGA,
-    NEAR_ZERO,
-    TOLERANCE,
-    LinearisedContact,
-    coarser_films,
-    film_to_linearise,
-    held,
-)
+from ehlcontact.impedance import LARGEST_OMEGA, NEAR_ZERO
+from ehlcontact.linearised_film import coarser_films, film_to_linearise, held
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import ExcitationResult
@@ -42,6 +35,7 @@ from ehlcontact.solver.error_estimate import wave_error
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.level import Level
 from ehlcontact.solver.linear import LinearFilm
+from ehlcontact.solver.linearised_contact import TOLERANCE, LinearisedContact
 from ehlcontact.solver.mesh import Mesh, Solve
 from ehlcontact.solver.mesh_choice import Purpose, grid_for_waves, wider_meshes
 

@@ -20,20 +20,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks.frequency import dimensionless
 from ehlcontact.checks.machine import require_threads
-from ehlcontact.impedance import (
-    LARGEST_OMEGA,
-    NEAR_ZERO,
-    TOLERANCE,
-    LinearisedContact,
-    coarser_films,
-    film_to_linearise,
-    held,
-)
+from ehlcontact.impedance import LARGEST_OMEGA, NEAR_ZERO
+from ehlcontact.linearised_film import coarser_films, film_to_linearise, held
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import SpeedResponseResult
 from ehlcontact.solver.error_estimate import wave_error
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
+from ehlcontact.solver.linearised_contact import TOLERANCE, LinearisedContact
 from ehlcontact.solver.mesh import Solve
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 

@@ -10,7 +10,8 @@ from heat import ball
 from matplotlib.figure import Figure
 
 from ehlcontact import Grid, Heat, Lubricant, impedance, solve_steady
-from ehlcontact.impedance import LinearisedContact, held
+from ehlcontact.linearised_film import held
+from ehlcontact.solver.linearised_contact import LinearisedContact
 
 IMAGES = Path(__file__).parents[1] / "images"
 OMEGA = np.geomspace(0.05, 100.0, 40)

@@ -21,6 +21,7 @@ module           responsibility
 ``multigrid``    full-approximation-scheme cycle and full multigrid
 ``acceleration`` Anderson acceleration of V cycles
 ``linear``       linearised film: operator, preconditioner, Krylov solution
+``linearised_contact``  derivatives of a contact at its steady film; responses over frequency
 ``effects``      `Effect`: what conditions make of a film, any of them beside the others; cycles with them
 ``mixed_film``   pressure of asperities that carry part of the load beside a film
 ``linear_heat``  linearised film with temperatures that follow a vibration

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ehlcontact import Grid, __version__, solve_steady
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.impedance import held, linearised
+from ehlcontact.linearised_film import held, linearised
 from ehlcontact.status import Status
 from reduced_models.atlas.table import Box, Interpolation, Table
 

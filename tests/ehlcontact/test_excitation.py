@@ -23,8 +23,9 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.excitation import force_of_waves
-from ehlcontact.impedance import LinearisedContact, held
+from ehlcontact.linearised_film import held
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
+from ehlcontact.solver.linearised_contact import LinearisedContact
 
 POINT = MoesPoint(200, 10, 0.5)
 

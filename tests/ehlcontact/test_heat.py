@@ -24,7 +24,7 @@ from ehlcontact import (
     solve_steady,
 )
 from ehlcontact.film_formulas import wilson_heating
-from ehlcontact.impedance import held
+from ehlcontact.linearised_film import held
 from ehlcontact.lubricant import MineralOil
 from ehlcontact.solver.film_heat import FilmHeat
 from ehlcontact.solver.kernels.heat import warm_walls

@@ -24,11 +24,13 @@ from ehlcontact import (
     save,
     solve_steady,
 )
-from ehlcontact.impedance import NEAR_ZERO, TOLERANCE, LinearisedContact, heat_of, held, slow_part
+from ehlcontact.impedance import NEAR_ZERO, slow_part
+from ehlcontact.linearised_film import heat_of, held
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.effects import CyclesWithEffects
 from ehlcontact.solver.film_heat import FilmHeat, FollowedViscosity
 from ehlcontact.solver.linear_heat import LinearHeat
+from ehlcontact.solver.linearised_contact import TOLERANCE, LinearisedContact
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
 GRID = Grid(48)

@@ -8,7 +8,7 @@ import pytest
 from balls import FAST as POINT
 
 from ehlcontact import Domain, Grid, Heat, OilLayer, solve_steady
-from ehlcontact.impedance import heat_of, held
+from ehlcontact.linearised_film import heat_of, held
 from ehlcontact.solver.film_heat import divergence
 
 GRID = Grid(64, Domain(-6.0, 1.5, 3.0))

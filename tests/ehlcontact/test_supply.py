@@ -25,10 +25,10 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.impedance import LinearisedContact
-from ehlcontact.impedance import held as held_film
+from ehlcontact.linearised_film import held as held_film
 from ehlcontact.lubricant import density
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.linearised_contact import LinearisedContact
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.status import Status
 from ehlcontact.transient.transient_film import TransientFilm

@@ -8,7 +8,7 @@ force that goes with it is the damping at rest. No part of the linearisation is 
 import pytest
 
 from ehlcontact import Grid, MoesPoint, OilLayer, impedance, solve_steady
-from ehlcontact.impedance import held
+from ehlcontact.linearised_film import held
 from ehlcontact.solver.balance import Balance
 
 STEP = 1e-4  # of the approach
