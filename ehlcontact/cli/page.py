@@ -13,9 +13,12 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.files import write_text
+from ehlcontact.results.picture import Panel, Picture, Slides
 
 
-def write_page(path: Path, template: str, drawings: Mapping[str, Callable[[], Any]], **content: Any) -> Path:
+def write_page(
+    path: Path, template: str, drawings: Mapping[str, Callable[[], Picture | Slides]], **content: Any
+) -> Path:
     """Draw all figures with plotly and write the page.
 
     The template finds the height of each figure [px] by its name in ``heights``, and plotly.js and the figures in
@@ -46,16 +49,16 @@ def write_page(path: Path, template: str, drawings: Mapping[str, Callable[[], An
     return write_text(path, page, "file")
 
 
-def _drawn(name: str, draw: Callable[[], Any]) -> Any:
+def _drawn(name: str, describe: Callable[[], Picture | Slides]) -> Any:
     """The figure; where it fails one that says why, for the rest of the page is worth having."""
-    try:
-        return draw()
-    except Exception as error:
-        from ehlcontact.cli.plots.style import grid
+    from ehlcontact.cli.plots.render import figure_of
 
+    try:
+        return figure_of(describe())
+    except Exception as error:
         reason = f"the figure {name!r} could not be drawn: {type(error).__name__}: {error}"
         warnings.warn(reason, stacklevel=2)
-        return grid(titles=[escape(shorten(reason, 100))])
+        return figure_of(Picture([Panel([], "", "", title=escape(shorten(reason, 100)))]))
 
 
 def cell(value: float | str | None) -> str:

@@ -5,6 +5,7 @@ module        responsibility
 ============= =====================================================================================
 ``plane``     one instant: `film_of` the whole plane, mid-planes, horseshoe, `interferogram`
 ``over_time`` `film_history`; `film_wave`, which travels with the surfaces, and `track_wave`
+``pictures``  coloured fringes; a film through a period, with a slider
 ============= =====================================================================================
 """
 

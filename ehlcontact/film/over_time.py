@@ -7,6 +7,7 @@ measured speed, by 1 % at Omega = pi and by more in slower motion.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
@@ -17,6 +18,7 @@ from ehlcontact.checks import require_finite, require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.quantities import ALONG, LENGTH, SURFACE_SPEED, TIME
+from ehlcontact.results.picture import INK, Line, Map, Panel
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.transient.result import SimulationResult
 
@@ -25,6 +27,8 @@ Array = NDArray[np.float64]
 STATIONS = 25  # places at which a travelling wave is timed
 OVERSAMPLING = 4  # of its records, for delays finer than the time step
 FEWEST_STEPS = 4  # in the time a wave takes from start to end
+WITHIN, CARRIED = 1.1, 0.9  # semi-axes: what a picture of the wave shows, and whose film sets its colours
+PASSAGE = 2.0  # 2a/u_sum, in which the surfaces cross the contact
 SLOWEST = 4.0  # times slower than the surfaces: the slowest wave that is found
 
 
@@ -67,6 +71,25 @@ class FilmWave(QuantityTable):
 
     DISPLAY: ClassVar[Display] = Display(rows="T X", panels=("change",))
     UNITS = "dimensionless"
+
+    def _panels(self) -> Iterator[Panel | Map]:
+        """Beyond a little more than the contact the film follows the approach at once, and is not shown."""
+        near = np.abs(self.X) <= WITHIN
+        change = self.change[:, near]
+        inside = np.abs(change[:, np.abs(self.X[near]) < CARRIED])
+        most = float(np.percentile(inside, 99.0)) or float(inside.max()) or 1.0
+        starts = np.arange(0.0, float(self.T[-1]), PASSAGE).tolist()
+        carried = [Line([at, at + PASSAGE], [-1.0, 1.0], "", INK, "--", width=1.0) for at in starts]
+        yield Map(
+            (self.T, self._axis("T")),
+            (self.X[near], self._axis("X")),
+            (change, ("change of the film", self._unit("change"))),
+            title="dashed: carried through at the mean surface speed",
+            colours="RdBu_r",
+            limits=(-most, most),  # white is no change
+            view=((float(self.T[0]), float(self.T[-1])), (-WITHIN, WITHIN)),
+            lines=carried,
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,7 +16,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.quantities import ACROSS, ALONG, LENGTH, NUMBER, PRESSURE, Quantity, quantities_of, require_scales
 from ehlcontact.results import SteadyResult
-from ehlcontact.results.contact_map import ContactMap, contact_panels
+from ehlcontact.results.contact_map import ContactView, contact_panels, fields
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.solver.lowest_film import lowest_film
 from ehlcontact.transient.result import SimulationResult
@@ -110,8 +110,10 @@ class Film(ScaledTable):
         return self  # in SI and without, as a contact is drawn
 
     def _panels(self) -> Iterator[Any]:
-        central = float(self.H[int(np.argmin(np.abs(self.X))), self.Y.size // 2])
-        yield from contact_panels((self.X, self.Y), (self.P, self.H), central, None, self.scales)
+        s = self.scales
+        view, (p, h) = ContactView.of(self.X, self.Y, None, s), fields(s, self.P, self.H)
+        central = float(h[0][int(np.argmin(np.abs(self.X))), self.Y.size // 2])
+        yield from contact_panels(view, p, h, central, 1.0 if s is None else s.pressure)
 
     @property
     def along(self) -> Profile:
@@ -229,9 +231,8 @@ class Interferogram(QuantityTable):
 
     def _panels(self) -> Iterator[Any]:
         seen = np.where(self.resolved, self.intensity, np.nan)  # finer fringes would be false ones
-        labels = "x along rolling [µm]", "y across [µm]", "intensity; blank where the grid is too coarse for it"
-        a, b = (1e6 * axis for axis in self.axes)
-        yield ContactMap(1e6 * self.x, 1e6 * self.y, seen, labels, (a, b), "gray", (0.0, 1.0))
+        view = ContactView(self.x, self.y, self.axes, (self._axis("x"), self._axis("y")))
+        yield view.map(seen, "intensity; blank where the grid is too coarse for it", "gray", (0.0, 1.0))
 
     @property
     def resolved(self) -> NDArray[np.bool_]:

@@ -12,8 +12,9 @@ module                responsibility
 ``frequency``         `FrequencyResponse`: impedance and python-control system of K and C
 ``traction``          `Traction`: traction of a film over the slide-to-roll ratio
 ``table``             `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
-``contact_map``       pressure and film of a contact as a figure
-``picture``           plain figures; matplotlib is imported where one is drawn
+``picture``           pictures as data: panels of lines and bars, maps, load zones
+``contact_map``       picture of a contact: maps of pressure and film, mid-planes, convergence
+``drawing``           pictures drawn with matplotlib, which is imported where one is drawn
 ===================== =================================================================================
 """
 

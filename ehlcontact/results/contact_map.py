@@ -1,130 +1,216 @@
-"""Figure of a contact: pressure and film around the Hertz ellipse, and along its middle."""
+"""Picture of a contact: maps of pressure and film around the Hertz ellipse, and both along its mid-planes."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ehlcontact.point import Scales
-from ehlcontact.results.picture import Array, Panel, smooth
+from ehlcontact.quantities import ACROSS, ALONG, LENGTH, PRESSURE, words
+from ehlcontact.results.picture import BLUE, GREY, RED, Array, Label, Line, Map, Panel, Picture
 
-REACH = 1.5  # semi-axes on either side of the centre that are shown
-DEEPEST = 2.5  # central films up to which the colours of a film go: beyond, the inlet would take all of them
-FLATTEST = 4.0  # sides of a contact over each other up to which maps are to scale
+VIEW = (-1.8, 1.5, 1.5)  # along rolling from, to; across to: in semi-axes
+MIDPLANE = 1.6  # semi-axes across, along which the film of one half is drawn
+LEVELS = (0.92, 1.08, 1.3, 1.8)  # of the central film, where lines are drawn; the last ends the colours
+DEEPEST = 5.0  # central films up to which a mid-plane shows the film
+FLATTEST = 0.3  # height over width of a map: a flatter one is stretched
+TALL = 420.0  # px of a page that a map may be high
+MOVES = ("the surfaces move to the right", "the surfaces move upwards")
 
 
 @dataclass(frozen=True)
-class ContactMap:
-    """A field around the Hertz ellipse.
+class ContactView:
+    """Places and fields of a contact in the units of its labels.
 
     Parameters
     ----------
-    x, y : ndarray, shape (nx + 1,), (ny + 1,)
+    x, y : ndarray, shape (nx,), (ny,)
         Places along rolling and across; only y >= 0 of an even field, which is mirrored.
-    field : ndarray, shape (nx + 1, ny + 1)
-    labels : (str, str, str)
-        Of x, y and the field.
     axes : (float, float)
-        Semi-axes of the ellipse, in the units of x and y.
-    colours : str
-        Of matplotlib.
-    limits : (float, float)
-        Of the colours.
+        Semi-axes of the Hertz ellipse, in the units of x and y.
+    labels : (label, label)
+        Of x and y.
+    true : float
+        True length of a unit of y over that of x.
     """
 
     x: Array
     y: Array
-    field: Array
-    labels: tuple[str, str, str]
     axes: tuple[float, float]
-    colours: str
-    limits: tuple[float, float]
+    labels: tuple[Label, Label]
+    true: float = 1.0
 
-    def draw(self, axes: Any) -> None:
-        """Into matplotlib axes."""
-        y, field = self.y, self.field
+    @classmethod
+    def of(cls, X: Array, Y: Array, kappa: float | None, scales: Scales | None) -> ContactView:
+        """From places in semi-axes, and a/b; in SI where there are scales."""
+        if scales is None:
+            labels = (words("x"), ALONG.moes), (words("y"), ACROSS.moes)
+            return cls(X, Y, (1.0, 1.0), labels, 1.0 / (kappa or 1.0))
+        a, b = scales.a, scales.b
+        return cls(a * X, b * Y, (a, b), ((words("x"), ALONG.unit), (words("y"), ACROSS.unit)))
+
+    @property
+    def upwards(self) -> bool:
+        """Whether the surfaces move upwards in maps: an ellipse that is wide across lies flat."""
+        return self.true * self.axes[1] > 1.001 * self.axes[0]
+
+    @property
+    def view(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Ends along rolling and across of what maps show."""
+        (a, b), (first, last, across) = self.axes, VIEW
+        across = min(across * b, float(np.abs(self.y).max()))
+        return (max(first * a, float(self.x[0])), min(last * a, float(self.x[-1]))), (-across, across)
+
+    @property
+    def stretch(self) -> float:
+        """Of the shorter side of a map that would be too flat."""
+        long, across = (float(np.ptp(ends)) for ends in self.view)
+        across *= self.true
+        return max(1.0, FLATTEST * max(long, across) / min(long, across))
+
+    @property
+    def note(self) -> str:
+        """How far maps are from true proportions, in words; empty where they are to scale."""
+        if self.stretch < 1.01:
+            return ""
+        long, across = (float(np.ptp(ends)) for ends in self.view)
+        longer, shorter = ("x", "y") if long < self.true * across else ("y", "x")
+        return f"Not to scale: {longer} stretched {self.stretch:.2g} times against {shorter}."
+
+    def map(
+        self, field: Array, label: Label, colours: str, limits: tuple[float, float] | None, **options: Any
+    ) -> Map:
+        """Map of a field of shape (nx, ny), or an image of shape (nx, ny, 3)."""
+        y = self.y
         if y[0] == 0.0:
             y, field = np.concatenate([-y[:0:-1], y]), np.concatenate([field[:, :0:-1], field], axis=1)
-        a, b = self.axes
-        low, high = self.limits
-        mesh = axes.pcolormesh(
-            self.x, y, field.T, cmap=self.colours, vmin=low, vmax=high, shading=smooth(field), rasterized=True
-        )
-        beyond = "max" if field.max() > high else "neither"
-        axes.figure.colorbar(mesh, ax=axes, label=self.labels[2], extend=beyond)
-        turn = np.linspace(0.0, 2.0 * np.pi, 181)
-        axes.plot(a * np.cos(turn), b * np.sin(turn), "--", color="white", linewidth=0.8)
-        axes.set(xlabel=self.labels[0], ylabel=self.labels[1])
-        axes.set_xlim(max(self.x[0], -REACH * a), min(self.x[-1], REACH * a))
-        axes.set_ylim(max(y[0], -REACH * b), min(y[-1], REACH * b))
-        if max(a, b) <= FLATTEST * min(a, b):
-            axes.set_aspect("equal")
+        along, across = (self.x, self.labels[0]), (y, self.labels[1])
+        lengthened = self.stretch if "x stretched" in self.note else 1.0 / self.stretch
+        aspect = self.true / lengthened
+        if self.upwards:
+            turned = field.swapaxes(0, 1)
+            places: Any = {"x": across, "y": along, "view": self.view[::-1], "axes": self.axes[::-1]}
+            return Map(
+                values=(turned, label), colours=colours, limits=limits, aspect=1.0 / aspect, **places, **options
+            )
+        places = {"x": along, "y": across, "view": self.view, "axes": self.axes}
+        return Map(values=(field, label), colours=colours, limits=limits, aspect=aspect, **places, **options)
+
+    def pressure(self, p: Array, label: Label, most: float | None = None) -> Map:
+        """Map of the pressure, whose colours end at `most`."""
+        limits, title = (0.0, float(p.max()) if most is None else most), f"pressure; {MOVES[self.upwards]}"
+        return self.map(p, label, "inferno", limits, title=title)
+
+    def film(self, h: Array, label: Label, central: float, ends: tuple[float, float] | None = None) -> Map:
+        """Map of the film with lines at `LEVELS` of the central one, or with the ends of its colours given."""
+        if ends is not None:
+            return self.map(h, label, "viridis", ends, title="film")
+        levels = [level * central for level in LEVELS]
+        limits, title = (float(h.min()), max(levels[-1], float(h.min()))), "film; lines: " + _levels_in_words()
+        return self.map(h, label, "viridis", limits, levels=levels, title=title)
 
 
 def contact_panels(
-    places: tuple[Array, Array],
-    fields: tuple[Array, Array],
-    h_central: float,
-    kappa: float | None,
-    scales: Scales | None,
+    view: ContactView,
+    p: tuple[Array, Label],
+    h: tuple[Array, Label],
+    central: float,
+    hertz: float,
     content: Array | None = None,
-) -> list[ContactMap | Panel]:
-    """Maps of pressure, film and content, and the former along rolling and across; in SI where there are scales.
+) -> list[Map | Panel]:
+    """Maps of pressure, film and content, and the first two along rolling and across.
 
     Parameters
     ----------
-    places : (ndarray, ndarray)
-        X in semi-axes a, Y in b.
-    fields : (ndarray, ndarray)
-        P over the Hertz pressure and H over the dry approach, shape (nx + 1, ny + 1).
-    h_central : float
-        Film in the centre, as H.
-    kappa : float or None
-        a/b: with no scales both axes are in a, and where it is not known each in its own semi-axis.
-    scales : Scales or None
+    view : ContactView
+    p, h : (ndarray, label)
+        Pressure and film, shape (nx, ny).
+    central : float
+        Film in the centre.
+    hertz : float
+        Largest pressure of the dry contact.
     content : ndarray, optional
-        Part of the gap that oil fills, shape (nx + 1, ny + 1).
+        Part of the gap that oil fills, shape (nx, ny).
     """
-    (X, Y), (P, H) = places, fields
-    if scales is None:
-        a, b, pressure, film = 1.0, 1.0 if kappa is None else 1.0 / kappa, 1.0, 1.0
-        labels = "x/a", "y/b" if kappa is None else "y/a", "pressure over Hertz's", "film over the dry approach"
-    else:
-        a, b, pressure, film = 1e6 * scales.a, 1e6 * scales.b, 1e-9 * scales.pressure, 1e6 * scales.length
-        labels = "x along rolling [µm]", "y across [µm]", "pressure [GPa]", "film [µm]"
-    p, h = pressure * P, film * H
-    highest = DEEPEST * film * h_central
-    maps = [
-        ContactMap(a * X, b * Y, p, (*labels[:2], labels[2]), (a, b), "inferno", (0.0, float(p.max()))),
-        ContactMap(a * X, b * Y, h, (*labels[:2], labels[3]), (a, b), "viridis", (float(h.min()), highest)),
-    ]
+    maps = [view.pressure(*p), view.film(*h, central)]
     if content is not None:
-        words = "part of the gap filled with oil"
-        maps.append(ContactMap(a * X, b * Y, content, (*labels[:2], words), (a, b), "cividis", (0.0, 1.0)))
-    i, j = (int(np.argmin(np.abs(place))) for place in (X, Y))
-    along = _profiles(a, X, (p[:, j], h[:, j]), (labels[0], *labels[2:]), (pressure, highest))
-    return [*maps, *along, *_profiles(b, Y, (p[i], h[i]), (labels[1], *labels[2:]), (pressure, highest))]
+        maps.append(view.map(content, "part of the gap filled with oil", "cividis", (0.0, 1.0)))
+    i, j = (int(np.argmin(np.abs(place))) for place in (view.x, view.y))
+    along = midplane(view, (p[0][:, j], p[1]), (h[0][:, j], h[1]), central, hertz)
+    across = midplane(view, (p[0][i], p[1]), (h[0][i], h[1]), central, hertz, across=True)
+    return [*maps, along, across]
 
 
-def _profiles(
-    semi_axis: float,
-    place: Array,
-    lines: tuple[Array, Array],
-    labels: tuple[str, str, str],
-    most: tuple[float, float],
-) -> list[Panel]:
-    """Pressure with that of the dry contact, and film, over a place in semi-axes.
-
-    `labels` are of place, pressure and film, `most` is the Hertz pressure and the thickest film that is shown.
-    """
-    near = np.abs(place) <= REACH
-    p, h = (line[near] for line in lines)
-    x = semi_axis * place[near], labels[0]
-    dry = most[0] * np.sqrt(np.maximum(0.0, 1.0 - place[near] ** 2))
-    film = np.where(h <= most[1], h, np.nan)
-    return [
-        Panel(x, [("film", p, None), ("dry", dry, None)], labels[1]),
-        Panel(x, [("", film, None)], labels[2]),
+def midplane(
+    view: ContactView,
+    p: tuple[Array, Label],
+    h: tuple[Array, Label],
+    central: float,
+    hertz: float,
+    *,
+    across: bool = False,
+) -> Panel:
+    """Pressure with that of the dry contact, and film, along a mid-plane; across over one half."""
+    place, semi_axis = (view.y, view.axes[1]) if across else (view.x, view.axes[0])
+    ends = (0.0, MIDPLANE * semi_axis) if across else (VIEW[0] * semi_axis, VIEW[1] * semi_axis)
+    dry = np.linspace(-1.0, 1.0, 201)
+    lines = [
+        Line(semi_axis * dry, hertz * np.sqrt(1.0 - dry**2), "dry Hertz", GREY, "--"),
+        Line(place, p[0], "pressure", RED),
+        Line(place, h[0], "film", BLUE, second=True),
     ]
+    highest = 1.05 * max(float(p[0].max()), hertz)
+    label = view.labels[across]
+    assert not isinstance(label, str)
+    return Panel(
+        lines,
+        (f"{label[0]}, {'x' if across else 'y'} = 0", label[1]),
+        p[1],
+        x_ends=ends,
+        y_ends=(0.0, highest),
+        second=h[1],
+        second_ends=(0.0, DEEPEST * central),
+    )
+
+
+def film_picture(result: Any) -> tuple[Picture, Picture]:
+    """Maps of a `SteadyResult` one below another, and its mid-planes: two pictures of a page."""
+    panels = result.panels()
+    maps = [panel for panel in panels if isinstance(panel, Map)]
+    view = ContactView.of(result.X, result.Y, result.point.kappa, result.scales)
+    return (
+        Picture(maps, columns=1, heights=(TALL,), note=view.note),
+        Picture([panel for panel in panels if isinstance(panel, Panel)]),
+    )
+
+
+def convergence(result: Any) -> Picture:
+    """Changes of the pressure, and residuals, of the multigrid cycles of a `SteadyResult`."""
+    floor, cycles = 1e-17, np.arange(len(result.residuals))
+    series: Sequence[tuple[str, str, str, Array]] = [
+        ("residual of Reynolds, over the dry start's", "o", BLUE, result.residuals / result.dry_residual),
+        ("residual of the load balance, over the load", "s", "#e69f00", np.abs(result.load_residuals) + floor),
+        ("change of approach, over the dry one", "^", GREY, result.approach_changes + floor),
+        ("largest change of pressure, over Hertz's", "D", RED, result.pressure_changes + floor),
+    ]
+    lines = [
+        Line(cycles[cycles.size - values.size :], values, name, colour, mark=mark)
+        for name, mark, colour, values in series
+    ]
+    return Picture([Panel(lines, "cycle on the finest grid", "change or residual", logs="Y")], "convergence")
+
+
+def fields(scales: Scales | None, P: Array, H: Array) -> tuple[tuple[Array, Label], tuple[Array, Label]]:
+    """Pressure and film with their labels, in SI where there are scales."""
+    found = []
+    for name, values, quantity in (("p", P, PRESSURE), ("h", H, LENGTH)):
+        value = values if scales is None else quantity.in_si(values, scales)
+        found.append((value, (words(name), quantity.moes if scales is None else quantity.unit)))
+    return found[0], found[1]
+
+
+def _levels_in_words() -> str:
+    return ", ".join(f"{level:g}" for level in LEVELS) + " of the central film"

@@ -1,160 +1,418 @@
-"""Plain figures of results. Matplotlib is imported where one is drawn."""
+"""Pictures as data: panels of lines and bars, maps, load zones.
+
+A result describes its picture once. Two renderers draw it: `ehlcontact.results.drawing` with matplotlib, for files
+and notebooks, and `ehlcontact.cli.plots.render` with plotly, for pages. Values are in the unit that their label
+names; the renderers show them in the units of `SHOWN`.
+"""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Sequence
-from dataclasses import dataclass
-from io import BytesIO
-from pathlib import Path
-from textwrap import fill
-from typing import Any, Literal
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from math import pi
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.errors import InputError
-from ehlcontact.files import write_bytes
-
 Array = NDArray[Any]
-Axis = tuple[Any, "str | tuple[str, str]"]  # values; words, or words and their unit
+Label = str | tuple[str, str]  # words, or words and their unit
+Ends = tuple[float, float]  # of an axis
 
-COLOURS = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9"  # Okabe and Ito, for colour-blind eyes
-WIDTH, HEIGHT, DPI = 4.6, 3.4, 130  # inches of a panel; of files
+# Okabe and Ito's colours, which stay apart for colour-blind eyes
+BLUE, ORANGE, GREEN, RED, PURPLE, SKY = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9"
+GREY, INK, WHITE = "#7f7f7f", "#1d2126", "#ffffff"
+PALE, PALE_BLUE = "#f2f2f2", "#eaf3fa"  # of stretches behind the lines
+COLOURS = BLUE, ORANGE, GREEN, RED, PURPLE, SKY
+DASHES = "-", "--", ":"  # after the last colour
 DECADE = 10.0  # largest over smallest value, beyond which an axis that may be is logarithmic
-MOST_NAMED = 8  # lines that a legend names
-# Units of figures: what contacts have in a unit of the SI is far from 1
-SHOWN = {"m": ("µm", 1e6), "Pa": ("GPa", 1e-9), "N/m": ("N/µm", 1e-6)}
-GRID: dict[str, Any] = {"color": "#dddddd", "linewidth": 0.6}
+# Units of pictures: what contacts have in a unit of the SI is far from 1
+SHOWN = {
+    "m": ("µm", 1e6),
+    "s": ("ms", 1e3),
+    "m/s": ("mm/s", 1e3),
+    "Pa": ("GPa", 1e-9),
+    "N/m": ("N/µm", 1e-6),
+    "N m/rad": ("N m/mrad", 1e-3),
+    "rad": ("degrees", 180.0 / pi),
+    "delta_H": ("dry approach", 1.0),
+    "f0": ("load", 1.0),
+    "p_h": ("Hertz pressure", 1.0),
+    "f0/delta_H": ("load/dry approach", 1.0),
+    "f0/delta_H 2a/u_sum": ("load/dry approach 2a/u_sum", 1.0),
+}
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line, markers, or bars where its places are words.
+
+    Parameters
+    ----------
+    x, y : array_like, shape (k,)
+        In the units of the panel's labels; lines over words are bars.
+    name : str
+        In the legend; lines of one name have one entry.
+    colour : str
+        By default the next of `COLOURS`.
+    dash : str
+        "-", "--", ":", "-."; "" for markers alone; by default a solid line, another one after the last colour.
+    mark : str
+        Marker: "o", "s", "^", "D", "x"; with " " after it hollow.
+    width : float
+    bars : array_like, shape (k,), optional
+        Half widths of error bars.
+    second : bool
+        Whether it belongs to the second y axis.
+    faint : bool
+    """
+
+    x: Any
+    y: Any
+    name: str = ""
+    colour: str = ""
+    dash: str | None = None
+    mark: str = ""
+    width: float = 1.4
+    bars: Any = None
+    second: bool = False
+    faint: bool = False
+
+    @property
+    def words(self) -> bool:
+        """Whether its places are words."""
+        return np.asarray(self.x).dtype.kind in "US"
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A dotted line across a panel at a place on its x axis, with a word at its top."""
+
+    at: float
+    text: str = ""
+    colour: str = GREY
+
+
+@dataclass(frozen=True)
+class Band:
+    """A stretch of the x axis of a panel, shaded behind the lines, with a word at its foot."""
+
+    low: float
+    high: float
+    text: str = ""
+    colour: str = PALE
 
 
 @dataclass(frozen=True)
 class Panel:
-    """Lines over one axis, or bars where its values are words.
+    """Lines over one axis.
 
     Parameters
     ----------
-    x : (values, label)
-    lines : sequence of (name, values, half widths of error bars or None)
-    y : label
+    lines : sequence of Line
+    x, y : label
+    title : str
     logs : str
-        "x", "y" or both: logarithmic axes, where their values are `far_apart`.
-    marks : str
-        Marker of each line, one after another; none by default.
+        "x", "y" or both: logarithmic axes, where their values are `far_apart`; "X", "Y" in any case.
+    x_ends, y_ends : (float, float), optional
+        Of the axes, in the units of the labels.
     bottom : float, optional
         Where the y axis begins.
+    second : label
+        Of a second y axis, at the right.
+    second_ends : (float, float), optional
+    marks : sequence of Mark
+    bands : sequence of Band
+    equal : bool
+        Whether both axes have one scale.
+    tick : float, optional
+        Step of the ticks of x, as it is shown.
+    named_at_ends : bool
+        Names of lines stand at their ends where the renderer can, else in the legend.
     """
 
-    x: Axis
-    lines: Sequence[tuple[str, Array, Array | None]]
-    y: str | tuple[str, str]
+    lines: Sequence[Line]
+    x: Label
+    y: Label
+    title: str = ""
     logs: str = ""
-    marks: str = ""
+    x_ends: Ends | None = None
+    y_ends: Ends | None = None
     bottom: float | None = None
+    second: Label = ""
+    second_ends: Ends | None = None
+    marks: Sequence[Mark] = ()
+    bands: Sequence[Band] = ()
+    equal: bool = False
+    tick: float | None = None
+    named_at_ends: bool = False
 
-    def draw(self, axes: Any) -> None:
-        """Into matplotlib axes."""
-        at, x_label, _ = _scaled(*self.x)
-        words = at.dtype.kind in "US"
-        for k, (name, values, bars) in enumerate(self.lines):
-            y, y_label, size = _scaled(values, self.y)
-            colour, style = COLOURS[k % len(COLOURS)], ("-", "--", ":")[k // len(COLOURS) % 3]
-            if words:
-                axes.bar(at, y, color=colour, label=name or None, yerr=None if bars is None else bars * size)
-                continue
-            mark = self.marks[k % len(self.marks)] if self.marks else "o" if len(at) < 2 else ""
-            axes.plot(at, y, style, marker=mark, color=colour, linewidth=1.2, label=name or None)
-            if bars is not None:
-                axes.fill_between(at, y - bars * size, y + bars * size, color=colour, alpha=0.2, linewidth=0.0)
-        if "x" in self.logs and not words and far_apart(at):
-            axes.set_xscale("log")
-        elif "x" in self.logs and not words and at.min() == 0.0 and far_apart(at[at > 0.0]):
-            axes.set_xscale("symlog", linthresh=at[at > 0.0].min())  # from rest on
-        if "y" in self.logs and far_apart(np.concatenate([np.ravel(values) for _, values, _ in self.lines])):
-            axes.set_yscale("log")
-        if words:
-            axes.tick_params(axis="x", labelrotation=45)
-        axes.set(xlabel=x_label, ylabel=y_label)
-        if self.bottom is not None:
-            axes.set_ylim(self.bottom, self.bottom + 1.05 * (axes.get_ylim()[1] - self.bottom))
-        axes.grid(**GRID)
-        axes.set_axisbelow(True)
-        if 1 <= sum(bool(name) for name, *_ in self.lines) <= MOST_NAMED:
-            axes.legend(frameon=False, fontsize=8)
+    def shown(self) -> Panel:
+        """The panel in the units of pictures, colours and dashes given to every line, labels plain."""
+        (x, fx), (y, fy), (second, fs) = (in_unit(label) for label in (self.x, self.y, self.second))
+        lines, styles = [], dict[str, int]()
+        for k, line in enumerate(self.lines):
+            factor = fs if line.second else fy
+            at = styles.setdefault(line.name or str(k), len(styles))
+            lines.append(
+                replace(
+                    line,
+                    x=np.asarray(line.x) if line.words else fx * np.asarray(line.x, dtype=float),
+                    y=factor * np.asarray(line.y, dtype=float),
+                    bars=None if line.bars is None else factor * np.asarray(line.bars, dtype=float),
+                    colour=line.colour or COLOURS[at % len(COLOURS)],
+                    dash=DASHES[at // len(COLOURS) % len(DASHES)] if line.dash is None else line.dash,
+                )
+            )
+        return replace(
+            self,
+            lines=lines,
+            x=x,
+            y=y,
+            second=second,
+            x_ends=_times(self.x_ends, fx),
+            y_ends=_times(self.y_ends, fy),
+            second_ends=_times(self.second_ends, fs),
+            bottom=None if self.bottom is None else fy * self.bottom,
+            marks=[replace(mark, at=fx * mark.at) for mark in self.marks],
+            bands=[replace(band, low=fx * band.low, high=fx * band.high) for band in self.bands],
+        )
+
+    def logarithmic(self, axis: str) -> bool:
+        """Whether the axis "x" or "y" is."""
+        if axis.upper() in self.logs:
+            return True
+        lines = [line for line in self.lines if not line.second]
+        if axis not in self.logs or any(line.words for line in lines):
+            return False
+        return far_apart(np.concatenate([np.ravel(getattr(line, axis)) for line in lines]))
 
 
 @dataclass(frozen=True)
 class Map:
-    """A field over two axes."""
+    """A field over two axes, or an image.
 
-    x: Axis
-    y: Axis
-    values: Axis
+    Parameters
+    ----------
+    x, y : (array, label)
+        Places along the horizontal axis and the vertical one, rising.
+    values : (array, label)
+        Shape (x.size, y.size); (x.size, y.size, 3) of an image in red, green and blue, each from 0 to 1.
+    title : str
+    colours : str
+        Of matplotlib; by default blue over white to red where values have both signs.
+    limits : (float, float), optional
+        Of the colours, in the unit of the values; beyond them a value has the last colour.
+    axes : (float, float), optional
+        Half axes of an ellipse that is drawn about the origin, in the units of x and y.
+    view : (Ends, Ends), optional
+        Part of the plane that is shown.
+    aspect : float, optional
+        Length on paper of a unit of y over that of x; free where none is given.
+    levels : sequence of float
+        Of the field, where white lines are drawn.
+    lines : sequence of Line
+        Over the field.
+    """
 
-    def draw(self, axes: Any) -> None:
-        """Into matplotlib axes."""
-        (x, x_label, _), (y, y_label, _), (field, label, _) = (
-            _scaled(*one) for one in (self.x, self.y, self.values)
+    x: tuple[Any, Label]
+    y: tuple[Any, Label]
+    values: tuple[Any, Label]
+    title: str = ""
+    colours: str = ""
+    limits: Ends | None = None
+    axes: Ends | None = None
+    view: tuple[Ends, Ends] | None = None
+    aspect: float | None = None
+    levels: Sequence[float] = ()
+    lines: Sequence[Line] = ()
+
+    def shown(self) -> Map:
+        """The map in the units of pictures, colours and their limits given, labels plain."""
+        (x, fx), (y, fy), (label, size) = (in_unit(one[1]) for one in (self.x, self.y, self.values))
+        field = np.asarray(self.values[0], dtype=float)
+        colours, limits = self.colours or "viridis", _times(self.limits, size)
+        if (
+            not self.colours and field.ndim == 2 and np.nanmin(field) < 0.0 < np.nanmax(field)
+        ):  # white is no change
+            most = size * float(np.percentile(np.abs(field), 99.0))
+            colours, limits = "RdBu_r", limits or (-most, most)
+        places, across = np.asarray(self.x[0], dtype=float), np.asarray(self.y[0], dtype=float)
+        return replace(
+            self,
+            x=(fx * places, x),
+            y=(fy * across, y),
+            values=(field if field.ndim == 3 else size * field, label),
+            colours=colours,
+            limits=limits,
+            axes=None if self.axes is None else (fx * self.axes[0], fy * self.axes[1]),
+            view=None if self.view is None else (_scaled(self.view[0], fx), _scaled(self.view[1], fy)),
+            aspect=None if self.aspect is None else self.aspect * fx / fy,
+            levels=[size * level for level in self.levels],
+            lines=Panel(self.lines, self.x[1], self.y[1]).shown().lines,
         )
-        look: dict[str, Any] = {"cmap": "viridis", "norm": "log" if far_apart(field) else None}
-        if field.min() < 0.0 < field.max():  # white is no change
-            most = float(np.percentile(np.abs(field), 99.0))
-            look = {"cmap": "RdBu_r", "vmin": -most, "vmax": most}
-        # a film grows a hundredfold towards the inlet
-        mesh = axes.pcolormesh(x, y, field.T, shading=smooth(field), rasterized=True, **look)
-        axes.figure.colorbar(mesh, ax=axes, label=label)
-        axes.set(xlabel=x_label, ylabel=y_label)
 
 
-def draw(title: str, panels: Sequence[Panel | Map], path: str | os.PathLike[str] | None = None) -> Any:
-    """Matplotlib figure of panels, two in a row; into a file too where a path is given."""
-    from matplotlib.figure import Figure
+@dataclass(frozen=True)
+class LoadZone:
+    """Forces of balls, outward from the centre at their angles, and the direction of a load.
 
-    wide = min(len(panels), 2)
-    high = -(-len(panels) // 2)
-    figure = Figure(
-        figsize=(max(WIDTH * wide, 1.3 * WIDTH), HEIGHT * high + 0.6), layout="compressed"
-    )  # room for maps that are to scale
-    for k, panel in enumerate(panels):
-        panel.draw(figure.add_subplot(high, wide, k + 1))
-    figure.suptitle(fill(title, 50 * wide), fontsize=10)
-    return written(figure, path)
+    Parameters
+    ----------
+    angles : array, shape (balls,)
+        Counter-clockwise from x [rad].
+    forces : sequence of (str, array, str, float)
+        Name, values [N], colour, and width over half the angle from ball to ball, in the order of drawing.
+    load : float or None
+        Angle of the load [rad]; None where there is none.
+    title : str
+    most : float, optional
+        Force [N] that the circle has room for; by default the largest one.
+    """
+
+    angles: Array
+    forces: Sequence[tuple[str, Array, str, float]]
+    load: float | None = None
+    title: str = ""
+    most: float | None = None
+
+    ROOM = 1.25  # radius over the longest bar
+    BAR = 0.5  # width of a bar over the angle between two balls
+
+    @property
+    def largest(self) -> float:
+        """Force that the circle has room for [N]."""
+        return max(float(values.max()) for _, values, *_ in self.forces) if self.most is None else self.most
+
+    @property
+    def free_angle(self) -> float:
+        """Direction [degrees] for numbers, away from the load and between two balls."""
+        away = -np.exp(1j * (0.5 * pi if self.load is None else self.load))
+        gaps = np.exp(1j * (self.angles + pi / self.angles.size))
+        return float(np.degrees(np.angle(gaps[np.argmax((gaps * np.conj(away)).real)])))
 
 
-def smooth(field: Array) -> Literal["gouraud", "nearest"]:
-    """Shading of a map: colours mixed between its nodes, where it has a value at each."""
-    return "gouraud" if np.isfinite(field).all() else "nearest"
+AnyPanel = Panel | Map | LoadZone
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Panels in rows.
+
+    Parameters
+    ----------
+    panels : sequence of Panel, Map or LoadZone
+        Row by row.
+    title : str
+        Pages have a heading of their own, and leave it out.
+    columns : int
+        At most so many panels in a row.
+    heights : sequence of float
+        Of the rows, in px of a page; the last one holds for the rows after it.
+    shared : bool
+        Whether the panels of a column have one x axis, labelled under the last.
+    note : str
+        A sentence beside the picture.
+    """
+
+    panels: Sequence[AnyPanel]
+    title: str = ""
+    columns: int = 2
+    heights: Sequence[float] = (270.0,)
+    shared: bool = False
+    note: str = ""
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        columns = max(1, min(len(self.panels), self.columns))
+        return max(1, -(-len(self.panels) // columns)), columns
+
+    @property
+    def row_heights(self) -> list[float]:
+        """Height of every row."""
+        return [self.heights[min(row, len(self.heights) - 1)] for row in range(self.shape[0])]
+
+
+@dataclass(frozen=True)
+class Slides:
+    """Pictures that differ in their numbers only, with a slider through them; a file has the first one shown.
+
+    Parameters
+    ----------
+    pictures : sequence of Picture
+    label : (str, str)
+        What the slider runs through, and its unit.
+    values : sequence of float
+    start : int
+        Number of the picture that is shown first.
+    runs : bool
+        Whether a button runs through them.
+    """
+
+    pictures: Sequence[Picture]
+    label: Label
+    values: Sequence[float]
+    start: int = 0
+    runs: bool = False
+
+
+def stiffness_and_damping(
+    curves: Callable[[str], Iterable[Line]],
+    frequency: Label,
+    units: tuple[str, str] = ("N/m", "N s/m"),
+    *,
+    of: str = "",
+    marks: Sequence[Mark] = (),
+    logs: str = "xy",
+    bottom: float | None = None,
+) -> list[Panel]:
+    """Panels of K and C over frequency, or over another axis.
+
+    Parameters
+    ----------
+    curves : callable
+        Lines for the name "stiffness" or "damping".
+    frequency : label
+    units : (str, str)
+        Of stiffness and damping.
+    of : str
+        Word ahead of both, as "tilt".
+    marks, logs, bottom
+        As of `Panel`.
+    """
+    return [
+        Panel(
+            list(curves(name)),
+            frequency,
+            (f"{of} {name}".strip(), unit),
+            logs=logs if name == "damping" else logs.replace("y", "").replace("Y", ""),
+            marks=marks,
+            bottom=bottom,
+        )
+        for name, unit in zip(("stiffness", "damping"), units, strict=True)
+    ]
 
 
 def far_apart(values: Array) -> bool:
     """Whether values are all > 0, and the largest of them is more than a decade above the smallest."""
+    values = np.asarray(values)
+    values = values[~np.isnan(values)] if values.dtype.kind == "f" else values
     return bool(values.size and values.min() > 0.0 and values.max() > DECADE * values.min())
 
 
-def written(figure: Any, path: str | os.PathLike[str] | None) -> Any:
-    """The figure, in a file too where a path is given, whose ending gives the format.
-
-    Raises
-    ------
-    InputError
-        An ending that is no format of pictures, or a file that cannot be written.
-    """
-    if path is not None:
-        kind, known = Path(path).suffix[1:].lower() or "png", sorted(figure.canvas.get_supported_filetypes())
-        if kind not in known:
-            raise InputError("path", str(path), f"a file name ending in one of {', '.join(known)}")
-        buffer = BytesIO()
-        figure.savefig(buffer, format=kind, dpi=DPI)
-        write_bytes(path, buffer.getvalue())
-    return figure
-
-
-def _scaled(values: Any, label: str | tuple[str, str]) -> tuple[Array, str, float]:
-    """Values, label and factor in the unit of figures."""
-    array = np.asarray(values)
+def in_unit(label: Label) -> tuple[str, float]:
+    """Label with the unit of pictures, and what values have to be multiplied by for it."""
     if isinstance(label, str):
-        return array, label, 1.0
+        return label, 1.0
     words, unit = label
     shown, factor = SHOWN.get(unit, (unit, 1.0))
-    text = f"{words} [{shown}]".strip() if shown else words
-    return (array if factor == 1.0 else array * factor), text, factor
+    return (f"{words} [{shown}]".strip() if shown else words), factor
+
+
+def _scaled(ends: Ends, factor: float) -> Ends:
+    return ends[0] * factor, ends[1] * factor
+
+
+def _times(ends: Ends | None, factor: float) -> Ends | None:
+    return None if ends is None else _scaled(ends, factor)

@@ -15,7 +15,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
 from ehlcontact.results.asperity_contact import AsperityContact
-from ehlcontact.results.contact_map import contact_panels
+from ehlcontact.results.contact_map import ContactView, contact_panels, fields
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable
 from ehlcontact.results.traction import Traction, traction_of
@@ -250,8 +250,10 @@ class SteadyResult(ScaledTable, Origin):
         return judged(self).headline if self.status.ok else ""
 
     def _panels(self) -> Iterator[Any]:
-        places, fields = (self.X, self.Y), (self.P, self.H)
-        yield from contact_panels(places, fields, self.h_central, self.point.kappa, self.scales, self.content)
+        s = self.scales
+        view, (p, h) = ContactView.of(self.X, self.Y, self.point.kappa, s), fields(s, self.P, self.H)
+        central, hertz = (1.0, 1.0) if s is None else (s.length, s.pressure)
+        yield from contact_panels(view, p, h, central * self.h_central, hertz, self.content)
 
     def _drawn(self) -> SteadyResult:
         return self  # both in SI and without, as a contact is drawn

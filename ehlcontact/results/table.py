@@ -28,7 +28,8 @@ from ehlcontact.quantities import (
     si_quantities,
     words,
 )
-from ehlcontact.results.picture import Map, Panel, draw
+from ehlcontact.results.drawing import draw
+from ehlcontact.results.picture import Line, Map, Panel, Picture
 from ehlcontact.summary import LINES, WIDTH, Summary, contact_text
 
 Array = NDArray[Any]
@@ -140,10 +141,20 @@ class QuantityTable(Summary):
         InputError
             The file cannot be written.
         """
-        return draw(self._title(), self.panels(), path)
+        return draw(self.picture(), path)
+
+    def picture(self) -> Picture:
+        """What that figure shows, as data."""
+        return Picture(self.panels(), self._title())
+
+    def axis(self, name: str) -> tuple[Array, tuple[str, str]]:
+        """Values of a quantity as figures have them, in SI where the point is; words and unit of their axis."""
+        view = self._drawn()
+        own = name if name in view._declared() else name.lower()
+        return np.asarray(getattr(view, own)), view._axis(own)
 
     def panels(self) -> list[Any]:
-        """Panels of that figure: those of several results in one by `ehlcontact.results.picture.draw`."""
+        """Panels of that figure, for a `Picture` of several results."""
         return list(self._drawn()._panels())
 
     def require_complete(self, **sizes: int) -> None:
@@ -287,18 +298,17 @@ class QuantityTable(Summary):
             dim, *rest = self._declared()[names[0]].dims
             along = self._coordinate(dim)
             place = self._values(along) if along else display.first + np.arange(sizes[dim])
-            x = (place, self._axis(along) if along else dim)
+            label = self._axis(along) if along else dim
             if len(rest) == 1 and rest[0] not in display.labels and sizes[rest[0]] > 1:
                 across = self._coordinate(rest[0])
                 y = (getattr(self, across), self._axis(across)) if across else (np.arange(sizes[rest[0]]), rest[0])
-                yield from (Map(x, y, (self._values(name), self._axis(name))) for name in names)
+                yield from (Map((place, label), y, (self._values(name), self._axis(name))) for name in names)
             else:
-                yield Panel(x, list(self._lines(names, rest, sizes)), self._shared(names), display.logs)
+                lines = list(self._lines(place, names, rest, sizes))
+                yield Panel(lines, label, self._shared(names), logs=display.logs)
 
-    def _lines(
-        self, names: list[str], rest: list[str], sizes: Mapping[str, int]
-    ) -> Iterator[tuple[str, Array, Array | None]]:
-        """Lines of a panel: name, values, half widths of error bars."""
+    def _lines(self, place: Array, names: list[str], rest: list[str], sizes: Mapping[str, int]) -> Iterator[Line]:
+        """Lines of a panel over their place, with half widths of error bars."""
         bars = getattr(self, "error_bars", None)
         for name in names:
             bar = bars.get(name) if isinstance(bars, Mapping) else None
@@ -306,7 +316,8 @@ class QuantityTable(Summary):
             array = self._values(name).reshape(-1, len(pairs))
             text = words(name) if len(names) > 1 else ""
             for k, of in enumerate(pairs):
-                yield f"{text} {of}".strip(), array[:, k], None if bar is None else np.asarray(bar)
+                half = None if bar is None else np.asarray(bar)
+                yield Line(place, array[:, k], f"{text} {of}".strip(), bars=half)
 
     def _shared(self, names: list[str]) -> tuple[str, str]:
         """Words and unit of an axis; no words where several quantities share it: the legend has them."""

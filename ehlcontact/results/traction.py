@@ -21,7 +21,8 @@ from ehlcontact.lubricant.traction_laws import LARGEST_SLIDE_ROLL, require_law
 from ehlcontact.origin import Origin
 from ehlcontact.point import Scales
 from ehlcontact.quantities import NUMBER, Quantity
-from ehlcontact.results.contact_map import ContactMap
+from ehlcontact.results.contact_map import ContactView
+from ehlcontact.results.picture import Map
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import contact_text, span
@@ -80,13 +81,12 @@ class Traction(QuantityTable, Origin):
         yield from QuantityTable._panels(self)
         yield self.map()
 
-    def map(self) -> ContactMap:
+    def map(self) -> Map:
         """Map of `stress`, for figures."""
         assert self.scales is not None
-        s, labels = self.scales, ("x along rolling [µm]", "y across [µm]", "shear stress [MPa]")
-        field, axes = 1e-6 * self.stress, (1e6 * s.a, 1e6 * s.b)
-        limits = (0.0, float(field.max()) or 1.0)
-        return ContactMap(1e6 * self.x, 1e6 * self.y, field, labels, axes, "magma", limits)
+        view = ContactView(self.x, self.y, (self.scales.a, self.scales.b), (self._axis("x"), self._axis("y")))
+        stress = 1e-6 * self.stress
+        return view.map(stress, "shear stress [MPa]", "magma", (0.0, float(stress.max()) or 1.0))
 
     def _summary_lines(self) -> list[str]:
         most = f"; at most {self.limit:.4g} by its limiting stress" if self.limit < inf else ""

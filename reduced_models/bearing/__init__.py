@@ -43,5 +43,5 @@
 | oil_and_heat | a bearing with heat and with a layer of oil, beside flooded isothermal films |
 | cage_slip | slip of the cage under a drag |
 | skf_friction | moment of friction by SKF's published model |
-| picture | figures |
+| picture | load zones, films, contact angles, stiffness and damping as pictures |
 """

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
@@ -12,11 +11,13 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import FORCE, LENGTH, MOMENT, NUMBER, RADIAN, SPEED, STIFFNESS, Quantity
+from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import note_line
 from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words, place_words
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, DefectFrequencies
+from reduced_models.bearing.picture import state_picture
 
 _Floats = NDArray[np.float64]
 
@@ -209,17 +210,9 @@ class BearingState(QuantityTable):
         """Power [W] that `friction_torque` takes from the shaft."""
         return None if self.friction_torque is None else self.friction_torque * self.speed_rpm * RPM_TO_RAD_S
 
-    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """Matplotlib figure of the load zone and the films; into a file too where a path is given.
-
-        Raises
-        ------
-        InputError
-            The file cannot be written.
-        """
-        from reduced_models.bearing.picture import draw_state
-
-        return draw_state(self, path)
+    def picture(self) -> Picture:
+        """Load zone and films, and with contact angles these and the spin."""
+        return state_picture(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""

@@ -1,60 +1,65 @@
-"""Figures of bearings. Matplotlib is imported where one is drawn."""
+"""Pictures of bearings: load zones, films, contact angles, stiffness and damping."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from math import pi
 from typing import Any
 
 import numpy as np
 
-from ehlcontact.results.picture import GRID, written
+from ehlcontact.results.picture import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    ORANGE,
+    RED,
+    AnyPanel,
+    Label,
+    Line,
+    LoadZone,
+    Mark,
+    Panel,
+    Picture,
+    Slides,
+    stiffness_and_damping,
+)
+from reduced_models.bearing.freedoms import PLANAR
 
-INNER, OUTER, LOAD, GREY = "#0072b2", "#e69f00", "#d55e00", "#7f7f7f"  # Okabe and Ito, for colour-blind eyes
-SIZE = (9.0, 4.4)  # inches
-BAR = 0.5  # width of a bar over the angle between two balls
 ROUNDING = 1e-9  # of a load over the force on a ball: none
-LOOKS = "o-", "s--", "^:"  # of contact angles of the bearings of a set
-ROOM = 1.25  # radius of the load zone over its longest bar
+RACES = (("inner race", BLUE, 0.6), ("outer race", ORANGE, 1.0))  # name, colour, width of a bar
+LOOKS = ("-", "o"), ("--", "s"), (":", "^")  # of contact angles of the bearings of a set
+AROUND = "angle from the load [degrees]"
+# Directions of a vibration: column, name, colour, dash
+FORCES = (1, "along the load", BLUE, "-"), (0, "across it", BLUE, ":"), (2, "axial", ORANGE, "-")
+TILTS = (3, "about x", GREEN, "-"), (4, "about y", GREEN, ":")
+TILT_UNITS = "N m/rad", "N m s/rad"
+VIBRATION = "frequency of the vibration", "Hz"
+CONDITIONS = ((INK, "--"), (RED, "-"), (BLUE, "-"), (GREEN, ":"))  # of oil and heat, as they come
 
 
-def draw_state(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
-    """Load zone of a `BearingState` beside the films of every ball; the file's ending gives its format."""
-    from matplotlib.figure import Figure
-
-    panels = 2 if state.contact_angles is None else 3
-    figure = Figure(figsize=(0.5 * panels * SIZE[0], SIZE[1]), layout="constrained")
-    zone = figure.add_subplot(1, panels, 1, projection="polar")
-    load_zone(zone, state)
-    films(figure.add_subplot(1, panels, 2), state)
-    if panels == 3:
-        contact_angles(figure.add_subplot(1, panels, 3), state)
-    speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at standstill"
+def state_picture(state: Any) -> Picture:
+    """Load zone of a `BearingState` beside the films of every ball; with contact angles these and the spin."""
+    panels: list[AnyPanel] = [load_zone(state), films(state)]
+    if state.contact_angles is not None:
+        panels += [contact_angles((state,)), spins(state)]
     torque = state.rolling_torque
     resists = "" if torque is None else f"; films resist rolling by {torque * 1e3:.3g} N mm"
-    figure.suptitle(f"{state.name or 'ball bearing'}, {_load(state)}, {speed}{resists}")
-    return written(figure, path)
+    title = f"{state.name or 'ball bearing'}, {_load(state)}, {_speed(state)}{resists}"
+    return Picture(panels, title, heights=(320.0, 260.0))
 
 
-def draw_set(state: Any, path: str | os.PathLike[str] | None = None) -> Any:
-    """Load zones of a `SetState` above contact angles, bearing by bearing; the file's ending gives its format."""
-    from matplotlib.figure import Figure
-
-    columns = len(state.bearings)
-    figure = Figure(figsize=(0.42 * SIZE[0] * columns, 1.6 * SIZE[1]), layout="constrained")
-    for k, one in enumerate(state.bearings):
-        zone = figure.add_subplot(2, columns, 1 + k, projection="polar")
-        load_zone(zone, one, max(float(each.force.max()) for each in state.bearings))
-        zone.set_title(_bearing_title(state, k))
-        contact_angles(figure.add_subplot(2, columns, 1 + columns + k), one)
-    speed = f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at standstill"
-    figure.suptitle(f"{state.name or 'set of bearings'}, {_load(state)}, {speed}")
-    return written(figure, path)
+def set_picture(state: Any) -> Picture:
+    """Load zones of a `SetState` above contact angles, bearing by bearing."""
+    most = max(float(one.force.max()) for one in state.bearings)
+    zones = [load_zone(one, most, _bearing_title(state, k)) for k, one in enumerate(state.bearings)]
+    angles = [contact_angles((one,)) for one in state.bearings]
+    title = f"{state.name or 'set of bearings'}, {_load(state)}, {_speed(state)}"
+    return Picture([*zones, *angles], title, columns=len(state.bearings), heights=(320.0, 260.0))
 
 
-def draw_over_speed(
-    state: Any, points: Sequence[Any], curve: Sequence[Any], path: str | os.PathLike[str] | None = None
-) -> Any:
+def over_speed_picture(state: Any, points: Sequence[Any], curve: Sequence[Any]) -> Picture:
     """Load zone and films at one speed, and contact angles where there are any, above K and C over speed.
 
     Of a set, load zones of its first two bearings and contact angles of all stand above.
@@ -64,53 +69,161 @@ def draw_over_speed(
     state : BearingState or SetState
     points, curve : sequence of BearingCoefficients
         Shown as points and as lines, each at its first frequency.
-    path : path, optional
-        The file's ending gives its format.
     """
-    from matplotlib.figure import Figure
-
     several = getattr(state, "bearings", ())
-    at_angles = bool(several) or state.contact_angles is not None
-    columns = 3 if at_angles else 2
-    figure = Figure(figsize=(0.5 * columns * SIZE[0], 1.7 * SIZE[1]), layout="constrained")
-    for k, one in enumerate(several[:2]):
-        zone = figure.add_subplot(2, columns, 1 + k, projection="polar")
-        load_zone(zone, one, max(float(each.force.max()) for each in several))
-        zone.set_title(_bearing_title(state, k))
-    if not several:
-        load_zone(figure.add_subplot(2, columns, 1, projection="polar"), state)
-        films(figure.add_subplot(2, columns, 2), state)
-    if at_angles:
-        angles = figure.add_subplot(2, columns, 3)
-        for k, one in enumerate(several or (state,)):
-            contact_angles(angles, one, f", bearing {k}" if several else "", LOOKS[k % len(LOOKS)])
-    planar = (1, LOAD, "along the load"), (0, INNER, "across it")
-    forces = (*planar, (2, OUTER, "axial")) if at_angles else planar
-    panels = [
-        ("stiffness", 1e-6, "stiffness [N/µm]", forces),
-        ("damping", 1.0, "damping [N s/m]", forces),
-        ("stiffness", 1e-3, "tilt stiffness [N m/mrad]", ((3, LOAD, "about x"), (4, INNER, "about y"))),
+    if several:
+        most = max(float(one.force.max()) for one in several)
+        above: list[AnyPanel] = [
+            load_zone(one, most, _bearing_title(state, k)) for k, one in enumerate(several[:2])
+        ]
+        above.append(contact_angles(several))
+    else:
+        above = [load_zone(state), films(state)]
+        above += [contact_angles((state,))] if state.contact_angles is not None else []
+
+    def lines(name: str, ways: Any = None) -> Iterator[Line]:
+        for k, way, colour, dash in FORCES[: 2 if len(above) < 3 else 3] if ways is None else ways:
+            for found, look in ((curve, {"dash": dash}), (points, {"dash": "", "mark": "o"})):
+                values = [getattr(at, name)[0, k, k] for at in found]
+                yield Line([at.speed_rpm for at in found], values, way, colour, **look)
+
+    speed = "speed", "rev/min"
+    below = stiffness_and_damping(lines, speed, logs="", bottom=0.0)
+    if len(above) == 3:
+        below += stiffness_and_damping(lambda name: lines(name, TILTS), speed, TILT_UNITS, of="tilt", logs="")[:1]
+    hz = {float(at.hz[0]) for at in points}
+    shaft = all(np.isclose(at.hz[0], at.speed_rpm / 60.0) for at in points)
+    frequency = "the frequency of the shaft" if shaft else f"{min(hz):g} Hz"
+    at = f"above at {state.speed_rpm:g} rev/min, a ball under the load; below at {frequency}"
+    title = f"{state.name or 'ball bearing'}, {_load(state)}; {at}"
+    return Picture([*above, *below], title, columns=len(above), heights=(320.0, 270.0))
+
+
+def over_frequency(
+    found: Any, constants: Sequence[tuple[str, tuple[float, float], str, str]] = (), shaft_hz: float | None = None
+) -> list[Panel]:
+    """K and C of `BearingCoefficients` along the load and across it, with tilts where there are any.
+
+    Parameters
+    ----------
+    found : BearingCoefficients
+    constants : sequence of (name, (K, C), colour, dash)
+        Constant ones beside them.
+    shaft_hz : float, optional
+        Frequency of the shaft, for a dotted line.
+    """
+    planar = found.load.size == len(PLANAR)
+    marks = () if shaft_hz is None else (Mark(shaft_hz, "1x", ORANGE),)
+
+    def lines(name: str, ways: Any) -> Iterator[Line]:
+        for k, way, colour, dash in ways:
+            yield Line(found.hz, getattr(found, name)[:, k, k], way, colour, dash)
+        if ways is not TILTS:
+            for text, values, colour, dash in constants:
+                value = values[name == "damping"]
+                yield Line(found.hz[[0, -1]], [value, value], text, colour, dash)
+
+    forces = FORCES[: 2 if planar else 3]
+    panels = stiffness_and_damping(lambda name: lines(name, forces), VIBRATION, marks=marks)
+    if not planar:
+        tilts = stiffness_and_damping(
+            lambda name: lines(name, TILTS), VIBRATION, TILT_UNITS, of="tilt", marks=marks
+        )
+        panels += tilts
+    return panels
+
+
+def speeds_slides(every: Sequence[Any], own_rpm: float) -> Slides:
+    """Load zone, films, stiffness and damping of a bearing, with a slider through its speeds.
+
+    `every` has a `state` and the K and C `small` at each speed.
+    """
+    rpm = [one.state.speed_rpm for one in every]
+    pictures = [
+        Picture([load_zone(one.state), films(one.state), *over_frequency(one.small)], heights=(300.0, 250.0))
+        for one in every
     ]
-    for place, (name, unit, label, ways) in enumerate(panels[:columns], columns + 1):
-        axes = figure.add_subplot(2, columns, place)
-        for k, colour, direction in ways:
-            for found, look in ((curve, "-"), (points, "o")):
-                speeds, values = (
-                    [at.speed_rpm for at in found],
-                    [getattr(at, name)[0, k, k] * unit for at in found],
-                )
-                axes.plot(speeds, values, look, color=colour, label=direction if look == "-" else None)
-        hz = {float(at.hz[0]) for at in points}
-        shaft = all(np.isclose(at.hz[0], at.speed_rpm / 60.0) for at in points)
-        frequency = "the frequency of the shaft" if shaft else f"{min(hz):g} Hz"
-        axes.set(xlabel="speed [rev/min]")
-        axes.set_title(f"{label}, at {frequency}", fontsize=10)
-        axes.set_ylim(0.0, max(1.05 * axes.get_ylim()[1], 1.0))  # a dry bearing damps nothing
-        axes.grid(**GRID)
-        axes.legend(frameon=False, fontsize=8)
-    at = f"above at {state.speed_rpm:g} rev/min, a ball under the load"
-    figure.suptitle(f"{state.name or 'ball bearing'}, {_load(state)}; {at}")
-    return written(figure, path)
+    start = min(range(len(rpm)), key=lambda k: abs(rpm[k] - own_rpm))
+    return Slides(pictures, ("speed", "rpm"), rpm, start)
+
+
+def conditions_films(found: Any) -> Picture:
+    """Central films of the balls that carry around the ring, at both races, of an `OilAndHeat`."""
+    state, panels = found.state, []
+    place = from_load(state)
+    order = [k for k in np.argsort(place) if state.approach[k].sum() > 0.0]
+    top = 1.05 * max(float(one.h_central[order].max()) for one in found.conditions.values())
+    for column, (race, *_) in enumerate(RACES):
+        lines = [
+            Line(place[order], one.h_central[order, column], key, colour, dash, "o")
+            for (key, one), (colour, dash) in zip(found.conditions.items(), CONDITIONS, strict=False)
+        ]
+        panels.append(Panel(lines, AROUND, ("central film", "m"), title=race, y_ends=(0.0, top), tick=60.0))
+    return Picture(panels, heights=(290.0,))
+
+
+def conditions_coefficients(found: Any) -> Picture:
+    """K and C over the frequency of a small vibration, in the first of the directions, of an `OilAndHeat`."""
+    order, way = np.argsort(found.hz), next(iter(found.ways.values()))
+
+    def lines(name: str) -> Iterator[Line]:
+        for (key, one), (colour, dash) in zip(found.conditions.items(), CONDITIONS, strict=False):
+            yield Line(found.hz[order], getattr(one, name)[order, way], key, colour, dash)
+
+    marks = (Mark(float(found.hz[0]), "1x", ORANGE),)
+    return Picture(stiffness_and_damping(lines, VIBRATION, marks=marks, logs="x"), heights=(290.0,))
+
+
+def load_zone(state: Any, most: float | None = None, title: str = "force on the balls [N]") -> LoadZone:
+    """Force of every ball, outward from the centre, up to `most` [N], and the load."""
+    largest = float(state.force.max()) if most is None else most
+    loaded = np.hypot(*state.load[:2]) > ROUNDING * largest
+    angle = float(np.arctan2(state.load[1], state.load[0])) if loaded else None
+    forces = [(name, state.force[:, column], colour, share) for column, (name, colour, share) in enumerate(RACES)]
+    return LoadZone(state.angles, forces[::-1], angle, title, most)
+
+
+def films(state: Any) -> Panel:
+    """Smallest film of every ball over its place, or the approaches of a dry bearing."""
+    if state.h_min is None:
+        return _around((state,), "approach", ("approach of the surfaces; below 0 a gap", "m"))
+    panel = _around((state,), "h_min", ("smallest film", "m"))
+    if state.lambda_ratio is None:
+        return panel
+    rough = float(state.h_min.flat[0] / state.lambda_ratio.flat[0])
+    name = f"composite roughness; least lambda {float(np.nanmin(state.lambda_ratio)):.3g}"
+    lines = [*panel.lines, Line([-180.0, 180.0], [rough, rough], name, GREY, "--", width=1.2)]
+    return Panel(lines, panel.x, panel.y, logs="y", x_ends=panel.x_ends, tick=panel.tick)
+
+
+def contact_angles(states: Sequence[Any]) -> Panel:
+    """Contact angles of every ball over its place, of a bearing or of several."""
+    return _around(states, "contact_angles", ("contact angle", "rad"), logs="")
+
+
+def spins(state: Any) -> Panel:
+    """Spin over rolling at both races."""
+    return _around((state,), "spin_to_roll", "spin over rolling", logs="")
+
+
+def _around(states: Sequence[Any], name: str, label: Label, logs: str = "y") -> Panel:
+    """Values of every ball at inner and outer race, over the place of the ball from the load."""
+    lines = []
+    for k, state in enumerate(states):
+        place, values = from_load(state), getattr(state, name)
+        order, (dash, mark) = np.argsort(place), LOOKS[k % len(LOOKS)]
+        which = f", bearing {k}" if len(states) > 1 else ""
+        lines += [
+            Line(place[order], values[order, column], race + which, colour, dash, mark)
+            for column, (race, colour, _) in enumerate(RACES)
+        ]
+    return Panel(lines, AROUND, label, logs=logs, x_ends=(-180.0, 180.0), tick=60.0)
+
+
+def from_load(state: Any) -> Any:
+    """Angles of the balls from the direction of the load [degrees], from -180 to 180."""
+    turned = state.angles - np.arctan2(state.load[1], state.load[0])
+    return np.degrees((turned + pi) % (2.0 * pi) - pi)
 
 
 def _load(state: Any) -> str:
@@ -119,81 +232,11 @@ def _load(state: Any) -> str:
     return radial if state.load.size == 2 else f"{radial} radially, {state.load[2]:.4g} N axially"
 
 
+def _speed(state: Any) -> str:
+    return f"{state.speed_rpm:g} rev/min" if state.speed_rpm else "at standstill"
+
+
 def _bearing_title(state: Any, k: int) -> str:
     """Of the load zone of a bearing of a set."""
     force = state.axial_forces[k]
     return f"bearing {k}, facing {state.facings[k]}: {force:.4g} N axially\nforce on the balls [N]"
-
-
-def contact_angles(axes: Any, state: Any, which: str = "", look: str = "o-") -> None:
-    """Contact angles of every ball over its place; `which` is added to the names of the races."""
-    turned, shown = from_load(state), np.degrees(state.contact_angles)
-    order = np.argsort(turned)
-    for column, (race, colour) in enumerate((("inner race", INNER), ("outer race", OUTER))):
-        axes.plot(turned[order], shown[order, column], look, color=colour, label=race + which)
-    axes.set_title("contact angle [degrees]")
-    axes.set_xlabel("angle from the load [degrees]")
-    axes.set_xticks(np.arange(-180, 181, 60))
-    axes.grid(**GRID)
-    axes.legend(frameon=False, fontsize=8)
-
-
-def load_zone(axes: Any, state: Any, most: float | None = None) -> None:
-    """Force of every ball, outward from the centre, up to `most` [N], and the load."""
-    width = BAR * 2.0 * np.pi / state.angles.size
-    most = float(state.force.max()) if most is None else most
-    axes.bar(state.angles, state.force[:, 1], width=width, color=OUTER, label="outer race")
-    axes.bar(state.angles, state.force[:, 0], width=0.6 * width, color=INNER, label="inner race")
-    axes.set_rlim(0.0, ROOM * most)
-    axes.set_rlabel_position(_free_angle(state))
-    axes.grid(**GRID)
-    axes.set_axisbelow(True)
-    if np.hypot(*state.load[:2]) > ROUNDING * most:
-        angle = float(np.arctan2(state.load[1], state.load[0]))
-        arrow = {"arrowstyle": "-|>", "color": LOAD, "linewidth": 1.6}
-        axes.annotate("", xy=(angle, 1.22 * most), xytext=(angle, 1.02 * most), arrowprops=arrow)
-    axes.set_title("force on the balls [N]")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=2, frameon=False, fontsize=8)
-
-
-def _free_angle(state: Any) -> float:
-    """Direction [degrees] for the numbers, away from the load and between two balls."""
-    away = np.angle(-np.exp(1j * np.arctan2(state.load[1], state.load[0])))
-    gaps = np.exp(1j * (state.angles + np.pi / state.angles.size))
-    return float(np.degrees(np.angle(gaps[np.argmax((gaps * np.exp(-1j * away)).real)])))
-
-
-def from_load(state: Any) -> Any:
-    """Angles of the balls from the direction of the load [degrees], from -180 to 180."""
-    turned = state.angles - np.arctan2(state.load[1], state.load[0])
-    return np.degrees((turned + np.pi) % (2.0 * np.pi) - np.pi)
-
-
-def films(axes: Any, state: Any) -> None:
-    """Smallest film of every ball over its place, or the approaches of a dry bearing."""
-    turned = from_load(state)
-    order = np.argsort(turned)
-    if state.h_min is None:
-        shown, title = state.approach * 1e6, "approach of the surfaces [µm]; below 0 a gap"
-    else:
-        shown, title = state.h_min * 1e6, "smallest film [µm]"
-        axes.set_yscale("log")
-    for column, (race, colour) in enumerate((("inner race", INNER), ("outer race", OUTER))):
-        axes.plot(turned[order], shown[order, column], "o-", color=colour, label=race)
-    axes.set_title(title)
-    axes.set_xlabel("angle from the load [degrees]")
-    axes.set_xticks(np.arange(-180, 181, 60))
-    axes.grid(**GRID)
-    if state.lambda_ratio is not None and state.h_min is not None:
-        least = float(np.nanmin(state.lambda_ratio))
-        roughness = float(state.h_min.flat[0] / state.lambda_ratio.flat[0])
-        axes.axhline(roughness * 1e6, color=GREY, linewidth=1.0, linestyle="--")
-        axes.annotate(
-            f"composite roughness; least lambda {least:.3g}",
-            xy=(0.02, roughness * 1e6),
-            xycoords=("axes fraction", "data"),
-            va="bottom",
-            fontsize=8,
-            color=GREY,
-        )
-    axes.legend(frameon=False, fontsize=8)

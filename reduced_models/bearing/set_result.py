@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
@@ -11,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.quantities import FORCE, LENGTH, SPEED, STIFFNESS, Quantity
+from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import note_line
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import FIVE, in_freedoms, load_words, place_words
+from reduced_models.bearing.picture import set_picture
 
 _Floats = NDArray[np.float64]
 
@@ -89,17 +90,9 @@ class SetState(QuantityTable):
         """Assumptions of films that do not hold in the first bearing where one does not; empty where all do."""
         return next((one.outside_assumptions for one in self.bearings if one.outside_assumptions), "")
 
-    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """Matplotlib figure of the load zones and the contact angles; into a file too where a path is given.
-
-        Raises
-        ------
-        InputError
-            The file cannot be written.
-        """
-        from reduced_models.bearing.picture import draw_set
-
-        return draw_set(self, path)
+    def picture(self) -> Picture:
+        """Load zones and contact angles, bearing by bearing."""
+        return set_picture(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""

@@ -10,7 +10,8 @@ import numpy as np
 
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, STIFFNESS, Quantity
-from ehlcontact.results.picture import Panel, draw
+from ehlcontact.results.drawing import draw
+from ehlcontact.results.picture import Line, Panel, Picture, stiffness_and_damping
 from ehlcontact.summary import Summary
 from reduced_models.elements.validity import frequency_text, text_of
 
@@ -57,11 +58,11 @@ class ElementSummary(Summary):
         u = np.linspace(self.low - reach, self.high + reach, 301)
         force, inside = np.asarray(self.spring(u)), (u >= self.low) & (u <= self.high)
         lines = [
-            ("within its validity box", np.where(inside, force, np.nan), None),
-            ("beyond", np.where(inside, np.nan, force), None),
+            Line(u, np.where(inside, force, np.nan), "within its validity box"),
+            Line(u, np.where(inside, np.nan, force), "beyond"),
         ]
-        panels = [Panel((u, ("mutual approach", self._unit(LENGTH))), lines, ("static force", self._unit(FORCE)))]
-        return draw(f"{self._summary_name()}, {self.units}", [*panels, *self._over_frequency()], path)
+        law = Panel(lines, ("mutual approach", self._unit(LENGTH)), ("static force", self._unit(FORCE)))
+        return draw(Picture([law, *self._over_frequency()], f"{self._summary_name()}, {self.units}"), path)
 
     def _over_frequency(self) -> list[Panel]:
         """K and C about rest under the load that the element was made at, or at the middle of its interval."""
@@ -75,11 +76,13 @@ class ElementSummary(Summary):
             Z = self.impedance(**frequency)
         except InputError:  # a load that is not known
             Z = self.impedance(load=float(self.spring(0.5 * (self.low + self.high))), **frequency)
-        x = (w / (2.0 * np.pi), ("frequency", "Hz")) if si else (w, ("angular frequency", FREQUENCY.moes))
-        curves = ("stiffness", Z.real, STIFFNESS), ("damping", Z.imag / w, DAMPING)
-        return [
-            Panel(x, [("", values, None)], (name, self._unit(quantity)), "xy") for name, values, quantity in curves
-        ]
+        x = w / (2.0 * np.pi) if si else w
+        curves = {"stiffness": Z.real, "damping": Z.imag / w}
+        return stiffness_and_damping(
+            lambda name: [Line(x, curves[name])],
+            ("frequency", "Hz") if si else ("angular frequency", FREQUENCY.moes),
+            (self._unit(STIFFNESS), self._unit(DAMPING)),
+        )
 
     def _unit(self, quantity: Quantity) -> str:
         return quantity.unit if self.units == "SI" else quantity.moes

@@ -10,6 +10,7 @@
 | power_law_fit | variable projection for the power law |
 | memory_fit | `fit_memory`: the film memory, jointly from an impedance and records |
 | wide_range_fit | `wide_range_contact`, `wide_range_from_solves`: an element over a wide range of loads |
+| pictures | records beside fitted elements: histories, loops, stiffness and damping |
 | result | `FitResult`, `MemoryFit`, and the figures by which a fit is judged |
 | uncertainty | intervals of coefficients with autocorrelated residuals |
 | sensitivity | `sensitivity`: error without each of the seven terms |

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.results.picture import Panel, draw
+from ehlcontact.results.drawing import draw
+from ehlcontact.results.picture import Line, Panel, Picture
 from ehlcontact.results.table import frame_of
 from ehlcontact.summary import Summary
 from reduced_models.elements.spring import SpringContact
@@ -120,10 +121,11 @@ class Sensitivity(Summary):
             "as it was": [r.rms_without_refit for r in self.rows],
         }
         panels = [
-            Panel((names, "term left out"), [("", np.array(values), None)], f"rms error, the rest {how}")
+            Panel([Line(names, values)], "term left out", f"rms error, the rest {how}")
             for how, values in errors.items()
         ]
-        return draw("Sensitivity: rms error over the standard deviation of the force", panels, path)
+        title = "Sensitivity: rms error over the standard deviation of the force"
+        return draw(Picture(panels, title), path)
 
     def to_dict(self) -> dict[str, Any]:
         """All numbers, ready for JSON."""

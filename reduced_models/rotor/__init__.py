@@ -30,7 +30,8 @@
 | unbalance_result | `UnbalanceResponse`: its result |
 | control | python-control: `rotor_to_control`, and the state space of a `LinearRotor` |
 | ross_rotor | import from ROSS: `from_ross`; bearings as its force callback: `RossCallback` |
-| picture | figures of runs, Campbell diagrams and unbalance responses |
+| picture | pictures of runs, Campbell diagrams and unbalance responses |
+| model_pictures | pictures of one rotor on several models of its contacts or bearings |
 | oscillator | `simulate_oscillator`: one mass on one element |
 | compare | `compare`: full against reduced response |
 | baselines | contacts without a film: dry, undamped, and linearised at one load |

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import pi
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 import scipy
@@ -17,11 +16,13 @@ from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.quantities import FREQUENCY, HERTZ, NUMBER, PER_SECOND, SPEED
+from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import span
 from reduced_models.rotor.linearise import DEFAULT_MODES, linearise
 from reduced_models.rotor.modes import RotorMode, mode_distance
+from reduced_models.rotor.picture import campbell_picture
 from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
@@ -167,17 +168,9 @@ class Campbell(QuantityTable):
             f"and {below} below"
         )
 
-    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """Matplotlib figure; into a file too where a path is given.
-
-        Raises
-        ------
-        InputError
-            The file cannot be written.
-        """
-        from reduced_models.rotor.picture import draw_campbell
-
-        return draw_campbell(self, path)
+    def picture(self) -> Picture:
+        """Frequencies over the speed with the critical speeds, above the decrements."""
+        return campbell_picture(self)
 
 
 def _sides(off: _Floats) -> tuple[int, int]:

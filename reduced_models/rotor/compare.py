@@ -15,7 +15,8 @@ from ehlcontact.checks import require_nonnegative
 from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from ehlcontact.results.picture import Panel, draw
+from ehlcontact.results.drawing import draw
+from ehlcontact.results.picture import Line, Panel, Picture
 from ehlcontact.results.table import frame_of
 from ehlcontact.summary import Summary
 from reduced_models.rotor.result import RotorResult
@@ -121,8 +122,8 @@ class Comparison(Summary):
         for figure, words in (("rms_over_std", "rms error"), ("vibration_over_std", "rms error without offset")):
             shares = (getattr(one, figure) for one in self.signals.values())
             values = np.array([nan if share is None else share for share in shares])
-            panels.append(Panel((names, "signal"), [("", values, None)], f"{words} / standard deviation"))
-        return draw("Comparison: reduced less full", panels, path)
+            panels.append(Panel([Line(names, values)], "signal", f"{words} / standard deviation"))
+        return draw(Picture(panels, "Comparison: reduced less full"), path)
 
     def to_dict(self) -> dict[str, object]:
         """All figures, ready for JSON."""

@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import FORCE, LENGTH, NUMBER, RATE, SPEED, TIME
+from ehlcontact.results.drawing import draw
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import span
 from reduced_models.rotor.nodes import LENGTHS, PLANE, ByNode
+from reduced_models.rotor.picture import run_picture
 
 _Floats = NDArray[np.float64]
 
@@ -205,8 +207,6 @@ class RotorResult(QuantityTable, ByNode):
         InputError
             Another kind, a run of fewer than 16 steps, a node that is not there, or the file cannot be written.
         """
-        from reduced_models.rotor.picture import draw_run
-
         kind = ("orbit" if self.largest_load.size or node else "histories") if kind is None else kind
         if kind not in KINDS:
             raise InputError("kind", kind, f"one of {', '.join(KINDS)}")
@@ -218,7 +218,7 @@ class RotorResult(QuantityTable, ByNode):
         if most_hz is not None:
             most_hz = min(require_positive("most_hz", most_hz), highest)
         usual = min(ORDERS_SHOWN * per_second, highest) if per_second > 0.0 else highest
-        return draw_run(self, path, kind, (most_hz, usual), self._shown(node))
+        return draw(run_picture(self, kind, (most_hz, usual), self._shown(node)), path)
 
     def _shown(self, node: str | tuple[int, int] | None) -> list[tuple[str, _Floats]]:
         """Motions x, y of what a figure shows, with their titles."""

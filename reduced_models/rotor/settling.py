@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import require_integer
 from ehlcontact.errors import InputError
-from ehlcontact.results.picture import Panel, draw
+from ehlcontact.results.drawing import draw
+from ehlcontact.results.picture import Line, Panel, Picture
 from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.decay import STILL
 from reduced_models.rotor.result import RotorResult
@@ -76,12 +77,11 @@ class Settling:
         """
         turns = 1 + np.arange(len(self.changes))
         lines = [
-            ("change", np.array(self.changes), None),
-            ("settled below", np.full(turns.size, self.limit), None),
+            Line(turns, self.changes, "change"),
+            Line(turns, np.full(turns.size, self.limit), "settled below"),
         ]
-        return draw(
-            "Settling", [Panel((turns, "revolution"), lines, "change over the revolution before", "y")], path
-        )
+        panel = Panel(lines, "revolution", "change over the revolution before", logs="y")
+        return draw(Picture([panel], "Settling"), path)
 
     def to_dict(self) -> dict[str, object]:
         """All of it, ready for JSON."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, ClassVar, Self
 
@@ -11,9 +10,11 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import LENGTH, SPEED, Quantity
+from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import span
+from reduced_models.rotor.picture import unbalance_picture
 from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
@@ -119,14 +120,6 @@ class UnbalanceResponse(QuantityTable):
         top = (size[1:-1] > size[:-2]) & (size[1:-1] > size[2:])
         return self.speed_rpm[1:-1][top]
 
-    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """Matplotlib figure; into a file too where a path is given.
-
-        Raises
-        ------
-        InputError
-            The file cannot be written.
-        """
-        from reduced_models.rotor.picture import draw_unbalance
-
-        return draw_unbalance(self, path)
+    def picture(self) -> Picture:
+        """Largest displacement of every node over the speed, and phases of x."""
+        return unbalance_picture(self)

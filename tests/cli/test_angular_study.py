@@ -12,10 +12,10 @@ from tiny_study import STUDY
 
 from ehlcontact import OilLayer
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.plots.bearing import drawings_at_angles
 from ehlcontact.cli.study.headline import at_angles as sentence
 from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
+from ehlcontact.cli.study.report import pictures_at_angles
 from ehlcontact.cli.study.rotor_on_bearings import rotor_between, run_at_angles
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.whole_bearing import whole_bearing
@@ -129,7 +129,7 @@ def test_results_report_and_words_of_a_pair(paired):
     assert len(numbers["frequencies_hz"]) == len(numbers["state"]["bearings"]) == 2
     text = sentence(SimpleNamespace(at_angles=at, oil_and_heat=None))
     assert "balls of a pair of 7205 A, back to back run" in text and "a floating bearing has" in text
-    drawings = drawings_at_angles(at)
+    drawings = pictures_at_angles(at)
     assert set(drawings) == {"angles_balls", "angles_balls1", "angles_coefficients", "angles_campbell"}
     heights = {name: 400 for name in drawings}
     environment = Environment(loader=PackageLoader("ehlcontact.cli"), undefined=StrictUndefined)

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from tiny_study import STUDY
 
-from ehlcontact.cli.plots.bearing import drawings_at_angles
+from ehlcontact.cli.plots.render import figure_of
 from ehlcontact.cli.study.forecast import forecast
 from ehlcontact.cli.study.headline import at_angles as sentence
+from ehlcontact.cli.study.report import pictures_at_angles
 from ehlcontact.cli.study.rotor_on_bearings import rotor_between, run_at_angles, run_whole
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.whole_bearing import whole_bearing
@@ -71,12 +72,14 @@ def test_results_and_report(found):
     text = sentence(SimpleNamespace(at_angles=at, oil_and_heat=None))
     assert "Under 50 N of axial load" in text and f"{at.modes[0].hz:.4g} Hz" in text
     assert sentence(SimpleNamespace(at_angles=None)) == ""
-    figures = {name: draw() for name, draw in drawings_at_angles(at).items()}
+    figures = {name: describe() for name, describe in pictures_at_angles(at).items()}
     assert set(figures) == {"angles_balls", "angles_coefficients", "angles_campbell"}
-    names = {trace.name for trace in figures["angles_campbell"].data}
+    names = {line.name for line in figures["angles_campbell"].panels[0].lines}
     assert sum("axial" in name for name in names) == 1  # of the three that are followed
-    shown = next(t for t in figures["angles_balls"].data if t.type == "scatter" and t.name == "outer race")
+    _, _, angles, _ = figures["angles_balls"].panels
+    shown = next(line for line in angles.shown().lines if line.name == "outer race")
     np.testing.assert_allclose(np.sort(shown.y), np.sort(np.degrees(at.state.contact_angles[:, 1])))
+    assert all(figure_of(one).data for one in figures.values())
 
 
 def test_what_is_planar_is_as_it_was(tmp_path):

@@ -154,16 +154,15 @@ def test_a_figure(call, tmp_path, speeds, oil):
 def test_curves_pass_through_the_points():
     from ehlcontact.cli.commands.bearing import BearingReport, curve
     from ehlcontact.cli.study.bearing import load_job
-    from reduced_models.bearing.picture import draw_over_speed
+    from reduced_models.bearing.picture import over_speed_picture
 
     job = load_job("6205", {"--load": 500.0, "--speed-rpm": [1000.0, 4000.0], "--oil": 68, "--temp": 50.0})
     at = tuple(job.bearing.coefficients((0, -500), speed_rpm=s, rpm=s) for s in job.speeds)
     states = tuple(job.bearing.equilibrium((0, -500), speed_rpm=s) for s in job.speeds)
-    panels = draw_over_speed(states[1], at, curve(BearingReport(job, states, at))).axes
-    lines = panels[3].get_lines()
+    lines = over_speed_picture(states[1], at, curve(BearingReport(job, states, at))).panels[3].lines
     for curve_of, points in (lines[:2], lines[2:4]):
-        np.testing.assert_allclose(curve_of.get_ydata()[[0, -1]], points.get_ydata(), rtol=1e-9)
-    np.testing.assert_allclose(lines[0].get_ydata()[0], at[0].damping[0, 1, 1])
+        np.testing.assert_allclose(np.array(curve_of.y)[[0, -1]], points.y, rtol=1e-9)
+    np.testing.assert_allclose(lines[0].y[0], at[0].damping[0, 1, 1])
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,6 @@ import pytest
 from tiny_study import STUDY
 
 from ehlcontact.cli.page import write_page
-from ehlcontact.cli.plots import defect
 from ehlcontact.cli.study.defect import defect_of
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.schema import load_study
@@ -80,8 +79,8 @@ def test_bare_step_does_not_overshoot(tmp_path):
 
 def test_page_and_picture(found, tmp_path):
     asked, one = found
-    figure = defect.signal(one)
-    assert len(figure.data) == 8 and {trace.legendgroup for trace in figure.data} == {"film", "none"}
+    lines = [line for panel in one.picture().panels for line in panel.lines]
+    assert len(lines) == 8 and len({line.name for line in lines}) == 2
     low, high = one.passage
     assert 0.0 < high - low < 0.2 and low < one.turns[np.abs(one.force["film"]).argmax()] % 20.0
     inside = SimpleNamespace(defect=one, study=asked)

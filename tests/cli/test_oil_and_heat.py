@@ -12,7 +12,6 @@ from tiny_study import STUDY
 
 import reduced_models.bearing.oil_and_heat as module
 from ehlcontact import ConvergenceError, Grid, Lubricant, OilLayer, impedance
-from ehlcontact.cli.plots.oil_and_heat import coefficients, films
 from ehlcontact.cli.study.forecast import CONDITION, closing_cost
 from ehlcontact.cli.study.headline import conditions as beside
 from ehlcontact.cli.study.headline import damping_below_zero, without_films
@@ -25,6 +24,7 @@ from ehlcontact.status import Status
 from reduced_models import BallBearing, BearingSet
 from reduced_models.atlas.supply import THINNEST
 from reduced_models.bearing.oil_and_heat import FLOODED, LAYER, oil_and_heat
+from reduced_models.bearing.picture import conditions_coefficients, conditions_films
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
 OIL = ("--oil", "68", "--temp", "60")
@@ -211,10 +211,13 @@ def test_section_of_a_study(coarse, tmp_path):
     assert damping_below_zero(Findings) == "" == beside(Findings) == without_films(Findings)
     Findings.oil_and_heat = replace(found, refused={LAYER: "thin"})
     assert without_films(Findings) == "NO FILMS of the whole bearing with the layer (thin)."
-    around, band = films(found), coefficients(found)
-    assert [line.name for line in around.data] == 2 * list(found.conditions)
-    np.testing.assert_allclose(around.data[0].x, -around.data[0].x[::-1], atol=1e-9)
-    assert np.all(np.diff(band.data[0].x) >= 0.0) and len(band.data) == 8
+    around, band = (
+        [line for panel in describe(found).panels for line in panel.lines]
+        for describe in (conditions_films, conditions_coefficients)
+    )
+    assert [line.name for line in around] == 2 * list(found.conditions)
+    np.testing.assert_allclose(around[0].x, -around[0].x[::-1], atol=1e-9)
+    assert np.all(np.diff(band[0].x) >= 0.0) and len(band) == 8
 
 
 def test_a_study_tells_why_there_is_no_answer(tmp_path, monkeypatch):

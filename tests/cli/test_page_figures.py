@@ -1,26 +1,30 @@
 """Figures made ready for a page: legend, places of panels, points and digits, packing."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
-import plotly.graph_objects as go
 import pytest
 
 from ehlcontact.cli.plots.bundle import bundle, library, packed, unpacked, version
 from ehlcontact.cli.plots.finish import finished
-from ehlcontact.cli.plots.style import grid, label_axes, running, shaded, vertical
+from ehlcontact.cli.plots.render import figure_of
 from ehlcontact.cli.plots.thinned import LINE, rounded, thin_line
+from ehlcontact.results.drawing import draw
+from ehlcontact.results.picture import BLUE, ORANGE, RED, Band, Line, LoadZone, Map, Mark, Panel, Picture, Slides
 
 
 @pytest.fixture
 def figure():
-    figure = grid(2, 2, heights=[200, 100], titles="abcd", second=((1, 1),), shared=True)
-    for row, col in ((1, 1), (1, 2), (2, 1), (2, 2)):
-        figure.add_scatter(x=[1.0, 10.0], y=[3.0, np.nan], name="film", row=row, col=col)
-        label_axes(figure, "" if row == 1 else "frequency [Hz]", "force [N]", row, col)
-    figure.add_scatter(x=[1.0, 10.0], y=[7.0, 8.0], name="pressure", row=1, col=1, secondary_y=True)
-    figure.add_heatmap(x=[1, 2], y=[1, 2], z=np.eye(2), coloraxis="coloraxis", row=1, col=2)
-    return figure.update_layout(coloraxis={"colorbar": {"title": {"text": "film [µm]"}}})
+    panels = [
+        Panel([Line([1.0, 10.0], [3.0, np.nan], "film")], ("frequency", "Hz"), ("force", "N"), title=title)
+        for title in "abcd"
+    ]
+    both = [*panels[0].lines, Line([1.0, 10.0], [7.0, 8.0], "pressure", second=True)]
+    panels[0] = replace(panels[0], lines=both, second="pressure")
+    places = np.array([1.0, 2.0])
+    panels[1] = Map((places, ("frequency", "Hz")), (places, ("force", "N")), (np.eye(2), ("film", "m")), title="b")
+    return figure_of(Picture(panels, heights=(200.0, 100.0), shared=True))
 
 
 def test_a_name_is_in_the_legend_once(figure):
@@ -28,7 +32,7 @@ def test_a_name_is_in_the_legend_once(figure):
     json.dumps(ready, allow_nan=False)
     shown = [trace.get("name") for trace in ready["data"] if trace["showlegend"]]
     assert shown == ["film", "pressure"] and ready["layout"]["showlegend"]
-    film, *_, field = ready["data"]
+    film, _, field, *_ = ready["data"]
     assert film["y"] == [3, None] and film["hovertemplate"].startswith("frequency [Hz]: %{x")
     assert "film [µm]: %{z" in field["hovertemplate"]
 
@@ -54,39 +58,84 @@ def test_panels_stand_side_by_side_or_below_each_other(figure):
     assert {tuple(narrow[f"xaxis{k}"]["domain"]) for k in ("", "2", "3", "4")} == {(0.0, 1.0)}
     tops = [narrow[f"yaxis{k}"]["domain"][1] for k in ("", "4", "3", "5")]  # a column, then the next one
     assert tops == sorted(tops, reverse=True) and narrow["height"] > 1.5 * wide["height"]
-    bar = wide["coloraxis"]["colorbar"]
+    bar = wide["coloraxis2"]["colorbar"]
     low, high = wide["yaxis3"]["domain"]
     assert bar["y"] == pytest.approx(0.5 * (low + high)) and bar["x"] > wide["xaxis2"]["domain"][1]
 
 
 def test_words_on_logarithmic_axes():
-    figure = grid()
-    figure.update_xaxes(type="log")
-    vertical(figure, 100.0, "mode")
-    shaded(figure, (1.0, 10.0), "")
-    (note,) = figure.layout.annotations
-    assert note.x == 2.0 and figure.layout.shapes[0].x0 == 100.0 and figure.layout.shapes[1].x1 == 10.0
+    marks, bands = (Mark(100.0, "mode"),), (Band(1.0, 10.0),)
+    panel = Panel([Line([1.0, 1000.0], [1.0, 2.0])], "x", "y", logs="x", marks=marks, bands=bands)
+    drawn = figure_of(Picture([panel]))
+    (note,) = drawn.layout.annotations
+    assert note.x == 2.0 and {(shape.x0, shape.x1) for shape in drawn.layout.shapes} == {
+        (100.0, 100.0),
+        (1.0, 10.0),
+    }
+    axes = draw(Picture([panel])).axes[0]
+    assert axes.get_xscale() == "log" and "mode" in [text.get_text() for text in axes.texts]
 
 
 def test_few_decades_have_few_ticks():
     """All digits lie upon one another there; over many decades, or hardly any, plotly's own ticks do not."""
-    drawn = grid(3, heights=[100] * 3)
-    for row, values in enumerate(((0.007, 0.1), (1e-5, 1.0), (2.0, 3.0)), start=1):
-        drawn.add_scatter(x=[1.0, 2.0], y=values, row=row, col=1)
-        drawn.update_yaxes(type="log", row=row, col=1)
-    layout = finished(drawn)["layout"]
+    values = ((0.007, 0.1), (1e-5, 1.0), (2.0, 3.0))
+    panels = [Panel([Line([1.0, 2.0], pair)], "x", "y", logs="Y") for pair in values]
+    layout = finished(figure_of(Picture(panels, columns=1, heights=(100.0,))))["layout"]
     assert [layout[f"yaxis{k}"].get("dtick") for k in ("", "2", "3")] == ["D2", None, None]
 
 
 def test_axes_reach_over_all_frames():
     def one(k):
-        return grid().add_scatter(x=[0.0, 1.0], y=[0.0, 10.0 * k], row=1, col=1)
+        rest = Line([0.0, 1.0], [1.0, 1.0], "at rest")
+        return Picture([Panel([Line([0.0, 1.0], [0.0, 10.0 * k], "film"), rest], "x", "y")])
 
-    figure = running([one(k) for k in (1, 2, 3)], "speed", "rpm", [1000.0, 2000.0, 3000.0], 1)
+    slides = Slides([one(k) for k in (1, 2, 3)], ("speed", "rpm"), [1000.0, 2000.0, 3000.0], 1)
+    figure = figure_of(slides)
     assert figure.layout.yaxis.range[1] > 30.0 and figure.layout.yaxis.range[0] < 0.0
     ready = finished(figure)
     assert ready["data"][0]["y"] == [0, 20] and [frame["data"][0]["y"] for frame in ready["frames"]][2] == [0, 30]
+    assert {tuple(frame["traces"]) for frame in ready["frames"]} == {(0,)}  # what rests is there once
     assert ready["layout"]["meta"]["slider"]["texts"] == ["1000 rpm", "2000 rpm", "3000 rpm"]
+    assert draw(slides).axes[0].lines[0].get_ydata().tolist() == [0.0, 20.0]
+
+
+def test_both_renderers_show_what_is_described():
+    """Values in the units of pictures, error bars, colours, words; a line of a name has one colour."""
+    lines = [
+        Line([1e-6, 2e-6], [1e6, 3e6], "film", bars=[1e5, 1e5]),
+        Line([1e-6, 2e-6], [2e6, 2e6], "rest", RED, "--"),
+        Line([2e-6, 3e-6], [3e6, 4e6], "film"),
+    ]
+    panel = Panel(lines, ("place", "m"), ("stiffness", "N/m"), title="a title", bottom=0.0)
+    words = Panel([Line(np.array(["a", "b"]), [1.0, 2.0])], "term", "error")
+    picture = Picture([panel, words])
+    axes, bars = draw(picture).axes
+    page = figure_of(picture)
+    own = [trace for trace in page.data if trace.type == "scatter" and trace.fill is None]
+    for drawn, line in zip(axes.lines, own, strict=True):
+        np.testing.assert_allclose(drawn.get_ydata(), line.y)
+        np.testing.assert_allclose(drawn.get_xdata(), line.x)
+        assert drawn.get_color() == line.line.color
+    assert [line.line.color for line in own] == [BLUE, RED, BLUE] and own[0].y.tolist() == [1.0, 3.0]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("place [µm]", "stiffness [N/µm]")
+    assert (page.layout.xaxis.title.text, page.layout.yaxis.title.text) == ("place [µm]", "stiffness [N/µm]")
+    assert axes.get_title() == "a title" and axes.get_ylim()[0] == 0.0
+    assert [patch.get_height() for patch in bars.patches] == [1.0, 2.0]
+    assert next(trace for trace in page.data if trace.type == "bar").y.tolist() == [1.0, 2.0]
+
+
+def test_a_load_zone_points_along_the_load():
+    angles = np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False)
+    zone = LoadZone(angles, [("outer race", np.arange(8.0), ORANGE, 1.0)], -0.5 * np.pi)
+    page = figure_of(Picture([zone]))
+    load = page.data[1]
+    assert load.theta[0] == 270.0 and page.data[0].r.tolist() == list(range(8))
+    assert page.layout.polar.radialaxis.range[1] == pytest.approx(1.25 * 7.0)
+    axes = draw(Picture([zone])).axes[0]
+    assert axes.get_ylim()[1] == pytest.approx(1.25 * 7.0) and len(axes.patches) == 8
+    # numbers stand between two balls, away from the load
+    assert np.sin(np.radians(zone.free_angle)) > 0.9
+    assert np.min(np.abs(np.degrees(angles) - zone.free_angle % 360.0)) == pytest.approx(22.5)
 
 
 def test_numbers_are_as_short_as_the_axis_allows():
@@ -108,7 +157,7 @@ def test_long_lines_keep_their_peaks():
     x, y, told = thin_line(np.cos(40.0 * t), np.sin(40.0 * t))  # a path in the plane, to its end
     assert x.size <= LINE + 1 and np.hypot(x, y) == pytest.approx(1.0) and x[-1] == np.cos(40.0)
     assert told == "paths: 1 in 10 points"
-    ready = finished(grid().add_scatter(x=t, y=t, row=1, col=1))
+    ready = finished(figure_of(Picture([Panel([Line(t, t)], "x", "y")])))
     assert len(ready["data"][0]["x"]) < 1.1 * LINE and "samples" in ready["layout"]["meta"]["thinned"]
 
 
@@ -123,7 +172,3 @@ def test_what_is_packed_comes_out_again():
     assert "</script" not in found["script"]
     with pytest.raises(ValueError):
         bundle({"a": float("nan")})
-
-
-def test_figures_are_plotly_s_own():
-    assert isinstance(grid(), go.Figure)

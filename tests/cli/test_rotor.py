@@ -12,14 +12,14 @@ import pytest
 from scipy.optimize import curve_fit
 
 from ehlcontact import read
-from ehlcontact.cli.plots import rotor as pictures
 from ehlcontact.cli.study import headline
 from ehlcontact.cli.study.differences import compare_rotors
 from ehlcontact.cli.study.points.finalise import evaluate
-from ehlcontact.cli.study.reduction import CONTACTS
+from ehlcontact.cli.study.reduction import CONTACTS, LOOKS
 from ehlcontact.cli.study.rotor import film_response, frequencies
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.errors import ConvergenceError
+from reduced_models.rotor import model_pictures as pictures
 from reduced_models.rotor.events import ContactEvents
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.settling import Settling
@@ -271,7 +271,8 @@ def test_a_contact_that_the_rotor_does_not_run_on(finished, found, monkeypatch):
     assert "dry Hertz contact (force imbalance 3 N)" in headline.failures(SimpleNamespace(rotors=rotors))
     assert rotors.decay.film_decides
     runs = {"full": rotors.unbalance.full, **rotors.unbalance.reduced}
-    assert pictures.spectrum(runs, rotors.unbalance.settling["full"], CONTACTS).data
+    picture = pictures.settled_spectra(runs, rotors.unbalance.settling["full"], LOOKS, CONTACTS)
+    assert all(line.y.max() > 0.0 for panel in picture.panels for line in panel.lines)
 
 
 def test_pictures_show_what_is_settled(finished, found):
@@ -281,14 +282,16 @@ def test_pictures_show_what_is_settled(finished, found):
     assert is_settled and settled.t.size == 41
     last, is_settled = pictures.settled_part(run, Settling((0.5,), 0.01))
     assert not is_settled and last.t.size == 21 and last.t[-1] == run.t[-1]
-    grey = pictures.response({"full": run, "dry": run, "rotor_band": run}, Settling((0.5,), 0.01), CONTACTS)
-    assert "not settled" in [note.text for note in grey.layout.annotations]
+    runs, drawn = {"full": run, "dry": run, "rotor_band": run}, ("full", "rotor_band")
+    grey = pictures.time_response(runs, "full", drawn, Settling((0.5,), 0.01), LOOKS, CONTACTS)
+    assert [band.text for panel in grey.panels for band in panel.bands] == ["not settled", "", "", ""]
+    assert [len(panel.lines) for panel in grey.panels] == [2, 2, 2, 2]
 
 
 def test_bode_picture_has_amplitude_and_phase(found):
     responses = found.rotors.resonances
-    figure = pictures.bode(responses, CONTACTS)
-    curve, phase = (trace.y for trace in figure.data if trace.name == "full film")
+    picture = pictures.bode(responses, LOOKS, CONTACTS)
+    curve, phase = (line.y for panel in picture.panels for line in panel.lines if line.name == "full film")
     assert curve.max() == pytest.approx(responses.peaks["y"]["full"].amplitude)
     assert phase[0] == pytest.approx(0.0, abs=5.0) and phase[-1] == pytest.approx(-180.0, abs=5.0)
 

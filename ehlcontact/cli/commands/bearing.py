@@ -25,10 +25,12 @@ from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.cli.study.whole_bearing import bearings_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_text
+from ehlcontact.results.drawing import draw as drawn
 from reduced_models.bearing.equilibrium_result import NOTICED
 from reduced_models.bearing.freedoms import DECIMALS, FIVE, PLANAR
 from reduced_models.bearing.kinematics import LEAST_SLIP, RPM_TO_HZ
 from reduced_models.bearing.oil_and_heat import HEAT
+from reduced_models.bearing.picture import over_speed_picture
 from reduced_models.bearing.sliding import USUAL_LAW, friction_at
 
 if TYPE_CHECKING:
@@ -382,9 +384,8 @@ def bearing(
         report = replace(report, oil_and_heat=tuple(_oil_and_heat(job, update, options.solve)))
 
     def draw(path: Path) -> None:
-        from reduced_models.bearing.picture import draw_over_speed
-
-        draw_over_speed(report.states[len(report.states) // 2], report.coefficients, curve(report), path)
+        state = report.states[len(report.states) // 2]
+        drawn(over_speed_picture(state, report.coefficients, curve(report)), path)
 
     def write(path: Path) -> None:
         write_text(path, csv_text(report.oil_and_heat), "--csv")

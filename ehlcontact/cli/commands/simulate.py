@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from os.path import realpath
 from pathlib import Path
@@ -268,18 +267,14 @@ def _at_rest(result: SimulationResult) -> Any:
 def _draw(result: SimulationResult, path: Path) -> None:
     """Draw histories, the film wave, and the force against the approach."""
     from ehlcontact.film.over_time import film_wave
-    from ehlcontact.results.picture import Panel, draw
+    from ehlcontact.results.drawing import draw
+    from ehlcontact.results.picture import Line, Panel, Picture
     from ehlcontact.summary import contact_text
 
     shown, units = (result, ("", "")) if result.scales is None else (result.si, ("m", "N"))
-    loop = Panel(
-        (shown.approach, ("mutual approach", units[0])), [("", shown.force, None)], ("contact force", units[1])
-    )
-    wave = film_wave(result)
-    near = abs(wave.X) <= 1.1  # beyond, the film follows the approach at once
-    inside = replace(wave, X=wave.X[near], change=wave.change[:, near])
+    loop = Panel([Line(shown.approach, shown.force)], ("mutual approach", units[0]), ("contact force", units[1]))
     title = f"transient film: {contact_text(result.point, result.scales)}"
-    draw(title, [*result.panels(), *inside.panels(), loop], path)
+    draw(Picture([*result.panels(), *film_wave(result).panels(), loop], title), path)
 
 
 def _rows(result: SimulationResult) -> list[Row]:

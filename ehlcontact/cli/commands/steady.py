@@ -17,7 +17,7 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, heat_rows, outside_rows, quantity_rows, run_rows, share_text
-from ehlcontact.results.contact_map import REACH
+from ehlcontact.results.contact_map import VIEW
 from ehlcontact.solver.domain import Domain
 
 if TYPE_CHECKING:
@@ -110,17 +110,22 @@ def _draw(result: SteadyResult, traction: Traction | None, path: Path) -> None:
     """Draw the contact, its fringes where there is a unit of length, and its shear stress where it slides."""
     from ehlcontact.film import film_of, interferogram
     from ehlcontact.film.plane import interpolated
-    from ehlcontact.results.picture import draw
+    from ehlcontact.results.drawing import draw
+    from ehlcontact.results.picture import Picture
     from ehlcontact.summary import contact_text
 
     panels = result.panels()
     if result.scales is not None:
         film = film_of(result)
-        X, Y = (np.linspace(max(-REACH, at[0]), min(REACH, at[-1]), POINTS) for at in (film.X, film.Y))
+        ends = VIEW[:2], (-VIEW[2], VIEW[2])
+        X, Y = (
+            np.linspace(max(first, at[0]), min(last, at[-1]), POINTS)
+            for (first, last), at in zip(ends, (film.X, film.Y), strict=True)
+        )
         panels += interferogram(interpolated(film, X, Y), WAVELENGTH, REFRACTIVE_INDEX).panels()
     if traction is not None:
         panels.append(traction.map())
-    draw(f"steady film: {contact_text(result.point, result.scales)}", panels, path)
+    draw(Picture(panels, f"steady film: {contact_text(result.point, result.scales)}"), path)
 
 
 def _rows(result: SteadyResult) -> list[Row]:

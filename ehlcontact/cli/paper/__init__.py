@@ -7,7 +7,7 @@ module        responsibility
 ``runs``      its simulations, each kept in one file, so that an interrupted run resumes
 ``fits``      records and elements of the cases, and reduced models integrated over them
 ``tables``    Tables 1 to 6
-``pictures``  the figures, made with plotly
+``pictures``  what the figures show
 ``figures``   what each figure needs, shows and says, and the numbers beside it
 ``page``      one HTML page and one JSON document
 ============  ========================================================================================

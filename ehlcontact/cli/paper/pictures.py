@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import plotly.graph_objects as go
 
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.paper.data import paper_fits
 from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.runs import CASES, HARMONIC, STATIC_LOADS, STATIC_OILS
-from ehlcontact.cli.plots.film import brightness, noted
-from ehlcontact.cli.plots.maps import HIGHEST, map_axes, refined, scale_note
-from ehlcontact.cli.plots.motion import add_films
-from ehlcontact.cli.plots.style import (
+from ehlcontact.film import film_of
+from ehlcontact.film.pictures import brightness, refined
+from ehlcontact.film.plane import Interferogram
+from ehlcontact.film_formulas import wijnant_approach
+from ehlcontact.point import moes_point
+from ehlcontact.quantities import FORCE, LENGTH, TIME
+from ehlcontact.results.contact_map import MOVES, TALL, ContactView
+from ehlcontact.results.picture import (
     BLUE,
     GREEN,
     GREY,
@@ -23,82 +27,72 @@ from ehlcontact.cli.plots.style import (
     ORANGE,
     PALE_BLUE,
     RED,
-    grid,
-    label_axes,
-    shaded,
-    vertical,
+    Band,
+    Line,
+    Mark,
+    Panel,
+    Picture,
 )
-from ehlcontact.cli.plots.units import units_of
-from ehlcontact.film import film_of
-from ehlcontact.film.plane import Interferogram
-from ehlcontact.film_formulas import wijnant_approach
-from ehlcontact.point import moes_point
+from reduced_models.fitting.pictures import film_lines
 from reduced_models.fitting.result import FitResult
 
 COLOURS = (BLUE, ORANGE, GREEN)  # of the cases
 FARTHEST = 3.0  # approach up to which springs are drawn
-THEIRS: Any = {"color": INK, "width": 1.4, "dash": "dash"}  # the paper's line
+THEIRS: Any = {"colour": INK, "width": 1.0, "dash": "--"}  # the paper's line
 DOTS = 50  # markers of a reduced model, on top of the line of the full one
 FRINGES_AT_REST = 3  # to the central film, where there is no unit of length
 FADING = 2.5  # central films over which these fade
 POINTS = (67, 101)  # of a map of fringes
 
-_NAMES = units_of(None)
-TIME, APPROACH, FORCE = "time T", _NAMES.approach.label, _NAMES.force.label
+TIMES, APPROACH, FORCES = ("time", TIME.moes), ("approach", LENGTH.moes), ("force", FORCE.moes)
 
-Draw = Callable[[Fits], go.Figure]
-Panel = Callable[[Fits, go.Figure, int], None]  # draws into a column
+Draw = Callable[[Fits], Picture]
+Describe = Callable[[Fits], Panel]
 
 
-def row(*panels: Panel, titles: Sequence[str] = ()) -> Draw:
+def row(*panels: Describe, titles: Sequence[str] = ()) -> Draw:
     """Panels side by side."""
 
-    def draw(fits: Fits) -> go.Figure:
-        figure = grid(1, len(panels), heights=[270], titles=titles)
-        for col, panel in enumerate(panels, start=1):
-            panel(fits, figure, col)
-        return figure
+    def draw(fits: Fits) -> Picture:
+        found = [panel(fits) for panel in panels]
+        for k, title in enumerate(titles):
+            found[k] = replace(found[k], title=title)
+        return Picture(found, columns=len(found))
 
     return draw
 
 
-def static(fits: Fits) -> go.Figure:
+def static(fits: Fits) -> Picture:
     """Approach at rest over the loads M, for each oil L, for a circle: solves, and Wijnant's formula."""
-    figure, smooth = grid(heights=[320]), np.geomspace(STATIC_LOADS[0], STATIC_LOADS[-1], 200)
+    smooth, lines = np.geomspace(STATIC_LOADS[0], STATIC_LOADS[-1], 200), []
     for L, colour in zip(STATIC_OILS, (BLUE, GREEN, RED), strict=True):
         formula = [wijnant_approach(M, L, 1.0) for M in smooth]
-        figure.add_scatter(x=smooth, y=formula, line_color=colour, name=f"L = {L:g}")
+        lines.append(Line(smooth, formula, f"L = {L:g}", colour))
         solved = [(M, fits.runs.static[M, L].approach) for M in STATIC_LOADS if (M, L) in fits.runs.static]
         if solved:
             x, y = zip(*solved, strict=True)
-            look: Any = {"mode": "markers", "marker": {"color": colour, "size": 7}}
-            figure.add_scatter(x=x, y=y, **look, name=f"L = {L:g}")
-    label_axes(figure, "load parameter M", "approach u at rest", range=[-0.1, 1.05])
-    return figure.update_xaxes(type="log")
+            lines.append(Line(x, y, f"L = {L:g}", colour, "", "o"))
+    panel = Panel(lines, "load parameter M", ("approach at rest", LENGTH.moes), logs="X", y_ends=(-0.1, 1.05))
+    return Picture([panel], heights=(320.0,))
 
 
 def fringes(case: str) -> Draw:
     """Fringes of a case at its snapshots, which has no unit of length: three to the central film at rest."""
 
-    def draw(fits: Fits) -> go.Figure:
+    def draw(fits: Fits) -> Picture:
         run = fits.runs.cases[case]
         kappa, growth = moes_point(run.point).kappa, max(1.0, float(run.load.max())) ** (1.0 / 3.0)
-        films = [refined(film_of(run, float(T)), POINTS, growth) for T in run.snapshot_T]
-        columns = min(len(films), 4)
-        titles = [f"T = {numeral(T)}" for T in run.snapshot_T]
-        figure = grid(
-            -(-len(films) // columns), columns, heights=[HIGHEST] * -(-len(films) // columns), titles=titles
-        )
-        for k, film in enumerate(films):
-            at: Any = {"row": k // columns + 1, "col": k % columns + 1}
-            x, y = map_axes(figure, film, kappa, **at, upwards=False)
+        panels = []
+        for T in run.snapshot_T:
+            film = refined(film_of(run, float(T)), POINTS, growth)
+            view = ContactView.of(film.X, film.Y, kappa, None)
             depth = film.H / run.h_central[0]
             order = FRINGES_AT_REST * depth
             bright = Interferogram(0.5 * (1.0 + np.cos(2.0 * np.pi * order)), order, film.X, film.Y, (1.0, 1.0))
-            figure.add_heatmap(x=x, y=y, z=brightness(bright, depth / FADING).T, coloraxis="coloraxis", **at)
-        figure.update_layout(coloraxis={"colorscale": "Gray", "cmin": 0.0, "cmax": 1.0, "showscale": False})
-        figure.update_xaxes(title_text="X = x/a").update_yaxes(title_text="Y = y/b")
-        return noted(figure, f"The surfaces move to the right. {scale_note(films[0], kappa, upwards=False)}")
+            shown = brightness(bright, depth / FADING)
+            panels.append(view.map(shown, "", "gray", (0.0, 1.0), title=f"T = {numeral(T)}"))
+        note = f"{MOVES[view.upwards].capitalize()}. {view.note}".strip()
+        return Picture(panels, columns=min(len(panels), 4), heights=(TALL,), note=note)
 
     return draw
 
@@ -106,13 +100,13 @@ def fringes(case: str) -> Draw:
 def approaches(table: int, *cases: str) -> Draw:
     """Approach of the full contact in some cases, and where the paper's cubics carry the load."""
 
-    def panel(fits: Fits, figure: go.Figure, col: int) -> None:
+    def panel(fits: Fits) -> Panel:
+        lines = []
         for case, colour in zip(cases, COLOURS, strict=False):
             run, root = fits.runs.cases[case], paper_fits()[table, case].root
-            figure.add_scatter(x=run.T, y=run.approach, line_color=colour, name=CASES[case].title, row=1, col=col)
-            look = {"name": f"root of the paper's cubic, case {case}", "line": {"color": colour, "dash": "dot"}}
-            figure.add_scatter(x=run.T[[0, -1]], y=[root] * 2, **look, row=1, col=col)
-        label_axes(figure, TIME, APPROACH, 1, col)
+            lines.append(Line(run.T, run.approach, CASES[case].title, colour))
+            lines.append(Line(run.T[[0, -1]], [root] * 2, f"root of the paper's cubic, case {case}", colour, ":"))
+        return Panel(lines, TIMES, APPROACH)
 
     return row(panel)
 
@@ -120,20 +114,19 @@ def approaches(table: int, *cases: str) -> Draw:
 def film(case: str) -> Draw:
     """Central and minimum film, and when the first film made by the motion reaches the centre."""
 
-    def panel(fits: Fits, figure: go.Figure, col: int) -> None:
-        add_films(figure, fits.runs.cases[case])
-        vertical(figure, 1.0, "inlet edge to centre at dX/dT = 1")
-        label_axes(figure, TIME, _NAMES.film.label)
+    def panel(fits: Fits) -> Panel:
+        marks = (Mark(1.0, "inlet edge to centre at the speed of the surfaces"),)
+        return Panel(film_lines(fits.runs.cases[case]), TIMES, ("film", LENGTH.moes), marks=marks)
 
     return row(panel)
 
 
-def force(table: int, case: str, *, acceleration: bool = False) -> Panel:
+def force(table: int, case: str, *, acceleration: bool = False) -> Describe:
     """Force of a record, of our and the paper's element, or the acceleration of each; grey: not fitted."""
 
-    def panel(fits: Fits, figure: go.Figure, col: int) -> None:
+    def panel(fits: Fits) -> Panel:
         record, theirs = fits.record(case), fits.theirs(table, case)
-        found = fits.fit(case, theirs.kind)
+        found, bands = fits.fit(case, theirs.kind), list[Band]()
 
         def of(element: Any) -> Any:
             fitted = np.asarray(element.force(record.approach, record.rate))
@@ -142,35 +135,39 @@ def force(table: int, case: str, *, acceleration: bool = False) -> Panel:
             assert record.Omega_n is not None and record.load is not None
             return record.Omega_n**2 * (record.load - fitted)
 
-        own, at = record.acceleration if acceleration else record.force, {"row": 1, "col": col}
-        figure.add_scatter(x=record.T, y=own, line_color=BLUE, name="full film", **at)
-        figure.add_scatter(x=record.T, y=of(theirs), line=THEIRS, name=f"paper's {theirs.kind}", **at)
+        own = record.acceleration if acceleration else record.force
+        lines = [
+            Line(record.T, own, "full film", BLUE),
+            Line(record.T, of(theirs), f"paper's {theirs.kind}", **THEIRS),
+        ]
         if found is not None:
             if found.window[0][0] > record.T[0]:
-                shaded(figure, (float(record.T[0]), found.window[0][0]), "", 1, col)
-            _dots(figure, col, record.T, of(found.element), f"our {found.model}")
-        label_axes(figure, TIME, "acceleration d²u/dT²" if acceleration else FORCE, 1, col)
+                bands.append(Band(float(record.T[0]), found.window[0][0]))
+            lines.append(_dots(record.T, of(found.element), f"our {found.model}"))
+        return Panel(lines, TIMES, "acceleration d²u/dT²" if acceleration else FORCES, bands=bands)
 
     return panel
 
 
-def reduced(table: int, case: str) -> Panel:
+def reduced(table: int, case: str) -> Describe:
     """Approach of a case and of our and the paper's cubic element, integrated."""
 
-    def panel(fits: Fits, figure: go.Figure, col: int) -> None:
+    def panel(fits: Fits) -> Panel:
         record, found = fits.record(case), fits.fit(case)
-        theirs, at = fits.integrated(fits.theirs(table, case), case), {"row": 1, "col": col}
-        figure.add_scatter(x=record.T, y=record.approach, line_color=BLUE, name="full film", **at)
-        figure.add_scatter(x=theirs.T, y=theirs.approach, line=THEIRS, name="paper's cubic", **at)
+        theirs = fits.integrated(fits.theirs(table, case), case)
+        lines = [
+            Line(record.T, record.approach, "full film", BLUE),
+            Line(theirs.T, theirs.approach, "paper's cubic", **THEIRS),
+        ]
         if found is not None:
             ours = fits.integrated(found.element, case)
-            _dots(figure, col, ours.T, ours.approach, "our cubic")
-        label_axes(figure, TIME, APPROACH, 1, col)
+            lines.append(_dots(ours.T, ours.approach, "our cubic"))
+        return Panel(lines, TIMES, APPROACH)
 
     return panel
 
 
-def of_cases(panel: Callable[[int, str], Panel], table: int, *cases: str) -> Draw:
+def of_cases(panel: Callable[[int, str], Describe], table: int, *cases: str) -> Draw:
     """The same panel for some cases."""
     return row(*(panel(table, case) for case in cases), titles=[CASES[case].title for case in cases])
 
@@ -201,42 +198,46 @@ def cubics_of(fits: Fits, cases: Sequence[str]) -> dict[str, FitResult]:
 def swapped(motion: str, cases: Sequence[str], table: int) -> Draw:
     """Elements of several cases under the motion of one of them."""
 
-    def draw(fits: Fits) -> go.Figure:
-        record, every = fits.record(motion), elements_of(fits, cases, table, motion)
-        titles = [f"{whose} elements: {CASES[motion].title}" for whose in every]
-        figure = grid(1, len(every), heights=[290], titles=titles)
-        for col, elements in enumerate(every.values(), start=1):
-            full: Any = {"line": {"color": GREY, "width": 5.0}, "name": "full film", "row": 1, "col": col}
-            figure.add_scatter(x=record.T, y=record.approach, **full)
+    def draw(fits: Fits) -> Picture:
+        record, panels = fits.record(motion), []
+        for whose, elements in elements_of(fits, cases, table, motion).items():
+            lines = [Line(record.T, record.approach, "full film", GREY, width=3.5)]
             for (case, element), colour in zip(elements.items(), COLOURS, strict=False):
-                run, line = fits.integrated(element, motion), {"color": colour, "width": 1.5}
-                name = f"element of case {case}"
-                figure.add_scatter(x=run.T, y=run.approach, line=line, name=name, row=1, col=col)
-            label_axes(figure, TIME, APPROACH, 1, col)
-        return figure.update_yaxes(matches="y", row=1, col=2)
+                run = fits.integrated(element, motion)
+                lines.append(Line(run.T, run.approach, f"element of case {case}", colour, width=1.1))
+            panels.append(Panel(lines, TIMES, APPROACH, title=f"{whose} elements: {CASES[motion].title}"))
+        every = np.concatenate([np.ravel(line.y) for panel in panels for line in panel.lines])
+        room = 0.05 * float(np.ptp(every))
+        ends = float(every.min()) - room, float(every.max()) + room
+        return Picture([replace(panel, y_ends=ends) for panel in panels], heights=(290.0,))
 
     return draw
 
 
-def springs(fits: Fits) -> go.Figure:
+def springs(fits: Fits) -> Picture:
     """Stiffness polynomials of cases 4 to 6, the paper's and ours, our elements, and the dry contact."""
-    figure = grid(1, 2, heights=[330], titles=["paper", "ours; shaded: fitted"])
-    u = np.linspace(0.0, FARTHEST, 400)
+    u, sides = np.linspace(0.0, FARTHEST, 400), (list[Line](), list[Line]())
+    bands = []
     for case, colour in zip(HARMONIC, COLOURS, strict=True):
         theirs = polynomial(paper_fits()[5, case].cubic.parameters, u)
-        figure.add_scatter(x=u, y=theirs, line_color=colour, name=f"case {case}, polynomial", row=1, col=1)
+        sides[0].append(Line(u, theirs, f"case {case}, polynomial", colour))
     for (case, found), colour in zip(cubics_of(fits, HARMONIC).items(), COLOURS, strict=False):
-        at: Any = {"row": 1, "col": 2}
-        ours = polynomial(found.parameters, u)
-        figure.add_scatter(x=u, y=ours, line_color=colour, name=f"case {case}, polynomial", **at)
-        element, dash = np.asarray(found.element.spring(u)), {"color": colour, "dash": "dash"}
-        figure.add_scatter(x=u, y=element, line=dash, name=f"case {case}, element", **at)
-        shaded(figure, (found.valid["low"], found.valid["high"]), "", 1, 2, PALE_BLUE)
-    for col in (1, 2):
-        dry: Any = {"line": {"color": GREY, "dash": "dot"}, "name": "dry Hertz"}
-        figure.add_scatter(x=u, y=u**1.5, **dry, row=1, col=col)
-        label_axes(figure, APPROACH, "spring force f/f0", 1, col, range=[-0.5, 6.0])
-    return figure.update_xaxes(range=[0.0, FARTHEST])
+        sides[1].append(Line(u, polynomial(found.parameters, u), f"case {case}, polynomial", colour))
+        sides[1].append(Line(u, np.asarray(found.element.spring(u)), f"case {case}, element", colour, "--"))
+        bands.append(Band(found.valid["low"], found.valid["high"], "", PALE_BLUE))
+    panels = [
+        Panel(
+            [*lines, Line(u, u**1.5, "dry Hertz", GREY, ":")],
+            APPROACH,
+            ("spring force", FORCE.moes),
+            title=title,
+            x_ends=(0.0, FARTHEST),
+            y_ends=(-0.5, 6.0),
+            bands=shaded,
+        )
+        for lines, title, shaded in zip(sides, ("paper", "ours; shaded: fitted"), ((), bands), strict=True)
+    ]
+    return Picture(panels, heights=(330.0,))
 
 
 def polynomial(coefficients: Any, u: Any) -> Any:
@@ -245,7 +246,6 @@ def polynomial(coefficients: Any, u: Any) -> Any:
     return u * (K1 + u * (K2 + u * K3))
 
 
-def _dots(figure: go.Figure, col: int, T: Any, values: Any, name: str) -> None:
+def _dots(T: Any, values: Any, name: str) -> Line:
     step = max(1, round(T.size / DOTS))
-    marker = {"symbol": "circle-open", "size": 5, "color": RED}
-    figure.add_scatter(x=T[::step], y=values[::step], mode="markers", marker=marker, name=name, row=1, col=col)
+    return Line(T[::step], values[::step], name, RED, "", "o ")

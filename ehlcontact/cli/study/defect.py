@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.cli.study.whole_bearing import ring_load, spall_in, whole_bearing
+from ehlcontact.results.picture import BLUE, ORANGE, Line, Mark, Panel, Picture
 from reduced_models import Spall
 from reduced_models.bearing.excitation import BearingExcitation
 from reduced_models.bearing.height_tables import track_radius
@@ -22,6 +23,11 @@ if TYPE_CHECKING:
 
 _Floats = NDArray[np.float64]
 
+# Names, colours and widths by filter: bare heights first, the film is drawn over them
+LOOKS = {"none": ("bare step under the ball", ORANGE, 0.8), "film": ("filtered by contact and film", BLUE, 1.2)}
+SHOWN_TURNS = 1.5  # of the shaft, in the picture
+MULTIPLES = 6  # of the order of the spall, in the spectrum
+DEEPEST = 3e-4  # of the largest line, the smallest that is shown
 FILTERS = ("film", "none")  # of the contacts, side by side
 TURNS = 16  # of the shaft, of a signal
 PER_TURN, FINER = 2**10, 2.5  # least samples in one turn; over the highest order of a line
@@ -46,6 +52,47 @@ class StudyDefect:
     envelope: dict[str, EnvelopeSpectrum]
     band: tuple[float, float]  # of the envelope [Hz]
     passage: tuple[float, float]  # turns between which a ball meets the spall, contact length beside it included
+
+    def picture(self) -> Picture:
+        """Force over the turns, one passage of it, the spectrum of its envelope, and lines of the force."""
+        hertz = self.order * self.speed_rpm * RPM_TO_HZ
+        change = ("change of the force", "N")
+        spans = (0.0, SHOWN_TURNS), self.passage
+        over_turns = [
+            Panel(
+                [
+                    Line(self.turns[shown], self.force[name][shown], text, colour, width=width)
+                    for name, (text, colour, width) in LOOKS.items()
+                ],
+                "turns of the shaft",
+                change,
+                title=title,
+            )
+            for (low, high), title in zip(spans, ("over turns of the shaft", "one passage"), strict=True)
+            if (shown := (low <= self.turns) & (self.turns <= high)).any()
+        ]
+        last = (MULTIPLES + 0.5) * hertz
+        envelope, lines = [], []
+        for name, (text, colour, width) in LOOKS.items():
+            own, whole = self.lines[name], self.envelope[name]
+            within, above = whole.hz <= last, own.order > 0.0
+            envelope.append(Line(whole.hz[within], whole.amplitude[within], text, colour, width=width))
+            lines.append(Line(1e-3 * own.hz[above], own.amplitude[above, 1], text, colour, "", "o"))
+        top = max(float(line.y.max(initial=0.0)) for line in lines)
+        multiples = [Mark(j * hertz, f"{j}x" if j > 1 else self.name) for j in range(1, MULTIPLES + 1)]
+        amplitude = ("amplitude of the envelope", "N")
+        below = [
+            Panel(envelope, ("frequency", "Hz"), amplitude, title="envelope", x_ends=(0.0, last), marks=multiples),
+            Panel(
+                lines,
+                ("frequency", "kHz"),
+                ("amplitude of a line", "N"),
+                title="lines of the force",
+                logs="Y" if top > 0.0 else "",
+                y_ends=(DEEPEST * top, 2.0 * top) if top > 0.0 else None,
+            ),
+        ]
+        return Picture([*over_turns, *below], heights=(280.0,))
 
     @property
     def name(self) -> str:

@@ -14,6 +14,7 @@ from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Scales
 from ehlcontact.results import ImpedanceResult
+from ehlcontact.results.picture import BLUE, GREEN, GREY, ORANGE, PURPLE, RED
 from ehlcontact.store import save
 from ehlcontact.transient.motion import HarmonicLoad
 from ehlcontact.transient.result import SimulationResult
@@ -37,6 +38,15 @@ CONTACTS = {
     UNDAMPED: "cubic without damper",
     DRY: "dry Hertz contact",
 }
+LOOKS = {  # colours and dashes in pictures
+    FULL: (BLUE, "-"),
+    ROTOR_BAND[0]: (RED, "--"),
+    MEMORY: (GREEN, "--"),
+    CONTACT_BAND[0]: (ORANGE, "-."),
+    UNDAMPED: (PURPLE, ":"),
+    DRY: (GREY, "-."),
+}
+DRAWN = (FULL, ROTOR_BAND[0], DRY)  # where all would be too many
 
 
 @dataclass(frozen=True)

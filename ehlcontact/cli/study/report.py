@@ -7,17 +7,32 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact.cli.page import write_page
-from ehlcontact.cli.plots import bearing, defect, film, motion, oil_and_heat, rotor
-from ehlcontact.cli.plots.impedance import impedance
-from ehlcontact.cli.plots.instants import instants
 from ehlcontact.cli.study.headline import findings, reservations, verdict
 from ehlcontact.cli.study.oil_and_heat import columns, skf_words
-from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, RECORDS, ROTOR_BAND, UNDAMPED
+from ehlcontact.cli.study.reduction import (
+    CONTACT_BAND,
+    CONTACTS,
+    DRAWN,
+    DRY,
+    FULL,
+    LOOKS,
+    MEMORY,
+    RECORDS,
+    ROTOR_BAND,
+    UNDAMPED,
+)
 from ehlcontact.cli.study.results import Findings
-from ehlcontact.cli.study.rotor_on_bearings import NAMES
+from ehlcontact.cli.study.rotor_on_bearings import NAMES, BearingAtAngles
 from ehlcontact.cli.study.shared_entries import supply_and_heat, supply_words
 from ehlcontact.cli.study.stages import STAGES
+from ehlcontact.film.over_time import film_wave
+from ehlcontact.film.pictures import coloured_fringes, instants
+from ehlcontact.results.contact_map import convergence, film_picture
+from ehlcontact.results.picture import Picture, Slides
 from reduced_models.bearing.oil_and_heat import OilAndHeat
+from reduced_models.bearing.picture import conditions_coefficients, conditions_films, over_frequency, state_picture
+from reduced_models.fitting.pictures import histories, impedance, loops
+from reduced_models.rotor import model_pictures as rotor
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
 from reduced_models.rotor.events import LOST
 from reduced_models.rotor.settling import MOST_REVOLUTIONS
@@ -100,38 +115,74 @@ def ways_of_coupling(fmus: Iterable[Mapping[str, Any]]) -> list[tuple[str, list[
     return rows
 
 
-def drawings(found: Findings) -> dict[str, Callable[[], Any]]:
-    """The figures by name, not drawn yet."""
-    reduction, rotors = found.reduction, found.rotors
+def drawings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
+    """The pictures by name, each described where the page needs it."""
+    return _of_bearings(found) | _of_contact(found) | _of_rotor(found)
+
+
+def _of_contact(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
+    reduction, steady, runs = found.reduction, found.steady, found.simulations
     cubic = {name: reduction.fits[name, "cubic"] for name in RECORDS if (name, "cubic") in reduction.fits}
     memory = None if isinstance(reduction.memory, str) else reduction.memory.element
-    turning = {FULL: rotors.unbalance.full, **rotors.unbalance.reduced}
-    how = rotors.unbalance.settling[FULL]
-    free, frequencies = found.simulations["free"], (found.study.rotor_omega, found.at_kicked_mode["Omega"])
-    found_whole = {} if found.whole is None else bearing.drawings(found.whole, NAMES)
-    if found.at_angles is not None:
-        found_whole = bearing.drawings_at_angles(found.at_angles)
-    if isinstance(found.oil_and_heat, OilAndHeat):
-        one = found.oil_and_heat
-        found_whole |= {
-            "conditions_films": lambda: oil_and_heat.films(one),
-            "conditions_coefficients": lambda: oil_and_heat.coefficients(one),
-        }
-    if found.defect is not None:
-        found_whole["defect_signal"] = lambda: defect.signal(found.defect)
-    return found_whole | {
-        "film_maps": lambda: film.film_maps(found.steady),
-        "midplane": lambda: film.midplanes(found.steady),
-        "interferogram": lambda: film.interferogram_picture(found.steady),
-        "convergence": lambda: film.convergence(found.steady),
-        "free": lambda: motion.histories(free, cubic.get("free")),
-        "film_wave": lambda: motion.wave(found.simulations["harmonic"]),
-        "instants": lambda: instants(found.simulations["harmonic"]),
-        "loops": lambda: motion.loops(found.simulations, cubic, RECORDS),
+    frequencies = found.study.rotor_omega, found.at_kicked_mode["Omega"]
+    return {
+        "film_maps": lambda: film_picture(steady)[0],
+        "midplane": lambda: film_picture(steady)[1],
+        "interferogram": lambda: coloured_fringes(steady),
+        "convergence": lambda: convergence(steady),
+        "free": lambda: histories(runs["free"], cubic.get("free")),
+        "film_wave": lambda: Picture(film_wave(runs["harmonic"]).panels(), columns=1, heights=(340.0,)),
+        "instants": lambda: instants(runs["harmonic"]),
+        "loops": lambda: loops(runs, cubic, RECORDS),
         "impedance": lambda: impedance(reduction.impedance, memory, list(cubic.values()), frequencies),
-        "orbit": lambda: rotor.orbit(turning, how, CONTACTS),
-        "response": lambda: rotor.response(turning, how, CONTACTS),
-        "spectrum": lambda: rotor.spectrum(turning, how, CONTACTS),
-        "decay": lambda: rotor.decay(rotors.decay.runs, rotors.decay.decrements, CONTACTS),
-        "bode": lambda: rotor.bode(rotors.resonances, CONTACTS),
     }
+
+
+def _of_rotor(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
+    rotors = found.rotors
+    turning, how = {FULL: rotors.unbalance.full, **rotors.unbalance.reduced}, rotors.unbalance.settling[FULL]
+    few = {name: turning[name] for name in DRAWN if name in turning}
+    decays = rotors.decay.runs, rotors.decay.decrements
+    return {
+        "orbit": lambda: rotor.settled_orbits(few, how, LOOKS, CONTACTS),
+        "response": lambda: rotor.time_response(turning, FULL, DRAWN[:2], how, LOOKS, CONTACTS),
+        "spectrum": lambda: rotor.settled_spectra(few, how, LOOKS, CONTACTS),
+        "decay": lambda: rotor.decay(*decays, DRAWN, LOOKS, CONTACTS),
+        "bode": lambda: rotor.bode(rotors.resonances, LOOKS, CONTACTS),
+    }
+
+
+def _of_bearings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
+    pictures: dict[str, Callable[[], Picture | Slides]] = {}
+    if (whole := found.whole) is not None:
+        pictures |= {
+            "whole_balls": lambda: state_picture(whole.state),
+            "whole_orbits": lambda: rotor.orbits(whole, NAMES),
+            "whole_spectra": lambda: rotor.spectra(whole, NAMES),
+            "whole_coefficients": lambda: rotor.coefficients(whole, NAMES),
+            "whole_response": lambda: rotor.response(whole, NAMES),
+        }
+        if whole.over_speed:
+            pictures["whole_speeds"] = lambda: rotor.speeds(whole)
+        if not isinstance(diagram := whole.diagram, str):
+            pictures["whole_campbell"] = diagram.picture
+    if found.at_angles is not None:
+        pictures |= pictures_at_angles(found.at_angles)
+    if isinstance(one := found.oil_and_heat, OilAndHeat):
+        pictures["conditions_films"] = lambda: conditions_films(one)
+        pictures["conditions_coefficients"] = lambda: conditions_coefficients(one)
+    if (defect := found.defect) is not None:
+        pictures["defect_signal"] = defect.picture
+    return pictures
+
+
+def pictures_at_angles(found: BearingAtAngles) -> dict[str, Callable[[], Picture | Slides]]:
+    """Those of a bearing at contact angles and of the rotor between two of them."""
+    shaft_hz = found.state.speed_rpm / 60.0
+    pictures: dict[str, Callable[[], Picture | Slides]] = {
+        f"angles_balls{k or ''}": state.picture for k, state in enumerate(found.bearings.values())
+    }
+    pictures["angles_coefficients"] = lambda: Picture(over_frequency(found.over_frequency, (), shaft_hz))
+    if not isinstance(found.diagram, str):
+        pictures["angles_campbell"] = found.diagram.picture
+    return pictures

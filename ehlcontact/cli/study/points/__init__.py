@@ -8,6 +8,7 @@ module         responsibility
 ``kept``       what is computed, in one store by content
 ``folder``     of a run: its lock, and ``run.log``
 ``numbers``    numbers of a point: units, meanings, columns and panels
+``picture``    films, stiffness, damping and decay over the points
 ``summary``    ``summary.json`` and ``summary.csv``: numbers of all points, with units and files; a page over them
 ============== ======================================================================================
 """

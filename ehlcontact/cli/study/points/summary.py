@@ -17,13 +17,13 @@ from typing import Any
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import plain
 from ehlcontact.cli.page import write_page
-from ehlcontact.cli.plots.points import draw_points
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.points.finalise import REPORT, faults, products, read_results
 from ehlcontact.cli.study.points.folder import LOG, versions
 from ehlcontact.cli.study.points.kept import FINALISE, Entry
 from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
 from ehlcontact.cli.study.points.numbers import MEANINGS, NUMBERS, UNITS, Number, numbers_of
+from ehlcontact.cli.study.points.picture import draw_points
 from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text

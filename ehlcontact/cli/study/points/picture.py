@@ -9,7 +9,8 @@ import numpy as np
 
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.points.numbers import NUMBERS
-from ehlcontact.results.picture import Panel, draw
+from ehlcontact.results.drawing import draw
+from ehlcontact.results.picture import Line, Panel, Picture
 
 Numbers = Mapping[str, float | None]
 AXES = {"speed_rpm": ("speed [rev/min]", "rpm"), "radial_load": ("radial load [N]", "N")}
@@ -34,9 +35,10 @@ def draw_points(points: Sequence[Numbers], path: Path) -> None:
         if not one.label or all(point[name] is None for point in points):
             continue
         lines = []
-        for other in others.tolist():
+        for k, other in enumerate(others.tolist()):
             found = [(at.get((place, other)) or {}).get(name) for place in x.tolist()]
             values = np.array([np.nan if value is None else one.factor * value for value in found])
-            lines.append((f"{numeral(other)} {AXES[apart][1]}" if len(others) > 1 else "", values, None))
-        panels.append(Panel((x, AXES[along][0]), lines, one.label, marks="osD^v*", bottom=0.0))
-    draw("", panels, path)
+            name_of = f"{numeral(other)} {AXES[apart][1]}" if len(others) > 1 else ""
+            lines.append(Line(x, values, name_of, mark="osD^v*"[k % 6]))
+        panels.append(Panel(lines, AXES[along][0], one.label, bottom=0.0))
+    draw(Picture(panels), path)
