@@ -183,8 +183,8 @@ def test_pictures(tmp_path, film, dry, ending):
     longest = max(bar.get_height() for bar in zone.patches)
     assert longest == wet.force.max()
     assert len(films.lines) == 2
-    assert "1000" not in films.get_title() and "989.9 N, 3000 rev/min" in figure.get_suptitle()
-    assert "below 0 a gap" in dry.equilibrium(DOWN).plot().axes[1].get_title()
+    assert films.get_ylabel() == "smallest film [µm]" and "989.9 N, 3000 rev/min" in figure.get_suptitle()
+    assert "below 0 a gap" in dry.equilibrium(DOWN).plot().axes[1].get_ylabel()
     refused("path", lambda: wet.plot(tmp_path / "nowhere" / "state.png"))
 
 

@@ -363,7 +363,7 @@ def test_free_angle_and_files(tmp_path):
     assert list(names["axis"].values) == ["x", "y", "z", "tilt_x", "tilt_y"]
     assert names.attrs["units"] == "N/m, N, N m"
     figure = state.plot(tmp_path / "state.png")
-    assert len(figure.axes) == 3
+    assert [axes.get_ylabel() for axes in figure.axes][2:] == ["contact angle [degrees]", "spin over rolling"]
     assert "300 N axially" in figure.get_suptitle()
 
 

@@ -11,6 +11,7 @@ from ehlcontact import read, save
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import SpeedProfile, campbell, linearise, simulate_rotor, unbalance_response
 from reduced_models.rotor.campbell import Campbell
+from reduced_models.rotor.picture import run_picture
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
 SPEEDS = np.linspace(2000.0, 10000.0, 5)
@@ -186,17 +187,10 @@ def test_a_line_that_follows_the_speed_is_sharp_in_a_waterfall(film, block):
     run = simulate_rotor(block(film), speed_rpm=course, dt=1e-4, until=1.0)
     swing = np.zeros_like(run.ring)
     swing[:, 0, 1] = 1e-6 * np.sin(course.at(run.t)[1])
-    mesh = (
-        type(run)(**(vars(run) | {"approach": swing.reshape(swing.shape[0], -1)}))
-        .plot(kind="waterfall")
-        .axes[0]
-        .collections[0]
-    )
-    rows, (speeds, hz) = (
-        10.0 ** mesh.get_array(),
-        (mesh.get_coordinates()[0, :, 0], mesh.get_coordinates()[:, 0, 1]),
-    )
-    middle, frequency = 0.5 * (hz[1:] + hz[:-1]), 0.5 * (speeds[1:] + speeds[:-1])
+    (shown,) = run_picture(run, "waterfall", (None, 1000.0), [("y", swing[:, 0])]).panels
+    (frequency, _), (middle, label), (level, _) = shown.x, shown.y, shown.values
+    rows = 10.0**level.T
+    assert label == ("speed", "rev/min")
     line = frequency[1] - frequency[0]
     assert line < 10.0
     np.testing.assert_allclose(frequency[rows.argmax(axis=1)], middle / 60.0, atol=line)
