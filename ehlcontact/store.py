@@ -31,6 +31,7 @@ from typing import Any, TypeVar, Union, cast, get_args, get_origin, get_type_hin
 
 import h5py
 import numpy as np
+from numpy.typing import NDArray
 
 from ehlcontact.checks.kinds import FILE, shown
 from ehlcontact.errors import InputError
@@ -43,6 +44,7 @@ SIGNATURE = b"\x89HDF\r\n\x1a\n"  # first bytes of an HDF5 file
 LAYOUT = ("v110", "v110")
 NUMBERS = "bfiu"  # kinds of dtype that are stored
 PLAIN: dict[Any, Any] = {float: (float, int), int: int, str: str}  # what JSON may hold for an annotation
+ARRAYS = np.ndarray, get_origin(NDArray[Any])  # origins of hints of arrays: from numpy 2.5 on an alias
 PACKAGES = ("ehlcontact", "reduced_models")  # their public classes are registered when they are imported
 
 T = TypeVar("T")
@@ -297,7 +299,7 @@ def _build(hint: Any, tree: Any) -> Any:
     if kind is Any:
         return tree
     if isinstance(tree, np.ndarray):
-        if get_origin(kind) is not np.ndarray:
+        if get_origin(kind) not in ARRAYS:
             raise TypeError(f"an array in place of {hint}")
         return tree
     if hasattr(kind, "from_dict"):
@@ -313,7 +315,7 @@ def _build(hint: Any, tree: Any) -> Any:
         return get_origin(kind)(_build(one, member) for one, member in zip(inner, members, strict=True))
     if isinstance(kind, type) and issubclass(kind, Enum):
         return kind(tree)
-    if get_origin(kind) is np.ndarray or (kind in PLAIN and not isinstance(tree, PLAIN[kind])):
+    if get_origin(kind) in ARRAYS or (kind in PLAIN and not isinstance(tree, PLAIN[kind])):
         raise TypeError(f"{tree!r} is no {kind}")
     return tree
 
@@ -324,8 +326,8 @@ def _kind(hint: Any, tree: Any) -> Any:
         return hint
     kinds = [kind for kind in get_args(hint) if kind is not NoneType]
     if isinstance(tree, np.ndarray):
-        return next((kind for kind in kinds if get_origin(kind) is np.ndarray or kind is Any), None)
-    kinds = [kind for kind in kinds if get_origin(kind) is not np.ndarray]
+        return next((kind for kind in kinds if get_origin(kind) in ARRAYS or kind is Any), None)
+    kinds = [kind for kind in kinds if get_origin(kind) not in ARRAYS]
     same = (kind for kind in kinds if is_dataclass(kind) and _names(kind) == set(tree))
     return next(same, kinds[0]) if isinstance(tree, Mapping) else kinds[0]
 
