@@ -309,6 +309,11 @@ class BallBearing(Summary):
         """Speed [rev/min] up to which the atlas and its tables have films for it; infinite where it is dry."""
         return inf if self.oil is None else self.tables.end[0]
 
+    @property
+    def dry(self) -> BallBearing:
+        """The bearing without oil, as it is while the shaft stands still: without rolling there is no film."""
+        return self if self.oil is None else self.tables.dry
+
     def race(self, name: str) -> Race:
         """The contact with the "inner" or the "outer" race."""
         if name not in RACES:
@@ -473,9 +478,10 @@ class BallBearing(Summary):
         ----------
         node : int
         speeds_rpm : float or sequence of float
-            Speeds of the shaft [rev/min], increasing. ROSS goes on beyond their ends, so they should cover the
-            whole range; from four on the splines of ROSS 2 meet damping within 1 N s/m rms only, those of ROSS 3
-            go through all points.
+            Speeds of the shaft [rev/min], increasing. Beyond their ends the element holds the values of the ends
+            and warns once; read from a file of ROSS it extrapolates instead. At 0 it is that of the dry bearing.
+            From four speeds on the splines of ROSS 2 meet damping within 1 N s/m rms only, those of ROSS 3 go
+            through all points.
         load : float or tuple of 2, 3 or 5 float
             Force on the inner ring [N], [N m], as in `coefficients`; a number is a weight, in -y. With an axial
             force the element has kzz and czz too. Stiffness against tilts, and the coupling of x and y with z and

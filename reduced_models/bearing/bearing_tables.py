@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING
@@ -61,6 +62,11 @@ class BearingTables:
     def heights(self) -> _Floats:
         """Heights of all features, as the kernels need them (`contact_heights`)."""
         return heights_of(self._bearing)
+
+    @cached_property
+    def dry(self) -> BallBearing:
+        """The bearing without oil."""
+        return replace(self._bearing, oil=None, supply=None, thermal=None)
 
     def element(self, race: str, speed: float) -> FilmContact:
         """Element of a ball's contact with one race [SI], at a speed that the bearing takes [rev/min]."""

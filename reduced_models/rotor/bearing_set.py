@@ -47,6 +47,7 @@ from reduced_models.bearing.freedoms import FACINGS, FIVE, bearing_load, facing_
 from reduced_models.bearing.race import assumptions_under
 from reduced_models.bearing.ring import RingEquilibrium, groove_distance, require_seated
 from reduced_models.bearing.ring_statics import cage_angles, require_in_grooves, state_of
+from reduced_models.bearing.ross_bearing import bearing_element
 from reduced_models.bearing.set_result import SetState
 from reduced_models.bearing.solved_balls import require_frequencies
 from reduced_models.rotor.equilibrium import StaticBearing, StaticRotor
@@ -254,11 +255,7 @@ class BearingSet(Summary):
 
     def _pressed_by(self, preload: float, facing: str) -> float:
         """Displacement [m] along their facing by which an axial force presses all bearings of one facing."""
-        dry = [
-            replace(bearing, oil=None, supply=None, thermal=None)
-            for bearing, own in zip(self.bearings, self.facings, strict=True)
-            if own == facing
-        ]
+        dry = [bearing.dry for bearing, own in zip(self.bearings, self.facings, strict=True) if own == facing]
         mounts = [BearingMount(bearing=one, x=X, y=Y, z=Z, tilt_x=TILT_X, tilt_y=TILT_Y) for one in dry]
         load = np.eye(len(FIVE))[Z] * preload
         static = StaticRotor(mounts, load, np.zeros((len(FIVE), len(FIVE))), 0.0, {TILT_X: 0.0, TILT_Y: 0.0})
@@ -297,6 +294,11 @@ class BearingSet(Summary):
             allowed = f"{'below' if growth > 0.0 else 'above'} {most:.4g} m, where the set has lost its preload"
             raise InputError("growth", growth, allowed)
         return longer
+
+    @property
+    def dry(self) -> Self:
+        """The set without oil: what it is while the shaft stands still."""
+        return replace(self, bearings=[bearing.dry for bearing in self.bearings])
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad", tilt="rad")
     def equilibrium(
@@ -420,6 +422,27 @@ class BearingSet(Summary):
             damping_left_out=tuple(words for _, words in parts),
             signed_damping=signed,
         )
+
+    @takes(load="N", speeds_rpm="rev/min")
+    @by_name(2)
+    def to_ross(
+        self,
+        node: int,
+        *,
+        speeds_rpm: ArrayLike,
+        load: ArrayLike,
+        omega: ArrayLike | None = None,
+        hz: ArrayLike | None = None,
+        rpm: ArrayLike | None = None,
+        **options: Any,
+    ) -> Any:
+        """Stiffness and damping of the shaft at 0 as a plain ``ross.BearingElement``, as `BallBearing.to_ross`.
+
+        Stiffness against tilts, large for bearings that are apart, has no place in ROSS and is left out:
+        `reduced_models.rotor.from_ross` has all of it.
+        """
+        frequency = {"omega": omega, "hz": hz, "rpm": rpm}
+        return bearing_element(self, node, speeds_rpm, load, frequency, **options)
 
     @takes(speed_rpm="rev/min")
     def lift_off(self, direction: str, *, speed_rpm: float = 0.0) -> float:

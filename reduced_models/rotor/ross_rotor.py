@@ -23,7 +23,15 @@ from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.freedoms import FACINGS, FIVE, PLANAR
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BearingMotion
-from reduced_models.bearing.ross_bearing import ELEMENT, WHIRL, has_whirl_axis, import_ross, name_of, ross_entries
+from reduced_models.bearing.ross_bearing import (
+    ELEMENT,
+    WHIRL,
+    has_whirl_axis,
+    hold_ends,
+    import_ross,
+    name_of,
+    ross_entries,
+)
 from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.linearise import linearise
 from reduced_models.rotor.nodes import DIRECTIONS, LENGTHS, PLANE
@@ -238,7 +246,11 @@ class RossCallback:
             node: ross.BearingElement(n=node, n_link=linked, **ross_entries(*whole[node]), **axis)
             for node, linked in nodes.items()
         }
+        for node, element in elements.items():
+            hold_ends(element, axis, "speed", f"bearing at node {node}")
         self.rotor = _rebuilt(ross, rotor, elements)
+        if self.rotor.rated_w is None:
+            self.rotor.rated_w = self.speed  # that of `run_level1`
         for node, linked in nodes.items():
             _add_couplings(self.rotor, node, linked, *(part[here] for part in whole[node]))
         five = len(ours.ball_bearings[0].directions) == len(FIVE)

@@ -1,8 +1,10 @@
 """Our bearings in ROSS, its rotors on our bearings: in ROSS where it is installed, and in stand-ins of 2 and 3."""
 
+import copy
 import subprocess
 import sys
 import warnings
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import fake_ross
@@ -12,6 +14,7 @@ import pytest
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet, from_ross, linearise, simulate_rotor
 from reduced_models.bearing.ross_bearing import WHIRL, has_whirl_axis
+from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.ross_rotor import RossCallback
 
 RPM, NODES, DISC = 3000.0, (1, 5), 3
@@ -93,6 +96,55 @@ def test_a_table_is_over_the_speed_of_the_shaft_in_radians_per_second(program, f
     assert element.C(axis[0])[1, 1] > 1.5 * element.C(axis[-1])[1, 1]
     fast = film.to_ross(5, speeds_rpm=RPM, load=500.0, hz=5000.0)
     assert fast.C(0.0)[1, 1] < 0.8 * found[2].damping[0, 1, 1]
+
+
+def test_beyond_its_ends_a_table_holds_their_values(program, film):
+    """ROSS alone extrapolates: to C = -983 N s/m at 10 000 rev/min, in version 2.3."""
+    ends = np.array([1000.0, 4000.0]) * np.pi / 30.0
+    element = film.to_ross(0, speeds_rpm=np.linspace(1000.0, 4000.0, 7), load=500.0)
+    told = pytest.warns(OutsideValidityWarning, match="1000 to 4000 rev/min")
+    with told if program.installed else nullcontext():
+        low = element.C(0.5 * ends[0])
+    for w in (1.5 * ends[1], 5.0 * ends[1]):
+        at_end = (w, ends[1]) if program.whirl else (ends[1],)
+        np.testing.assert_allclose(element.C(w), element.C(*at_end), rtol=1e-12)
+        assert element.C(w)[1, 1] > 100.0
+    at_end = (0.5 * ends[0], ends[0]) if program.whirl else (ends[0],)
+    np.testing.assert_allclose(low, element.C(*at_end), rtol=1e-12)
+    np.testing.assert_allclose(copy.deepcopy(element).C(1e3), element.C(1e3), rtol=0.0)
+    if program.installed:
+        rotor = program.rotor(*(film.to_ross(n, speeds_rpm=np.linspace(1e3, 4e3, 7), load=500.0) for n in NODES))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", OutsideValidityWarning)
+            assert min(rotor.run_modal(12e3 * np.pi / 30.0).log_dec) > 0.0
+
+
+def test_a_table_from_rest_on_begins_with_the_dry_bearing(program, film):
+    element = film.to_ross(0, speeds_rpm=[0.0, 1000.0, 2000.0, 4000.0], load=500.0)
+    dry = film.dry.coefficients((0.0, -500.0), hz=0.0)
+    at_rest = (0.0, 0.0) if program.whirl else (0.0,)
+    np.testing.assert_allclose(element.K(*at_rest)[:2, :2], dry.stiffness[0], rtol=1e-7, atol=1.0)
+    assert abs(element.C(*at_rest)).max() < 1e-6
+
+
+def test_a_set_as_an_element(program, oil):
+    pair = BearingSet.pair(BallBearing.catalogue("7205", oil=oil), "back to back", preload=300.0)
+    load = (0.0, -200.0, 100.0)
+    element = pair.to_ross(1, speeds_rpm=RPM, load=load, hz=120.0)
+    ours = pair.coefficients(load, speed_rpm=RPM, hz=120.0)
+    np.testing.assert_allclose(element.K(0.0)[[0, 1, 2], [0, 1, 2]], np.diag(ours.stiffness[0])[:3], rtol=1e-12)
+    np.testing.assert_allclose(element.C(0.0)[[0, 1, 2], [0, 1, 2]], np.diag(ours.damping[0])[:3], rtol=1e-12)
+
+
+def test_level_1_stability_is_analysed(program, film):
+    if not program.installed:
+        pytest.skip("stand-ins have no run_level1")
+    forces = RossCallback(program.rotor(), dict.fromkeys(NODES, film), speed_rpm=RPM)
+    tabled = program.rotor(*(film.to_ross(n, speeds_rpm=[2000.0, 3000.0, 4000.0], load=500.0) for n in NODES))
+    tabled.rated_w = SPEED
+    for rotor in (forces.rotor, tabled):
+        decrements = rotor.run_level1(n=DISC, stiffness_range=(1e4, 1e7), num=3).log_dec
+        assert decrements[0] > 0.0 > decrements[-1] and np.all(np.diff(decrements) < 0.0)
 
 
 def test_in_ross_3_the_second_axis_is_the_frequency_of_the_whirl(program, film):
