@@ -51,9 +51,9 @@ def main() -> None:
     found = json.loads((RESULTS / "results.json").read_text(encoding="utf-8"))
     film, rotor = found["memory"]["impedance"], found["operating_point"]["rotor_omega"]
     memory = read(RESULTS / "elements" / "memory.json", FilmContact)
-    omega = np.geomspace(0.5 * rotor, film["Omega"][-1], 300)
-    panel.loglog(film["Omega"][1:], film["damping"][1:], "o", markersize=4, label="full film")
-    panel.plot(omega, memory.impedance(Omega=omega).imag / omega, label="film memory, one element")
+    omega = np.geomspace(0.5 * rotor, film["omega"][-1], 300)
+    panel.loglog(film["omega"][1:], film["damping"][1:], "o", markersize=4, label="full film")
+    panel.plot(omega, memory.impedance(Omega=omega).damping, label="film memory, one element")
     cubics = [row for row in found["fits"] if row["model"] == "cubic" and "refused" not in row]
     at = [np.mean(row["valid"]["omega"]) for row in cubics]
     panel.plot(

@@ -21,7 +21,7 @@ from ehlcontact import Grid, simulate
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.rotor import film_response, linear_rotors
 from ehlcontact.cli.study.schema import Study, load_study
-from ehlcontact.results import ImpedanceResult
+from ehlcontact.results import Response
 from reduced_models import Atlas, ContactRecord, fit
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.baselines import dry_contact, local_contact
@@ -60,7 +60,7 @@ def elements(study: Study) -> dict[str, ContactElement]:
     }
 
 
-def respond(study: Study) -> tuple[Resonances, ImpedanceResult, dict[str, ContactElement]]:
+def respond(study: Study) -> tuple[Resonances, Response, dict[str, ContactElement]]:
     """Response of the rotor on every contact, the film's impedance, and the elements."""
     film, contacts = film_response(study), elements(study)
     rotors = linear_rotors(study, film, contacts)
@@ -85,7 +85,7 @@ def main() -> None:
     left.set_title("The same rotor on five contact models, and its peak", loc="left", fontsize=10)
     left.legend(frameon=False, fontsize=9, loc="upper left", handlelength=1.8)
 
-    si, hz = film.si, np.geomspace(20.0, 1e5, 300)
+    si, hz = film, np.geomspace(20.0, 1e5, 300)
     for name in (GUESSED, CUBIC, MEMORY):
         colour, line, width = LOOKS[name]
         damping = impedance_about(contacts[name], study.ball_load)(2.0 * pi * hz).imag / (2.0 * pi * hz)

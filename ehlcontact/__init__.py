@@ -17,10 +17,8 @@ module            responsibility
 ``traction``      `traction_curve`: traction over the slide-to-roll ratio
 ``side_flow``     `oil_passes`: films pass after pass of a track; closed form of thin layers
 ``shear_thinning`` `ShearThinning`: shear thinning of a film by sliding
+``response``      `response`: force over frequency by changes of approach or speed, or by waves; two plain names
 ``linearised_film``  steady films to linearise, on the finest and on coarser meshes
-``impedance``     `impedance`: K and C over frequency from the linearised steady state
-``speed_response`` `speed_response`: force over a change of speed, likewise
-``excitation``    `excitation`: force of waves on a surface, likewise
 ``transient/``    film through time: motions, surfaces, `simulate`, `TransientContact`
 ``assumptions/``  assumptions of every solve, each with the number that shows whether it holds
 ``quantities``    units, scales and dimensions of quantities, declared once in the annotations of results
@@ -53,11 +51,10 @@ from ehlcontact import process as process  # first: from here on Ctrl-C ends the
 from ehlcontact.asperities import Asperities
 from ehlcontact.assumptions import assumptions
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.excitation import excitation
 from ehlcontact.heat import Heat
-from ehlcontact.impedance import impedance
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import Geometry, MoesPoint, OperatingPoint
+from ehlcontact.response import Waves, excitation, impedance, response
 from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
@@ -100,12 +97,14 @@ __all__ = [
     "TimeSteps",
     "TransientContact",
     "TransverseRidge",
+    "Waves",
     "Waviness",
     "__version__",
     "assumptions",
     "excitation",
     "impedance",
     "read",
+    "response",
     "save",
     "simulate",
     "solve_steady",

@@ -42,7 +42,7 @@ HEADER = "header"  # its key in JSON, its attribute in HDF5
 SIGNATURE = b"\x89HDF\r\n\x1a\n"  # first bytes of an HDF5 file
 # Layout of HDF5 itself: the first with checksums on all its structure; read by HDF5 1.10 (2016) and newer.
 LAYOUT = ("v110", "v110")
-NUMBERS = "bfiu"  # kinds of dtype that are stored
+NUMBERS = "bfiuc"  # kinds of dtype that are stored
 PLAIN: dict[Any, Any] = {float: (float, int), int: int, str: str}  # what JSON may hold for an annotation
 ARRAYS = np.ndarray, get_origin(NDArray[Any])  # origins of hints of arrays: from numpy 2.5 on an alias
 PACKAGES = ("ehlcontact", "reduced_models")  # their public classes are registered when they are imported

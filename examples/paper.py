@@ -12,7 +12,7 @@ import sys
 import numpy as np
 
 from ehlcontact import FreeVibration, Grid, MoesPoint, impedance, simulate
-from ehlcontact.results import ImpedanceResult
+from ehlcontact.results import Response
 from ehlcontact.transient.result import SimulationResult
 from reduced_models import ContactRecord, fit
 from reduced_models.fitting.result import FitResult
@@ -28,7 +28,7 @@ def vibration(n: int = 128) -> tuple[SimulationResult, FitResult]:
     return run, fit(ContactRecord.from_result(run), model="cubic")
 
 
-def film(n: int = 128) -> ImpedanceResult:
+def film(n: int = 128) -> Response:
     """The same film, linearised: damping at every frequency."""
     return impedance(POINT, Omega=np.geomspace(0.02, 30.0, 40), grid=Grid(n=n))
 
@@ -56,7 +56,7 @@ def main(picture: str = "paper.png", n: int = 128) -> None:
     loop.plot(run.approach, run.force, color="black", label="film")
     loop.plot(run.approach, found.element.force(run.approach, run.rate), "--", label="cubic")
     loop.set(xlabel="approach", ylabel="force")
-    damp.loglog(whole.Omega, whole.damping, color="black", label="film")
+    damp.loglog(whole.omega, whole.damping, color="black", label="film")
     damp.axhline(ours["C1"], linestyle="--", label="cubic")
     damp.set(xlabel="Omega", ylabel="damping")
     damp.legend(frameon=False)

@@ -27,6 +27,7 @@ from ehlcontact import (
     TransientContact,
     excitation,
     impedance,
+    response,
     simulate,
     solve_steady,
 )
@@ -36,10 +37,9 @@ from ehlcontact.film.over_time import FilmHistory, FilmWave, WaveTrack, film_wav
 from ehlcontact.film.plane import Film, Interferogram
 from ehlcontact.lubricant import Carreau, Eyring, LimitingShear
 from ehlcontact.point import Scales
-from ehlcontact.results import ExcitationResult, ImpedanceResult, SpeedResponseResult, SteadyResult, Traction
+from ehlcontact.results import Response, SteadyResult, Traction
 from ehlcontact.results.picture import LoadZone, Map, in_unit
 from ehlcontact.results.table import QuantityTable, SIView
-from ehlcontact.speed_response import speed_response
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, span
 from ehlcontact.transient.result import Instants, SimulationResult
@@ -106,21 +106,21 @@ from reduced_models.signals.spectra import EnvelopeSpectrum, OrderSpectrum
 # Classes that are only returned, or of a special field: they stay in their modules, and are like the others.
 RETURNED = (
     *(Assumption, Assumptions, Film, FilmHistory, FilmWave, Instants, Interferogram, Scales, WaveTrack),
-    *(ExcitationResult, SpeedResponseResult, Traction, Status, AtlasAnswer, FilterAnswer, BearingExcitation),
+    *(Response, Traction, Status, AtlasAnswer, FilterAnswer, BearingExcitation),
     *(BearingFriction, SetState, OilAndHeat, OilHistory, ElementFit, MemoryFit, Sensitivity, Campbell),
     *(LinearRotor, UnbalanceResponse, ContactHistory, EnvelopeSpectrum, OrderSpectrum),
-    *(SteadyResult, ImpedanceResult, SimulationResult, BearingState, FitResult, RotorResult, VibrationRecord),
+    *(SteadyResult, SimulationResult, BearingState, FitResult, RotorResult, VibrationRecord),
     *(Carreau, Eyring, LimitingShear, ContactElement, FullFilm, RossCallback),
     *(BearingModel, RotorModel, Verification, ReferenceCheck),
 )
 # What a user gives, or a few numbers: shown as they are.
-SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness", "SpeedHistory"
+SHOWN = "PrescribedApproach", "PrescribedLoad", "Roughness", "SpeedHistory", "Waves"
 INPUT, NUMBERS, KIND = "an input", "a few numbers, which its summary has", "no result: it is used by its kind"
 # Public classes without `plot`, and why.
 WITHOUT_PLOT = {
     **dict.fromkeys(("Dent", "TransverseRidge", "Waviness", "Roughness", "Domain", "Grid", "OilLayer"), INPUT),
     **dict.fromkeys(("RaceWaviness", "BallWaviness", "BallDiameter", "Spall", "Indentation", "FullFilm"), INPUT),
-    **dict.fromkeys(("SpeedHistory", "Heat", "Asperities"), INPUT),
+    **dict.fromkeys(("SpeedHistory", "Heat", "Asperities", "Waves"), INPUT),
     **dict.fromkeys(("Eyring", "Carreau", "LimitingShear", "ShearThinning"), INPUT),
     **dict.fromkeys(("TimeSteps", "KeepSettings", "RunSettings"), INPUT),
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
@@ -175,13 +175,14 @@ def results(point):
         mounts=(BearingMount(bearing=bearing, x=0, y=1),),
         unbalances=(Unbalance(x=0, y=1, amount=1e-6),),
     )
-    speeds, response = [2000.0, 4000.0], impedance(point, hz=[50.0, 100.0], grid=Grid(n=32))
+    speeds, found = [2000.0, 4000.0], impedance(point, hz=[50.0, 100.0], grid=Grid(n=32))
     return [
         film, film.si, film_of(film), solve_steady(moes, grid=Grid(n=16), throw=False),
         run, run.si, run.at([0.2, 0.3]),
-        record, response, response.si, impedance(moes, Omega=1.0, grid=Grid(n=16)),
+        record, found, found.dimensionless, impedance(moes, Omega=1.0, grid=Grid(n=16)),
         excitation(point, hz=[5e3, 1e4], grid=Grid(n=32)), excitation(moes, wavelength=8.0, grid=Grid(n=16)),
-        speed_response(point, hz=[0.0, 1e4], grid=Grid(n=32)), speed_response(moes, Omega=3.0, grid=Grid(n=16)),
+        response(point, to="speed", hz=[0.0, 1e4], grid=Grid(n=32)),
+        response(moes, to="speed", Omega=3.0, grid=Grid(n=16)),
         atlas.at(point), atlas.at(point).si, atlas.at(moes), atlas.at(point).impedance(hz=50.0),
         contact_filter(MoesPoint(200, 10, 0.5), wavelength=[4.0, 8.0, 16.0]),
         atlas.over([20.0, 30.0], 5.0, 0.5), element, atlas.element(point), atlas.element(point, "cubic", rpm=3000),
@@ -378,13 +379,13 @@ def test_tables_of_pandas(results):
     for thing in results:
         if hasattr(thing, "to_pandas"):
             assert isinstance(thing.to_pandas(), pandas.DataFrame) and len(thing.to_pandas()), thing
-    film, run, response = results[0], results[4], results[8]
+    film, run, found = results[0], results[4], results[8]
     grid = film.si.to_pandas()
     assert list(grid.columns) == ["p [Pa]", "h [m]"] and grid.index.names == ["x [m]", "y [m]"]
     assert np.array_equal(grid["h [m]"].to_numpy().reshape(film.H.shape), film.si.h)
     history = run.si.to_pandas()
     assert np.array_equal(history["force [N]"], run.si.force) and history.index.name == "t [s]"
-    assert np.array_equal(response.si.to_pandas()["damping [N s/m]"], response.si.damping)
+    assert np.array_equal(found.to_pandas()["damping [N s/m]"], found.damping)
     kind = {type(thing): thing for thing in results}
     balls = kind[BearingState].to_pandas()
     assert np.array_equal(balls["force_outer [N]"], kind[BearingState].force[:, 1])

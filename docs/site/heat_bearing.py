@@ -40,7 +40,9 @@ def carrying(bearing, load, rpm):
     elements = [race.element(rpm) for race in races]
     for forces, angle in zip(state.force.tolist(), state.angles.tolist(), strict=True):
         if all(force > race.loads(rpm)[0] for force, race in zip(forces, races, strict=True)):
-            own = [one.impedance(load=force, hz=hz).item() for one, force in zip(elements, forces, strict=True)]
+            own = [
+                one.impedance(load=force, hz=hz).value.item() for one, force in zip(elements, forces, strict=True)
+            ]
             found = [
                 answered(race.point(force, rpm), hz, bearing.thermal)
                 for race, force in zip(races, forces, strict=True)
@@ -52,8 +54,7 @@ def carrying(bearing, load, rpm):
 def answered(point, hz, thermal):
     """Impedance of an answer of the atlas, N/m."""
     found = Atlas().at(point, thermal=thermal).impedance(hz=hz)
-    K, C = found.stiffness * point.scales.stiffness, found.damping * point.scales.damping
-    return np.squeeze(K + 2j * np.pi * np.asarray(hz) * C)[()]
+    return np.squeeze(found.value)[()]
 
 
 def compare():
@@ -70,7 +71,11 @@ def compare():
     for word, these in (("Q > 1", strong[:30]), ("Q < 1", weak[:20])):
         for thermal in (None, Heat()):
             elements = [Atlas().element(point, "memory", thermal=thermal).impedance(hz=hz) for point in these]
-            off = np.imag(elements) / np.imag([answered(point, hz, thermal) for point in these]) - 1.0
+            off = (
+                np.imag([one.value for one in elements])
+                / np.imag([answered(point, hz, thermal) for point in these])
+                - 1.0
+            )
             rms, most = np.sqrt(np.mean(off**2, axis=0)), np.abs(off).max(axis=0)
             print(
                 f"{word}, heat {thermal is not None}: rms {(100 * rms).round(1)}, largest {(100 * most).round(1)}"

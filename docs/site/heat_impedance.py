@@ -34,12 +34,10 @@ def times():
 def responses(omega):
     """K and C [N/m, N s/m] at these Omega: isothermal, with heat at a fixed viscosity, and one that follows."""
     cold, warm = (impedance(POINT, Omega=omega, grid=GRID, thermal=heat) for heat in (None, HEAT))
-    film = solve_steady(POINT, grid=Grid(warm.n, warm.domain), thermal=HEAT)
+    film = solve_steady(POINT, grid=Grid(warm.film.n, warm.film.domain), thermal=HEAT)
     Z = LinearisedContact(held(film)).respond(np.maximum(omega, 1e-4), 1e-5)[0]
-    si = warm.si
-    units = si.stiffness[0] / warm.stiffness[0], si.damping[0] / warm.damping[0]
-    still = Z.real * units[0], Z.imag / np.maximum(omega, 1e-4) * units[1]
-    return (cold.si.stiffness, cold.si.damping), still, (si.stiffness, si.damping)
+    still = Z.real * POINT.scales.stiffness, Z.imag / np.maximum(omega, 1e-4) * POINT.scales.damping
+    return (cold.stiffness, cold.damping), still, (warm.stiffness, warm.damping)
 
 
 def draw(found):

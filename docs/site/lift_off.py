@@ -63,7 +63,7 @@ def element_of_region(point, domain):
             continue
         solved.append(load)
         approach.append(film.approach * load ** (2.0 / 3.0))
-        gains.append(fit_gains(rates, Z.Omega, Z.stiffness, Z.damping, float(Z.stiffness[0])).gains.tolist())
+        gains.append(fit_gains(rates, Z.omega, Z.stiffness, Z.damping, float(Z.stiffness[0])).gains.tolist())
     saturation = inlet_saturation_of(solved, approach, solved, gains)
     return FilmContact.wide(solved, approach, solved, gains, inlet_saturation=saturation, **rates.coefficients)
 

@@ -28,20 +28,20 @@ def row(bearing, load, rpm):
         return impedance(point, hz=hz, grid=GRID, supply=layer, thermal=thermal)
 
     def ratio(one, other):
-        return one.stiffness / other.stiffness, one.si.damping / other.si.damping
+        return one.stiffness / other.stiffness, one.damping / other.damping
 
     cold, warm = solved(), solved(thermal=Heat())
-    share = warm.temperature.film_share
+    share = warm.film.temperature.film_share
     print(f"{bearing} {rpm:g} rev/min, heat leaves {share:.3f} of the film")
-    print("  C flooded", cold.si.damping, "with heat", warm.si.damping)
+    print("  C flooded", cold.damping, "with heat", warm.damping)
     for r in LAYERS:
         layer, more, both = solved(r), solved(r / share), solved(r, Heat())
-        bar = both.damping_error / both.damping * both.si.damping
-        print(f"  r = {r:g}: K {both.si.stiffness * 1e-6}, C {both.si.damping} +- {bar}, layer {layer.si.damping}")
+        bar = both.error_bars["damping"]
+        print(f"  r = {r:g}: K {both.stiffness * 1e-6}, C {both.damping} +- {bar}, layer {layer.damping}")
         for name, product in ("C(r)", layer), ("C(r/T)", more):
             by_k, by_c = ratio(product, cold)
-            k, c = warm.stiffness * by_k / both.stiffness, warm.si.damping * by_c
-            print(f"    product with {name}: K over it {k}, C {c}, off by {c - both.si.damping}", flush=True)
+            k, c = warm.stiffness * by_k / both.stiffness, warm.damping * by_c
+            print(f"    product with {name}: K over it {k}, C {c}, off by {c - both.damping}", flush=True)
 
 
 def main():

@@ -55,9 +55,10 @@ def assumptions(
     Parameters
     ----------
     point : OperatingPoint or MoesPoint
-    film : SteadyResult, ImpedanceResult or AtlasAnswer, optional
-        The film solved at this point, or the answer of the atlas: ``film=Atlas().at(point)``. The region of a
-        solved one counts as the flooded one, unless it was solved with an oil supply.
+    film : SteadyResult or AtlasAnswer, optional
+        The film solved at this point, that of a `Response` too (``film=response.film``), or the answer of the
+        atlas: ``film=Atlas().at(point)``. The region of a solved one counts as the flooded one, unless it was
+        solved with an oil supply.
     domain : Domain, optional
         Region computed elsewhere, in place of that of `film`.
     roughness : (float, float), optional

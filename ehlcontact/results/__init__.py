@@ -6,10 +6,8 @@ module                responsibility
 ``steady_result``     `SteadyResult`: the film at rest
 ``film_temperature``  `FilmTemperature`: temperatures of a heated film
 ``asperity_contact``  `AsperityContact`: load share of asperities beside a film
-``impedance_result``  `ImpedanceResult`: stiffness and damping over frequency
-``excitation_result`` `ExcitationResult`: force of waves on a surface over frequency
-``speed_response_result`` `SpeedResponseResult`: force over a change of speed, over frequency
-``frequency``         `FrequencyResponse`: impedance and python-control system of K and C
+``frequency``         `FrequencyResponse`: impedance and python-control system of K and C of bearings
+``response``          `Response`: force over frequency by small changes of a contact or a bearing
 ``traction``          `Traction`: traction of a film over the slide-to-roll ratio
 ``table``             `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
 ``picture``           pictures as data: panels of lines and bars, maps, load zones
@@ -18,16 +16,12 @@ module                responsibility
 ===================== =================================================================================
 """
 
-from ehlcontact.results.excitation_result import ExcitationResult
-from ehlcontact.results.impedance_result import ImpedanceResult
-from ehlcontact.results.speed_response_result import SpeedResponseResult
+from ehlcontact.results.response import Response
 from ehlcontact.results.steady_result import SteadyResult
 from ehlcontact.results.traction import Traction
 
 __all__ = [
-    "ExcitationResult",
-    "ImpedanceResult",
-    "SpeedResponseResult",
+    "Response",
     "SteadyResult",
     "Traction",
 ]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.results.table import Display, QuantityTable, ScaledTable, SIView
+from ehlcontact.results.table import Display, QuantityTable
 
 Array = NDArray[np.float64]
 
@@ -38,20 +38,3 @@ class FrequencyResponse(QuantityTable):
     def _angular_frequency(self) -> Array:
         w: Array = getattr(self, "omega" if self._in_si() else "Omega")
         return w
-
-
-class ResponseInSI(FrequencyResponse, SIView):
-    """K [N/m] and C [N s/m] of a `FrequencyResponse` over ``omega`` [rad/s] and ``hz``."""
-
-    __slots__ = ()
-
-
-class ScaledResponse(FrequencyResponse, ScaledTable):
-    """Base of dimensionless K and C over ``Omega``; ``si`` has them in SI."""
-
-    __slots__ = ()
-
-    @property
-    def si(self) -> ResponseInSI:
-        """All quantities in SI; raises `InputError` for a dimensionless point, which has no units."""
-        return ResponseInSI(self)

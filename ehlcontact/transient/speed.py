@@ -1,6 +1,6 @@
 """Speed of the surfaces over time: run-ups, stops, reversals, as an argument of `simulate`.
 
-Small changes over frequency: `ehlcontact.speed_response`.
+Small changes over frequency: `ehlcontact.response`.
 
 With the scales of the operating point kept, of which u_sum is one, the Reynolds equation (eq. 1) becomes
 

@@ -11,7 +11,7 @@ import sys
 import numpy as np
 
 from ehlcontact import Grid, MoesPoint, excitation
-from ehlcontact.results import ExcitationResult
+from ehlcontact.results import Response
 
 WAVES = np.geomspace(1.0, 32.0, 41)  # semi-axes a
 GRID = Grid(n=128)
@@ -22,7 +22,7 @@ CONTACTS = {
 }
 
 
-def filters() -> dict[str, ExcitationResult]:
+def filters() -> dict[str, Response]:
     """Contact filters over `WAVES`, by the name of the contact."""
     return {name: excitation(point, wavelength=WAVES, grid=GRID) for name, point in CONTACTS.items()}
 
@@ -32,7 +32,7 @@ def dry(wavelength: np.ndarray) -> np.ndarray:
     return np.abs(np.sinc(2.0 / wavelength))
 
 
-def draw(found: dict[str, ExcitationResult], path: str) -> None:
+def draw(found: dict[str, Response], path: str) -> None:
     """Filters with their error bars, and the dry one; below, the phase of the force."""
     import matplotlib.pyplot as plt
 
@@ -41,7 +41,7 @@ def draw(found: dict[str, ExcitationResult], path: str) -> None:
         (line,) = size.plot(result.wavelength, result.contact_filter, label=name)
         low, high = (result.contact_filter + sign * result.error_bars["contact_filter"] for sign in (-1.0, 1.0))
         size.fill_between(result.wavelength, low, high, color=line.get_color(), alpha=0.2, lw=0)
-        phase.plot(result.wavelength, np.degrees(np.unwrap(np.angle(result.G[::-1]))[::-1]))
+        phase.plot(result.wavelength, np.degrees(np.unwrap(np.angle(result.value[::-1]))[::-1]))
     fine = np.geomspace(WAVES[0], WAVES[-1], 800)
     size.plot(fine, dry(fine), "k:", label="dry, |sin(k)/k|")
     size.set(ylabel="contact filter |G/Z|", xscale="log", ylim=(0.0, 1.02))

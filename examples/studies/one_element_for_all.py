@@ -25,7 +25,7 @@ from ehlcontact import (
     save,
     simulate,
 )
-from ehlcontact.results import ImpedanceResult
+from ehlcontact.results import Response
 from reduced_models import ContactRecord, fit_memory
 from reduced_models.fitting.least_squares import linear_fit
 from reduced_models.fitting.result import MemoryFit
@@ -102,7 +102,7 @@ def table(result: MemoryFit, seen: dict[str, ContactRecord], unseen: dict[str, C
     return rows
 
 
-def picture(path: Path, Z: ImpedanceResult, result: MemoryFit, seen: dict[str, ContactRecord]) -> None:
+def picture(path: Path, Z: Response, result: MemoryFit, seen: dict[str, ContactRecord]) -> None:
     """Stiffness and damping over frequency, and force-approach loops of the harmonic records."""
     import matplotlib
 
@@ -114,15 +114,15 @@ def picture(path: Path, Z: ImpedanceResult, result: MemoryFit, seen: dict[str, C
     figure, axes = plt.subplots(2, 3, figsize=(12.5, 7.0), layout="constrained")
     full = {"color": "black", "marker": "o", "markersize": 3.0, "linestyle": "none", "label": "full EHL"}
     for ax, ours, theirs, label in (
-        (axes[0, 0], Z.stiffness, element.real, "stiffness K"),
-        (axes[0, 1], Z.damping, element.imag / w, "damping C"),
+        (axes[0, 0], Z.stiffness, element.stiffness, "stiffness K"),
+        (axes[0, 1], Z.damping, element.damping, "damping C"),
     ):
-        ax.semilogx(Z.Omega[1:], ours[1:], **full)
+        ax.semilogx(Z.omega[1:], ours[1:], **full)
         ax.semilogx(w, theirs, color="tab:blue", label="film memory, one element")
         ax.set(xlabel="Omega", ylabel=label, xlim=(0.02, 100.0))
     for i, r in enumerate(r for name, r in seen.items() if name.startswith("harmonic")):
         own = Cubic(r)
-        for ax, value in ((axes[0, 0], own.tangent(Z.approach)), (axes[0, 1], own.damping)):
+        for ax, value in ((axes[0, 0], own.tangent(Z.film.approach)), (axes[0, 1], own.damping)):
             ax.plot(r.motion["Omega"], value, "x", color="tab:red", label=None if i else "own viscous cubics")
     axes[0, 1].set_yscale("log")
     axes[0, 0].legend()
@@ -133,7 +133,7 @@ def picture(path: Path, Z: ImpedanceResult, result: MemoryFit, seen: dict[str, C
         period = 2.0 * pi / r.motion["Omega"]  # type: ignore[index]
         last = r.T >= r.T[-1] - period - 1e-9
         memory = result.element.drive(r.T, r.approach, r.rate)
-        line = Z.stiffness[0] * (r.approach - Z.approach) + 1.0  # what all loops have in common
+        line = Z.stiffness[0] * (r.approach - Z.film.approach) + 1.0  # what all loops have in common
         for force, style in (
             (r.force, {"color": "black", "linewidth": 3.0, "label": "full EHL"}),
             (memory, {"color": "tab:blue", "label": "film memory"}),
@@ -161,13 +161,13 @@ def main() -> None:
     print(f"{'':24} {'memory':>8} {'own cubic':>10} {'one cubic':>10}")
     for name, *errors in table(result, seen, unseen):
         print(f"{name:24} {100 * errors[0]:8.2f} {100 * errors[1]:10.2f} {100 * errors[2]:10.2f}")
-    band = Z.Omega <= 30.5
+    band = Z.omega <= 30.5
     print(f"{result.element.lags} lags; cross-validation {result.validation}")
     print(f"C within {100 * np.abs(result.damping_error[band]).max():.1f} %, ", end="")
     print(f"K within {100 * np.abs(result.stiffness_error[band]).max():.2f} % for Omega up to 30")
-    C = np.interp(0.05, Z.Omega, Z.damping)
+    C = np.interp(0.05, Z.omega, Z.damping)
     cubic = Cubic(*seen.values()).damping
-    ours = float(result.element.impedance(Omega=0.05)[0].imag / 0.05)
+    ours = float(result.element.impedance(Omega=0.05).damping[0])
     print(f"C(0.05): full {C:.4f}, film memory {ours:.4f}, one viscous cubic {cubic:.4f}")
     arguments.out.mkdir(parents=True, exist_ok=True)
     save(result.element, arguments.out / "memory_element.json")

@@ -59,7 +59,7 @@ def passage(point: MoesPoint, depth: float, n: int) -> Passage:
 
     run = simulate(point, held, grid=grid, time=TimeSteps(until=END), surface=dug)
     wavelength = PERIOD / np.arange(1, int(PERIOD / SHORTEST) + 1)
-    G = excitation(point, wavelength=np.append(1e3, wavelength), grid=grid).G
+    G = excitation(point, wavelength=np.append(1e3, wavelength), grid=grid).value
     element = Atlas().wide(point, np.geomspace(LIGHTEST / point.M, HEAVIEST, 24))
     X = START + run.T
     return Passage(point, depth, X, run.force, linear(G, X, depth), *reduced(point, element, run.T, X, depth))

@@ -3,7 +3,7 @@
 | module | is responsible for |
 |---|---|
 | atlas | `Atlas`: answers with error bars, and elements, at a point |
-| answer | `AtlasAnswer`: one contact with error bars; `AtlasImpedance`; `AtlasAnswers`: many contacts |
+| answer | `AtlasAnswer`: one contact with error bars; `AtlasAnswers`: many contacts |
 | frequency_curve | K or C between the frequencies of the table |
 | conditions | `Condition`: changes of answers of flooded isothermal contacts, one way for all conditions |
 | atlas_elements | contact elements from answers under one or several loads |

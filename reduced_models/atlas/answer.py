@@ -1,4 +1,4 @@
-"""Answers of the atlas, with error bars: one contact, its impedance, and many contacts at once."""
+"""Answers of the atlas, with error bars: one contact and many contacts at once."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions.judge import judged
 from ehlcontact.checks.frequency import by_name, dimensionless
-from ehlcontact.point import MoesPoint, Scales
+from ehlcontact.point import MoesPoint, OperatingPoint, Scales
 from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, MOMENT, NUMBER, STIFFNESS
-from ehlcontact.results.frequency import FrequencyResponse, ScaledResponse
+from ehlcontact.results.response import Response
 from ehlcontact.results.table import Display, QuantityTable, ScaledTable, plain
 from ehlcontact.summary import contact_text, note_line, span
 from ehlcontact.supply import OilLayer
@@ -20,30 +20,6 @@ from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.atlas.heat import HeatedFilm
 
 _Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class AtlasImpedance(ScaledResponse):
-    """Impedance of an `AtlasAnswer` at given frequencies, dimensionless; ``si`` has it in SI.
-
-    Attributes
-    ----------
-    Omega : ndarray, shape (k,)
-        Angular frequencies, per unit 2a/u_sum of time; in SI ``omega`` [rad/s] and ``hz``.
-    stiffness, damping : ndarray, shape (k,)
-        K(Omega) in f0/delta_H, the static tangent at Omega = 0, and C(Omega) in that times 2a/u_sum; in SI [N/m]
-        and [N s/m].
-    error_bars : dict
-        Half widths of the error bars of stiffness and damping, in the same units and shapes.
-    scales : Scales or None
-        Its units in SI; None for a dimensionless point.
-    """
-
-    Omega: Annotated[_Floats, FREQUENCY.over("Omega")]
-    stiffness: Annotated[_Floats, STIFFNESS.over("Omega")]
-    damping: Annotated[_Floats, DAMPING.over("Omega")]
-    error_bars: dict[str, _Floats]
-    scales: Scales | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +52,8 @@ class AtlasAnswer(ScaledTable):
         the inlet is flooded.
     temperature : HeatedFilm or None
         What heat takes of the film; None where it is isothermal.
+    given : OperatingPoint or None
+        The point in SI; None for a dimensionless one.
     """
 
     point: MoesPoint
@@ -91,8 +69,9 @@ class AtlasAnswer(ScaledTable):
     scales: Scales | None = None
     over_flooded: Annotated[float | None, NUMBER] = None
     temperature: HeatedFilm | None = None
+    given: OperatingPoint | None = None
 
-    DISPLAY: ClassVar[Display] = FrequencyResponse.DISPLAY
+    DISPLAY: ClassVar[Display] = Display(rows="Omega", panels=("stiffness", "damping"), logs="xy")
 
     @property
     def force(self) -> Annotated[float, FORCE.in_si_only()]:
@@ -140,8 +119,8 @@ class AtlasAnswer(ScaledTable):
         omega: ArrayLike | None = None,
         hz: ArrayLike | None = None,
         rpm: ArrayLike | None = None,
-    ) -> AtlasImpedance:
-        """K and C at any frequency from 0 up to the highest of ``Omega``, with error bars.
+    ) -> Response:
+        """Response to approach at any frequency from 0 up to the highest of ``Omega``, in the units of the point.
 
         Parameters
         ----------
@@ -159,7 +138,11 @@ class AtlasAnswer(ScaledTable):
         w = dimensionless(time, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=float(self.Omega[-1]))
         K, C = (FrequencyCurve(self.Omega, getattr(self, n), self.error_bars[n]) for n in ("stiffness", "damping"))
         error = {"stiffness": K.bars(w), "damping": C.bars(w)}
-        return AtlasImpedance(Omega=w, stiffness=K.at(w), damping=C.at(w), error_bars=error, scales=self.scales)
+        damping = C.at(w)
+        found = Response(
+            omega=w, value=K.at(w) + 1j * w * damping, slope=damping, error_bars=error, point=self.point
+        )
+        return found if self.given is None else found.in_units_of(self.given)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON; of an SI point with ``si``."""

@@ -20,7 +20,7 @@ from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
-from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
+from ehlcontact.point import MoesPoint, OperatingPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
 from reduced_models.atlas.atlas_elements import (
@@ -335,7 +335,8 @@ class Atlas:
             numbers |= {name: float(numbers[name]) for name in NUMBERS}
         for condition in conditions:
             named |= condition.noted(float(flooded[0, 1]))
-        return AtlasAnswer(moes, Omega=Omega, **named, error_bars=bars, scales=scales_of(point))
+        given = point if isinstance(point, OperatingPoint) else None
+        return AtlasAnswer(moes, Omega=Omega, **named, error_bars=bars, scales=scales_of(point), given=given)
 
     def _cubic(self, point: Point, w: float, conditions: Sequence[Condition]) -> SpringContact:
         moes, scales = self._inside(point), scales_of(point)

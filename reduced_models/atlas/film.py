@@ -159,7 +159,7 @@ def fine_film(point: MoesPoint, wanted: Grid, coarse: Grid) -> dict[str, Any]:
 def respond(point: MoesPoint, grid: Grid) -> dict[str, Any]:
     """Steady film and impedance at `OMEGAS`."""
     answer = impedance(point, Omega=OMEGAS, grid=grid)
-    return _film(answer) | {"stiffness": answer.stiffness.tolist(), "damping": answer.damping.tolist()}
+    return _film(answer.film) | {"stiffness": answer.stiffness.tolist(), "damping": answer.damping.tolist()}
 
 
 def _film(result: Any) -> dict[str, Any]:

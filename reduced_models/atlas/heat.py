@@ -31,8 +31,8 @@ from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import load_number, wilson_heating
 from ehlcontact.heat import MINERAL_OIL
 from ehlcontact.hertz import hertz_contact
-from ehlcontact.impedance import TOLERANCE
 from ehlcontact.point import Point
+from ehlcontact.response import TOLERANCE
 from ehlcontact.status import Status
 from reduced_models.atlas.conditions import Change, Condition, Rows
 from reduced_models.atlas.film import BOX, HEAD, LOW, OMEGAS

@@ -31,10 +31,10 @@ from ehlcontact.checks import require_instance
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.film_formulas import film_of_layer, layer_sharpness, load_number
 from ehlcontact.hertz import radius_ratio
-from ehlcontact.impedance import NEAR_ZERO
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density
 from ehlcontact.point import Point, moes_point, scales_of
+from ehlcontact.response import NEAR_ZERO
 from reduced_models.atlas.conditions import Change, Condition, Rows
 from reduced_models.atlas.film import HEAD, LOW, OVERSHOOT, published_films
 from reduced_models.atlas.frequency_curve import over_frequency

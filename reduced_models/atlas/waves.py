@@ -62,11 +62,12 @@ def solve_waves(point: MoesPoint) -> dict[str, Any]:
     grid = next(grid for grid in GRIDS if point.inlet_width >= grid.least_inlet).on(point)
     k = np.array(WAVE_NUMBERS)
     waves, approach = excitation(point, Omega=k, grid=grid), impedance(point, Omega=k, grid=grid)
-    ratio = waves.G / (approach.stiffness + 1j * k * approach.damping)
+    ratio = waves.value / (approach.stiffness + 1j * k * approach.damping)
     entry: dict[str, Any] = {"M": point.M, "L": point.L, "kappa": point.kappa}
     entry |= {"real": ratio.real.tolist(), "imag": ratio.imag.tolist()}
     entry["error"] = np.asarray(waves.error_bars["contact_filter"]).tolist()
-    return entry | {"n": waves.n, "domain": list(waves.domain.as_tuple())}
+    assert waves.film is not None
+    return entry | {"n": waves.film.n, "domain": list(waves.film.domain.as_tuple())}
 
 
 def dry_filter(k: ArrayLike) -> _Floats:

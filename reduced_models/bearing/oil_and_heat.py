@@ -486,7 +486,9 @@ def _solved_contact(
 ) -> tuple[tuple[float, float, float], _Complex]:
     """Central and smallest film and moment of a contact, in units of its point, and its impedance [N/m]."""
     one = impedance(point, hz=hz, **conditions.keywords)
-    return (one.h_central, one.h_min, one.moment), one.si.stiffness + 2j * np.pi * hz * one.si.damping
+    film = one.dimensionless.film
+    assert film is not None
+    return (film.h_central, film.h_min, film.moment), one.stiffness + 2j * np.pi * hz * one.damping
 
 
 def _tabled_contact(
@@ -494,7 +496,7 @@ def _tabled_contact(
 ) -> tuple[tuple[float, float, float], _Complex]:
     """The same from the tables."""
     one = shared_atlas(atlas).at(point, **conditions.keywords)
-    small = one.impedance(hz=hz).si
+    small = one.impedance(hz=hz)
     return (one.h_central, one.h_min, one.moment), small.stiffness + 2j * np.pi * hz * small.damping
 
 

@@ -56,7 +56,7 @@ def table_bars(
     """
     answers = [race.answer(force, speed_rpm) for race, force in zip(races, forces, strict=True)]
     films = [one.si.error_bars for one in answers]
-    Z = [one.impedance(hz=hz).si for one in answers]
+    Z = [one.impedance(hz=hz) for one in answers]
     K = np.array([one.stiffness for one in Z])
     share, ball = np.square(K[::-1] / K.sum(axis=0)), np.prod(K, axis=0) / K.sum(axis=0)
     series = {name: share * [one.error_bars[name] for one in Z] for name in ("stiffness", "damping")}

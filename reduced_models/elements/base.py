@@ -30,11 +30,13 @@ from ehlcontact.checks.frequency import (
 )
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point, Scales
+from ehlcontact.results.response import Response
 from reduced_models.elements.design_point import DesignPoint, known_scale, require_own_scales
 from reduced_models.elements.element_summary import ElementSummary
 from reduced_models.elements.film_response import StateSpace
 from reduced_models.elements.validity import UNITS, Band, OutsideValidityWarning, Validity, numbers
 
+TINY_OMEGA = 1e-4  # stands for 0, where damping is the slope of Z: Omega, or rad/s
 UNWATCHED = (-math.inf, math.inf, math.inf, -math.inf, math.inf)  # a reach that nothing leaves
 
 
@@ -243,8 +245,8 @@ class ContactElement(ElementSummary, _Common, ABC):
         omega: ArrayLike | None = None,
         hz: ArrayLike | None = None,
         rpm: ArrayLike | None = None,
-    ) -> NDArray[np.complex128]:
-        """Z = K + i w C of a small motion of angular frequency w about rest under `load`.
+    ) -> Response:
+        """Response to approach: Z = K + i w C of a small motion of angular frequency w about rest under `load`.
 
         Parameters
         ----------
@@ -256,19 +258,21 @@ class ContactElement(ElementSummary, _Common, ABC):
 
         Returns
         -------
-        ndarray, shape (k,)
-            In the units of the element: f0/delta_H and Omega, or N/m and rad/s.
+        Response
+            In the units of the element.
 
         Raises
         ------
         InputError
             Frequencies not given in exactly one way that the element takes; a load that is not > 0, or not known.
         """
-        return self._response(self._frequencies(Omega=Omega, omega=omega, hz=hz, rpm=rpm), load)
+        w = self._frequencies(Omega=Omega, omega=omega, hz=hz, rpm=rpm)
+        moving = np.maximum(w, TINY_OMEGA)
+        return Response.to_approach(w, self._response(moving, load), moving, units=self.units)
 
     @abstractmethod
     def _response(self, w: NDArray[np.float64], load: float | None = None) -> NDArray[np.complex128]:
-        """As `impedance`, at angular frequencies in the units of the element (Omega or rad/s), shape (k,)."""
+        """Impedance at angular frequencies in the units of the element (Omega or rad/s), shape (k,)."""
 
     def to_control(self, name: str = "contact") -> Any:
         """Nonlinear python-control system with inputs u, v, output F and the states of `state_rates`.

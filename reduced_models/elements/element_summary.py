@@ -73,13 +73,12 @@ class ElementSummary(Summary):
         w = np.geomspace(max(low, 1e-3 * high), high, 121)
         frequency = {"omega" if si else "Omega": w}
         try:
-            Z = self.impedance(**frequency)
+            found = self.impedance(**frequency)
         except InputError:  # a load that is not known
-            Z = self.impedance(load=float(self.spring(0.5 * (self.low + self.high))), **frequency)
+            found = self.impedance(load=float(self.spring(0.5 * (self.low + self.high))), **frequency)
         x = w / (2.0 * np.pi) if si else w
-        curves = {"stiffness": Z.real, "damping": Z.imag / w}
         return stiffness_and_damping(
-            lambda name: [Line(x, curves[name])],
+            lambda name: [Line(x, getattr(found, name))],
             ("frequency", "Hz") if si else ("angular frequency", FREQUENCY.moes),
             (self._unit(STIFFNESS), self._unit(DAMPING)),
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import scipy
@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from ehlcontact import Domain, Grid, impedance
 from ehlcontact.checks.kinds import shown
 from ehlcontact.errors import InputError
-from ehlcontact.origin import source_of
 from ehlcontact.process.blas import one_blas_thread
-from ehlcontact.results import ImpedanceResult
+from ehlcontact.results import Response
 from reduced_models.elements.film_contact import FilmContact
 from reduced_models.elements.film_curve import approach_under, film_and_exponent, power_nodes
 from reduced_models.elements.film_law import FilmLaw, film_drive
@@ -48,26 +47,6 @@ SEARCH_TOLERANCE = 1e-4  # of the cost and of the logs, relative: a hundredth of
 LOAD_RANGE_OF_IMPEDANCE = 0.1  # share of the load about 1 that an impedance alone, a small motion, stands for
 
 
-class Response(Protocol):
-    """Impedance that `fit_memory` takes; `ehlcontact.impedance` returns one."""
-
-    @property
-    def Omega(self) -> _Floats:
-        """Dimensionless frequencies, shape (k,)."""
-
-    @property
-    def stiffness(self) -> _Floats:
-        """K(Omega)."""
-
-    @property
-    def damping(self) -> _Floats:
-        """C(Omega)."""
-
-    @property
-    def approach(self) -> float:
-        """Static approach under load 1."""
-
-
 @dataclass(frozen=True)
 class Target:
     """Data of one fit as arrays in the order of frequency."""
@@ -88,24 +67,27 @@ class Target:
             Too few frequencies or none low enough, an approach beyond the dry one, SI records, or records that
             are not of the contact of the impedance.
         """
-        order = np.argsort(response.Omega)
-        Omega = np.asarray(response.Omega, float)[order]
+        order = np.argsort(response.omega)
+        Omega = response.omega[order]
         if Omega.size < FEWEST_OMEGAS:
             raise InputError("Omega", Omega.size, f"at least {FEWEST_OMEGAS} frequencies")
         if Omega[0] > LOWEST_OMEGA:
             raise InputError("lowest Omega", float(Omega[0]), f"at most {LOWEST_OMEGA}")
-        if not response.approach < 1.0:
-            raise InputError("approach", response.approach, "below 1: there must be a film (refine the grid)")
+        film = response.film
+        if film is None:
+            raise InputError("response.film", None, "that of a solved contact, from `impedance`")
+        if not film.approach < 1.0:
+            raise InputError("approach", film.approach, "below 1: there must be a film (refine the grid)")
         for i, record in enumerate(records):
             if record.units != "dimensionless":
                 raise InputError(f"records[{i}].units", record.units, "dimensionless")
             for name in ("point", "n"):
-                ours, theirs = getattr(response, name, None), getattr(record, name)
-                if ours is not None and theirs is not None and ours != theirs:
+                ours, theirs = getattr(film, name), getattr(record, name)
+                if theirs is not None and ours != theirs:
                     raise InputError(f"records[{i}].{name}", theirs, f"as of the impedance, {ours!r}")
             record.require_matching_rate()
-        stiffness, damping = np.asarray(response.stiffness, float), np.asarray(response.damping, float)
-        return cls(Omega, stiffness[order], damping[order], float(response.approach), tuple(records))
+        stiffness, damping = response.stiffness[order], response.damping[order]
+        return cls(Omega, stiffness, damping, film.approach, tuple(records))
 
     @property
     def film(self) -> tuple[float, float]:
@@ -156,9 +138,9 @@ def fit_memory(
 
     Parameters
     ----------
-    response : ImpedanceResult or alike, or None
-        Dimensionless, with a frequency of at most 0.1; 20 or more from 0 to 60 make a good element. None has it
-        solved for the point, grid and domain of the first record.
+    response : Response or None
+        To approach, from `impedance`, with an Omega of at most 0.1; 20 or more from 0 to 60 make a good element.
+        None has it solved for the point, grid and domain of the first record.
     records : ContactRecord or sequence of ContactRecord
         Dimensionless, of the same contact on the same grid and domain.
     lags : int, optional
@@ -170,11 +152,11 @@ def fit_memory(
         Data that do not go together; see `Target.of`.
     """
     taken = as_records(records)
-    if response is not None and not all(hasattr(response, name) for name in ("Omega", "stiffness", "damping")):
-        raise InputError("response", shown(response), "an ImpedanceResult, or None")
+    if response is not None and not isinstance(response, Response):
+        raise InputError("response", shown(response), "a Response, from `impedance`, or None")
     if response is None:
         response = impedance_of(taken)
-    target = Target.of(response, taken)
+    target = Target.of(response.dimensionless, taken)
     scores: dict[int, float] = {}
     if lags is None:
         scores = {length: cross_validate(target, length) for length in CHAIN_LENGTHS}
@@ -201,11 +183,12 @@ def fit_memory(
         validation=scores,
         weights=WEIGHTS,
     )
-    source = _source(response, [record.motion for record in taken])
+    assert response.film is not None
+    source = response.film.source([record.motion for record in taken])
     return replace(result, element=replace(element, fit=result.quality(), source=source))
 
 
-def impedance_of(records: Sequence[ContactRecord]) -> ImpedanceResult:
+def impedance_of(records: Sequence[ContactRecord]) -> Response:
     """Impedance at the point and on the grid of the first record.
 
     Raises
@@ -229,9 +212,9 @@ def cross_validate(target: Target, lags: int) -> float:
         left_out = target.part(fold, inside=True)
         w = left_out.Omega
         Z = element.impedance(Omega=w)
-        damping = Z.imag / np.maximum(w, 1e-5) / left_out.damping - 1.0
+        damping = Z.damping / left_out.damping - 1.0
         squares.append(np.mean((damping[w > 0.0] / WEIGHT_C) ** 2))
-        squares.append(np.mean(((Z.real / left_out.stiffness - 1.0) / WEIGHT_K) ** 2))
+        squares.append(np.mean(((Z.stiffness / left_out.stiffness - 1.0) / WEIGHT_K) ** 2))
         for record in left_out.records:
             error = _force(element.law, record) - record.force
             squares.append(np.mean((error / np.std(record.force) / FORCE_WEIGHT) ** 2))
@@ -296,9 +279,3 @@ def _force(law: FilmLaw, record: ContactRecord) -> _Floats:
     motion = (np.array(values) for values in (record.T, record.approach, record.rate))  # not read-only
     film_drive(law, *motion, force)
     return force
-
-
-def _source(response: Response, motions: list[Any]) -> dict[str, Any]:
-    """Source of a response; None for what it does not have."""
-    point, scales, n, domain = (getattr(response, name, None) for name in ("point", "scales", "n", "domain"))
-    return source_of(point, scales, n, None if domain is None else domain.as_tuple(), motions)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ehlcontact.point import OperatingPoint
 from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, HERTZ, LENGTH, STIFFNESS, TIME, Quantity
 from ehlcontact.results.picture import (
     BLUE,
@@ -107,7 +108,8 @@ def impedance(
 
     Parameters
     ----------
-    response : ImpedanceResult
+    response : Response
+        Of the film, to approach.
     memory : element or None
         Dimensionless.
     cubics : sequence of FitResult
@@ -115,10 +117,10 @@ def impedance(
     frequencies : (float, float)
         Of the rotor's speed and of its vertical mode, dimensionless.
     """
-    moving = response.Omega > 0.0
+    film = response[response.omega > 0.0]
     found = [cubic for cubic in cubics if cubic.tangent is not None]
     at = [float(np.mean(cubic.valid["omega"])) for cubic in found]
-    Omega = response.Omega[moving]
+    Omega = film.dimensionless.omega
     w = np.geomspace(min(0.5 * frequencies[0], float(Omega[0])), float(Omega[-1]), SMOOTH)
     Z = None if memory is None else memory.impedance(Omega=w)
     known = {
@@ -126,25 +128,20 @@ def impedance(
         "damping": [cubic.parameters["C1"] for cubic in found],
     }
     quantities = {"stiffness": STIFFNESS, "damping": DAMPING}
-    hertz = 1.0 if response.scales is None else 1.0 / (2.0 * np.pi * response.scales.time)
+    si = isinstance(film.point, OperatingPoint)
+    scales = film.point.scales
+    hertz = scales.hertz if si else 1.0
 
     def lines(name: str) -> Iterator[Line]:
-        quantity, values = quantities[name], getattr(response, name)[moving]
-        bars = (
-            None
-            if response.error_bars is None
-            else _in_units(response, quantity, response.error_bars[name][moving])
-        )
-        yield Line(hertz * Omega, _in_units(response, quantity, values), "film", BLUE, "", "o", bars=bars)
+        unit, bars = quantities[name].size(scales), film.error_bars[name]
+        yield Line(hertz * Omega, getattr(film, name), "film", BLUE, "", "o", bars=bars)
         if Z is not None:
-            smooth = _in_units(response, quantity, Z.real if name == "stiffness" else Z.imag / w)
-            yield Line(hertz * w, smooth, "film memory, one element", GREEN)
+            yield Line(hertz * w, unit * getattr(Z, name), "film memory, one element", GREEN)
         if found:
-            squares = _in_units(response, quantity, np.array(known[name], dtype=float))
+            squares = unit * np.array(known[name], dtype=float)
             yield Line(hertz * np.array(at), squares, "cubic element of each record", RED, "", "s")
 
     marks = [Mark(hertz * omega, name) for omega, name in zip(frequencies, ("speed", "mode"), strict=True)]
-    si = response.scales is not None
     frequency = ("frequency", HERTZ.unit) if si else ("angular frequency", FREQUENCY.moes)
     units = (STIFFNESS.unit, DAMPING.unit) if si else (STIFFNESS.moes, DAMPING.moes)
     return Picture(stiffness_and_damping(lines, frequency, units, marks=marks))

@@ -16,9 +16,10 @@ from ehlcontact.checks.frequency import by_name
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
 from ehlcontact.point import Point, moes_point, require_solvable, scales_of
+from ehlcontact.results import Response
 from reduced_models.elements.film_contact import FilmContact
 from reduced_models.elements.film_response import FilterRates, fit_gains, inlet_saturation_of
-from reduced_models.fitting.memory_fit import OMEGAS, RATE_STARTS, SEARCH, SEARCH_LIMITS, TRANSIT_TIME, Response
+from reduced_models.fitting.memory_fit import OMEGAS, RATE_STARTS, SEARCH, SEARCH_LIMITS, TRANSIT_TIME
 
 _Floats = NDArray[np.float64]
 
@@ -48,8 +49,8 @@ def wide_range_contact(
         Static approach under each, in the dry approach of that load.
     gain_loads : array_like, shape (k,)
         Loads of the impedances.
-    responses : sequence of k impedances
-        In the units of their loads.
+    responses : sequence of k Response
+        Impedances, dimensionless: in the units of their loads.
     lags : int
         Length of the chain, where `memory` does not set it.
     memory : FilmContact, optional
@@ -74,9 +75,9 @@ def wide_range_contact(
         rates = memory.rates
     else:
         rates = _common_rates(responses, lags)
-    gains = [fit_gains(rates, r.Omega, r.stiffness, r.damping, _static(r)).gains.tolist() for r in responses]
+    gains = [fit_gains(rates, r.omega, r.stiffness, r.damping, _static(r)).gains.tolist() for r in responses]
     saturation = inlet_saturation_of(at, u, places, gains) if memory is None else memory.inlet_saturation
-    bands = [(float(np.min(r.Omega)), float(np.max(r.Omega))) for r in responses]
+    bands = [(float(np.min(r.omega)), float(np.max(r.omega))) for r in responses]
     return FilmContact.wide(
         loads=at,
         approach=u,
@@ -141,7 +142,7 @@ def wide_range_from_solves(
 
 def _static(response: Response) -> float:
     """Tangent at rest: K at the lowest frequency."""
-    return float(response.stiffness[np.argmin(response.Omega)])
+    return float(response.stiffness[np.argmin(response.omega)])
 
 
 def _common_rates(responses: Sequence[Response], lags: int) -> FilterRates:
@@ -151,7 +152,7 @@ def _common_rates(responses: Sequence[Response], lags: int) -> FilterRates:
         return FilterRates(lags, *(float(value) for value in np.exp(p)))
 
     def residuals(p: _Floats) -> _Floats:
-        fits = [fit_gains(rates(p), r.Omega, r.stiffness, r.damping, _static(r)) for r in responses]
+        fits = [fit_gains(rates(p), r.omega, r.stiffness, r.damping, _static(r)) for r in responses]
         return np.concatenate([fit.residuals for fit in fits])
 
     lower, upper = np.log(np.array(SEARCH_LIMITS[:3])).T

@@ -13,7 +13,8 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.results import ImpedanceResult
+from ehlcontact.point import OperatingPoint
+from ehlcontact.results import Response
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.film_response import StateSpace
 
@@ -26,10 +27,10 @@ TINY_OMEGA = 1e-6  # rad/s, stands for 0: where damping is the slope of Z
 
 def impedance_about(element: ContactElement, load: float) -> Impedance:
     """Impedance of an SI element about static equilibrium under `load` [N], as a function of omega [rad/s]."""
-    return lambda omega: element.impedance(omega=omega, load=load)
+    return lambda omega: element.impedance(omega=omega, load=load).value
 
 
-def film_impedance(response: ImpedanceResult) -> Impedance:
+def film_impedance(response: Response) -> Impedance:
     """Impedance of a solved film over omega [rad/s], between its frequencies by monotone cubics.
 
     Below the lowest frequency and beyond the highest, stiffness and damping stay what they are there.
@@ -39,17 +40,14 @@ def film_impedance(response: ImpedanceResult) -> Impedance:
     InputError
         A dimensionless point, or fewer than 2 frequencies.
     """
-    scales = response.scales
-    if scales is None:
-        raise InputError("response.scales", None, "of an OperatingPoint, for a rotor in SI")
-    order = np.argsort(response.Omega)
+    if not isinstance(response.point, OperatingPoint):
+        raise InputError("response.point", response.point, "an OperatingPoint, for a rotor in SI")
+    scales, own = response.point.scales, response.dimensionless
+    order = np.argsort(own.omega)
     if order.size < 2:
-        raise InputError("response.Omega", response.Omega.tolist(), "at least 2 frequencies")
-    known = response.Omega[order]
-    parts = [
-        scipy.interpolate.PchipInterpolator(known, values[order])
-        for values in (response.stiffness, response.damping)
-    ]
+        raise InputError("response.omega", response.omega.tolist(), "at least 2 frequencies")
+    known = own.omega[order]
+    parts = [scipy.interpolate.PchipInterpolator(known, values[order]) for values in (own.stiffness, own.damping)]
 
     def impedance(omega: _Floats) -> _Complex:
         w = np.asarray(omega, dtype=np.float64)

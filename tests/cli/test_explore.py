@@ -92,7 +92,7 @@ def test_between_the_frequencies_of_the_table(ask):
     return asked.Omega.map(at => [...K(at), ...C(at)]);"""
     found = ask(body, [{"point": asked_of(point), "Omega": Omega} for point in points])
     for point, here in zip(points, found, strict=True):
-        there = atlas.at(point).impedance(Omega=Omega)
+        there = atlas.at(point).impedance(Omega=Omega).dimensionless
         columns = there.stiffness, there.error_bars["stiffness"], there.damping, there.error_bars["damping"]
         for column, values in zip(np.transpose(here), columns, strict=True):
             np.testing.assert_allclose(column, values, rtol=CLOSE, atol=1e-10)

@@ -275,7 +275,7 @@ def test_bands_are_the_error_bars_and_the_load_zone_has_the_forces(seen):
     carried = [force for force in state.force[:, 0] if force > 0.01 * state.force.max()]
     assert sorted(page["zone"]) == pytest.approx(sorted(carried), rel=6e-3)
     at = Atlas().at(bearing.race("inner").point(state.force[0, 0], 3000.0)).impedance(hz=page["hzs"])
-    C, bar = at.si.damping, at.si.error_bars["damping"]
+    C, bar = at.damping, at.error_bars["damping"]
     (one, low), (ten, high) = ((float(text), place) for text, place in (page["y"][0], page["y"][-1]))
     slope = (high - low) / np.log10(ten / one)
     places = [low + slope * np.log10(values / one) for values in (C - bar, C + bar, C)]

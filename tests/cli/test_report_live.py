@@ -98,8 +98,8 @@ def test_lines_are_those_of_the_files(finished, figures, results):
     close(line(figures["free"], "film")["y"], free.approach * 1e6)
     close(line(figures["free"], "centre")["y"], free.h_central * 1e6)
     of = results["memory"]["impedance"]
-    moving = np.array(of["Omega"]) > 0.0
-    assert line(figures["impedance"], "film")["x"] == pytest.approx(np.array(of["Omega"])[moving], rel=1e-4)
+    moving = np.array(of["omega"]) > 0.0
+    assert line(figures["impedance"], "film")["x"] == pytest.approx(np.array(of["omega"])[moving], rel=1e-4)
     close(line(figures["impedance"], "film")["y"], np.array(of["stiffness"])[moving])
     inner = [ball["force"][0] for ball in results["whole_bearing"]["balls"]]
     close(line(figures["whole_balls"], "inner race")["r"], inner)

@@ -297,7 +297,7 @@ def test_bode_picture_has_amplitude_and_phase(found):
 
 
 def test_the_impedance_reaches_down_to_the_rotor(finished, results):
-    omega = results["memory"]["impedance"]["Omega"]
+    omega = results["memory"]["impedance"]["omega"]
     own = results["operating_point"]["rotor_omega"]
     assert omega[0] == 0.0 and omega[1] <= 0.5 * own * (1 + 1e-9) and any(np.isclose(omega, own))
     assert read(finished[1] / "rotor_band.h5").motion.Omega == pytest.approx(own)

@@ -51,7 +51,7 @@ def test_everything_is_there(finished, results):
     for name in ("steady", "free", "harmonic", "rotor_band"):
         assert read(folder / f"{name}.h5").status.ok
     assert results["rotor"]["whole"]["memory"]["force"] < 0.03
-    assert max(results["memory"]["record_rms"]) < 0.05 and len(results["memory"]["impedance"]["Omega"]) > 20
+    assert max(results["memory"]["record_rms"]) < 0.05 and len(results["memory"]["impedance"]["omega"]) > 20
     dimensionless = read(folder / "elements" / "rotor_band_cubic.json")
     si = read(folder / "elements" / "rotor_band_cubic_si.json")
     memory = read(folder / "elements" / "memory_si.json")

@@ -57,7 +57,7 @@ def test_impedance(call, point):
     document = json.loads(result.out)
     assert document["reservation"] == "the grid is too coarse: nodes are 0.19 semi-axes apart, damping needs 0.12"
     assert " ".join(result.err.split()) == f"ehlcontact: warning: {document['reservation']}"
-    assert document["Omega"] == [0.0, 3.0]
+    assert document["omega"] == [0.0, 3.0]
     assert all(bar > 0.0 for bar in document["error_bars"]["damping"])
     assert all(k > 1.0 for k in document["stiffness"]) and all(c > 0.0 for c in document["damping"])
     table = call("impedance", *point, "--n", "64", "--Omega", "3")

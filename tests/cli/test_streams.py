@@ -119,7 +119,7 @@ def test_ctrl_c_in_a_subcommand(call, point, monkeypatch):
     def stop(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(import_module("ehlcontact.impedance"), "impedance", stop)
+    monkeypatch.setattr(import_module("ehlcontact.response"), "impedance", stop)
     result = call("impedance", *point, "--Omega", "1")
     assert result.code == 130 and result.out == ""
     assert result.err == "ehlcontact: interrupted: nothing was computed that could be kept\n"
@@ -140,7 +140,7 @@ def test_what_the_system_refuses_is_one_line(call, point, monkeypatch, error, li
     def stop(*_, **__):
         raise error
 
-    monkeypatch.setattr(import_module("ehlcontact.impedance"), "impedance", stop)
+    monkeypatch.setattr(import_module("ehlcontact.response"), "impedance", stop)
     result = call("impedance", *point, "--Omega", "1")
     assert (result.code, result.err) == (1, f"ehlcontact: {line}\n")
 

@@ -91,7 +91,7 @@ def test_the_bearing_of_the_readme(readme):
 def test_the_readme_goes_from_a_bearing_to_an_fmu(readme):
     """Its damper is that of the film at the rotor's speed; the FMU tells band, speed and oil."""
     point, si, text = readme["point"], readme["si"], (ROOT / "README.md").read_text(encoding="utf-8")
-    assert pytest.approx(Atlas().at(point).impedance(rpm=3000).si.damping, rel=1e-6) == si.C1
+    assert pytest.approx(Atlas().at(point).impedance(rpm=3000).damping, rel=1e-6) == si.C1
     assert si.is_valid(si.approach_at(486.0), rpm=3000) and not si.is_valid(si.approach_at(486.0), hz=25e3)
     assert si.design_point.u_sum == pytest.approx(point.u_sum)
     said = float(re.search(r"its damper: (\d+) N s/m", text)[1])

@@ -22,8 +22,8 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
-from ehlcontact.excitation import force_of_waves
 from ehlcontact.linearised_film import held
+from ehlcontact.response import force_of_waves
 from ehlcontact.solver.kernels.linearise import dense_jacobian, linearise
 from ehlcontact.solver.linearised_contact import LinearisedContact
 
@@ -73,9 +73,9 @@ def test_waves_of_a_thick_elliptic_film():
     result = excitation(POINT, wavelength=[16.0, 8.0, 4.0, 2.0], grid=Grid(n=96))
     assert result.contact_filter[:3] == pytest.approx([0.952, 0.826, 0.495], rel=0.03)
     assert result.contact_filter[3] < 0.04
-    Z = impedance(POINT, Omega=result.Omega, grid=Grid(n=96)).impedance
-    np.testing.assert_allclose(result.contact_filter, np.abs(result.G / Z), rtol=1e-6)
-    np.testing.assert_allclose(result.wavelength * result.Omega, 2.0 * pi)
+    Z = impedance(POINT, Omega=result.omega, grid=Grid(n=96)).value
+    np.testing.assert_allclose(result.contact_filter, np.abs(result.value / Z), rtol=1e-6)
+    np.testing.assert_allclose(result.wavelength * result.omega, 2.0 * pi)
 
 
 @pytest.mark.slow
@@ -84,15 +84,15 @@ def test_what_is_left_of_waves_as_long_as_the_contact_stands_on_finer_grids():
     waves = [16.0, 8.0, 4.0, 2.0, 1.0]
     coarse, fine, finest = (excitation(POINT, wavelength=waves, grid=Grid(n=n)) for n in (64, 128, 192))
     for result in (coarse, fine):
-        assert (np.abs(result.G - finest.G) <= result.amplitude_error).all()
+        assert (np.abs(result.value - finest.value) <= result.error_bars["amplitude"]).all()
     assert fine.contact_filter[3] == pytest.approx(finest.contact_filter[3], rel=0.05)
     assert 0.02 < finest.contact_filter[3] < 0.04
 
 
 def test_errors_hold_against_a_finer_grid():
     coarse, fine = (excitation(POINT, Omega=[0.05, 0.5, 2.0, 5.0], grid=Grid(n=n)) for n in (48, 96))
-    assert (np.abs(coarse.G - fine.G) <= coarse.amplitude_error).all()
-    assert (coarse.amplitude_error < 0.12 * np.abs(fine.G[0])).all() and not fine.reservation
+    assert (np.abs(coarse.value - fine.value) <= coarse.error_bars["amplitude"]).all()
+    assert (coarse.error_bars["amplitude"] < 0.12 * np.abs(fine.value[0])).all() and not fine.reservation
     assert "may be off by" in excitation(MoesPoint(5, 2, 0.5), Omega=2.0, grid=Grid(n=16)).reservation
 
 
@@ -129,7 +129,7 @@ def force_in_time(point, n, waves, amplitude, dT):
 
 def test_agrees_with_a_run_in_time():
     waves = [8.0, 4.0, 2.0]
-    G = excitation(POINT, wavelength=waves, grid=Grid(n=32)).G
+    G = excitation(POINT, wavelength=waves, grid=Grid(n=32)).value
     assert np.abs(force_in_time(POINT, 32, waves, 5e-4, 0.1) - G).max() < 0.03 * np.abs(G).max()
 
 
@@ -137,13 +137,13 @@ def test_agrees_with_a_run_in_time():
 @pytest.mark.parametrize(("M", "L", "kappa", "n"), [(200, 10, 0.5, 64), (20, 5, 1.0, 64), (500, 12, 0.2, 96)])
 def test_agrees_with_runs_at_six_wavelengths(M, L, kappa, n):
     point, waves = MoesPoint(M, L, kappa), [16.0, 8.0, 16.0 / 3.0, 4.0, 3.2, 2.0]
-    G = excitation(point, wavelength=waves, grid=Grid(n=n)).G
+    G = excitation(point, wavelength=waves, grid=Grid(n=n)).value
     assert np.abs(force_in_time(point, n, waves, 2e-4, 0.05) - G).max() < 0.03 * np.abs(G).max()
 
 
 def test_grid_follows_the_shortest_wave():
     short, long = (excitation(MoesPoint(20, 5, 1.0), wavelength=length) for length in (0.9, 9.0))
-    assert short.n > long.n
+    assert short.film.n > long.film.n
 
 
 @pytest.mark.parametrize(
@@ -172,13 +172,16 @@ def test_bad_input_is_one_line(arguments, message):
 def test_in_si_and_in_files(tmp_path):
     point = OperatingPoint.ball_bearing(Lubricant(0.04, 2.2e-8), **OF_6205, speed_rpm=3000.0, load=30.0)
     result = excitation(point, hz=[500.0, 5000.0], grid=Grid(n=48))
-    si, s = result.si, result.scales
-    np.testing.assert_allclose(si.hz, [500.0, 5000.0])
-    np.testing.assert_allclose(si.wavelength, 0.5 * point.u_sum / si.hz)
-    np.testing.assert_allclose(si.amplitude, np.abs(result.G) * s.stiffness)
-    np.testing.assert_allclose(si.error_bars["amplitude"], result.amplitude_error * s.stiffness)
+    plain, unit = result.dimensionless, point.scales.stiffness
+    np.testing.assert_allclose(result.hz, [500.0, 5000.0])
+    np.testing.assert_allclose(result.wavelength, 0.5 * point.u_sum / result.hz)
+    np.testing.assert_allclose(result.amplitude, np.abs(plain.value) * unit)
+    np.testing.assert_allclose(result.error_bars["amplitude"], plain.error_bars["amplitude"] * unit)
+    np.testing.assert_allclose(result.contact_filter, plain.contact_filter)
+    with pytest.raises(InputError, match=r"^damping = 'waves': must be asked of a response to approach"):
+        _ = result.damping
     again = read(save(result, tmp_path / "waves.h5"))
-    assert again.to_dict() == result.to_dict() and again.scales == s
+    assert again.to_dict() == result.to_dict() and again.point == point
 
 
 def test_example_draws_filters(tmp_path, monkeypatch, capsys):

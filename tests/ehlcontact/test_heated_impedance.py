@@ -24,8 +24,8 @@ from ehlcontact import (
     save,
     solve_steady,
 )
-from ehlcontact.impedance import NEAR_ZERO, slow_part
 from ehlcontact.linearised_film import heat_of, held
+from ehlcontact.response import NEAR_ZERO, slow_part
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.effects import CyclesWithEffects
 from ehlcontact.solver.film_heat import FilmHeat, FollowedViscosity
@@ -213,23 +213,23 @@ def test_kept_and_said(tmp_path):
     """Film, K and C with heat: its damping falls by more than the film that stands still would have it."""
     found = impedance(POINT, Omega=[0.0, 1.0, 10.0], grid=Grid(64), thermal=Heat())
     again = read(save(found, tmp_path / "heated.h5"))
-    assert again.temperature.inputs == found.temperature.inputs
+    assert again.film.temperature.inputs == found.film.temperature.inputs
     assert again.to_dict() == found.to_dict()
-    assert found.to_dict()["temperature"]["film_share"] == pytest.approx(0.752, abs=0.005)
+    assert found.to_dict()["film"]["temperature"]["film_share"] == pytest.approx(0.752, abs=0.005)
     assert "heat makes the film 24.8" in repr(found)
     assert "isothermal" not in found.outside_assumptions
     cold = impedance(POINT, Omega=[0.0, 1.0, 10.0], grid=Grid(64))
     share = found.damping / cold.damping
     assert share[0] < 0.7 < share[1] < 1.0 < share[2]
-    assert (found.damping_error < 0.3 * found.damping).all()
+    assert (found.error_bars["damping"] < 0.3 * found.damping).all()
 
 
 @pytest.mark.slow
 def test_damping_converges_with_the_grid():
     found = [impedance(POINT, Omega=[0.0, 1.0], grid=Grid(n), thermal=Heat()) for n in (64, 128, 256)]
     for coarse, fine in pairwise(found):
-        assert (np.abs(coarse.damping - found[-1].damping) < coarse.damping_error).all()
-        assert (fine.damping_error < 0.7 * coarse.damping_error).all()
+        assert (np.abs(coarse.damping - found[-1].damping) < coarse.error_bars["damping"]).all()
+        assert (fine.error_bars["damping"] < 0.7 * coarse.error_bars["damping"]).all()
 
 
 @pytest.mark.long
@@ -242,11 +242,11 @@ def test_slow_oil_ahead_of_the_contact_is_said():
     body = Geometry(0.004100407377, 0.06768634058581521, e1=206e9, nu1=0.3, e2=206e9, nu2=0.3)
     point = OperatingPoint(body, oil, 125.31601186, 40.09500118)
     region = Grid(64, Domain(-4.5, 1.5, 3.0))
-    found = impedance(point, Omega=[1e-4, 0.005, 0.02, 0.3], grid=region, thermal=Heat())
+    found = impedance(point, Omega=[1e-4, 0.005, 0.02, 0.3], grid=region, thermal=Heat()).dimensionless
     assert found.damping[0] > 10.0 * found.damping[3]
-    assert (np.abs(found.damping - 0.155) < found.damping_error).all()
+    assert (np.abs(found.damping - 0.155) < found.error_bars["damping"]).all()
     assert "C may be off by anything" in found.reservation
-    fine = replace(found, n=256)  # else the coarse grid is reason enough
+    fine = replace(found, film=replace(found.film, n=256))  # else the coarse grid is reason enough
     assert "slow oil" not in found.reservation
     assert "perhaps by slow oil ahead of the contact: compare another n" in fine.reservation
 
@@ -272,9 +272,11 @@ def test_thin_films_that_slide_on_glass_vibrate_to_tolerance(speed, slide):
     glass = {"e1": 2.1e11, "e2": 7e10, "nu2": 0.21}
     point = OperatingPoint.ball_on_flat(oil, ball_diameter=19.05e-3, entrainment_speed=speed, load=5.0, **glass)
     given = {"grid": GRID, "thermal": replace(PAIR, slide_roll=slide)}
-    found = impedance(point, Omega=[0.0, 0.05, 1.0, 10.0], **given)
-    assert (found.residual < TOLERANCE * np.minimum(1.0, np.maximum(found.Omega, NEAR_ZERO))).all()
-    forces = [solve_steady(point, approach=found.approach + du, tol=1e-8, **given).force for du in (STEP, -STEP)]
+    found = impedance(point, Omega=[0.0, 0.05, 1.0, 10.0], **given).dimensionless
+    assert (found.residual < TOLERANCE * np.minimum(1.0, np.maximum(found.omega, NEAR_ZERO))).all()
+    forces = [
+        solve_steady(point, approach=found.film.approach + du, tol=1e-8, **given).force for du in (STEP, -STEP)
+    ]
     assert found.stiffness[0] == pytest.approx((forces[0] - forces[1]) / (2.0 * STEP), rel=5e-4)
 
 

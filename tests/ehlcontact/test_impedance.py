@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from balls import OF_6205
 
-from ehlcontact import Domain, Grid, InputError, Lubricant, MoesPoint, OperatingPoint, read, save
-from ehlcontact.impedance import impedance
+from ehlcontact import Domain, Grid, InputError, Lubricant, MoesPoint, OperatingPoint, impedance, read, save
 from ehlcontact.linearised_film import held
 from ehlcontact.solver import linearised_contact
 from ehlcontact.solver.error_estimate import NOISE, response_error
@@ -92,7 +91,7 @@ def test_fine_grid_is_within_reach(steady):
 
 def test_tells_the_film_that_was_linearised(steady):
     film, result = steady(200, 10, 0.5, 48), impedance(POINT, Omega=[0.0], grid=Grid(n=48))
-    told = result.approach, result.h_central, result.h_min
+    told = result.film.approach, result.film.h_central, result.film.h_min
     # to rounding: impedance keeps BLAS on one thread, and LU factors of several round differently
     assert told == pytest.approx((film.approach, film.h_central, film.h_min), rel=1e-8)
 
@@ -146,7 +145,7 @@ def test_interrupted_start_gives_no_result(monkeypatch):
 def test_thin_film_on_the_region_of_its_steady_solve():
     point = MoesPoint(20000, 2, 0.2)
     assert (
-        impedance(point, Omega=[1.0], grid=Grid(n=256)).domain
+        impedance(point, Omega=[1.0], grid=Grid(n=256)).film.domain
         == mesh_for(point, Purpose.FILM).domain
         == NEAR_DOMAIN
     )
@@ -154,10 +153,12 @@ def test_thin_film_on_the_region_of_its_steady_solve():
 
 def test_region_widens_at_light_load(monkeypatch):
     point = MoesPoint(7, 1, 0.08)
-    assert impedance(point, Omega=[1.0], grid=Grid(n=64)).domain == solve_steady(point, grid=Grid(n=64)).domain
+    assert (
+        impedance(point, Omega=[1.0], grid=Grid(n=64)).film.domain == solve_steady(point, grid=Grid(n=64)).domain
+    )
     # from a region that pressure fills: no default one does any more
     monkeypatch.setattr(Domain, "for_point", lambda *_: Domain())
-    assert impedance(point, Omega=[1.0], grid=Grid(n=64)).domain.x_in < Domain().x_in
+    assert impedance(point, Omega=[1.0], grid=Grid(n=64)).film.domain.x_in < Domain().x_in
 
 
 @pytest.mark.parametrize(
@@ -181,8 +182,8 @@ def test_film_that_half_the_intervals_do_not_show_still_has_an_error():
     assert (result.error_bars["damping"] > 0.05 * result.damping).all()
     assert "nodes are 0.047 semi-axes apart, damping needs 0.025; C may be off by" in result.reservation
     alone = impedance(MoesPoint(5, 2, 0.5), Omega=[0.0], grid=Grid(n=16))
-    assert alone.damping_error == pytest.approx(np.abs(alone.damping))
-    assert alone.reservation.endswith("C may be off by anything at Omega 0")
+    assert alone.error_bars["damping"] == pytest.approx(np.abs(alone.damping))
+    assert alone.reservation.endswith("C may be off by anything at omega 0")
 
 
 def test_errors_of_two_and_three_meshes():
@@ -202,11 +203,18 @@ def test_in_si_and_in_files(tmp_path):
     oil = Lubricant(0.04, 2.2e-8)
     point = OperatingPoint.ball_bearing(oil, **OF_6205, speed_rpm=3000.0, load=30.0)
     result = impedance(point, hz=[0.0, 50.0], grid=Grid(n=48))
-    s = result.scales
-    np.testing.assert_allclose(result.si.error_bars["damping"], result.damping_error * s.damping)
-    np.testing.assert_allclose(result.si.error_bars["stiffness"], result.stiffness_error * s.stiffness)
+    s, plain = point.scales, result.dimensionless
+    np.testing.assert_allclose(result.hz, [0.0, 50.0])
+    for name in ("damping", "stiffness"):
+        unit = getattr(s, name)
+        np.testing.assert_allclose(getattr(result, name), getattr(plain, name) * unit)
+        np.testing.assert_allclose(result.error_bars[name], plain.error_bars[name] * unit)
+    np.testing.assert_allclose(result.value, result.stiffness + 1j * result.omega * result.damping)
+    with pytest.raises(InputError, match=r"^hz = "):
+        _ = plain.hz
     again = read(save(result, tmp_path / "k_and_c.h5"))
-    assert again.to_dict() == result.to_dict() and again.scales == s
+    assert again.to_dict() == result.to_dict() and again.point == point
+    np.testing.assert_array_equal(again.value, result.value)
 
 
 def test_factors_of_one_band_at_a_time_give_the_same(monkeypatch):
@@ -236,5 +244,5 @@ def test_thin_films_on_that_mesh(point):
     assert "semi-axes apart" in coarse.reservation and "semi-axes apart" not in result.reservation
     off = coarse.damping / result.damping - 1.0
     assert 0.04 < off[0] < 0.1 and -0.3 < off[1] < -0.05
-    assert (np.abs(coarse.damping - result.damping) <= coarse.damping_error).all()
-    assert result.damping_error[0] < 0.5 * coarse.damping_error[0]
+    assert (np.abs(coarse.damping - result.damping) <= coarse.error_bars["damping"]).all()
+    assert result.error_bars["damping"][0] < 0.5 * coarse.error_bars["damping"][0]

@@ -24,7 +24,7 @@ from ehlcontact.film.plane import Film
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import Geometry, OperatingPoint
 from ehlcontact.quantities import quantities_of, si_quantities
-from ehlcontact.results import ImpedanceResult, SteadyResult
+from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
 
 POINT = OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 3.0, 1.3)
@@ -145,9 +145,7 @@ def test_dimensionless_points_have_none():
         assert "si" not in result.to_dict()
 
 
-@pytest.mark.parametrize(
-    "cls", [SteadyResult, ImpedanceResult, SimulationResult, TransientContact, Film, FilmHistory]
-)
+@pytest.mark.parametrize("cls", [SteadyResult, SimulationResult, TransientContact, Film, FilmHistory])
 def test_every_quantity_is_described(cls):
     """Name and SI name in the docstring: under Attributes, as numpydoc has it."""
     text = getdoc(cls).split("Attributes\n", 1)[1]

@@ -503,7 +503,7 @@ def test_stiffness_at_rest_is_that_of_steady_films():
     forces = [solve_steady(CIRCLE, approach=film.approach + s * du, **given, tol=1e-9).force for s in (-1.0, 1.0)]
     answer = impedance(CIRCLE, Omega=0.0, **given)
     assert answer.stiffness[0] == pytest.approx((forces[1] - forces[0]) / (2.0 * du), rel=1e-3)
-    assert answer.supply == OilLayer(H=0.5)
+    assert answer.film.supply == OilLayer(H=0.5)
     assert 0.0 < answer.damping[0] < 0.5 * impedance(CIRCLE, Omega=0.0, grid=SMALL).damping[0]
 
 

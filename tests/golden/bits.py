@@ -242,7 +242,7 @@ def responses() -> Leaves:
     yield from leaves("light", impedance(MoesPoint(5, 12, 0.12), Omega=omega))
     at_bearing = impedance(BEARING, Omega=omega)
     yield from leaves("SI", at_bearing)
-    yield from named("si", at_bearing.si, "omega hz stiffness damping")
+    yield from named("si", at_bearing, "omega hz stiffness damping")
 
 
 def full_contact() -> Leaves:
@@ -313,7 +313,7 @@ def element(name: str, contact: Any) -> Leaves:
     yield f"{name}.steps", np.array(steps)
     if hasattr(contact, "drive"):
         unit, w = "Omega" if contact.units == "dimensionless" else "omega", np.array([0.0, 0.01, 1.0, 6.0, 40.0])
-        yield f"{name}.impedance", contact.impedance(**{unit: w * 0.05 / dt})
+        yield f"{name}.impedance", contact.impedance(**{unit: w * 0.05 / dt}).value
         states = np.linspace(-0.01, 0.02, contact.state_count)
         force, rates = contact.state_rates(states, 0.5 * (low + high), v[3])
         yield f"{name}.rates", np.append(rates, force)
@@ -351,12 +351,11 @@ def elements() -> Leaves:
     }.items():
         yield from leaves(f"atlas {name}", atlas.at(point))
         between = atlas.at(point).impedance(Omega=[0.0, 0.02, 0.7, 5.0, 20.0])
-        yield from named(f"atlas {name} between", between, "Omega stiffness damping")
+        yield from named(f"atlas {name} between", between, "omega stiffness damping")
         if name == "bearing":
             yield from named(
                 "atlas si", atlas.at(point).si, "approach h_central h_min moment omega stiffness damping"
             )
-            yield from named("atlas between si", between.si, "omega stiffness damping")
         for model in ("wide", "memory", "cubic"):
             if not (model == "cubic" and name == "light"):
                 yield from element(f"{model} {name}", atlas.element(point, model, **at(model)))

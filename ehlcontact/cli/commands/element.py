@@ -88,7 +88,7 @@ def _answer(answer: AtlasAnswer, rpm: float | None) -> list[Row]:
     remark = "" if si else ", dimensionless, as C: time in 2a/u_sum"
     rows.append(row("static tangent", view.stiffness[0], view.error_bars["stiffness"][0], "N/m", remark))
     if rpm is not None:
-        shaft, own = answer.impedance(rpm=rpm).si, ", the shaft's own frequency"
+        shaft, own = answer.impedance(rpm=rpm), ", the shaft's own frequency"
         hz = f"C at {numeral(rpm / 60.0)} Hz"
         rows.append(row(hz, shaft.damping[0], shaft.error_bars["damping"][0], "N s/m", own))
     names = [f"{numeral(hz, 3)} Hz" for hz in answer.si.hz] if si else [""] * len(answer.Omega)

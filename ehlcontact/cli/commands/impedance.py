@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ehlcontact.cli import options as o
@@ -10,9 +11,10 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, heat_rows, in_unit, outside_rows, run_rows
+from ehlcontact.point import OperatingPoint
 
 if TYPE_CHECKING:
-    from ehlcontact.results import ImpedanceResult
+    from ehlcontact.results import Response
 
 
 @o.grouped
@@ -20,7 +22,7 @@ def impedance(
     contact: Contact, supply: Supply, heating: Heating, grid: o.Grid, frequencies: Frequencies, out: o.Output
 ) -> None:
     """Linearise the steady film: stiffness K and damping C over frequency."""
-    from ehlcontact.impedance import impedance as solve
+    from ehlcontact.response import impedance as solve
 
     chosen = grid.chosen() | {"supply": supply.chosen(contact), "thermal": heating.chosen(contact)}
     point = contact.solvable()
@@ -28,22 +30,24 @@ def impedance(
     out.check()
     with progress("linearised contact"):
         result = solve(point, **at, **chosen)
-    found = contact.judged(point, result)
-    static = "static load 1, dry approach 1, time unit 2a/u_sum"
-    table = (
-        f"impedance: force over approach, {static if result.scales is None else 'small vibrations about rest'}",
-        [*contact.rows(point), *outside_rows(found), *_rows(result), *heat_rows(result), *run_rows(result)],
-    )
-    out.deliver({**result.to_dict(), **contact.about(point), "outside_assumptions": found.headline}, table)
-    if result.reservation:
-        complain(f"warning: {result.reservation}")
+    film = result.film
+    assert film is not None
+    found = contact.judged(point, film)
+    si = isinstance(result.point, OperatingPoint)
+    scale = "small vibrations about rest" if si else "static load 1, dry approach 1, time unit 2a/u_sum"
+    run = run_rows(replace(film, seconds=result.seconds))
+    rows = [*contact.rows(point), *outside_rows(found), *_rows(result, si), *heat_rows(film), *run]
+    content = {**result.to_dict(), **contact.about(point), "outside_assumptions": found.headline}
+    out.deliver(content, (f"impedance: force over approach, {scale}", rows))
+    for warning in filter(None, (result.negative_damping, result.reservation)):
+        complain(f"warning: {warning}")
 
 
-def _rows(result: ImpedanceResult) -> list[Row]:
-    view = result if result.scales is None else result.si
-    bars = view.error_bars or {}
-    found = zip(result.Omega, view.stiffness, view.damping, bars["stiffness"], bars["damping"], strict=True)
-    if result.scales is None:
+def _rows(result: Response, si: bool) -> list[Row]:
+    bars = result.error_bars
+    numbers = result.stiffness, result.damping, bars["stiffness"], bars["damping"]
+    found = zip(result.dimensionless.omega, *numbers, strict=True)
+    if not si:
         return [
             (f"Omega = {w:g}", f"K {k:.4f} ± {numeral(dk, 1)}", f"C {c:.5f} ± {numeral(dc, 1)}")
             for w, k, c, dk, dc in found
@@ -54,7 +58,7 @@ def _rows(result: ImpedanceResult) -> list[Row]:
             f"K {_with_bar(k, dk, 'N/m')}",
             f"C {_with_bar(c, dc, 'N s/m')}; Omega = {numeral(w)}",
         )
-        for hz, (w, k, c, dk, dc) in zip(result.si.hz, found, strict=True)
+        for hz, (w, k, c, dk, dc) in zip(result.hz, found, strict=True)
     ]
 
 

@@ -12,7 +12,7 @@ from ehlcontact.cli.study.reduction import DRY, FULL, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.rotor import kicked_mode, linear_rotors, run_decay_reduced, run_reduced
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.results import ImpedanceResult
+from ehlcontact.results import Response
 from reduced_models import compare
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.compare import Comparison
@@ -149,7 +149,7 @@ class RotorFindings:
 
 
 def compare_rotors(
-    study: Study, response: ImpedanceResult, elements: Mapping[str, ContactElement], folder: Path
+    study: Study, response: Response, elements: Mapping[str, ContactElement], folder: Path
 ) -> RotorFindings:
     """Run the rotor on SI elements, by name, and compare it with the stored runs on full contacts.
 
@@ -222,9 +222,7 @@ def _half_step(study: Study, full: RotorResult, chosen: _RunsOn, folder: Path) -
     )
 
 
-def _decay(
-    study: Study, mode: RotorMode, ran: Mapping[str, _RunsOn], response: ImpedanceResult, folder: Path
-) -> Decay:
+def _decay(study: Study, mode: RotorMode, ran: Mapping[str, _RunsOn], response: Response, folder: Path) -> Decay:
     load = study.ball_load
     full = store.read(folder / "decay.h5", RotorResult)
     runs = {FULL: full} | {name: one.decaying for name, one in ran.items()}

@@ -13,7 +13,7 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import Scales
-from ehlcontact.results import ImpedanceResult
+from ehlcontact.results import Response
 from ehlcontact.results.picture import BLUE, GREEN, GREY, ORANGE, PURPLE, RED
 from ehlcontact.store import save
 from ehlcontact.transient.motion import HarmonicLoad
@@ -56,7 +56,7 @@ class Reduction:
     fits: Mapping[tuple[str, str], FitResult]
     refused: Mapping[tuple[str, str], str]
     memory: MemoryFit | str  # or why there is none
-    impedance: ImpedanceResult
+    impedance: Response
     scales: Scales
 
     def element_si(self, record: str, model: str) -> Any:
@@ -97,7 +97,7 @@ class Reduction:
 
 def reduce_records(
     simulations: Mapping[str, SimulationResult],
-    response: ImpedanceResult,
+    response: Response,
     scales: Scales,
     known: Mapping[str, Any],
 ) -> Reduction:
@@ -125,11 +125,10 @@ def reduce_records(
     return Reduction(fits, refused, memory, response, scales)
 
 
-def _at_memory_frequencies(response: ImpedanceResult) -> ImpedanceResult:
+def _at_memory_frequencies(response: Response) -> Response:
     """At the frequencies that a film memory is fitted at: more at the slow end would outweigh the others."""
-    kept = np.isin(response.Omega, OMEGAS)
-    names = ("Omega", "stiffness", "damping", "residual")
-    return replace(response, **{name: getattr(response, name)[kept] for name in names})
+    whole = response.dimensionless
+    return whole[np.isin(whole.omega, OMEGAS)]
 
 
 def contact_text(study: Study) -> str:

@@ -126,8 +126,8 @@ class Findings:
         """The film-memory element and the impedance it was fitted to, or why there is none."""
         found, response = self.reduction.memory, self.reduction.impedance
         if isinstance(found, str):
-            return {"refused": found, "impedance": response.to_dict()}
-        return found.to_dict() | {"impedance": response.to_dict()}
+            return {"refused": found, "impedance": response.dimensionless.to_dict()}
+        return found.to_dict() | {"impedance": response.dimensionless.to_dict()}
 
     @property
     def at_rotor_speed(self) -> dict[str, float]:

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.impedance import impedance
-from ehlcontact.results import ImpedanceResult
+from ehlcontact.response import impedance
+from ehlcontact.results import Response
 from ehlcontact.solver.grid import Grid
 from reduced_models import OutsideValidityWarning, Rotor, jeffcott_rotor, linearise
 from reduced_models.elements.base import ContactElement
@@ -58,7 +58,7 @@ def build_rotor(study: Study, *, unbalance: bool = True) -> Rotor:
     )
 
 
-def film_response(study: Study) -> ImpedanceResult:
+def film_response(study: Study) -> Response:
     """Impedance on the mesh of the transient films, from below the rotor's frequency to far above the contact's.
 
     It is the same every time: a stage that needs it solves it again, in the time of a few steps of its run.
@@ -75,14 +75,14 @@ def frequencies(study: Study) -> list[float]:
     return sorted({*OMEGAS, *below, own})
 
 
-def stiffness_and_damping(response: ImpedanceResult, omega: float) -> tuple[float, float]:
+def stiffness_and_damping(response: Response, omega: float) -> tuple[float, float]:
     """Of one contact [N/m] and [N s/m], by its impedance at a frequency [rad/s]."""
     Z = complex(film_impedance(response)(np.array([omega]))[0])
     return Z.real, Z.imag / omega
 
 
 def linear_rotors(
-    study: Study, response: ImpedanceResult, elements: Mapping[str, ContactElement]
+    study: Study, response: Response, elements: Mapping[str, ContactElement]
 ) -> dict[str, LinearRotor]:
     """The rotor on the film, "full", and on every element, linearised about rest."""
     rotor, impedances = build_rotor(study), {"full": film_impedance(response)}
@@ -90,7 +90,7 @@ def linear_rotors(
     return {name: linearise(rotor.on([one] * len(rotor.mounts))) for name, one in impedances.items()}
 
 
-def kicked_mode(study: Study, response: ImpedanceResult) -> RotorMode:
+def kicked_mode(study: Study, response: Response) -> RotorMode:
     """The slowest vertical mode on the film: that of the kick whatever then carries the rotor.
 
     Raises
@@ -107,7 +107,9 @@ def kicked_mode(study: Study, response: ImpedanceResult) -> RotorMode:
 def run_full(study: Study, halvings: int, callback: Callable[[int, int], None]) -> RotorResult:
     """Rotor with the whole film in every contact, from near its settled motion on."""
     response, omega = film_response(study), 2.0 * np.pi * study.rotor_hz
-    approach = response.approach * study.point.scales.length
+    film = response.dimensionless.film
+    assert film is not None
+    approach = film.approach * study.point.scales.length
     return simulate_on_films(
         build_rotor(study),
         study.point,
@@ -135,7 +137,7 @@ def run_decay_full(study: Study, halvings: int, callback: Callable[[int, int], N
 
 
 def run_decay_reduced(
-    study: Study, element: ContactElement, mode: RotorMode, response: ImpedanceResult, halvings: int
+    study: Study, element: ContactElement, mode: RotorMode, response: Response, halvings: int
 ) -> RotorResult:
     """Decay after the same kick with an SI element in every contact, from its own rest."""
     rotor = build_rotor(study, unbalance=False)
@@ -159,7 +161,7 @@ def _decay_settings(study: Study, halvings: int) -> dict[str, Any]:
     return {"periods": study.rotor.decay_periods, "steps_per_period": steps}
 
 
-def _kick(study: Study, rotor: Rotor, mode: RotorMode, response: ImpedanceResult) -> NDArray[np.float64]:
+def _kick(study: Study, rotor: Rotor, mode: RotorMode, response: Response) -> NDArray[np.float64]:
     """Velocities of the mode, as fast as the entry `kick` of the study has it."""
     stiffness = float(abs(film_impedance(response)(np.array([mode.omega]))[0]))
     load, load_share = study.ball_load, study.rotor.kick

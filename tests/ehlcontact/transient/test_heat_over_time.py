@@ -55,11 +55,11 @@ def waved(approach, omega, steps, thermal, amplitude=1e-3):
 )
 def test_small_vibrations_have_the_heated_impedance(omega, steps, given):
     """Isothermal damping is 14 % and more away."""
-    heated = impedance(POINT, Omega=omega, grid=GRID, thermal=given)
-    K, C = waved(heated.approach, omega, steps, given)
+    heated = impedance(POINT, Omega=omega, grid=GRID, thermal=given).dimensionless
+    K, C = waved(heated.film.approach, omega, steps, given)
     assert K == pytest.approx(heated.stiffness[0], rel=1e-3)
     assert C == pytest.approx(heated.damping[0], rel=0.01)
-    assert abs(impedance(POINT, Omega=omega, grid=GRID).damping[0] / C - 1.0) > 0.1
+    assert abs(impedance(POINT, Omega=omega, grid=GRID).dimensionless.damping[0] / C - 1.0) > 0.1
 
 
 def test_a_steady_film_stays():

@@ -20,12 +20,12 @@ from ehlcontact import (
     SpeedHistory,
     TimeSteps,
     read,
+    response,
     save,
     simulate,
     solve_steady,
 )
 from ehlcontact.lubricant import density, log_viscosity
-from ehlcontact.speed_response import speed_response
 from ehlcontact.transient.prescribed import passed_over
 
 POINT = MoesPoint(20.0, 5.0, 1.0)
@@ -237,17 +237,17 @@ def vibrating(point, grid, W, swing=0.02, periods=4, steps=40):
 @pytest.mark.long
 @pytest.mark.parametrize("W", [0.3, 4.0])
 def test_response_to_a_vibrating_speed(W):
-    found = speed_response(POINT, Omega=W, grid=COARSE)
-    assert found.R[0] == pytest.approx(vibrating(POINT, COARSE, W), rel=0.01)
+    found = response(POINT, to="speed", Omega=W, grid=COARSE)
+    assert found.value[0] == pytest.approx(vibrating(POINT, COARSE, W), rel=0.01)
     assert found.lift[0] > 0.0 > found.quadrature[0]
 
 
 def test_slow_response_is_the_derivative_of_the_steady_film():
     """At constant load: how the approach changes with ln(u_sum)."""
-    found = speed_response(POINT, Omega=0.0, grid=COARSE)
+    found = response(POINT, to="speed", Omega=0.0, grid=COARSE)
     near = [
         solve_steady(
-            MoesPoint(20.0 * U**-0.75, 5.0 * U**0.25, 1.0), grid=Grid(n=64, domain=found.domain), tol=1e-10
+            MoesPoint(20.0 * U**-0.75, 5.0 * U**0.25, 1.0), grid=Grid(n=64, domain=found.film.domain), tol=1e-10
         )
         for U in (0.99, 1.01)
     ]
@@ -260,7 +260,10 @@ def test_slow_response_is_the_derivative_of_the_steady_film():
 @pytest.mark.parametrize("point", [MoesPoint(20.0, 5.0, 1.0), MoesPoint(200.0, 10.0, 0.5)])
 def test_responses_of_the_page(point, W):
     grid = Grid(n=128)
-    found, run = speed_response(point, Omega=W, grid=grid).R[0], vibrating(point, grid, W, periods=5, steps=80)
+    found, run = (
+        response(point, to="speed", Omega=W, grid=grid).value[0],
+        vibrating(point, grid, W, periods=5, steps=80),
+    )
     print(f"{point}, Omega {W:g}: {found:.4f}, {run:.4f}, {abs(run / found - 1.0):.2%} apart")
     assert abs(run / found - 1.0) < 0.005
 

@@ -64,7 +64,7 @@ def test_error_bars_are_those_of_the_heaviest_balls_contacts():
     for column, force in enumerate(state.force[state.heaviest].tolist()):
         race = race_at(BEARING, state, state.heaviest, column)
         answer = replace(race, conditions=Conditions(heat=Heat())).answer(force, 3000.0)
-        contacts.append(answer.impedance(hz=found.hz).si)
+        contacts.append(answer.impedance(hz=found.hz))
         bar = answer.si.error_bars["h_min"]
         assert found.error_bars[HEAT].h_min[column] == pytest.approx(bar, rel=1e-12)
         name = f"smallest film, {('inner', 'outer')[column]}"
@@ -118,12 +118,13 @@ def test_solved_contacts_correct_the_tables_of_preloaded_bearings(monkeypatch, m
 
     def answered(point, *, hz, supply=None, thermal=None):
         one = shared_atlas(None).at(point, supply=supply, thermal=thermal)
-        Z = one.impedance(hz=hz).si
+        Z = one.impedance(hz=hz)
         off = errors if supply is not None else {}
         scaled = {name: factor * getattr(one, name) for name, factor in off.items() if name != "stiffness"}
         K, C = Z.stiffness * off.get("stiffness", 1.0), Z.damping * off.get("stiffness", 1.0)
         films = {name: getattr(one, name) for name in ("h_central", "h_min", "moment")}
-        return SimpleNamespace(**films | scaled, si=SimpleNamespace(stiffness=K, damping=C))
+        film = SimpleNamespace(film=SimpleNamespace(**films | scaled))
+        return SimpleNamespace(stiffness=K, damping=C, dimensionless=film)
 
     monkeypatch.setattr(module, "impedance", answered)
     given = {"speed_rpm": speed, "supply": OilLayer(over_flooded=0.6), "thermal": Heat()}

@@ -60,7 +60,7 @@ def test_an_element_of_all_loads_is_near_those_of_each(film):
     whole = film.element("inner", 3000.0)
     for load in (10.0, 50.0, 200.0, 1000.0):
         own = atlas.element(race.point(load, 3000.0), "wide")
-        ours, theirs = (e.impedance(load=load, hz=200.0)[0] for e in (whole, own))
+        ours, theirs = (e.impedance(load=load, hz=200.0).value[0] for e in (whole, own))
         assert ours.imag == pytest.approx(theirs.imag, rel=0.04)
         at = atlas.at(race.point(load, 3000.0)).si
         assert whole.approach_at(load) == pytest.approx(at.approach, abs=2e-9)

@@ -22,7 +22,7 @@ def in_series(bearing, load):
     """C [N s/m] of both contacts of the first ball in series, as the atlas has them."""
     state, w = bearing.equilibrium(load, speed_rpm=RPM, cage_angle=0.0), 2.0 * np.pi * np.array(HZ)
     answers = [bearing.race(name).answer(float(state.force[0, k]), RPM) for k, name in enumerate(RACES)]
-    springs = [at.impedance(omega=w).si for at in answers]
+    springs = [at.impedance(omega=w) for at in answers]
     return (1.0 / sum(1.0 / (at.stiffness + 1j * w * at.damping) for at in springs)).imag / w
 
 

@@ -72,7 +72,7 @@ def test_signed_damping_is_that_of_both_contacts_of_every_ball_in_series(at_r):
         compliance = np.zeros(2, complex)
         for column, name in enumerate(RACES):
             point = one.race(name).point(float(state.force[ball, column]), 3000.0)
-            at = Atlas().at(point, supply=OilLayer(over_flooded=1.0)).impedance(hz=hz).si
+            at = Atlas().at(point, supply=OilLayer(over_flooded=1.0)).impedance(hz=hz)
             compliance += 1.0 / (at.stiffness + 1j * omega * at.damping)
         n = np.array([np.cos(state.angles[ball]), np.sin(state.angles[ball])])
         Z += np.outer(n, n) / compliance[:, None, None]

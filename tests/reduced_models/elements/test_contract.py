@@ -416,7 +416,7 @@ def test_state_space_is_the_impedance_and_what_python_control_linearises(asked, 
     block, nonlinear = element.to_ss(at), element.to_control()
     found = control.frequency_response(block, omega).frdata[0]
     found = found.reshape(2, omega.size) if found.ndim > 1 else found
-    expected = element.impedance(load=at, **{unit: omega})
+    expected = element.impedance(load=at, **{unit: omega}).value
     np.testing.assert_allclose(found[0] + 1j * omega * found[1], expected, rtol=1e-9)
     for one in (block, nonlinear):
         assert (one.input_labels, one.output_labels, one.nstates) == (["u", "v"], ["F"], element.state_count)

@@ -35,9 +35,9 @@ def test_at_a_constant_speed_it_is_the_element_of_that(atlas, name, speed):
     for load in (300.0, 600.0, 1200.0):
         film, other = ((load / 600.0) ** (2 / 3) * own.scales.length - e.approach_at(load) for e in (over, wide))
         assert film == pytest.approx(other, rel=0.005)
-        ours, theirs = (e.impedance(load=load, hz=hz) for e in (over, wide))
+        ours, theirs = (e.impedance(load=load, hz=hz).value for e in (over, wide))
         np.testing.assert_allclose(ours.real, theirs.real, rtol=1e-3)
-        flooded = atlas.element(own).impedance(load=load, hz=hz).imag
+        flooded = atlas.element(own).impedance(load=load, hz=hz).value.imag
         assert (np.abs(ours.imag - theirs.imag) / flooded).max() < (0.02 if name == "heat" else 0.07)
 
 

@@ -1,0 +1,312 @@
+"""`response`: force of the linearised steady contact over frequency, to its approach, its speed, or passing waves.
+
+A harmonic change of unit size makes a pressure ``P + dP exp(i Omega T)`` with
+
+    (J + i Omega B) dP = source      on the nodes with P > 0,
+
+J and B being the derivatives of the steady Reynolds operator and of the squeeze term to P with full elasticity
+(`solver.linearised_contact`). The force is ``3/(2 pi) iint dP``. With j and b the derivatives to the approach u,
+Jg and Bg those to the gap, and D the differences along X:
+
+========= ==================================== =================================================================
+change    source                               force
+========= ==================================== =================================================================
+approach  ``-(j + i Omega b)``                 impedance ``Z = K + i Omega C``: force over displacement, the
+                                               dynamic stiffness, not the mechanical impedance (over velocity)
+speed     ``d(rho H)/dX``, of u_sum (1 + s)    at low frequency what the steady force at this approach gains with
+                                               ln(u_sum), at high frequency less and later, for the film has to
+                                               cross the contact first
+waves     ``-(Jg + i Omega Bg + rho (D + i k)) G(Omega), per height at X = 0; long waves are an approach: G tends
+          g``, ``g = -exp(-i k X)``            to Z. ``|G/Z|`` is the contact filter; dry it is ``|sin(k)/k|``
+========= ==================================== =================================================================
+
+Waves of height ``exp(i (Omega T - k X))`` stand on a surface with ``dX/dT = speed = Omega/k``. The last term of
+their source puts the exact change of g along X in place of the differenced one, as runs with a surface do
+(`transient.transient_film`). The other responses are at fixed approach: bodies under a constant load without
+inertia move apart by the force over the impedance.
+
+Grids of half and a quarter of the intervals give error estimates (`solver.error_grids`).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from math import pi
+from typing import Any, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.checks import as_numbers, require_positive
+from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, is_given
+from ehlcontact.checks.kinds import shown
+from ehlcontact.checks.machine import require_threads
+from ehlcontact.conditions import Conditions
+from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat
+from ehlcontact.linearised_film import coarser_contacts, film_to_linearise, held, linearised
+from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
+from ehlcontact.process.blas import one_blas_thread
+from ehlcontact.results.response import APPROACH, PARTS, SLOW, SPEED, WAVES, Response
+from ehlcontact.results.steady_result import SteadyResult
+from ehlcontact.solver.error_estimate import response_error, wave_error
+from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
+from ehlcontact.solver.level import Level
+from ehlcontact.solver.linear import LinearFilm
+from ehlcontact.solver.linearised_contact import TOLERANCE, LinearisedContact
+from ehlcontact.solver.mesh import Mesh, Solve
+from ehlcontact.solver.mesh_choice import Purpose, grid_for_waves, wider_meshes
+from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.supply import OilLayer
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+LARGEST_OMEGA = 200.0
+NEAR_ZERO = 1e-4  # where C(0) is evaluated
+FEWEST_NODES = 4.0  # of the mesh to a wave, as of `Roughness`: with fewer the film does not follow it
+SLOW_SHARE = 0.1  # of C at low frequency that is not in C at `SLOW`, from which it is slow oil: else 7 % at most
+TO = f"{APPROACH!r}, {SPEED!r} or Waves(...)"
+
+
+@dataclass(frozen=True, slots=True)
+class Waves:
+    """Straight waves on one of both surfaces, with crests across rolling; those of both surfaces add.
+
+    Parameters
+    ----------
+    wavelength : float or sequence of float, optional
+        Along rolling, in semi-axes a at every point, as of `Waviness`: ``2 pi speed/Omega``; by default it follows
+        from the frequencies of the response.
+    speed : float
+        dX/dT of the surface with the waves: 1 in pure rolling, ``2 u_i/u_sum`` in general.
+    """
+
+    wavelength: ArrayLike | None = None
+    speed: float = 1.0
+
+    def frequencies(self, time_unit: float | None, given: Frequency) -> Array:
+        """Omega of the frequencies or wavelengths, shape (k,), of a contact with a unit of time [s].
+
+        Raises
+        ------
+        InputError
+            Not exactly one of both; waves that do not move, too short or endless ones.
+        """
+        speed = require_positive("speed", self.speed)
+        if self.wavelength is None:
+            w = dimensionless(time_unit, **given, most=LARGEST_OMEGA)
+            if not w.all():
+                raise InputError(next(name for name, value in given.items() if value is not None), 0.0, "> 0")
+            return w
+        if is_given(**given):
+            allowed = "left out where a frequency is given, which it follows from"
+            raise InputError("wavelength", self.wavelength, allowed)
+        lengths = np.atleast_1d(as_numbers("wavelength", self.wavelength))
+        if lengths.ndim != 1 or lengths.size == 0:
+            raise InputError("wavelength", f"of shape {lengths.shape}", "a number, or a flat list of at least one")
+        least = 2.0 * pi * speed / LARGEST_OMEGA
+        bad = lengths[~((lengths >= least) & np.isfinite(lengths))]
+        if bad.size:
+            allowed = f"finite and at least {least:.3g} semi-axes a, which is Omega = {LARGEST_OMEGA:g}"
+            raise InputError("wavelength", float(bad[0]), allowed)
+        return 2.0 * pi * speed / lengths
+
+    def resolved_by(self, mesh: Mesh, Omega: float, point: Point) -> Mesh:
+        """`mesh`, or `InputError` where waves of this frequency have too few nodes."""
+        x_in, x_out, _ = mesh.domain.as_tuple()
+        least, length = FEWEST_NODES * (x_out - x_in) / mesh.n, 2.0 * pi * self.speed / Omega
+        if length >= least:
+            return mesh
+        most = 2.0 * pi * self.speed / least
+        si = isinstance(point, OperatingPoint)
+        limit = f"up to {most / point.scales.time / (2.0 * pi):.3g} Hz" if si else f"Omega up to {most:.3g}"
+        allowed = f"at least {least:.3g} semi-axes a ({limit}), {FEWEST_NODES:g} nodes of n = {mesh.n}: raise n"
+        raise InputError("wavelength", float(f"{length:.3g}"), allowed)
+
+
+@by_name(1)
+@one_blas_thread()
+def response(
+    point: Point,
+    *,
+    to: str | Waves = APPROACH,
+    Omega: ArrayLike | None = None,
+    omega: ArrayLike | None = None,
+    hz: ArrayLike | None = None,
+    rpm: ArrayLike | None = None,
+    grid: Grid = AUTOMATIC,
+    supply: OilLayer | None = None,
+    thermal: Heat | bool | None = None,
+    threads: int | None = None,
+) -> Response:
+    """Linearise the converged steady contact and return its force over a small harmonic change, over frequency.
+
+    Parameters
+    ----------
+    point : MoesPoint or OperatingPoint
+    to : "approach", "speed" or Waves
+        What changes: the mutual approach; the speed of both surfaces, at fixed approach (large changes: `simulate`
+        with a `SpeedHistory`); or the height of waves that pass on a surface, at fixed approach.
+    Omega, omega, hz, rpm : float or sequence of float
+        Frequencies, in exactly one of these: dimensionless (time unit 2a/u_sum, from 0 to 200) at every point; at
+        an `OperatingPoint` also in rad/s, Hz or rev/min. Waves with a wavelength have theirs from it.
+    grid : Grid
+        Intervals along X, by default as many as the inlet needs, 80 or more, and 16 or more to the shortest wave
+        as far as is affordable; computed region, by default that of `solve_steady` (C depends on it by about
+        1/extent^2); engine of the elastic deflection.
+    supply : OilLayer, optional
+        Oil that the surfaces carry to the contact, as in `solve_steady`. The front of the full film moves with the
+        change: the oil that it takes up and leaves behind is part of the problem.
+    thermal : Heat, or True for ``Heat()``, optional
+        Let the film heat up, as in `solve_steady`; its temperatures follow the vibration as fast as oil and
+        surfaces can (docs/heat.md).
+    threads : int, optional
+        As in `solve_steady`.
+
+    Raises
+    ------
+    InputError
+        Frequencies not given in exactly one way, in SI at a dimensionless point, not finite, negative or above
+        Omega = 200; of waves also Omega = 0, a wavelength beside a frequency, fewer than 4 nodes to a wave; a grid
+        that would not fit into memory; more threads than cores.
+    ConvergenceError
+        The steady state did not converge.
+    """
+    started = time.perf_counter()
+    moes = require_solvable(point)
+    frequency: Frequency = {"Omega": Omega, "omega": omega, "hz": hz, "rpm": rpm}
+    waves, w = _change(to, None if isinstance(point, MoesPoint) else point.scales.time, frequency)
+    require_grid(grid)
+    threads = require_threads("threads", threads)
+    conditions = Conditions.of(supply=supply, thermal=thermal).at(point)
+    if waves is None:
+        meshes: Iterable[Mesh] = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
+    else:
+        fine = grid_for_waves(moes, grid, 2.0 * pi * waves.speed / float(w.max()))
+        wider = wider_meshes(moes, Purpose.DAMPING, fine, solve=Solve.IMPEDANCE)
+        meshes = (waves.resolved_by(mesh, float(w.max()), point) for mesh in wider)
+    steady = film_to_linearise(point, meshes, grid.deflection, threads, conditions)
+    by = _to_approach if to == APPROACH else _to_source
+    found = by(steady, held(steady, grid.deflection, threads), w, waves)
+    return replace(found, seconds=time.perf_counter() - started).in_units_of(point)
+
+
+@by_name(1)
+def impedance(
+    point: Point,
+    *,
+    grid: Grid = AUTOMATIC,
+    supply: OilLayer | None = None,
+    thermal: Heat | bool | None = None,
+    threads: int | None = None,
+    **frequency: Unpack[Frequency],
+) -> Response:
+    """Stiffness K and damping C over frequency: `response` to approach, with its parameters and errors."""
+    conditions: dict[str, Any] = {"supply": supply, "thermal": thermal}
+    return response(point, to=APPROACH, grid=grid, threads=threads, **conditions, **frequency)
+
+
+@by_name(1)
+def excitation(
+    point: Point,
+    *,
+    wavelength: ArrayLike | None = None,
+    speed: float = 1.0,
+    grid: Grid = AUTOMATIC,
+    supply: OilLayer | None = None,
+    thermal: Heat | bool | None = None,
+    threads: int | None = None,
+    **frequency: Unpack[Frequency],
+) -> Response:
+    """Force of waves on a surface over frequency: `response` to `Waves`, with its parameters and errors."""
+    conditions: dict[str, Any] = {"supply": supply, "thermal": thermal}
+    return response(point, to=Waves(wavelength, speed), grid=grid, threads=threads, **conditions, **frequency)
+
+
+def _change(to: str | Waves, time_unit: float | None, frequency: Frequency) -> tuple[Waves | None, Array]:
+    """Waves, where the response is to them, and Omega, shape (k,)."""
+    if isinstance(to, Waves):
+        return to, to.frequencies(time_unit, frequency)
+    if to not in (APPROACH, SPEED):
+        raise InputError("to", shown(to), TO)
+    return None, dimensionless(time_unit, **frequency, most=LARGEST_OMEGA)
+
+
+def _to_approach(steady: SteadyResult, solved: Multigrid, w: Array, waves: Waves | None) -> Response:
+    """Impedance, dimensionless."""
+    contact, moving = linearised(steady, solved), np.maximum(w, NEAR_ZERO)
+    Z, residual = contact.respond(moving, TOLERANCE)
+    coarser = [other.respond(moving, TOLERANCE)[0] for other in coarser_contacts(steady, solved)]
+    stiffness, damping = response_error(moving, [Z, *coarser])
+    if steady.temperature is not None:
+        # A front of full film is slow by itself
+        still = None if steady.supply is None else LinearisedContact(solved)
+        damping = damping + slow_part(contact, moving, Z.imag / moving, still)
+    bars = {"stiffness": stiffness, "damping": damping}
+    return Response.to_approach(w, Z, moving, point=steady.point, film=steady, residual=residual, error_bars=bars)
+
+
+def _to_source(steady: SteadyResult, solved: Multigrid, w: Array, waves: Waves | None) -> Response:
+    """Force of a change of speed, or of waves, dimensionless."""
+    contact, moving = linearised(steady, solved), np.maximum(w, NEAR_ZERO)
+
+    def force(of: LinearisedContact) -> tuple[Complex, Array]:
+        return force_of_speed(of, moving) if waves is None else force_of_waves(of, moving, moving / waves.speed)
+
+    Z = contact.respond(moving, TOLERANCE)[0]
+    value, residual = force(contact)
+    every = [value, *(force(other)[0] for other in coarser_contacts(steady, solved))]
+    shared: dict[str, Any] = {"point": steady.point, "film": steady, "omega": w, "value": value}
+    shared |= {"residual": residual, "impedance": Z}
+    if waves is None:
+        bars = dict.fromkeys(PARTS, wave_error(every, np.abs(value)))
+        return Response(to=SPEED, error_bars=bars, **shared)
+    error = wave_error(every, np.abs(Z))
+    bars = dict.fromkeys((*PARTS, "amplitude"), error) | {"contact_filter": error / np.abs(Z)}
+    lengths = 2.0 * pi * waves.speed / w
+    return Response(to=WAVES, wavelength=lengths, wave_speed=waves.speed, error_bars=bars, **shared)
+
+
+def force_of_waves(contact: LinearisedContact, omega: Array, k: Array) -> tuple[Complex, Array]:
+    """Force per height of waves of wave numbers k, and the relative residual of its linear system, both (m,)."""
+    return contact.force_of(omega, lambda system, m: -_flow_by_waves(contact.level, system, float(k[m])))
+
+
+def _flow_by_waves(level: Level, system: LinearFilm, k: float) -> Complex:
+    """Change of the Reynolds operator at all nodes, flat, by waves of unit height at fixed pressure."""
+    film = np.broadcast_to(-np.exp(-1j * k * level.X), level.P.shape)
+    still = np.zeros_like(level.P)
+    differenced = level.transport(film.real.copy(), still) + 1j * level.transport(film.imag.copy(), still)
+    exactly = level.fields.flow.rho * (differenced + 1j * k * film)
+    return np.asarray(system.by_film @ film.ravel() + exactly.ravel())
+
+
+def force_of_speed(contact: LinearisedContact, omega: Array) -> tuple[Complex, Array]:
+    """Force over relative change of speed, and the relative residual of its linear system, both (m,)."""
+    level = contact.level
+    carried = level.transport(level.fields.flow.mass, np.zeros_like(level.P)).ravel()
+    return contact.force_of(omega, lambda system, m: carried)
+
+
+def slow_part(
+    contact: LinearisedContact, omega: Array, damping: Array, still: LinearisedContact | None = None
+) -> Array:
+    """What oil that heats and cools slowly may add to C at low frequencies, (k,); 0 where it is not seen.
+
+    It is what C changes below `SLOW`, less what it changes with temperatures that stand `still`, where given.
+
+    Far ahead of the contact hot oil flows back beside colder oil that flows forward. Oil that warms flows back
+    more and brings more heat: on few grids a line of nodes between both is near the end of its balance, and its
+    temperature has a rate of some thousandths. Another n has none of it.
+    """
+    low, part = omega < SLOW, np.zeros_like(omega)
+    if low.any():
+        w = np.append(omega[low], SLOW)
+        C = np.append(damping[low], contact.respond(w[-1:], TOLERANCE)[0].imag / SLOW)
+        if still is not None:
+            C -= still.respond(w, TOLERANCE)[0].imag / w
+        part[low] = np.abs(C[:-1] - C[-1])
+    return np.where(part > SLOW_SHARE * np.abs(damping), part, 0.0)
