@@ -193,7 +193,7 @@ def campbell(
     ----------
     rotor : Rotor
     speeds_rpm : array_like, shape (k,)
-        In rev/min.
+        In rev/min; 0 and below as in `linearise`.
     count : int
         Modes: the slowest at the first speed, which are then followed by frequency and shape.
     passage, signed_damping : bool

@@ -10,7 +10,7 @@ from typing import Any, Protocol, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, parts, require_instance, require_integer, require_nonnegative
+from ehlcontact.checks import as_column, parts, require_finite, require_instance, require_integer
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
@@ -25,6 +25,7 @@ from reduced_models.bearing.solved_balls import damping_left_out, warn_of_dampin
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
 from reduced_models.rotor.equilibrium import require_held
+from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.linear_contact import ContactImpedance, LinearElement
 from reduced_models.rotor.linear_system import eigenmodes
 from reduced_models.rotor.modes import (
@@ -53,6 +54,7 @@ DEFAULT_MODES = 8  # modes, unless another number is given
 SLOW = 1e-3  # rad/s, stands for rest where damping is computed: films forget in less than a second
 FREE = 1e-9  # of the largest stiffness, what rounding leaves where a rotor is free
 UNLOADED = 1e-9  # of its most loaded ball, the load of a preloaded bearing that is the rounding of none
+SKEW = 1e-9  # of the largest stiffness, the part of it that is not symmetric: below is rounding
 VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 
 
@@ -330,7 +332,9 @@ def linearise(
         Its contacts are elements in SI, or impedances over omega [rad/s] to N/m, as `film_impedance` and
         `impedance_about` make them.
     speed_rpm : float, optional
-        Of the shaft, for films, centrifugal and gyroscopic forces; by default that of the rotor.
+        Of the shaft, for films, centrifugal and gyroscopic forces; by default that of the rotor. Below 0 it turns
+        from y to x: bearings do not tell the directions apart, gyroscopic forces do. At 0 ball bearings are dry:
+        without rolling there is no film.
     passage : bool
         Ball bearings as means over a ball passage (as in `BallBearing.coefficients`, the load of a bearing being
         that with the balls as mounted); or with the balls as mounted.
@@ -342,7 +346,8 @@ def linearise(
     Raises
     ------
     InputError
-        A speed or a load that a bearing does not take, a contact without impedance.
+        A speed or a load that a bearing does not take, a contact without impedance; a speed below 0 of a rotor
+        with parts that are for one direction of it: contacts, linear bearings, cross-coupled stiffness.
     ConvergenceError
         The supports do not hold the rotor.
     """
@@ -350,15 +355,19 @@ def linearise(
     speed_rpm = rotor.speed_rpm if speed_rpm is None else speed_rpm
     if speed_rpm is None:
         raise InputError("speed_rpm", None, "given: that of the shaft")
-    speed = require_nonnegative("speed_rpm", speed_rpm)
+    speed = require_finite("speed_rpm", speed_rpm)
+    if speed < 0.0:
+        _require_symmetric(rotor, speed)
+    if speed == 0.0:
+        rotor = rotor.dry
     mounted, bearings = rotor.contacts, rotor.ball_bearings
-    known = all(_is_impedance(mount.contact) for mount in mounted)
-    rest = np.zeros(rotor.size) if mounted and known and not bearings else rotor.equilibrium(speed)
-    require_held(rotor.mounts, rest, rotor.matrices(speed * RPM_TO_RAD_S)[2], speed)
+    known, rolling = all(_is_impedance(mount.contact) for mount in mounted), abs(speed)
+    rest = np.zeros(rotor.size) if mounted and known and not bearings else rotor.equilibrium(rolling)
+    require_held(rotor.mounts, rest, rotor.matrices(rolling * RPM_TO_RAD_S)[2], rolling)
     points, normals, _ = rotor.geometry
     r = normals @ (points @ rest)
     parts = [
-        _linear_bearing(mount, speed, r[columns], passage, signed_damping)
+        _linear_bearing(mount, rolling, r[columns], passage, signed_damping)
         for columns, mount in zip(rotor.ball_columns, bearings, strict=True)
     ]
     names, words = rotor.ball_bearing_names, tuple("" if signed_damping else one for _, _, one in parts)
@@ -375,6 +384,15 @@ def linearise(
         words,
         signed_damping,
     )
+
+
+def _require_symmetric(rotor: Rotor, speed: float) -> None:
+    """Raise `InputError` for a reversed speed of a rotor with parts that are for one direction of it."""
+    linear = any(isinstance(mount.bearing, LinearBearing) for mount in rotor.bearings)
+    K = rotor.stiffness
+    if linear or rotor.contacts or np.abs(K - K.T).max() > SKEW * np.abs(K).max():
+        allowed = ">= 0 for a rotor with contacts, linear bearings or cross-coupled stiffness"
+        raise InputError("speed_rpm", speed, f"{allowed}: they are for one direction of the speed")
 
 
 def _is_impedance(contact: object) -> bool:

@@ -156,7 +156,8 @@ class PreparedRun:
         if isinstance(start, str):
             if start != "static":
                 raise InputError("start", start, "'static', or displacements and velocities")
-            return self.rotor.equilibrium(float(self.omega[0] / RPM_TO_RAD_S)), np.zeros(size)
+            speed = float(self.omega[0] / RPM_TO_RAD_S)
+            return (self.rotor.equilibrium(speed) if speed else self.rotor.dry.equilibrium()), np.zeros(size)
         try:
             d, v = start
         except (TypeError, ValueError):

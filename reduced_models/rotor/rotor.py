@@ -341,6 +341,15 @@ class Rotor(Summary):
                 stiffness, damping = stiffness + rows.T @ K @ rows, damping + rows.T @ C @ rows
         return self.mass, damping, stiffness
 
+    @property
+    def dry(self) -> Self:
+        """The rotor on ball bearings without oil, as they are while the shaft stands still."""
+        mounts = [
+            replace(mount, bearing=mount.ball_bearing.dry) if is_ball_bearing(mount) else mount
+            for mount in self.mounts
+        ]
+        return replace(self, mounts=tuple(mounts))
+
     def equilibrium(self, speed_rpm: float = 0.0) -> _Floats:
         """Displacements in static equilibrium under the load, films as at a speed, shape (N,) [m].
 

@@ -11,6 +11,7 @@ from ehlcontact import read, save
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models import SpeedProfile, campbell, linearise, simulate_rotor, unbalance_response
 from reduced_models.rotor.campbell import Campbell
+from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.picture import run_picture
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
@@ -30,6 +31,30 @@ def test_columns_are_modes_of_the_speed(film, beam, diagram):
         same = min(modes, key=lambda mode: abs(mode.hz - hz))
         assert (same.hz, same.decrement) == pytest.approx((hz, decrement), rel=1e-9)
         assert same.whirl == pytest.approx(whirl, abs=1e-9)
+
+
+def test_from_rest_on_and_reversed(film, beam):
+    """At rest bearings are dry and damp nothing; a reversed shaft has the modes mirrored, backward for forward."""
+    found = campbell(beam(film), [-6000.0, 0.0, 6000.0], count=4)
+    assert np.abs(found.decrement[1]).max() < 1e-12
+    np.testing.assert_allclose(found.hz[1], campbell(beam(film.dry), [0.0], count=4).hz[0], rtol=1e-12)
+    back, ahead = (found.hz[k, np.argsort(found.hz[k])] for k in (0, 2))
+    np.testing.assert_allclose(back, ahead, rtol=1e-9)
+    whirls = [found.whirl[k, np.argsort(found.hz[k])] for k in (0, 2)]
+    np.testing.assert_allclose(whirls[0], -whirls[1], atol=1e-9)
+    assert np.abs(whirls[0]).max() > 0.5
+
+
+def test_a_speed_is_reversed_only_where_all_parts_are_symmetric(film, beam):
+    rotor = beam(film)
+    skew = np.zeros((rotor.size, rotor.size))
+    skew[0, 1], skew[1, 0] = 1e6, -1e6
+    linear = LinearBearing(1e8 * np.eye(2), np.eye(2))
+    coupled = replace(rotor, stiffness=rotor.stiffness + skew)
+    held = replace(rotor, mounts=[replace(mount, bearing=linear) for mount in rotor.mounts])
+    for one_way in (coupled, held):
+        with pytest.raises(InputError, match=r"speed_rpm = -3000.0: must be >= 0 .* one direction"):
+            linearise(one_way, -3000.0)
 
 
 def test_modes_are_followed_through_crossings(diagram):

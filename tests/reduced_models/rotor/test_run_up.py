@@ -29,6 +29,18 @@ def test_the_highest_speed_of_the_tables_holds_above_it(film):
     assert row(2000.0 * RPM_TO_RAD_S) in ((0, 1.0), (1, 0.0))
 
 
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore:a ball of bearing")  # more load than the atlas has at 1 rev/min
+def test_a_run_up_from_rest_begins_dry_and_without_a_jump(film, beam):
+    rotor, ramp = beam(film), SpeedProfile.ramp(0.0, 1000.0, 0.02)
+    run = simulate_rotor(rotor, speed_rpm=ramp, dt=5e-5, until=0.02)
+    np.testing.assert_array_equal(run.displacement[0], rotor.dry.equilibrium())
+    sag = np.abs(run.displacement[0]).max()
+    assert 0.0 < np.abs(run.displacement[1] - run.displacement[0]).max() < 0.02 * sag
+    rolling = simulate_rotor(rotor, speed_rpm=SpeedProfile.ramp(1.0, 1000.0, 0.02), dt=5e-5, until=0.02)
+    assert np.abs(run.displacement[-1] - rolling.displacement[-1]).max() < 0.02 * sag
+
+
 def test_forces_at_rest_do_not_jump_where_laws_change(film):
     """Of a ring that stays: value and slope at every speed that laws are made at, and between them."""
     knots, place = law_speeds(RANGE), film.equilibrium((0.0, -500.0), speed_rpm=3000.0).displacement
