@@ -13,7 +13,7 @@ from typing import Any
 from ehlcontact.asperities import Asperities
 from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
-from ehlcontact.heat import Heat
+from ehlcontact.heat import LARGEST_HEATED, STANDING, Heat
 from ehlcontact.point import OperatingPoint, Point, moes_point, scales_of
 from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.supply import OilLayer
@@ -25,11 +25,9 @@ WANTED = {
     "sliding": (ShearThinning, "a ShearThinning(slide_roll, law)"),
     "asperities": (Asperities, "Asperities(rq, ...)"),
 }
-THINS = "it thins isothermal films of smooth surfaces"
 # The first is left out with the second, and why
 APART = {
-    ("sliding", "heat"): f"left out with thermal: {THINS}",
-    ("sliding", "asperities"): f"left out with asperities: {THINS}",
+    ("sliding", "asperities"): "left out with asperities: it thins films of smooth surfaces",
 }
 FRICTION = "left out with heat of sliding: that of asperity friction is not known"
 
@@ -74,6 +72,8 @@ class Conditions:
                 raise InputError(KEYWORDS[name], "given", allowed)
         if self.asperities is not None and self.heat is not None and self.heat.slide_roll != 0.0:
             raise InputError("asperities", "given", FRICTION)
+        if self.heat is not None and self.sliding is not None:
+            _require_one_sliding(self.heat, self.sliding)
 
     @classmethod
     def of(
@@ -106,7 +106,7 @@ class Conditions:
         return self.sliding is not None or (self.heat is not None and self.heat.temperature_slope != 0.0)
 
     def at(self, point: Point) -> Conditions:
-        """The same with the data of the oil of this point.
+        """The same with the data of the oil of this point, and one slide-to-roll ratio.
 
         Raises
         ------
@@ -120,7 +120,21 @@ class Conditions:
             self.supply.unit(moes_point(point), scales_of(point), nan)
         if self.asperities is not None:
             self.asperities.numbers(point)
-        return self if self.heat is None else replace(self, heat=self.heat.at(point))
+        if self.heat is None:
+            return self
+        heat = self.heat.at(point)
+        if self.sliding is not None and heat.slide_roll == 0.0:
+            heat = replace(heat, slide_roll=self.sliding.slide_roll)
+        return replace(self, heat=heat)
+
+
+def _require_one_sliding(heat: Heat, sliding: ShearThinning) -> None:
+    """Raise `InputError` unless both mean the same sliding, of which heat is known."""
+    if sliding.slide_roll > LARGEST_HEATED:
+        raise InputError("slide_roll of sliding", sliding.slide_roll, f"{STANDING}: with thermal")
+    if heat.slide_roll != 0.0 and abs(heat.slide_roll) != sliding.slide_roll:
+        allowed = f"left out of thermal with sliding, or {sliding.slide_roll:g} as there"
+        raise InputError("slide_roll", heat.slide_roll, allowed)
 
 
 FLOODED = Conditions()  # isothermal too, between smooth surfaces

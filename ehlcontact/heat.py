@@ -18,12 +18,14 @@ from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.oil import KELVIN, typical_temperature_slope
 from ehlcontact.lubricant.oil_laws import ROELANDS_LOG
+from ehlcontact.lubricant.traction_laws import Carreau, Eyring
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, Scales
 
 ROELANDS_COLD = 135.0  # K: Roelands counts temperatures from -135 C
 COLDEST = -0.3  # of that of the inlet over Roelands' -135 C: only iterates are colder
+LARGEST_HEATED = 1.0  # slide-to-roll ratio
 RANGES = {
-    "slide_roll": (-1.0, 1.0),
+    "slide_roll": (-LARGEST_HEATED, LARGEST_HEATED),
     "temperature": (-50.0, 250.0),
     "temperature_slope": (0.0, 0.2),
     "conductivity": (0.05, 1.0),
@@ -45,8 +47,9 @@ class HeatNumbers(NamedTuple):
     expansion: float  # 1/K
     inlet: float  # K
     slide_roll: float  # without sign
-    shear: float  # ln of eta0 times the sliding speed over delta_H, over the Eyring stress; -inf without sliding
-    stress: float  # Eyring stress times a/(p_h delta_H)
+    shear: float  # ln of eta0 times the sliding speed over delta_H, over that stress; -inf without sliding
+    stress: float  # of the law of sliding, times a/(p_h delta_H)
+    law: Eyring | Carreau  # of the stress of sliding
     walls: tuple[float, float]  # rise of each surface after a unit of heat over a unit of sqrt(X), K
     temperature_scale: float  # of the inlet over Roelands' -135 C, K
     exponent: float  # S0 of Roelands
@@ -64,7 +67,8 @@ class Heat:
     Parameters
     ----------
     slide_roll : float
-        Slide-to-roll ratio: (u1 - u2)/u_mean, -1 to 1; u1 is the speed of the first body. At 2 the other would
+        Slide-to-roll ratio: (u1 - u2)/u_mean, -1 to 1; u1 is the speed of the first body. Left out, it is that of
+        `ShearThinning`, where that is given. At 2 the other would
         stand still, and its warming is modelled as that of a surface in motion.
     temperature : float, optional
         Of the oil in the inlet and of the surfaces ahead of it, in degrees Celsius; by default the oil's, and
@@ -80,7 +84,7 @@ class Heat:
     effusivity : float or (float, float)
         (k rho c)^(1/2) of both bodies, or of each [W s^0.5/(m2 K)]; bearing steel by default.
     eyring_stress : float
-        Eyring stress [Pa], for the heat that sliding makes; the flow of the film is Newton's.
+        Eyring stress [Pa], for the heat that sliding makes; with `ShearThinning` the stress is that of its law.
 
     Raises
     ------
@@ -106,7 +110,7 @@ class Heat:
         for name, ends in RANGES.items():
             if getattr(self, name) is not None:
                 number = require_finite(name, getattr(self, name))
-                if name == "slide_roll" and abs(number) > 1.0:
+                if name == "slide_roll" and abs(number) > LARGEST_HEATED:
                     raise InputError(name, number, STANDING)
                 object.__setattr__(self, name, require_between(name, number, *ends))
         pair = self.effusivity if isinstance(self.effusivity, tuple | list) else (self.effusivity,) * 2
@@ -141,9 +145,13 @@ class Heat:
             raise InputError("temperature", warm, allowed)
         return replace(self, temperature=warm, temperature_slope=slope)
 
-    def numbers(self, moes: MoesPoint, scales: Scales) -> HeatNumbers:
-        """Dimensionless numbers of the energy equation; temperature and slope are known (`at`)."""
+    def numbers(self, moes: MoesPoint, scales: Scales, law: Eyring | Carreau | None = None) -> HeatNumbers:
+        """Dimensionless numbers of the energy equation; temperature and slope are known (`at`).
+
+        `law` is that of the stress of sliding, by default Eyring's with the stress given.
+        """
         assert self.temperature is not None and self.temperature_slope is not None
+        law = Eyring(self.eyring_stress) if law is None else law
         speed, film, p_hertz = scales.a / scales.time, scales.length, scales.pressure
         slide = abs(self.slide_roll)
         faster = 1.0 if self.slide_roll >= 0.0 else -1.0
@@ -160,8 +168,9 @@ class Heat:
             expansion=self.expansion,
             inlet=self.temperature + KELVIN,
             slide_roll=slide,
-            shear=log(moes.eta0 * speed * slide / (film * self.eyring_stress)) if slide else -inf,
-            stress=self.eyring_stress * scales.a / (p_hertz * film),
+            shear=log(moes.eta0 * speed * slide / (film * law.stress)) if slide else -inf,
+            stress=law.stress * scales.a / (p_hertz * film),
+            law=law,
             walls=(first, second),
             temperature_scale=above,
             exponent=self.temperature_slope * above / (log(moes.eta0) + ROELANDS_LOG),

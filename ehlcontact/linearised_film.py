@@ -11,8 +11,9 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.point import Point
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.effects import viscosity_of
 from ehlcontact.solver.error_grids import settled_on_half
-from ehlcontact.solver.film_heat import FilmHeat, FollowedViscosity
+from ehlcontact.solver.followed_viscosity import FollowedViscosity
 from ehlcontact.solver.grid import Grid
 from ehlcontact.solver.linearised_contact import LinearisedContact
 from ehlcontact.solver.mesh import Mesh
@@ -53,27 +54,27 @@ def held(film: SteadyResult, deflection: str = "fft", threads: int = 1) -> Multi
     multigrid.finest.P[...] = film.P.T
     multigrid.u = film.approach
     multigrid.finest.update(multigrid.u)
-    if (heat := heat_of(film, multigrid)) is not None:
-        heat.set_viscosity(multigrid)
+    if (viscosity := viscosity_on(film, multigrid)) is not None:
+        viscosity.set_viscosity()
     return multigrid
 
 
-def heat_of(film: SteadyResult, multigrid: Multigrid) -> FilmHeat | None:
-    """Temperatures of a steady film on levels that hold it, or its coarser image; None of an isothermal one.
+def viscosity_on(film: SteadyResult, multigrid: Multigrid) -> FollowedViscosity | None:
+    """Viscosity of a steady film on levels that hold it, or its coarser image; None where it follows nothing.
 
     A coarser image is solved with temperatures of its own.
     """
-    found, level = film.temperature, multigrid.finest
-    if found is None:
+    warm, level = film.temperature, multigrid.finest
+    conditions = Conditions(heat=None if warm is None else warm.inputs, sliding=film.sliding)
+    viscosity = viscosity_of(conditions, film.point, film.scales, multigrid)
+    if viscosity is None:
         return None
-    assert film.scales is not None
-    heat = FilmHeat(level, found.inputs.numbers(film.point, film.scales))
-    if level.P.shape == film.P.T.shape:
-        heat.walls[...] = found.surfaces.transpose(0, 2, 1)
-        heat.rise[...] = found.mean.T - heat.walls.mean(axis=0)
-    else:
-        FollowedViscosity(multigrid, heat).settle(Balance.of_load(), COARSE_CYCLES)
-    return heat
+    if level.P.shape != film.P.T.shape:
+        viscosity.settle(Balance.of_load(), COARSE_CYCLES)
+    elif warm is not None and viscosity.heat is not None:
+        viscosity.heat.walls[...] = warm.surfaces.transpose(0, 2, 1)
+        viscosity.heat.rise[...] = warm.mean.T - viscosity.heat.walls.mean(axis=0)
+    return viscosity
 
 
 def coarser_films(solved: Multigrid) -> Iterator[Multigrid]:
@@ -96,12 +97,12 @@ def coarser_contacts(film: SteadyResult, solved: Multigrid) -> Iterator[Linearis
     """Derivatives at the `coarser_films`, as far as they have temperatures."""
     for multigrid in coarser_films(solved):
         with np.errstate(over="ignore", invalid="ignore"):  # of a coarse film that runs away
-            heat = heat_of(film, multigrid)
-        if heat is not None and not (np.isfinite(heat.rise).all() and np.isfinite(heat.walls).all()):
+            viscosity = viscosity_on(film, multigrid)
+        if not np.isfinite(multigrid.finest.fields.flow.heat).all():
             return
-        yield LinearisedContact(multigrid, heat)
+        yield LinearisedContact(multigrid, viscosity)
 
 
 def linearised(film: SteadyResult, multigrid: Multigrid) -> LinearisedContact:
     """Derivatives of a contact at a steady film on levels that hold it, or its coarser image."""
-    return LinearisedContact(multigrid, heat_of(film, multigrid))
+    return LinearisedContact(multigrid, viscosity_on(film, multigrid))

@@ -243,7 +243,7 @@ def _to_approach(steady: SteadyResult, solved: Multigrid, w: Array, waves: Waves
     stiffness, damping = response_error(moving, [Z, *coarser])
     if steady.temperature is not None:
         # A front of full film is slow by itself
-        still = None if steady.supply is None else LinearisedContact(solved)
+        still = None if steady.supply is None else contact.still()
         damping = damping + slow_part(contact, moving, Z.imag / moving, still)
     bars = {"stiffness": stiffness, "damping": damping}
     return Response.to_approach(w, Z, moving, point=steady.point, film=steady, residual=residual, error_bars=bars)

@@ -24,7 +24,7 @@ class ShearThinning:
     ----------
     slide_roll : float
         Slide-to-roll ratio, difference over mean of the surface speeds: 0 to 2.
-    law : TractionLaw
+    law : Eyring or Carreau
         `Eyring` or `Carreau`; a limiting stress would leave no viscosity along the sliding.
 
     Raises
@@ -34,7 +34,7 @@ class ShearThinning:
     """
 
     slide_roll: float
-    law: TractionLaw = field(default_factory=Eyring)
+    law: Any = field(default_factory=Eyring)
 
     def __post_init__(self) -> None:
         slide = require_between("slide_roll", self.slide_roll, 0.0, LARGEST_SLIDE_ROLL)

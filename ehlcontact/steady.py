@@ -93,8 +93,8 @@ def solve_steady(
         smooth surfaces is solved first. By default the surfaces are smooth. With heat, in pure rolling alone: the
         friction of asperities has no heat here.
     sliding : ShearThinning, optional
-        Shear thinning of the film by sliding (docs/traction.md), under a supply too. The Newtonian film is solved
-        first. By default the film is that of pure rolling.
+        Shear thinning of the film by sliding (docs/traction.md), under a supply and with heat too. The isothermal
+        Newtonian film is solved first. By default the film is that of pure rolling.
     approach : float, optional
         Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
         force it takes.
@@ -226,13 +226,14 @@ class _Film:
             lines = supply.lines(self.multigrid.point, scales_of(self.point), flooded)
             self.multigrid = self._make(supply=lines)
         effects = effects_of(self.conditions, self.point, self.multigrid)
-        changing = [effect for effect in effects.values() if effect.changes_film]
+        changing = [effect for effect in effects if effect.changes_film]
         status = self._solve(start, balance, watch, judged=not changing)
         if status.ok and effects:
             before = self.multigrid.finest.central_film()
             if changing:
                 status = self._solve(goal, balance, watch, changing, judged=True)
-            self.of_effects = {name: effect.result(before) for name, effect in effects.items()}
+            for effect in effects:
+                self.of_effects |= effect.result(before)
         return status
 
     @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # of a film that runs away: its status says so

@@ -55,6 +55,14 @@ class TractionLaw:
         """
         raise NotImplementedError
 
+    def thinning_slopes(self, log_newton: ArrayLike) -> tuple[Array, Array]:
+        """Derivatives of both logarithms of `thinning` to `log_newton`."""
+        raise NotImplementedError
+
+    def reduced(self, log_ratio: ArrayLike) -> tuple[Array, Array]:
+        """Stress over that of the law, by ln of Newton's over it, and its derivative; of laws with `thinning`."""
+        raise NotImplementedError
+
     def to_dict(self) -> dict[str, Any]:
         """Name and numbers, ready for JSON."""
         return {"law": type(self).__name__, **asdict(self)}  # type: ignore[call-overload]
@@ -104,6 +112,18 @@ class Eyring(TractionLaw):
         across = np.where(little, 0.0, np.log(np.where(little, 1.0, log_sinh_law(x))) - np.where(little, 0.0, x))
         return along, across
 
+    def reduced(self, log_ratio: ArrayLike) -> tuple[Array, Array]:
+        """asinh(x), and x/(1 + x^2)^(1/2): `TractionLaw.reduced`."""
+        x = np.asarray(log_ratio, float)
+        return log_sinh_law(x), 1.0 / np.hypot(1.0, np.exp(-np.clip(x, -STRAIGHT, STRAIGHT)))
+
+    def thinning_slopes(self, log_newton: ArrayLike) -> tuple[Array, Array]:
+        """-x^2/(1 + x^2) along, x/((1 + x^2)^(1/2) asinh x) - 1 across: `TractionLaw.thinning_slopes`."""
+        x = np.asarray(log_newton, float) - np.log(self.stress)
+        ratio = np.exp(-np.logaddexp(0.0, -2.0 * x))  # x^2/(1 + x^2)
+        little = x < LITTLE
+        return -ratio, np.where(little, 0.0, np.sqrt(ratio) / np.where(little, 1.0, log_sinh_law(x)) - 1.0)
+
     def of(self, log_newton: ArrayLike, p: ArrayLike) -> Array:
         """Shear stress [Pa]: `TractionLaw.of` (eq. 3)."""
         found = log_sinh_law(np.asarray(log_newton, float) - np.log(self.stress))
@@ -145,6 +165,19 @@ class Carreau(TractionLaw):
         across = 0.5 * (self.exponent - 1.0) * np.logaddexp(0.0, square)
         slope = np.logaddexp(0.0, square + np.log(self.exponent)) - np.logaddexp(0.0, square)
         return across + slope, across
+
+    def reduced(self, log_ratio: ArrayLike) -> tuple[Array, Array]:
+        """X (1 + x^2)^((n - 1)/2), and x times its derivative: `TractionLaw.reduced`."""
+        x = np.asarray(log_ratio, float)
+        along, across = self.thinning(x + np.log(self.stress))
+        return np.exp(x + across), np.exp(x + along)
+
+    def thinning_slopes(self, log_newton: ArrayLike) -> tuple[Array, Array]:
+        """As of `thinning`: `TractionLaw.thinning_slopes`."""
+        x = np.asarray(log_newton, float) - np.log(self.stress)
+        share, own = (np.exp(-np.logaddexp(0.0, -2.0 * s)) for s in (x, x + 0.5 * np.log(self.exponent)))
+        across = (self.exponent - 1.0) * share
+        return across + 2.0 * (own - share), across
 
     def of(self, log_newton: ArrayLike, p: ArrayLike) -> Array:
         """Shear stress [Pa]: `TractionLaw.of` (eq. 4)."""

@@ -27,7 +27,8 @@ module           responsibility
 ``linear_heat``  linearised film with temperatures that follow a vibration
 ``linear_fronts``  its fronts of full film, where oil runs short
 ``film_thinning`` shear thinning of a film by sliding
-``film_heat``    temperatures of a film: energy equation; viscosity that follows them after a cycle
+``film_heat``    temperatures of a film: energy equation
+``followed_viscosity``  viscosity that follows heat and sliding, in cycles and in vibrations
 ``newton``       Newton steps on the finest grid
 ``iterate``      iteration of cycles or Newton steps until convergence or failure
 ================ ==========================================================================================

@@ -10,10 +10,11 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 from ehlcontact.conditions import Conditions
-from ehlcontact.point import Point, moes_point, scales_of
+from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.film_heat import FilmHeat, FollowedViscosity
+from ehlcontact.solver.film_heat import FilmHeat
 from ehlcontact.solver.film_thinning import FilmThinning
+from ehlcontact.solver.followed_viscosity import FollowedViscosity, ViscositySource
 from ehlcontact.solver.mixed_film import AsperityPressure
 from ehlcontact.solver.multigrid import Multigrid
 
@@ -35,8 +36,8 @@ class Effect(Protocol):
     def follow(self, change: float) -> float:
         """Follow the film after a cycle with this largest change of P; returns that of a pressure of its own."""
 
-    def result(self, before: float) -> dict[str, Any]:
-        """Fields and numbers of a result; the central film without it was `before`."""
+    def result(self, before: float) -> dict[str, dict[str, Any]]:
+        """Fields and numbers of results, by condition; the central film without effects was `before`."""
 
 
 class CyclesWithEffects:
@@ -66,18 +67,29 @@ class CyclesWithEffects:
         return max([change, *(effect.follow(change) for effect in self.effects)])
 
 
-def effects_of(conditions: Conditions, point: Point, multigrid: Multigrid) -> dict[str, Effect]:
-    """Effects of conditions with the data of the oil, by their names, in the order in which they follow."""
-    moes, scales = moes_point(point), scales_of(point)
-    effects: dict[str, Effect] = {}
-    if scales is None:  # heat, sliding and asperities are in SI
-        return effects
+def viscosity_of(
+    conditions: Conditions, moes: MoesPoint, scales: Scales | None, multigrid: Multigrid
+) -> FollowedViscosity | None:
+    """Viscosity that follows heat and sliding, with the data of the oil; None where it follows neither."""
+    sources: dict[str, ViscositySource] = {}
+    if scales is None:  # both are in SI
+        return None
+    heat, sliding = None, conditions.sliding
     if conditions.heat is not None:
-        heat = FilmHeat(multigrid.finest, conditions.heat.numbers(moes, scales))
-        effects["heat"] = FollowedViscosity(multigrid, heat)
-    if (sliding := conditions.sliding) is not None:
-        thinning = FilmThinning(multigrid, sliding.law, sliding.log_newton(moes.eta0, scales))
-        effects["sliding"] = FollowedViscosity(multigrid, thinning)
+        law = None if sliding is None else sliding.law
+        heat = sources["heat"] = FilmHeat(multigrid.finest, conditions.heat.numbers(moes, scales, law))
+    if sliding is not None:
+        newton = sliding.log_newton(moes.eta0, scales)
+        sources["sliding"] = FilmThinning(multigrid, sliding.law, newton, heat)
+    return FollowedViscosity(multigrid, sources) if sources else None
+
+
+def effects_of(conditions: Conditions, point: Point, multigrid: Multigrid) -> list[Effect]:
+    """Effects of conditions with the data of the oil, in the order in which they follow."""
+    effects: list[Effect] = []
+    viscosity = viscosity_of(conditions, moes_point(point), scales_of(point), multigrid)
+    if viscosity is not None:
+        effects.append(viscosity)
     if conditions.asperities is not None:
-        effects["asperities"] = AsperityPressure(multigrid, conditions.asperities.numbers(point))
+        effects.append(AsperityPressure(multigrid, conditions.asperities.numbers(point)))
     return effects

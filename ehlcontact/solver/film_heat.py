@@ -7,21 +7,16 @@ node, in units of p_h u_mean delta_H/a; temperatures are in K above that of the 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from math import inf
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
 from ehlcontact.heat import HeatNumbers
-from ehlcontact.lubricant.traction_laws import STRAIGHT, log_sinh_law
-from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.kernels.heat import sweep, warm_walls
 from ehlcontact.solver.kernels.reynolds import FILM_FLOOR
 from ehlcontact.solver.level import Level
-from ehlcontact.solver.multigrid import Multigrid
 
 Array = NDArray[np.float64]
 
@@ -31,18 +26,6 @@ BY_RISE, BY_PRESSURE, BY_SLIDING = 0.6, 12.0 / 175.0, 0.4  # temperature that th
 SETTLED = 1e-9  # change of the temperatures in one round, over the largest
 ROUGHLY = 1e-6  # the same of a sweep between cycles
 MOST_ROUNDS, MOST_SWEEPS = 100, 50
-ROUNDS = 1  # after a cycle, whose film changes by more
-LARGE_CHANGE, STEP = 0.3, 0.8  # of the heating in a cycle, over itself, of which it takes this share
-ROUGH = 0.5  # change of the pressure in a cycle, above which the temperatures stay: they would be those of no film
-FRONT_ROUGH, FRONT_CYCLES = (
-    0.1,
-    3,
-)  # the same where a front of full film moves, and cycles that are to bring it there
-# Change of the heating from which it is taken as it is where such a front moves: nodes that fill up are no series
-FRONT_FINE = 5e-4
-START = 0.75  # of the heating of an isothermal film: one with heat is thinner and has thinner oil
-REMEMBERED = 2  # cycles before the last
-HOTTEST = -0.95  # heating: ln(eta) + 9.67 stays above 0
 
 
 class Terms(NamedTuple):
@@ -159,15 +142,9 @@ class FilmHeat:
             found = np.where((last == 0) & (first > 1), at + part * (before - at), found)
         return found
 
-    def set_viscosity(self, multigrid: Multigrid) -> None:
-        """Viscosity of these temperatures on all levels; what the flow heats beside the surfaces goes with it."""
-        for _ in range(MOST_ROUNDS):
-            heating, before = self.numbers.heating(self.seen(self.terms())), self.level.fields.flow.heat
-            settled = np.abs(heating - before).max() <= SETTLED
-            multigrid.set_heat(heating)
-            multigrid.finest.update(multigrid.u)
-            if settled:
-                break
+    def hold(self) -> Array:
+        """What ``Flow.heat`` is by the present temperatures of surfaces and rise."""
+        return self.numbers.heating(self.seen(self.terms()))
 
     def balance(self) -> float:
         """Heat made less heat given to the surfaces and carried away, over all that is made, in the whole film."""
@@ -299,116 +276,16 @@ class FilmHeat:
         return turned * (1.0 - t.share) * (self.ahead | t.wet)
 
     def sliding(self, t: Terms) -> Sliding:
-        """Heat of sliding under Eyring's stress at the mean temperature."""
+        """Heat of sliding under the stress of its law at the mean temperature."""
         n, mean = self.numbers, self.mean
         if n.slide_roll == 0.0:
             return Sliding(*(np.zeros_like(mean) for _ in Sliding._fields))
         heat, above = n.heating(mean), t.cold + self.level.law.q
-        newton = n.shear + t.cold + heat * above - np.log(t.H)  # ln of Newton's stress over Eyring's
-        stress = log_sinh_law(newton)
-        by_log = 1.0 / np.hypot(1.0, np.exp(-np.clip(newton, -STRAIGHT, STRAIGHT)))
+        newton = n.shear + t.cold + heat * above - np.log(t.H)  # ln of Newton's stress over that of the law
+        stress, by_log = n.law.reduced(newton)
         slope = -by_log * above * n.exponent * (1.0 + heat) / (n.temperature_scale + mean)
         power = np.where(t.wet, n.stress * n.slide_roll, 0.0)
         return Sliding(power * stress, power * np.minimum(slope, 0.0), power * by_log)
-
-
-class ViscositySource(Protocol):
-    """What changes the viscosity of a film: `FilmHeat`, or `film_thinning.FilmThinning`."""
-
-    @property
-    def changes_film(self) -> bool:
-        """Whether the viscosity is another one."""
-
-    def solve(self, rounds: int = ..., /) -> Array:
-        """What ``Flow.heat`` becomes at the present film."""
-
-    def result(self, before: float) -> dict[str, Any]:
-        """Fields and numbers of a result; the central film without it was `before`."""
-
-
-class FollowedViscosity:
-    """Effect of heat or sliding (`effects.Effect`): the viscosity follows them after a cycle or a Newton step.
-
-    A cycle at given viscosity leaves little. How fast the viscosity settles depends on what pressure and film make
-    of it: a change comes back from the inlet by a fifth, with the other sign, and from where the pressure ends by
-    half, with its own. So changes are combined as in `acceleration`.
-    """
-
-    slow = True  # what falls slowly is not the cycles' part
-
-    def __init__(self, multigrid: Multigrid, heat: ViscositySource) -> None:
-        self.multigrid, self.heat = multigrid, heat
-        self._rough = inf  # what sliding thins follows any film
-        self._heats = isinstance(heat, FilmHeat)
-        if self._heats:
-            self._rough = FRONT_ROUGH if multigrid.finest.inflow.size else ROUGH
-        self._last: tuple[Array, Array] | None = None  # what the heating became, and its change
-        self._differences: list[tuple[Array, Array]] = []  # of both, from cycle to cycle
-
-    @property
-    def changes_film(self) -> bool:
-        """Whether the viscosity is another one."""
-        return self.heat.changes_film
-
-    def start(self, balance: Balance, advance: Callable[[Balance], float]) -> None:
-        """Full multigrid with what the isothermal film, which is on the levels, would heat, less some of it.
-
-        From the isothermal pressure itself cycles on fine grids diverge where the pressure ends. Temperatures
-        follow after a cycle: what full multigrid leaves on such grids is far from any film.
-        """
-        self.multigrid.set_heat(START * self.heat.solve(ROUNDS))
-        self.multigrid.full_multigrid(balance)
-        starved = bool(self.multigrid.finest.inflow.size)
-        for _ in range(FRONT_CYCLES if starved else 0):
-            if advance(balance) < self._rough:
-                break
-        if starved or self._rough == inf:
-            self.follow()
-
-    def settle(self, balance: Balance, cycles: int) -> None:
-        """So many cycles from a film that is near; viscosity and temperatures belong together at last."""
-        assert isinstance(self.heat, FilmHeat)
-        self.heat.solve()
-        self.follow()
-        for _ in range(cycles):
-            self.multigrid.sweep_factor = self.multigrid.least_sweep_factor
-            self.follow(self.multigrid.cycle(balance))
-        self.heat.solve()
-        self.heat.set_viscosity(self.multigrid)
-
-    def follow(self, change: float = 0.0) -> float:
-        """Viscosity of the present temperatures, and residuals with it, but after a rough cycle; returns 0."""
-        if change < self._rough:
-            self._renew()
-        return 0.0
-
-    def result(self, before: float) -> dict[str, Any]:
-        """Fields and numbers of a result; the central film without it was `before`."""
-        return self.heat.result(before)
-
-    def _renew(self) -> None:
-        """Viscosity of the present temperatures; residuals with it."""
-        mg = self.multigrid
-        before = mg.finest.fields.flow.heat
-        heat = self.heat.solve(ROUNDS)
-        change = heat - before
-        large = bool(np.abs(change).max() > LARGE_CHANGE * np.abs(heat).max())
-        if self._last is not None and not large:
-            new = heat - self._last[0], change - self._last[1]
-            self._differences = [*self._differences, new][-REMEMBERED:]
-        self._last = None if large else (heat, change)
-        mg.set_heat(before + STEP * change if large else np.maximum(self._combined(heat, change), HOTTEST))
-        mg.finest.update(mg.u)
-
-    def _combined(self, heat: Array, change: Array) -> Array:
-        """The combination of what was remembered whose change would be smallest, in the mean."""
-        changes = [c for _, c in self._differences]
-        products = [[float(np.vdot(a, b)) for b in changes] for a in changes]
-        fine = self._heats and self.multigrid.finest.inflow.size and np.abs(change).max() < FRONT_FINE
-        if fine or not changes or not np.isfinite(products).all():
-            return heat
-        shares = np.linalg.lstsq(products, [float(np.vdot(c, change)) for c in changes], rcond=None)[0]
-        return heat - sum(share * h for share, (h, _) in zip(shares, self._differences, strict=True))
 
 
 def at_nodes(along: Array, across: Array) -> Array:

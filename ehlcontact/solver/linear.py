@@ -95,9 +95,18 @@ class LinearFilm:
     balance : Balance
     c_t : float or complex, optional
         Time coefficient, by default that of the level; i Omega for an oscillation.
+    beside : (sparse, sparse), optional
+        Derivatives of the operator to pressure and film beside those of the level.
     """
 
-    def __init__(self, level: Level, free: Mask, balance: Balance, c_t: complex | None = None) -> None:
+    def __init__(
+        self,
+        level: Level,
+        free: Mask,
+        balance: Balance,
+        c_t: complex | None = None,
+        beside: tuple[Any, Any] | None = None,
+    ) -> None:
         self.free, self.balance = free, balance
         self.c_t = level.c_t if c_t is None else c_t
         p_coef, h_coef = coefficients(level, self.c_t)
@@ -105,6 +114,10 @@ class LinearFilm:
         self.by_pressure = stencil_matrix(NEIGHBOUR_OFFSETS, p_coef, free.shape)
         self.by_film = stencil_matrix(NEIGHBOUR_OFFSETS, h_coef, free.shape)
         self.by_approach = -h_coef.sum(axis=0).ravel()
+        if beside is not None:
+            self.by_pressure = self.by_pressure + beside[0]
+            self.by_film = self.by_film + beside[1]
+            self.by_approach = self.by_approach - np.asarray(beside[1].sum(axis=1)).ravel()
         self._passed_on: Any = None  # what reaches the fronts of full film of changes at partly filled nodes
         self._pressed_back: Any = None  # and what the flow pressed back there does, of changes of ln(eps)
         if level.inflow.size:

@@ -32,7 +32,9 @@ from ehlcontact.solver.film_heat import (
     at_nodes,
     divergence,
 )
+from ehlcontact.solver.film_thinning import LinearThinning
 from ehlcontact.solver.kernels.heat import warm_walls
+from ehlcontact.solver.level import Level
 from ehlcontact.solver.linear import CROSS, SPARSE_LU, LinearFilm, Preconditioner, stencil_matrix
 from ehlcontact.solver.linear_fronts import LinearFronts
 
@@ -67,10 +69,13 @@ class LinearHeat:
         Its temperatures belong to the state of its level.
     omega : float
         Angular frequency, per unit 2a/u_sum of time.
+    thinning : LinearThinning, optional
+        Of a film that sliding thins: the slopes of the flow of the level are those with it.
     """
 
-    def __init__(self, heat: FilmHeat, omega: float) -> None:
+    def __init__(self, heat: FilmHeat, omega: float, thinning: LinearThinning | None = None) -> None:
         level, n = heat.level, heat.numbers
+        self.thinning = thinning
         self.heat, self.level, self.rate = heat, level, 1j * omega
         self.terms = t = heat.terms()
         self.wall, self.mean = heat.walls.mean(axis=0), heat.mean
@@ -79,6 +84,7 @@ class LinearHeat:
         self.rho_slope = level.fields.flow.mass_slope / t.H / level.fields.flow.rho  # d ln(rho)/dP
         seen = heat.seen(t)
         self._by_seen = -n.exponent * (1.0 + heat.numbers.heating(seen)) / (n.temperature_scale + seen)
+        self._by_mean_temperature = -n.exponent * (1.0 + n.heating(self.mean)) / (n.temperature_scale + self.mean)
         self._storage = np.where(t.wet, self.rate * n.convection * level.fields.flow.mass, 0.0)
         self._storage_of_walls = self._storage
         # Of a unit of mean temperature: what compression and sliding make
@@ -130,8 +136,8 @@ class LinearHeat:
         mean, skew = flow.across[:-1], flow.across_skew[:-1]
         return along, (0.5 * mean + skew) * d[:-1] + (0.5 * mean - skew) * d[1:]
 
-    def changes(self, dP: Array, dH: Array, dg: Array) -> Changes:
-        """Changes of the terms."""
+    def changes(self, dP: Array, dH: Array, dg: Array, aside: Array | None = None) -> Changes:
+        """Changes of the terms; `aside` is that of ln of the viscosity along over that across by temperature."""
         level, n, t = self.level, self.heat.numbers, self.terms
         flow, s, P = level.fields.flow, level.stencil, level.P
         step_x, step_y = np.diff(P, axis=1), np.diff(P, axis=0)
@@ -139,6 +145,10 @@ class LinearHeat:
         log_eps = flow.eps_slope * dP + flow.film_slope * dH - self.above * dg
         mean_x, mean_y = self._means(log_eps)
         flow_x, flow_y = flow.along[:, :-1], flow.across[:-1]
+        if (thinning := self.thinning) is not None:
+            ratio = thinning.aside_by_pressure * dP + thinning.aside_by_film * dH
+            ratio = ratio if aside is None else ratio + aside
+            mean_y = mean_y + 0.5 * flow_y * (ratio[:-1] + ratio[1:])
         mass = flow.mass_slope * dP + flow.rho * dH
         through: Array = level.full_flow(mass)
         share: Any = 0.0
@@ -178,14 +188,20 @@ class LinearHeat:
         if self.heat.numbers.slide_roll == 0.0:
             return np.zeros_like(dP)
         flow = self.level.fields.flow
-        share = (1.0 + self.heat.numbers.heating(self.mean)) / (1.0 + flow.heat)
-        thicker = share * (self.rho_slope - flow.eps_slope) * dP  # of ln(eta), at the mean temperature
+        warm = 1.0 + self.heat.numbers.heating(self.mean)
+        if self.thinning is None:
+            thicker = warm / (1.0 + flow.heat) * (self.rho_slope - flow.eps_slope) * dP
+        else:
+            thicker = warm * self.thinning.cold_slope * dP  # of ln(eta), at the mean temperature
         return self._slid.by_stress * (thicker - dH / self.terms.H)
 
-    def respond(self, dP: Array, dH: Array, dg: Array) -> Array:
-        """Heating dg by the temperatures that follow from dP, dH and dg; all (ny + 1, nx + 1)."""
+    def respond(self, dP: Array, dH: Array, fields: Array) -> Array:
+        """Heating dg by the temperatures that follow from dP, dH and `fields`: dg itself; all (ny + 1, nx + 1).
+
+        With thinning a second field follows, the change of ln of the viscosity along over that across.
+        """
         heat, n, t = self.heat, self.heat.numbers, self.terms
-        c = self.changes(dP, dH, dg)
+        c = self.changes(dP, dH, *fields)
         # Compression in time, by the change of pressure at the node
         squeezed = np.where(t.wet, self.rate * n.expansion * t.H * dP, 0.0)
         compressed = (c.work + squeezed) * (n.inlet + self.mean)
@@ -197,7 +213,11 @@ class LinearHeat:
         if self._fronts is not None:
             of_rise = of_rise + self._fronts.seen_ahead(c.share)
         seen = walls.mean(axis=0) + BY_RISE * of_rise + (t.H * beside + dH * was) / n.conduction
-        return self._by_seen * seen
+        heating = self._by_seen * seen
+        if self.thinning is None:
+            return np.array([heating])
+        thicker = self._by_mean_temperature * (rise + walls.mean(axis=0))
+        return np.array([heating + self.thinning.along * thicker, self.thinning.aside * self.above * thicker])
 
     def _temperatures(self, c: Changes, compressed: Array) -> tuple[Array, Array]:
         """Changes of the rise and of both surfaces; `compressed` is the heat of compression."""
@@ -248,35 +268,67 @@ class LinearHeat:
         return lost + n.convection * carried
 
 
-class HeatedSystem:
-    """Equations of a vibration, with the heating beside pressure and approach; vectors (2 nodes + 1,)."""
+class LinearViscosity:
+    """Part of a viscosity that follows heat and sliding in vibrations about the present film of a level.
 
-    def __init__(self, film: LinearFilm, heat: LinearHeat) -> None:
-        self.film, self.heat = film, heat
+    What sliding makes follows at once: it is part of the derivatives to pressure and film, and the slopes of the
+    flow of the level are written. What heat makes follows later: further unknowns.
+    """
+
+    def __init__(self, level: Level, heat: FilmHeat | None, thinning: LinearThinning | None) -> None:
+        self.heat, self.thinning = heat, thinning
+        self.fields = 0 if heat is None else 1 if thinning is None else 2  # further unknowns at every node
+        self.beside: tuple[Any, Any] | None = None  # as of `LinearFilm`
+        self.by_aside: Any = None
+        if thinning is not None:
+            level.fields.flow.eps_slope[...] += thinning.by_pressure
+            level.fields.flow.film_slope[...] += thinning.by_film
+            self.by_aside = thinning.matrix()
+            aside = thinning.aside_by_pressure, thinning.aside_by_film
+            self.beside = tuple(self.by_aside @ scipy.sparse.diags(slope.ravel()) for slope in aside)
+
+    def system(self, film: LinearFilm, omega: float) -> LinearFilm | HeatedSystem:
+        """Equations of a vibration of one frequency, with its unknowns beside those of the film."""
+        if self.heat is None:
+            return film
+        return HeatedSystem(film, LinearHeat(self.heat, omega, self.thinning), self.by_aside)
+
+
+class HeatedSystem:
+    """Equations of a vibration, with the heating beside pressure and approach; vectors (2 nodes + 1,).
+
+    With thinning (3 nodes + 1,): `by_aside` is the change of the operator by that of ln of the viscosity along
+    over that across.
+    """
+
+    def __init__(self, film: LinearFilm, heat: LinearHeat, by_aside: Any = None) -> None:
+        self.film, self.heat, self.by_aside = film, heat, by_aside
         self._cut = film.free.size + 1
         # Scales the rows of the heating to their effect on the rows of the film
         self.weight = heat.weight()
 
     def split(self, x: Array) -> tuple[Array, Array]:
-        """Pressure and approach, and the heating."""
+        """Pressure and approach, and the further fields."""
         return x[: self._cut], x[self._cut :]
 
     def __call__(self, x: Array) -> Array:
         """Left-hand sides."""
-        film, g = self.split(x)
+        film, fields = self.split(x)
         left = self.film(film)
-        given = g.reshape(self.film.free.shape)
-        log_eps = -self.heat.above * given
-        changed = self.film.with_supply(self.heat.viscous(log_eps).ravel(), log_eps.ravel())
-        left[:-1] += changed * self.film.free.ravel()
-        return np.concatenate([left, self.weight * (g - self.response(film, g))])
+        given = fields.reshape(-1, *self.film.free.shape)
+        log_eps = -self.heat.above * given[0]
+        changed = self.heat.viscous(log_eps).ravel()
+        if self.by_aside is not None:
+            changed = changed + self.by_aside @ given[1].ravel()
+        left[:-1] += self.film.with_supply(changed, log_eps.ravel()) * self.film.free.ravel()
+        return np.concatenate([left, self.weight * (fields - self.response(film, fields))])
 
-    def response(self, film: Array, g: Array) -> Array:
+    def response(self, film: Array, fields: Array) -> Array:
         """Heating that follows from pressure, approach and heating, flat."""
         shape = self.film.free.shape
         dP = film[:-1].reshape(shape)
         dH = self.film.deflect(film[:-1]).reshape(shape) - film[-1]
-        return self.heat.respond(dP, dH, g.reshape(shape)).ravel()
+        return self.heat.respond(dP, dH, fields.reshape(-1, *shape)).ravel()
 
 
 class HeatedPreconditioner:

@@ -14,9 +14,9 @@ import scipy
 from numpy.typing import NDArray
 
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.film_heat import FilmHeat
+from ehlcontact.solver.followed_viscosity import FollowedViscosity
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
-from ehlcontact.solver.linear_heat import HeatedPreconditioner, HeatedSystem, LinearHeat
+from ehlcontact.solver.linear_heat import HeatedPreconditioner, HeatedSystem
 from ehlcontact.solver.multigrid import Multigrid
 
 Array = NDArray[np.float64]
@@ -40,21 +40,32 @@ class LinearisedContact:
     ----------
     multigrid : Multigrid
         It holds the steady state: P, film and flow of its finest level, approach.
-    heat : FilmHeat, optional
-        Temperatures of its finest level, which follow the vibration; by default they stand still.
+    viscosity : FollowedViscosity, optional
+        That of its finest level, which follows the vibration; by default what changes it stands still.
+    still : bool
+        Let the temperatures stand still.
     """
 
-    def __init__(self, multigrid: Multigrid, heat: FilmHeat | None = None) -> None:
-        self._multigrid, self._heat = multigrid, heat
+    def __init__(
+        self, multigrid: Multigrid, viscosity: FollowedViscosity | None = None, still: bool = False
+    ) -> None:
+        self._multigrid, self._follows = multigrid, viscosity
         level = self.level = multigrid.finest
+        self._viscosity = None if viscosity is None else viscosity.linear(still)
+        self._fields = 0 if self._viscosity is None else self._viscosity.fields
+        self._beside = None if self._viscosity is None else self._viscosity.beside
         self._free = level.P > 0.0
         self.nodes = np.flatnonzero(self._free)
         self.weights = level.force_weights.ravel()[self.nodes]
-        self._steady, self._unit = (LinearFilm(level, self._free, PRESCRIBED, c_t) for c_t in (0.0, 1.0))
+        self._steady, self._unit = (self._film(c_t) for c_t in (0.0, 1.0))
         self.j = self._steady.by_approach[self.nodes]
         self.b = self._unit.by_approach[self.nodes] - self.j
         self._row_scale = 1.0 / np.abs(self._steady.diagonal()[self.nodes])
         self._near: list[tuple[float, NearCorrection]] = []
+
+    def still(self) -> LinearisedContact:
+        """The same with temperatures that stand still."""
+        return LinearisedContact(self._multigrid, self._follows, still=True)
 
     def products(self, dP: Array) -> tuple[Array, Array]:
         """J dP and B dP."""
@@ -72,7 +83,7 @@ class LinearisedContact:
 
     def _vector(self) -> Complex:
         """Unknowns at rest, with du = 1."""
-        x = np.zeros(self._free.size * (1 if self._heat is None else 2) + 1, dtype=complex)
+        x = np.zeros(self._free.size * (1 + self._fields) + 1, dtype=complex)
         x[self._free.size] = 1.0
         return x
 
@@ -85,13 +96,16 @@ class LinearisedContact:
         return np.asarray(start + self.change(omega, system, b, drop))
 
     def system(self, omega: float) -> LinearFilm:
-        """Equations of a vibration of one frequency, at given viscosity."""
-        return LinearFilm(self.level, self._free, PRESCRIBED, 1j * omega)
+        """Equations of a vibration of one frequency, at given temperatures."""
+        return self._film(1j * omega)
+
+    def _film(self, c_t: complex) -> LinearFilm:
+        return LinearFilm(self.level, self._free, PRESCRIBED, c_t, self._beside)
 
     def _equations(self, omega: float) -> Any:
         """The same, with temperatures that follow where there is heat."""
         film = self.system(omega)
-        return film if self._heat is None else HeatedSystem(film, LinearHeat(self._heat, omega))
+        return film if self._viscosity is None else self._viscosity.system(film, omega)
 
     def change(self, omega: float, system: LinearFilm | HeatedSystem, b: NDArray[Any], rtol: float) -> Complex:
         """Solution of ``system(x) = b`` to ``|b - system(x)| <= rtol |b|``, system that of omega."""
@@ -115,7 +129,7 @@ class LinearisedContact:
         `tolerance` is for the residuals, their imaginary part counted relative to Omega below Omega = 1. Where
         a solve fails to reach it, the residual returned is larger.
         """
-        if self.level.inflow.size or self._heat is not None:
+        if self.level.inflow.size or self._fields:
             return self._respond_one_by_one(omega, tolerance)
         basis: list[Array] = []
         products: list[Array] = [self.j, self.b]

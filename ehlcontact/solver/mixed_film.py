@@ -61,12 +61,13 @@ class AsperityPressure:
         level.update(mg.u)
         return self._step * float(np.abs(own).max())
 
-    def result(self, before: float) -> dict[str, Any]:
+    def result(self, before: float) -> dict[str, dict[str, Any]]:
         """Fields and numbers of an `AsperityContact`; the central film between smooth surfaces was `before`."""
         level = self.multigrid.finest
-        return {
+        numbers = {
             "pressure": self.pressure.T.copy(),
             "load_share": level.asperity_load / level.force(),
             "film_over_rq": level.central_film() / self.numbers.rq,
             "film_share": level.central_film() / before,
         }
+        return {"asperities": numbers}

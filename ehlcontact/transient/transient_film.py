@@ -25,7 +25,7 @@ from ehlcontact.solver.coarse_newton import Factors
 from ehlcontact.solver.effects import CyclesWithEffects
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
-from ehlcontact.solver.film_heat import FollowedViscosity
+from ehlcontact.solver.followed_viscosity import FollowedViscosity
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Array, Level
 from ehlcontact.solver.mesh import Mesh
@@ -306,7 +306,9 @@ class TransientFilm:
 
     def _heated(self, heat: HeatOverTime) -> CyclesWithEffects:
         """Cycles after which the viscosity follows the temperatures."""
-        return CyclesWithEffects(self.multigrid, [FollowedViscosity(self.multigrid, heat)], self.multigrid.cycle)
+        return CyclesWithEffects(
+            self.multigrid, [FollowedViscosity(self.multigrid, {"heat": heat})], self.multigrid.cycle
+        )
 
     def _solve(self, balance: Balance, most: int, advance: Callable[[Balance], float] | None = None) -> Step:
         """Cycle until the residual, the balance and the last changes of u and force are below tolerance."""

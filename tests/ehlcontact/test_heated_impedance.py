@@ -24,11 +24,12 @@ from ehlcontact import (
     save,
     solve_steady,
 )
-from ehlcontact.linearised_film import heat_of, held
+from ehlcontact.linearised_film import held, viscosity_on
 from ehlcontact.response import NEAR_ZERO, slow_part
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.effects import CyclesWithEffects
-from ehlcontact.solver.film_heat import FilmHeat, FollowedViscosity
+from ehlcontact.solver.film_heat import FilmHeat
+from ehlcontact.solver.followed_viscosity import FollowedViscosity
 from ehlcontact.solver.linear_heat import LinearHeat
 from ehlcontact.solver.linearised_contact import TOLERANCE, LinearisedContact
 
@@ -56,7 +57,7 @@ def response(given, omega, follows=True, r=None):
     """K and C of the film with heat, its temperatures following or standing still."""
     film = film_of(given, r)
     solved = held(film)
-    contact = LinearisedContact(solved, heat_of(film, solved) if follows else None)
+    contact = LinearisedContact(solved, viscosity_on(film, solved) if follows else None)
     Z = contact.respond(np.array([omega]), 1e-5)[0][0]
     return Z.real, Z.imag / omega
 
@@ -71,7 +72,7 @@ class Neighbours:
             at = film.approach + side * STEP
             near = solve_steady(POINT, **region_of(film), thermal=given, approach=at, tol=1e-8)
             solved = held(near)
-            heats.append((near, heat_of(near, solved)))
+            heats.append((near, viscosity_on(near, solved).heat))
         self.stiffness = self.slope(heats, lambda near, heat: near.force)
         self.pressure = self.slope(heats, lambda near, heat: heat.level.P)
         self.mass = self.slope(heats, lambda near, heat: heat.level.oil)
@@ -121,12 +122,12 @@ def force_on_a_ramp(given, near, rate, r=None):
     """Force at the approach of the film while the approach grows at a rate."""
     film = film_of(given, r)
     solved = held(film)
-    steady, balance = heat_of(film, solved), Balance.of_approach(film.approach)
+    steady, balance = viscosity_on(film, solved).heat, Balance.of_approach(film.approach)
     heat = Ramp(solved.finest, steady.numbers)
     heat.rise[...], heat.walls[...], heat.rate, heat.near = steady.rise, steady.walls, rate, near
     solved.finest.rhs[...] = rate * near.mass
     solved.finest.update(solved.u)
-    cycles = CyclesWithEffects(solved, [FollowedViscosity(solved, heat)], solved.cycle)
+    cycles = CyclesWithEffects(solved, [FollowedViscosity(solved, {"heat": heat})], solved.cycle)
     for _ in range(15):
         cycles.step(balance)
     return solved.finest.force()
@@ -185,12 +186,12 @@ def test_temperatures_linearised_are_differences_of_temperatures(given):
     """At rest, for any change of pressure, film and viscosity."""
     film, step = film_of(given), 1e-5
     solved = held(film)
-    heat = heat_of(film, solved)
+    heat = viscosity_on(film, solved).heat
     level = heat.level
     state = level.P, level.H, level.fields.flow.heat
     bump = np.exp(-4.0 * ((level.X + 0.8) ** 2 + level.Y[:, None] ** 2)) * (level.P > 0.0)
     changes = bump, level.deflection(bump) - 1.0, 0.3 * bump
-    linear = LinearHeat(heat, 0.0).respond(*changes)
+    (linear,) = LinearHeat(heat, 0.0).respond(*changes[:2], changes[2][None])
     rest, found = [values.copy() for values in state], []
     for side in (step, -step):
         for values, start, change in zip(state, rest, changes, strict=True):

@@ -158,6 +158,55 @@ def test_starved_films_are_thinned(load, speed):
     assert weights @ starved.layer_behind == pytest.approx(weights @ starved.layer, rel=1e-8)
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(("load", "speed"), STARVED)
+def test_heated_films_are_thinned(load, speed):
+    """Without a slope it is the thinned film, with little sliding the heated one; energy is closed."""
+    point, grid = OperatingPoint(Geometry.ball_bearing(7.94e-3, 38.5e-3, 0.52), OIL, load, speed), Grid(64)
+
+    def film(slide=0.5, heat=None):
+        sliding = None if slide is None else ShearThinning(slide)
+        return solve_steady(point, grid=grid, sliding=sliding, thermal=heat, tol=1e-7)
+
+    both, thinned, heated = film(heat=True), film(), film(slide=None, heat=Heat(slide_roll=0.5))
+    assert both.temperature.inputs.slide_roll == 0.5
+    assert both.temperature.balance < 1e-6
+    assert both.h_central < min(thinned.h_central, heated.h_central)
+    assert film(heat=Heat(temperature_slope=0.0)).h_central == pytest.approx(thinned.h_central, rel=1e-6)
+    assert film(slide=1e-5, heat=True).h_central == pytest.approx(film(None, True).h_central, rel=1e-6)
+
+
+def test_slow_films_are_thinned_alone():
+    slow = OperatingPoint.ball_on_flat(OIL, ball_diameter=19.05e-3, entrainment_speed=0.03, load=2.0)
+    cold, warm = (
+        solve_steady(slow, grid=SMALL, sliding=ShearThinning(1.0), thermal=heat) for heat in (None, True)
+    )
+    assert warm.h_central == pytest.approx(cold.h_central, rel=1e-3)
+
+
+@pytest.mark.long
+def test_starved_films_are_heated_and_thinned():
+    """Oil and energy are balanced; the stress that heats is that of the law."""
+    given = {"grid": Grid(128, Domain(x_in=-9.0)), "sliding": ShearThinning(0.5, Carreau(5e6, 0.5)), "tol": 1e-7}
+    point = OperatingPoint(Geometry.ball_bearing(7.94e-3, 38.5e-3, 0.52), OIL, 60.0, 6.0)
+    all_three = solve_steady(point, supply=OilLayer(over_flooded=0.8), thermal=True, **given)
+    weights = np.r_[0.5, np.ones(all_three.Y.size - 2), 0.0]
+    assert weights @ all_three.layer_behind == pytest.approx(weights @ all_three.layer, rel=1e-8)
+    assert all_three.temperature.balance < 1e-6
+
+
+@pytest.mark.parametrize("law", [Eyring(3e6), Carreau(3e6, 0.3)], ids=str)
+def test_slopes_of_laws_are_differences(law):
+    x, step = np.linspace(-12.0, 30.0, 43), 1e-6
+    ahead, behind = (np.array(law.thinning(x + side * step)) for side in (1.0, -1.0))
+    np.testing.assert_allclose(law.thinning_slopes(x), (ahead - behind) / (2.0 * step), atol=1e-8)
+    ratio = x - math.log(3e6)
+    stress, slope = law.reduced(ratio)
+    np.testing.assert_allclose(3e6 * stress, law.of(x, 0.0), rtol=1e-12)
+    ahead, behind = (law.reduced(ratio + side * step)[0] for side in (1.0, -1.0))
+    np.testing.assert_allclose(slope, (ahead - behind) / (2.0 * step), rtol=1e-6, atol=3e-9)
+
+
 def test_result(tmp_path):
     """Stored and shown; its traction is that of its own sliding."""
     again = read(save(thin(), tmp_path / "thin.h5"))
@@ -182,7 +231,14 @@ test_bad_input = refusals(
     (lambda: ShearThinning(0.1, LimitingShear()), "law = 'LimitingShear': must be Eyring or Carreau"),
     (lambda: solve_steady(DISC, sliding=0.1), "sliding = 'float': must be a ShearThinning"),
     (lambda: solve_steady(MoesPoint(20.0, 10.0, 1.0), sliding=ShearThinning(0.1)), "sliding = .*pascals"),
-    (lambda: solve_steady(DISC, sliding=ShearThinning(0.1), thermal=Heat()), "sliding = 'given': .*thermal"),
+    (
+        lambda: solve_steady(DISC, sliding=ShearThinning(0.1), thermal=Heat(slide_roll=0.2)),
+        "slide_roll = 0.2: must be left out of thermal with sliding, or 0.1 as there",
+    ),
+    (
+        lambda: solve_steady(DISC, sliding=ShearThinning(1.5), thermal=True),
+        "slide_roll of sliding = 1.5: must be between -1 and 1: near 2 one surface stands still",
+    ),
     (
         lambda: solve_steady(DISC, sliding=ShearThinning(0.1), asperities=Asperities(1e-7)),
         "sliding = .*asperities",
