@@ -325,7 +325,9 @@ def test_heat(call, refused):
         refused(words, "steady", *options(), "--thermal", "--slide-roll", bad)
     refused(("--thermal = True", "no metres"), "steady", "--M", "20", "--L", "10", "--kappa", "1", "--thermal")
     shaken = json.loads(call("impedance", *options(), *COARSE, "--thermal", "--hz", "10", "--json", "-").out)
-    assert shaken["film"]["temperature"]["film_share"] == pytest.approx(warm["temperature"]["film_share"], abs=0.02)
+    assert shaken["film"]["temperature"]["film_share"] == pytest.approx(
+        warm["temperature"]["film_share"], abs=0.02
+    )
     assert "film by heat" in call("impedance", *options(), *COARSE, "--thermal", "--hz", "10").out
     refused(("--thermal: no option of `element`", "`ehlcontact steady` has"), "element", *options(), "--thermal")
 
