@@ -85,11 +85,10 @@ def _comment(text: str) -> str:
 
 
 def c_double(value: float) -> str:
-    """C literal that reads back as exactly this double; HUGE_VAL for infinity."""
+    """Shortest C literal, decimal or hexadecimal, that reads back as this double; HUGE_VAL for infinity."""
     if math.isinf(value):
         return "HUGE_VAL" if value > 0.0 else "(-HUGE_VAL)"
-    text = format(value, ".17g")
-    return text if any(mark in text for mark in ".e") else f"{text}.0"
+    return min(repr(value), re.sub(r"\.?0*p", "p", value.hex()), key=len)
 
 
 def c_table(name: str, values: NDArray[np.float64]) -> str:

@@ -1,7 +1,7 @@
 """A bearing as C text: grooves, races, films over load, losses, speeds.
 
 A race in Python has 128 cubics between two nodes of its static curve. Here one polynomial stands for them: within
-1e-13 of g a micrometre deep and beyond, and within 3e-10, about the error of the cubics, where the surfaces part.
+2e-13 of g a micrometre deep and beyond, and within 1e-9, as the cubics, where the surfaces part.
 Where it is not within 1e-9, as where a layer of oil runs dry, there are more nodes.
 """
 
@@ -27,12 +27,14 @@ _Floats = NDArray[np.float64]
 
 DEGREE = 16  # of the polynomials at most; surfaces that press each other need 4 to 13
 POINTS = 4  # of every cubic, to which they are fitted
-NEGLIGIBLE, NEGLIGIBLE_IN_GAPS = 2e-14, 2e-11  # of g: last term of a polynomial; the cubics are 2e-10 off in gaps
+NEGLIGIBLE, NEGLIGIBLE_IN_GAPS = 1e-13, 5e-11  # of g: last term of a polynomial; the cubics are 2e-10 off in gaps
 MISFIT = 1e-9  # of g: what a polynomial may leave before its interval is halved
 HALVINGS = 7  # down to one cubic
-ROUNDED = 2.0**-54  # of g: unit of the coefficients
+# Rounding for small files: a digit is in the binaries of five platforms and in the source. Rates keep 12 digits.
+CURVE_UNIT, CURVE_UNIT_IN_GAPS = 2.0**-46, 2.0**-36  # of g, for the coefficients
+DIRECT_UNIT, CHAIN_UNIT = 2.0**-45, 2.0**-42  # of a gain itself; of the largest gain of a chain at its node
 FILM_NODES = 48  # loads of the films, even in their logarithm
-FILM_UNIT = 2.0**-24  # of the logarithms of films, for small files: far below what lies between two loads
+FILM_UNIT = 2.0**-24  # of the logarithms of films: far below what lies between two loads
 FARTHEST = 0.1  # of the ball diameter: largest displacement, which no ring in its bearing reaches
 LARGEST_TILT = 0.1  # rad
 # Sizes in numbers of the structures of ``bearing.h`` and ``ball.h``, which an FMU compares with its own
@@ -140,7 +142,8 @@ def _race(name: str, law: RaceForceTable) -> tuple[str, dict[str, str]]:
     halved, place = _halved(law)
     fields["nodes"] = str(halved.x.size)
     curve, first = _curve(halved, place)
-    parts = {"x": halved.x, "u": halved.u, "curve": curve, "gains": halved.gains, "made": halved.film_made}
+    gains, made = _rounded_gains(halved.gains), _rounded(halved.film_made, DIRECT_UNIT * halved.film_made)
+    parts = {"x": halved.x, "u": halved.u, "curve": curve, "gains": gains, "made": made}
     lines = [c_table(f"{name}_{part}", values.reshape(-1)) for part, values in parts.items()]
     lines += [f"static const int {name}_first[] = {{{', '.join(map(str, first.tolist()))}}};"]
     return "\n".join(lines), fields | {part: f"{name}_{part}" for part in ("first", *parts)}
@@ -219,19 +222,33 @@ def _fitted(law: RaceForceTable, place: NDArray[np.int64]) -> tuple[_Floats, _Fl
 def _curve(law: RaceForceTable, place: NDArray[np.int64]) -> tuple[_Floats, NDArray[np.int64]]:
     """Powers of s = -1 to 1 over every interval of every speed, and where those of each begin; the last one ends.
 
-    A least-squares fit, with as many terms as are needed, two at least. Coefficients are rounded to `ROUNDED` of
-    g: those of high powers then have few digits, and an FMU is smaller. `place` is that of `_halved`.
+    A least-squares fit, with as many terms as are needed, two at least. Coefficients are rounded to `CURVE_UNIT`
+    of g: those of high powers then have few digits. `place` is that of `_halved`.
     """
     g, terms = _fitted(law, place)
-    negligible = np.where(law.u[:, 1:] < 0.0, NEGLIGIBLE_IN_GAPS, NEGLIGIBLE).ravel() * g[:, 0]
+    gap = law.u[:, 1:].ravel() < 0.0
+    negligible = np.where(gap, NEGLIGIBLE_IN_GAPS, NEGLIGIBLE) * g[:, 0]
     needed = np.abs(terms) > negligible[:, None]
     counts = np.maximum(DEGREE + 1 - np.argmax(needed[:, ::-1], axis=1), 2)
-    units = 2.0 ** np.floor(np.log2(ROUNDED * g[:, 0]))
+    units = np.where(gap, CURVE_UNIT_IN_GAPS, CURVE_UNIT) * g[:, 0]
     powers = [
-        np.pad(unit * np.rint(chebyshev.cheb2poly(row[:count]) / unit), (0, count))[:count]  # numpy drops zeros
-        for row, count, unit in zip(terms, counts.tolist(), units.tolist(), strict=True)
+        np.pad(_rounded(chebyshev.cheb2poly(row[:count]), unit), (0, count))[:count]  # numpy drops zeros
+        for row, count, unit in zip(terms, counts.tolist(), units, strict=True)
     ]
     return np.concatenate(powers), np.append(0, np.cumsum(counts))
+
+
+def _rounded_gains(gains: _Floats) -> _Floats:
+    """Gains of nodes (speeds, n, DIRECT + lags), those of a chain rounded to the largest of its node."""
+    direct, chain = np.split(gains, [DIRECT], axis=-1)
+    chain = _rounded(chain, CHAIN_UNIT * np.abs(chain).max(axis=-1, keepdims=True, initial=0.0))
+    return np.concatenate([_rounded(direct, DIRECT_UNIT * np.abs(direct)), chain], axis=-1)
+
+
+def _rounded(values: _Floats, unit: _Floats) -> _Floats:
+    """Values rounded to the largest powers of two that are not above `unit`; as they are where it is 0."""
+    steps = 2.0 ** np.floor(np.log2(np.where(unit > 0.0, unit, np.finfo(float).tiny)))
+    return np.where(unit > 0.0, steps * np.rint(values / steps), values)
 
 
 def film_logarithms(model: BearingModel) -> tuple[_Floats, _Floats]:

@@ -108,11 +108,13 @@ def test_capabilities_and_origin(fmus):
     assert description.defaultExperiment is not None
 
 
-@pytest.mark.parametrize("value", [0.0, 1.0, -1e300, 5e-324, 0.1, 1 / 3, 123456789.0, -0.174])
+@pytest.mark.parametrize("value", [0.0, -0.0, 1.0, 7.0, -1e300, 5e-324, 0.1, 1 / 3, 123456789.0, -0.174, 2.0**-40])
 def test_c_literal_reads_back_exactly(value):
     literal = c_double(value)
-    assert float(literal) == value
-    assert re.search(r"[.e]", literal)  # else C would read an integer
+    assert float.fromhex(literal) == value if "0x" in literal else float(literal) == value
+    assert len(literal) <= len(repr(value))
+    assert re.fullmatch(r"-?0x[01](\.[0-9a-f]+)?p[-+]\d+|-?[\d.]+(e[-+]\d+)?", literal)
+    assert re.search(r"[.ep]", literal)  # else C would read an integer
 
 
 def test_model_name_becomes_identifier(elements):
