@@ -39,6 +39,7 @@ static inline Fault refuse(const char *reason)
 }
 
 static const char *const not_finite[N_INPUTS] = INPUTS_NOT_FINITE;
+static const char *const unlike_rate[N_INPUTS] = INPUTS_UNLIKE_RATES; /* NULL of an input without a rate */
 
 enum { STALE_LAW = 1, STALE_OUTPUTS = 2, STALE_RATES = 4, STALE_INPUTS = 8 }; /* what must be computed anew */
 
@@ -56,7 +57,10 @@ typedef struct {
     int has_stop_time, n_given; /* n_given: steps in given, at most 2 */
     double missed[N_INPUTS], moved[N_INPUTS]; /* squares of what was missed of the changes of rates, and of these, in a block */
     double most_moved;                        /* of any rate in any block */
-    int stale, judged, too_long, told; /* too_long: blocks on end whose steps were; told: whether that has been logged */
+    double apart[N_INPUTS], travelled[N_INPUTS]; /* squares of how far slopes of inputs and their rates are apart, and of both */
+    double most_travelled, unlike[N_INPUTS]; /* unlike: blocks on end in which an input did not change as its rate */
+    int stale, judged, compared, too_long;   /* judged, compared: steps in this block; too_long: blocks on end whose steps were */
+    int told_long, told_unlike;              /* whether that has been logged */
 } State;
 
 /* What saving a state keeps of it. */
@@ -106,8 +110,9 @@ Fault core_set_time(State *state, double time);
 Fault core_contact_changed(State *state, int *changed);
 unsigned long long core_contact(const State *state); /* contacts that push, as bits; of an evaluated model */
 
-/* That steps are too long for the motion: once, where they have been for some time; NULL else. */
-const char *core_long_steps(State *state);
+/* That steps are too long for the motion, or an input does not change as its rate says: each once, where it was so for some
+ * time; NULL else. */
+const char *core_step_warning(State *state);
 
 /* Bounds of the validity box that have been left since the last call, in words written to `text`; NULL for none. */
 const char *core_warning(State *state, char *text, size_t size);

@@ -220,9 +220,48 @@ static int block_is_too_long(State *s)
     return found;
 }
 
+enum { BLOCK = 64 };
+
+/* Whether displacements change as their rates say, in blocks of steps: the mean slope of a step beside the mean of the rates at its
+ * ends. Symplectic Euler is off by w h/2 of the rate. */
+static void compare_rates(State *s, double time, double h)
+{
+    static const double most = 0.1;   /* of the sum of squares of slope and rate: the rate is 0.6 or 1.6 of the slope */
+    static const double still = 1e-6; /* of the nominal rate: no motion */
+    static const double small = 0.01; /* of the largest motion so far */
+    const double length = core_path_is_known(s) ? time - s->given_time[0] : h;
+    int k;
+    if (s->n_given == 0) {
+        return;
+    }
+    for (k = 0; k < N_INPUTS; k++) {
+        if (rate_of[k] >= 0) {
+            const int rate = rate_of[k];
+            const double unit = 1.0 / core_variables[rate].nominal;
+            const double slope = unit * (s->model.value[k] - s->given[0][k]) / length;
+            const double mean = 0.5 * unit * (s->model.value[rate] + s->given[0][rate]);
+            s->apart[k] += (slope - mean) * (slope - mean);
+            s->travelled[k] += slope * slope + mean * mean;
+        }
+    }
+    if (++s->compared < BLOCK) {
+        return;
+    }
+    s->compared = 0;
+    for (k = 0; k < N_INPUTS; k++) {
+        s->most_travelled = s->travelled[k] > s->most_travelled ? s->travelled[k] : s->most_travelled;
+    }
+    for (k = 0; k < N_INPUTS; k++) {
+        const double travelled = s->travelled[k];
+        if (travelled > BLOCK * still * still && travelled >= small * small * s->most_travelled) {
+            s->unlike[k] = s->apart[k] > most * travelled ? s->unlike[k] + 1.0 : 0.0;
+        }
+        s->apart[k] = s->travelled[k] = 0.0;
+    }
+}
+
 static void judge_step(State *s)
 {
-    enum { BLOCK = 64 };
     int k;
     if (s->n_given < 2 || !core_path_is_known(s)) {
         return;
@@ -312,6 +351,7 @@ Fault core_step(State *s, double time, double h)
         return fault;
     }
 #ifndef LEAD_OF_INPUTS
+    compare_rates(s, time, h);
     judge_step(s);
 #endif
     memmove(s->given[1], s->given[0], sizeof s->given[0]);
@@ -329,14 +369,21 @@ Fault core_step(State *s, double time, double h)
     return fine;
 }
 
-const char *core_long_steps(State *s)
+const char *core_step_warning(State *s)
 {
-    enum { BLOCKS = 3 };
-    if (s->told || s->too_long < BLOCKS) {
-        return NULL;
+    enum { LONG_BLOCKS = 3, UNLIKE_BLOCKS = 2 };
+    int k;
+    for (k = 0; k < N_INPUTS && !s->told_unlike; k++) {
+        if (s->unlike[k] >= UNLIKE_BLOCKS) {
+            s->told_unlike = 1;
+            return unlike_rate[k];
+        }
     }
-    s->told = 1;
-    return "the communication steps are too long for this motion: the coupling adds to its damping";
+    if (!s->told_long && s->too_long >= LONG_BLOCKS) {
+        s->told_long = 1;
+        return "the communication steps are too long for this motion: the coupling adds to its damping";
+    }
+    return NULL;
 }
 
 /* ---- derivatives of inputs and outputs in time ---- */

@@ -43,7 +43,7 @@ void warn_if_outside(Instance *instance, const char *function)
 
 void warn_of_step(Instance *instance, const char *function)
 {
-    const char *text = core_long_steps(&instance->state);
+    const char *text = core_step_warning(&instance->state);
     if (text != NULL) {
         log_call(instance, WARNED, LOG_WARNING, function, text);
     }

@@ -48,7 +48,7 @@ int report(const Instance *instance, Fault fault, const char *function);
 /* Logs once that the validity box has been left. */
 void warn_if_outside(Instance *instance, const char *function);
 
-/* The same after a step, and once that steps are too long. */
+/* The same after a step, with what the core warns of. */
 void warn_of_step(Instance *instance, const char *function);
 
 /* The instance behind c, or NULL (and the error logged) if the function may not be called in its phase; for what may be

@@ -360,6 +360,23 @@ def test_what_is_left_of_a_motion_is_not_told(made):
     assert not any("too long" in message for message in messages_of(made("planar"), motion, 2e-5, 800))
 
 
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize("lead", [0.0, 1.0, 1.5])
+def test_a_displacement_that_does_not_change_as_its_rate_says_is_told_once(made, lead, share):
+    """A recorded motion of 1000 Hz, played with a share of its rate."""
+    one, messages, omega, dt = made("planar"), [], 2e3 * np.pi, 5e-6
+    slave = Slave(one.folder, one.description, messages, loggingOn=True)
+    slave.start(lead=lead, cage_angle_start=START, y=-1.2e-5, speed=RPM * RPM_TO_RAD_S)
+    for t in dt * np.arange(400):
+        y, rate = -1.2e-5 + 2e-7 * np.sin(omega * t), share * 2e-7 * omega * np.cos(omega * t)
+        slave.set(y=y, velocity_y=rate)
+        slave.step(dt)
+    slave.free()
+    words = "y does not change as velocity_y says: set both"
+    assert sum(words in message for message in messages) == int(share != 1.0)
+    assert not any("x does not change" in message for message in messages)
+
+
 @pytest.mark.parametrize("lead", [0.0, 0.5, 1.0, 1.5])
 def test_a_coast_down_ends_at_standstill(made, lead):
     """The speed goes on by none of its changes: beyond its last value it could be below 0, or above the tables."""
