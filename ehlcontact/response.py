@@ -182,6 +182,11 @@ def response(
     require_grid(grid)
     threads = require_threads("threads", threads)
     conditions = Conditions.of(supply=supply, thermal=thermal).at(point)
+    if to != APPROACH:
+        for name in conditions.keywords:
+            raise InputError(
+                name, "given", "left out of a response to speed or waves, which is that of a flooded film"
+            )
     if waves is None:
         meshes: Iterable[Mesh] = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
     else:

@@ -6,7 +6,6 @@ module                responsibility
 ``steady_result``     `SteadyResult`: the film at rest
 ``film_temperature``  `FilmTemperature`: temperatures of a heated film
 ``asperity_contact``  `AsperityContact`: load share of asperities beside a film
-``frequency``         `FrequencyResponse`: impedance and python-control system of K and C of bearings
 ``response``          `Response`: force over frequency by small changes of a contact or a bearing
 ``traction``          `Traction`: traction of a film over the slide-to-roll ratio
 ``table``             `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities

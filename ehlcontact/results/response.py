@@ -219,11 +219,12 @@ class Response(PointTable):
         """
         if self.to != APPROACH:
             return ""
-        negative = np.atleast_2d(self._diagonals(self.damping).T).T < 0.0
-        at = np.flatnonzero(negative.any(axis=1))
+        C = np.atleast_2d(self._diagonals(self._with_sign()).T).T
+        at = np.flatnonzero((C < 0.0).any(axis=1))
         if not at.size:
             return ""
-        gained = -np.atleast_2d(self.loss_factor.T).T[negative].min()
+        K = np.atleast_2d(self._diagonals(self.stiffness).T).T
+        gained = float((-self.omega[:, None] * C / K).max())
         first, last = self._frequency(at[0]), self._frequency(at[-1])
         where = f"at {first}" if at.size == 1 else f"from {first} to {last}"
         return f"damping is negative {where}; a loss factor above {gained:.2g} outweighs it (omega |C|/K)"
@@ -261,7 +262,8 @@ class Response(PointTable):
 
     def to_dict(self) -> dict[str, Any]:
         """Quantities and origin, ready for JSON."""
-        found = {"to": self.to} | PointTable.to_dict(self)
+        missing = [name for name in ("residual", "wavelength") if getattr(self, name) is None]
+        found = {"to": self.to} | {k: v for k, v in PointTable.to_dict(self).items() if k not in missing}
         if self.film is not None:
             found |= {"reservation": self.reservation, "outside_assumptions": self.outside_assumptions}
             found |= {"seconds": self.seconds, "film": self.film.to_dict()}
@@ -293,6 +295,10 @@ class Response(PointTable):
             raise InputError(name, self.to, f"asked of a response to {kind}")
         return np.abs(self.value / array) if moved else array
 
+    def _with_sign(self) -> Array:
+        """Damping, below zero too where what is solved has it so."""
+        return self.damping
+
     def _diagonals(self, array: Array) -> Array:
         """Directions by themselves: shape (k,), or (k, n) of matrices."""
         return array if array.ndim == 1 else np.asarray(np.einsum("kii->ki", array))
@@ -323,7 +329,8 @@ class Response(PointTable):
 
     def _display(self) -> Display:
         logs = "xy" if self.to == APPROACH and self.value.ndim == 1 else "x"
-        return replace(self.DISPLAY, panels=KINDS[self.to][2], logs=logs)
+        along = "hz" if self._in_si() else ""
+        return replace(self.DISPLAY, panels=KINDS[self.to][2], logs=logs, coordinates=along)
 
     def _summary_lines(self) -> list[str]:
         origin = "" if self.film is None else f"; linearised on n = {self.film.n}"

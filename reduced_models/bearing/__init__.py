@@ -22,7 +22,7 @@
 | loss | loss factor of rings and fits: filters of the force, in time and over frequency |
 | equilibrium | springs under a load |
 | linear_balls | all balls about static equilibrium: impedance at complex frequencies |
-| coefficients | `BearingCoefficients`: stiffness and damping over frequency |
+| coefficients | `BearingCoefficients`: response over frequency, stiffness and damping |
 | solved_balls | small motion with the impedance of solved contacts, under an oil supply |
 | features | inputs: waviness and defects of races and balls, balls of another diameter |
 | height_tables | heights of features, filtered by the contact, as tables over the angle and the load |

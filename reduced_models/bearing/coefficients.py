@@ -1,16 +1,16 @@
-"""`BearingCoefficients`: stiffness and damping of a bearing over frequency."""
+"""`BearingCoefficients`: response of a bearing to the motion of its ring, over frequency."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Protocol
+from typing import Annotated, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, HERTZ, LENGTH, RADIAN, SPEED, STIFFNESS, Quantity
-from ehlcontact.results.frequency import FrequencyResponse
+from ehlcontact.quantities import DAMPING, FORCE, LENGTH, RADIAN, SPEED, Quantity
+from ehlcontact.results.response import Response
 from ehlcontact.results.table import Display
 from ehlcontact.summary import note_line, span
 from reduced_models.bearing.freedoms import FIVE, PLANAR, in_freedoms, labelled, load_words
@@ -36,11 +36,11 @@ class RingAtRest(Protocol):
         """Of its degrees of freedom [m], [rad]."""
 
 
-@dataclass(frozen=True, eq=False)
-class BearingCoefficients(FrequencyResponse):
-    """Matrices of a small vibration of the ring in n = 2 or 5 degrees of freedom: x, y (, z, tilt_x, tilt_y).
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BearingCoefficients(Response):
+    """`Response` of a ring in n = 2 or 5 directions, x, y (, z, tilt_x, tilt_y), and where the load puts it.
 
-    Tilts have rad for m and N m for N.
+    Its values are matrices, in SI. Tilts have rad for m and N m for N.
 
     Attributes
     ----------
@@ -50,16 +50,12 @@ class BearingCoefficients(FrequencyResponse):
         Of the shaft.
     cage_angle : float or None
         Of the first ball [rad]; None: means over a ball passage.
-    omega : ndarray, shape (k,)
-        Angular frequencies [rad/s]; ``hz`` has them in Hz.
-    stiffness, damping : ndarray, shape (k, n, n)
-        K [N/m] and C [N s/m].
     displacement : ndarray, shape (n,)
         Of the ring [m].
     peak_to_peak : ndarray, shape (n,)
         Peak-to-peak displacement of the ring while a ball passes slowly [m]; 0 at a given angle of the cage.
-    outside_assumptions : str
-        Assumptions of films that do not hold at the most loaded ball (`ehlcontact.assumptions`); empty where none.
+    outside : str
+        Assumptions of films that do not hold at the most loaded ball: ``outside_assumptions``.
     signed_damping : ndarray, shape (k, n, n), or None
         C [N s/m] of the solved contacts under an oil supply, which at low frequency may be below zero; `damping`
         is that of the elements, which leave that out. None in flooded bearings.
@@ -71,24 +67,25 @@ class BearingCoefficients(FrequencyResponse):
     load: Annotated[_Floats, FORCE.over("axis")]
     speed_rpm: Annotated[float, SPEED]
     cage_angle: Annotated[float | None, RADIAN]
-    omega: Annotated[_Floats, FREQUENCY.over("hz")]
-    stiffness: Annotated[_Floats, STIFFNESS.over("hz axis by")]
-    damping: Annotated[_Floats, DAMPING.over("hz axis by")]
     displacement: Annotated[_Floats, LENGTH.over("axis")]
     peak_to_peak: Annotated[_Floats, LENGTH.over("axis")]
-    outside_assumptions: str = ""
-    signed_damping: Annotated[_Floats | None, DAMPING.over("hz axis by")] = None
+    outside: str = ""
+    signed_damping: Annotated[_Floats | None, DAMPING.over("omega axis by")] = None
     damping_left_out: str = ""
 
-    DISPLAY: ClassVar[Display] = Display(
-        rows="hz", panels=("stiffness", "damping"), labels={"axis": ("x", "y"), "by": ("x", "y")}, logs="x"
-    )
+    @property
+    def outside_assumptions(self) -> str:
+        """Assumptions of films that do not hold at the most loaded ball, in words; empty where none."""
+        return self.outside
 
     def _quantities(self) -> Mapping[str, Quantity]:
         return in_freedoms(super()._quantities(), self.load.size)
 
     def _display(self) -> Display:
         return labelled(super()._display(), self.load.size)
+
+    def _with_sign(self) -> _Floats:
+        return self.damping if self.signed_damping is None else self.signed_damping
 
     def _summary_lines(self) -> list[str]:
         K, C = self.stiffness, self.damping
@@ -105,7 +102,7 @@ class BearingCoefficients(FrequencyResponse):
             *axial,
             *self._signed_line(),
             "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
-            *([self.damping_left_out] if self.damping_left_out else []),
+            *filter(None, [self.damping_left_out, self.negative_damping]),
             *note_line(self.outside_assumptions),
         ]
 
@@ -120,11 +117,6 @@ class BearingCoefficients(FrequencyResponse):
         """Everything, ready for JSON."""
         left_out = {"damping_left_out": self.damping_left_out} if self.damping_left_out else {}
         return super().to_dict() | {"outside_assumptions": self.outside_assumptions} | left_out
-
-    @property
-    def hz(self) -> Annotated[_Floats, HERTZ.over("hz")]:
-        """The frequencies [Hz]."""
-        return np.asarray(self.omega / (2.0 * np.pi))
 
     @classmethod
     def of(
@@ -143,5 +135,16 @@ class BearingCoefficients(FrequencyResponse):
         places = np.array([at.displacement for at in equilibria])
         mean, peak_to_peak = places.mean(axis=0), np.ptp(places, axis=0)
         K, C = matrices
-        notes = outside_assumptions, signed_damping, damping_left_out
-        return cls(load, speed_rpm, cage_angle, omega, K, C, mean, peak_to_peak, *notes)
+        return cls(
+            omega=omega,
+            value=K + 1j * omega[:, None, None] * C,
+            slope=C,
+            load=load,
+            speed_rpm=speed_rpm,
+            cage_angle=cage_angle,
+            displacement=mean,
+            peak_to_peak=peak_to_peak,
+            outside=outside_assumptions,
+            signed_damping=signed_damping,
+            damping_left_out=damping_left_out,
+        )

@@ -101,10 +101,10 @@ def test_turned_loads_turn_the_matrices(film):
 def test_coefficients_as_impedance_and_as_a_system_of_control(film):
     found = film.coefficients((0.0, -500.0), speed_rpm=3000.0, hz=[50.0, 500.0])
     Z = found.stiffness + 1j * (2.0 * np.pi * np.array([50.0, 500.0]))[:, None, None] * found.damping
-    np.testing.assert_allclose(found.impedance, Z, rtol=1e-14)
+    np.testing.assert_allclose(found.value, Z, rtol=1e-14)
     system = found.to_control()
     assert system.input_labels == ["u_x", "u_y"] and system.output_labels == ["F_x", "F_y"]
-    np.testing.assert_allclose(system(1j * found.omega[1]), found.impedance[1], rtol=1e-14)
+    np.testing.assert_allclose(system(1j * found.omega[1]), found.value[1], rtol=1e-14)
 
 
 def test_dry_bearings_do_not_damp(dry):
