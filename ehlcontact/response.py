@@ -51,6 +51,7 @@ from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results.response import APPROACH, PARTS, SLOW, SPEED, WAVES, Response
 from ehlcontact.results.steady_result import SteadyResult
+from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.error_estimate import response_error, wave_error
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.level import Level
@@ -140,6 +141,7 @@ def response(
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
     thermal: Heat | bool | None = None,
+    sliding: ShearThinning | None = None,
     threads: int | None = None,
 ) -> Response:
     """Linearise the converged steady contact and return its force over a small harmonic change, over frequency.
@@ -163,6 +165,8 @@ def response(
     thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up, as in `solve_steady`; its temperatures follow the vibration as fast as oil and
         surfaces can (docs/heat.md).
+    sliding : ShearThinning, optional
+        Shear thinning of the film by sliding, as in `solve_steady`; it follows at once.
     threads : int, optional
         As in `solve_steady`.
 
@@ -181,7 +185,7 @@ def response(
     waves, w = _change(to, None if isinstance(point, MoesPoint) else point.scales.time, frequency)
     require_grid(grid)
     threads = require_threads("threads", threads)
-    conditions = Conditions.of(supply=supply, thermal=thermal).at(point)
+    conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
     if to != APPROACH:
         for name in conditions.keywords:
             raise InputError(
@@ -206,11 +210,12 @@ def impedance(
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
     thermal: Heat | bool | None = None,
+    sliding: ShearThinning | None = None,
     threads: int | None = None,
     **frequency: Unpack[Frequency],
 ) -> Response:
     """Stiffness K and damping C over frequency: `response` to approach, with its parameters and errors."""
-    conditions: dict[str, Any] = {"supply": supply, "thermal": thermal}
+    conditions: dict[str, Any] = {"supply": supply, "thermal": thermal, "sliding": sliding}
     return response(point, to=APPROACH, grid=grid, threads=threads, **conditions, **frequency)
 
 
@@ -223,11 +228,12 @@ def excitation(
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
     thermal: Heat | bool | None = None,
+    sliding: ShearThinning | None = None,
     threads: int | None = None,
     **frequency: Unpack[Frequency],
 ) -> Response:
     """Force of waves on a surface over frequency: `response` to `Waves`, with its parameters and errors."""
-    conditions: dict[str, Any] = {"supply": supply, "thermal": thermal}
+    conditions: dict[str, Any] = {"supply": supply, "thermal": thermal, "sliding": sliding}
     return response(point, to=Waves(wavelength, speed), grid=grid, threads=threads, **conditions, **frequency)
 
 

@@ -18,6 +18,7 @@ import scipy
 from numpy.typing import NDArray
 
 from ehlcontact.heat import Heat
+from ehlcontact.lubricant.traction_laws import Carreau, Eyring
 from ehlcontact.point import Scales
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.solver.film_heat import FilmHeat, Terms
@@ -61,10 +62,14 @@ class HeatOverTime(FilmHeat):
     inputs : Heat
         With the data of the oil.
     scales : Scales
+    law : Eyring or Carreau, optional
+        Of the stress of sliding, as of `Heat.numbers`.
     """
 
-    def __init__(self, multigrid: Multigrid, inputs: Heat, scales: Scales) -> None:
-        super().__init__(multigrid.finest, inputs.numbers(multigrid.point, scales))
+    def __init__(
+        self, multigrid: Multigrid, inputs: Heat, scales: Scales, law: Eyring | Carreau | None = None
+    ) -> None:
+        super().__init__(multigrid.finest, inputs.numbers(multigrid.point, scales, law))
         self._multigrid, self._inputs = multigrid, inputs
         self._load = inputs.load(multigrid.point, scales)
         self._at_unit_speed = self.numbers

@@ -20,6 +20,7 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.heat import Heat
 from ehlcontact.point import Point, Scales, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
+from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
@@ -66,6 +67,7 @@ def simulate(
     grid: Grid = AUTOMATIC,
     supply: OilLayer | None = None,
     thermal: Heat | bool | None = None,
+    sliding: ShearThinning | None = None,
     time: TimeSteps = BY_MOTION,
     speed: SpeedHistory | None = None,
     surface: Surface | None = None,
@@ -91,6 +93,8 @@ def simulate(
     thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up: oil and surfaces store heat, and its viscosity follows in every step (docs/heat.md).
         By default the film has the temperature of the inlet.
+    sliding : ShearThinning, optional
+        Shear thinning of the film by sliding, as in `solve_steady`, in proportion to the speed of the surfaces.
     time : TimeSteps
         End, step, tolerances; in seconds for an `OperatingPoint`, in 2a/u_sum for a `MoesPoint`.
     speed : SpeedHistory, optional
@@ -126,7 +130,7 @@ def simulate(
     moes = require_solvable(point, motion.largest_load)
     require_grid(grid)
     require_groups(time, keep, run)
-    conditions = Conditions.of(supply=supply, thermal=thermal).at(point)
+    conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
     require_surface(surface)
     require_speed(speed, grid)
     reverses = speed is not None and speed.reverses

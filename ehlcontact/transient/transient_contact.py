@@ -15,6 +15,7 @@ from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.quantities import FORCE, LENGTH
 from ehlcontact.results.steady_result import grid_doubt
 from ehlcontact.results.table import SIView
+from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.lowest_film import beside_lowest
@@ -54,6 +55,8 @@ class TransientContact(Summary):
         Height added to the gap, as in `simulate`, over the time since this contact was made; it rests on it.
     thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up, as in `simulate`.
+    sliding : ShearThinning, optional
+        Shear thinning of the film by sliding, as in `simulate`.
     largest_load : float
         Largest force to expect, in static loads.
     tol : float
@@ -96,6 +99,7 @@ class TransientContact(Summary):
         supply: OilLayer | None = None,
         surface: Surface | None = None,
         thermal: Heat | bool | None = None,
+        sliding: ShearThinning | None = None,
         largest_load: float = 1.0,
         tol: float = DEFAULT_TOL,
         threads: int | None = None,
@@ -103,7 +107,7 @@ class TransientContact(Summary):
         load = require_positive("largest_load", largest_load)
         self.point, self.scales = require_solvable(point, load), scales_of(point)
         require_grid(grid)
-        conditions = Conditions.of(supply=supply, thermal=thermal).at(point)
+        conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
         require_surface(surface)
         self._surface, self._T = surface, 0.0
         self.tol = tol = require_positive("tol", tol)

@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate
-from math import nan, prod
-from typing import TypeVar
+from math import log, nan, prod
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -20,11 +20,13 @@ from ehlcontact.errors import ConvergenceError
 from ehlcontact.heat import Heat
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results.film_temperature import FilmTemperature
+from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse_newton import Factors
 from ehlcontact.solver.effects import CyclesWithEffects
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
+from ehlcontact.solver.film_thinning import FilmThinning
 from ehlcontact.solver.followed_viscosity import FollowedViscosity
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Array, Level
@@ -63,6 +65,8 @@ class FilmState:
     heat: HeatState | None = None
     speed: float = 1.0  # at the end of the step that led here
     beyond: CarriedOil | None = None  # where oil runs short and surfaces turn back
+    heating: Array | None = None  # of the viscosity that sliding thins, as of `Flow.heat`
+    aside: Array | None = None  # ln of that along over that across
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +97,8 @@ class TransientFilm:
         Layer of oil that enters at the lines Y, in dry approaches; by default the inlet is flooded.
     heat : (Heat, Scales), optional
         Let the film heat up; by default it has the temperature of the inlet.
+    sliding : (ShearThinning, Scales), optional
+        Let sliding thin it; by default it is Newtonian.
     """
 
     def __init__(
@@ -104,9 +110,16 @@ class TransientFilm:
         threads: int = 1,
         supply: Supply | None = None,
         heat: tuple[Heat, Scales] | None = None,
+        sliding: tuple[ShearThinning, Scales] | None = None,
     ) -> None:
         self.multigrid = Multigrid(point, mesh, deflection=deflection, threads=threads, supply=supply)
-        self.heat = None if heat is None else HeatOverTime(self.multigrid, *heat)
+        law = None if sliding is None else sliding[0].law
+        self.heat = None if heat is None else HeatOverTime(self.multigrid, *heat, law)
+        self.thinning: FilmThinning | None = None
+        self._log_newton = 0.0  # as of `FilmThinning`, at the speed of the operating point
+        if sliding is not None:
+            self._log_newton = sliding[0].log_newton(point.eta0, sliding[1])
+            self.thinning = FilmThinning(self.multigrid, sliding[0].law, self._log_newton, self.heat)
         self.temperature: FilmTemperature | None = None  # of the film at rest
         self.tol = tol
         self.scale = 1.0
@@ -139,9 +152,12 @@ class TransientFilm:
             The flooded film, which the supply is given over, was not solved.
         """
         supply = conditions.supply
-        heat = None if conditions.heat is None or scales is None else (conditions.heat, scales)
+        following: dict[str, Any] = {}
+        if scales is not None:
+            given = {"heat": conditions.heat, "sliding": conditions.sliding}
+            following = {name: (one, scales) for name, one in given.items() if one is not None}
         if supply is None:
-            return cls(point, mesh, tol, deflection, threads, heat=heat)
+            return cls(point, mesh, tol, deflection, threads, **following)
         flooded = nan
         if supply.needs_flooded:
             film = cls(point, mesh, tol, deflection, threads)
@@ -149,7 +165,8 @@ class TransientFilm:
             if not step.status.ok:
                 raise ConvergenceError(f"flooded film {step.status}: {step.status.advice}", step)
             flooded = film.level.central_film()
-        return cls(point, mesh, tol, deflection, threads, supply.lines(point, scales, flooded), heat)
+        lines = supply.lines(point, scales, flooded)
+        return cls(point, mesh, tol, deflection, threads, lines, **following)
 
     @property
     def level(self) -> Level:
@@ -189,11 +206,17 @@ class TransientFilm:
             self.multigrid.newton.factors = None
             if self.heat is not None:
                 self.heat.turn()
+            elif self.thinning is not None:
+                self.multigrid.set_heat(self.level.fields.flow.heat[:, ::-1].copy())
+            if self.multigrid.aside is not None:
+                self.multigrid.set_aside(self.multigrid.aside[:, ::-1].copy())
         self._next_speed = speed
         for level in self.multigrid.levels:
             level.set_speed(abs(speed))
         if self.heat is not None:
             self.heat.set_speed(self.level.speed)
+        if self.thinning is not None:
+            self.thinning.log_newton = self._log_newton + log(self.level.speed)
 
     def start_steady(self, balance: Balance, u: float | None = None, surface: Array | float = 0.0) -> Step:
         """Solve the steady film over a resting `surface` and make it the state for all T <= 0."""
@@ -205,6 +228,9 @@ class TransientFilm:
             mg.u = u
         if self.heat is not None:
             self.heat.rest()
+        if self.thinning is not None:
+            mg.set_heat(np.zeros_like(self.level.P))
+            mg.set_aside(np.zeros_like(self.level.P))
         mg.full_multigrid(balance)
         self.level.film_shift = surface
         self.level.excess[...] = 0.0
@@ -212,13 +238,15 @@ class TransientFilm:
         # full multigrid may still overlap in the centre
         self.scale = max(self.level.central_film(), SMALLEST_SCALE)
         step = self._solve(balance, 2 * STEP_CYCLES)
-        if self.heat is not None and step.status.ok:
-            cold, cycles = self.level.central_film(), self._heated(self.heat)
+        cycles = self._following()
+        if cycles is not None and step.status.ok:
+            cold = self.level.central_film()
             cycles.start(balance)
             self.level.film_shift = surface
             step = self._solve(balance, 2 * STEP_CYCLES, cycles.step)
-            self.heat.start(self.turned)
-            self.temperature = self.heat.at_rest(cold)
+            if self.heat is not None:
+                self.heat.start(self.turned)
+                self.temperature = self.heat.at_rest(cold)
         self._mass = self.level.oil.copy()
         self._mass_before = self._mass
         self.forget_past()
@@ -286,15 +314,15 @@ class TransientFilm:
             else:
                 source = level.density() * (level.transport(surface.height, known) - surface.rate)
                 level.rhs -= source
-        if self.heat is None:
-            step = self._solve(balance, STEP_CYCLES)
-        else:
+        if self.heat is not None:
             moved = 0.5 * dT * (self._speed + self._next_speed)
             self.heat.begin(dT, partial(_known, dT, ratio), moved, self.turned, source)
-            cycles = self._heated(self.heat)
+        cycles = self._following()
+        if cycles is not None:
             level.update(mg.u)
             cycles.follow()
-            step = self._solve(balance, STEP_CYCLES, cycles.step)
+        step = self._solve(balance, STEP_CYCLES, None if cycles is None else cycles.step)
+        if self.heat is not None:
             self.heat.end(self.keeps_oil)
         self._past = ((dT, P_now), *self._past)[:PAST]
         self._past_u = (u_now, *self._past_u)[:PAST]
@@ -304,10 +332,14 @@ class TransientFilm:
             self._beyond = self._beyond.moved(way, self.turned, level.leaving())
         return step
 
-    def _heated(self, heat: HeatOverTime) -> CyclesWithEffects:
-        """Cycles after which the viscosity follows the temperatures."""
+    def _following(self) -> CyclesWithEffects | None:
+        """Cycles after which the viscosity follows what changes it; None where nothing does."""
+        given = {"heat": self.heat, "sliding": self.thinning}
+        sources: dict[str, Any] = {name: source for name, source in given.items() if source is not None}
+        if not sources:
+            return None
         return CyclesWithEffects(
-            self.multigrid, [FollowedViscosity(self.multigrid, {"heat": heat})], self.multigrid.cycle
+            self.multigrid, [FollowedViscosity(self.multigrid, sources)], self.multigrid.cycle
         )
 
     def _solve(self, balance: Balance, most: int, advance: Callable[[Balance], float] | None = None) -> Step:
@@ -341,6 +373,8 @@ class TransientFilm:
             heat=None if self.heat is None else self.heat.state,
             speed=self._speed,
             beyond=self._beyond,
+            heating=None if self.thinning is None else self.level.fields.flow.heat.copy(),
+            aside=self.multigrid.aside,
         )
 
     def restore_state(self, state: FilmState) -> None:
@@ -354,6 +388,9 @@ class TransientFilm:
         self.multigrid.newton.factors = state.factors
         if self.heat is not None and state.heat is not None:
             self.heat.restore(state.heat)
+        if state.heating is not None and state.aside is not None:
+            self.multigrid.set_heat(state.heating)
+            self.multigrid.set_aside(state.aside)
         self.level.update_film(state.u)
 
 
