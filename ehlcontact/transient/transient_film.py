@@ -318,10 +318,12 @@ class TransientFilm:
             moved = 0.5 * dT * (self._speed + self._next_speed)
             self.heat.begin(dT, partial(_known, dT, ratio), moved, self.turned, source)
         cycles = self._following()
-        if cycles is not None:
+        if cycles is None:
+            step = self._solve(balance, STEP_CYCLES)
+        else:
             level.update(mg.u)
             cycles.follow()
-        step = self._solve(balance, STEP_CYCLES, None if cycles is None else cycles.step)
+            step = self._solve(balance, STEP_CYCLES, cycles.step)
         if self.heat is not None:
             self.heat.end(self.keeps_oil)
         self._past = ((dT, P_now), *self._past)[:PAST]
