@@ -31,6 +31,7 @@ WIDTH, PX, DPI = 4.6, 1.0 / 80.0, 130  # inches of a panel, and of a px of a pag
 ALONE, STACKED = 1.3, 1.7  # width of a picture of one column over that of a panel: one panel, several
 MOST_NAMED = 8  # lines that a legend names
 LETTERS = 50  # of a title, over a panel
+PLAIN_DECADES, FEW_DECADES = 4.5, 1.6  # of a logarithmic axis with plain numbers; with numbers at 2 and 5 too
 GAP = 0.045  # height of a name at the end of a line over that of the panel
 GRID: dict[str, Any] = {"color": "#dddddd", "linewidth": 0.6}
 
@@ -92,6 +93,8 @@ def _panel(axes: Any, panel: Panel) -> None:
         axes.locator_params(nbins=6)
     if panel.tick is not None:
         axes.xaxis.set_major_locator(_every(panel.tick))
+    if panel.y_tick is not None:
+        axes.yaxis.set_major_locator(_every(panel.y_tick))
     for band in panel.bands:
         axes.axvspan(band.low, band.high, color=band.colour, zorder=0.5)
         at = {"xy": (0.5 * (band.low + band.high), 0.0), "xycoords": axes.get_xaxis_transform()}
@@ -121,7 +124,9 @@ def _line(axes: Any, line: Line, *, named: bool) -> None:
     alone = not line.dash
     label = line.name if line.name and not line.faint and (named or alone or line.colour == INK) else None
     look = {"linewidth": line.width, "markersize": 4.5, "alpha": 0.45 if line.faint else None, "label": label}
-    axes.plot(line.x, line.y, line.dash or "none", marker=mark.strip(), color=line.colour, **look, **hollow)
+    axes.plot(
+        line.x, line.y, linestyle=line.dash or "none", marker=mark.strip(), color=line.colour, **look, **hollow
+    )
     if line.bars is not None:
         ends = line.y - line.bars, line.y + line.bars
         axes.fill_between(line.x, *ends, color=line.colour, alpha=0.2, linewidth=0.0)
@@ -131,12 +136,27 @@ def _scales(axes: Any, panel: Panel) -> None:
     """Logarithmic axes; from rest on one that is linear up to its first value."""
     if panel.logarithmic("x"):
         axes.set_xscale("log")
+        _plain_ticks(axes.xaxis)
     elif "x" in panel.logs and panel.lines and not panel.lines[0].words:
         x = np.concatenate([line.x for line in panel.lines])
         if x.min() == 0.0 and far_apart(x[x > 0.0]):
             axes.set_xscale("symlog", linthresh=x[x > 0.0].min())
     if panel.logarithmic("y"):
         axes.set_yscale("log")
+        _plain_ticks(axes.yaxis)
+
+
+def _plain_ticks(axis: Any) -> None:
+    """Numbers as 0.5, 2, 1000 at a logarithmic axis; over few decades at 2 and 5 too."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    low, high = np.log10(axis.get_data_interval())
+    if high - low > PLAIN_DECADES or not np.isfinite(high - low):
+        return
+    few = high - low < FEW_DECADES
+    axis.set_minor_locator(LogLocator(subs=(2.0, 5.0) if few else tuple(range(2, 10))))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(FuncFormatter(lambda value, _: f"{value:g}") if few else NullFormatter())
 
 
 def _every(step: float) -> Any:
@@ -155,11 +175,10 @@ def _coloured(axes: Any, second: Any, panel: Panel) -> None:
 
 def _names_at_ends(axes: Any, panel: Panel) -> None:
     """Names at the ends of the lines, one above the other where lines end together."""
-    low, high = axes.get_ylim()
-    last = -1.0
+    last, inside = -1.0, axes.transData - axes.transAxes
     lines = [line for line in panel.lines if line.name and line.dash and line.colour != INK]
     for line in sorted(lines, key=lambda line: float(line.y[-1])):
-        last = max((float(line.y[-1]) - low) / (high - low), last + GAP)
+        last = max(float(inside.transform((line.x[-1], line.y[-1]))[1]), last + GAP)
         at: dict[str, Any] = {"xy": (1.01, last), "xycoords": "axes fraction", "va": "center"}
         axes.annotate(line.name, **at, fontsize=8, color=line.colour)
 
@@ -171,9 +190,10 @@ def _legend(axes: Any, second: Any, panel: Panel) -> None:
         handles, names = handles + more[0], names + more[1]
     once = dict(zip(reversed(names), reversed(handles), strict=True))
     if 1 <= len(once) <= MOST_NAMED:
-        ordered = [name for name in dict.fromkeys(names)]
-        legend = axes.legend([once[name] for name in ordered], ordered, frameon=False, fontsize=8)
-        legend.set_zorder(5)
+        ordered = list(dict.fromkeys(names))
+        # above the lines, on a pale ground: a line may run below it
+        look = {"framealpha": 0.85, "edgecolor": "none", "fontsize": 8}
+        axes.legend([once[name] for name in ordered], ordered, **look).set_zorder(5)
 
 
 def _map(axes: Any, shown: Map) -> None:

@@ -21,7 +21,8 @@ Ends = tuple[float, float]  # of an axis
 
 # Okabe and Ito's colours, which stay apart for colour-blind eyes
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9"
-GREY, INK, WHITE = "#7f7f7f", "#1d2126", "#ffffff"
+GREY, INK = "#7f7f7f", "#1d2126"
+BLACK, WHITE = "#000000", "#ffffff"  # over maps, whose colours a dark page leaves
 PALE, PALE_BLUE = "#f2f2f2", "#eaf3fa"  # of stretches behind the lines
 COLOURS = BLUE, ORANGE, GREEN, RED, PURPLE, SKY
 DASHES = "-", "--", ":"  # after the last colour
@@ -125,8 +126,8 @@ class Panel:
     bands : sequence of Band
     equal : bool
         Whether both axes have one scale.
-    tick : float, optional
-        Step of the ticks of x, as it is shown.
+    tick, y_tick : float, optional
+        Steps of the ticks of x and y, as they are shown.
     named_at_ends : bool
         Names of lines stand at their ends where the renderer can, else in the legend.
     """
@@ -145,6 +146,7 @@ class Panel:
     bands: Sequence[Band] = ()
     equal: bool = False
     tick: float | None = None
+    y_tick: float | None = None
     named_at_ends: bool = False
 
     def shown(self) -> Panel:

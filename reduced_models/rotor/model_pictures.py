@@ -105,7 +105,7 @@ def bode(responses: Resonances, looks: Looks, names: Names) -> Picture:
             phases.append(Line(hz[shown], np.where(behind > 90.0, behind - 360.0, behind), *look))
         ends, title = (float(low), float(high)), f"disc, {DIRECTIONS[direction]}"
         above.append(Panel(sizes, UNBALANCE, RESPONSE, title=title, logs="Y", x_ends=ends))
-        below.append(Panel(phases, UNBALANCE, "phase [degrees]", x_ends=ends))
+        below.append(Panel(phases, UNBALANCE, "phase [degrees]", x_ends=ends, y_tick=90.0))
     return Picture([*above, *below], columns=len(above), heights=(240.0, 150.0), shared=True)
 
 

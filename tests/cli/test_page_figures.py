@@ -77,11 +77,19 @@ def test_words_on_logarithmic_axes():
 
 
 def test_few_decades_have_few_ticks():
-    """All digits lie upon one another there; over many decades, or hardly any, plotly's own ticks do not."""
+    """At 1, 2 and 5; over more decades at these, over hardly any plotly's own; whole numbers, no bare digits."""
     values = ((0.007, 0.1), (1e-5, 1.0), (2.0, 3.0))
     panels = [Panel([Line([1.0, 2.0], pair)], "x", "y", logs="Y") for pair in values]
     layout = finished(figure_of(Picture(panels, columns=1, heights=(100.0,))))["layout"]
-    assert [layout[f"yaxis{k}"].get("dtick") for k in ("", "2", "3")] == ["D2", None, None]
+    ticks = [(axis.get("dtick"), axis.get("tickformat")) for axis in (layout[f"yaxis{k}"] for k in ("", "2", "3"))]
+    assert ticks == [("D2", "~g"), (1, "~g"), (None, None)]
+
+
+def test_a_long_label_has_two_lines_beside_a_flat_panel():
+    panel = Panel([Line([1.0, 2.0], [1.0, 2.0])], "x", ("place along rolling", "m"))
+    heights = {height: finished(figure_of(Picture([panel], heights=(height,)))) for height in (60.0, 270.0)}
+    titles = {height: ready["layout"]["yaxis"]["title"]["text"] for height, ready in heights.items()}
+    assert titles == {60.0: "place along<br>rolling [µm]", 270.0: "place along rolling [µm]"}
 
 
 def test_axes_reach_over_all_frames():

@@ -98,9 +98,10 @@ def test_lines_are_those_of_the_files(finished, figures, results):
     close(line(figures["free"], "film")["y"], free.approach * 1e6)
     close(line(figures["free"], "centre")["y"], free.h_central * 1e6)
     of = results["memory"]["impedance"]
-    moving = np.array(of["omega"]) > 0.0
-    assert line(figures["impedance"], "film")["x"] == pytest.approx(np.array(of["omega"])[moving], rel=1e-4)
-    close(line(figures["impedance"], "film")["y"], np.array(of["stiffness"])[moving])
+    moving, s = np.array(of["omega"]) > 0.0, read(finished[1] / "free.h5").scales
+    hz = np.array(of["omega"])[moving] / (2.0 * np.pi * s.time)
+    assert line(figures["impedance"], "film")["x"] == pytest.approx(hz, rel=1e-4)
+    close(line(figures["impedance"], "film")["y"], np.array(of["stiffness"])[moving] * s.stiffness * 1e-6)
     inner = [ball["force"][0] for ball in results["whole_bearing"]["balls"]]
     close(line(figures["whole_balls"], "inner race")["r"], inner)
     residuals = line(figures["convergence"], "residual of Reynolds, over the dry start's")["y"]
@@ -115,7 +116,7 @@ def test_maps_are_those_of_the_files(finished, figures):
     assert thickness["z"][i][j] == pytest.approx(film.h_central * scales.length * 1e6, rel=0.01)
     centre = film.P[np.argmin(np.abs(film.X)), 0] * scales.pressure * 1e-9
     assert pressure["z"][i][j] == pytest.approx(centre, rel=0.02)
-    assert pressure["x"][-1] == pytest.approx(1.5 * scales.b * 1e3, rel=0.02)
+    assert pressure["x"][-1] == pytest.approx(1.5 * scales.b * 1e6, rel=0.02)
 
 
 def test_frames_are_the_snapshots_of_the_last_period(finished, figures):
@@ -152,7 +153,8 @@ def test_speeds_are_those_of_the_results(figures, results):
     assert shown == pytest.approx([one["speed_rpm"] for one in found], rel=1e-3)
     assert found[slider["start"]]["speed_rpm"] == results["whole_bearing"]["speed_rpm"]
     names = [trace["name"] for trace in figure["data"]]
-    low, high = (10.0**end for end in figure["layout"]["yaxis"]["range"])
+    axis = figure["layout"]["yaxis"]
+    low, high = (10.0**end if axis.get("type") == "log" else end for end in axis["range"])
     for frame, one in zip(figure["frames"], found, strict=True):
         force, film = np.array(one["force"]), np.array(one["h_min"]) * 1e6
         close(frame["data"][names.index("inner race")]["r"], force[:, 0])

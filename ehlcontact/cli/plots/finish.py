@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from ehlcontact.cli.plots.thinned import rounded, thin_line
 
 PAGE, TELEPHONE = 990.0, 370.0  # px that the figures of a wide and of a narrow page are wide
 LEFT, RIGHT, FOOT = 74.0, 14.0, 48.0  # px beside and under the axes
-BETWEEN, BAR, SECOND = 66.0, 78.0, 58.0  # px from panel to panel, of a bar of colours, of a second axis
+BETWEEN, BAR, SECOND = 66.0, 78.0, 70.0  # px from panel to panel, of a bar of colours, of a second axis
 BARE, TITLE, TOOLS, KEY, ROUND = (
     18.0,
     22.0,
@@ -19,8 +20,10 @@ BARE, TITLE, TOOLS, KEY, ROUND = (
     28.0,
     30.0,
 )  # px: no label, title, buttons, row of a legend, degrees
+ROOM = 20.0  # px that a label may be longer than its panel
 LETTER, SAMPLE = 6.6, 46.0  # px that a letter takes on average, and the line beside a name in a legend
-FEW_DECADES = 0.5, 1.7  # of a logarithmic axis that would have all digits at its ticks: 1, 2 and 5 do there
+FEW_DECADES = 0.5, 1.7  # of a logarithmic axis with ticks at 1, 2 and 5: one over fewer has plotly's own
+MOST_DECADES = 9.0  # with a tick at each
 MAP_LEVELS = 500.0  # that a map tells apart; a screen shows 256
 COORDINATES = "x", "y", "z", "r", "theta"
 
@@ -73,15 +76,34 @@ def _name(traces: list[dict[str, Any]], layout: dict[str, Any]) -> None:
 
 
 def _ticks(traces: list[dict[str, Any]], layout: dict[str, Any]) -> None:
-    """Fewer ticks on logarithmic y axes over few decades: digits of all of them lie upon one another."""
+    """Whole numbers at the decades of logarithmic axes, over few decades at 2 and 5 too: no bare digits."""
     for key, axis in layout.items():
-        if not key.startswith("yaxis") or axis.get("type") != "log":
+        side = key[0]
+        if not key.startswith(f"{side}axis") or axis.get("type") != "log":
             continue
-        own = [trace for trace in traces if (trace.get("yaxis") or "y").replace("y", "yaxis", 1) == key]
-        values = np.concatenate([[0.0], *(np.asarray(trace.get("y", ()), float).ravel() for trace in own)])
-        shown = np.log10(values[values > 0.0])
-        if shown.size and FEW_DECADES[0] < np.ptp(axis.get("range") or shown) < FEW_DECADES[1]:
-            axis["dtick"] = "D2"
+        ends = axis.get("range")
+        if ends is None:
+            names = _matched(key, layout)
+            own = [
+                trace
+                for trace in traces
+                if (trace.get(f"{side}axis") or side).replace(side, f"{side}axis", 1) in names
+            ]
+            values = np.concatenate([[0.0], *(np.asarray(trace.get(side, ()), float).ravel() for trace in own)])
+            ends = np.log10(values[values > 0.0])
+        span = float(np.ptp(ends)) if len(ends) else 0.0
+        if FEW_DECADES[0] < span < MOST_DECADES:
+            axis |= {"dtick": "D2" if span < FEW_DECADES[1] else 1, "tickformat": "~g"}
+
+
+def _matched(key: str, layout: dict[str, Any]) -> set[str]:
+    """An axis and those that have its ends."""
+    side, own = key[0], layout[key].get("matches")
+    first = key if own is None else own.replace(side, f"{side}axis", 1)
+    short = first.replace("axis", "")
+    return {first} | {
+        name for name, axis in layout.items() if name.startswith(f"{side}axis") and axis.get("matches") == short
+    }
 
 
 def _axis(layout: dict[str, Any], trace: dict[str, Any], side: str) -> Axes:
@@ -135,6 +157,7 @@ def places(figure: go.Figure, columns: int, width: float, names: list[str]) -> d
         for column, cell in enumerate(line):
             x = [round(left / inner, 4), round((left + wide) / inner, 4)]
             y = [round(1.0 - (top + tall[k]) / total, 4), round(1.0 - top / total, 4)]
+            panels[cell]["words"] = _wrapped(panels[cell].get("label", ""), tall[k] + ROOM)
             _place(found, panels[cell], x, y, inner)
             left += wide + (gaps[column] if column < len(gaps) else 0.0)
         top += tall[k] + feet[k]
@@ -162,6 +185,7 @@ def _panel(figure: go.Figure, cell: tuple[int, int]) -> dict[str, Any]:
     right = BAR if bar else SECOND if second else RIGHT
     foot = FOOT if x.title.text else BARE if x.showticklabels is not False else 4.0
     found = {"x": x.plotly_name, "y": y.plotly_name, "bar": bar, "right": right, "head": head, "foot": foot}
+    found["label"] = y.title.text or ""
     if x.constrain == "domain":  # a map, whose height follows from its width
         found["shape"] = y.scaleratio * np.ptp(y.range) / np.ptp(x.range)
     return found
@@ -171,10 +195,18 @@ def _place(found: dict[str, Any], panel: dict[str, Any], x: list[float], y: list
     if "polar" in panel:
         found[panel["polar"]] = {"domain": {"x": x, "y": y}}
         return
-    found |= {panel["x"]: {"domain": x}, panel["y"]: {"domain": y}}
+    found |= {panel["x"]: {"domain": x}, panel["y"]: {"domain": y, "title": {"text": panel["words"]}}}
     if panel["bar"]:
         at = {"x": x[1] + 8.0 / inner, "y": 0.5 * (y[0] + y[1]), "len": y[1] - y[0], "xpad": 0, "ypad": 0}
         found[panel["bar"]] = {"colorbar": at}
+
+
+def _wrapped(label: str, height: float) -> str:
+    """A label of a y axis in two lines, where one is longer than its panel is high."""
+    if LETTER * len(label) <= height or " " not in label:
+        return label
+    lines = textwrap.wrap(label, max(len(label) // 2 + 2, *map(len, label.split())))
+    return "<br>".join(lines)
 
 
 def _rows(names: list[str], width: float) -> int:

@@ -82,17 +82,18 @@ def _panel(figure: go.Figure, panel: Panel, at: dict[str, int]) -> None:
     for line in panel.lines:
         side = {"secondary_y": line.second} if panel.second else {}
         _line(figure, line, at | side)
-    axes = ("x", panel.x, panel.x_ends), ("y", panel.y, panel.y_ends)
-    for axis, label, ends in axes:
-        options: dict[str, Any] = {"title_text": label, "type": "log" if logs[axis] else None}
+    axes = ("x", panel.x, panel.x_ends, panel.tick), ("y", panel.y, panel.y_ends, panel.y_tick)
+    first = {"secondary_y": False} if panel.second else {}
+    for axis, label, ends, tick in axes:
+        options: dict[str, Any] = {"title_text": label, "type": "log" if logs[axis] else None, "dtick": tick}
         if ends is not None:
             options["range"] = _range(ends, logs[axis])
         elif axis == "y" and panel.bottom is not None:
             options["rangemode"] = "tozero"
         if axis == "x":
-            figure.update_xaxes(**options, dtick=panel.tick, **at)
+            figure.update_xaxes(**options, **at)
         else:
-            figure.update_yaxes(**options, **at, **({"secondary_y": False} if panel.second else {}))
+            figure.update_yaxes(**options, **at, **first)
     if panel.second:
         for second, title, ends in ((False, panel.y, panel.y_ends), (True, panel.second, panel.second_ends)):
             options = {"title_text": title, "range": None if ends is None else list(ends)}
