@@ -156,16 +156,17 @@ def test_speeds_are_those_of_the_results(figures, results):
     axis = figure["layout"]["yaxis"]
     low, high = (10.0**end if axis.get("type") == "log" else end for end in axis["range"])
     for frame, one in zip(figure["frames"], found, strict=True):
+        shown = dict(zip(frame["traces"], frame["data"], strict=True))  # those that move, by their number
         force, film = np.array(one["force"]), np.array(one["h_min"]) * 1e6
-        close(frame["data"][names.index("inner race")]["r"], force[:, 0])
-        films = frame["data"][names.index("inner race", names.index("load"))]["y"]
+        close(shown[names.index("inner race")]["r"], force[:, 0])
+        films = shown[names.index("inner race", names.index("load"))]["y"]
         assert sorted(films) == pytest.approx(sorted(film[:, 0]), rel=1e-4)
         assert low <= film.min() and film.max() <= high
         first = names.index("along the load")
         for part, name, unit in ((first, "stiffness", 1e-6), (first + 2, "damping", 1.0)):
             for k, way in enumerate(("along", "across")):
                 values = np.array(one[name][way]) * unit
-                assert frame["data"][part + k]["y"] == pytest.approx(values, rel=1e-4)
+                assert shown[part + k]["y"] == pytest.approx(values, rel=1e-4)
     assert found[-1]["h_min"][0][0] > found[0]["h_min"][0][0]  # faster, thicker
 
 

@@ -24,6 +24,7 @@ ROOM = 20.0  # px that a label may be longer than its panel
 LETTER, SAMPLE = 6.6, 46.0  # px that a letter takes on average, and the line beside a name in a legend
 FEW_DECADES = 0.5, 1.7  # of a logarithmic axis with ticks at 1, 2 and 5: one over fewer has plotly's own
 MOST_DECADES = 9.0  # with a tick at each
+SMALL = -4.0  # decade below which numbers have exponents
 MAP_LEVELS = 500.0  # that a map tells apart; a screen shows 256
 COORDINATES = "x", "y", "z", "r", "theta"
 
@@ -92,8 +93,10 @@ def _ticks(traces: list[dict[str, Any]], layout: dict[str, Any]) -> None:
             values = np.concatenate([[0.0], *(np.asarray(trace.get(side, ()), float).ravel() for trace in own)])
             ends = np.log10(values[values > 0.0])
         span = float(np.ptp(ends)) if len(ends) else 0.0
-        if FEW_DECADES[0] < span < MOST_DECADES:
-            axis |= {"dtick": "D2" if span < FEW_DECADES[1] else 1, "tickformat": "~g"}
+        if FEW_DECADES[0] < span < FEW_DECADES[1]:
+            axis |= {"dtick": "D2", "tickformat": "~g" if min(ends) > SMALL else "~e"}
+        elif FEW_DECADES[1] <= span < MOST_DECADES:
+            axis["dtick"] = 1
 
 
 def _matched(key: str, layout: dict[str, Any]) -> set[str]:
