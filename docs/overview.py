@@ -24,25 +24,24 @@ def main() -> None:
     steady, run = read(RESULTS / "steady.h5"), read(RESULTS / "harmonic.h5")
     assert isinstance(steady, SteadyResult)
     assert isinstance(run, SimulationResult)
-    assert steady.scales is not None
-    scales = steady.scales
+    scales = steady.point.scales
     plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False})
     figure, axes = plt.subplots(2, 2, figsize=(9, 5.6), layout="constrained")
 
     panel = axes[0, 0]
-    P = np.concatenate([steady.P[:, :0:-1], steady.P], axis=1) * scales.pressure * 1e-9
-    y = np.concatenate([-steady.Y[:0:-1], steady.Y]) * scales.b * 1e3
+    P = np.concatenate([steady.p[:, :0:-1], steady.p], axis=1) * 1e-9
+    y = np.concatenate([-steady.y[:0:-1], steady.y]) * 1e3
     along, wide = scales.a * 1e3, scales.b * 1e3
-    image = panel.pcolormesh(y, steady.X * scales.a * 1e3, P, cmap="inferno", shading="gouraud", rasterized=True)
+    image = panel.pcolormesh(y, steady.x * 1e3, P, cmap="inferno", shading="gouraud", rasterized=True)
     panel.set(xlim=(-1.35 * wide, 1.35 * wide), ylim=(-1.9 * along, 1.6 * along))
     panel.set(xlabel="y across [mm] (compressed)", ylabel="x rolling [mm]")
     panel.set_title("film pressure [GPa], full transient EHL", loc="left")
     figure.colorbar(image, ax=panel)
 
     panel = axes[0, 1]
-    wave = (run.h_midplane - run.h_midplane[0]) * scales.length * 1e6
-    largest = float(np.percentile(np.abs(wave[:, np.abs(run.X) < 0.9]), 98))  # outside, the film follows the load
-    image = panel.pcolormesh(run.T, run.X, wave.T, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
+    wave, T, X = (run.h_midplane - run.h_midplane[0]) * 1e6, run.t / scales.time, run.x / scales.a
+    largest = float(np.percentile(np.abs(wave[:, np.abs(X) < 0.9]), 98))  # outside, the film follows the load
+    image = panel.pcolormesh(T, X, wave.T, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
     panel.set(ylim=(-1.1, 1.0), xlabel="time T [2a/u_sum]", ylabel="X = x/a")
     panel.set_title("film change [µm], carried through", loc="left")
     figure.colorbar(image, ax=panel)

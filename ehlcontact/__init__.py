@@ -22,7 +22,7 @@ module            responsibility
 ``transient/``    film through time: motions, surfaces, `simulate`, `TransientContact`
 ``assumptions/``  assumptions of every solve, each with the number that shows whether it holds
 ``quantities``    units, scales and dimensions of quantities, declared once in the annotations of results
-``results/``      results of films at rest and of linearised ones; tables, SI values and figures of all results
+``results/``      results of films at rest and of linearised ones; units, tables and figures of all results
 ``origin``        contact, mesh and version that a result or an element comes from
 ``version``       of the distribution
 ``film/``         films for display: maps, mid-planes, fringes, film waves; a namespace of its own

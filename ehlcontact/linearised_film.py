@@ -8,7 +8,7 @@ import numpy as np
 
 from ehlcontact.conditions import FLOODED, Conditions
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.point import Point
+from ehlcontact.point import Point, scales_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.effects import viscosity_of
@@ -47,12 +47,12 @@ def film_to_linearise(
 
 def held(film: SteadyResult, deflection: str = "fft", threads: int = 1) -> Multigrid:
     """Levels that hold a steady film, `deflection` and `threads` as in `solve_steady`."""
-    mesh = Mesh(film.n, film.domain, film.point.kappa)
-    layer = film.layer
-    supply = None if layer is None else lambda Y: np.interp(Y, film.Y, layer)
-    multigrid = Multigrid(film.point, mesh, deflection=deflection, threads=threads, supply=supply)
-    multigrid.finest.P[...] = film.P.T
-    multigrid.u = film.approach
+    own, moes = film.dimensionless, film.point.moes
+    mesh, layer = Mesh(film.n, film.domain, moes.kappa), own.layer
+    supply = None if layer is None else lambda Y: np.interp(Y, own.y, layer)
+    multigrid = Multigrid(moes, mesh, deflection=deflection, threads=threads, supply=supply)
+    multigrid.finest.P[...] = own.p.T
+    multigrid.u = own.approach
     multigrid.finest.update(multigrid.u)
     if (viscosity := viscosity_on(film, multigrid)) is not None:
         viscosity.set_viscosity()
@@ -66,10 +66,10 @@ def viscosity_on(film: SteadyResult, multigrid: Multigrid) -> FollowedViscosity 
     """
     warm, level = film.temperature, multigrid.finest
     conditions = Conditions(heat=None if warm is None else warm.inputs, sliding=film.sliding)
-    viscosity = viscosity_of(conditions, film.point, film.scales, multigrid)
+    viscosity = viscosity_of(conditions, film.point.moes, scales_of(film.point), multigrid)
     if viscosity is None:
         return None
-    if level.P.shape != film.P.T.shape:
+    if level.P.shape != film.p.T.shape:
         viscosity.settle(Balance.of_load(), COARSE_CYCLES)
     elif warm is not None and viscosity.heat is not None:
         viscosity.heat.walls[...] = warm.surfaces.transpose(0, 2, 1)

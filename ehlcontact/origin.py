@@ -13,7 +13,7 @@ import numpy as np
 
 from ehlcontact.assumptions import assumptions
 from ehlcontact.errors import InputError
-from ehlcontact.point import MoesPoint, Scales
+from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.solver.domain import Domain
 from ehlcontact.version import __version__
 
@@ -24,12 +24,10 @@ class Origin:
 
     Attributes
     ----------
-    point : MoesPoint
-        The contact, dimensionless.
-    scales : Scales or None
-        Its units in SI; None for a dimensionless point.
+    point : MoesPoint or OperatingPoint
+        The contact, whose units are those of the result.
     domain : Domain
-        Computed region.
+        Computed region, in semi-axes.
     n : int
         Intervals along X.
     seconds : float
@@ -38,8 +36,7 @@ class Origin:
         Of the library.
     """
 
-    point: MoesPoint
-    scales: Scales | None
+    point: Point
     domain: Domain
     n: int
     seconds: float
@@ -60,7 +57,7 @@ class Origin:
 
     def source(self, motion: Any = None) -> dict[str, Any]:
         """What an element made from this result keeps as its ``source``."""
-        return source_of(self.point, self.scales, self.n, self.domain.as_tuple(), motion)
+        return source_of(self.point, self.n, self.domain.as_tuple(), motion)
 
 
 def freeze(record: Any) -> None:
@@ -72,8 +69,7 @@ def freeze(record: Any) -> None:
 
 
 def source_of(
-    point: MoesPoint | None,
-    scales: Scales | None,
+    point: Point | None,
     n: Any,
     domain: Any,
     motion: Any = None,
@@ -84,15 +80,15 @@ def source_of(
     and no roughness.
     """
     found = {
-        "point": None if point is None else point.to_dict(),
-        "scales": None if scales is None else asdict(scales),
+        "point": None if point is None else point.moes.to_dict(),
+        "scales": asdict(point.scales) if isinstance(point, OperatingPoint) else None,
         "n": n,
         "domain": list(domain) if isinstance(domain, tuple) else domain,
         "motion": dict(motion) if isinstance(motion, Mapping) else motion,
         "version": __version__,
     }
     if point is not None:
-        found["assumptions"] = assumptions(point, scales=scales, domain=_region(domain)).short()
+        found["assumptions"] = assumptions(point, domain=_region(domain)).short()
     return found
 
 

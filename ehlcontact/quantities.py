@@ -60,6 +60,10 @@ class Quantity:
         """SI value of the dimensionless unit."""
         return float(getattr(scales, self.scale)) if self.scale else 1.0
 
+    def unit_at(self, point: Point) -> str:
+        """Unit of results at a point."""
+        return self.moes if isinstance(point, MoesPoint) else self.unit
+
     def in_si(self, value: Any, scales: Scales) -> Any:
         """SI value of a dimensionless one; None stays None."""
         return value if value is None or not self.scale else value * self.size(scales)
@@ -163,6 +167,8 @@ def scaled(record: Any, scales: Scales, *, back: bool = False) -> dict[str, Any]
                 key: _in_units(one, declared[key], scales, back) if key in declared else one
                 for key, one in value.items()
             }
+        elif hasattr(value, "in_units_of"):  # a result of its own
+            continue
         elif is_dataclass(value) and _declares(value.__class__) and (inner := scaled(value, scales, back=back)):
             found[name] = replace(value, **inner)  # type: ignore[type-var]
     return found

@@ -257,7 +257,9 @@ def _to_approach(steady: SteadyResult, solved: Multigrid, w: Array, waves: Waves
         still = None if steady.supply is None else contact.still()
         damping = damping + slow_part(contact, moving, Z.imag / moving, still)
     bars = {"stiffness": stiffness, "damping": damping}
-    return Response.to_approach(w, Z, moving, point=steady.point, film=steady, residual=residual, error_bars=bars)
+    return Response.to_approach(
+        w, Z, moving, point=steady.point.moes, film=steady, residual=residual, error_bars=bars
+    )
 
 
 def _to_source(steady: SteadyResult, solved: Multigrid, w: Array, waves: Waves | None) -> Response:
@@ -270,7 +272,7 @@ def _to_source(steady: SteadyResult, solved: Multigrid, w: Array, waves: Waves |
     Z = contact.respond(moving, TOLERANCE)[0]
     value, residual = force(contact)
     every = [value, *(force(other)[0] for other in coarser_contacts(steady, solved))]
-    shared: dict[str, Any] = {"point": steady.point, "film": steady, "omega": w, "value": value}
+    shared: dict[str, Any] = {"point": steady.point.moes, "film": steady, "omega": w, "value": value}
     shared |= {"residual": residual, "impedance": Z}
     if waves is None:
         bars = dict.fromkeys(PARTS, wave_error(every, np.abs(value)))

@@ -28,10 +28,10 @@ from ehlcontact.checks import as_numbers, require_instance, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density, log_viscosity
-from ehlcontact.point import Point, moes_point, scales_of
+from ehlcontact.point import MoesPoint, Point, moes_point
 from ehlcontact.results import SteadyResult
 from ehlcontact.steady import solve_steady
-from ehlcontact.supply import OilLayer
+from ehlcontact.supply import OilLayer, layer_on
 
 Array = NDArray[np.float64]
 
@@ -45,13 +45,13 @@ def side_flow(point: Point) -> float:
     ----------
     point : MoesPoint or OperatingPoint
     """
-    moes, scales = moes_point(point), scales_of(point)
+    moes = moes_point(point)
     places, weights = np.polynomial.legendre.leggauss(ANGLES)
     pressures = np.sin(0.25 * pi * (places + 1.0)).tolist()  # from 0 to pi/2: the other half is alike
     rho = np.array([plain(density)(P, moes.law)[0] for P in pressures])
     eta = np.exp([plain(log_viscosity)(P, moes.law)[0] for P in pressures])
     growth = 2.0 * moes.kappa**2 / moes.lam * 0.5 * pi * float(weights @ (1.0 / (rho * rho * eta)))
-    return growth if scales is None else growth / scales.length**2
+    return growth / point.scales.length**2
 
 
 def layer_after_passes(point: Point, layer: float, passes: ArrayLike) -> Array:
@@ -116,7 +116,7 @@ def oil_passes(contacts: Point | Sequence[Point], supply: OilLayer, **options: A
     require_instance("supply", supply, OilLayer, "an OilLayer(h, ...)")
     if not points:
         raise InputError("contacts", "none", "one or more")
-    if len(points) > 1 and any(scales_of(point) is None for point in points):
+    if len(points) > 1 and any(isinstance(point, MoesPoint) for point in points):
         raise InputError("contacts", "dimensionless", "OperatingPoints, where there are several")
     return _passes(points, supply, options)
 
@@ -133,15 +133,13 @@ def _passes(points: list[Point], supply: OilLayer, options: dict[str, Any]) -> I
 
 
 def _half(film: SteadyResult, layer: Array | None) -> tuple[Array, Array]:
-    """Places across and half of a layer there, in m where the film has scales."""
+    """Places across and half of a layer there, in the units of the film."""
     assert layer is not None
-    length, b = (1.0, 1.0) if film.scales is None else (film.scales.length, film.scales.b)
-    return film.Y * b, 0.5 * length * layer
+    return film.y, 0.5 * layer
 
 
 def _together(point: Point, track: tuple[Array, Array], ball: tuple[Array, Array]) -> OilLayer:
     """Layers of track and ball, as the supply of their contact."""
-    scales = scales_of(point)
     y = np.union1d(track[0], ball[0])
     both = np.interp(y, *track) + np.interp(y, *ball)
-    return OilLayer(H=both, y=y) if scales is None else OilLayer(both, y=y / scales.b)
+    return layer_on(point, both, y)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from math import inf, nan
 from typing import Any
@@ -39,6 +40,7 @@ from ehlcontact.solver.newton import NewtonKrylov
 from ehlcontact.status import Status
 from ehlcontact.supply import OilLayer
 
+TOLERANCE = 1e-5  # of the pressure, over the Hertz pressure
 LARGEST_RESIDUAL = 0.1  # relative, of a converged film: what is solved is judged by the pressure
 COLD_PRESSURE, COLD_APPROACH = 1e-3, 1e-5  # of an isothermal film that is a start: its centre is within 1e-4
 LOAD_TOLERANCE = 1e-7
@@ -59,7 +61,7 @@ def solve_steady(
     asperities: Asperities | None = None,
     sliding: ShearThinning | None = None,
     approach: float | None = None,
-    tol: float = 1e-5,
+    tol: float = TOLERANCE,
     max_cycles: int = MAX_CYCLES,
     method: str = "automatic",
     refine: bool = True,
@@ -96,8 +98,8 @@ def solve_steady(
         Shear thinning of the film by sliding (docs/traction.md), under a supply and with heat too. The isothermal
         Newtonian film is solved first. By default the film is that of pure rolling.
     approach : float, optional
-        Prescribe the approach (dry Hertz value 1) instead of the load; above 1 the default domain widens for the
-        force it takes.
+        Prescribe the approach instead of the load, at an `OperatingPoint` in m, at a `MoesPoint` over that of the
+        dry contact; above the latter the default domain widens for the force it takes.
     tol : float
         Largest change of the pressure that further cycles would still make, over the Hertz pressure, estimated
         from the last change and its factor from cycle to cycle.
@@ -127,6 +129,7 @@ def solve_steady(
     Returns
     -------
     SteadyResult
+        In SI at an `OperatingPoint`, in Moes units at a `MoesPoint`.
         Ctrl-C ends it early with status ``interrupted``.
 
     Raises
@@ -145,10 +148,39 @@ def solve_steady(
     threads = require_threads("threads", threads)
     if budget != inf:
         require_positive("budget", budget)
+    if approach is not None:
+        approach = require_finite("approach", approach) / point.scales.length
+    result, cut = _solved(
+        point, conditions, grid, threads, approach, tol, max_cycles, method, refine, budget, callback
+    )
+    result = replace(result.in_units_of(point), seconds=time.perf_counter() - started)
+    status = result.status
+    if throw and not status.ok and status is not Status.INTERRUPTED:
+        where = f"after {result.cycles} iterations on n = {result.n}"
+        more = f" More would be tried with a budget above {budget:g} s." if cut else ""
+        raise ConvergenceError(f"steady solve {status} {where}: {status.advice}{more}", result)
+    return result
+
+
+def _solved(
+    point: Point,
+    conditions: Conditions,
+    grid: Grid,
+    threads: int,
+    approach: float | None = None,
+    tol: float = TOLERANCE,
+    max_cycles: int = MAX_CYCLES,
+    method: str = "automatic",
+    refine: bool = True,
+    budget: float = BUDGET,
+    callback: Callable[[int, float], None] | None = None,
+) -> tuple[SteadyResult, bool]:
+    """Film in Moes units, and whether more would be tried with a larger budget; `approach` in dry approaches."""
+    started = time.perf_counter()
     if approach is None:
         balance, load = Balance.of_load(), 1.0
     else:
-        balance = Balance.of_approach(require_finite("approach", approach))
+        balance = Balance.of_approach(approach)
         load = min(max(approach, 1.0), LARGEST_APPROACH) ** 1.5  # of a dry contact
     moes = require_solvable(point, load)
     cut_short = max_cycles < MAX_CYCLES  # the caller's own limit: nothing else is what was asked for
@@ -170,12 +202,7 @@ def solve_steady(
             solved, status = film, attempt.status
         elif attempt.status is Status.INTERRUPTED:
             status = attempt.status
-    result = solved.result(status, time.perf_counter() - started)
-    if throw and not status.ok and status is not Status.INTERRUPTED:
-        where = f"after {result.cycles} iterations on n = {result.n}"
-        more = f" More would be tried with a budget above {budget:g} s." if any(a.cut for a in tried) else ""
-        raise ConvergenceError(f"steady solve {status} {where}: {status.advice}{more}", result)
-    return result
+    return solved.result(status, time.perf_counter() - started), any(a.cut for a in tried)
 
 
 class _Film:
@@ -284,19 +311,18 @@ class _Film:
         return cycles.step
 
     def result(self, status: Status, seconds: float) -> SteadyResult:
-        """Result of the solve."""
+        """Result of the solve, in Moes units."""
         mg, level, track = self.multigrid, self.multigrid.finest, self.track
         conditions, scales = self.conditions, scales_of(self.point)
         thinned = self.of_effects.get("sliding", {"film_share": nan})
         return SteadyResult(
             point=mg.point,
-            scales=scales,
             domain=self.mesh.domain,
             n=self.mesh.n,
-            X=level.X.copy(),
-            Y=level.Y.copy(),
-            P=level.P.T.copy(),
-            H=level.H.T.copy(),
+            x=level.X.copy(),
+            y=level.Y.copy(),
+            p=level.P.T.copy(),
+            h=level.H.T.copy(),
             approach=float(mg.u),
             force=level.force(),
             h_central=level.central_film(),

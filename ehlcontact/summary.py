@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlcontact.point import MoesPoint, Scales
+from ehlcontact.point import MoesPoint, Point
 
 LINES, WIDTH = 5, 90  # most lines of a summary, and characters of a line
 NOTE = 116  # characters of a line of words
@@ -43,12 +43,20 @@ class Summary:
         return "<br>".join([f"<strong>{self._summary_name()}</strong>: {first}", *others])
 
 
-def contact_text(point: MoesPoint | None, scales: Scales | None) -> str:
-    """Contact in words: Moes numbers and kappa; with scales also load and Hertz pressure."""
+def contact_text(point: Point | None) -> str:
+    """Contact in words: Moes numbers and kappa; of an `OperatingPoint` also load and Hertz pressure."""
     if point is None:
         return "a contact that is not known"
-    text = f"M {point.M:.4g}, L {point.L:.4g}, kappa {point.kappa:.4g}"
-    return text if scales is None else f"{text}; {scales.force:.4g} N, {scales.pressure * 1e-9:.3g} GPa"
+    moes = point.moes
+    text = f"M {moes.M:.4g}, L {moes.L:.4g}, kappa {moes.kappa:.4g}"
+    if isinstance(point, MoesPoint):
+        return text
+    return f"{text}; {point.load:.4g} N, {point.scales.pressure * 1e-9:.3g} GPa"
+
+
+def film_unit(point: Point) -> tuple[float, str]:
+    """Factor of films at a point for summaries, and its unit: micrometres, or dry approaches without a unit."""
+    return (1.0, "of the dry approach") if isinstance(point, MoesPoint) else (1e6, "µm")
 
 
 def note_line(text: str) -> list[str]:

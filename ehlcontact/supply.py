@@ -17,7 +17,7 @@ from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density
-from ehlcontact.point import MoesPoint, Scales
+from ehlcontact.point import MoesPoint, Point, Scales
 
 Array = NDArray[np.float64]
 
@@ -126,6 +126,12 @@ class OilLayer:
     def from_dict(cls, entries: Mapping[str, Any]) -> OilLayer:
         """Back from `to_dict`."""
         return cls(**entries)
+
+
+def layer_on(point: Point, h: Array, y: Array) -> OilLayer:
+    """Layer that a result at a point has over its y, as a supply of contacts of the same size."""
+    places = y / point.scales.b
+    return OilLayer(H=h, y=places) if isinstance(point, MoesPoint) else OilLayer(h=h, y=places)
 
 
 def _thickness(name: str, value: Any) -> float | tuple[float, ...]:

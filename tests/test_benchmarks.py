@@ -106,7 +106,7 @@ def test_converged_film_is_that_of_solve_steady(row):
 
     exact = accuracy.converge(POINT, accuracy.mesh_for(POINT, accuracy.Purpose.FILM, grid=Grid(n=64)))
     result = solve_steady(POINT, grid=Grid(n=64))
-    error = float(np.abs(result.P.T - exact.state.P).max())
+    error = float(np.abs(result.p.T - exact.state.P).max())
     assert row["solve_steady"]["errors"]["P"] == pytest.approx(error, rel=1e-3)
     assert row["solve_steady"]["accurate"]
 

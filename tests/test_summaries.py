@@ -177,8 +177,8 @@ def results(point):
     )
     speeds, found = [2000.0, 4000.0], impedance(point, hz=[50.0, 100.0], grid=Grid(n=32))
     return [
-        film, film.si, film_of(film), solve_steady(moes, grid=Grid(n=16), throw=False),
-        run, run.si, run.at([0.2, 0.3]),
+        film, film.dimensionless, film_of(film), solve_steady(moes, grid=Grid(n=16), throw=False),
+        run, run.dimensionless, run.at(run.t[1:3]),
         record, found, found.dimensionless, impedance(moes, Omega=1.0, grid=Grid(n=16)),
         excitation(point, hz=[5e3, 1e4], grid=Grid(n=32)), excitation(moes, wavelength=8.0, grid=Grid(n=16)),
         response(point, to="speed", hz=[0.0, 1e4], grid=Grid(n=32)),
@@ -279,9 +279,9 @@ def test_summaries_are_short(results):
 
 def test_they_say_what_is_there(point, results):
     film, run = results[0], results[4]
-    assert f"{1e6 * film.si.h_central:.4g} (±" in repr(film) and "49 N" in repr(film) and "converged" in repr(film)
+    assert f"{1e6 * film.h_central:.4g} (±" in repr(film) and "49 N" in repr(film) and "converged" in repr(film)
     assert "unresolved" in repr(replace(film, status=Status.UNRESOLVED))
-    assert f"force {span(run.si.force, 1.0, 'N')}" in repr(run) and f"{run.steps} steps" in repr(run)
+    assert f"force {span(run.force, 1.0, 'N')}" in repr(run) and f"{run.steps} steps" in repr(run)
     state = next(thing for thing in results if isinstance(thing, BearingState))
     assert f"heaviest {state.force[state.heaviest, 0]:.4g} N" in repr(state) and "lambda" in repr(state)
 
@@ -343,8 +343,7 @@ def test_a_figure_of_a_point_in_si_is_in_si(results):
         places[1],
         *(f"{place.replace(' [', f', {other} = 0 [')}" for place, other in zip(places, "yx", strict=True)),
     }
-    assert results[0].scales is not None
-    films = [thing for thing in results if isinstance(thing, SteadyResult) and thing.scales is None]
+    films = [thing for thing in results if isinstance(thing, SteadyResult) and isinstance(thing.point, MoesPoint)]
     assert films[0].plot().axes[0].get_xlabel() == "place across [b]"
     answer = next(thing for thing in results if isinstance(thing, AtlasAnswer))
     assert [axes.get_xscale() for axes in answer.plot().axes] == ["symlog"] * 2  # it begins at rest
@@ -361,10 +360,10 @@ def test_tables_of_xarray(results):
             assert data.attrs["result"] + " in SI" * view == thing._summary_name()
             assert all(values.attrs["units"] and values.attrs["long_name"] for values in data.data_vars.values())
             assert not [dim for dim in data.dims if dim.startswith("dim_")]
-    film, run = results[0].si.to_xarray(), results[4].to_xarray()
+    film, run = results[0].to_xarray(), results[4].to_xarray()
     assert film.h.dims == ("x", "y") and film.h.attrs == {"units": "m", "long_name": "film"}
     assert float(film.h.sel(x=0.0, y=0.0, method="nearest")) == pytest.approx(float(film.h_central), rel=0.05)
-    assert run.force.dims == ("T",) and run.h_midplane.dims == ("T", "X") and run.force.attrs["units"] == "f0"
+    assert run.force.dims == ("t",) and run.h_midplane.dims == ("t", "x") and run.force.attrs["units"] == "N"
     state = next(thing for thing in results if isinstance(thing, BearingState)).to_xarray()
     assert list(state.race.values) == ["inner", "outer"] and state.force.sel(race="outer").shape == (9,)
     answer = next(thing for thing in results if isinstance(thing, AtlasAnswer))
@@ -380,11 +379,11 @@ def test_tables_of_pandas(results):
         if hasattr(thing, "to_pandas"):
             assert isinstance(thing.to_pandas(), pandas.DataFrame) and len(thing.to_pandas()), thing
     film, run, found = results[0], results[4], results[8]
-    grid = film.si.to_pandas()
+    grid = film.to_pandas()
     assert list(grid.columns) == ["p [Pa]", "h [m]"] and grid.index.names == ["x [m]", "y [m]"]
-    assert np.array_equal(grid["h [m]"].to_numpy().reshape(film.H.shape), film.si.h)
-    history = run.si.to_pandas()
-    assert np.array_equal(history["force [N]"], run.si.force) and history.index.name == "t [s]"
+    assert np.array_equal(grid["h [m]"].to_numpy().reshape(film.h.shape), film.h)
+    history = run.to_pandas()
+    assert np.array_equal(history["force [N]"], run.force) and history.index.name == "t [s]"
     assert np.array_equal(found.to_pandas()["damping [N s/m]"], found.damping)
     kind = {type(thing): thing for thing in results}
     balls = kind[BearingState].to_pandas()

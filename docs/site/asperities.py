@@ -37,10 +37,10 @@ def shares(point):
     mean = point.load / (pi * point.scales.a * point.scales.b)
     rows = []
     for ratio in LAMBDAS:
-        rough = Asperities(smooth.si.h_central / ratio)
+        rough = Asperities(smooth.h_central / ratio)
         found = solve_steady(point, grid=GRID, asperities=rough, throw=False)
         if found.status.ok:
-            law = float(rough.load_share(found.si.h_central, mean, point.geometry.e_reduced))
+            law = float(rough.load_share(found.h_central, mean, point.geometry.e_reduced))
             seen = found.asperities
             rows.append((seen.film_over_rq, seen.load_share, law, seen.film_share, found.cycles))
     return np.array(rows)
@@ -65,10 +65,10 @@ def main():
     left.legend(fontsize=7, loc="lower left")
     left.set_title("solved (points), 1 - exp(-p/mean) (lines)", fontsize=9)
     found = solve_steady(contact((3000.0, 480.0)), grid=Grid(128), asperities=Asperities(0.3e-6))
-    Y = np.concatenate([-found.Y[:0:-1], found.Y])
+    s = found.point.scales
+    Y = np.concatenate([-found.y[:0:-1], found.y]) / s.b
     field = np.concatenate([found.asperities.pressure[:, :0:-1], found.asperities.pressure], axis=1)
-    to_mpa = found.scales.pressure * 1e-6
-    picture = right.pcolormesh(found.X, Y, field.T * to_mpa, shading="gouraud", cmap="magma_r")
+    picture = right.pcolormesh(found.x / s.a, Y, field.T * 1e-6, shading="gouraud", cmap="magma_r")
     right.set(xlim=(-1.3, 1.3), ylim=(-1.2, 1.2), xlabel="x/a, along rolling", ylabel="y/b")
     right.set_title("asperities of Rq 0.3 µm, 480 N, 3000 rev/min [MPa]", fontsize=9)
     figure.colorbar(picture, ax=right)

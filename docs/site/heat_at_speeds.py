@@ -20,9 +20,9 @@ def main():
     time = TimeSteps(until=END * unit, dt=0.1 * unit)
     cold, warm = (simulate(POINT, held, grid=GRID, speed=SPEED, thermal=t, time=time) for t in (None, Heat()))
     for T in (0.0, STOP, GO, END):
-        k = int(np.searchsorted(warm.T, T - 1e-9))
-        film = cold.si.h_central[k] * 1e6, warm.si.h_central[k] * 1e6
-        least = cold.si.h_min[k] * 1e6, warm.si.h_min[k] * 1e6
+        k = int(np.searchsorted(warm.t / unit, T - 1e-9))
+        film = cold.h_central[k] * 1e6, warm.h_central[k] * 1e6
+        least = cold.h_min[k] * 1e6, warm.h_min[k] * 1e6
         print(
             f"T = {T:g}: film {film}, least {least} um; {warm.warmest_oil[k]:.2f}, {warm.warmest_surface[k]:.2f} K"
         )
@@ -30,11 +30,11 @@ def main():
     figure = Figure(figsize=(8.6, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2)
     for run, style, name in ((cold, "k", "isothermal"), (warm, "C3", "with heat")):
-        left.plot(run.T, run.si.h_central * 1e6, style, label=f"central, {name}")
-        left.plot(run.T, run.si.h_min * 1e6, style, ls="--", label=f"smallest, {name}")
+        left.plot(run.t / unit, run.h_central * 1e6, style, label=f"central, {name}")
+        left.plot(run.t / unit, run.h_min * 1e6, style, ls="--", label=f"smallest, {name}")
     left.set(xlabel="T (unit of time a/u, 14 µs)", ylabel="film, µm", ylim=(-0.1, None))
-    right.plot(warm.T, warm.warmest_oil, "C3-", label="warmest oil")
-    right.plot(warm.T, warm.warmest_surface, "C0-", label="warmest surface")
+    right.plot(warm.t / unit, warm.warmest_oil, "C3-", label="warmest oil")
+    right.plot(warm.t / unit, warm.warmest_surface, "C0-", label="warmest surface")
     right.set(xlabel="T (unit of time a/u, 14 µs)", ylabel="K above the inlet")
     for axes in (left, right):
         axes.axvspan(STOP, GO, color="0.9", label="standstill")

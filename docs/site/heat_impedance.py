@@ -25,7 +25,7 @@ def times():
     """Time scales, over that of the contact, a/u."""
     s, heat = POINT.scales, HEAT
     film = solve_steady(POINT, grid=GRID, thermal=heat)
-    across = heat.heat_capacity * film.h_central**2 * s.length**2 / (12.0 * heat.conductivity) / s.time
+    across = heat.heat_capacity * film.h_central**2 / (12.0 * heat.conductivity) / s.time
     print(f"a/u {1e6 * s.time:.2f} us, Omega = 1 is {0.5 / np.pi / s.time:.0f} Hz")
     for factor in (1.0, 3.0):
         print(f"conduction across {factor:g} times the central film: {factor**2 * across:.3f} a/u")

@@ -40,10 +40,10 @@ def draw(cold, warm):
     figure = Figure(figsize=(8.6, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2)
     for run, style, name in ((cold, "k--", "isothermal"), (warm, "C3-", "with heat")):
-        left.plot(run.T, run.h_central / run.h_central[0], style, label=name)
+        left.plot(run.dimensionless.t, run.h_central / run.h_central[0], style, label=name)
     left.set(xlabel="T (unit of time a/u)", ylabel="central film over that at rest")
-    right.plot(warm.T, warm.warmest_oil, "C3-", label="warmest oil")
-    right.plot(warm.T, warm.warmest_surface, "C0-", label="warmest surface")
+    right.plot(warm.dimensionless.t, warm.warmest_oil, "C3-", label="warmest oil")
+    right.plot(warm.dimensionless.t, warm.warmest_surface, "C0-", label="warmest surface")
     right.set(xlabel="T (unit of time a/u)", ylabel="K above the inlet")
     for axes in (left, right):
         axes.axvspan(1.0, 1.0 + RISE, color="0.9")
@@ -56,7 +56,7 @@ def main():
     """All of it."""
     cold, warm = runs()
     for run in (cold, warm):
-        print(f"central film {run.si.h_central[0] * 1e6:.4f} to {run.si.h_central[-1] * 1e6:.4f} um")
+        print(f"central film {run.h_central[0] * 1e6:.4f} to {run.h_central[-1] * 1e6:.4f} um")
     ends = warm.warmest_oil[[0, -1]], warm.warmest_surface[[0, -1]]
     print(f"oil {ends[0]}, at most {warm.warmest_oil.max():.1f} K; surface {ends[1]}")
     print(f"balance {warm.heat_balance.max():.0e}")

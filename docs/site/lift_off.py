@@ -72,7 +72,7 @@ def run_of(case, snapshots=()):
     """Full film under the motion of a case, and its approach and rate at every step."""
     point, table, until, dt = motions.motion(case)
     run = simulate(point, table, time=TimeSteps(until=until, dt=dt), keep=KeepSettings(snapshots=snapshots))
-    return run, [np.array([at(T) for T in run.T]) for at in (table.approach, table.rate)]
+    return run, [np.array([at(T) for T in run.t]) for at in (table.approach, table.rate)]
 
 
 def without_rim(element):
@@ -97,7 +97,7 @@ def main():
             key = name, run.domain.as_tuple()
             if key not in elements:
                 elements[key] = element_of_region(point, run.domain)
-            errors = [rms(e.drive(run.T, *motion), run.force) for e in (elements[key], without_rim(elements[key]))]
+            errors = [rms(e.drive(run.t, *motion), run.force) for e in (elements[key], without_rim(elements[key]))]
             print(f"{name}, {kind}: {errors[0]:.1f} ({errors[1]:.1f}) %", flush=True)
     draw(elements["middle", Domain().as_tuple()])
 
@@ -107,16 +107,16 @@ def draw(element):
     run, motion = run_of("middle, impact", SNAPSHOTS)
     figure = Figure(figsize=(10.5, 4.0), layout="constrained")
     films, forces = figure.subplots(1, 2)
-    middle = int(np.argmin(np.abs(run.Y)))
+    middle = int(np.argmin(np.abs(run.y)))
     for k, T in enumerate(SNAPSHOTS):
-        films.plot(run.X, run.snapshot_H[k][:, middle], color=f"C{k}", label=f"T = {T:g}")
+        films.plot(run.x, run.snapshot_h[k][:, middle], color=f"C{k}", label=f"T = {T:g}")
     films.set(
         xlabel="X, surfaces move to the right", ylabel="gap over the dry approach", xlim=(-2, 1.5), ylim=(0, 1.2)
     )
-    forces.plot(run.T, run.force, "k", label="full film")
-    forces.plot(run.T, element.drive(run.T, *motion), "C1", label="element")
-    forces.plot(run.T, without_rim(element).drive(run.T, *motion), "C0:", label="film made at the inlet alone")
-    forces.plot(run.T, element.spring(motion[0]), "--", color="0.6", label="static")
+    forces.plot(run.t, run.force, "k", label="full film")
+    forces.plot(run.t, element.drive(run.t, *motion), "C1", label="element")
+    forces.plot(run.t, without_rim(element).drive(run.t, *motion), "C0:", label="film made at the inlet alone")
+    forces.plot(run.t, element.spring(motion[0]), "--", color="0.6", label="static")
     forces.set(xlabel="T, in 2a/u_sum", ylabel="force over the load of the point")
     for axes in (films, forces):
         axes.legend(fontsize="small")

@@ -53,7 +53,7 @@ def films() -> None:
         solved = [solve_steady(point, grid=grid, supply=OilLayer(over_flooded=r)) for r in RATIOS]
         found = np.array([film.h_central for film in solved]) / flooded.h_central
         best = minimize_scalar(lambda g, found=found: np.abs(curve(RATIOS, g) / found - 1.0).max(), (2.0, 5.0))
-        fronts = [float(film.X[np.argmax(film.P[:, 0] > 0.0)]) for film in solved]
+        fronts = [float(film.x[np.argmax(film.p[:, 0] > 0.0)]) for film in solved]
         name = f"{point.M:g}, {point.L:g}, {point.kappa:g}"
         print(f"({name}): g {best.x:.2f}, largest deviation {100.0 * best.fun:.1f} %")
         print("   ", *(f"{r:g}: {h:.3f} at {x:.2f};" for r, h, x in zip(RATIOS, found, fronts, strict=True)))
@@ -71,16 +71,16 @@ def map_of_a_film() -> None:
     """Pressure and content of a starved film."""
     film = solve_steady(CIRCLE, grid=Grid(256), supply=OilLayer(H=LAYER))
     figure = Figure(figsize=(9.0, 3.6), layout="constrained")
-    Y = np.concatenate([-film.Y[:0:-1], film.Y])
+    Y = np.concatenate([-film.y[:0:-1], film.y])
     for axes, field, words, colours in zip(
         figure.subplots(1, 2),
-        (film.P, film.content),
+        (film.p, film.content),
         ("pressure over Hertz's", "part of the gap filled"),
         ("inferno", "cividis"),
         strict=True,
     ):
         whole = np.concatenate([field[:, :0:-1], field], axis=1)
-        mesh = axes.pcolormesh(film.X, Y, whole.T, cmap=colours, shading="gouraud", rasterized=True)
+        mesh = axes.pcolormesh(film.x, Y, whole.T, cmap=colours, shading="gouraud", rasterized=True)
         turn = np.linspace(0.0, 2.0 * np.pi, 181)
         axes.plot(np.cos(turn), np.sin(turn), "--", color="white", linewidth=0.8)
         axes.set(xlabel="x/a", ylabel="y/b", xlim=(-3.0, 1.5), ylim=(-2.2, 2.2), aspect="equal")
@@ -109,7 +109,7 @@ def case_a() -> None:
     near = Grid(256, Domain(-2.5, 1.5, 2.05))
     for grid, supply in ((near, None), (Grid(256), None), (Grid(256), OilLayer(2.2105e-6))):
         film = solve_steady(point, grid=grid, supply=supply)
-        print(f"{1e6 * film.si.h_central:.3f} um, {1e6 * film.si.h_min:.3f} um", *str(film).splitlines()[4:5])
+        print(f"{1e6 * film.h_central:.3f} um, {1e6 * film.h_min:.3f} um", *str(film).splitlines()[4:5])
 
 
 def through_time() -> None:
@@ -120,10 +120,10 @@ def through_time() -> None:
     for ratio in (None, 1.5, 1.0, 0.6):
         supply = None if ratio is None else OilLayer(over_flooded=ratio)
         run = simulate(CIRCLE, motion, grid=Grid(128), supply=supply, time=time)
-        left.plot(run.T, run.h_central, label="flooded" if ratio is None else f"r = {ratio:g}")
+        left.plot(run.t, run.h_central, label="flooded" if ratio is None else f"r = {ratio:g}")
         if ratio == 1.0:
             mesh = right.pcolormesh(
-                run.T, run.Y, run.layer_behind.T, cmap="cividis", shading="gouraud", rasterized=True
+                run.t, run.y, run.layer_behind.T, cmap="cividis", shading="gouraud", rasterized=True
             )
     left.set(xlabel="T u_sum/(2a)", ylabel="central film over the dry approach", ylim=(0.0, None))
     left.legend(ncols=2, loc="lower left")

@@ -66,7 +66,7 @@ def grids():
             started = process_time()
             film = solve_steady(point, grid=grid, supply=layer, thermal=thermal, threads=1)
             spent.append(process_time() - started)
-        share, times, h = film.temperature.film_share, spent[1] / spent[0], film.si.h_central * 1e6
+        share, times, h = film.temperature.film_share, spent[1] / spent[0], film.h_central * 1e6
         print(f"n = {n}: {h:.4f} um, {share:.4f}, front {film.front:.2f}, {film.cycles}, {times:.1f}")
 
 

@@ -57,10 +57,10 @@ def characteristic(film, ratio):
 
     Its exponent is that of the mean stress asinh(characteristic shear), so the mean stress itself is not needed.
     """
-    stress = film.traction(ratio, Eyring(STRESS)).stress / STRESS
-    inside = (film.X[:, None] ** 2 + film.Y[None, :] ** 2 < 1.0) & (stress > 0.0)
+    stress, s = film.traction(ratio, Eyring(STRESS)).stress / STRESS, film.point.scales
+    inside = ((film.x[:, None] / s.a) ** 2 + (film.y[None, :] / s.b) ** 2 < 1.0) & (stress > 0.0)
     log_newton = np.log(np.sinh(stress[inside]))
-    weights = np.broadcast_to(np.where(film.Y == 0.0, 0.5, 1.0), stress.shape)[inside]
+    weights = np.broadcast_to(np.where(film.y == 0.0, 0.5, 1.0), stress.shape)[inside]
     weights = weights / weights.sum()
 
     def missing(y):
@@ -73,7 +73,7 @@ def curve(found, ratios):
     """Load numbers of films, their characteristic shear and mean stress over Eyring's at these ratios."""
     rows = []
     for film in found:
-        N = load_number(film.point.M, film.point.kappa)
+        N = load_number(film.point.moes.M, film.point.moes.kappa)
         y = film.traction(ratios, Eyring(STRESS)).mean_stress / STRESS
         rows += [(N, characteristic(film, ratio), one) for ratio, one in zip(ratios, y, strict=True)]
     return np.array(rows)

@@ -65,7 +65,9 @@ def solvers() -> list[Row]:
     for name, (alpha, u_mean, eta0, load, M, L, approach) in tests.PUBLIC.items():
         point = OperatingPoint(steel_on_glass, Lubricant(eta0, alpha), load, 2.0 * u_mean)
         film = solve_steady(point, grid=Grid(n=256, domain=Domain(-4.0, 2.0, 3.0)))
-        rows.append(row(f"{name}: M = {M:.3g}, L = {L:.3g}, n = 256", "approach", film.approach, approach))
+        rows.append(
+            row(f"{name}: M = {M:.3g}, L = {L:.3g}, n = 256", "approach", film.dimensionless.approach, approach)
+        )
     for M, n in ((20, 64), (20, 128), (200, 128), (200, 256)):
         film = solve_steady(MoesPoint(M, 10, 1.0, **tests.BARUS), grid=Grid(n=n))
         unit = film.point.film_to_moes

@@ -19,7 +19,7 @@ UNKNOWN = "as given"  # of a film that does not say where it is from
 
 
 class KnownFilm(Protocol):
-    """What a `SteadyResult`, or an answer of the atlas, says about the film; dry approaches.
+    """What a `SteadyResult`, or an answer of the atlas, says about the film.
 
     ``film_origin``, where it has one, says how it was found and how sure that is; ``domain`` is its region.
     """
@@ -50,7 +50,7 @@ class Contact:
         Raises
         ------
         InputError
-            A `film` that is none.
+            A `film` that is none, or that of another point.
         """
         moes = moes_point(point)
         bare = cls(moes, scales_of(point) or scales, moes.expected_film, None)
@@ -58,6 +58,11 @@ class Contact:
             if not all(hasattr(film, name) for name in ("h_central", "h_min")):
                 raise InputError("film", type(film).__name__, "a steady film, or an answer of the atlas")
             origin = getattr(film, "film_origin", UNKNOWN)
+            own = getattr(film, "point", None)
+            if own is not None and own.moes != moes:
+                other, this = (f"M {p.M:.4g}, L {p.L:.4g}, kappa {p.kappa:.4g}" for p in (own.moes, moes))
+                raise InputError("film", f"of the point {other}", f"one of this point, {this}")
+            film = getattr(film, "dimensionless", film)
             return cls(moes, bare.scales, float(film.h_central), float(film.h_min), origin)
         return cls(moes, bare.scales, bare.central, bare.expected_smallest() if bare.scales else None)
 

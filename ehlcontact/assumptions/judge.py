@@ -13,20 +13,16 @@ from ehlcontact.checks import require_instance, require_nonnegative, require_pos
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.oil import typical_temperature_slope
-from ehlcontact.point import MoesPoint, OperatingPoint, Point, Scales
+from ehlcontact.point import OperatingPoint, Point, Scales
 from ehlcontact.solver.domain import Domain
 
 
 class Judged(KnownFilm, Protocol):
-    """A result with films: contact, and units in SI where they are known."""
+    """A result with films, and its contact."""
 
     @property
-    def point(self) -> MoesPoint:
-        """The contact, dimensionless."""
-
-    @property
-    def scales(self) -> Scales | None:
-        """Its units in SI."""
+    def point(self) -> Point:
+        """The contact."""
 
 
 CONDUCTIVITY = 0.134  # W/(m K), measured of FVA 3 (Schwarz et al. 2023, table A1); mineral oils 0.12 to 0.15
@@ -108,8 +104,8 @@ def assumptions(
 
 
 def judged(result: Judged) -> Assumptions:
-    """Judge what a result with films assumes at its own contact, with the typical oil of its viscosity."""
-    return assumptions(result.point, film=result, scales=result.scales)
+    """Judge what a result with films assumes at its own contact."""
+    return assumptions(result.point, film=result, scales=getattr(result, "scales", None))
 
 
 def _composite(roughness: tuple[float, float] | None) -> float | None:

@@ -10,7 +10,9 @@ import numpy as np
 from ehlcontact.assumptions import Assumptions
 from ehlcontact.assumptions.judge import judged
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.point import MoesPoint
 from ehlcontact.quantities import quantities_of, words
+from ehlcontact.results.table import ScaledTable
 from ehlcontact.solver.domain import Domain
 
 Row = tuple[str, str, str]  # quantity, value with its unit, remark
@@ -42,7 +44,7 @@ def in_unit(value: Any, unit: str, digits: int = 4) -> str:
 
 
 def quantity_rows(result: Any, remarks: Mapping[str, str], error: Mapping[str, float] | None = None) -> list[Row]:
-    """Rows of quantities of a result, in SI where it has scales, with the dimensionless value beside.
+    """Rows of quantities of a result, at an `OperatingPoint` with the dimensionless value beside.
 
     Parameters
     ----------
@@ -50,19 +52,24 @@ def quantity_rows(result: Any, remarks: Mapping[str, str], error: Mapping[str, f
     remarks : mapping
         By the name of a quantity, what else there is to say about it.
     error : mapping, optional
-        Dimensionless half widths of error bars, by the name of a quantity.
+        Half widths of error bars, by the name of a quantity.
     """
-    rows = []
+    rows, s = [], result.point.scales
+    scaled = isinstance(result, ScaledTable) and result.scales is not None
+    if scaled:
+        s = result.scales
     for name, remark in remarks.items():
         quantity, value, bar = quantities_of(type(result))[name], getattr(result, name), (error or {}).get(name)
         kind = SCALES.get(quantity.moes, quantity.moes)
-        if result.scales is None:
+        if scaled:
+            value, bar = quantity.in_si(value, s), quantity.in_si(bar, s)
+        if isinstance(result.point, MoesPoint) and not scaled:
             shown, beside = in_unit(value, "", 5), kind
             bars = "" if bar is None else f"± {numeral(bar, 1)}"
         else:
-            shown = in_unit(quantity.in_si(value, result.scales), quantity.unit, 5)
-            beside = f"{in_unit(value, '', 4)} {kind}"
-            bars = "" if bar is None else f"± {in_unit(quantity.in_si(bar, result.scales), quantity.unit, 1)}"
+            shown = in_unit(value, quantity.unit, 5)
+            beside = f"{in_unit(value / quantity.size(s), '', 4)} {kind}"
+            bars = "" if bar is None else f"± {in_unit(bar, quantity.unit, 1)}"
         rows.append((words(name), shown, ", ".join(filter(None, (beside, bars, remark)))))
     return rows
 

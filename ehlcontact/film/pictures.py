@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.film.plane import Film, Interferogram, film_of, interferogram, interpolated
-from ehlcontact.point import moes_point
 from ehlcontact.results.contact_map import TALL, VIEW, ContactView, fields
 from ehlcontact.results.picture import BLUE, GREEN, GREY, PURPLE, RED, AnyPanel, Line, Panel, Picture, Slides
 from ehlcontact.transient.motion import HarmonicLoad
@@ -32,21 +31,21 @@ def refined(film: Film, points: tuple[int, int], growth: float = 1.0) -> Film:
     points : (int, int)
         Along rolling and across.
     growth : float
-        Semi-axes over those of the film's scales, where the load has risen.
+        Semi-axes over those of the static load, where the load has risen.
     """
+    s = film.point.scales
     first, last, across = (growth * edge for edge in VIEW)
-    X = np.linspace(max(first, film.X[0]), min(last, film.X[-1]), points[0])
-    across = min(across, film.Y[-1])
-    return interpolated(film, X, np.linspace(-across, across, points[1]))
+    x = np.linspace(max(s.a * first, film.x[0]), min(s.a * last, film.x[-1]), points[0])
+    across = min(s.b * across, film.y[-1])
+    return interpolated(film, x, np.linspace(-across, across, points[1]))
 
 
 def coloured_fringes(result: Any) -> Picture:
     """Fringes of red, green and blue light on top of one another, of a `SteadyResult` in SI; zero film is dark."""
-    kappa = moes_point(result.point).kappa
-    film = refined(film_of(result), FINE if kappa < 1.0 else FINE[::-1])
+    film = refined(film_of(result), FINE if result.point.moes.kappa < 1.0 else FINE[::-1])
     fringes = [interferogram(film, light, REFRACTIVE_INDEX, np.pi) for light in LIGHTS]
-    colours = np.stack([brightness(one, film.si.h / COHERENCE) for one in fringes], axis=-1)
-    view = ContactView.of(film.X, film.Y, kappa, film.scales)
+    colours = np.stack([brightness(one, film.h / COHERENCE) for one in fringes], axis=-1)
+    view = ContactView.of(film.point, film.x, film.y)
     title = f"red, green and blue light, oil of index {REFRACTIVE_INDEX}"
     return Picture([view.map(colours, "", "", None, title=title)], columns=1, heights=(TALL,), note=view.note)
 
@@ -67,29 +66,28 @@ def brightness(fringes: Interferogram, path: Array | float = 0.0) -> Array:
 def steps_of(run: SimulationResult) -> NDArray[np.int_]:
     """Steps of the last period whose whole fields were kept."""
     assert isinstance(run.motion, HarmonicLoad)
-    kept = run.snapshot_T[run.snapshot_T >= run.T[-1] - run.motion.period * (1.0 + 1e-9)]
-    return np.abs(run.T[:, None] - kept).argmin(axis=0)
+    period = run.motion.period * run.point.scales.time
+    kept = run.snapshot_t[run.snapshot_t >= run.t[-1] - period * (1.0 + 1e-9)]
+    return np.abs(run.t[:, None] - kept).argmin(axis=0)
 
 
 def instants(run: SimulationResult) -> Slides:
     """Pressure and film, both along the mid-plane, force and film over time, with a slider through a period."""
     steps = steps_of(run)
-    t, (_, unit) = run.axis("T")
+    t, (_, unit) = run.axis("t")
     factor, shown = (1e3, "ms") if unit == "s" else (1.0, unit)
     pictures = [_instant(run, steps, int(step)) for step in steps]
     return Slides(pictures, ("time", shown), (factor * t[steps]).tolist(), runs=True)
 
 
 def _instant(run: SimulationResult, steps: NDArray[np.int_], step: int) -> Picture:
-    film = film_of(run, float(run.T[step]))
-    view = ContactView.of(film.X, film.Y, moes_point(run.point).kappa, run.scales)
-    (p, p_label), (h, h_label) = fields(run.scales, film.P, film.H)
-    (most, _), _ = fields(run.scales, run.snapshot_P.max(), run.h_min)
-    central, smallest = run.axis("h_central")[0], run.axis("h_min")[0]
-    ends = float(smallest[steps].min()), THICKEST * float(central[steps].max())
+    film = film_of(run, float(run.t[step]))
+    view = ContactView.of(film.point, film.x, film.y)
+    (p, p_label), (h, h_label) = fields(film.point, film.p, film.h)
+    ends = float(run.h_min[steps].min()), THICKEST * float(run.h_central[steps].max())
     panels: list[AnyPanel] = [
-        view.pressure(p, p_label, float(most)),
-        view.film(h, h_label, float(central[step]), ends),
+        view.pressure(p, p_label, float(run.snapshot_p.max())),
+        view.film(h, h_label, float(run.h_central[step]), ends),
         _midplane(run, steps, step),
         _history(run, step),
     ]
@@ -98,8 +96,9 @@ def _instant(run: SimulationResult, steps: NDArray[np.int_], step: int) -> Pictu
 
 def _midplane(run: SimulationResult, steps: NDArray[np.int_], step: int) -> Panel:
     """Pressure and film along y = 0; dotted at rest."""
-    inside = (run.X >= VIEW[0]) & (run.X <= VIEW[1])
-    (x, x_label), (p, p_label), (h, h_label) = (run.axis(name) for name in ("X", "p_midplane", "h_midplane"))
+    a = run.point.scales.a
+    inside = (run.x >= a * VIEW[0]) & (run.x <= a * VIEW[1])
+    (x, x_label), (p, p_label), (h, h_label) = (run.axis(name) for name in ("x", "p_midplane", "h_midplane"))
     x, p, h = x[inside], p[:, inside], h[:, inside]
     series = (("pressure", p, RED, False), ("film", h, BLUE, True))
     lines = [Line(x, values[step], name, colour, second=second) for name, values, colour, second in series]
@@ -120,7 +119,7 @@ def _midplane(run: SimulationResult, steps: NDArray[np.int_], step: int) -> Pane
 def _history(run: SimulationResult, step: int) -> Panel:
     """Force and central film over the run, with dots at the time of the instant."""
     (t, t_label), (force, f_label), (load, _), (film, h_label) = (
-        run.axis(name) for name in ("T", "force", "load", "h_central")
+        run.axis(name) for name in ("t", "force", "load", "h_central")
     )
     now = slice(step, step + 1)
     lines = [

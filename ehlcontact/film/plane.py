@@ -13,12 +13,13 @@ from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from ehlcontact.point import Scales
-from ehlcontact.quantities import ACROSS, ALONG, LENGTH, NUMBER, PRESSURE, Quantity, quantities_of, require_scales
+from ehlcontact.point import MoesPoint, Point
+from ehlcontact.quantities import ACROSS, ALONG, LENGTH, NUMBER, PRESSURE, Quantity, quantities_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.results.contact_map import ContactView, contact_panels, fields
-from ehlcontact.results.table import Display, QuantityTable, ScaledTable
+from ehlcontact.results.table import Display, PointTable, QuantityTable
 from ehlcontact.solver.lowest_film import lowest_film
+from ehlcontact.summary import contact_text
 from ehlcontact.transient.result import SimulationResult
 
 Array = NDArray[np.float64]
@@ -27,56 +28,60 @@ LIGHT = (1e-8, 1e-4)  # m: wavelengths, from ultraviolet to infrared
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Profile(ScaledTable):
-    """Film and pressure along a line through the centre; ``si`` has them in SI.
+class Profile(PointTable):
+    """Film and pressure along a line through the centre, in the units of their point.
 
     Attributes
     ----------
-    X, H, P : ndarray, shape (k,)
-        x/a or y/b, film over the dry approach, pressure over the Hertz pressure. In SI ``x`` [m] (across too),
-        ``h`` [m], ``p`` [Pa].
-    scales : Scales or None
+    point : MoesPoint or OperatingPoint
+    x, h, p : ndarray, shape (k,)
+        Place along the line [m; semi-axis along it], film [m; dry approach], pressure [Pa; Hertz pressure].
     across : bool
-        Along Y at X = 0, otherwise along X at Y = 0.
+        Along y at x = 0, otherwise along x at y = 0.
     """
 
-    X: Annotated[Array, ALONG.over("X")]
-    H: Annotated[Array, LENGTH.over("X")]
-    P: Annotated[Array, PRESSURE.over("X")]
-    scales: Scales | None
+    point: Point
+    x: Annotated[Array, ALONG.over("x")]
+    h: Annotated[Array, LENGTH.over("x")]
+    p: Annotated[Array, PRESSURE.over("x")]
     across: bool
 
-    DISPLAY: ClassVar[Display] = Display(rows="X", panels=("H", "P"))
+    DISPLAY: ClassVar[Display] = Display(rows="x", panels=("h", "p"))
 
     def _quantities(self) -> Mapping[str, Quantity]:
         declared = quantities_of(Profile)
-        return {**declared, "X": ACROSS.over("X")} if self.across else declared
+        return {**declared, "x": ACROSS.over("x")} if self.across else declared
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Constriction:
+class Constriction(PointTable):
     """The horseshoe: where and how far the film is narrowed; on the mid-planes at the nodes.
 
     Attributes
     ----------
+    point : MoesPoint or OperatingPoint
+        Whose units the others have: [m], or dry approaches and semi-axes.
     central, minimum : float
-        Film at X = Y = 0, and the smallest, over the dry approach.
-    X, Y : float
-        Place of the minimum in semi-axes, Y >= 0; its mirror image is at -Y.
+        Film at x = y = 0, and the smallest.
+    x, y : float
+        Place of the minimum, y >= 0; its mirror image is at -y.
     exit_film, exit_place : float
-        Least film along Y = 0, over the dry approach, and its X.
+        Least film along y = 0, and its x.
     side_film, side_place : float
-        Least film along X = 0, over the dry approach, and its Y >= 0.
+        Least film along x = 0, and its y >= 0.
     """
 
-    central: float
-    minimum: float
-    X: float
-    Y: float
-    exit_film: float
-    exit_place: float
-    side_film: float
-    side_place: float
+    point: Point
+    central: Annotated[float, LENGTH]
+    minimum: Annotated[float, LENGTH]
+    x: Annotated[float, ALONG]
+    y: Annotated[float, ACROSS]
+    exit_film: Annotated[float, LENGTH]
+    exit_place: Annotated[float, ALONG]
+    side_film: Annotated[float, LENGTH]
+    side_place: Annotated[float, ACROSS]
+
+    DISPLAY: ClassVar[Display] = Display(rows="")
 
     @property
     def ratio(self) -> float:
@@ -85,125 +90,121 @@ class Constriction:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Film(ScaledTable):
-    """Film and pressure at one instant over the whole plane; ``si`` has them in SI.
+class Film(PointTable):
+    """Film and pressure at one instant over the whole plane, in the units of their point.
 
     Attributes
     ----------
-    X, Y : ndarray, shape (nx + 1,), (2 ny + 1,)
-        x/a and y/b, both signs; in SI ``x``, ``y`` [m].
-    H, P : ndarray, shape (nx + 1, 2 ny + 1)
-        Film over the dry approach, pressure over the Hertz pressure; in SI ``h`` [m], ``p`` [Pa].
-    scales : Scales or None
-        Units in SI.
+    point : MoesPoint or OperatingPoint
+    x, y : ndarray, shape (nx + 1,), (2 ny + 1,)
+        Places along rolling and across, both signs [m; semi-axes a, b].
+    h, p : ndarray, shape (nx + 1, 2 ny + 1)
+        Film [m; dry approach], pressure [Pa; Hertz pressure].
     """
 
-    X: Annotated[Array, ALONG.over("X")]
-    Y: Annotated[Array, ACROSS.over("Y")]
-    H: Annotated[Array, LENGTH.over("X Y")]
-    P: Annotated[Array, PRESSURE.over("X Y")]
-    scales: Scales | None
+    point: Point
+    x: Annotated[Array, ALONG.over("x")]
+    y: Annotated[Array, ACROSS.over("y")]
+    h: Annotated[Array, LENGTH.over("x y")]
+    p: Annotated[Array, PRESSURE.over("x y")]
 
-    DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
-
-    def _drawn(self) -> Film:
-        return self  # in SI and without, as a contact is drawn
+    DISPLAY: ClassVar[Display] = Display(rows="x y", panels=("p", "h"))
 
     def _panels(self) -> Iterator[Any]:
-        s = self.scales
-        view, (p, h) = ContactView.of(self.X, self.Y, None, s), fields(s, self.P, self.H)
-        central = float(h[0][int(np.argmin(np.abs(self.X))), self.Y.size // 2])
-        yield from contact_panels(view, p, h, central, 1.0 if s is None else s.pressure)
+        view, (p, h) = ContactView.of(self.point, self.x, self.y), fields(self.point, self.p, self.h)
+        central = float(self.h[int(np.argmin(np.abs(self.x))), self.y.size // 2])
+        yield from contact_panels(view, p, h, central, self.point.scales.pressure)
 
     @property
     def along(self) -> Profile:
-        """Mid-plane along rolling, Y = 0."""
-        middle = self.Y.size // 2
-        return Profile(self.X, self.H[:, middle], self.P[:, middle], self.scales, False)
+        """Mid-plane along rolling, y = 0."""
+        middle = self.y.size // 2
+        return Profile(self.point, self.x, self.h[:, middle], self.p[:, middle], False)
 
     @property
     def across(self) -> Profile:
-        """Mid-plane across, X = 0; by linear interpolation where no node lies there."""
-        i = int(np.clip(np.searchsorted(self.X, 0.0), 1, self.X.size - 1))
-        share = float((0.0 - self.X[i - 1]) / (self.X[i] - self.X[i - 1]))
-        H, P = ((1.0 - share) * field[i - 1] + share * field[i] for field in (self.H, self.P))
-        return Profile(self.Y, H, P, self.scales, True)
+        """Mid-plane across, x = 0; by linear interpolation where no node lies there."""
+        i = int(np.clip(np.searchsorted(self.x, 0.0), 1, self.x.size - 1))
+        share = float((0.0 - self.x[i - 1]) / (self.x[i] - self.x[i - 1]))
+        h, p = ((1.0 - share) * field[i - 1] + share * field[i] for field in (self.h, self.p))
+        return Profile(self.point, self.y, h, p, True)
 
     @property
     def constriction(self) -> Constriction:
         """Central and minimum film, and the least films of both mid-planes."""
         along, across = self.along, self.across
-        minimum, row, column = lowest_film(self.H.T[self.Y.size // 2 :])
-        exit_at, side_at = int(np.argmin(along.H)), int(np.argmin(across.H))
+        minimum, row, column = lowest_film(self.h.T[self.y.size // 2 :])
+        exit_at, side_at = int(np.argmin(along.h)), int(np.argmin(across.h))
         return Constriction(
-            central=float(np.interp(0.0, along.X, along.H)),
+            point=self.point,
+            central=float(np.interp(0.0, along.x, along.h)),
             minimum=minimum,
-            X=float(self.X[0] + column * (self.X[1] - self.X[0])),
-            Y=float(row * (self.Y[1] - self.Y[0])),
-            exit_film=float(along.H[exit_at]),
-            exit_place=float(along.X[exit_at]),
-            side_film=float(across.H[side_at]),
-            side_place=abs(float(across.X[side_at])),
+            x=float(self.x[0] + column * (self.x[1] - self.x[0])),
+            y=float(row * (self.y[1] - self.y[0])),
+            exit_film=float(along.h[exit_at]),
+            exit_place=float(along.x[exit_at]),
+            side_film=float(across.h[side_at]),
+            side_place=abs(float(across.x[side_at])),
         )
 
 
-def film_of(result: SteadyResult | SimulationResult, T: float | None = None) -> Film:
+def film_of(result: SteadyResult | SimulationResult, t: float | None = None) -> Film:
     """Whole-plane film of a steady result, or of a simulation at one of its snapshots.
 
     Parameters
     ----------
     result : SteadyResult or SimulationResult
-    T : float, optional
-        Time of the snapshot, to the nearest step; the last one by default. Only for a simulation.
+    t : float, optional
+        Time of the snapshot [s; 2a/u_sum], to the nearest step; the last one by default. Only for a simulation.
 
     Raises
     ------
     InputError
-        T given for a steady film, or no snapshot there.
+        t given for a steady film, or no snapshot there.
     """
     require_instance("result", result, SteadyResult | SimulationResult, "a SteadyResult or a SimulationResult")
     if isinstance(result, SteadyResult):
-        if T is not None:
-            raise InputError("T", T, "left out: a steady film has no time")
-        H, P = result.H, result.P
+        if t is not None:
+            raise InputError("t", t, "left out: a steady film has no time")
+        h, p = result.h, result.p
     else:
-        k = _snapshot(result, T)
-        H, P = result.snapshot_H[k], result.snapshot_P[k]
-    Y = np.concatenate([-result.Y[:0:-1], result.Y])
-    return Film(result.X, Y, _mirrored(H), _mirrored(P), result.scales)
+        k = _snapshot(result, t)
+        h, p = result.snapshot_h[k], result.snapshot_p[k]
+    y = np.concatenate([-result.y[:0:-1], result.y])
+    return Film(result.point, result.x, y, _mirrored(h), _mirrored(p))
 
 
-def _snapshot(run: SimulationResult, T: float | None) -> int:
-    """Number of the snapshot within a time step of T."""
-    kept = run.snapshot_T
+def _snapshot(run: SimulationResult, t: float | None) -> int:
+    """Number of the snapshot within a time step of t."""
+    kept = run.snapshot_t
     if kept.size == 0:
         raise InputError("snapshots", (), "asked for when simulating: this result kept no whole fields")
-    if T is None:
+    if t is None:
         return kept.size - 1
-    k = int(np.argmin(np.abs(kept - require_finite("T", T))))
-    step = float(np.diff(run.T).max()) if run.steps else 0.0
-    if abs(kept[k] - T) > step * (1.0 + 1e-9):
-        raise InputError("T", T, "near a snapshot: " + ", ".join(f"{t:g}" for t in kept))
+    k = int(np.argmin(np.abs(kept - require_finite("t", t))))
+    step = float(np.diff(run.t).max()) if run.steps else 0.0
+    if abs(kept[k] - t) > step * (1.0 + 1e-9):
+        raise InputError("t", t, "near a snapshot: " + ", ".join(f"{t:g}" for t in kept))
     return k
 
 
-def interpolated(film: Film, X: Array, Y: Array) -> Film:
+def interpolated(film: Film, x: Array, y: Array) -> Film:
     """A film at other places, by cubic splines between its nodes; pressures are not negative.
 
     Parameters
     ----------
     film : Film
-    X, Y : ndarray, shape (k,), (m,)
-        x/a and y/b, rising, within the film.
+    x, y : ndarray, shape (k,), (m,)
+        Places in the units of the film, rising, within it.
     """
     from scipy.interpolate import RectBivariateSpline
 
-    H, P = (RectBivariateSpline(film.X, film.Y, field)(X, Y) for field in (film.H, film.P))
-    return Film(X, Y, H, np.maximum(P, 0.0), film.scales)
+    h, p = (RectBivariateSpline(film.x, film.y, field)(x, y) for field in (film.h, film.p))
+    return Film(film.point, x, y, h, np.maximum(p, 0.0))
 
 
 def _mirrored(field: Array) -> Array:
-    """Both signs of Y from the half that was computed."""
+    """Both signs of y from the half that was computed."""
     return np.concatenate([field[:, :0:-1], field], axis=1)
 
 
@@ -263,14 +264,17 @@ def interferogram(
     Raises
     ------
     InputError
-        A film without SI scales, wavelength or index not positive, phase not finite.
+        A film of a `MoesPoint`, wavelength or index not positive, phase not finite.
     """
     wave = require_positive("wavelength", wavelength)
     if not LIGHT[0] <= wave <= LIGHT[1]:
         raise InputError("wavelength", wavelength, f"from {LIGHT[0]:g} to {LIGHT[1]:g} m (given in nm or um?)")
     index = require_positive("refractive_index", refractive_index)
     turn = require_finite("phase", phase) / (2.0 * np.pi)
-    si, scales = film.si, require_scales(film.scales)
-    order = 2.0 * index * si.h / wave + turn
+    if isinstance(film.point, MoesPoint):
+        allowed = "that of an OperatingPoint: light has a wavelength in m, and a dimensionless point no units"
+        raise InputError("point of the film", contact_text(film.point), allowed)
+    scales = film.point.scales
+    order = 2.0 * index * film.h / wave + turn
     intensity = 0.5 * (1.0 + np.cos(2.0 * np.pi * order))
-    return Interferogram(intensity, order, si.x, si.y, (scales.a, scales.b))
+    return Interferogram(intensity, order, film.x, film.y, (scales.a, scales.b))

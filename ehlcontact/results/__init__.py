@@ -1,4 +1,4 @@
-"""Results of films at rest and of linearised ones, and what all results share: tables, SI values, figures.
+"""Results of films at rest and of linearised ones, and what all results share: units, tables, figures.
 
 ===================== =================================================================================
 module                responsibility
@@ -8,7 +8,7 @@ module                responsibility
 ``asperity_contact``  `AsperityContact`: load share of asperities beside a film
 ``response``          `Response`: force over frequency by small changes of a contact or a bearing
 ``traction``          `Traction`: traction of a film over the slide-to-roll ratio
-``table``             `QuantityTable`: values in SI, dictionary, xarray, pandas and figure of declared quantities
+``table``             `PointTable`, `QuantityTable`: units, dictionary, tables and figure of quantities
 ``picture``           pictures as data: panels of lines and bars, maps, load zones
 ``contact_map``       picture of a contact: maps of pressure and film, mid-planes, convergence
 ``drawing``           pictures drawn with matplotlib, which is imported where one is drawn

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.asperities import Asperities
+from ehlcontact.quantities import PRESSURE
 
 Array = NDArray[np.float64]
 
@@ -24,7 +25,7 @@ class AsperityContact:
     inputs : Asperities
         As given to `solve_steady`.
     pressure : ndarray, shape (nx + 1, ny + 1)
-        Mean pressure of the asperities over the Hertz pressure, beside that of the oil.
+        Mean pressure of the asperities [Pa; Hertz pressure], beside that of the oil.
     load_share : float
         Part of the force that they carry.
     film_over_rq : float
@@ -34,7 +35,7 @@ class AsperityContact:
     """
 
     inputs: Asperities
-    pressure: Array
+    pressure: Annotated[Array, PRESSURE.over("x y")]
     load_share: float
     film_over_rq: float
     film_share: float

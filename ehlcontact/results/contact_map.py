@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact.point import Scales
+from ehlcontact.point import MoesPoint, Point
 from ehlcontact.quantities import ACROSS, ALONG, LENGTH, PRESSURE, words
 from ehlcontact.results.picture import BLUE, GREY, RED, Array, Label, Line, Map, Panel, Picture
 
@@ -44,13 +44,11 @@ class ContactView:
     true: float = 1.0
 
     @classmethod
-    def of(cls, X: Array, Y: Array, kappa: float | None, scales: Scales | None) -> ContactView:
-        """From places in semi-axes, and a/b; in SI where there are scales."""
-        if scales is None:
-            labels = (words("x"), ALONG.moes), (words("y"), ACROSS.moes)
-            return cls(X, Y, (1.0, 1.0), labels, 1.0 / (kappa or 1.0))
-        a, b = scales.a, scales.b
-        return cls(a * X, b * Y, (a, b), ((words("x"), ALONG.unit), (words("y"), ACROSS.unit)))
+    def of(cls, point: Point, x: Array, y: Array) -> ContactView:
+        """From places of a result at a point."""
+        s, moes = point.scales, isinstance(point, MoesPoint)
+        labels = (words("x"), ALONG.unit_at(point)), (words("y"), ACROSS.unit_at(point))
+        return cls(x, y, (s.a, s.b), labels, 1.0 / point.moes.kappa if moes else 1.0)
 
     @property
     def upwards(self) -> bool:
@@ -180,7 +178,7 @@ def film_picture(result: Any) -> tuple[Picture, Picture]:
     """Maps of a `SteadyResult` one below another, and its mid-planes: two pictures of a page."""
     panels = result.panels()
     maps = [panel for panel in panels if isinstance(panel, Map)]
-    view = ContactView.of(result.X, result.Y, result.point.kappa, result.scales)
+    view = ContactView.of(result.point, result.x, result.y)
     return (
         Picture(maps, columns=1, heights=(TALL,), note=view.note),
         Picture([panel for panel in panels if isinstance(panel, Panel)]),
@@ -189,7 +187,7 @@ def film_picture(result: Any) -> tuple[Picture, Picture]:
 
 def convergence(result: Any) -> Picture:
     """Changes of the pressure, and residuals, of the multigrid cycles of a `SteadyResult`."""
-    floor, cycles = 1e-17, np.arange(len(result.residuals))
+    floor, cycles, result = 1e-17, np.arange(len(result.residuals)), result.dimensionless
     series: Sequence[tuple[str, str, str, Array]] = [
         ("residual of Reynolds, over the dry start's", "o", BLUE, result.residuals / result.dry_residual),
         ("residual of the load balance, over the load", "s", "#e69f00", np.abs(result.load_residuals) + floor),
@@ -203,13 +201,9 @@ def convergence(result: Any) -> Picture:
     return Picture([Panel(lines, "cycle on the finest grid", "change or residual", logs="Y")], "convergence")
 
 
-def fields(scales: Scales | None, P: Array, H: Array) -> tuple[tuple[Array, Label], tuple[Array, Label]]:
-    """Pressure and film with their labels, in SI where there are scales."""
-    found = []
-    for name, values, quantity in (("p", P, PRESSURE), ("h", H, LENGTH)):
-        value = values if scales is None else quantity.in_si(values, scales)
-        found.append((value, (words(name), quantity.moes if scales is None else quantity.unit)))
-    return found[0], found[1]
+def fields(point: Point, p: Array, h: Array) -> tuple[tuple[Array, Label], tuple[Array, Label]]:
+    """Pressure and film of a result at a point, with their labels."""
+    return (p, (words("p"), PRESSURE.unit_at(point))), (h, (words("h"), LENGTH.unit_at(point)))
 
 
 def _levels_in_words() -> str:

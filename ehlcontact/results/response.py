@@ -172,7 +172,7 @@ class Response(PointTable):
         """What the response leaves open, in words: a coarse mesh, a large error; else empty."""
         found = []
         if self.film is not None and self.to == APPROACH:
-            moes = self.film.point
+            moes = self.film.point.moes
             mesh, needed = Mesh(self.film.n, self.film.domain, moes.kappa), damping_mesh(moes)
             if mesh.size > COARSE * needed:
                 apart = f"nodes are {mesh.size:.2g} semi-axes apart, damping needs {needed:.2g}"
@@ -234,10 +234,6 @@ class Response(PointTable):
         """Assumptions that do not hold at this contact, in words (`ehlcontact.assumptions`); empty where none."""
         return "" if self.film is None else self.film.outside_assumptions
 
-    def in_units_of(self, point: Point) -> Self:
-        """The response in the units of a point, as of every result."""
-        return self._with_film(PointTable.in_units_of(replace(self, film=None), point))
-
     @property
     def dimensionless(self) -> Self:
         """The response in Moes units; raises `InputError` where no point is known that has them."""
@@ -245,10 +241,7 @@ class Response(PointTable):
             if self._in_si():
                 raise InputError("point", None, "known: a response without a contact has no other units")
             return self
-        return self._with_film(PointTable.dimensionless.fget(replace(self, film=None)))  # type: ignore[attr-defined]
-
-    def _with_film(self, scaled: Self) -> Self:
-        return replace(scaled, film=self.film)
+        return PointTable.dimensionless.fget(self)  # type: ignore[attr-defined]
 
     def to_control(self) -> Any:
         """``control.FrequencyResponseData``: ``u`` to ``F``, or ``u_x, u_y, ...`` to ``F_x, F_y, ...``."""
@@ -335,10 +328,7 @@ class Response(PointTable):
     def _summary_lines(self) -> list[str]:
         origin = "" if self.film is None else f"; linearised on n = {self.film.n}"
         return [
-            contact_text(
-                None if self.point is None else self.point.moes,
-                self.point.scales if self._in_si() and self.point is not None else None,
-            ),
+            contact_text(self.point),
             f"{self.omega.size} frequencies, {self._band()}{origin}",
             self._numbers(),
             *filter(None, [self.negative_damping, self._heat(), self.reservation]),

@@ -17,14 +17,14 @@ from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, 
 from ehlcontact.results.asperity_contact import AsperityContact
 from ehlcontact.results.contact_map import ContactView, contact_panels, fields
 from ehlcontact.results.film_temperature import FilmTemperature
-from ehlcontact.results.table import Display, QuantityTable, ScaledTable
+from ehlcontact.results.table import Display, PointTable, QuantityTable
 from ehlcontact.results.traction import Traction, traction_of
 from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.error_estimate import ALL, ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
-from ehlcontact.summary import contact_text, note_line
-from ehlcontact.supply import OilLayer
+from ehlcontact.summary import contact_text, film_unit, note_line
+from ehlcontact.supply import OilLayer, layer_on
 
 if TYPE_CHECKING:
     from ehlcontact.lubricant.traction_laws import TractionLaw
@@ -53,49 +53,51 @@ def film_bars(error: ErrorEstimate) -> tuple[str, str]:
     return central, least
 
 
-@stored("result of solve_steady")
+@stored("result of solve_steady", 2)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SteadyResult(ScaledTable, Origin):
-    """Steady film of a contact under constant load, or at a prescribed approach, dimensionless; ``si`` is in SI.
+class SteadyResult(PointTable, Origin):
+    """Steady film of a contact under constant load, or at a prescribed approach, in the units of its point.
+
+    Units are those at an `OperatingPoint` and, after the semicolon, at a `MoesPoint`.
 
     Attributes
     ----------
-    X, Y : ndarray, shape (nx + 1,), (ny + 1,)
-        x/a and y/b >= 0; fields are even in Y. In SI ``x``, ``y`` [m].
-    P, H : ndarray, shape (nx + 1, ny + 1)
-        Pressure over the Hertz pressure, and film over the dry approach. In SI ``p`` [Pa], ``h`` [m].
+    x, y : ndarray, shape (nx + 1,), (ny + 1,)
+        Places along rolling and across [m; semi-axes a, b], y >= 0; fields are even in y.
+    p, h : ndarray, shape (nx + 1, ny + 1)
+        Pressure [Pa; Hertz pressure] and film [m; dry approach].
     approach : float
-        Mutual approach over the dry approach; in SI [m].
+        Mutual approach [m; dry approach].
     force : float
-        Force over the static load, of the film and of asperities; in SI [N].
+        Force of the film and of asperities [N; static load].
     h_central, h_min : float
-        Film at X = Y = 0 and the smallest, between the nodes too, over the dry approach; in SI [m].
+        Film at x = y = 0 and the smallest, between the nodes too [m; dry approach].
     p_max, pressure_error : float
-        Largest pressure, and its largest change in further cycles, over the Hertz pressure; in SI [Pa].
+        Largest pressure, and its largest change in further cycles [Pa; Hertz pressure].
     moment : float
-        Moment of the pressure about the centre line, over load times a; in SI [N m].
+        Moment of the pressure about the centre line [N m; static load times a].
     residuals : ndarray, shape (cycles + 1,)
-        Mean absolute residual over P > 0: at the start after full multigrid, then after each cycle. It weighs a
+        Mean absolute residual over p > 0: at the start after full multigrid, then after each cycle. It weighs a
         node by its Poiseuille coefficient, so it is most where pressure matters least: what is solved is judged by
         `pressure_error`.
     load_residuals : ndarray, shape (cycles + 1,)
-        Of the load (or approach) equation, likewise.
+        Residual of the load (or approach) equation, over the static load (or dry approach), after each cycle.
     approach_changes : ndarray, shape (cycles,)
-        Change of the approach in each cycle; in SI [m].
+        Change of the approach in each cycle [m; dry approach].
     pressure_changes : ndarray, shape (cycles,)
-        Largest change of P in each cycle; in SI [Pa].
+        Largest change of the pressure in each cycle [Pa; Hertz pressure].
     dry_residual : float
         Mean absolute residual of the dry Hertz start on this grid: the scale.
     status : Status
     error_estimate : ErrorEstimate or None
-        How far approach and films may be from those of an endless fine mesh on the same region; None of a film
-        that is not converged. In SI its approach is in m.
+        How far approach [m; dry approach] and films may be from those of an endless fine mesh on the same region;
+        None of a film that is not converged.
     supply : OilLayer or None
         As given to `solve_steady`; None of a flooded inlet, and with it the following three.
     content : ndarray or None, shape (nx + 1, ny + 1)
         Part of the gap that oil fills: 1 under pressure.
     layer, layer_behind : ndarray or None, shape (ny + 1,)
-        Oil on both surfaces ahead of the contact and behind it, over the dry approach; in SI [m].
+        Oil on both surfaces ahead of the contact and behind it [m; dry approach].
     sliding : ShearThinning or None
         As given to `solve_steady`; None of a Newtonian film.
     thinned_share : float or None
@@ -104,14 +106,14 @@ class SteadyResult(ScaledTable, Origin):
         Of a film that was solved with heat: temperatures [K], and the film over the isothermal one.
     asperities : AsperityContact or None
         Of a film that was solved with them: their pressure beside that of the oil, and their share of the load.
-    point, scales, domain, n, seconds, version
+    point, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
 
-    X: Annotated[Array, ALONG.over("X", listed=False)]
-    Y: Annotated[Array, ACROSS.over("Y", listed=False)]
-    P: Annotated[Array, PRESSURE.over("X Y", listed=False)]
-    H: Annotated[Array, LENGTH.over("X Y", listed=False)]
+    x: Annotated[Array, ALONG.over("x", listed=False)]
+    y: Annotated[Array, ACROSS.over("y", listed=False)]
+    p: Annotated[Array, PRESSURE.over("x y", listed=False)]
+    h: Annotated[Array, LENGTH.over("x y", listed=False)]
     approach: Annotated[float, LENGTH]
     force: Annotated[float, FORCE]
     h_central: Annotated[float, LENGTH]
@@ -124,24 +126,24 @@ class SteadyResult(ScaledTable, Origin):
     pressure_changes: Annotated[Array, PRESSURE.over("change", listed=False)]
     error_estimate: ErrorEstimate | None = None
     supply: OilLayer | None = None
-    content: Annotated[Array | None, NUMBER.over("X Y", listed=False)] = None
-    layer: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
-    layer_behind: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
+    content: Annotated[Array | None, NUMBER.over("x y", listed=False)] = None
+    layer: Annotated[Array | None, LENGTH.over("y", listed=False)] = None
+    layer_behind: Annotated[Array | None, LENGTH.over("y", listed=False)] = None
 
     temperature: FilmTemperature | None = None
     asperities: AsperityContact | None = None
     sliding: ShearThinning | None = None
     thinned_share: float | None = None
 
-    DISPLAY: ClassVar[Display] = Display(rows="X Y", panels=("P", "H"))
+    DISPLAY: ClassVar[Display] = Display(rows="x y", panels=("p", "h"))
 
     def require_complete(self, **sizes: int) -> None:
         """Raise `ValueError` unless all arrays have the shapes of each other and of the grid."""
-        QuantityTable.require_complete(self, X=self.n + 1, change=max(self.residuals.size, 1) - 1)
+        QuantityTable.require_complete(self, x=self.n + 1, change=max(self.residuals.size, 1) - 1)
 
     @property
     def pressure_error(self) -> Annotated[float, PRESSURE]:
-        """Largest change of P that further cycles would still make: what `tol` of `solve_steady` is held against.
+        """Largest change of the pressure in further cycles; over the Hertz pressure, `tol` is its limit.
 
         Infinite where the changes do not fall, NaN before the first cycle.
         """
@@ -152,7 +154,7 @@ class SteadyResult(ScaledTable, Origin):
 
     @property
     def moment(self) -> Annotated[float, MOMENT]:
-        """Moment of the pressure about the centre line, ``-3/(2 pi) iint P X dX dY``, over load times a.
+        """Moment of the pressure about the centre line, ``-iint p x dx dy``.
 
         Positive where it resists rolling: pressure builds up before the contact. The film's rolling resistance is
         all in it. In pure rolling the flow that pressure drives shears both surfaces alike, by ``h/2 dp/dx``, and
@@ -169,10 +171,12 @@ class SteadyResult(ScaledTable, Origin):
         It depends on the oil further out, hence on the domain, by about lambda times the logarithm of its extent.
         Around very thin films `solve_steady` closes the region in: it is 7 to 13 % low there (five films).
         """
-        # Trapezoids; twice the half of Y >= 0, whose line in the middle counts half; P = 0 on the border.
-        cell = (self.X[1] - self.X[0]) * (self.Y[1] - self.Y[0])
-        lines = self.P.sum(axis=1) - 0.5 * self.P[:, 0]
-        return float(-1.5 / pi * 2.0 * cell * (self.X @ lines))
+        # Trapezoids; twice the half of y >= 0, whose line in the middle counts half; p = 0 on the border.
+        s = self.point.scales
+        cell = (self.x[1] - self.x[0]) * (self.y[1] - self.y[0])
+        lines = self.p.sum(axis=1) - 0.5 * self.p[:, 0]
+        unit = s.moment / (s.pressure * s.a * s.a * s.b)  # 1 in Moes units, where 2 pi/3 is the load
+        return float(-1.5 / pi * 2.0 * cell * (self.x @ lines) * unit)
 
     def traction(self, slide_roll: ArrayLike, law: TractionLaw) -> Traction:
         """Traction, shear stress and power of this film while its surfaces slide (docs/traction.md).
@@ -204,7 +208,7 @@ class SteadyResult(ScaledTable, Origin):
         """
         if self.layer_behind is None:
             raise InputError("supply", None, "given: what leaves a flooded contact is not known")
-        return OilLayer(H=self.layer_behind, y=self.Y)
+        return layer_on(self.point, self.layer_behind, self.y)
 
     @property
     def residual(self) -> Annotated[float, NUMBER]:
@@ -223,8 +227,8 @@ class SteadyResult(ScaledTable, Origin):
 
     @property
     def p_max(self) -> Annotated[float, PRESSURE]:
-        """Largest pressure / p_hertz."""
-        return float(self.P.max())
+        """Largest pressure."""
+        return float(self.p.max())
 
     @property
     def film_origin(self) -> str:
@@ -250,25 +254,20 @@ class SteadyResult(ScaledTable, Origin):
         return judged(self).headline if self.status.ok else ""
 
     def _panels(self) -> Iterator[Any]:
-        s = self.scales
-        view, (p, h) = ContactView.of(self.X, self.Y, self.point.kappa, s), fields(s, self.P, self.H)
-        central, hertz = (1.0, 1.0) if s is None else (s.length, s.pressure)
-        yield from contact_panels(view, p, h, central * self.h_central, hertz, self.content)
-
-    def _drawn(self) -> SteadyResult:
-        return self  # both in SI and without, as a contact is drawn
+        view, (p, h) = ContactView.of(self.point, self.x, self.y), fields(self.point, self.p, self.h)
+        yield from contact_panels(view, p, h, self.h_central, self.point.scales.pressure, self.content)
 
     def _summary_lines(self) -> list[str]:
         bars = ["", ""]
         if self.error_estimate is not None:
             bars = [f" ({bar})" for bar in film_bars(self.error_estimate)]
-        s = self.scales
-        size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
+        size, unit = film_unit(self.point)
         central, least = size * self.h_central, size * self.h_min
+        largest = self.p_max / self.point.scales.pressure
         return [
-            contact_text(self.point, s),
-            f"{self.status} on n = {self.n}, P and H of {len(self.X)} x {len(self.Y)} nodes",
-            f"approach {size * self.approach:.5g} {unit}; largest pressure {self.p_max:.4g} of the Hertz pressure",
+            contact_text(self.point),
+            f"{self.status} on n = {self.n}, p and h of {len(self.x)} x {len(self.y)} nodes",
+            f"approach {size * self.approach:.5g} {unit}; largest pressure {largest:.4g} of the Hertz pressure",
             f"film {central:.4g}{bars[0]} in the centre, {least:.4g}{bars[1]} at least, {unit}",
             *([] if self.layer is None else [self._supply_line(size, unit)]),
             *([] if self.temperature is None else [self.temperature.summary]),
@@ -280,17 +279,19 @@ class SteadyResult(ScaledTable, Origin):
 
     @property
     def front(self) -> float | None:
-        """X of the first node under pressure on Y = 0, up to which an oil supply fills the gap in part only.
+        """First node under pressure on y = 0, up to which an oil supply fills the gap in part only; as `x`.
 
         None for a flooded inlet.
         """
-        return None if self.layer is None else float(self.X[int(np.argmax(self.P[:, 0] > 0.0))])
+        return None if self.layer is None else float(self.x[int(np.argmax(self.p[:, 0] > 0.0))])
 
     def _supply_line(self, size: float, unit: str) -> str:
         """Layer that enters, and where the full film begins, in words."""
         assert self.layer is not None
+        assert self.front is not None
+        front = self.front / self.point.scales.a
         layers = sorted({f"{size * h:.4g}" for h in (self.layer.min(), self.layer.max())})
-        return f"layer of oil {' to '.join(layers)} {unit}; the film is full from X = {self.front:.3g} on"
+        return f"layer of oil {' to '.join(layers)} {unit}; the film is full from x/a = {front:.3g} on"
 
     def _sliding_line(self, sliding: ShearThinning) -> str:
         """Shear thinning by sliding, in words."""
@@ -299,7 +300,7 @@ class SteadyResult(ScaledTable, Origin):
         return f"slide-to-roll ratio {sliding.slide_roll:g}: central film {share:.4g} % of the Newtonian one"
 
     def to_dict(self) -> dict[str, Any]:
-        """Numbers without the fields, status and origin, ready for JSON; of an SI point with ``si``."""
+        """Numbers without the fields, status and origin, ready for JSON."""
         said: dict[str, Any] = {"status": str(self.status), "advice": self.status.advice}
         said |= {"reservation": self.reservation, "outside_assumptions": self.outside_assumptions}
         if self.supply is not None:
@@ -310,4 +311,4 @@ class SteadyResult(ScaledTable, Origin):
             said |= {"temperature": self.temperature.to_dict()}
         if self.asperities is not None:
             said |= {"asperities": self.asperities.to_dict()}
-        return ScaledTable.to_dict(self) | said | self.origin_dict()
+        return PointTable.to_dict(self) | said | self.origin_dict()

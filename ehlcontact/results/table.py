@@ -347,19 +347,28 @@ class PointTable(QuantityTable):
         """
         moes = moes_point(point)
         if moes != self.point.moes:
-            raise InputError(
-                "point", contact_text(moes, None), f"that of the result, {contact_text(self.point.moes, None)}"
-            )
+            raise InputError("point", contact_text(moes), f"that of the result, {contact_text(self.point.moes)}")
+        if point == self.point:
+            return self
         own = self.dimensionless
-        return own if moes is point else replace(own, point=point, **scaled(own, point.scales))
+        if moes is point:
+            return own
+        inner = {name: one.in_units_of(point) for name, one in own._inner().items()}
+        return replace(own, point=point, **scaled(own, point.scales), **inner)
 
     @property
     def dimensionless(self) -> Self:
         """The result in Moes units, at the `MoesPoint` of its point."""
         if isinstance(self.point, MoesPoint):
             return self
-        changes = scaled(self, self.point.scales, back=True)
+        changes: dict[str, Any] = scaled(self, self.point.scales, back=True)
+        changes |= {name: one.dimensionless for name, one in self._inner().items()}
         return replace(self, point=self.point.moes, **changes)
+
+    def _inner(self) -> dict[str, PointTable]:
+        """Results at the point that this one holds, by the names of their fields."""
+        values = {f.name: getattr(self, f.name) for f in fields(self)}
+        return {name: value for name, value in values.items() if isinstance(value, PointTable)}
 
     def _in_si(self) -> bool:
         return isinstance(self.point, OperatingPoint)
@@ -373,7 +382,11 @@ class ScaledTable(QuantityTable):
 
     __slots__ = ()
     UNITS = "dimensionless"
-    scales: Scales | None
+    if TYPE_CHECKING:
+
+        @property
+        def scales(self) -> Scales | None:
+            """SI values of the units."""
 
     @property
     def si(self) -> SIView:

@@ -19,7 +19,7 @@ from ehlcontact.jit import plain
 from ehlcontact.lubricant import TractionLaw, log_viscosity
 from ehlcontact.lubricant.traction_laws import LARGEST_SLIDE_ROLL, require_law
 from ehlcontact.origin import Origin
-from ehlcontact.point import Scales
+from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.quantities import NUMBER, Quantity
 from ehlcontact.results.contact_map import ContactView
 from ehlcontact.results.picture import Map
@@ -59,7 +59,7 @@ class Traction(QuantityTable, Origin):
     warming : ndarray, shape (k,), or None
         Largest mean temperature over the film above that of the inlet [K]; None of an isothermal film.
     law : TractionLaw
-    point, scales, domain, n, seconds, version
+    point, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
 
@@ -83,15 +83,14 @@ class Traction(QuantityTable, Origin):
 
     def map(self) -> Map:
         """Map of `stress`, for figures."""
-        assert self.scales is not None
-        view = ContactView(self.x, self.y, (self.scales.a, self.scales.b), (self._axis("x"), self._axis("y")))
-        stress = 1e-6 * self.stress
+        s, stress = self.point.scales, 1e-6 * self.stress
+        view = ContactView(self.x, self.y, (s.a, s.b), (self._axis("x"), self._axis("y")))
         return view.map(stress, "shear stress [MPa]", "magma", (0.0, float(stress.max()) or 1.0))
 
     def _summary_lines(self) -> list[str]:
         most = f"; at most {self.limit:.4g} by its limiting stress" if self.limit < inf else ""
         return [
-            contact_text(self.point, self.scales),
+            contact_text(self.point),
             f"{self.law}, slide-to-roll ratio {span(self.slide_roll)}",
             f"coefficient {span(self.coefficient)}{most}",
             f"traction {span(self.force, 1.0, 'N')}, power {span(self.power, 1.0, 'W')}",
@@ -123,26 +122,26 @@ def traction_of(film: SteadyResult, slide_roll: ArrayLike, law: TractionLaw) -> 
     if film.sliding is not None and ((ratios != film.sliding.slide_roll).any() or law != film.sliding.law):
         own = f"{film.sliding.slide_roll:g} and {film.sliding.law}, which thin this film"
         raise InputError("slide_roll and law", _shown(ratios), own)
-    wet = film.P > 0.0
-    p, at_unit, weights = s.pressure * film.P[wet], _log_newton(film, s)[wet], _weights(film)[wet]
+    wet = film.p > 0.0
+    p, at_unit, weights = film.p[wet], _log_newton(film, s)[wet], _weights(film)[wet]
     stresses = [law.of(at_unit + (log(ratio) if ratio else -inf), p) for ratio in ratios.tolist()]
     force = np.array([float(weights @ stress) for stress in stresses])
-    field = np.zeros(film.P.shape)
+    field = np.zeros(film.p.shape)
     field[wet] = stresses[-1]
     most = law.limit(p)
     return Traction(
         slide_roll=ratios,
-        coefficient=force / (film.force * s.force),
+        coefficient=force / (film.force),
         force=force,
         mean_stress=force / (pi * s.a * s.b),
         power=force * ratios * (s.a / s.time),
-        limit=float(weights @ most) / (film.force * s.force),
-        x=s.a * film.X,
-        y=s.b * film.Y,
+        limit=float(weights @ most) / (film.force),
+        x=film.x.copy(),
+        y=film.y.copy(),
         stress=field,
         warming=None if film.temperature is None else np.full(ratios.shape, film.temperature.largest),
         law=law,
-        **{name: getattr(film, name) for name in ("point", "scales", "domain", "n", "seconds", "version")},
+        **{name: getattr(film, name) for name in ("point", "domain", "n", "seconds", "version")},
     )
 
 
@@ -165,29 +164,29 @@ def _scales(film: SteadyResult) -> Scales:
     """Scales of a film that is solved, at an operating point in SI."""
     if not film.status.ok:
         raise InputError("film", str(film.status), "a film that has converged")
-    if film.scales is None:
+    if isinstance(film.point, MoesPoint):
         allowed = "at an OperatingPoint: a traction law has stresses in Pa, and a dimensionless point has no units"
         raise InputError("traction", "asked for", allowed)
-    return film.scales
+    return film.point.scales
 
 
 def _log_newton(film: SteadyResult, s: Scales) -> Array:
     """Logarithm of eta u_mean/h [Pa], of a slide-to-roll ratio of 1 (eqs. 1, 2); 0 where there is no pressure."""
-    law, wet = film.point.law, film.P > 0.0
-    found = np.zeros(film.P.shape)
+    moes, wet = film.point.moes, film.p > 0.0
+    law = moes.law
+    found = np.zeros(film.p.shape)
     viscosity = plain(log_viscosity)
-    log_eta = np.array([viscosity(P, law)[0] for P in film.P[wet].tolist()])
+    log_eta = np.array([viscosity(P, law)[0] for P in (film.p[wet] / s.pressure).tolist()])
     if film.temperature is not None:
-        numbers = film.temperature.inputs.numbers(film.point, s)
+        numbers = film.temperature.inputs.numbers(moes, s)
         log_eta += numbers.heating(film.temperature.mean[wet]) * (log_eta + law.q)
-    found[wet] = log_eta + log(film.point.eta0 * s.a / s.time) - np.log(s.length * film.H[wet])
+    found[wet] = log_eta + log(moes.eta0 * s.surface_speed) - np.log(film.h[wet])
     return found
 
 
 def _weights(film: SteadyResult) -> Array:
-    """Area [m2] of each node, with that of its image in y < 0; P is 0 on the border."""
-    assert film.scales is not None
-    cell = film.scales.a * film.scales.b * (film.X[1] - film.X[0]) * (film.Y[1] - film.Y[0])
-    weights = np.full(film.P.shape, 2.0 * cell)
+    """Area [m2] of each node, with that of its image in y < 0; the pressure is 0 on the border."""
+    cell = (film.x[1] - film.x[0]) * (film.y[1] - film.y[0])
+    weights = np.full(film.p.shape, 2.0 * cell)
     weights[:, 0] = cell
     return weights

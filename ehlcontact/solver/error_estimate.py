@@ -12,10 +12,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 from itertools import pairwise
-from typing import Self
+from typing import Annotated, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.quantities import LENGTH
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -34,12 +36,12 @@ class ErrorEstimate:
     Attributes
     ----------
     approach : float
-        Error of the mutual approach, in dry approaches; of a result in SI in m.
+        Error of the mutual approach [m; dry approach], in the units of its result.
     h_central, h_min : float
         Errors of the film at X = Y = 0 and of the smallest, each over that film; 1 where nothing is known.
     """
 
-    approach: float
+    approach: Annotated[float, LENGTH]
     h_central: float
     h_min: float
 

@@ -15,7 +15,7 @@ from ehlcontact.checks.frequency import by_name, fields_by_name
 from ehlcontact.checks.kinds import STEPS, Callback
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from ehlcontact.point import OperatingPoint
+from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.solver.balance import Balance
 from ehlcontact.transient.bodies import LONGEST_ABRUPT, Array, Motion, MotionState, Start, UnderLoad, scales_at
 
@@ -57,18 +57,16 @@ def passed_over(table: Table, T: Array) -> bool:
     return bool(T[1] >= times[-1] or beyond.max() > MISSED * np.ptp(values))
 
 
-def passed_over_note(inputs: Iterable[object], T: Array, unit: float | None) -> str:
-    """Note on those inputs with a table over time that the steps between the times `T` pass over; else empty.
-
-    `unit` is that of `T` in seconds, None at a dimensionless point.
-    """
+def passed_over_note(inputs: Iterable[object], T: Array, point: Point) -> str:
+    """Note on inputs with a table over time that the steps between the times `T` pass over; else empty."""
+    unit = point.scales.time
     for one in inputs:
         name, table = type(one).__name__, getattr(one, "_table", None)
         if table is None or not passed_over(table, T):
             continue
         step, end = float(np.diff(T).max()), float(table[0][-1])
         length, last, hint = f"T = {step:.3g}", f"T = {end:.3g}", ""
-        if unit is not None:
+        if isinstance(point, OperatingPoint):
             length, last = f"{length} ({unit * step:.3g} s)", f"{last} ({unit * end:.3g} s)"
             hint = f"; {name}(T, ...) is in 2a/u_sum, {name}.at(point, ...) in seconds"
         return (

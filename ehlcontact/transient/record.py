@@ -68,7 +68,7 @@ class Entry:
 
 
 COLUMNS = (
-    "T",
+    "t",
     "approach",
     "rate",
     "acceleration",

@@ -1,7 +1,4 @@
-"""Result of a transient run: its history, and interpolation between its steps; arrays are read-only.
-
-Everything is dimensionless, with the SI scales beside.
-"""
+"""Result of a transient run: its history, and interpolation between its steps; arrays are read-only."""
 
 from __future__ import annotations
 
@@ -13,27 +10,30 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
+from ehlcontact.point import Point
 from ehlcontact.quantities import (
     ACCELERATION,
     ACROSS,
     ALONG,
     FORCE,
     FREQUENCY,
+    HERTZ,
     LENGTH,
     MASS,
     NUMBER,
     PRESSURE,
     RATE,
     TIME,
+    in_hertz,
 )
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.steady_result import film_bars, grid_doubt
-from ehlcontact.results.table import Display, QuantityTable, ScaledTable
+from ehlcontact.results.table import Display, PointTable, QuantityTable
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
-from ehlcontact.summary import contact_text, span
-from ehlcontact.supply import OilLayer
+from ehlcontact.summary import contact_text, film_unit, span
+from ehlcontact.supply import OilLayer, layer_on
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.prescribed import passed_over_note
 from ehlcontact.transient.speed import SpeedHistory
@@ -43,154 +43,161 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Instants(QuantityTable):
-    """A simulation between its steps, continuous with continuous slopes, dimensionless.
+class Instants(PointTable):
+    """A simulation between its steps, continuous with continuous slopes, in the units of its point.
 
     Attributes
     ----------
-    T, approach, rate, force, load, h_central, h_min : ndarray, all of the shape of T
+    point : MoesPoint or OperatingPoint
+    t, approach, rate, force, load, h_central, h_min : ndarray, all of the shape of t
         As in `SimulationResult`; the load of a motion that prescribes the approach is the film force.
     """
 
-    T: Annotated[Array, TIME.over("T")]
-    approach: Annotated[Array, LENGTH.over("T")]
-    rate: Annotated[Array, RATE.over("T")]
-    force: Annotated[Array, FORCE.over("T")]
-    load: Annotated[Array, FORCE.over("T")]
-    h_central: Annotated[Array, LENGTH.over("T")]
-    h_min: Annotated[Array, LENGTH.over("T")]
+    point: Point
+    t: Annotated[Array, TIME.over("t")]
+    approach: Annotated[Array, LENGTH.over("t")]
+    rate: Annotated[Array, RATE.over("t")]
+    force: Annotated[Array, FORCE.over("t")]
+    load: Annotated[Array, FORCE.over("t")]
+    h_central: Annotated[Array, LENGTH.over("t")]
+    h_min: Annotated[Array, LENGTH.over("t")]
 
-    DISPLAY: ClassVar[Display] = Display(rows="T", panels=("force load", "approach", "h_central h_min"))
-    UNITS = "dimensionless"
+    DISPLAY: ClassVar[Display] = Display(rows="t", panels=("force load", "approach", "h_central h_min"))
 
     def __post_init__(self) -> None:
         freeze(self)
 
     def _summary_lines(self) -> list[str]:
-        return [
-            f"{self.T.size} times, T {span(self.T)}",
-            f"approach {span(self.approach)}, force {span(self.force)}",
-        ]
+        t, u, f = (span(getattr(self, name), 1.0, self._unit(name)) for name in ("t", "approach", "force"))
+        return [f"{self.t.size} times, t {t}", f"approach {u}, force {f}"]
 
 
-@stored("result of simulate")
+@stored("result of simulate", 2)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SimulationResult(ScaledTable, Origin):
-    """History of a transient contact, dimensionless; entry 0 is the initial state at T = 0. ``si`` has it in SI.
+class SimulationResult(PointTable, Origin):
+    """History of a transient contact, in the units of its point; entry 0 is the initial state at t = 0.
+
+    Units are those at an `OperatingPoint` and, after the semicolon, at a `MoesPoint`.
 
     Attributes
     ----------
     motion : Motion
     speed : SpeedHistory or None
         Speed of the surfaces over time; None where it is constant.
-    X, Y : ndarray, shape (nx + 1,), (ny + 1,)
-        x/a and y/b >= 0; fields are even in Y. In SI ``x``, ``y`` [m].
-    T : ndarray, shape (steps + 1,)
-        Times, in 2a/u_sum; in SI ``t`` [s].
+    x, y : ndarray, shape (nx + 1,), (ny + 1,)
+        Places along rolling and across [m; semi-axes a, b], y >= 0; fields are even in y.
+    t : ndarray, shape (steps + 1,)
+        Times [s; 2a/u_sum].
     approach, rate, acceleration : ndarray, shape (steps + 1,)
-        Mutual approach over the dry approach, and its derivatives to T; in SI [m], [m/s], [m/s2].
+        Mutual approach [m; dry approach], and its derivatives to t [m/s, m/s2].
     force, load : ndarray, shape (steps + 1,)
-        Film force, and applied load f_ext(T), over the static load; in SI [N].
+        Film force, and applied load f_ext(t) [N; static load].
     h_central, h_min : ndarray, shape (steps + 1,)
-        Film at X = Y = 0, and the smallest, between the nodes too, over the dry approach; in SI [m].
+        Film at x = y = 0, and the smallest, between the nodes too [m; dry approach].
     h_midplane, p_midplane : ndarray, shape (steps + 1, nx + 1)
-        Film over the dry approach and pressure over the Hertz pressure, along Y = 0; in SI [m], [Pa].
+        Film [m; dry approach] and pressure [Pa; Hertz pressure] along y = 0.
     residuals : ndarray, shape (steps + 1,)
-        Of each step's last cycle, relative to the central film at rest.
+        Residual of the last cycle of each step, relative to the central film at rest.
     load_residuals : ndarray, shape (steps + 1,)
-        Of the equation that closed each step, over the static load.
+        Residual of the equation that closed each step, over the static load.
     cycles : ndarray, shape (steps + 1,)
         Cycles of each step.
-    snapshot_T : ndarray, shape (k,)
-        Times of the whole fields kept; in SI ``snapshot_t`` [s].
-    snapshot_H, snapshot_P : ndarray, shape (k, nx + 1, ny + 1)
-        Film over the dry approach and pressure over the Hertz pressure; in SI ``snapshot_h`` [m], ``snapshot_p``
-        [Pa].
+    snapshot_t : ndarray, shape (k,)
+        Times of the whole fields kept [s; 2a/u_sum].
+    snapshot_h, snapshot_p : ndarray, shape (k, nx + 1, ny + 1)
+        Film [m; dry approach] and pressure [Pa; Hertz pressure] at these times.
     static_approach : float
-        Of the steady state under load 1, over the dry approach; in SI [m].
+        Approach of the steady state under the static load [m; dry approach].
     static_load : float
-        1; in SI [N].
-    Omega : float or None
-        Of a harmonic load; in SI ``omega`` [rad/s] and ``hz``.
+        Static load [N; 1].
+    omega, hz : float or None
+        Frequency of a harmonic load [rad/s; u_sum/(2a)], [Hz] at an `OperatingPoint`.
     mass : float or None
-        Of bodies with inertia (eq. 5), 1/Omega_n^2; in SI [kg].
+        Of bodies with inertia (eq. 5) [kg; f0/delta_H (2a/u_sum)^2, which is 1/Omega_n^2].
     status : Status
     tol : float or None
         Residual at which its steps counted as solved, relative to the central film at rest.
     supply : OilLayer or None
         As given to `simulate`; None of a flooded inlet, and with it the following two.
     layer : ndarray or None, shape (ny + 1,)
-        Oil on both surfaces ahead of the contact, over the dry approach; in SI [m].
+        Oil on both surfaces ahead of the contact [m; dry approach].
     layer_behind : ndarray or None, shape (steps + 1, ny + 1)
-        Oil on both surfaces where they leave the computed region; in SI [m].
+        Oil on both surfaces where they leave the computed region [m; dry approach].
     temperature : FilmTemperature or None
-        Of the film at T = 0; None of an isothermal film, and with it the following three.
+        Of the film at t = 0; None of an isothermal film, and with it the following three.
     warmest_oil, warmest_surface : ndarray or None, shape (steps + 1,)
         Largest mean temperature over the film, and that of a surface [K above the inlet].
     heat_balance : ndarray or None, shape (steps + 1,)
         Heat made less what oil stores, what it carries away and what surfaces take, over the first, in each step.
     film_error : ErrorEstimate or None
-        How far approach and films at T = 0 may be from those of an endless fine mesh on the same region; None of a
-        start that is not solved. In SI its approach is in m.
-    point, scales, domain, n, seconds, version
+        How far approach [m; dry approach] and films at t = 0 may be from those of an endless fine mesh on the same
+        region; None of a start that is not solved.
+    point, domain, n, seconds, version
         As in every result: `ehlcontact.origin.Origin`.
     """
 
     motion: Motion
     speed: SpeedHistory | None = None
-    X: Annotated[Array, ALONG.over("X", listed=False)]
-    Y: Annotated[Array, ACROSS.over("Y", listed=False)]
-    T: Annotated[Array, TIME.over("T")]
-    approach: Annotated[Array, LENGTH.over("T")]
-    rate: Annotated[Array, RATE.over("T")]
-    acceleration: Annotated[Array, ACCELERATION.over("T", listed=False)]
-    force: Annotated[Array, FORCE.over("T")]
-    load: Annotated[Array, FORCE.over("T")]
-    h_central: Annotated[Array, LENGTH.over("T")]
-    h_min: Annotated[Array, LENGTH.over("T")]
-    h_midplane: Annotated[Array, LENGTH.over("T X", listed=False)]
-    p_midplane: Annotated[Array, PRESSURE.over("T X", listed=False)]
-    residuals: Annotated[Array, NUMBER.over("T", listed=False)]
-    load_residuals: Annotated[Array, NUMBER.over("T", listed=False)]
-    cycles: Annotated[Array, NUMBER.over("T", listed=False)]
-    snapshot_T: Annotated[Array, TIME.over("snapshot_T", listed=False)]
-    snapshot_H: Annotated[Array, LENGTH.over("snapshot_T X Y", listed=False)]
-    snapshot_P: Annotated[Array, PRESSURE.over("snapshot_T X Y", listed=False)]
+    x: Annotated[Array, ALONG.over("x", listed=False)]
+    y: Annotated[Array, ACROSS.over("y", listed=False)]
+    t: Annotated[Array, TIME.over("t")]
+    approach: Annotated[Array, LENGTH.over("t")]
+    rate: Annotated[Array, RATE.over("t")]
+    acceleration: Annotated[Array, ACCELERATION.over("t", listed=False)]
+    force: Annotated[Array, FORCE.over("t")]
+    load: Annotated[Array, FORCE.over("t")]
+    h_central: Annotated[Array, LENGTH.over("t")]
+    h_min: Annotated[Array, LENGTH.over("t")]
+    h_midplane: Annotated[Array, LENGTH.over("t x", listed=False)]
+    p_midplane: Annotated[Array, PRESSURE.over("t x", listed=False)]
+    residuals: Annotated[Array, NUMBER.over("t", listed=False)]
+    load_residuals: Annotated[Array, NUMBER.over("t", listed=False)]
+    cycles: Annotated[Array, NUMBER.over("t", listed=False)]
+    snapshot_t: Annotated[Array, TIME.over("snapshot_t", listed=False)]
+    snapshot_h: Annotated[Array, LENGTH.over("snapshot_t x y", listed=False)]
+    snapshot_p: Annotated[Array, PRESSURE.over("snapshot_t x y", listed=False)]
     static_approach: Annotated[float, LENGTH]
     status: Status
     tol: float | None = None
     film_error: ErrorEstimate | None = None
     supply: OilLayer | None = None
-    layer: Annotated[Array | None, LENGTH.over("Y", listed=False)] = None
-    layer_behind: Annotated[Array | None, LENGTH.over("T Y", listed=False)] = None
+    layer: Annotated[Array | None, LENGTH.over("y", listed=False)] = None
+    layer_behind: Annotated[Array | None, LENGTH.over("t y", listed=False)] = None
     temperature: FilmTemperature | None = None
-    warmest_oil: Annotated[Array | None, NUMBER.over("T", listed=False)] = None
-    warmest_surface: Annotated[Array | None, NUMBER.over("T", listed=False)] = None
-    heat_balance: Annotated[Array | None, NUMBER.over("T", listed=False)] = None
+    warmest_oil: Annotated[Array | None, NUMBER.over("t", listed=False)] = None
+    warmest_surface: Annotated[Array | None, NUMBER.over("t", listed=False)] = None
+    heat_balance: Annotated[Array | None, NUMBER.over("t", listed=False)] = None
 
     DISPLAY: ClassVar[Display] = Display(
-        rows="T", panels=("force load", "approach", "h_central h_min", "h_midplane")
+        rows="t", panels=("force load", "approach", "h_central h_min", "h_midplane")
     )
 
     def require_complete(self, **sizes: int) -> None:
         """Raise `ValueError` unless all arrays have the shapes of each other and of the grid."""
-        QuantityTable.require_complete(self, X=self.n + 1, T=max(self.T.size, 1))
+        QuantityTable.require_complete(self, x=self.n + 1, t=max(self.t.size, 1))
 
     @property
     def static_load(self) -> Annotated[float, FORCE.in_si_only()]:
-        """Static load: 1."""
-        return 1.0
+        """Static load."""
+        return self.point.scales.force
 
     @property
-    def Omega(self) -> Annotated[float | None, FREQUENCY.in_si_only()]:
+    def omega(self) -> Annotated[float | None, FREQUENCY.in_si_only()]:
         """Angular frequency of the load, None where it is not harmonic."""
-        return getattr(self.motion, "Omega", None)
+        Omega: float | None = getattr(self.motion, "Omega", None)
+        return None if Omega is None else Omega * self.point.scales.frequency
+
+    @property
+    def hz(self) -> Annotated[float | None, HERTZ.in_si_only()]:
+        """Frequency of the load, None where it is not harmonic; raises `InputError` at a `MoesPoint`."""
+        omega = self.omega
+        return None if omega is None else float(in_hertz(self.point, omega))
 
     @property
     def mass(self) -> Annotated[float | None, MASS.in_si_only()]:
-        """Mass of the bodies (eq. 5), 1/Omega_n^2; None without inertia."""
+        """Mass of the bodies (eq. 5), None without inertia."""
         Omega_n: float | None = getattr(self.motion, "Omega_n", None)
-        return None if Omega_n is None else 1.0 / Omega_n**2
+        return None if Omega_n is None else self.point.scales.mass / Omega_n**2
 
     @property
     def supply_behind(self) -> OilLayer:
@@ -203,14 +210,14 @@ class SimulationResult(ScaledTable, Origin):
         """
         if self.layer_behind is None:
             raise InputError("supply", None, "given: what leaves a flooded contact is not known")
-        return OilLayer(H=self.layer_behind[-1], y=self.Y)
+        return layer_on(self.point, self.layer_behind[-1], self.y)
 
     @property
     def steps(self) -> int:
         """Number of time steps done."""
-        return len(self.T) - 1
+        return len(self.t) - 1
 
-    def at(self, T: ArrayLike) -> Instants:
+    def at(self, t: ArrayLike) -> Instants:
         """Dense output: cubic Hermite polynomials between the steps.
 
         The approach takes its slopes from the recorded rate (fourth order where the bodies have inertia), force
@@ -218,8 +225,8 @@ class SimulationResult(ScaledTable, Origin):
 
         Parameters
         ----------
-        T : array_like
-            Times within the record, of any shape.
+        t : array_like
+            Times within the record, of any shape, in the unit of `t`.
 
         Raises
         ------
@@ -229,34 +236,37 @@ class SimulationResult(ScaledTable, Origin):
         from scipy.interpolate import CubicHermiteSpline
 
         try:
-            times = np.array(T, dtype=float)
+            times = np.array(t, dtype=float)
         except (TypeError, ValueError):
-            raise InputError("T", T, "numbers") from None
-        if self.T.size < 3:
+            raise InputError("t", t, "numbers") from None
+        if self.t.size < 3:
             raise InputError("steps", self.steps, "at least 2 to interpolate between")
-        outside = times[~((times >= self.T[0]) & (times <= self.T[-1]))]
+        outside = times[~((times >= self.t[0]) & (times <= self.t[-1]))]
         if outside.size:
-            raise InputError("T", float(outside.flat[0]), f"between {self.T[0]:g} and {self.T[-1]:g}")
+            raise InputError("t", float(outside.flat[0]), f"between {self.t[0]:g} and {self.t[-1]:g}")
 
         def smooth(values: Array) -> Array:
-            return CubicHermiteSpline(self.T, values, np.gradient(values, self.T, edge_order=2))(times)
+            return CubicHermiteSpline(self.t, values, np.gradient(values, self.t, edge_order=2))(times)
 
-        approach = CubicHermiteSpline(self.T, self.approach, self.rate)
+        approach = CubicHermiteSpline(self.t, self.approach, self.rate)
         force = smooth(self.force)
-        loads = [self.motion.applied(t, f) for t, f in zip(times.flat, force.flat, strict=True)]
+        s = self.point.scales
+        moments = zip((times / s.time).flat, (force / s.force).flat, strict=True)
+        loads = s.force * np.array([self.motion.applied(T, f) for T, f in moments])
         return Instants(
-            T=times,
+            point=self.point,
+            t=times,
             approach=approach(times),
             rate=approach(times, 1),
             force=force,
-            load=np.array(loads).reshape(times.shape),
+            load=loads.reshape(times.shape),
             h_central=smooth(self.h_central),
             h_min=smooth(self.h_min),
         )
 
     def dissipated(self, start: float = 0.0, end: float = np.inf) -> float:
-        """Work ``integral of force d(approach)`` over T in [start, end]: what the film took up."""
-        keep = (self.T >= start) & (self.T <= end)
+        """Work ``integral of force d(approach)`` over t in [start, end]: what the film took up [J; f0 delta_H]."""
+        keep = (self.t >= start) & (self.t <= end)
         return float(np.trapezoid(self.force[keep], self.approach[keep]))
 
     @property
@@ -269,29 +279,21 @@ class SimulationResult(ScaledTable, Origin):
         if not self.status.ok:
             return ""
         tol = "" if self.tol is None else coarse_tolerance_note(self.motion, self.tol)
-        over = passed_over_note(
-            (self.motion, self.speed), self.T, None if self.scales is None else self.scales.time
-        )
-        step = coarse_step_note(self.motion, self.T)
+        T = self.t / self.point.scales.time
+        over = passed_over_note((self.motion, self.speed), T, self.point)
+        step = coarse_step_note(self.motion, T)
         return "; ".join(filter(None, [grid_doubt(self.film_error, "at the start"), step, tol, over]))
 
     def _summary_lines(self) -> list[str]:
+        size, unit = film_unit(self.point)
+        end = f"{1e3 * self.t[-1]:.4g} ms" if self._in_si() else f"t = {self.t[-1]:.4g}"
+        films = span(self.approach, size, unit if self._in_si() else "")
         lines = [
-            contact_text(self.point, self.scales),
-            f"{self.motion.kind}: {self.status} after {self.steps} steps on n = {self.n} to T = {self.T[-1]:.4g}",
+            contact_text(self.point),
+            f"{self.motion.kind}: {self.status} after {self.steps} steps on n = {self.n} to {end}",
+            f"approach {films}, force {span(self.force, 1.0, 'N' if self._in_si() else '')}",
+            f"film at least {size * self.h_min.min():.4g} {unit}",
         ]
-        if self.scales is None:
-            lines += [
-                f"approach {span(self.approach)}, force {span(self.force)}",
-                f"film at least {self.h_min.min():.4g}",
-            ]
-        else:
-            s = self.scales
-            lines[1] += f", {1e3 * s.time * self.T[-1]:.4g} ms"
-            lines += [
-                f"approach {span(self.approach, 1e6 * s.length, 'µm')}, force {span(self.force, s.force, 'N')}"
-            ]
-            lines += [f"film at least {1e6 * s.length * self.h_min.min():.4g} µm"]
         lines[-1] += "".join(f", {text}" for text in (self._oil_words, self._heat_words) if text)
         if self.film_error is not None:
             central, least = film_bars(self.film_error)
@@ -303,8 +305,8 @@ class SimulationResult(ScaledTable, Origin):
         """Layer of oil ahead of the contact, in words; empty of a flooded one."""
         if self.layer is None:
             return ""
-        unit, name = (1.0, "dry approaches") if self.scales is None else (1e6 * self.scales.length, "µm")
-        return f"under a layer of {unit * self.layer[0]:.4g} {name}"
+        size, unit = film_unit(self.point)
+        return f"under a layer of {size * self.layer[0]:.4g} {unit}"
 
     @property
     def _heat_words(self) -> str:
@@ -314,9 +316,9 @@ class SimulationResult(ScaledTable, Origin):
         return f"with heat: oil up to {self.warmest_oil.max():.3g} K above the inlet"
 
     def to_dict(self) -> dict[str, Any]:
-        """Histories, status and origin, ready for JSON; of an SI point with ``si``."""
+        """Histories, status and origin, ready for JSON."""
         return (
-            ScaledTable.to_dict(self)
+            PointTable.to_dict(self)
             | {
                 "status": str(self.status),
                 "advice": self.status.advice,

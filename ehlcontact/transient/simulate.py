@@ -18,7 +18,7 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.heat import Heat
-from ehlcontact.point import Point, Scales, require_solvable, scales_of
+from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
@@ -139,10 +139,9 @@ def simulate(
     meshes = chain([mesh], wider)
     _warn_of_shape(surface, moes.kappa)
     spacing = (mesh.domain.x_out - mesh.domain.x_in) / mesh.n
-    scales = scales_of(point)
-    unit = 1.0 if scales is None else scales.time
+    unit = point.scales.time
     steps = StepPlan.of(motion, time, unit, default_fixed_step(motion, surface, spacing, speed))
-    _warn_of_steps(motion, speed, steps, scales)
+    _warn_of_steps(point, motion, speed, steps)
     inputs = RunInputs(
         moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed, conditions
     )
@@ -151,7 +150,7 @@ def simulate(
     threads = require_threads("threads", run.threads)
 
     def film_on(mesh: Mesh) -> TransientFilm:
-        film = TransientFilm.under(conditions, moes, scales, mesh, steps.tol, grid.deflection, threads)
+        film = TransientFilm.under(conditions, moes, scales_of(point), mesh, steps.tol, grid.deflection, threads)
         if isinstance(surface, Roughness):
             way = steps.until if speed is None else speed.farthest(steps.until)
             surface.require_fit(film.level.X, film.level.Y, way)
@@ -200,10 +199,11 @@ def simulate(
             unkept = lost
         except KeyboardInterrupt:  # a second one; the file is what it was
             end = RunEnd(Status.INTERRUPTED)
-    result = _result(film_run, inputs, scales, end.status, perf_counter() - started)
+    own = _result(film_run, inputs, end.status, perf_counter() - started)
+    result = own.in_units_of(point)
     if run.throw and not end.status.ok and end.status is not Status.INTERRUPTED:
-        G = surface_height(film_run.surface, result.X, result.Y, float(result.T[-1]))
-        raise ConvergenceError(_message(result, end, -float(np.min(G))), result)
+        G = surface_height(film_run.surface, own.x, own.y, float(own.t[-1]))
+        raise ConvergenceError(_message(own, end, -float(np.min(G))), result)
     if unkept is not None:
         raise CheckpointError(unkept, result)
     return result
@@ -220,12 +220,12 @@ def _warn_of_shape(surface: Surface | None, kappa: float) -> None:
         )
 
 
-def _warn_of_steps(motion: Motion, speed: SpeedHistory | None, steps: StepPlan, scales: Scales | None) -> None:
+def _warn_of_steps(point: Point, motion: Motion, speed: SpeedHistory | None, steps: StepPlan) -> None:
     """Say where fixed steps pass over changes of a table: most often its times are in another unit."""
     if steps.local_error is not None:
         return
     T = np.linspace(0.0, steps.until, round(steps.until / steps.dT) + 1)
-    if note := passed_over_note((motion, speed), T, None if scales is None else scales.time):
+    if note := passed_over_note((motion, speed), T, point):
         warnings.warn(note, RuntimeWarning, stacklevel=5)
 
 
@@ -243,29 +243,27 @@ def _first_inside(
     return left if left is not None and not helped else (mesh, run, end)
 
 
-def _result(
-    run: Run, inputs: RunInputs, scales: Scales | None, status: Status, seconds: float
-) -> SimulationResult:
+def _result(run: Run, inputs: RunInputs, status: Status, seconds: float) -> SimulationResult:
+    """Result of a run, in Moes units."""
     level, record, supply = run.film.level, run.history.record(run.film.level), inputs.conditions.supply
     numbers: dict[str, Any] = record.columns()
-    if numbers["T"].size > 2:
-        columns = (numbers[name] for name in ("T", "approach", "rate", "acceleration"))
+    if numbers["t"].size > 2:
+        columns = (numbers[name] for name in ("t", "approach", "rate", "acceleration"))
         numbers["rate"], numbers["acceleration"] = inputs.motion.slopes(*columns)
     return SimulationResult(
         point=inputs.point,
-        scales=scales,
         domain=inputs.mesh.domain,
         n=inputs.mesh.n,
         motion=inputs.motion,
         speed=inputs.speed,
-        X=level.X.copy(),
-        Y=level.Y.copy(),
+        x=level.X.copy(),
+        y=level.Y.copy(),
         **numbers,
         h_midplane=record.film,
         p_midplane=record.pressure,
-        snapshot_T=record.snapshot_T,
-        snapshot_H=record.snapshot_H,
-        snapshot_P=record.snapshot_P,
+        snapshot_t=record.snapshot_T,
+        snapshot_h=record.snapshot_H,
+        snapshot_p=record.snapshot_P,
         static_approach=run.static_approach,
         status=status,
         tol=inputs.steps.tol,
@@ -297,4 +295,4 @@ def _message(result: SimulationResult, end: RunEnd, highest: float) -> str:
             f"the surface stands out by {highest:.3g} dry approaches: one that closes the gap has no film"
         )
     note = f" ({', '.join(notes)})" if notes else ""
-    return f"simulation {end.status} at T = {result.T[-1]:.6g}{note}: {end.status.advice}"
+    return f"simulation {end.status} at T = {result.t[-1]:.6g}{note}: {end.status.advice}"

@@ -105,7 +105,8 @@ class TransientContact(Summary):
         threads: int | None = None,
     ) -> None:
         load = require_positive("largest_load", largest_load)
-        self.point, self.scales = require_solvable(point, load), scales_of(point)
+        self.point, self.scales = point, scales_of(point)
+        moes = require_solvable(point, load)
         require_grid(grid)
         conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
         require_surface(surface)
@@ -113,8 +114,8 @@ class TransientContact(Summary):
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)
         left: Step | None = None
-        for mesh in wider_meshes(self.point, Purpose.CONTACT, grid, largest_load=load):
-            given = (conditions, self.point, self.scales, mesh, tol, grid.deflection, threads)
+        for mesh in wider_meshes(moes, Purpose.CONTACT, grid, largest_load=load):
+            given = (conditions, moes, self.scales, mesh, tol, grid.deflection, threads)
             self._film = TransientFilm.under(*given)
             self.n, self.domain = mesh.n, mesh.domain
             level = self._film.level
@@ -133,7 +134,7 @@ class TransientContact(Summary):
         s = self.scales
         size, unit, load, newton = (1.0, "", 1.0, "") if s is None else (1e6 * s.length, " µm", s.force, " N")
         return [
-            contact_text(self.point, s),
+            contact_text(self.point),
             f"whole film on n = {self.n}, x from {self.domain.x_in:g} to {self.domain.x_out:g} semi-axes",
             f"now: force {load * self.force:.5g}{newton}, film {size * self.h_central:.4g}{unit} in the centre, "
             f"{size * self.h_min:.4g}{unit} at least",

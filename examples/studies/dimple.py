@@ -106,7 +106,7 @@ def show_progress(t: float, end: float) -> None:
 
 def gaps(run: SimulationResult) -> list[Curve]:
     """Gap [nm] along the centre line over x [um] at the snapshots."""
-    films = [film_of(run, T).along.si for T in run.snapshot_T]
+    films = [film_of(run, t).along for t in run.snapshot_t]
     return [(film.x * 1e6, film.h * 1e9) for film in films]
 
 
@@ -148,11 +148,10 @@ def draw(shallow: SimulationResult, deep: SimulationResult, rimless: SimulationR
         3, 5, figsize=(13, 7.2), layout="constrained", sharex=True, sharey="row", height_ratios=(1.15, 1, 1)
     )
     for k, panel in enumerate(panels[0]):
-        film = film_of(rimless, float(rimless.snapshot_T[k]))
-        si = film.si
+        film = film_of(rimless, float(rimless.snapshot_t[k]))
         fringes = interferogram(film, WAVELENGTH)
         shown = np.where(fringes.resolved, fringes.intensity, 0.5)
-        panel.pcolormesh(si.x * 1e6, si.y * 1e6, shown.T, cmap="gray", shading="gouraud", rasterized=True)
+        panel.pcolormesh(film.x * 1e6, film.y * 1e6, shown.T, cmap="gray", shading="gouraud", rasterized=True)
         panel.set(title=f"instant {k + 1}", ylim=(-185, 185), aspect="equal")
     panels[0, 0].set_ylabel("fringes at 600 nm, 7 µm deep\ny across [µm]")
     for row, kind, run, without in (
@@ -182,8 +181,7 @@ def main() -> None:
     parser.add_argument("picture", nargs="?", type=Path, default=Path("dimple.png"))
     target = parser.parse_args().picture
     steady = solve_steady(POINT, grid=Grid(n=256))
-    unit = POINT.scales.length * 1e9
-    central, least = steady.h_central * unit, steady.h_min * unit
+    central, least = steady.h_central * 1e9, steady.h_min * 1e9
     print(f"smooth: central film {central:.1f} nm, minimum film {least:.1f} nm (Mourier et al.: 212 and 119 nm)")
     runs = []
     for name, kind, surface in (
@@ -194,7 +192,7 @@ def main() -> None:
         theirs = published(kind)
         run = roll(surface, [dimple_centre(curve) for curve in theirs])
         print(f"dimple {name}: {run.steps} steps, {run.cycles[1:].mean():.1f} cycles each,", end=" ")
-        print(f"least film {run.h_min.min() * unit:.0f} nm")
+        print(f"least film {run.h_min.min() * 1e9:.0f} nm")
         report(
             f"  difference from their {kind} outside the dimple, over the central film", gaps(run), theirs, central
         )

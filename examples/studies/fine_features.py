@@ -59,7 +59,7 @@ def under_load(
     mesh = (NEAR.x_out - NEAR.x_in) / n
     until = mesh * np.ceil(until / mesh - 1e-9)
     load = PrescribedLoad(np.linspace(0.0, until, 4), np.ones(4))
-    unit = point.scales.time if isinstance(point, OperatingPoint) else 1.0
+    unit = point.scales.time
     return simulate(
         point,
         load,
@@ -95,15 +95,15 @@ def told(run: SimulationResult) -> str:
 
 def report_dent(name: str, speed: float, start: float, run: SimulationResult) -> None:
     """Print what stands in the dimple and ahead of it, at the second of its places."""
-    T = float(run.snapshot_T[1])
-    along, place = film_of(run, T).along, start + speed * T
-    ahead = (along.X > place + 1.6 * RADIUS / BALL_ON_DISC.scales.a) & (along.X < 0.85)
-    crest = int(np.argmax(np.where(ahead, along.H, 0.0)))
-    smooth = 1e9 * BALL_ON_DISC.scales.length * run.h_central[0]
+    t, s = float(run.snapshot_t[1]), BALL_ON_DISC.scales
+    along, place = film_of(run, t).along, s.a * (start + speed * t / s.time)
+    ahead = (along.x > place + 1.6 * RADIUS) & (along.x < 0.85 * s.a)
+    crest = int(np.argmax(np.where(ahead, along.h, 0.0)))
+    smooth = 1e9 * run.h_central[0]
     print(f"{name.replace('$', '')}: {told(run)}; {smooth:.0f} nm smooth")
-    here = 1e9 * along.si.h[np.abs(along.X - place) < 0.2].max()
-    print(f"  dimple at X = {place:+.2f}: {here:.0f} nm in it,", end=" ")
-    print(f"at most {1e9 * along.si.h[crest]:.0f} nm ahead of it, at X = {along.X[crest]:+.2f}")
+    here = 1e9 * along.h[np.abs(along.x - place) < 0.2 * s.a].max()
+    print(f"  dimple at x/a = {place / s.a:+.2f}: {here:.0f} nm in it,", end=" ")
+    print(f"at most {1e9 * along.h[crest]:.0f} nm ahead of it, at x/a = {along.x[crest] / s.a:+.2f}")
 
 
 def draw_dents(runs: dict[str, SimulationResult], path: Path) -> None:
@@ -112,15 +112,15 @@ def draw_dents(runs: dict[str, SimulationResult], path: Path) -> None:
 
     scales = BALL_ON_DISC.scales
     a = scales.a * 1e6
-    smooth = next(iter(runs.values())).h_midplane[0] * scales.length * 1e9
+    smooth = next(iter(runs.values())).h_midplane[0] * 1e9
     figure, panels = plt.subplots(
         3, 4, figsize=(10.5, 6.7), layout="constrained", sharex=True, sharey="row", height_ratios=(1.35, 1.35, 1.0)
     )
     for row, (name, run) in zip(panels[:2], runs.items(), strict=True):
         speed, start = SPEEDS[name]
-        for panel, profile, T in zip(row, panels[2], run.snapshot_T, strict=True):
-            whole, place = film_of(run, float(T)), (start + speed * T) * a
-            film, along = whole.si, whole.along.si
+        for panel, profile, t in zip(row, panels[2], run.snapshot_t, strict=True):
+            film, place = film_of(run, float(t)), (start + speed * t / scales.time) * a
+            along = film.along
             image = panel.pcolormesh(
                 film.x * 1e6, film.y * 1e6, film.h.T * 1e9, vmin=120, vmax=320, cmap="viridis", rasterized=True
             )
@@ -148,30 +148,30 @@ def draw_rough(run: SimulationResult, surface: Roughness, path: Path) -> None:
     """Film and pressure as maps, and along the middle beside the smooth ones."""
     import matplotlib.pyplot as plt
 
-    T = float(run.snapshot_T[-1])
+    T = float(run.snapshot_t[-1])
     film, central = film_of(run, T), run.h_central[0]
     figure = plt.figure(figsize=(9.5, 6.9), layout="constrained")
     maps, lines = figure.subfigures(2, 1, height_ratios=(1.35, 1.0))
     for panel, field, limits, colours, label in (
-        (maps.add_subplot(1, 2, 1), film.H / central, (0.4, 1.4), "viridis", "film over the smooth central one"),
-        (maps.add_subplot(1, 2, 2), film.P, (0.0, 1.1), "magma", "pressure over the Hertz pressure"),
+        (maps.add_subplot(1, 2, 1), film.h / central, (0.4, 1.4), "viridis", "film over the smooth central one"),
+        (maps.add_subplot(1, 2, 2), film.p, (0.0, 1.1), "magma", "pressure over the Hertz pressure"),
     ):
         low, high = limits
-        image = panel.pcolormesh(film.X, film.Y, field.T, vmin=low, vmax=high, cmap=colours, rasterized=True)
+        image = panel.pcolormesh(film.x, film.y, field.T, vmin=low, vmax=high, cmap=colours, rasterized=True)
         panel.set(
             aspect="equal", xlim=(-1.3, 1.2), ylim=(-1.2, 1.2), xlabel="x/a along rolling", ylabel="y/b across"
         )
         maps.colorbar(image, ax=panel, label=label, shrink=0.95)
     upper, lower = lines.subplots(2, 1, sharex=True)
-    heights = surface(film.X[None, :], np.zeros((1, 1)), T)[0]
+    heights = surface(film.x[None, :], np.zeros((1, 1)), T)[0]
     upper.plot(
-        film.X, heights / central, color=COLOURS["grey"], linewidth=0.9, label="roughness, undeformed, valleys up"
+        film.x, heights / central, color=COLOURS["grey"], linewidth=0.9, label="roughness, undeformed, valleys up"
     )
-    change = (film.along.H - run.h_midplane[0]) / central
-    upper.plot(film.X, change, color=COLOURS["blue"], linewidth=1.2, label="change of the film")
+    change = (film.along.h - run.h_midplane[0]) / central
+    upper.plot(film.x, change, color=COLOURS["blue"], linewidth=1.2, label="change of the film")
     upper.set(ylabel="height/film", ylim=(-0.65, 0.65))
-    lower.plot(film.X, run.p_midplane[0], "--", color=COLOURS["grey"], linewidth=1.0, label="smooth")
-    lower.plot(film.X, film.along.P, color=COLOURS["red"], linewidth=1.2, label="rough")
+    lower.plot(film.x, run.p_midplane[0], "--", color=COLOURS["grey"], linewidth=1.0, label="smooth")
+    lower.plot(film.x, film.along.p, color=COLOURS["red"], linewidth=1.2, label="rough")
     lower.set(ylabel="P", xlabel="x/a along the middle", xlim=(-1.3, 1.2), ylim=(0.0, 1.3))
     for panel in (upper, lower):
         panel.legend(frameon=False, fontsize=8, ncols=2, loc="upper left")
@@ -195,8 +195,8 @@ def main() -> None:
         report_dent(name, *SPEEDS[name], run)
     draw_dents(runs, options.folder / "dimple_passing.png")
     run, surface = rough(options.n)
-    inside = np.hypot(run.X[:, None], run.Y) < 0.7
-    share = np.std(run.snapshot_H[-1][inside]) / run.h_central[0]
+    inside = np.hypot(run.x[:, None], run.y) < 0.7
+    share = np.std(run.snapshot_h[-1][inside]) / run.h_central[0]
     print(f"roughness of {surface.rms / run.h_central[0]:.3f} of the film: {told(run)}")
     print(f"  film within 0.7 of the radius: rms {share:.3f} of the central one")
     draw_rough(run, surface, options.folder / "rough_film.png")

@@ -61,8 +61,8 @@ def passage(point: MoesPoint, depth: float, n: int) -> Passage:
     wavelength = PERIOD / np.arange(1, int(PERIOD / SHORTEST) + 1)
     G = excitation(point, wavelength=np.append(1e3, wavelength), grid=grid).value
     element = Atlas().wide(point, np.geomspace(LIGHTEST / point.M, HEAVIEST, 24))
-    X = START + run.T
-    return Passage(point, depth, X, run.force, linear(G, X, depth), *reduced(point, element, run.T, X, depth))
+    X = START + run.t
+    return Passage(point, depth, X, run.force, linear(G, X, depth), *reduced(point, element, run.t, X, depth))
 
 
 def linear(G: np.ndarray, X: np.ndarray, depth: float) -> np.ndarray:

@@ -100,7 +100,7 @@ class AtlasAnswer(ScaledTable):
         names = ("", "") if s is None else (" N/µm", " N s/m")
         film = "flooded films" if self.temperature is None else "flooded isothermal films"
         return [
-            contact_text(self.point, s),
+            contact_text(self.point) + ("" if s is None else f"; {s.force:.4g} N, {s.pressure * 1e-9:.3g} GPa"),
             f"approach {size * self.approach:.5g} ± {size * bar['approach']:.1g} {unit}",
             f"film {size * self.h_central:.4g} ± {size * bar['h_central']:.1g} in the centre, "
             f"{size * self.h_min:.4g} ± {size * bar['h_min']:.1g} at least, {unit}",

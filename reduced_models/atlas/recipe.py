@@ -129,7 +129,8 @@ def linear_answer(
     film = solve_steady(point, grid=grid, **conditions)
     moving = np.maximum(Omega, least)
     Z, _ = linearised(film, held(film)).respond(moving, tolerance)
-    numbers = {name: float(getattr(film, name)) for name in FILM}
+    own = film.dimensionless
+    numbers = {name: float(getattr(own, name)) for name in FILM}
     return numbers | {"stiffness": Z.real.tolist(), "damping": (Z.imag / moving).tolist()}
 
 

@@ -241,7 +241,7 @@ class FilterAnswer(QuantityTable):
 
     def _summary_lines(self) -> list[str]:
         return [
-            contact_text(self.point, None),
+            contact_text(self.point),
             f"contact filter {span(self.contact_filter)} at wavelengths of {span(self.wavelength)} semi-axes",
             f"error bars up to {self.error.max():.2g}",
         ]

@@ -120,9 +120,7 @@ def _element(samples: Samples, kind: str, fitted: Estimate) -> SpringContact:
         kind=kind,
         **(fitted.parameters | box),
         units=first.units,
-        source=source_of(
-            first.point, first.scales, samples.each("n"), samples.each("domain"), samples.each("motion")
-        ),
+        source=source_of(first.point, samples.each("n"), samples.each("domain"), samples.each("motion")),
     )
 
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact.point import OperatingPoint
-from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, HERTZ, LENGTH, STIFFNESS, TIME, Quantity
+from ehlcontact.point import MoesPoint, OperatingPoint
+from ehlcontact.quantities import DAMPING, FREQUENCY, HERTZ, STIFFNESS
 from ehlcontact.results.picture import (
     BLUE,
     GREEN,
@@ -32,16 +32,17 @@ SMOOTH = 300  # frequencies of the curve of an element
 
 def histories(run: Any, fitted: FitResult | None) -> Picture:
     """Approach, force and film of a `SimulationResult` over time, with the fitted force."""
-    (t, time), (u, approach), (force, force_label) = (run.axis(name) for name in ("T", "approach", "force"))
-    rest = _in_units(run, LENGTH, run.static_approach)
+    (t, time), (u, approach), (force, force_label) = (run.axis(name) for name in ("t", "approach", "force"))
+    rest = run.static_approach
     above = [Line(t, u, "film", BLUE), Line(t[[0, -1]], [rest] * 2, "at rest", GREY, ":")]
     forces, bands = [Line(t, force, "film", BLUE)], list[tuple[Band, ...]]([()] * 3)
     if fitted is None:
         forces.append(Line(t, run.axis("load")[0], "load", GREY, ":"))
     else:
-        element = _in_units(run, FORCE, np.asarray(fitted.element.force(run.approach, run.rate)))
+        own, window = _own_element(run, fitted)
+        element = np.asarray(own.force(run.approach, run.rate))
         forces.append(Line(t, element, "cubic element", RED, "--"))
-        until = float(_in_units(run, TIME, fitted.window[0][0]))
+        until = float(window[0])
         bands = [(Band(float(t[0]), until, text),) for text in ("", "not fitted", "")]
     films = film_lines(run)
     panels = [
@@ -58,7 +59,7 @@ def histories(run: Any, fitted: FitResult | None) -> Picture:
 
 def film_lines(run: Any) -> list[Line]:
     """Central and minimum film over time."""
-    t = run.axis("T")[0]
+    t = run.axis("t")[0]
     return [
         Line(t, run.axis("h_central")[0], "centre", GREEN),
         Line(t, run.axis("h_min")[0], "minimum", ORANGE),
@@ -82,23 +83,28 @@ def loops(runs: Mapping[str, Any], fits: Mapping[str, FitResult], titles: Mappin
 
 def _fitted_loop(run: Any, found: FitResult) -> tuple[list[Line], list[Line], tuple[Band, ...]]:
     """The part of a loop that was fitted, with the element; both less the element's static law; its validity."""
-    part = (run.T >= found.window[0][0]) & (run.T <= found.window[0][1])
+    element, window = _own_element(run, found)
+    part = (run.t >= window[0]) & (run.t <= window[1])
     u, rate = run.approach[part], run.rate[part]
-    model, spring = (np.asarray(f) for f in (found.element.force(u, rate), found.element.spring(u)))
-    low, high = found.valid["low"], found.valid["high"]
+    model, spring = (np.asarray(f) for f in (element.force(u, rate), element.spring(u)))
+    low, high = element.low, element.high
     wide = np.linspace(low - BEYOND * (high - low), high + BEYOND * (high - low), 200)
-    static = _in_units(run, FORCE, np.asarray(found.element.spring(wide)))
-    x = _in_units(run, LENGTH, u)
-    law = Line(_in_units(run, LENGTH, wide), static, STATIC, GREY, width=1.0)
+    law = Line(wide, np.asarray(element.spring(wide)), STATIC, GREY, width=1.0)
     pairs = [
         [
-            Line(x, _in_units(run, FORCE, run.force[part] - less), "film", BLUE),
-            Line(x, _in_units(run, FORCE, model - less), "cubic element", RED, "--"),
+            Line(u, run.force[part] - less, "film", BLUE),
+            Line(u, model - less, "cubic element", RED, "--"),
         ]
         for less in (np.zeros_like(spring), spring)
     ]
-    ends = float(_in_units(run, LENGTH, low)), float(_in_units(run, LENGTH, high))
-    return [law, *pairs[0]], pairs[1], (Band(*ends, "valid", PALE_BLUE),)
+    return [law, *pairs[0]], pairs[1], (Band(float(low), float(high), "valid", PALE_BLUE),)
+
+
+def _own_element(run: Any, found: FitResult) -> tuple[Any, tuple[float, float]]:
+    """Element of a fit, which is dimensionless, and its window, in the units of a run."""
+    s, (start, end) = run.point.scales, found.window[0]
+    element = found.element if isinstance(run.point, MoesPoint) else found.element.to_si(s)
+    return element, (start * s.time, end * s.time)
 
 
 def impedance(
@@ -145,8 +151,3 @@ def impedance(
     frequency = ("frequency", HERTZ.unit) if si else ("angular frequency", FREQUENCY.moes)
     units = (STIFFNESS.unit, DAMPING.unit) if si else (STIFFNESS.moes, DAMPING.moes)
     return Picture(stiffness_and_damping(lines, frequency, units, marks=marks))
-
-
-def _in_units(result: Any, quantity: Quantity, values: Any) -> Any:
-    """Dimensionless values in SI, where the result has scales."""
-    return values if result.scales is None else quantity.in_si(values, result.scales)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
 from ehlcontact.checks.frequency import fields_by_name
 from ehlcontact.errors import InputError
-from ehlcontact.point import MoesPoint, Scales
+from ehlcontact.point import Point
 from ehlcontact.quantities import ACCELERATION, FORCE, LENGTH, RATE, TIME
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
@@ -41,10 +41,8 @@ class ContactRecord(QuantityTable):
         Time, mutual approach, its time derivative and contact force: dimensionless, or s, m, m/s and N.
     load, acceleration : array_like, shape (N,), optional
         Applied load and second derivative of the approach.
-    point : MoesPoint, optional
+    point : MoesPoint or OperatingPoint, optional
         Operating point of the contact.
-    scales : Scales, optional
-        SI values of the units.
     n : int, optional
         Grid intervals of the simulation.
     domain : tuple of float, optional
@@ -70,8 +68,7 @@ class ContactRecord(QuantityTable):
     force: Annotated[_Floats, FORCE.over("T")]
     load: Annotated[_Floats | None, FORCE.over("T")] = None
     acceleration: Annotated[_Floats | None, ACCELERATION.over("T")] = None
-    point: MoesPoint | None = None
-    scales: Scales | None = None
+    point: Point | None = None
     n: int | None = None
     domain: tuple[float, ...] | None = None
     motion: Mapping[str, Any] | None = None
@@ -88,7 +85,7 @@ class ContactRecord(QuantityTable):
         kind = "" if self.motion is None else f", {self.motion.get('kind', 'a motion')}"
         return [
             f"{self.units}{kind}, {self.T.size} samples up to T = {self.T[-1]:.4g}",
-            contact_text(self.point, self.scales),
+            contact_text(self.point),
             f"approach {span(self.approach)}, force {span(self.force)}",
         ]
 
@@ -124,7 +121,7 @@ class ContactRecord(QuantityTable):
         InputError
             No simulation, one that did not converge, or histories that cannot be used.
         """
-        if not all(hasattr(simulation, name) for name in (*_HISTORIES, "status", "motion", "domain")):
+        if not all(hasattr(simulation, name) for name in ("t", *_HISTORIES[1:], "status", "motion", "domain")):
             allowed = "a SimulationResult, as of ehlcontact.simulate"
             raise InputError("simulation", type(simulation).__name__, allowed)
         status = str(simulation.status)
@@ -134,19 +131,19 @@ class ContactRecord(QuantityTable):
                 status,
                 "'converged' (in Python, accept_unconverged=True takes it all the same)",
             )
-        motion = dict(simulation.motion.to_dict())
+        motion, point = dict(simulation.motion.to_dict()), simulation.point
+        simulation = simulation.dimensionless
         domain = simulation.domain
         if not isinstance(domain, tuple | list):
             domain = (domain.x_in, domain.x_out, domain.y_max)
         return cls(
-            T=simulation.T,
+            T=simulation.t,
             approach=simulation.approach,
             rate=simulation.rate,
             force=simulation.force,
             load=simulation.load,
             acceleration=simulation.acceleration,
-            point=simulation.point,
-            scales=simulation.scales,
+            point=point,
             n=int(simulation.n),
             domain=tuple(float(value) for value in domain),
             motion=motion,

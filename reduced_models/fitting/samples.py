@@ -91,7 +91,7 @@ class Samples:
 def _require_one_contact(records: Sequence[ContactRecord]) -> None:
     first = records[0]
     for i, record in enumerate(records):
-        for name in ("units", "point", "scales", "static_load"):
+        for name in ("units", "point", "static_load"):
             if getattr(record, name) != getattr(first, name):
                 raise InputError(
                     f"records[{i}].{name}",

@@ -15,7 +15,7 @@ from ehlcontact.checks import as_column
 from ehlcontact.checks.frequency import by_name
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
-from ehlcontact.point import Point, moes_point, require_solvable, scales_of
+from ehlcontact.point import Point, moes_point, require_solvable
 from ehlcontact.results import Response
 from reduced_models.elements.film_contact import FilmContact
 from reduced_models.elements.film_response import FilterRates, fit_gains, inlet_saturation_of
@@ -130,13 +130,13 @@ def wide_range_from_solves(
     for name, values in (("loads[0]", at), ("memory_loads[0]", places)):
         if values[0] <= 0.0:
             raise InputError(name, float(values[0]), "> 0")
-    moes, scales = moes_point(point), scales_of(point)
+    moes = moes_point(point)
     for f in sorted({*at.tolist(), *places.tolist()}):  # all of them before the first solve
         require_solvable(replace(moes, M=moes.M * f))
     steady = [solve_steady(replace(moes, M=moes.M * f), grid=Grid(n=n)) for f in at.tolist()]
     responses = [impedance(replace(moes, M=moes.M * f), Omega=Omega, grid=Grid(n=n)) for f in places.tolist()]
     approach, domains = [s.approach for s in steady], [list(s.domain.as_tuple()) for s in steady]
-    source = source_of(moes, scales, n, domains)
+    source = source_of(point, n, domains)
     return wide_range_contact(at, approach, places, responses, lags=lags, memory=memory, source=source)
 
 

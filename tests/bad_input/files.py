@@ -103,8 +103,8 @@ def header_of(**changes):
 
 def promised(file):
     """An array of 8 TB, of which nothing is there."""
-    del file["T"]
-    file.create_dataset("T", shape=(10**12,), dtype=float)
+    del file["t"]
+    file.create_dataset("t", shape=(10**12,), dtype=float)
 
 
 def flipped(at):
@@ -195,20 +195,20 @@ BAD = {
         "a checkpoint": of("checkpoint"),
         "an atlas": of("atlas"),
         "no fields": hdf5(
-            lambda file: file.attrs.__setitem__("header", '{"class": "SimulationResult", "format": 1}'), "w"
+            lambda file: file.attrs.__setitem__("header", '{"class": "SimulationResult", "format": 2}'), "w"
         ),
-        "times in words": array("T", lambda old: np.array([b"a"] * old.size)),
-        "times in rows": array("T", lambda old: old[None, :]),
-        "times that are no numbers": array("T", lambda old: old * np.nan),
-        "times that fall": array("T", lambda old: old[::-1]),
+        "times in words": array("t", lambda old: np.array([b"a"] * old.size)),
+        "times in rows": array("t", lambda old: old[None, :]),
+        "times that are no numbers": array("t", lambda old: old * np.nan),
+        "times that fall": array("t", lambda old: old[::-1]),
         "too few forces": array("force", lambda old: old[:-1]),
         "no force": hdf5(lambda file: file.__delitem__("force")),
         "a group for an array": hdf5(lambda file: (file.__delitem__("force"), file.create_group("force"))),
-        "a number for an array": hdf5(lambda file: (file.__delitem__("T"), file.attrs.__setitem__("T", "1.0"))),
+        "a number for an array": hdf5(lambda file: (file.__delitem__("t"), file.attrs.__setitem__("t", "1.0"))),
         "an array for a number": hdf5(lambda file: (file.attrs.__delitem__("n"), file.__setitem__("n", [1.0]))),
-        "a link to itself": hdf5(lambda f: (f.__delitem__("T"), f.__setitem__("T", h5py.SoftLink("/T")))),
+        "a link to itself": hdf5(lambda f: (f.__delitem__("t"), f.__setitem__("t", h5py.SoftLink("/t")))),
         "a link into nowhere": hdf5(
-            lambda f: (f.__delitem__("T"), f.__setitem__("T", h5py.ExternalLink("x", "T")))
+            lambda f: (f.__delitem__("t"), f.__setitem__("t", h5py.ExternalLink("x", "t")))
         ),
         "an array without end": hdf5(promised),
         "unknown status": attribute("status", '"sleepy"'),
@@ -216,7 +216,7 @@ BAD = {
         "impossible point": attribute("point", '{"M": -1, "L": 5, "kappa": 0.5}'),
         "half a point": attribute("point", '{"M": 20}'),
         "a point that breaks off": attribute("point", "{"),
-        "half of the scales": attribute("scales", '{"force": 1}'),
+        "half of a point in SI": attribute("point", '{"load": 20.0, "u_sum": 1.0}'),
         "unknown motion": attribute("motion", '{"kind": "waltz"}'),
         "domain in words": attribute("domain", '"wide"'),
         "another n": attribute("n", "48"),

@@ -74,7 +74,7 @@ def solve(M: float, L: float, kappa: float) -> Row:
         "cycles": result.cycles,
         "factor": float(drop ** (1.0 / result.cycles)) if result.cycles and np.isfinite(drop) else None,
         "n": result.n,
-        "apart": float((result.Y[1] - result.Y[0]) / (kappa * (result.X[1] - result.X[0]))),
+        "apart": float((result.y[1] - result.y[0]) / (kappa * (result.x[1] - result.x[0]))),
         "domain": result.domain.as_tuple(),
         "approach": result.approach,
         "h_central": result.h_central,

@@ -360,7 +360,7 @@ def _as_asked_for(point: MoesPoint, n: int, exact: Reference) -> Row:
     """`solve_steady` as a user calls it: its time, and how far it is from the converged solution."""
     with Clock() as clock:
         result = solve_steady(point, grid=Grid(n=n), throw=False)
-    state = State(result.P.T, result.approach, result.h_central, result.h_min, result.force)
+    state = State(result.p.T, result.approach, result.h_central, result.h_min, result.force)
     return by_default(state, exact, result.status, result.cycles) | {"seconds": clock.wall, "cpu": clock.cpu}
 
 

@@ -65,11 +65,11 @@ def test_steady_answers_in_si(call, tmp_path):
     found, ours = json.loads(result.out), solve_steady(ball(), grid=Grid(n=32))
     assert ours.reservation and found["reservation"] == ours.reservation
     assert result.code == 0 and result.err == f"ehlcontact: warning: {ours.reservation}\n"
-    assert found["si"]["h_central"] == ours.si.h_central and found["si"]["force"] == ours.si.force
+    assert found["h_central"] == ours.h_central and found["force"] == ours.force
     about = found["contact"]
     assert about["bearing"] == "6205" and about["race"] == "inner" and about["radial_load"] == 100.0
     assert about["ball_load"] == ball().load and about["oil"]["name"] == "ISO VG 68 at 60 °C"
-    assert read(tmp_path / "r.h5").scales == ball().scales
+    assert read(tmp_path / "r.h5").point == ball()
     table = call("steady", *options(), *COARSE, "--contact", "outer").out
     said = " ".join(table.split())  # a terminal of 80 columns folds
     for words in ("6205, outer race", "of 100 N: the most loaded ball", "ISO VG 68 at 60 °C", "GPa", "µm", "N mm"):
@@ -112,7 +112,7 @@ def test_simulation_in_hz_and_its_element_in_si(call, refused, tmp_path):
     assert result.code == 0 and "20000 Hz" in result.out and "0.1 ms" in result.out
     stored = read(record)
     assert isinstance(stored, SimulationResult)
-    assert stored.si.hz == pytest.approx(2e4) and stored.si.t[-1] == pytest.approx(1e-4)
+    assert stored.hz == pytest.approx(2e4) and stored.t[-1] == pytest.approx(1e-4)
     assert call("fit", record, "--model", "linear", "--si", "--save", element).code == 0
     assert read(element).units == "SI"
 
@@ -140,7 +140,7 @@ def test_lambda_of_a_given_roughness(call, refused, point):
     assert "lambda_ratio" not in json.loads(call("element", *at, "--json", "-").out)
     coarse = (*options(load="20"), *COARSE, "--rq", "0.1", "--json", "-")
     film = json.loads(call("steady", *coarse).out)
-    assert film["lambda_ratio"] == pytest.approx(film["si"]["h_min"] / 1e-7)
+    assert film["lambda_ratio"] == pytest.approx(film["h_min"] / 1e-7)
     run = json.loads(call("simulate", "--harmonic", "3", "--until", "4e-6", "--dt", "2e-6", *coarse).out)
     assert 0.5 * film["lambda_ratio"] < run["lambda_ratio"] < 1.5 * film["lambda_ratio"]
     for command, rest in (("steady", ()), ("element", ()), ("simulate", ("--free", "3"))):
@@ -194,7 +194,7 @@ def on_glass():
 
 def test_a_ball_on_a_disc(call):
     found = json.loads(call("steady", *DISC, *DISC_OIL, *COARSE, "--json", "-").out)
-    assert found["si"]["h_central"] == solve_steady(on_glass(), grid=Grid(n=32)).si.h_central
+    assert found["h_central"] == solve_steady(on_glass(), grid=Grid(n=32)).h_central
     assert found["contact"]["flat"] == "glass" and found["contact"]["entrainment_speed"] == 0.1
     assert found["contact"]["ball_diameter"] == pytest.approx(19.05e-3) and "bearing" not in found["contact"]
     said = " ".join(call("element", *DISC, *DISC_OIL).out.split())
@@ -344,7 +344,7 @@ def test_traction(call, refused):
     assert sliding["h_central"] == rolling["h_central"]  # isothermal: sliding does nothing else
     assert found["law"] == {"law": "Eyring", "stress": 5e6}
     assert found["limit"] is None
-    force = found["coefficient"][0] * sliding["si"]["force"]
+    force = found["coefficient"][0] * sliding["force"]
     assert found["force"][0] == pytest.approx(force)
     limited = answer("--slide-roll", "2", "--limiting-shear", "0.04")["traction"]
     assert 0.03 < limited["coefficient"][0] < limited["limit"] == pytest.approx(0.04, rel=1e-3)

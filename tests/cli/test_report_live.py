@@ -93,12 +93,12 @@ def close(shown, true):
 
 
 def test_lines_are_those_of_the_files(finished, figures, results):
-    free = read(finished[1] / "free.h5").si
+    free = read(finished[1] / "free.h5")
     close(line(figures["free"], "film")["x"], free.t * 1e3)
     close(line(figures["free"], "film")["y"], free.approach * 1e6)
     close(line(figures["free"], "centre")["y"], free.h_central * 1e6)
     of = results["memory"]["impedance"]
-    moving, s = np.array(of["omega"]) > 0.0, read(finished[1] / "free.h5").scales
+    moving, s = np.array(of["omega"]) > 0.0, read(finished[1] / "free.h5").point.scales
     hz = np.array(of["omega"])[moving] / (2.0 * np.pi * s.time)
     assert line(figures["impedance"], "film")["x"] == pytest.approx(hz, rel=1e-4)
     close(line(figures["impedance"], "film")["y"], np.array(of["stiffness"])[moving] * s.stiffness * 1e-6)
@@ -111,36 +111,36 @@ def test_lines_are_those_of_the_files(finished, figures, results):
 def test_maps_are_those_of_the_files(finished, figures):
     film = read(finished[1] / "steady.h5")
     pressure, thickness = (trace for trace in figures["film_maps"]["data"] if trace["type"] == "heatmap")
-    scales = film.scales
+    scales = film.point.scales
     i, j = (int(np.argmin(np.abs(np.array(pressure[key])))) for key in ("y", "x"))
-    assert thickness["z"][i][j] == pytest.approx(film.h_central * scales.length * 1e6, rel=0.01)
-    centre = film.P[np.argmin(np.abs(film.X)), 0] * scales.pressure * 1e-9
+    assert thickness["z"][i][j] == pytest.approx(film.h_central * 1e6, rel=0.01)
+    centre = film.p[np.argmin(np.abs(film.x)), 0] * 1e-9
     assert pressure["z"][i][j] == pytest.approx(centre, rel=0.02)
     assert pressure["x"][-1] == pytest.approx(1.5 * scales.b * 1e6, rel=0.02)
 
 
 def test_frames_are_the_snapshots_of_the_last_period(finished, figures):
     run = read(finished[1] / "harmonic.h5")
-    figure, s = figures["instants"], run.scales
+    figure, s = figures["instants"], run.point.scales
     frames, texts = figure["frames"], figure["layout"]["meta"]["slider"]["texts"]
-    times = np.array([float(text.removesuffix(" ms")) for text in texts]) / (s.time * 1e3)
-    assert times.size == len(frames) == run.snapshot_T.size == 21
-    assert times == pytest.approx(run.snapshot_T, rel=2e-3)
-    assert run.snapshot_T[-1] == pytest.approx(run.T[-1])
-    assert np.ptp(run.snapshot_T) == pytest.approx(run.motion.period)
+    times = np.array([float(text.removesuffix(" ms")) for text in texts]) / 1e3
+    assert times.size == len(frames) == run.snapshot_t.size == 21
+    assert times == pytest.approx(run.snapshot_t, rel=2e-3)
+    assert run.snapshot_t[-1] == pytest.approx(run.t[-1])
+    assert np.ptp(run.snapshot_t) == pytest.approx(run.motion.period * s.time)
     maps = figure["data"][0]
     i, j = (int(np.argmin(np.abs(np.array(maps[key])))) for key in ("y", "x"))
-    centre = np.argmin(np.abs(run.X))
+    centre = np.argmin(np.abs(run.x))
     for k, frame in enumerate(frames):
-        step = np.argmin(np.abs(run.T - run.snapshot_T[k]))
-        assert np.array_equal(run.snapshot_P[k][:, 0], run.p_midplane[step])
+        step = np.argmin(np.abs(run.t - run.snapshot_t[k]))
+        assert np.array_equal(run.snapshot_p[k][:, 0], run.p_midplane[step])
         pressure, film, along, gap, force, _ = frame["data"]
-        assert pressure["z"][i][j] == pytest.approx(run.snapshot_P[k][centre, 0] * s.pressure * 1e-9, rel=0.01)
-        assert film["z"][i][j] == pytest.approx(run.snapshot_H[k][centre, 0] * s.length * 1e6, rel=0.01)
-        inside = (run.X >= -1.8) & (run.X <= 1.5)
-        close(along["y"], run.p_midplane[step, inside] * s.pressure * 1e-9)
-        close(gap["y"], run.h_midplane[step, inside] * s.length * 1e6)
-        assert force["y"][0] == pytest.approx(run.force[step] * s.force, rel=1e-4)
+        assert pressure["z"][i][j] == pytest.approx(run.snapshot_p[k][centre, 0] * 1e-9, rel=0.01)
+        assert film["z"][i][j] == pytest.approx(run.snapshot_h[k][centre, 0] * 1e6, rel=0.01)
+        inside = (run.x >= -1.8 * s.a) & (run.x <= 1.5 * s.a)
+        close(along["y"], run.p_midplane[step, inside] * 1e-9)
+        close(gap["y"], run.h_midplane[step, inside] * 1e6)
+        assert force["y"][0] == pytest.approx(run.force[step], rel=1e-4)
     assert len({json.dumps(frame["data"][1]["z"]) for frame in frames}) > times.size - 2  # they move
 
 

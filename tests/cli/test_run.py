@@ -68,7 +68,7 @@ def test_assumptions_in_every_output(finished, results):
     rows = {row["name"]: row for row in found["table"]}
     shaken = max(np.hypot(*run.journal_velocity.T).max() for run in runs)
     assert rows["constant speed"]["value"] == pytest.approx(2.0 * shaken / study.point.u_sum)
-    ratio = film.h_min * film.scales.length / np.hypot(0.02e-6, 0.15e-6)
+    ratio = film.h_min / np.hypot(0.02e-6, 0.15e-6)
     assert rows["smooth"]["value"] == pytest.approx(ratio) and ratio < 3.0
     assert found["out_of_range"] == ["smooth"] and "smooth" in found["headline"] and found["not_judged"] == []
     expected = assumptions(study.point, film=film, roughness=study.roughness).short()

@@ -142,10 +142,10 @@ def test_tutorial_of_the_ball_on_a_disc(capsys):
     assert np.sum(np.abs(ratio - 1.0) < 0.07) == 8
     np.testing.assert_allclose(1.0 - 1.0 / ratio[:2], [0.15, 0.08], atol=0.006)
     assert np.median(found["formula"] / found["measured"]) == pytest.approx(1.011, abs=0.001)
-    oil, usual = found["oil"], found["films"][4].si.h_central
+    oil, usual = found["oil"], found["films"][4].h_central
     for change, more in (("eta0", 0.07), ("alpha", 0.06)):
         found["oil"] = replace(oil, **{change: 1.1 * getattr(oil, change)})
-        assert found["film"](found["speed"][4]).si.h_central / usual - 1.0 == pytest.approx(more, abs=0.005)
+        assert found["film"](found["speed"][4]).h_central / usual - 1.0 == pytest.approx(more, abs=0.005)
 
 
 @pytest.mark.long
@@ -154,10 +154,10 @@ def test_tutorial_of_the_film(capsys):
     found = {}
     run("docs/tutorials/film.md", found)
     assert found["film"].status.ok
-    middle = found["si"].h[:, 0]
-    contact = np.abs(found["si"].x) < found["film"].scales.a
-    assert found["si"].h_min < middle[contact].min() * 1.001 and found["C"][0] > 5.0 * found["C"][-1]
-    assert abs(found["answer"].si.h_central - found["si"].h_central) < 2.0 * found["bar"]
+    middle = found["film"].h[:, 0]
+    contact = np.abs(found["film"].x) < found["point"].scales.a
+    assert found["film"].h_min < middle[contact].min() * 1.001 and found["C"][0] > 5.0 * found["C"][-1]
+    assert abs(found["answer"].si.h_central - found["film"].h_central) < 2.0 * found["bar"]
     assert "isothermal" in capsys.readouterr().out
 
 

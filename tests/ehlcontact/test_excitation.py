@@ -123,7 +123,7 @@ def force_in_time(point, n, waves, amplitude, dT):
         surface=lambda X, Y, T: -amplitude * sum(np.cos(one * (X - T)) for one in k) + 0.0 * Y,
     )
     last = slice(-round(longest / dT), None)
-    turns = np.exp(-1j * np.outer(k, run.T[last]))
+    turns = np.exp(-1j * np.outer(k, run.t[last]))
     return 2.0 / turns.shape[1] * turns @ run.force[last] / amplitude
 
 

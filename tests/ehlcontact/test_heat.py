@@ -167,8 +167,8 @@ def test_temperatures_are_those_of_a_resolved_inlet(slide, convection):
 def test_without_a_slope_the_film_is_the_isothermal_one():
     """Bit for bit; it is warm all the same."""
     still = solve_steady(POINT, grid=SMALL, thermal=Heat(temperature_slope=0.0))
-    np.testing.assert_array_equal(still.P, cold().P)
-    np.testing.assert_array_equal(still.H, cold().H)
+    np.testing.assert_array_equal(still.p, cold().p)
+    np.testing.assert_array_equal(still.h, cold().h)
     assert (still.approach, still.temperature.film_share) == (cold().approach, 1.0)
     assert still.temperature.largest > warm().temperature.largest > 10.0
 
@@ -200,7 +200,7 @@ def test_heat_of_the_flow_by_pressure_is_the_power_of_the_surfaces():
     film = solve_steady(point, grid=SMALL, tol=1e-8)
     level = held(film).finest
     made = FilmHeat(level, Heat().at(point).numbers(point.moes, point.scales)).terms().pressed
-    power = -film.P.T * level.transport(level.H, np.zeros_like(level.H))
+    power = -film.dimensionless.p.T * level.transport(level.H, np.zeros_like(level.H))
     assert np.vdot(level.force_weights, made) == pytest.approx(np.vdot(level.force_weights, power), rel=0.01)
 
 
@@ -242,7 +242,9 @@ def test_neighbouring_films_lie_on_one_line():
     """With sliding on glass; with cold nodes behind the outlet two films are solutions, forces 5e-6 apart."""
     given = {"grid": Grid(48), "thermal": Heat(0.3, effusivity=(13_000.0, 1_500.0)), "tol": 1e-9}
     film = solve_steady(POINT, **given)
-    near = [solve_steady(POINT, approach=film.approach + du, **given).force for du in (-4e-4, -2e-4, 2e-4, 4e-4)]
+    s = POINT.scales
+    at = [film.approach + s.length * du for du in (-4e-4, -2e-4, 2e-4, 4e-4)]
+    near = [solve_steady(POINT, approach=u, **given).force / s.force for u in at]
     slopes = np.diff(np.insert(near, 2, 1.0)) / 2e-4
     np.testing.assert_allclose(slopes, slopes.mean(), rtol=1e-3)
 
@@ -322,7 +324,7 @@ def test_film_converges_with_the_grid():
 def test_results_do_not_depend_on_threads():
     given = {"grid": Grid(256), "thermal": Heat(0.1), "max_cycles": 2, "throw": False}
     one, two = (solve_steady(POINT, threads=threads, **given) for threads in (1, 2))
-    np.testing.assert_array_equal(one.P, two.P)
+    np.testing.assert_array_equal(one.p, two.p)
 
 
 def test_kept_and_said(tmp_path):

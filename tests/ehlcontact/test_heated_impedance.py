@@ -44,7 +44,7 @@ STEP = 1e-3  # of the approach, for differences of steady films
 @cache
 def film_of(given, r=None):
     region = {"grid": GRID} if r is None else {"grid": WIDER, "supply": OilLayer(over_flooded=r)}
-    return solve_steady(POINT, **region, thermal=given, tol=1e-8)
+    return solve_steady(POINT, **region, thermal=given, tol=1e-8).dimensionless
 
 
 def region_of(film):
@@ -69,8 +69,8 @@ class Neighbours:
         film = film_of(given, r)
         heats = []
         for side in (1.0, -1.0):
-            at = film.approach + side * STEP
-            near = solve_steady(POINT, **region_of(film), thermal=given, approach=at, tol=1e-8)
+            at = POINT.scales.length * (film.approach + side * STEP)
+            near = solve_steady(POINT, **region_of(film), thermal=given, approach=at, tol=1e-8).dimensionless
             solved = held(near)
             heats.append((near, viscosity_on(near, solved).heat))
         self.stiffness = self.slope(heats, lambda near, heat: near.force)
@@ -275,9 +275,9 @@ def test_thin_films_that_slide_on_glass_vibrate_to_tolerance(speed, slide):
     given = {"grid": GRID, "thermal": replace(PAIR, slide_roll=slide)}
     found = impedance(point, Omega=[0.0, 0.05, 1.0, 10.0], **given).dimensionless
     assert (found.residual < TOLERANCE * np.minimum(1.0, np.maximum(found.omega, NEAR_ZERO))).all()
-    forces = [
-        solve_steady(point, approach=found.film.approach + du, tol=1e-8, **given).force for du in (STEP, -STEP)
-    ]
+    s = point.scales
+    at = [s.length * (found.film.approach + du) for du in (STEP, -STEP)]
+    forces = [solve_steady(point, approach=u, tol=1e-8, **given).force / s.force for u in at]
     assert found.stiffness[0] == pytest.approx((forces[0] - forces[1]) / (2.0 * STEP), rel=5e-4)
 
 

@@ -27,7 +27,7 @@ OMEGA = np.array([0.0, 0.25, pi, 4.0 * pi, 30.0])
 def dense(contact, film, n):
     """J and B of a linearised contact as matrices, by the kernel that the coarse grids use."""
     level = Multigrid(POINT, Mesh(n, film.domain, POINT.kappa)).finest
-    level.P[...] = film.P.T
+    level.P[...] = film.p.T
     level.update_film(film.approach)
     level.update_residual()
     m, f = contact.nodes.size, level.fields

@@ -65,7 +65,7 @@ def test_public_solutions(row):
     point = OperatingPoint(geometry, Lubricant(eta0, alpha), load, 2.0 * u_mean)
     assert (point.moes.M, point.moes.L) == pytest.approx((M, L), rel=1e-4)
     film = solve_steady(point, grid=Grid(n=256, domain=Domain(-4.0, 2.0, 3.0)))
-    assert film.approach == pytest.approx(approach, rel=0.005)
+    assert film.dimensionless.approach == pytest.approx(approach, rel=0.005)
 
 
 @pytest.mark.parametrize(("M", "L"), [(20, 10), (58.07, 4.62), (200, 10)])

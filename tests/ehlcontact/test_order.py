@@ -161,7 +161,7 @@ def test_squeeze_term_is_second_order():
     ends = []
     for steps in (50, 100, 200):
         record = simulate(POINT, motion, grid=Grid(n=32), time=TimeSteps(until=1.25, dt=1.25 / steps, tol=1e-8))
-        ends.append((record.force[-1], record.h_midplane[-1, np.abs(record.X) < 1.0]))
+        ends.append((record.force[-1], record.h_midplane[-1, np.abs(record.x) < 1.0]))
     (force0, film0), (force1, film1), (force2, film2) = ends
     assert log2(abs((force0 - force1) / (force1 - force2))) >= 1.8
     assert log2(np.linalg.norm(film0 - film1) / np.linalg.norm(film1 - film2)) >= 1.8
@@ -174,11 +174,11 @@ def wave_speed(n):
     bump = 0.03 * np.where(T < 0.8, np.sin(np.pi * T / 0.8) ** 2, 0.0)
     record = simulate(POINT, PrescribedApproach(T, u + bump), grid=Grid(n=n))
     change = record.h_midplane - record.h_midplane[0]
-    before, after = (change[int(np.argmin(np.abs(record.T - t)))] for t in (0.95, 1.35))
+    before, after = (change[int(np.argmin(np.abs(record.t - t)))] for t in (0.95, 1.35))
     X = np.linspace(-0.6, 0.35, 200)
     lags = np.linspace(0.2, 0.6, 401)
-    seen = np.interp(X, record.X, before)
-    match = [np.corrcoef(seen, np.interp(X + lag, record.X, after))[0, 1] for lag in lags]
+    seen = np.interp(X, record.x, before)
+    match = [np.corrcoef(seen, np.interp(X + lag, record.x, after))[0, 1] for lag in lags]
     assert max(match) > 0.99
     return lags[int(np.argmax(match))] / 0.4
 

@@ -107,14 +107,15 @@ def test_thinning_is_the_slope_and_the_ratio_of_the_law(law):
 
 def test_film_solves_reynolds_equation_with_these_viscosities():
     """Residual of the thinned film with and without them, on a level of its own."""
-    level = Level(thin().point, thin().domain, thin().n, thin().Y.size - 1)
-    level.P[...] = thin().P.T
+    film = thin().dimensionless
+    level = Level(film.point, film.domain, film.n, film.y.size - 1)
+    level.P[...] = film.p.T
     inside = level.P > 0.0
-    newtonian = np.abs(level.update(thin().approach))[inside].mean()
+    newtonian = np.abs(level.update(film.approach))[inside].mean()
     alone = type("Alone", (), {"finest": level, "set_aside": lambda self, ratio: set_aside(level, ratio)})()
-    thinning = FilmThinning(alone, thin().sliding.law, thin().sliding.log_newton(thin().point.eta0, thin().scales))
+    thinning = FilmThinning(alone, film.sliding.law, film.sliding.log_newton(film.point.eta0, DISC.scales))
     level.fields.flow.heat[...] = thinning.solve()
-    assert np.abs(level.update(thin().approach))[inside].mean() < 1e-3 * newtonian
+    assert np.abs(level.update(film.approach))[inside].mean() < 1e-3 * newtonian
 
 
 def set_aside(level, ratio):
@@ -154,7 +155,7 @@ def test_starved_films_are_thinned(load, speed):
     assert film(r=1.5).thinned_share - 1.0 == pytest.approx(flooded.thinned_share - 1.0, rel=0.1)
     assert film(slide=0.0, r=0.8).h_central == pytest.approx(film(slide=None, r=0.8).h_central, rel=3e-6)
     assert abs(film(r=0.4).thinned_share - 1.0) < 0.02 * abs(flooded.thinned_share - 1.0)
-    weights = np.r_[0.5, np.ones(starved.Y.size - 2), 0.0]
+    weights = np.r_[0.5, np.ones(starved.y.size - 2), 0.0]
     assert weights @ starved.layer_behind == pytest.approx(weights @ starved.layer, rel=1e-8)
 
 

@@ -81,7 +81,7 @@ def test_a_hundred_passes_follow_the_closed_form(point, n, full, within):
 
 def test_oil_pressed_aside_lies_beside_the_track():
     films = list(islice(oil_passes(CIRCLE, OilLayer(H=0.3), grid=SMALL, tol=1e-8), 4))
-    lines = np.ones(films[0].Y.size)
+    lines = np.ones(films[0].y.size)
     lines[0], lines[-1] = 0.5, 0.0
     flows = [lines @ films[0].layer, *(lines @ film.layer_behind for film in films)]
     np.testing.assert_allclose(flows, flows[0], rtol=1e-6)
@@ -94,16 +94,16 @@ def test_oil_pressed_aside_lies_beside_the_track():
 def test_a_ball_carries_its_half_from_race_to_race():
     inner, outer = ball(), ball(race="outer")
     films = list(islice(oil_passes([inner, outer], OilLayer(0.2e-6), grid=SMALL), 3))
-    assert [film.scales.b for film in films] == [inner.scales.b, outer.scales.b, inner.scales.b]
+    assert [film.point.scales.b for film in films] == [inner.scales.b, outer.scales.b, inner.scales.b]
 
     def half(film):
-        return film.Y * film.scales.b, 0.5 * film.si.layer_behind
+        return film.y, 0.5 * film.layer_behind
 
-    y = films[1].Y * outer.scales.b
-    np.testing.assert_allclose(films[1].si.layer, 0.1e-6 + np.interp(y, *half(films[0])), rtol=2e-3)
-    y = films[2].Y * inner.scales.b
+    y = films[1].y
+    np.testing.assert_allclose(films[1].layer, 0.1e-6 + np.interp(y, *half(films[0])), rtol=2e-3)
+    y = films[2].y
     expected = np.interp(y, *half(films[0])) + np.interp(y, *half(films[1]))
-    np.testing.assert_allclose(films[2].si.layer, expected, rtol=1e-9)
+    np.testing.assert_allclose(films[2].layer, expected, rtol=1e-9)
 
 
 def test_refused():

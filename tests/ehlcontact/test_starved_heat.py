@@ -28,8 +28,8 @@ def starved():
 def test_much_oil_floods_the_film_with_heat():
     much = solve_steady(POINT, supply=OilLayer(H=1e5), thermal=Heat(), **GIVEN)
     assert much.approach == pytest.approx(flooded().approach, rel=1e-6)
-    np.testing.assert_allclose(much.H, flooded().H, rtol=1e-6)
-    full = flooded().P > 0.0
+    np.testing.assert_allclose(much.h, flooded().h, rtol=1e-6)
+    full = flooded().p > 0.0
     np.testing.assert_allclose(much.temperature.mean[full], flooded().temperature.mean[full], atol=1e-5)
 
 
@@ -38,7 +38,7 @@ def test_without_a_slope_the_starved_film_is_the_isothermal_one():
         solve_steady(POINT, grid=GRID, supply=OilLayer(over_flooded=0.6), thermal=given)
         for given in (None, Heat(temperature_slope=0.0))
     )
-    np.testing.assert_array_equal(still.P, cold.P)
+    np.testing.assert_array_equal(still.p, cold.p)
     np.testing.assert_array_equal(still.content, cold.content)
     assert still.temperature.largest > 10.0
 
@@ -49,7 +49,7 @@ def test_oil_and_energy_are_balanced(r, given):
     """Energy is carried with the flow of the film: what comes into a node less what leaves it is nothing."""
     film = solve_steady(POINT, supply=OilLayer(over_flooded=r), thermal=given, **GIVEN)
     assert film.temperature.balance < 1e-6
-    lines = np.append(0.5, np.ones(film.Y.size - 1))
+    lines = np.append(0.5, np.ones(film.y.size - 1))
     assert lines @ film.layer_behind == pytest.approx(lines @ film.layer, rel=2e-7)
     solved = held(film)
     terms = viscosity_on(film, solved).heat.terms()
@@ -59,9 +59,9 @@ def test_oil_and_energy_are_balanced(r, given):
 
 def test_heat_that_flows_back_turns_round_at_the_front():
     """The oil in the middle carries it there, and beside the surfaces in again: it does not pile up."""
-    front = np.argmax(starved().P[:, 0] > 0.0)
+    front = np.argmax(starved().p[:, 0] > 0.0)
     T = starved().temperature.mean[:, 0]
-    assert starved().X[front] < -2.0  # where the middle flows back
+    assert starved().x[front] < -2.0 * POINT.scales.a  # where the middle flows back
     assert 0.0 < T[front] < 1.2 * T[front + 3] < 10.0
     wall = starved().temperature.surfaces[0, :, 0]
     assert wall[front] > 0.0 == wall[front - 3]

@@ -171,7 +171,7 @@ def starved(point, ratio, flooded, **options):
 
 def lost(film):
     """What enters less what leaves, over what enters."""
-    lines = np.ones(film.Y.size)
+    lines = np.ones(film.y.size)
     lines[0], lines[-1] = 0.5, 0.0  # the border has no cell
     return float(lines @ (film.layer - film.layer_behind)) / float(lines @ film.layer)
 
@@ -181,10 +181,10 @@ def test_film_is_that_of_an_independent_solution(kappa, layer):
     point = MoesPoint(20, 5, kappa, viscosity="barus", density="incompressible")
     domain = Domain(-3.0, 1.5, 2.25)
     film = solve_steady(point, grid=Grid(16, domain, "direct"), supply=OilLayer(H=layer), tol=1e-12)
-    (P, H, carried), u = Twin(point, domain, 16, film.Y.size - 1, layer).solve()
+    (P, H, carried), u = Twin(point, domain, 16, film.y.size - 1, layer).solve()
     assert film.approach == pytest.approx(u, abs=1e-9)
-    np.testing.assert_allclose(film.P.T, P, atol=1e-9)
-    np.testing.assert_allclose(film.H.T, H, atol=1e-9)
+    np.testing.assert_allclose(film.p.T, P, atol=1e-9)
+    np.testing.assert_allclose(film.h.T, H, atol=1e-9)
     np.testing.assert_allclose(film.layer_behind[:-1], carried[:-1, -2], atol=1e-9)
     assert P[0, 1:4].max() == 0.0 < P[0, 7]  # the front lies within the region
 
@@ -193,7 +193,7 @@ def test_impedance_is_that_of_an_independent_linearisation():
     """With the front of the full film moving, and what is pressed aside coming later."""
     point, domain = MoesPoint(20, 5, 0.7, viscosity="barus", density="incompressible"), Domain(-3.0, 1.5, 2.25)
     film = solve_steady(point, grid=Grid(16, domain, "direct"), supply=OilLayer(H=0.3), tol=1e-12)
-    twin = Twin(point, domain, 16, film.Y.size - 1, 0.3)
+    twin = Twin(point, domain, 16, film.y.size - 1, 0.3)
     twin.solve()
     held = LinearisedContact(held_film(film, "direct"))
     for Omega in (0.01, 0.5, 3.0):
@@ -288,9 +288,9 @@ def test_simulation_under_a_supply(tmp_path):
     assert f"under a layer of {squeezed.layer[0]:.4g} dry approaches" in str(squeezed)
     assert "layer" not in str(flooded) and "heat" not in str(flooded)
     assert (squeezed.h_central < 0.85 * flooded.h_central).all()
-    assert squeezed.layer_behind.shape == (31, squeezed.Y.size)
+    assert squeezed.layer_behind.shape == (31, squeezed.y.size)
     steady = solve_steady(CIRCLE, grid=SMALL, supply=OilLayer(H=0.495))
-    lines = np.r_[0.5, np.ones(squeezed.Y.size - 2), 0.0]
+    lines = np.r_[0.5, np.ones(squeezed.y.size - 2), 0.0]
     assert lines @ squeezed.layer_behind[0] == pytest.approx(lines @ squeezed.layer, rel=1e-3)  # steady at first
     assert np.ptp(squeezed.layer_behind[:, 0]) > 0.01  # what leaves follows the film
     kept = read(save(squeezed, tmp_path / "run.h5"))
@@ -338,7 +338,7 @@ def test_much_oil_is_a_flooded_inlet(M, L, kappa):
     assert film.status is flooded.status
     assert film.h_central == pytest.approx(flooded.h_central, rel=1e-6)
     assert film.h_min == pytest.approx(flooded.h_min, rel=1e-6)
-    np.testing.assert_allclose(film.P, flooded.P, atol=1e-6)
+    np.testing.assert_allclose(film.p, flooded.p, atol=1e-6)
 
 
 SPREAD = [(9, 4.7, 1.1, 0.76), (79, 11.7, 0.91, 1.81), (1501, 11.7, 0.41, 1.19), (342, 18.6, 0.19, 0.85)]
@@ -358,7 +358,7 @@ def test_what_enters_leaves(M, L, kappa, ratio):
     point = MoesPoint(M, L, kappa)
     flooded = solve_steady(point, refine=False)
     film = starved(point, ratio, flooded, grid=Grid(flooded.n, flooded.domain), tol=1e-10)
-    assert not film.P[:, -2].any()  # nothing leaves over the sides
+    assert not film.p[:, -2].any()  # nothing leaves over the sides
     assert abs(lost(film)) < 1e-8
 
 
@@ -399,7 +399,7 @@ def test_newton_steps_find_the_same_film():
     given = {"grid": SMALL, "supply": OilLayer(H=0.5), "tol": 1e-10}
     cycles, newton = (solve_steady(CIRCLE, method=way, **given) for way in ("multigrid", "newton"))
     assert newton.approach == pytest.approx(cycles.approach, abs=1e-9)
-    np.testing.assert_allclose(newton.P, cycles.P, atol=1e-8)
+    np.testing.assert_allclose(newton.p, cycles.p, atol=1e-8)
     np.testing.assert_allclose(newton.content, cycles.content, atol=1e-6)
 
 
@@ -407,8 +407,8 @@ def test_content_and_pressure_exclude_each_other():
     film = solve_steady(CIRCLE, grid=SMALL, supply=OilLayer(H=0.5))
     assert (film.content > 0.0).all()
     assert (film.content <= 1.0).all()
-    assert not (film.P * (1.0 - film.content)).any()
-    np.testing.assert_allclose(film.content[:20, 0] * film.H[:20, 0], 0.5, rtol=1e-12)  # carried as it came
+    assert not (film.p * (1.0 - film.content)).any()
+    np.testing.assert_allclose(film.content[:20, 0] * film.h[:20, 0], 0.5, rtol=1e-12)  # carried as it came
     ridge = film.layer_behind / film.layer  # pressed aside
     assert ridge[0] < 0.8
     assert ridge.max() > 1.2
@@ -432,11 +432,10 @@ def test_layer_in_metres_and_over_the_flooded_film(tmp_path):
         Lubricant(eta0=0.04, alpha=2.2e-8), ball_diameter=0.02, entrainment_speed=1.0, load=20.0
     )
     film = solve_steady(point, grid=SMALL, supply=OilLayer(over_flooded=0.8), tol=1e-8)
-    np.testing.assert_allclose(film.si.layer, film.layer * film.scales.length, rtol=1e-14)
-    h = float(film.si.layer[0])
+    h = float(film.layer[0])
     again = solve_steady(point, grid=SMALL, supply=OilLayer(h), tol=1e-8)
     assert again.h_central == pytest.approx(film.h_central, rel=1e-9)
-    assert again.si.layer_behind.max() > h
+    assert again.layer_behind.max() > h
     kept = read(save(again, tmp_path / "film.h5"))
     assert kept.supply == again.supply == OilLayer(h=h)
     np.testing.assert_array_equal(kept.content, again.content)
@@ -446,7 +445,7 @@ def test_layer_in_metres_and_over_the_flooded_film(tmp_path):
 def test_results_do_not_depend_on_threads():
     given = {"grid": Grid(256), "supply": OilLayer(H=0.1), "max_cycles": 2, "throw": False}
     one, two = (solve_steady(MoesPoint(200, 10, 0.5), threads=threads, **given) for threads in (1, 2))
-    np.testing.assert_array_equal(one.P, two.P)
+    np.testing.assert_array_equal(one.p, two.p)
     np.testing.assert_array_equal(one.content, two.content)
 
 

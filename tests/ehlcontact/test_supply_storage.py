@@ -58,7 +58,7 @@ def test_the_damping_at_rest_is_the_oil_that_steady_films_store(point, n):
     sink = stored_over_approach(multigrid, film.approach)
     settle(multigrid, film.approach)
     damping = force_of_sink(multigrid, film.approach, sink)
-    front = (film.P.T <= 0.0) & (multigrid.finest.X < 0.0)
+    front = (film.p.T <= 0.0) & (multigrid.finest.X < 0.0)
     by_front = force_of_sink(multigrid, film.approach, sink * front)
     slow = impedance(point, Omega=0.002, grid=Grid(film.n, film.domain), supply=supply).damping[0]
     print(f"{point}: {damping:.5f} from steady films, {by_front:.5f} of it by the front, impedance {slow:.5f}")

@@ -50,15 +50,15 @@ def twin_stress(law, newton, p):
 
 def twin_force(film, ratio, law):
     """Traction of a film by loops over its nodes, with Roelands' law written out in SI, both halves of y."""
-    s, oil = film.scales, POINT.lubricant
+    oil = POINT.lubricant
     z = oil.alpha * 1.96e8 / (math.log(oil.eta0) + 9.67)
-    dx, dy = s.a * (film.X[1] - film.X[0]), s.b * (film.Y[1] - film.Y[0])
+    dx, dy = film.x[1] - film.x[0], film.y[1] - film.y[0]
     total = 0.0
-    for i, row in enumerate(film.P):
-        for j, P in enumerate(row):
-            if P <= 0.0:
+    for i, row in enumerate(film.p):
+        for j, p in enumerate(row):
+            if p <= 0.0:
                 continue
-            p, h = P * s.pressure, film.H[i, j] * s.length
+            h = film.h[i, j]
             log_eta = (math.log(oil.eta0) + 9.67) * (1.0 + p / 1.96e8) ** z
             if film.temperature is not None:
                 heat = film.temperature.inputs
@@ -90,9 +90,9 @@ def test_force_against_its_twin(law):
     assert found.force == pytest.approx(expected, rel=1e-9)
     assert found.coefficient == pytest.approx(found.force / 50.0, rel=1e-6)
     assert found.power == pytest.approx(found.force * found.slide_roll * 0.5 * POINT.u_sum)
-    s = isothermal_film().scales
+    s = POINT.scales
     assert found.mean_stress == pytest.approx(found.force / (math.pi * s.a * s.b))
-    assert found.stress[isothermal_film().P == 0.0].max() == 0.0
+    assert found.stress[isothermal_film().p == 0.0].max() == 0.0
 
 
 def test_limits():

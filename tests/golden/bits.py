@@ -104,6 +104,7 @@ T = np.linspace(0.0, 1.0, 21)
 LEFT_OUT = {"seconds", "version", "law", "rotor", "element"}
 # Names of old, under which other checkouts have the numbers.
 RENAMED = {"error_bars": "error", "error_estimate": "error", "inlet_saturation": "squeeze"}
+RENAMED |= {name: name.lower() for name in ("X", "Y", "T", "P", "H", "snapshot_T", "snapshot_P", "snapshot_H")}
 LEFT = re.compile(r"\.file\.schema$")  # what other checkouts have and this one does not
 Leaves = Iterator[tuple[str, Any]]
 
@@ -162,7 +163,7 @@ def steady_films() -> Leaves:
         "approach": (PAPER, {"n": 64, "approach": 0.6}),
         "pressed": (PAPER, {"n": 64, "approach": 1.3}),
         "domain": (PAPER, {"n": 64, "domain": Domain(-3.0, 1.5, 2.0)}),
-        "SI": (BEARING, {}),
+        "bearing": (BEARING.moes, {}),
         "few cycles": (PAPER, {"n": 64, "max_cycles": 1, "throw": False}),
         "no room": (PAPER, {"n": 32, "domain": Domain(-1.2, 1.2, 1.2), "throw": False}),
         "unresolved": (MoesPoint(10000, 2, 0.5), {"n": 32, "throw": False}),
@@ -172,8 +173,8 @@ def steady_films() -> Leaves:
         yield from leaves(name, result)
         numbers = result.to_dict() if hasattr(result, "to_dict") else result.summary()  # older checkouts
         yield from leaves(name, {k: v for k, v in numbers.items() if k not in ("seconds", "version")})
-    yield from named("si", solve_steady(BEARING).si, "x y p h approach force h_central h_min p_max moment")
-    yield from leaves("film", film_of(solve_steady(BEARING, grid=Grid(n=64))).constriction)
+    yield from named("si", solve_steady(BEARING), "x y p h approach force h_central h_min p_max moment")
+    yield from leaves("film", film_of(solve_steady(BEARING.moes, grid=Grid(n=64))).constriction)
 
 
 def records() -> Leaves:
@@ -202,11 +203,11 @@ def records() -> Leaves:
         result = simulate(point, motion, **grouped(**options))
         yield from leaves(name, result)
         if result.steps > 2:
-            yield from leaves(f"{name} between", result.at([0.25 * result.T[-1], 0.7 * result.T[-1]]))
+            yield from leaves(f"{name} between", result.at([0.25 * result.t[-1], 0.7 * result.t[-1]]))
         if name == "SI":
             yield from named(
                 "si",
-                result.si,
+                result,
                 "t approach rate acceleration force load h_central h_min x y h_midplane p_midplane static_approach"
                 " static_load mass",
             )

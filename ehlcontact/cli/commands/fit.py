@@ -13,6 +13,7 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.rows import Row
 from ehlcontact.errors import InputError
+from ehlcontact.point import OperatingPoint
 
 if TYPE_CHECKING:
     from reduced_models.fitting.result import ElementFit, FitResult
@@ -67,9 +68,9 @@ def fit(
             raise InputError(name, error.value, allowed) from None
     saved = fitted.element
     if si:
-        if records[0].scales is None:
+        if not isinstance(records[0].point, OperatingPoint):
             raise InputError("--si", True, f"left out: {files[0]} is of a point without dimensions")
-        saved = saved.to_si(records[0].scales)
+        saved = saved.to_si(records[0].point.scales)
     rows = _coefficients(fitted) if isinstance(fitted, FitResult) else _memory(fitted)
     valid = fitted.valid
     table = (

@@ -22,6 +22,7 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.process.early_interrupt import INTERRUPTED
 from ehlcontact.status import Status
+from ehlcontact.summary import film_unit
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import CheckpointError
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad, RampLoad
@@ -240,16 +241,17 @@ def simulate(
     found = assumptions(point, film=_at_rest(result), domain=result.domain)
     rows = [*contact.rows(point), *outside_rows(found), *_rows(result)]
     about = contact.about(point) | {"outside_assumptions": found.headline}
-    if result.scales is not None:
-        rows += surfaces.rows(result.si.h_min.min())
-        about |= surfaces.about(float(result.si.h_min.min()))
+    if isinstance(point, OperatingPoint):
+        rows += surfaces.rows(result.h_min.min())
+        about |= surfaces.about(float(result.h_min.min()))
     out.deliver({**result.to_dict(), **about}, ("transient film", rows), save=result, figure=drawn)
     if result.reservation:
         complain(f"warning: {result.reservation}")
     if unkept is not None:
         raise unkept
+    own = result.dimensionless
     if not result.status.ok:
-        message = failure or f"simulation {result.status} at T = {result.T[-1]:.6g}: {result.status.advice}"
+        message = failure or f"simulation {result.status} at T = {own.t[-1]:.6g}: {result.status.advice}"
         kept = [f"partial result in {out.save}"] if out.save else []
         kept += [f"go on with --restart {restart.checkpoint}"] if restart.checkpoint else []
         complain("; ".join([message, *kept]))
@@ -260,7 +262,8 @@ def _at_rest(result: SimulationResult) -> Any:
     """Film at the start where it was solved with heat, for the assumptions; None of another."""
     if result.temperature is None:
         return None
-    films = {name: float(getattr(result, name)[0]) for name in ("h_central", "h_min")}
+    own = result.dimensionless
+    films = {name: float(getattr(own, name)[0]) for name in ("h_central", "h_min")}
     return SimpleNamespace(**films, temperature=result.temperature)
 
 
@@ -271,9 +274,9 @@ def _draw(result: SimulationResult, path: Path) -> None:
     from ehlcontact.results.picture import Line, Panel, Picture
     from ehlcontact.summary import contact_text
 
-    shown, units = (result, ("", "")) if result.scales is None else (result.si, ("m", "N"))
-    loop = Panel([Line(shown.approach, shown.force)], ("mutual approach", units[0]), ("contact force", units[1]))
-    title = f"transient film: {contact_text(result.point, result.scales)}"
+    units = ("m", "N") if isinstance(result.point, OperatingPoint) else ("", "")
+    loop = Panel([Line(result.approach, result.force)], ("mutual approach", units[0]), ("contact force", units[1]))
+    title = f"transient film: {contact_text(result.point)}"
     draw(Picture([*result.panels(), *film_wave(result).panels(), loop], title), path)
 
 
@@ -281,10 +284,11 @@ def _rows(result: SimulationResult) -> list[Row]:
     settings = [(k, v) for k, v in result.motion.to_dict().items() if isinstance(v, float | int)]
     steps = ""
     if result.steps:
-        steps = f"to T = {numeral(result.T[-1])} (unit 2a/u_sum), {result.cycles[1:].mean():.1f} cycles each"
+        T = result.t[-1] / result.point.scales.time
+        steps = f"to T = {numeral(T)} (unit 2a/u_sum), {result.cycles[1:].mean():.1f} cycles each"
     return [
         ("motion", result.motion.kind, ", ".join(f"{k} {numeral(v)}" for k, v in settings) + "; dimensionless"),
-        *([] if result.scales is None else _in_si(result)),
+        *(_in_si(result) if isinstance(result.point, OperatingPoint) else []),
         *quantity_rows(result, {"static_approach": "", "approach": "", "force": "", "h_min": ""}),
         *_supply_rows(result),
         *_heat_rows(result),
@@ -299,7 +303,7 @@ def _supply_rows(result: SimulationResult) -> list[Row]:
     """Layer of oil that arrives, and what leaves on the centre line over time."""
     if result.layer is None or result.layer_behind is None:
         return []
-    size, unit = (1.0, "dry approaches") if result.scales is None else (1e6 * result.scales.length, "µm")
+    size, unit = film_unit(result.point)
     behind = size * result.layer_behind[:, 0]
     leaves = f"{numeral(behind.min())} to {numeral(behind.max())} {unit} leave in the middle"
     return [("layer of oil", f"{numeral(size * result.layer[0])} {unit}", leaves)]
@@ -316,11 +320,10 @@ def _heat_rows(result: SimulationResult) -> list[Row]:
 
 def _in_si(result: SimulationResult) -> list[Row]:
     """What only a motion in SI has."""
-    si = result.si
     found = [
-        ("frequency of the load", si.hz, "Hz"),
-        ("mass of both bodies", si.mass, "kg"),
-        ("end", si.t[-1], "s"),
+        ("frequency of the load", result.hz, "Hz"),
+        ("mass of both bodies", result.mass, "kg"),
+        ("end", result.t[-1], "s"),
     ]
     return [(name, in_unit(value, unit), "") for name, value, unit in found if value is not None]
 

@@ -17,8 +17,10 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, heat_rows, outside_rows, quantity_rows, run_rows, share_text
+from ehlcontact.point import OperatingPoint
 from ehlcontact.results.contact_map import VIEW
 from ehlcontact.solver.domain import Domain
+from ehlcontact.summary import film_unit
 
 if TYPE_CHECKING:
     from ehlcontact.results import SteadyResult, Traction
@@ -89,8 +91,9 @@ def steady(
             throw=False,
             callback=lambda cycle, residual: update(cycle, None, f"cycle {cycle}, residual {residual:.1e}"),
         )
-    rough = () if result.scales is None else surfaces.rows(result.si.h_min)
-    about = contact.about(point) | ({} if result.scales is None else surfaces.about(result.si.h_min))
+    si = isinstance(point, OperatingPoint)
+    rough = surfaces.rows(result.h_min) if si else ()
+    about = contact.about(point) | (surfaces.about(result.h_min) if si else {})
     found = contact.judged(point, result, surfaces) if result.status.ok else None
     outside = [] if found is None else outside_rows(found)
     about |= {"outside_assumptions": "" if found is None else found.headline}
@@ -115,26 +118,26 @@ def _draw(result: SteadyResult, traction: Traction | None, path: Path) -> None:
     from ehlcontact.summary import contact_text
 
     panels = result.panels()
-    if result.scales is not None:
-        film = film_of(result)
-        ends = VIEW[:2], (-VIEW[2], VIEW[2])
-        X, Y = (
+    if isinstance(result.point, OperatingPoint):
+        film, s = film_of(result), result.point.scales
+        ends = (s.a * VIEW[0], s.a * VIEW[1]), (-s.b * VIEW[2], s.b * VIEW[2])
+        x, y = (
             np.linspace(max(first, at[0]), min(last, at[-1]), POINTS)
-            for (first, last), at in zip(ends, (film.X, film.Y), strict=True)
+            for (first, last), at in zip(ends, (film.x, film.y), strict=True)
         )
-        panels += interferogram(interpolated(film, X, Y), WAVELENGTH, REFRACTIVE_INDEX).panels()
+        panels += interferogram(interpolated(film, x, y), WAVELENGTH, REFRACTIVE_INDEX).panels()
     if traction is not None:
         panels.append(traction.map())
-    draw(Picture(panels, f"steady film: {contact_text(result.point, result.scales)}"), path)
+    draw(Picture(panels, f"steady film: {contact_text(result.point)}"), path)
 
 
 def _rows(result: SteadyResult) -> list[Row]:
-    error = result.error_estimate
+    error, to_come = result.error_estimate, result.dimensionless.pressure_error
     central, smallest = ("", "") if error is None else map(share_text, (error.h_central, error.h_min))
     remarks = {"approach": "", "h_central": central, "h_min": smallest, "p_max": "", "moment": _left_out(result)}
     return [
         *quantity_rows(result, remarks, None if error is None else {"approach": error.approach}),
-        ("pressure to come", f"{result.pressure_error:.1e}", "of the Hertz pressure, by further cycles"),
+        ("pressure to come", f"{to_come:.1e}", "of the Hertz pressure, by further cycles"),
         ("residual", f"{result.residual:.1e}", "over the dry start's"),
         ("load balance", f"{result.load_residual:.1e}", "over the load"),
         ("cycles", f"{result.cycles}", ""),
@@ -150,8 +153,10 @@ def _supply_rows(result: SteadyResult) -> list[Row]:
     """Layer of oil that arrives, and where the film begins to be full."""
     if result.layer is None:
         return []
-    size, unit = (1.0, "dry approaches") if result.scales is None else (1e6 * result.scales.length, "µm")
-    return [("layer of oil", f"{numeral(size * result.layer[0])} {unit}", f"full from X = {result.front:.3g} on")]
+    assert result.front is not None
+    size, unit = film_unit(result.point)
+    front = f"full from x/a = {result.front / result.point.scales.a:.3g} on"
+    return [("layer of oil", f"{numeral(size * result.layer[0])} {unit}", front)]
 
 
 def _asperity_rows(result: SteadyResult) -> list[Row]:

@@ -114,7 +114,7 @@ def period(run: SimulationResult) -> float:
     """Mean period of a vibration about the approach at rest."""
     d = run.approach - run.static_approach
     k = np.flatnonzero(d[:-1] * d[1:] < 0.0)
-    crossed = run.T[k] - d[k] * (run.T[k + 1] - run.T[k]) / (d[k + 1] - d[k])
+    crossed = run.t[k] - d[k] * (run.t[k + 1] - run.t[k]) / (d[k + 1] - d[k])
     return float(2.0 * (crossed[-1] - crossed[0]) / (crossed.size - 1))
 
 
@@ -126,7 +126,7 @@ def first_turns(fits: Fits) -> dict[str, Any]:
         name: scipy.signal.find_peaks(sign * run.h_central, prominence=depth)[0]
         for name, sign in (("peak", 1), ("valley", -1))
     }
-    ours = {f"first {name}, T": float(run.T[at[0]]) if at.size else None for name, at in turns.items()}
+    ours = {f"first {name}, T": float(run.t[at[0]]) if at.size else None for name, at in turns.items()}
     return {"the paper's text": {"first peak, T": None, "first valley, T": FIRST_VALLEY}, "ours": ours}
 
 

@@ -16,7 +16,6 @@ from ehlcontact.film import film_of
 from ehlcontact.film.pictures import brightness, refined
 from ehlcontact.film.plane import Interferogram
 from ehlcontact.film_formulas import wijnant_approach
-from ehlcontact.point import moes_point
 from ehlcontact.quantities import FORCE, LENGTH, TIME
 from ehlcontact.results.contact_map import MOVES, TALL, ContactView
 from ehlcontact.results.picture import (
@@ -81,14 +80,14 @@ def fringes(case: str) -> Draw:
 
     def draw(fits: Fits) -> Picture:
         run = fits.runs.cases[case]
-        kappa, growth = moes_point(run.point).kappa, max(1.0, float(run.load.max())) ** (1.0 / 3.0)
+        growth = max(1.0, float(run.load.max())) ** (1.0 / 3.0)
         panels = []
-        for T in run.snapshot_T:
+        for T in run.snapshot_t:
             film = refined(film_of(run, float(T)), POINTS, growth)
-            view = ContactView.of(film.X, film.Y, kappa, None)
-            depth = film.H / run.h_central[0]
+            view = ContactView.of(film.point, film.x, film.y)
+            depth = film.h / run.h_central[0]
             order = FRINGES_AT_REST * depth
-            bright = Interferogram(0.5 * (1.0 + np.cos(2.0 * np.pi * order)), order, film.X, film.Y, (1.0, 1.0))
+            bright = Interferogram(0.5 * (1.0 + np.cos(2.0 * np.pi * order)), order, film.x, film.y, (1.0, 1.0))
             shown = brightness(bright, depth / FADING)
             panels.append(view.map(shown, "", "gray", (0.0, 1.0), title=f"T = {numeral(T)}"))
         note = f"{MOVES[view.upwards].capitalize()}. {view.note}".strip()
@@ -104,8 +103,8 @@ def approaches(table: int, *cases: str) -> Draw:
         lines = []
         for case, colour in zip(cases, COLOURS, strict=False):
             run, root = fits.runs.cases[case], paper_fits()[table, case].root
-            lines.append(Line(run.T, run.approach, CASES[case].title, colour))
-            lines.append(Line(run.T[[0, -1]], [root] * 2, f"root of the paper's cubic, case {case}", colour, ":"))
+            lines.append(Line(run.t, run.approach, CASES[case].title, colour))
+            lines.append(Line(run.t[[0, -1]], [root] * 2, f"root of the paper's cubic, case {case}", colour, ":"))
         return Panel(lines, TIMES, APPROACH)
 
     return row(panel)

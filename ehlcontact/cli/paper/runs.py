@@ -120,7 +120,7 @@ def compute(folder: Path, n: int, names: Sequence[str], static: bool) -> Runs:
         if result.status.ok:
             runs.cases[case.name] = result
         else:
-            at = f"{result.status} at T = {numeral(result.T[-1])}" if result.T.size else str(result.status)
+            at = f"{result.status} at T = {numeral(result.t[-1])}" if result.t.size else str(result.status)
             runs.failed[f"case {case.name}, n = {n}"] = f"{at}: {result.status.advice}"
     for k, point in enumerate(points, start=len(wanted) + 1):
         steady = _solved(folder, point, n, f"{k} of {todo}: steady film, M = {point.M:g}, L = {point.L:g}", runs)
@@ -158,7 +158,7 @@ def _is(kept: SimulationResult, case: Case, n: int) -> bool:
     """Whether a stored result is the one wanted, made by this version."""
     domain = kept.domain if case.domain is None else case.domain
     wanted = (case.point, case.motion.to_dict(), n, domain, __version__, len(_until(case)))
-    found = (kept.point, kept.motion.to_dict(), kept.n, kept.domain, kept.version, kept.snapshot_T.size)
+    found = (kept.point, kept.motion.to_dict(), kept.n, kept.domain, kept.version, kept.snapshot_t.size)
     return wanted == found and kept.status.ok
 
 

@@ -296,6 +296,6 @@ def _ramp(fits: Fits) -> list[str]:
     run, (start, end) = fits.runs.cases[case], found.window[0]
     d = run.domain
     return [
-        f"The record is T = 0 to {numeral(run.T[-1])} on [{d.x_in:g}, {d.x_out:g}] x [-{d.y_max:g}, {d.y_max:g}], "
+        f"The record is T = 0 to {numeral(run.t[-1])} on [{d.x_in:g}, {d.x_out:g}] x [-{d.y_max:g}, {d.y_max:g}], "
         f"fitted from {numeral(start)} to {numeral(end)}."
     ]

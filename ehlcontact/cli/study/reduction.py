@@ -158,7 +158,7 @@ def _window(simulation: SimulationResult) -> tuple[float, float] | None:
     motion = simulation.motion
     if not isinstance(motion, HarmonicLoad):
         return None
-    end = float(simulation.T[-1])
+    end = float(simulation.dimensionless.t[-1])
     periods = max(1, int(end / motion.period * 2.0 / 3.0 + 1e-9))
     return max(0.0, end - periods * motion.period - 1e-9 * end), end
 

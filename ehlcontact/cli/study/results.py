@@ -66,9 +66,8 @@ class Findings:
             "dry_approach": scales.length,
             "time_unit": scales.time,
             "approach": self.steady.approach,
-            "approach_m": self.steady.approach * scales.length,
-            "h_central_um": self.steady.h_central * scales.length * 1e6,
-            "h_min_um": self.steady.h_min * scales.length * 1e6,
+            "h_central_um": self.steady.h_central * 1e6,
+            "h_min_um": self.steady.h_min * 1e6,
             "approach_error": None if error is None else error.approach,
             "h_central_error": None if error is None else error.h_central,
             "h_min_error": None if error is None else error.h_min,
@@ -92,8 +91,8 @@ class Findings:
     @property
     def cycle_work(self) -> dict[str, float]:
         """Work taken up in the last cycle of the rotor-band record [J]: by the film, and by the elements."""
-        run, scales = self.simulations["rotor_band"], self.study.point.scales
-        last = run.T >= run.T[-1] - self.study.rotor_motion.period * (1.0 + 1e-9)
+        run, scales = self.simulations["rotor_band"].dimensionless, self.study.point.scales
+        last = run.t >= run.t[-1] - self.study.rotor_motion.period * (1.0 + 1e-9)
         u, rate = run.approach[last], run.rate[last]
         forces = {"full": run.force[last]}
         for (record, model), found in self.reduction.fits.items():
@@ -101,7 +100,7 @@ class Findings:
                 forces[record] = np.asarray(found.element.force(u, rate))
         memory = self.reduction.memory
         if not isinstance(memory, str):
-            forces["memory"] = memory.element.drive(run.T, run.approach, run.rate)[last]
+            forces["memory"] = memory.element.drive(run.t, run.approach, run.rate)[last]
         unit = scales.force * scales.length
         return {name: float(np.trapezoid(force, u)) * unit for name, force in forces.items()}
 
@@ -151,8 +150,8 @@ class Findings:
     @property
     def rotor_loop(self) -> dict[str, float]:
         """Over the load, in the rotor's band: largest force of the cubic's damper, and the cubic's rms misfit."""
-        found, run = self.reduction.fits[ROTOR_BAND], self.simulations[ROTOR_BAND[0]]
-        fitted = (run.T >= found.window[0][0]) & (run.T <= found.window[0][1])
+        found, run = self.reduction.fits[ROTOR_BAND], self.simulations[ROTOR_BAND[0]].dimensionless
+        fitted = (run.t >= found.window[0][0]) & (run.t <= found.window[0][1])
         return {
             "damper": found.parameters["C1"] * float(np.abs(run.rate[fitted]).max()),
             "misfit": found.rms * float(np.std(run.force[fitted])),
@@ -179,8 +178,9 @@ class Findings:
     @property
     def thinnest(self) -> dict[str, float]:
         """Where the film is lowest, in semi-axes, on the upper half."""
-        i, j = np.unravel_index(int(np.argmin(self.steady.H)), self.steady.H.shape)
-        return {"X": float(self.steady.X[i]), "Y": float(self.steady.Y[j])}
+        film, s = self.steady, self.study.point.scales
+        i, j = np.unravel_index(int(np.argmin(film.h)), film.h.shape)
+        return {"X": float(film.x[i]) / s.a, "Y": float(film.y[j]) / s.b}
 
     def to_dict(self) -> dict[str, Any]:
         """Numbers of ``results.json``."""

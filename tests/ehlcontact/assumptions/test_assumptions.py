@@ -94,8 +94,10 @@ def test_solved_film_replaces_the_expected_one(steady):
     wanted = flooding_distance(film.h_central / (2.0 * shape_factor(0.5)))
     assert table["fully flooded"].limit == pytest.approx(wanted, rel=1e-12)
     point = bearing()
-    given = assumptions(point, film=replace(film, point=point.moes, scales=point.scales), roughness=(1e-7, 1e-7))
+    given = assumptions(point, film=replace(film, point=point.moes).in_units_of(point), roughness=(1e-7, 1e-7))
     assert given["smooth"].details["h_min"] == pytest.approx(film.h_min * point.scales.length)
+    with pytest.raises(InputError, match=r"^film = 'of the point M 200, .* one of this point, M "):
+        assumptions(point, film=film)
 
 
 def test_moes_point_with_its_scales_is_the_same_contact():
@@ -288,7 +290,8 @@ def test_answers_name_what_does_not_hold():
     for point, outside in ((fast, True), (bearing(1000.0, load=50.0), False)):
         for found in (solve_steady(point, grid=grid), impedance(point, hz=500.0, grid=grid), Atlas().at(point)):
             said = found.outside_assumptions
-            assert said == assumptions(found.point, film=found, scales=found.scales).headline
+            film = getattr(found, "film", found)
+            assert said == assumptions(found.point, film=film, scales=getattr(film, "scales", None)).headline
             assert found.to_dict()["outside_assumptions"] == said and ("isothermal" in said) is outside
             assert ("heats the inlet: film" in repr(found)) is outside and len(repr(found).splitlines()) <= 5
     lost = solve_steady(fast, grid=grid, max_cycles=1, throw=False)

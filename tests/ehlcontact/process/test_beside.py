@@ -150,7 +150,7 @@ names = set()
 event.register("numba:compile", Compiled())
 {first}
 film = solve_steady(MoesPoint(200, 10, 0.5), grid=Grid(64))
-print(hashlib.md5(film.P.tobytes()).hexdigest(), *sorted(names))
+print(hashlib.md5(film.p.tobytes()).hexdigest(), *sorted(names))
 """
 
 

@@ -236,8 +236,8 @@ def test_results_are_the_same_bit_for_bit(threads, monkeypatch):
     monkeypatch.setattr("ehlcontact.checks.machine.cores", lambda: 8)
     monkeypatch.setattr("ehlcontact.solver.level.SHARED_FROM", 500)
     one, more = (solve_steady(POINT, grid=Grid(n=128), threads=k) for k in (1, threads))
-    np.testing.assert_array_equal(one.P, more.P)
-    np.testing.assert_array_equal(one.H, more.H)
+    np.testing.assert_array_equal(one.p, more.p)
+    np.testing.assert_array_equal(one.h, more.h)
     assert one.approach == more.approach
     settings = dict(n=96, until=0.2, dt=0.05)
     one, more = (simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**settings, threads=k)) for k in (1, threads))

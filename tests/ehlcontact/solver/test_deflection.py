@@ -355,7 +355,7 @@ POINT = MoesPoint(200, 10, 0.5)
 
 
 def steady_film(engine):
-    return solve_steady(POINT, grid=Grid(n=64, deflection=engine), tol=1e-9).H
+    return solve_steady(POINT, grid=Grid(n=64, deflection=engine), tol=1e-9).h
 
 
 def run(engine):

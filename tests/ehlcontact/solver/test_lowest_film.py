@@ -131,8 +131,8 @@ def test_no_film_is_not_made_up():
 def test_films_of_results(steady):
     """Of steady films, and of records."""
     result = steady(200, 10, 0.5, 64)
-    assert result.h_min == pytest.approx(lowest_film(result.H.T)[0], rel=1e-12)
-    assert 0.95 * result.H.min() < result.h_min < result.H.min()
+    assert result.h_min == pytest.approx(lowest_film(result.h.T)[0], rel=1e-12)
+    assert 0.95 * result.h.min() < result.h_min < result.h.min()
     times = [0.0, 0.1, 0.2]
     rest = PrescribedLoad(np.linspace(0.0, 1.0, 4), np.ones(4))
     run = simulate(
@@ -142,5 +142,5 @@ def test_films_of_results(steady):
         time=TimeSteps(until=0.2, dt=0.1),
         keep=KeepSettings(snapshots=times),
     )
-    expected = [lowest_film(run.snapshot_H[k].T)[0] for k in range(3)]
+    expected = [lowest_film(run.snapshot_h[k].T)[0] for k in range(3)]
     assert run.h_min == pytest.approx(expected, rel=1e-12)

@@ -326,9 +326,9 @@ def test_a_run_that_leaves_its_region_begins_again(monkeypatch):
     given = simulate(
         point, motion, grid=Grid(n=64, domain=inside), time=TimeSteps(until=0.2), run=RunSettings(throw=False)
     )
-    assert given.status is Status.OUT_OF_DOMAIN and given.T[-1] > 0.0
+    assert given.status is Status.OUT_OF_DOMAIN and given.t[-1] > 0.0
     run = simulate(point, motion, grid=Grid(n=64), time=TimeSteps(until=0.2))
-    assert run.domain == widened(inside) and run.T[-1] == 0.2
+    assert run.domain == widened(inside) and run.t[-1] == 0.2
 
 
 @pytest.mark.parametrize("kappa", [0.05, 0.5, 4.0])

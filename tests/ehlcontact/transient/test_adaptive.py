@@ -39,8 +39,8 @@ def several_fold(low, high, Omega_n=None):
 
 def largest_error(record, reference):
     """Largest error of the approach, by dense output of the reference."""
-    inside = record.T <= reference.T[-1]
-    return np.abs(record.approach - reference.at(record.T[inside]).approach).max()
+    inside = record.t <= reference.t[-1]
+    return np.abs(record.approach - reference.at(record.t[inside]).approach).max()
 
 
 @pytest.fixture(scope="module")
@@ -59,9 +59,9 @@ def pulse():
 def test_corners_and_end_are_met(pulse):
     for record in pulse.values():
         assert record.status is Status.CONVERGED
-        assert {0.5, 0.7, 1.2, 1.4} <= set(record.T)
-        assert record.T[-1] == 3.0
-        assert (np.diff(record.T) > 0.0).all()
+        assert {0.5, 0.7, 1.2, 1.4} <= set(record.t)
+        assert record.t[-1] == 3.0
+        assert (np.diff(record.t) > 0.0).all()
 
 
 def test_error_falls_with_the_tolerance(pulse, pulse_reference):
@@ -81,7 +81,7 @@ def test_errors_of_a_run_are_what_is_said(motion):
     reference = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=2.5, local_error=2e-6))
     for error in (1e-3, 1e-4):
         record = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=2.5, local_error=error))
-        there = reference.at(record.T)
+        there = reference.at(record.t)
         for name, share in (("approach", 2.0 / 3.0), ("force", 1.0)):
             ratio = np.abs(getattr(record, name) - getattr(there, name)).max() / (share * error ** (2.0 / 3.0))
             assert 1.0 / 3.0 < ratio < 3.0, (name, error, ratio)
@@ -99,7 +99,7 @@ def test_fewer_steps_than_fixed_ones_of_the_same_accuracy(pulse, pulse_reference
 def test_steps_grow_where_nothing_happens():
     """Two transits after the pulse the film is at rest again."""
     record = simulate(POINT, PULSE, grid=Grid(n=N), time=TimeSteps(until=6.0, local_error=1e-3))
-    steps, middles = np.diff(record.T), 0.5 * (record.T[1:] + record.T[:-1])
+    steps, middles = np.diff(record.t), 0.5 * (record.t[1:] + record.t[:-1])
     ramp = (middles > 0.5) & (middles < 0.7)
     assert steps[middles > 4.5].min() > 3.0 * np.median(steps[ramp])
 
@@ -124,7 +124,7 @@ def test_second_order_in_the_number_of_steps(motion, until):
     for error in (3e-3, 1e-4):
         record = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=until, local_error=error))
         steps.append(record.steps)
-        errors.append(np.abs(getattr(record, name) - getattr(reference.at(record.T), name)).max())
+        errors.append(np.abs(getattr(record, name) - getattr(reference.at(record.t), name)).max())
     assert np.log(errors[0] / errors[1]) / np.log(steps[1] / steps[0]) >= 1.8
     assert 0.4 < np.log(errors[0] / errors[1]) / np.log(3e-3 / 1e-4) < 1.2
 
@@ -138,7 +138,7 @@ def test_snapshots_are_taken_at_their_times():
         time=TimeSteps(until=0.8, local_error=1e-3),
         keep=KeepSettings(snapshots=wanted),
     )
-    assert tuple(record.snapshot_T) == wanted
+    assert tuple(record.snapshot_t) == wanted
 
 
 def test_controlled_motion_with_inertia_obeys_its_equation():
@@ -147,7 +147,7 @@ def test_controlled_motion_with_inertia_obeys_its_equation():
     )
     residual = record.acceleration / 5.13**2 + record.force - record.load
     assert np.abs(residual).max() < 1e-4
-    dT = np.diff(record.T)
+    dT = np.diff(record.t)
     moved = 0.5 * dT * (record.rate[1:] + record.rate[:-1])
     np.testing.assert_allclose(np.diff(record.approach), moved, atol=1e-12)
 
@@ -180,7 +180,7 @@ def test_overload_of_a_given_domain_is_said_with_advice():
         simulate(POINT, motion, grid=Grid(n=N, domain=Domain()), time=TimeSteps(local_error=1e-3))
     result = caught.value.result
     assert result.status is Status.OUT_OF_DOMAIN
-    assert result.T[-1] < 1.0
+    assert result.t[-1] < 1.0
     assert (
         simulate(POINT, motion, grid=Grid(n=64), time=TimeSteps(local_error=1e-3)).force[-1] > 8.0
     )  # the default domain is wide enough
@@ -195,7 +195,7 @@ def test_vibration_that_separates_and_comes_back():
     assert away.sum() >= 3
     assert record.approach[away].max() < 0.0
     np.testing.assert_allclose(record.acceleration[away], 5.13**2, rtol=1e-4)  # free flight under the load
-    assert record.force[record.T > record.T[away].max()].max() > 2.0
+    assert record.force[record.t > record.t[away].max()].max() > 2.0
     assert record.force.max() == record.force[0]  # bounced back lower than it came
 
 
@@ -221,7 +221,7 @@ def test_step_that_cannot_meet_its_tolerance():
     result = caught.value.result
     assert result.status is Status.STEP_TOO_SMALL
     assert result.steps > 5
-    assert result.T[-1] == pytest.approx(0.3, abs=1e-4)
+    assert result.t[-1] == pytest.approx(0.3, abs=1e-4)
     assert np.isfinite(result.approach).all()
     assert run(throw=False).status is Status.STEP_TOO_SMALL
 

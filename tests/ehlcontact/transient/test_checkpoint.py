@@ -80,7 +80,7 @@ def test_restart_equals_the_uninterrupted_run(name, tmp_path):
     for T in (0.0, 0.25, 0.55):
         part = simulate(POINT, motion, **grouped(**settings, checkpoint=path, callback=stop_after(T)))
         assert part.status is Status.INTERRUPTED
-        assert T < part.T[-1] < 0.8
+        assert T < part.t[-1] < 0.8
         assert_same_bits(whole, simulate(POINT, motion, **grouped(**settings, restart=path)))
         path.unlink()
 
@@ -216,18 +216,18 @@ def test_a_later_end_keeps_the_stored_step(motion, dt, tmp_path):
     """Whatever the default, or the shortening, would be for that end; also the second time."""
     options = dict(n=N, dt=dt)
     first = simulate(POINT, motion, **grouped(until=0.2, **options, checkpoint=tmp_path / "c.h5"))
-    step = float(first.T[1])
+    step = float(first.t[1])
     for until in (0.2, 0.37, 0.4, 0.55):
         longer = simulate(
             POINT,
             motion,
             **grouped(until=until, **options, restart=tmp_path / "c.h5", checkpoint=tmp_path / "c.h5"),
         )
-        np.testing.assert_allclose(np.diff(longer.T), step, rtol=1e-9)
-        assert until - 1e-12 <= longer.T[-1] < until + step
-        assert np.array_equal(longer.force[: first.T.size], first.force)
-    whole = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=longer.T[-1], dt=step))
-    assert_same_bits(replace(longer, T=whole.T), whole)
+        np.testing.assert_allclose(np.diff(longer.t), step, rtol=1e-9)
+        assert until - 1e-12 <= longer.t[-1] < until + step
+        assert np.array_equal(longer.force[: first.t.size], first.force)
+    whole = simulate(POINT, motion, grid=Grid(n=N), time=TimeSteps(until=longer.t[-1], dt=step))
+    assert_same_bits(replace(longer, t=whole.t), whole)
     with pytest.raises(InputError, match=r"its dT is 0\.0"):
         simulate(
             POINT,
@@ -252,7 +252,7 @@ def test_a_controlled_run_can_be_extended(tmp_path):
     options = dict(n=N, local_error=1e-3)
     simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(until=0.4, **options, checkpoint=tmp_path / "c.h5"))
     longer = simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(until=0.8, **options, restart=tmp_path / "c.h5"))
-    assert longer.T[-1] == 0.8
+    assert longer.t[-1] == 0.8
 
 
 def test_a_checkpoint_that_cannot_be_written_later_is_told_and_the_run_goes_on(tmp_path, monkeypatch):
@@ -269,7 +269,7 @@ def test_a_checkpoint_that_cannot_be_written_later_is_told_and_the_run_goes_on(t
     fails.add(0.35)
     with pytest.warns(RuntimeWarning, match="No space left.*the run goes on") as told:
         result = simulate(POINT, HarmonicLoad(Omega=3.0), **grouped(**options))
-    assert len(told) == 1 and result.status.ok and read(path, Checkpoint).record.T == result.T[-1]
+    assert len(told) == 1 and result.status.ok and read(path, Checkpoint).record.T == result.t[-1]
     path.unlink()
     fails.add(9.0)
     with pytest.warns(RuntimeWarning), pytest.raises(InputError, match=r"^checkpoint = .*No space left") as caught:

@@ -23,7 +23,7 @@ def smooth(record, steps):
     cosine = 2.0 + np.cos(3.0 * T)
     return replace(
         record,
-        T=T,
+        t=T,
         approach=np.sin(3.0 * T),
         rate=3.0 * np.cos(3.0 * T),
         force=cosine,
@@ -51,12 +51,12 @@ def test_order(record):
 
 
 def test_steps_are_reproduced_and_slopes_continuous(record):
-    dense = record.at(record.T)
+    dense = record.at(record.t)
     for name in ("approach", "rate", "force", "load", "h_central", "h_min"):
         np.testing.assert_allclose(getattr(dense, name), getattr(record, name), atol=1e-13)
         assert not getattr(dense, name).flags.writeable
     d = 1e-7
-    inner = record.T[1:-1]
+    inner = record.t[1:-1]
     for name in ("approach", "force", "h_min"):
         left, middle, right = (getattr(record.at(inner + s), name) for s in (-d, 0.0, d))
         np.testing.assert_allclose(right - middle, middle - left, atol=1e-5 * d)
@@ -66,7 +66,7 @@ def test_shape_and_load(record):
     assert record.at(0.25).approach.shape == ()
     dense = record.at([[0.1, 0.25], [0.5, 0.77]])
     assert dense.force.shape == (2, 2)
-    np.testing.assert_allclose(dense.load, 1.0 + 0.1 * np.sin(pi * dense.T), atol=1e-12)
+    np.testing.assert_allclose(dense.load, 1.0 + 0.1 * np.sin(pi * dense.t), atol=1e-12)
     T = np.linspace(0.0, 0.3, 4)
     driven = simulate(POINT, PrescribedApproach(T, 0.6 + 0.1 * T), grid=Grid(n=16), time=TimeSteps(dt=0.1))
     np.testing.assert_array_equal(driven.at(T).load, driven.at(T).force)
@@ -74,7 +74,7 @@ def test_shape_and_load(record):
 
 @pytest.mark.parametrize("T", [-0.1, 1.1, float("nan"), [0.5, 2.0], "now"])
 def test_outside_the_record(record, T):
-    with pytest.raises(InputError, match=r"^T = .*: must be "):
+    with pytest.raises(InputError, match=r"^t = .*: must be "):
         record.at(T)
 
 

@@ -29,9 +29,9 @@ GLASS = Heat(0.3, effusivity=(13_000.0, 1_500.0))
 
 
 def moved(motion, until, steps, thermal=ROLLING, grid=GRID, tol=1e-5):
-    """A run in fixed steps; `until` in 2a/u_sum."""
+    """A run in fixed steps, in Moes units as `until` is."""
     time = TimeSteps(until=until * UNIT, dt=until / steps * UNIT, tol=tol)
-    return simulate(POINT, motion, grid=grid, thermal=thermal, time=time)
+    return simulate(POINT, motion, grid=grid, thermal=thermal, time=time).dimensionless
 
 
 def waved(approach, omega, steps, thermal, amplitude=1e-3):
@@ -39,7 +39,7 @@ def waved(approach, omega, steps, thermal, amplitude=1e-3):
     period = 2.0 * np.pi / omega
     T = np.linspace(0.0, 2.0 * period, 1001)
     run = moved(PrescribedApproach(T, approach + amplitude * np.sin(omega * T)), 2.0 * period, 2 * steps, thermal)
-    wave = omega * run.T[-steps:]
+    wave = omega * run.t[-steps:]
     columns = np.column_stack([np.sin(wave), np.cos(wave), np.ones(steps)])
     sine, cosine, _ = np.linalg.lstsq(columns, run.force[-steps:], rcond=None)[0] / amplitude
     return sine, cosine / omega
@@ -63,7 +63,7 @@ def test_small_vibrations_have_the_heated_impedance(omega, steps, given):
 
 
 def test_a_steady_film_stays():
-    film = solve_steady(POINT, grid=GRID, thermal=Heat(), tol=1e-8)
+    film = solve_steady(POINT, grid=GRID, thermal=Heat(), tol=1e-8).dimensionless
     still = moved(PrescribedApproach([0, 1, 2, 3], [film.approach] * 4), 3.0, 15, tol=1e-6)
     np.testing.assert_allclose(still.force, 1.0, atol=1e-7)
     np.testing.assert_allclose(still.warmest_oil, film.temperature.largest, atol=1e-5)
@@ -71,12 +71,12 @@ def test_a_steady_film_stays():
 
 @pytest.mark.slow
 def test_steps_are_of_second_order():
-    film = solve_steady(POINT, grid=GRID, thermal=Heat())
+    film = solve_steady(POINT, grid=GRID, thermal=Heat()).dimensionless
     T = np.linspace(0.0, 4.0, 4001)
     motion = PrescribedApproach(T, film.approach + 0.05 * np.sin(T) ** 4)
     runs = [moved(motion, 4.0, steps) for steps in (20, 40, 80)]
     for of in (lambda run: run.force, lambda run: run.warmest_oil):
-        coarse, middle, fine = (of(run)[:: len(run.T) // 20] for run in runs)
+        coarse, middle, fine = (of(run)[:: len(run.t) // 20] for run in runs)
         assert np.abs(coarse - middle).max() > 3.0 * np.abs(middle - fine).max() > 0.0
     assert np.ptp(runs[-1].warmest_oil) > 1.0
     assert max(run.heat_balance.max() for run in runs) < 1e-9
@@ -86,7 +86,8 @@ def test_film_after_a_load_step_is_the_steady_one():
     """Under half more load, in steps longer than the film takes through the contact at last."""
     grid = Grid(48, Domain(-6.0, 2.0, 3.5))
     run = moved(PrescribedLoad([0, 1, 2, 30], [1, 1.5, 1.5, 1.5]), 12.0, 60, grid=grid)
-    film = solve_steady(POINT, grid=grid, thermal=Heat(), approach=float(run.approach[-1]))
+    at = POINT.scales.length * float(run.approach[-1])
+    film = solve_steady(POINT, grid=grid, thermal=Heat(), approach=at).dimensionless
     start = solve_steady(POINT, grid=grid, thermal=Heat()).temperature
     assert run.temperature.film_share == pytest.approx(start.film_share, rel=5e-4)
     assert run.force[-1] == pytest.approx(1.5, rel=1e-5)

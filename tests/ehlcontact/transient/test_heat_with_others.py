@@ -37,7 +37,8 @@ ROLLING = Heat()
 def moved(until, steps, motion=HELD, grid=COARSE, thermal=ROLLING, tol=1e-5, keep=None, **given):
     """A run in fixed steps; `until` in 2a/u_sum."""
     time = TimeSteps(until=until * UNIT, dt=until / steps * UNIT, tol=tol)
-    return simulate(POINT, motion, grid=grid, thermal=thermal, time=time, keep=keep or KeepSettings(), **given)
+    keep = keep or KeepSettings()
+    return simulate(POINT, motion, grid=grid, thermal=thermal, time=time, keep=keep, **given).dimensionless
 
 
 def columns(run):
@@ -54,12 +55,12 @@ def columns(run):
 def test_small_vibrations_under_a_layer_have_the_impedance_of_both(r, given):
     """Isothermal damping under the layer is 15 % and more away."""
     steps, amplitude = 40, 1e-3
-    film = solve_steady(POINT, grid=WIDER, supply=OilLayer(over_flooded=r), thermal=given)
+    film = solve_steady(POINT, grid=WIDER, supply=OilLayer(over_flooded=r), thermal=given).dimensionless
     layer = OilLayer(H=float(film.layer[0]))
     T = np.linspace(0.0, 4.0 * np.pi, 1001)
     motion = PrescribedApproach(T, film.approach + amplitude * np.sin(T))
     run = moved(T[-1], 2 * steps, motion, WIDER, given, supply=layer)
-    wave = np.column_stack([np.sin(run.T[-steps:]), np.cos(run.T[-steps:]), np.ones(steps)])
+    wave = np.column_stack([np.sin(run.t[-steps:]), np.cos(run.t[-steps:]), np.ones(steps)])
     K, C, _ = np.linalg.lstsq(wave, run.force[-steps:], rcond=None)[0] / amplitude
     both, cold = (
         impedance(POINT, Omega=1.0, grid=WIDER, supply=layer, thermal=t).dimensionless for t in (given, None)
@@ -91,7 +92,7 @@ def at(speed):
 )
 def test_layer_and_speed_lose_neither_oil_nor_energy(grid, U):
     """The front recedes as the speed falls, and the surfaces turn back."""
-    layer = 0.9 * solve_steady(POINT, grid=WIDER).h_central
+    layer = 0.9 * solve_steady(POINT, grid=WIDER).dimensionless.h_central
     _, loss, energy = marched(U, grid, 0.25, layer=layer)
     assert loss < 1e-8
     assert energy < 1e-9
@@ -100,11 +101,11 @@ def test_layer_and_speed_lose_neither_oil_nor_energy(grid, U):
 @pytest.mark.slow
 def test_settled_at_another_speed_it_is_the_joint_film():
     """Oil ahead of a starved contact takes long."""
-    layer = OilLayer(h=0.9 * solve_steady(POINT, grid=WIDER).si.h_central)
+    layer = OilLayer(h=0.9 * solve_steady(POINT, grid=WIDER).h_central)
     speed = SpeedHistory([0.0, 10.0, 20.0, 30.0], [1.0, 0.8, 0.8, 0.8])
     run = moved(300.0, 150, grid=WIDER, supply=layer, speed=speed, tol=1e-4)
     steady = solve_steady(at(0.8), grid=WIDER, supply=layer, thermal=ROLLING)
-    assert run.h_central[-1] == pytest.approx(steady.h_central, rel=1e-3)
+    assert run.h_central[-1] * POINT.scales.length == pytest.approx(steady.h_central, rel=1e-3)
     assert run.warmest_oil[-1] == pytest.approx(steady.temperature.largest, rel=0.005)
 
 

@@ -265,17 +265,17 @@ def test_every_step_over_roughness_converges(rough_runs):
 def test_film_over_rolling_roughness_is_carried(rough_runs):
     """A quarter later the same deviation stands a quarter further on, and half the heights make half of it."""
     run, half = rough_runs["full"], rough_runs["half"]
-    mesh, rest = run.X[1] - run.X[0], run.h_midplane[0]
+    mesh, rest = run.x[1] - run.x[0], run.h_midplane[0]
     shift = round(0.25 / mesh)
     steps = run.h_midplane - rest
     before = steps[round(1.0 / mesh)]
-    places = np.flatnonzero((run.X > -0.6) & (run.X < -0.3))
+    places = np.flatnonzero((run.x > -0.6) & (run.x < -0.3))
     now = steps[-1]
-    assert np.std(before[places]) > 0.05 * np.interp(0.0, run.X, rest)
+    assert np.std(before[places]) > 0.05 * np.interp(0.0, run.x, rest)
     assert np.corrcoef(before[places], now[places + shift])[0, 1] > 0.98
     assert np.std(now[places + shift]) == pytest.approx(np.std(before[places]), rel=0.15)
     halved = half.h_midplane[-1] - half.h_midplane[0]
-    inside = np.abs(run.X + 0.4) < 0.4
+    inside = np.abs(run.x + 0.4) < 0.4
     assert np.linalg.norm((now - 2.0 * halved)[inside]) < 0.1 * np.linalg.norm(now[inside])
 
 
@@ -283,7 +283,7 @@ def test_film_over_rolling_roughness_is_carried(rough_runs):
 def test_film_over_roughness_does_not_depend_on_the_grid(rough_runs):
     """Twice the grid moves the deviation by a fifth of itself: four nodes to the shortest wave tell its shape."""
     fine, coarse = rough_runs["full"], rough_runs["coarse"]
-    inside = np.abs(coarse.X + 0.4) < 0.4
+    inside = np.abs(coarse.x + 0.4) < 0.4
     now = (fine.h_midplane[-1] - fine.h_midplane[0])[::2][inside]
     then = (coarse.h_midplane[-1] - coarse.h_midplane[0])[inside]
     assert np.linalg.norm(now - then) < 0.25 * np.linalg.norm(now)

@@ -91,7 +91,7 @@ def test_free_vibration_dissipates_in_every_cycle():
     assert starts.size >= 5
     kinetic = 0.5 * record.rate[starts] ** 2 / OMEGA_N**2
     for k in range(1, starts.size):
-        a, b = record.T[starts[k - 1]], record.T[starts[k]]
+        a, b = record.t[starts[k - 1]], record.t[starts[k]]
         gap = record.approach[starts[k]] - record.approach[starts[k - 1]]
         lost = record.dissipated(a, b) - gap  # the load is 1: its work over the gap is no loss
         assert lost > 0.0
@@ -151,8 +151,8 @@ def test_snapshot_at_the_end():
         time=TimeSteps(until=0.2, dt=0.1),
         keep=KeepSettings(snapshots=(0.1, 0.2)),
     )
-    np.testing.assert_allclose(run.snapshot_T, [0.1, 0.2], rtol=1e-12)
-    np.testing.assert_array_equal(run.snapshot_H[-1, :, 0], run.h_midplane[-1])
+    np.testing.assert_allclose(run.snapshot_t, [0.1, 0.2], rtol=1e-12)
+    np.testing.assert_array_equal(run.snapshot_h[-1, :, 0], run.h_midplane[-1])
 
 
 def test_no_snapshots(harmonic):
@@ -191,7 +191,7 @@ def test_inertia_of_a_stiff_oscillator_is_quasi_static():
         POINT, HarmonicLoad(Omega=0.5 * pi, Omega_n=40.0), grid=Grid(n=N), time=TimeSteps(until=4.0, dt=0.025)
     )
     none = simulate(POINT, HarmonicLoad(Omega=0.5 * pi), grid=Grid(n=N), time=TimeSteps(until=4.0, dt=0.025))
-    late = light.T > 1.0
+    late = light.t > 1.0
     np.testing.assert_allclose(light.approach[late], none.approach[late], atol=3e-3)
 
 
@@ -223,7 +223,7 @@ def test_ramp_widens_the_domain_and_settles():
 def test_steps_divide_the_end_evenly():
     record = simulate(POINT, HarmonicLoad(Omega=pi), grid=Grid(n=N), time=TimeSteps(until=0.5, dt=0.3))
     assert record.steps == 2
-    assert record.T[-1] == pytest.approx(0.5)
+    assert record.t[-1] == pytest.approx(0.5)
     exact = simulate(POINT, HarmonicLoad(Omega=pi), grid=Grid(n=N), time=TimeSteps(until=0.3, dt=0.1))
     assert exact.steps == 3
 
@@ -296,7 +296,7 @@ def test_time_out_of_the_domain_is_reported():
         time=TimeSteps(until=4.0),
     )
     assert record.status is Status.OUT_OF_DOMAIN
-    assert record.T[-1] < 4.0
+    assert record.t[-1] < 4.0
 
 
 def test_fast_squeezing_of_a_narrow_ellipse():

@@ -88,10 +88,10 @@ def test_order_in_time():
     finest = runs[-1]
     for k in (0, 2):  # central film, approach
         errors = [
-            np.abs(films(one)[k] - films(finest)[k][:: round(one.T[1] / finest.T[1])]).max() for one in runs[:3]
+            np.abs(films(one)[k] - films(finest)[k][:: round(one.t[1] / finest.t[1])]).max() for one in runs[:3]
         ]
         assert errors[1] < 0.35 * errors[0] and errors[2] < 0.35 * errors[1]
-    assert finest.h_central[finest.T.size // 2] > 0.5 * finest.h_central[0]  # at U = 0 the film is trapped
+    assert finest.h_central[finest.t.size // 2] > 0.5 * finest.h_central[0]  # at U = 0 the film is trapped
 
 
 def test_backwards_is_the_mirror_image():
@@ -102,7 +102,7 @@ def test_backwards_is_the_mirror_image():
     )
     np.testing.assert_array_equal(ahead.h_central, back.h_central)
     np.testing.assert_array_equal(ahead.p_midplane, back.p_midplane[:, ::-1])
-    np.testing.assert_array_equal(ahead.snapshot_H, back.snapshot_H[:, ::-1])
+    np.testing.assert_array_equal(ahead.snapshot_h, back.snapshot_h[:, ::-1])
 
 
 @pytest.mark.parametrize("local_error", [pytest.param(None, marks=pytest.mark.long), 1e-3])
@@ -115,14 +115,14 @@ def test_turned_round_it_ends_in_the_mirror_image_of_its_start(local_error):
     np.testing.assert_allclose(run.p_midplane[-1][::-1], run.p_midplane[0], atol=2e-3)
     assert run.h_min.min() < 0.97 * run.h_min[0] and run.h_min.min() > 0.0  # thinner while it turns
     if local_error:
-        assert np.abs(run.T - 1.0).min() < 1e-12  # where it turns
+        assert np.abs(run.t - 1.0).min() < 1e-12  # where it turns
 
 
 def test_stop_and_go():
     """At standstill the film is squeezed out slowly, by its rim; it comes back with the speed."""
     U = SpeedHistory([0.0, 1.0, 2.0, 22.0, 23.0, 40.0], [1.0, 1.0, 0.0, 0.0, 1.0, 1.0])
     run = simulate(POINT, HELD, grid=COARSE, time=TimeSteps(until=35.0, dt=0.1, tol=1e-4), speed=U)
-    stopped, later = np.searchsorted(run.T, (4.0, 22.0))
+    stopped, later = np.searchsorted(run.t, (4.0, 22.0))
     assert 0.6 * run.h_min[stopped] > run.h_min[later] > 0.0
     assert np.all(np.diff(run.approach[stopped:later]) > 0.0)
     assert run.h_central[-1] == pytest.approx(run.h_central[0], rel=1e-3)
@@ -201,7 +201,7 @@ def squeezed(n, dT, until=6.0):
     motion, grid = PrescribedApproach(T, approach(T)), Grid(n=n, domain=Domain(-4.5, 4.5, 4.5))
     run = simulate(point, motion, grid=grid, time=TimeSteps(until=until, dt=dT), speed=still)
     start = round(STOPPED / dT)
-    known = axisymmetric(point, run.T[start:], 80, 4.5)
+    known = axisymmetric(point, run.t[start:], 80, 4.5)
     pressed = known[:, 0] > 0.1
     return run.force[start:][pressed], run.h_central[start:][pressed], *known[pressed].T
 
@@ -228,8 +228,8 @@ def vibrating(point, grid, W, swing=0.02, periods=4, steps=40):
     grid, still = Grid(n=grid.n, domain=steady.domain), PrescribedApproach(T, np.full(T.size, steady.approach))
     time = TimeSteps(until=T[-1], dt=T[2], tol=1e-6)
     run = simulate(point, still, grid=grid, time=time, speed=SpeedHistory(T, 1.0 + swing * np.sin(W * T)))
-    last = run.T > 0.5 * T[-1] + 1e-9
-    waves = np.stack([np.sin(W * run.T[last]), np.cos(W * run.T[last]), np.ones(last.sum())], axis=1)
+    last = run.t > 0.5 * T[-1] + 1e-9
+    waves = np.stack([np.sin(W * run.t[last]), np.cos(W * run.t[last]), np.ones(last.sum())], axis=1)
     sine, cosine, _ = np.linalg.lstsq(waves, run.force[last], rcond=None)[0] / swing
     return sine + 1j * cosine
 

@@ -91,7 +91,7 @@ def test_turned_round_it_meets_the_oil_that_it_left():
     first = solve_steady(CIRCLE, grid=grid, supply=OilLayer(H=LAYER))
     second = solve_steady(CIRCLE, grid=grid, supply=first.supply_behind)
     assert second.h_central < 0.95 * first.h_central
-    np.testing.assert_allclose(film.fields[0][::-1], second.H, atol=1e-5)
+    np.testing.assert_allclose(film.fields[0][::-1], second.h, atol=1e-5)
 
 
 def test_backwards_is_the_mirror_image():

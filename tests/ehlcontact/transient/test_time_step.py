@@ -192,7 +192,7 @@ def test_tolerance_stays_above_rounding():
 
 def damping(record, Omega):
     """C of the first harmonics of force and approach in the last period, beside which they may drift."""
-    T = record.T[record.T > record.T[-1] - 2.0 * pi / Omega - 1e-9]
+    T = record.t[record.t > record.t[-1] - 2.0 * pi / Omega - 1e-9]
     basis = np.column_stack([np.exp(1j * Omega * T), np.exp(-1j * Omega * T), np.ones(T.size), T])
     u, f = (np.linalg.lstsq(basis, x[-T.size :] + 0j)[0][0] for x in (record.approach, record.force))
     return (f / u).imag / Omega

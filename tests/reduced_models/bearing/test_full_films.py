@@ -56,9 +56,9 @@ def ball(film):
     point = film.race("inner").point(force[0], rpm)
     s = point.scales
     full = simulate(point, PrescribedApproach(time / s.time, approach / s.length), time=TimeSteps(dt=s.time))
-    t, u, v = full.T * s.time, full.approach * s.length, full.rate * s.length / s.time
+    t, u, v = full.t, full.approach, full.rate
     wide = film.element("inner", rpm).drive(t, u, v)
-    return u, full.force * s.force, wide, film.element("inner", rpm).spring(u)
+    return u, full.force, wide, film.element("inner", rpm).spring(u)
 
 
 @pytest.mark.slow
@@ -85,7 +85,7 @@ def test_what_a_light_ball_lacks_is_the_oil_further_out(ball, film):
     far = (full[0] / load) ** (1.0 / 3.0)
     n = int(np.ceil(128 * far / 16)) * 16
     near, wider = (
-        solve_steady(own, grid=Grid(n=n, domain=domain)).si.approach
+        solve_steady(own, grid=Grid(n=n, domain=domain)).approach
         for n, domain in ((128, None), (n, Domain(-4.5 * far, 1.5 * far, 3.0 * far)))
     )
     assert wider == pytest.approx(u[-1], abs=0.05 * (near - wider))
@@ -114,7 +114,7 @@ def test_contacts_at_angles_of_a_7205(ball, race):
     angle, speed_sum = float(at.angles[ball, column]), float(at.speed_sum[ball, column])
     own = bearing.race(race).at_angle(bearing.pitch_diameter, angle, speed_sum)
     point = own.point(float(state.force[ball, column]), rpm)
-    steady = solve_steady(point, grid=Grid(n=256)).si
+    steady = solve_steady(point, grid=Grid(n=256))
     assert state.h_central[ball, column] == pytest.approx(steady.h_central, rel=0.015)
     assert state.h_min[ball, column] == pytest.approx(steady.h_min, rel=0.01)
     Omega = np.array([0.05, 0.5, pi])

@@ -59,5 +59,5 @@ def error_of_cosines(point, depth, period, dt):
         1.0 - np.cos(2.0 * np.pi * np.clip((T - 0.2) / period, 0.0, 2.0))
     )
     run = simulate(point, PrescribedApproach(T, u), time=TimeSteps(until=until, dt=dt))
-    off = element.drive(run.T, run.approach, run.rate) - run.force
+    off = element.drive(run.t, run.approach, run.rate) - run.force
     return element, np.sqrt(np.mean(off**2)) / run.force.std()

@@ -250,7 +250,7 @@ def test_a_6205_from_lift_off_to_overload():
     T = np.linspace(0.0, 12.0, 601)
     load = 0.05 + 1.95 * np.sin(pi * np.clip((T - 1.0) / 8.0, 0.0, 1.0)) ** 2
     run = simulate(point, PrescribedLoad(T, load), grid=Grid(n=128))
-    error = wide.drive(run.T, run.approach, run.rate) - run.force
+    error = wide.drive(run.t, run.approach, run.rate) - run.force
     rms = np.sqrt(np.mean(error**2)) / run.force.max()
     static = np.sqrt(np.mean((wide.spring(run.approach) - run.force) ** 2)) / run.force.max()
     assert rms < 0.006
