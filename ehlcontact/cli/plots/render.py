@@ -252,7 +252,9 @@ def _load_zone(figure: go.Figure, zone: LoadZone, at: dict[str, int]) -> None:
         towards = float(np.degrees(zone.load)) % 360.0
         place = {"theta": [towards] * 2, "r": [1.02 * most, 1.22 * most]}
         figure.add_scatterpolar(**place, **arrow, marker=marker, name="load", **at)
-    radius = {"range": [0.0, LoadZone.ROOM * most], "ticksuffix": " N", "angle": zone.free_angle}
+    radius: dict[str, Any] = {"range": [0.0, LoadZone.ROOM * most], "ticksuffix": " N"}
+    # numbers upright, wherever their axis points
+    radius |= {"angle": zone.free_angle, "tickangle": zone.free_angle}
     figure.update_polars(barmode="overlay", radialaxis=radius, **at)
 
 
