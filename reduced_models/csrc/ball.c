@@ -5,9 +5,7 @@
 #include <string.h>
 
 enum { MOST_BALL_STEPS = 60, MOST_AT_REST = 12, STALE = 5 };
-static const double nearly = 1e-8, nearly_shared = 1e-10; /* imbalance of a ball, over its forces and in steps 1 N, that one more step ends */
 static const double overshoot = 2.0;  /* growth of the imbalance that halves the way to the last place */
-static const double rounding = 1e-15; /* of the place of a ball: what is left of its imbalance, over its stiffness */
 
 void renew_slopes(const Search *s, const double b[2], const double force[2], const double by_film[2], double slopes[5][4])
 {
@@ -104,8 +102,7 @@ int balance_ball(const Search *s, const double start[2])
 {
     static const double none[2] = {0.0};
     const StepHead *step = s->step;
-    const double *free = s->bearing->grooves.free_length, close = shared_by_forces(s->bearing) ? nearly_shared : nearly;
-    const double most = longest * (free[INNER_RACE] + free[OUTER_RACE]), least = at_rest(s) ? 0.0 : 1.0;
+    const double *free = s->bearing->grooves.free_length, most = longest * (free[INNER_RACE] + free[OUTER_RACE]);
     const int most_steps = at_rest(s) ? MOST_AT_REST : MOST_BALL_STEPS, films = s->contact[INNER_RACE].film != NULL;
     const int renews = at_rest(s) && (films || (is_angular(s->bearing) && step->omega > 0.0));
     double reach = first_step, previous = HUGE_VAL, b[2] = {start[0], start[1]}, last[2] = {start[0], start[1]}, renewed[5][4];
@@ -140,7 +137,7 @@ int balance_ball(const Search *s, const double start[2])
             previous = HUGE_VAL;
             continue;
         }
-        allowed = close * (least + p.inner.force + p.outer.force) + rounding * p.at.l[OUTER_RACE] * stiffness_of(s, &p);
+        allowed = allowed_imbalance(s, &p);
         if (at_rest(s) && films && size <= allowed) {
             press_ball(s, b, &p); /* begins with its films as they are: now their slopes are exact too */
         }

@@ -10,6 +10,8 @@
 static const double two_pi = 6.283185307179586;
 static const double first_step = 1e-7; /* m, outward, of a ball that nothing touches; doubled until a race is met */
 static const double longest = 0.05;    /* step over the distance of the groove centres */
+static const double nearly = 1e-8, nearly_shared = 1e-10; /* imbalance of a ball, over its forces and in steps 1 N, that one more step ends */
+static const double rounding = 1e-15;  /* of the place of a ball: what is left of its imbalance, over its stiffness */
 static const double singular = 1e-14;  /* of the squared stiffness: determinant of the tangent of a ball that nothing touches */
 
 /* A step of the bearing; `gain` leads from places to rates, by differences of second order. `angle` is that of the first ball at its
@@ -94,8 +96,8 @@ IN_PLACE Rolling roll_along(const Search *s, const Dual b[2], const Dual c[2])
     if (!shared_by_forces(s->bearing)) {
         return roll(s->bearing, b, c, NULL);
     }
-    dry[INNER_RACE] = dry_compression(&s->dry[INNER_RACE], plus(inner_span(b, c, span), -s->bearing->grooves.free_length[INNER_RACE]));
-    dry[OUTER_RACE] = dry_compression(&s->dry[OUTER_RACE], plus(outer_span(b), -s->bearing->grooves.free_length[OUTER_RACE]));
+    dry[INNER_RACE] = dry_compression(&s->dry[INNER_RACE], plus(inner_span(b, c, span), -free_length(s, INNER_RACE)));
+    dry[OUTER_RACE] = dry_compression(&s->dry[OUTER_RACE], plus(outer_span(b), -free_length(s, OUTER_RACE)));
     return roll(s->bearing, b, c, dry);
 }
 
@@ -189,9 +191,17 @@ typedef struct {
     double a[2], h[2], m[2], turn_rr, turn_rz, turn_zz, rr, rz, zr, zz, det, stiff;
 } Tangents;
 
+/* Of a ball that a contact touches above 0, even where a film that lets go has a falling force. */
 static inline double stiffness_of(const Search *s, const Pressed *p)
 {
-    return p->inner.stiffness + p->outer.stiffness + s->step->gain * (p->inner.damping + p->outer.damping) + s->heavy;
+    return fabs(p->inner.stiffness) + fabs(p->outer.stiffness) + s->step->gain * (fabs(p->inner.damping) + fabs(p->outer.damping)) + s->heavy;
+}
+
+/* Imbalance of a ball that one more step of Newton's method ends. */
+static inline double allowed_imbalance(const Search *s, const Pressed *p)
+{
+    const double close = shared_by_forces(s->bearing) ? nearly_shared : nearly, least = at_rest(s) ? 0.0 : 1.0;
+    return close * (least + p->inner.force + p->outer.force) + rounding * p->at.l[OUTER_RACE] * stiffness_of(s, p);
 }
 
 IN_PLACE void tangents(const Search *s, const Pressed *p, const double inertia[5][4], Tangents *t)

@@ -6,10 +6,12 @@
 
 enum { MOST_SEARCHED = 100 };          /* steps of the search at rest: a handful, but where a ball lifts off */
 enum { DOUBLED = 40, HALVED = 48 };    /* steps of a search by bisection: to a bracket, and in it */
+enum { MOST_DESCENDED = 400 };         /* steps of a descent: tens */
 static const double balanced_roughly = 1e-9; /* imbalance of a ball, over its forces, from which `balance_ball` goes on */
 static const double light = 1e-3;      /* stiffness of the inner contact over that of the outer one, below which a ball follows the outer one */
 static const double roughly = 0.1;     /* of the forces along a step, that are left at the end of a search along it */
 static const double beside = 0.5;      /* rad, of the angle of a ball, on either side of the line between the groove centres and of that across the shaft */
+static const double first_damping = 1e-12; /* of a descent, over the squared slopes */
 static const double epsilon = 2.220446049250313e-16;
 
 /* First place of a ball: on the line between the groove centres, dry contacts in balance if they touch. */
@@ -187,6 +189,54 @@ static void search_place(const Search *s, double b[2])
     }
 }
 
+/* Moves a ball to where its forces balance at the end of a step; returns whether there is such a place. The method of Levenberg and
+ * Marquardt makes the imbalance smaller in every step: films that let go, and friction that passes from race to race, bend it so much within
+ * some nanometres that Newton's method runs around the balance. */
+static int descend(const Search *s, double b[2])
+{
+    static const double none[2] = {0.0};
+    double damping = 0.0, size;
+    int i, renewed = 0;
+    Pressed p;
+    Tangents t;
+    press_ball(s, b, &p);
+    size = hypot(p.sum[0], p.sum[1]);
+    for (i = 0; i < MOST_DESCENDED && !(size <= allowed_imbalance(s, &p)); i++) {
+        double rr, rz, zz, by_r, by_z, det, moved[2], now;
+        Pressed there;
+        if (!renewed) {
+            renew_slopes(s, b, none, none, s->ball->inertia);
+            tangents(s, &p, (const double (*)[4])s->ball->inertia, &t);
+            renewed = 1;
+        }
+        rr = t.rr * t.rr + t.zr * t.zr;
+        rz = t.rr * t.rz + t.zr * t.zz;
+        zz = t.rz * t.rz + t.zz * t.zz;
+        damping = i == 0 ? first_damping * (rr + zz) : damping;
+        rr += damping;
+        zz += damping;
+        by_r = t.rr * p.sum[0] + t.zr * p.sum[1];
+        by_z = t.rz * p.sum[0] + t.zz * p.sum[1];
+        det = rr * zz - rz * rz;
+        moved[0] = b[0] + (rz * by_z - zz * by_r) / det;
+        moved[1] = b[1] + (rz * by_r - rr * by_z) / det;
+        press_ball(s, moved, &there);
+        now = hypot(there.sum[0], there.sum[1]);
+        if (now < size) {
+            memcpy(b, moved, sizeof moved);
+            p = there;
+            size = now;
+            damping *= 0.2;
+            renewed = 0;
+        } else if (det > 0.0 && isfinite(det)) {
+            damping *= 5.0;
+        } else { /* it is lost, or nothing acts on it */
+            break;
+        }
+    }
+    return size <= allowed_imbalance(s, &p);
+}
+
 /* Whether a ball without films lies between both races at rest. */
 static int lies_between(const Search *s)
 {
@@ -226,5 +276,13 @@ int place_ball(const Search *s)
         return 1;
     }
     search_place(s, b);
-    return balance_ball(s, b);
+    if (balance_ball(s, b)) {
+        return 1;
+    }
+    memcpy(b, ball->start, sizeof b);
+    if (placed && descend(s, b) && balance_ball(s, b)) {
+        return 1;
+    }
+    first_place(s, b);
+    return descend(s, b) && balance_ball(s, b);
 }

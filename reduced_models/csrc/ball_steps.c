@@ -46,6 +46,7 @@ static StepFilters *filters_in(const Bearing *b, double work[], int k, int race)
 
 void search_of(const Bearing *b, const double state[], double work[], int k, const Race races[2], Search *s)
 {
+    static const double none[5][4] = {{0.0}}; /* of a shaft that stands still */
     int race;
     s->bearing = b;
     s->step = step_of(work);
@@ -53,7 +54,7 @@ void search_of(const Bearing *b, const double state[], double work[], int k, con
     s->dry = races;
     s->surface = b->heights != NULL ? surface_of(b, state, k) : NULL;
     s->heavy = b->inertia * s->step->gain * s->step->gain;
-    s->inertia = ball_of(state, k)->inertia;
+    s->inertia = s->step->omega > 0.0 ? ball_of(state, k)->inertia : none;
     for (race = 0; race < 2; race++) {
         RaceStep *c = &s->contact[race];
         c->race = &races[race];
@@ -93,12 +94,19 @@ static Differences differences(double h, double h_before)
     return d;
 }
 
+/* A positive number that goes on as in the last two steps; however long this step is after a short one, it stays positive. */
+static double continued(const double last[2], double share)
+{
+    const double next = last[0] + share * (last[0] - last[1]);
+    return next < 0.5 * last[0] ? 0.5 * last[0] : next > 2.0 * last[0] ? 2.0 * last[0] : next;
+}
+
 /* What a contact finds in a step: films and entrainment speeds change slowly and go on as in the last two steps. */
 static void begin_contact(const Bearing *b, const Ball *old, int race, double ratio, RaceStep *c, BallStep *ball, const StepHead *step)
 {
-    const double change = ratio * (old->speed_sum[race][0] - old->speed_sum[race][1]), speed = film_speed(b, step->omega);
-    const double middle = old->speed_sum[race][0] + 0.5 * change, end = old->speed_sum[race][0] + change;
-    ball->thickness[race].factor = old->factor[race][0] + ratio * (old->factor[race][0] - old->factor[race][1]);
+    const double speed = film_speed(b, step->omega);
+    const double middle = continued(old->speed_sum[race], 0.5 * ratio), end = continued(old->speed_sum[race], ratio);
+    ball->thickness[race].factor = continued(old->factor[race], ratio);
     ball->thickness[race].lift = old->lift[race];
     if (speed > 0.0 && step->h > 0.0) {
         c->transit = c->race->contact_length_factor / (middle * speed);

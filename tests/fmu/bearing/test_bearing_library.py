@@ -63,21 +63,13 @@ SANITIZE = ["-g", "-O1", "-fsanitize=address,undefined,float-divide-by-zero", "-
     [
         ("lossy", 2000),
         *(pytest.param(name, 8000, marks=pytest.mark.long) for name in ("range", "angular")),
-        *(pytest.param(name, 100_000, marks=pytest.mark.slow) for name in ("lossy", "thin five", "five dry")),
-        pytest.param(
-            *("angular", 100_000),
-            marks=[
-                pytest.mark.slow,
-                # 1084 refused; without heights 106, of which 100 are motions that are not finite
-                pytest.mark.xfail(strict=True, reason="one bearing of forty with unequal balls finds no balance"),
-            ],
-        ),
+        *(pytest.param(name, 100_000, marks=pytest.mark.slow) for name in ("lossy", "thin five", "five dry", "angular")),
     ],
 )
 def test_random_bearings_under_sanitizers(name, steps, tmp_path):
-    """No number that is not finite without a reason; of 1000 steps one has a ring without a velocity."""
+    """No number that is not finite without a reason, and no step refused but where the ring has no velocity, one of 1000."""
     program = built(tmp_path, "fuzz_steps.c", bearing_table(MODELS[name]()), *SANITIZE)
     done = subprocess.run([program, str(steps), "3"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     made, refused, parted = map(int, done.stdout.split())
-    assert made == steps and parted > steps / 500 and refused < 0.002 * steps
+    assert made == steps and parted > steps / 500 and refused == 0
