@@ -128,6 +128,24 @@ def test_a_step_that_is_discarded_leaves_what_was_tuned_before_it(logged):
     assert unit.force(0.9, 0.1) == tuned.force(0.9, 0.1)
 
 
+@pytest.mark.parametrize("approach", [1e7, -1e7])
+def test_a_displacement_that_no_machine_has(logged, approach):
+    unit, lines = logged()
+    unit.raw.setDebugLogging(True, ["logStatusDiscard"])
+    unit.set(approach=approach)
+    assert fails(unit.step) == STATUS["discard"]
+    assert "approach is more than a million times its nominal value" in lines[-1][2]
+    unit.set(approach=0.9)
+    unit.step()
+
+
+@pytest.mark.parametrize("h", [1e300, 2e9])
+def test_a_step_of_more_than_a_life(logged, h):
+    unit, lines = logged()
+    assert fails(lambda: unit.raw.doStep(0.0, h)) == STATUS["error"]
+    assert "the step size must be at most 1e9" in lines[-1][2]
+
+
 def test_initialization_refuses_it_too(logged):
     unit, lines = logged(start=False)
     unit.set(C1=-1.0)

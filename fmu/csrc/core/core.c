@@ -101,7 +101,6 @@ Fault core_outputs(State *s)
 {
     double before[N_INPUTS];
     Fault fault;
-    int k;
     if ((s->stale & (STALE_LAW | STALE_OUTPUTS)) == 0) {
         return fine;
     }
@@ -109,11 +108,8 @@ Fault core_outputs(State *s)
     if ((s->stale & STALE_INPUTS) != 0) {
         memcpy(s->model.input, s->model.value, sizeof before);
     }
-    for (k = 0; k < N_INPUTS && isfinite(s->model.input[k]); k++) {
-    }
-    if (k < N_INPUTS) {
-        fault = refuse(not_finite[k]);
-    } else {
+    fault = core_check_inputs(s->model.input);
+    if (fault.severity == FINE) {
         fault = (s->stale & STALE_LAW) != 0 ? tuned(&s->model) : model_evaluate(&s->model);
     }
     if (fault.severity == FINE) {

@@ -39,7 +39,9 @@ static inline Fault refuse(const char *reason)
 }
 
 static const char *const not_finite[N_INPUTS] = INPUTS_NOT_FINITE;
-static const char *const unlike_rate[N_INPUTS] = INPUTS_UNLIKE_RATES; /* NULL of an input without a rate */
+/* NULL of an input without a rate: */
+static const char *const unlike_rate[N_INPUTS] = INPUTS_UNLIKE_RATES;
+static const char *const too_far[N_INPUTS] = INPUTS_TOO_FAR;
 
 enum { STALE_LAW = 1, STALE_OUTPUTS = 2, STALE_RATES = 4, STALE_INPUTS = 8 }; /* what must be computed anew */
 
@@ -80,6 +82,9 @@ Fault core_set(State *state, const unsigned int references[], size_t count, Type
 
 /* Reads variables of a type, outputs after bringing them up to date. */
 Fault core_get(State *state, const unsigned int references[], size_t count, Type type, double values[]);
+
+/* Whether inputs are finite, and displacements ones that a machine has. */
+Fault core_check_inputs(const double input[]);
 
 /* Brings outputs, or outputs and derivatives of the states, up to date. */
 Fault core_outputs(State *state);

@@ -8,7 +8,11 @@ static const Fault fine = {FINE, NULL};
 
 static Fault check_step(const State *s, double time, double h)
 {
+    static const double longest = 1e9; /* s: thirty years */
     const double end = time + h;
+    if (h > longest) {
+        return refuse("the step size must be at most 1e9");
+    }
     if (!(isfinite(end) && h > 0.0)) {
         return refuse("the time must be finite and the step size > 0");
     }
@@ -298,12 +302,19 @@ static Fault check_motion(const Motion *motion)
 
 /* ---- steps ---- */
 
-static Fault check_inputs(const State *s)
+Fault core_check_inputs(const double input[])
 {
+    static const double farthest = 1e6; /* nominal values of a displacement: metres */
     int k;
-    for (k = 0; k < N_INPUTS && isfinite(s->model.value[k]); k++) {
+    for (k = 0; k < N_INPUTS; k++) {
+        if (!isfinite(input[k])) {
+            return refuse(not_finite[k]);
+        }
+        if (rate_of[k] >= 0 && fabs(input[k]) > farthest * core_variables[k].nominal) {
+            return fault(DISCARD, too_far[k]);
+        }
     }
-    return k == N_INPUTS ? fine : refuse(not_finite[k]);
+    return fine;
 }
 
 /* Outputs of a later time, the states as they are. */
@@ -328,7 +339,7 @@ Fault core_step(State *s, double time, double h)
     double beyond = 0.0;
     int k;
     if (fault.severity == FINE) {
-        fault = check_inputs(s);
+        fault = core_check_inputs(s->model.value);
     }
     if (fault.severity == FINE) {
         beyond = motion_of(s, time, h, &motion, &ahead);
