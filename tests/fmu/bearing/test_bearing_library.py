@@ -63,11 +63,14 @@ SANITIZE = ["-g", "-O1", "-fsanitize=address,undefined,float-divide-by-zero", "-
     [
         ("lossy", 2000),
         *(pytest.param(name, 8000, marks=pytest.mark.long) for name in ("range", "angular")),
-        *(pytest.param(name, 100_000, marks=pytest.mark.slow) for name in ("lossy", "thin five", "five dry", "angular")),
+        *(
+            pytest.param(name, 100_000, marks=pytest.mark.slow)
+            for name in ("lossy", "thin five", "five dry", "angular")
+        ),
     ],
 )
 def test_random_bearings_under_sanitizers(name, steps, tmp_path):
-    """No number that is not finite without a reason, and no step refused but where the ring has no velocity, one of 1000."""
+    """No number that is not finite without a reason; only steps of rings without a velocity are refused."""
     program = built(tmp_path, "fuzz_steps.c", bearing_table(MODELS[name]()), *SANITIZE)
     done = subprocess.run([program, str(steps), "3"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
