@@ -18,7 +18,7 @@ from ehlcontact.checks import require_finite, require_instance
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point
 from ehlcontact.quantities import ALONG, LENGTH, SURFACE_SPEED, TIME
-from ehlcontact.results.picture import INK, Line, Map, Panel
+from ehlcontact.results.picture import BLACK, Line, Map, Panel
 from ehlcontact.results.table import Display, PointTable
 from ehlcontact.transient.result import SimulationResult
 
@@ -80,12 +80,12 @@ class FilmWave(PointTable):
         inside = np.abs(change[:, np.abs(self.x[near]) < CARRIED * s.a])
         most = float(np.percentile(inside, 99.0)) or float(inside.max()) or 1.0
         starts = np.arange(0.0, float(self.t[-1]), PASSAGE * s.time).tolist()
-        carried = [Line([at, at + PASSAGE * s.time], [-s.a, s.a], "", INK, "--", width=1.0) for at in starts]
+        carried = [Line([at, at + PASSAGE * s.time], [-s.a, s.a], "", BLACK, "--", width=1.0) for at in starts]
         yield Map(
             (self.t, self._axis("t")),
             (self.x[near], self._axis("x")),
             (change, ("change of the film", self._unit("change"))),
-            title="dashed: carried through at the mean surface speed",
+            title="dashed: carried by the surfaces",
             colours="RdBu_r",
             limits=(-most, most),  # white is no change
             view=((float(self.t[0]), float(self.t[-1])), (-WITHIN * s.a, WITHIN * s.a)),

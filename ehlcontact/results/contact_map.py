@@ -10,7 +10,7 @@ import numpy as np
 
 from ehlcontact.point import MoesPoint, Point
 from ehlcontact.quantities import ACROSS, ALONG, LENGTH, PRESSURE, words
-from ehlcontact.results.picture import BLUE, GREY, RED, Array, Label, Line, Map, Panel, Picture
+from ehlcontact.results.picture import BLUE, GREY, ORANGE, RED, Array, Label, Line, Map, Panel, Picture
 
 VIEW = (-1.8, 1.5, 1.5)  # along rolling from, to; across to: in semi-axes
 MIDPLANE = 1.6  # semi-axes across, along which the film of one half is drawn
@@ -107,8 +107,8 @@ class ContactView:
         if ends is not None:
             return self.map(h, label, "viridis", ends, title="film")
         levels = [level * central for level in LEVELS]
-        limits, title = (float(h.min()), max(levels[-1], float(h.min()))), "film; lines: " + _levels_in_words()
-        return self.map(h, label, "viridis", limits, levels=levels, title=title)
+        limits = float(h.min()), max(levels[-1], float(h.min()))
+        return self.map(h, label, "viridis", limits, levels=levels, title="film")
 
 
 def contact_panels(
@@ -180,7 +180,7 @@ def film_picture(result: Any) -> tuple[Picture, Picture]:
     maps = [panel for panel in panels if isinstance(panel, Map)]
     view = ContactView.of(result.point, result.x, result.y)
     return (
-        Picture(maps, columns=1, heights=(TALL,), note=view.note),
+        Picture(maps, columns=1, heights=(TALL,), note=maps_note(view)),
         Picture([panel for panel in panels if isinstance(panel, Panel)]),
     )
 
@@ -190,7 +190,7 @@ def convergence(result: Any) -> Picture:
     floor, cycles, result = 1e-17, np.arange(len(result.residuals)), result.dimensionless
     series: Sequence[tuple[str, str, str, Array]] = [
         ("residual of Reynolds, over the dry start's", "o", BLUE, result.residuals / result.dry_residual),
-        ("residual of the load balance, over the load", "s", "#e69f00", np.abs(result.load_residuals) + floor),
+        ("residual of the load balance, over the load", "s", ORANGE, np.abs(result.load_residuals) + floor),
         ("change of approach, over the dry one", "^", GREY, result.approach_changes + floor),
         ("largest change of pressure, over Hertz's", "D", RED, result.pressure_changes + floor),
     ]
@@ -206,5 +206,7 @@ def fields(point: Point, p: Array, h: Array) -> tuple[tuple[Array, Label], tuple
     return (p, (words("p"), PRESSURE.unit_at(point))), (h, (words("h"), LENGTH.unit_at(point)))
 
 
-def _levels_in_words() -> str:
-    return ", ".join(f"{level:g}" for level in LEVELS) + " of the central film"
+def maps_note(view: ContactView) -> str:
+    """What maps of a contact have to say: how far they are from scale, and what their lines are."""
+    levels = ", ".join(f"{level:g}" for level in LEVELS)
+    return f"{view.note} White lines: {levels} of the central film.".lstrip()

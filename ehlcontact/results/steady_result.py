@@ -15,8 +15,9 @@ from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
 from ehlcontact.results.asperity_contact import AsperityContact
-from ehlcontact.results.contact_map import ContactView, contact_panels, fields
+from ehlcontact.results.contact_map import ContactView, contact_panels, fields, maps_note
 from ehlcontact.results.film_temperature import FilmTemperature
+from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, PointTable, QuantityTable
 from ehlcontact.results.traction import Traction, traction_of
 from ehlcontact.shear_thinning import ShearThinning
@@ -252,6 +253,11 @@ class SteadyResult(PointTable, Origin):
     def outside_assumptions(self) -> str:
         """Assumptions that do not hold at this contact, in words (`ehlcontact.assumptions`); empty where none."""
         return judged(self).headline if self.status.ok else ""
+
+    def picture(self) -> Picture:
+        """Maps of pressure and film, and both along the mid-planes."""
+        note = maps_note(ContactView.of(self.point, self.x, self.y))
+        return Picture(self.panels(), self._title(), note=note)
 
     def _panels(self) -> Iterator[Any]:
         view, (p, h) = ContactView.of(self.point, self.x, self.y), fields(self.point, self.p, self.h)
