@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import tempfile
 import zipfile
@@ -12,10 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from ehlcontact.errors import InputError
-from ehlcontact.files import require_no_pipe
+from ehlcontact.files import is_file, require_no_pipe
 from fmu.driver import Exchange, Slave
 
 LARGEST_UNPACKED = 2**29  # bytes: ours, with the libraries of all platforms, have some MB
+C_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +73,8 @@ def opened(file: Path) -> Iterator[FmuFile]:
     """
     try:
         require_no_pipe(file)
+        if file.exists() and not is_file(file) and not file.is_dir():
+            raise ValueError("a device, in place of a file")
         with zipfile.ZipFile(file) as archive:
             names, size = set(archive.namelist()), sum(one.file_size for one in archive.infolist())
     except (OSError, ValueError, zipfile.BadZipFile) as error:
@@ -91,7 +95,14 @@ def opened(file: Path) -> Iterator[FmuFile]:
             description = fmpy.read_model_description(folder, validate=False)
         except Exception as error:  # fmpy raises bare Exception among others
             reason = " ".join(str(error).split()) or type(error).__name__
+            if isinstance(error, AttributeError | TypeError):  # of what fmpy misses in the XML
+                reason = "modelDescription.xml lacks parts that every FMU has"
             raise InputError("path", str(file), f"a readable FMU ({reason})") from None
+        for interface in filter(None, (description.coSimulation, description.modelExchange)):
+            name = interface.modelIdentifier or ""
+            if not C_NAME.fullmatch(name):  # a path, say, to a library outside
+                allowed = f"an FMU whose modelIdentifier is a C name, not {name[:60]!r}"
+                raise InputError("path", str(file), allowed)
         # not fmpy.supported_platforms, which lacks Linux on arm
         there = {path.name for path in Path(folder, "binaries").glob("*")}
         if description.coSimulation is None or not {fmpy.platform, fmpy.platform_tuple} & there:

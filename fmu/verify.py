@@ -30,7 +30,8 @@ def verify(path: str | os.PathLike[str], model: Exported, **keywords: Unpack[Key
     """Run the FMU through fmpy and compare it with its model.
 
     It runs the native code in the FMU, with the rights of whoever calls it: in a child process with limits of time
-    and memory (not on Windows), but behind no other wall. Verify what you would run.
+    and memory (not on Windows), but behind no other wall. It finds faults, not malice. Verify what you would
+    run.
 
     Without memory: one step of co-simulation each for a grid of approaches (inside, below and above the validity
     interval, lift-off included) and rates (both signs, up to where the damper alone cancels the force), and the

@@ -4,6 +4,7 @@ import importlib
 import subprocess
 import tempfile
 import zipfile
+from pathlib import Path
 
 import pytest
 
@@ -74,6 +75,40 @@ def test_an_archive_of_gigabytes(tmp_path, elements):
         with pytest.raises(InputError, match="unpacks to at most 512 MiB, not 3072 MiB"):
             call()
     assert fmu_file.LARGEST_UNPACKED == 2**29
+
+
+def described(fmus, file, change):
+    """The cubic contact's FMU with another model description."""
+    with zipfile.ZipFile(fmus["cubic"]) as good, zipfile.ZipFile(file, "w") as other:
+        for name in good.namelist():
+            content = good.read(name)
+            other.writestr(name, change(content) if name == "modelDescription.xml" else content)
+    return file
+
+
+@pytest.mark.parametrize("name", [b"../../../tmp/x", b"a b", b"1x", b""])
+def test_an_identifier_that_is_no_c_name(fmus, elements, tmp_path, name):
+    def renamed(content):
+        assert b'modelIdentifier="CubicContact"' in content
+        return content.replace(b'modelIdentifier="CubicContact"', b'modelIdentifier="' + name + b'"')
+
+    file = described(fmus, tmp_path / "x.fmu", renamed)
+    with pytest.raises(InputError, match="an FMU whose modelIdentifier is a C name"):
+        verify(file, elements["cubic"])
+
+
+@pytest.mark.parametrize("content", [b"", b"<a/>", b'<fmiModelDescription fmiVersion="2.0"/>'])
+def test_an_empty_description(fmus, elements, tmp_path, content):
+    file = described(fmus, tmp_path / "x.fmu", lambda _: content)
+    with pytest.raises(InputError) as caught:
+        verify(file, elements["cubic"])
+    assert caught.value.field == "path" and "NoneType" not in str(caught.value)
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="no such device here")
+def test_a_device(elements):
+    with pytest.raises(InputError, match="a device, in place of a file"):
+        verify("/dev/zero", elements["cubic"])
 
 
 def test_errors_of_the_child_are_those_of_the_call(fmus, elements, monkeypatch):
