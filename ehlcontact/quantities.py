@@ -64,10 +64,6 @@ class Quantity:
         """Unit of results at a point."""
         return self.moes if isinstance(point, MoesPoint) else self.unit
 
-    def in_si(self, value: Any, scales: Scales) -> Any:
-        """SI value of a dimensionless one; None stays None."""
-        return value if value is None or not self.scale else value * self.size(scales)
-
 
 NUMBER = Quantity("")
 LENGTH = Quantity("m", "delta_H", "length")
@@ -190,29 +186,3 @@ def in_hertz(point: Point, omega: Any) -> Any:
     if isinstance(point, MoesPoint):
         raise InputError("hz", "asked for", "omega at a dimensionless point, which has no seconds")
     return omega / (2.0 * pi)
-
-
-def si_quantities(declared: Mapping[str, Quantity]) -> dict[str, tuple[str, Quantity]]:
-    """Own name and SI quantity of those that have a unit, by their SI name; frequencies in Hz too."""
-    found: dict[str, tuple[str, Quantity]] = {}
-    for name, quantity in declared.items():
-        if not quantity.scale:
-            continue
-        dims = tuple(si_dimension(dim) for dim in quantity.dims)
-        found[name.lower()] = name, replace(quantity, dims=dims)
-        if name == "Omega":
-            found["hz"] = name, replace(HERTZ, dims=dims, scale="hertz")
-    return found
-
-
-def si_dimension(dim: str) -> str:
-    """Name of a dimension in SI: that of its coordinate, which is ``hz`` for frequencies."""
-    return "hz" if dim == "Omega" else dim.lower()
-
-
-def require_scales(scales: Scales | None) -> Scales:
-    """Return `scales`, or raise `InputError` where a dimensionless point has none."""
-    if scales is None:
-        allowed = "those of a result made from an OperatingPoint: a dimensionless point has no SI values"
-        raise InputError("scales", None, allowed)
-    return scales

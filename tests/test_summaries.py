@@ -39,7 +39,7 @@ from ehlcontact.lubricant import Carreau, Eyring, LimitingShear
 from ehlcontact.point import Scales
 from ehlcontact.results import Response, SteadyResult, Traction
 from ehlcontact.results.picture import LoadZone, Map, in_unit
-from ehlcontact.results.table import QuantityTable, SIView
+from ehlcontact.results.table import QuantityTable
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary, span
 from ehlcontact.transient.result import Instants, SimulationResult
@@ -183,7 +183,7 @@ def results(point):
         excitation(point, hz=[5e3, 1e4], grid=Grid(n=32)), excitation(moes, wavelength=8.0, grid=Grid(n=16)),
         response(point, to="speed", hz=[0.0, 1e4], grid=Grid(n=32)),
         response(moes, to="speed", Omega=3.0, grid=Grid(n=16)),
-        atlas.at(point), atlas.at(point).si, atlas.at(moes), atlas.at(point).impedance(hz=50.0),
+        atlas.at(point), atlas.at(point).dimensionless, atlas.at(moes), atlas.at(point).impedance(hz=50.0),
         contact_filter(MoesPoint(200, 10, 0.5), wavelength=[4.0, 8.0, 16.0]),
         atlas.over([20.0, 30.0], 5.0, 0.5), element, atlas.element(point), atlas.element(point, "cubic", rpm=3000),
         atlas.element_over_speed(point),
@@ -355,9 +355,9 @@ def test_tables_of_xarray(results):
     xarray = pytest.importorskip("xarray")
     for thing in results:
         if isinstance(thing, QuantityTable):
-            data, view = thing.to_xarray(), isinstance(thing, SIView)
+            data = thing.to_xarray()
             assert isinstance(data, xarray.Dataset)
-            assert data.attrs["result"] + " in SI" * view == thing._summary_name()
+            assert data.attrs["result"] == thing._summary_name()
             assert all(values.attrs["units"] and values.attrs["long_name"] for values in data.data_vars.values())
             assert not [dim for dim in data.dims if dim.startswith("dim_")]
     film, run = results[0].to_xarray(), results[4].to_xarray()
@@ -369,7 +369,8 @@ def test_tables_of_xarray(results):
     answer = next(thing for thing in results if isinstance(thing, AtlasAnswer))
     data = answer.to_xarray()
     assert (
-        np.array_equal(data.stiffness_error, answer.error_bars["stiffness"]) and data.attrs["M"] == answer.point.M
+        np.array_equal(data.stiffness_error, answer.error_bars["stiffness"])
+        and data.attrs["M"] == answer.point.moes.M
     )
 
 

@@ -44,7 +44,7 @@ class Contact:
     origin: str = BY_FORMULA  # of the smallest film, in words
 
     @classmethod
-    def of(cls, point: Point, film: KnownFilm | None, scales: Scales | None) -> Contact:
+    def of(cls, point: Point, film: KnownFilm | None) -> Contact:
         """Take the film that is known, or the one to be expected.
 
         Raises
@@ -53,7 +53,7 @@ class Contact:
             A `film` that is none, or that of another point.
         """
         moes = moes_point(point)
-        bare = cls(moes, scales_of(point) or scales, moes.expected_film, None)
+        bare = cls(moes, scales_of(point), moes.expected_film, None)
         if film is not None:
             if not all(hasattr(film, name) for name in ("h_central", "h_min")):
                 raise InputError("film", type(film).__name__, "a steady film, or an answer of the atlas")

@@ -13,7 +13,7 @@ from ehlcontact.checks import require_instance, require_nonnegative, require_pos
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.oil import typical_temperature_slope
-from ehlcontact.point import OperatingPoint, Point, Scales
+from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.solver.domain import Domain
 
 
@@ -39,7 +39,6 @@ def assumptions(
     vibration: float | None = None,
     temperature_slope: float | None = None,
     conductivity: float = CONDUCTIVITY,
-    scales: Scales | None = None,
 ) -> Assumptions:
     """Judge what a solve at this point assumes.
 
@@ -66,15 +65,13 @@ def assumptions(
         was solved with heat this and the next are its own.
     conductivity : float
         Of the oil [W/(m K)].
-    scales : Scales, optional
-        Of a MoesPoint, where they are known: results keep both.
 
     Raises
     ------
     InputError
         An argument outside its range.
     """
-    contact = Contact.of(point, film, scales)
+    contact = Contact.of(point, film)
     if film is not None and domain is None:
         domain = getattr(film, "domain", None)
     if domain is not None:
@@ -105,7 +102,7 @@ def assumptions(
 
 def judged(result: Judged) -> Assumptions:
     """Judge what a result with films assumes at its own contact."""
-    return assumptions(result.point, film=result, scales=getattr(result, "scales", None))
+    return assumptions(result.point, film=result)
 
 
 def _composite(roughness: tuple[float, float] | None) -> float | None:

@@ -12,7 +12,6 @@ from ehlcontact.assumptions.judge import judged
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.point import MoesPoint
 from ehlcontact.quantities import quantities_of, words
-from ehlcontact.results.table import ScaledTable
 from ehlcontact.solver.domain import Domain
 
 Row = tuple[str, str, str]  # quantity, value with its unit, remark
@@ -55,15 +54,10 @@ def quantity_rows(result: Any, remarks: Mapping[str, str], error: Mapping[str, f
         Half widths of error bars, by the name of a quantity.
     """
     rows, s = [], result.point.scales
-    scaled = isinstance(result, ScaledTable) and result.scales is not None
-    if scaled:
-        s = result.scales
     for name, remark in remarks.items():
         quantity, value, bar = quantities_of(type(result))[name], getattr(result, name), (error or {}).get(name)
         kind = SCALES.get(quantity.moes, quantity.moes)
-        if scaled:
-            value, bar = quantity.in_si(value, s), quantity.in_si(bar, s)
-        if isinstance(result.point, MoesPoint) and not scaled:
+        if isinstance(result.point, MoesPoint):
             shown, beside = in_unit(value, "", 5), kind
             bars = "" if bar is None else f"± {numeral(bar, 1)}"
         else:

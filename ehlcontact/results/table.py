@@ -18,14 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.point import MoesPoint, OperatingPoint, Point, Scales, moes_point
+from ehlcontact.point import MoesPoint, OperatingPoint, Point, moes_point
 from ehlcontact.quantities import (
     Quantity,
     quantities_of,
-    require_scales,
     scaled,
-    si_dimension,
-    si_quantities,
     words,
 )
 from ehlcontact.results.drawing import draw
@@ -63,12 +60,6 @@ class Display:
     coordinates: str = ""
     logs: str = ""
     first: int = 1
-
-    def in_si(self, names: Mapping[str, str]) -> Display:
-        """The same for a view in SI; `names` are SI names by name, quantities without one are left out."""
-        rows = " ".join(si_dimension(dim) for dim in self.rows.split())
-        panels = (" ".join(names[name] for name in group.split() if name in names) for group in self.panels)
-        return replace(self, rows=rows, panels=tuple(filter(None, panels)))
 
 
 class QuantityTable(Summary):
@@ -375,92 +366,6 @@ class PointTable(QuantityTable):
 
     def _about(self) -> dict[str, Any]:
         return {**super()._about(), "units": "SI" if self._in_si() else "Moes"}
-
-
-class ScaledTable(QuantityTable):
-    """Base of dimensionless results; with ``scales``, those of an `OperatingPoint`, ``si`` has them in SI."""
-
-    __slots__ = ()
-    UNITS = "dimensionless"
-    if TYPE_CHECKING:
-
-        @property
-        def scales(self) -> Scales | None:
-            """SI values of the units."""
-
-    @property
-    def si(self) -> SIView:
-        """All quantities in SI; raises `InputError` for a dimensionless point, which has no units."""
-        return SIView(self, self._quantities())
-
-    def _drawn(self) -> QuantityTable:
-        return self if self.scales is None else self.si
-
-    def to_dict(self) -> dict[str, Any]:
-        """Listed quantities and their errors, ready for JSON; of an SI point with ``si``."""
-        return super().to_dict() | ({} if self.scales is None else {"si": self.si.to_dict()})
-
-
-class SIView(QuantityTable):
-    """A result in SI: its quantities times their scales, arrays read-only.
-
-    Attributes have the names of the result in lower case: X, Y, P, H, T become x, y, p, h, t, and Omega both
-    ``omega`` [rad/s] and ``hz``. The docstring of the result lists them with their units, and so does `dir`.
-    Errors of quantities (``error_estimate``, ``error_bars``) are in the units of the quantities.
-
-    Parameters
-    ----------
-    result : object
-        With `scales`.
-    declared : mapping of str to Quantity, optional
-        By default those of its class.
-
-    Raises
-    ------
-    InputError
-        A result without scales.
-    """
-
-    __slots__ = ("_found", "_result", "_si")
-
-    def __init__(self, result: Any, declared: Mapping[str, Quantity] | None = None) -> None:
-        scales = require_scales(result.scales)
-        self._result, self._found = result, si_quantities(declared or quantities_of(type(result)))
-        self._si = {name: one.in_si(getattr(result, own), scales) for name, (own, one) in self._found.items()}
-        self._si |= {name: self._errors(getattr(result, name), scales) for name in ERRORS if hasattr(result, name)}
-        for value in self._si.values():
-            if isinstance(value, np.ndarray):
-                value.setflags(write=False)
-
-    def __getattr__(self, name: str) -> Any:
-        if name[0] != "_" and name in self._si:
-            return self._si[name]
-        raise AttributeError(name if name[0] == "_" else f"{self._summary_name()} has no {name}")
-
-    def __dir__(self) -> list[str]:
-        """Names of the quantities and of the methods."""
-        return sorted({*object.__dir__(self), *self._si})
-
-    def _summary_name(self) -> str:
-        return f"{type(self._result).__name__} in SI"
-
-    def _declared(self) -> Mapping[str, Quantity]:
-        return {name: one for name, (_, one) in self._found.items()}
-
-    def _display(self) -> Display:
-        if not isinstance(self._result, QuantityTable):  # a contact, which has numbers only
-            return Display(rows="")
-        return self._result._display().in_si({own: name for name, (own, _) in self._found.items()})
-
-    def _about(self) -> dict[str, Any]:
-        return {**QuantityTable._about(self._result), "units": "SI"}
-
-    def _errors(self, errors: Any, scales: Scales) -> Any:
-        """Errors of quantities in their units: bars by name, or an estimate, whose films are relative."""
-        if isinstance(errors, Mapping):
-            shared = [name for name in errors if name in self._found]
-            return {name: self._found[name][1].in_si(errors[name], scales) for name in shared}
-        return errors and replace(errors, approach=errors.approach * scales.length)
 
 
 def plain(value: Any) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.checks.machine import require_threads
@@ -14,7 +14,7 @@ from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.quantities import FORCE, LENGTH
 from ehlcontact.results.steady_result import grid_doubt
-from ehlcontact.results.table import SIView
+from ehlcontact.results.table import Display, PointTable
 from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
@@ -35,6 +35,30 @@ class ContactState(FilmState):
     """State of a film, and the time since it was at rest."""
 
     T: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class ContactNow(PointTable):
+    """A `TransientContact` at one instant, in the units of its point.
+
+    Attributes
+    ----------
+    point : MoesPoint or OperatingPoint
+    force : float
+        Of the film [N; static load].
+    static_approach : float
+        Approach at rest under the static load [m; dry approach].
+    h_central, h_min : float
+        Film in the centre, and the smallest [m; dry approach].
+    """
+
+    point: Point
+    force: Annotated[float, FORCE]
+    static_approach: Annotated[float, LENGTH]
+    h_central: Annotated[float, LENGTH]
+    h_min: Annotated[float, LENGTH]
+
+    DISPLAY: ClassVar[Display] = Display(rows="")
 
 
 class TransientContact(Summary):
@@ -70,11 +94,11 @@ class TransientContact(Summary):
     tol : float
         As given.
     force : float
-        Of the film, over the static load; in SI (``si``) [N].
+        Of the film, over the static load; ``now`` has it, and the following, in the units of the point.
     static_approach : float
-        At rest under load 1, over the dry approach; in SI [m].
+        At rest under load 1, over the dry approach.
     h_central, h_min : float
-        Film in the centre, and the smallest, over the dry approach; in SI [m].
+        Film in the centre, and the smallest, over the dry approach.
     film_error : ErrorEstimate or None
         How far approach (dry approaches) and films at rest may be from those of an endless fine mesh on the same
         region; None without a coarser grid to compare with.
@@ -87,8 +111,8 @@ class TransientContact(Summary):
         The steady state at the start did not converge.
     """
 
-    force: Annotated[float, FORCE]
-    static_approach: Annotated[float, LENGTH]
+    force: float
+    static_approach: float
 
     @one_blas_thread()
     def __init__(
@@ -181,12 +205,12 @@ class TransientContact(Summary):
         return self.force
 
     @property
-    def h_central(self) -> Annotated[float, LENGTH]:
+    def h_central(self) -> float:
         """Film at the centre of the contact."""
         return self._film.level.central_film()
 
     @property
-    def h_min(self) -> Annotated[float, LENGTH]:
+    def h_min(self) -> float:
         """Smallest film."""
         return self._film.level.lowest_film()
 
@@ -196,9 +220,10 @@ class TransientContact(Summary):
         return beside_lowest(self._film.level.H)
 
     @property
-    def si(self) -> SIView:
-        """Force, film and approach at rest in SI, of now; raises `InputError` for a dimensionless point."""
-        return SIView(self)
+    def now(self) -> ContactNow:
+        """Force, films and approach at rest as they are now, in the units of the point."""
+        numbers = {name: float(getattr(self, name)) for name in ("force", "static_approach", "h_central", "h_min")}
+        return ContactNow(point=self.point.moes, **numbers).in_units_of(self.point)
 
     def save_state(self) -> ContactState:
         """Everything needed to come back to the present."""

@@ -10,11 +10,21 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions.judge import judged
 from ehlcontact.checks.frequency import by_name, dimensionless
-from ehlcontact.point import MoesPoint, OperatingPoint, Scales
-from ehlcontact.quantities import DAMPING, FORCE, FREQUENCY, LENGTH, MOMENT, NUMBER, STIFFNESS
+from ehlcontact.point import Point
+from ehlcontact.quantities import (
+    DAMPING,
+    FORCE,
+    FREQUENCY,
+    HERTZ,
+    LENGTH,
+    MOMENT,
+    NUMBER,
+    STIFFNESS,
+    in_hertz,
+)
 from ehlcontact.results.response import Response
-from ehlcontact.results.table import Display, QuantityTable, ScaledTable, plain
-from ehlcontact.summary import contact_text, note_line, span
+from ehlcontact.results.table import Display, PointTable, QuantityTable
+from ehlcontact.summary import contact_text, film_unit, note_line, span
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.atlas.heat import HeatedFilm
@@ -23,60 +33,60 @@ _Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class AtlasAnswer(ScaledTable):
-    """One point, dimensionless; ``si`` has it in SI, ``impedance`` K and C at any frequency.
+class AtlasAnswer(PointTable):
+    """One contact, in the units of its point; ``impedance`` has K and C at any frequency.
+
+    Units are those at an `OperatingPoint` and, after the semicolon, at a `MoesPoint`.
 
     Attributes
     ----------
-    point : MoesPoint
+    point : MoesPoint or OperatingPoint
     approach, h_central, h_min : float
-        Mutual approach, film in the centre and the smallest, over the dry approach; in SI (``si``) [m].
+        Mutual approach, film in the centre and the smallest [m; dry approach].
     film_share : float
-        1 - approach: what the film takes from a dry approach; in SI [m].
+        Dry approach less approach: what the film takes from it [m; dry approach].
     moment : float
-        Of the pressure about the centre line, over load times a, > 0 where it resists rolling:
-        `ehlcontact.SteadyResult.moment`; in SI [N m].
+        Of the pressure about the centre line, > 0 where it resists rolling: `ehlcontact.SteadyResult.moment`
+        [N m; load times a].
     force : float
-        Static load: 1; in SI [N].
-    Omega : ndarray, shape (k,)
-        Angular frequencies, per unit 2a/u_sum of time; in SI ``omega`` [rad/s] and ``hz``.
+        Static load [N; 1].
+    omega, hz : ndarray, shape (k,)
+        Angular frequencies [rad/s; u_sum/(2a)]; frequencies [Hz] at an `OperatingPoint`.
     stiffness, damping : ndarray, shape (k,)
-        K(Omega) in f0/delta_H, the static tangent at Omega = 0, and C(Omega) in that times 2a/u_sum; in SI [N/m]
-        and [N s/m].
+        K(omega), the static tangent at omega = 0 [N/m; f0/delta_H], and C(omega) [N s/m; that times 2a/u_sum].
     error_bars : dict
         Half widths of the error bars of all these, under these names and in the same units and shapes.
-    scales : Scales or None
-        Its units in SI; None for a dimensionless point.
     over_flooded : float or None
         r of an oil supply: its layer over what the flooded isothermal film lets through, with heat too; None where
         the inlet is flooded.
     temperature : HeatedFilm or None
         What heat takes of the film; None where it is isothermal.
-    given : OperatingPoint or None
-        The point in SI; None for a dimensionless one.
     """
 
-    point: MoesPoint
+    point: Point
     approach: Annotated[float, LENGTH]
     h_central: Annotated[float, LENGTH]
     h_min: Annotated[float, LENGTH]
     film_share: Annotated[float, LENGTH]
     moment: Annotated[float, MOMENT]
-    Omega: Annotated[_Floats, FREQUENCY.over("Omega")]
-    stiffness: Annotated[_Floats, STIFFNESS.over("Omega")]
-    damping: Annotated[_Floats, DAMPING.over("Omega")]
+    omega: Annotated[_Floats, FREQUENCY.over("omega")]
+    stiffness: Annotated[_Floats, STIFFNESS.over("omega")]
+    damping: Annotated[_Floats, DAMPING.over("omega")]
     error_bars: dict[str, Any]
-    scales: Scales | None = None
     over_flooded: Annotated[float | None, NUMBER] = None
     temperature: HeatedFilm | None = None
-    given: OperatingPoint | None = None
 
-    DISPLAY: ClassVar[Display] = Display(rows="Omega", panels=("stiffness", "damping"), logs="xy")
+    DISPLAY: ClassVar[Display] = Display(rows="omega", panels=("stiffness", "damping"), logs="xy")
 
     @property
     def force(self) -> Annotated[float, FORCE.in_si_only()]:
-        """Static load: 1."""
-        return 1.0
+        """Static load."""
+        return self.point.scales.force
+
+    @property
+    def hz(self) -> Annotated[_Floats, HERTZ.over("omega").in_si_only()]:
+        """Frequencies [Hz]; raises `InputError` at a `MoesPoint`."""
+        return np.asarray(in_hertz(self.point, self.omega))
 
     @property
     def supply(self) -> OilLayer | None:
@@ -94,18 +104,16 @@ class AtlasAnswer(ScaledTable):
         return judged(self).headline
 
     def _summary_lines(self) -> list[str]:
-        s, bar = self.scales, self.error_bars
-        size, unit = (1.0, "of the dry approach") if s is None else (s.length * 1e6, "µm")
-        rigid, damps = (1.0, 1.0) if s is None else (s.stiffness * 1e-6, s.damping)
-        names = ("", "") if s is None else (" N/µm", " N s/m")
+        bar, si = self.error_bars, self._in_si()
+        size, unit = film_unit(self.point)
+        rigid, names = (1e-6, (" N/µm", " N s/m")) if si else (1.0, ("", ""))
         film = "flooded films" if self.temperature is None else "flooded isothermal films"
         return [
-            contact_text(self.point) + ("" if s is None else f"; {s.force:.4g} N, {s.pressure * 1e-9:.3g} GPa"),
+            contact_text(self.point),
             f"approach {size * self.approach:.5g} ± {size * bar['approach']:.1g} {unit}",
             f"film {size * self.h_central:.4g} ± {size * bar['h_central']:.1g} in the centre, "
             f"{size * self.h_min:.4g} ± {size * bar['h_min']:.1g} at least, {unit}",
-            f"static tangent {rigid * self.stiffness[0]:.4g}{names[0]}, "
-            f"damping {span(self.damping, damps)}{names[1]}",
+            f"static tangent {rigid * self.stiffness[0]:.4g}{names[0]}, damping {span(self.damping)}{names[1]}",
             *([] if self.over_flooded is None else [f"under a layer of {self.over_flooded:.4g} {film}"]),
             *([] if self.temperature is None else [self.temperature.summary]),
             *note_line(self.outside_assumptions),
@@ -120,7 +128,7 @@ class AtlasAnswer(ScaledTable):
         hz: ArrayLike | None = None,
         rpm: ArrayLike | None = None,
     ) -> Response:
-        """Response to approach at any frequency from 0 up to the highest of ``Omega``, in the units of the point.
+        """Response to approach at any frequency from 0 up to the highest of ``omega``, in the units of the point.
 
         Parameters
         ----------
@@ -134,19 +142,19 @@ class AtlasAnswer(ScaledTable):
             Frequencies not given in exactly one way, in SI at a dimensionless point, not finite, negative or above
             the highest.
         """
-        time = None if self.scales is None else self.scales.time
-        w = dimensionless(time, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=float(self.Omega[-1]))
-        K, C = (FrequencyCurve(self.Omega, getattr(self, n), self.error_bars[n]) for n in ("stiffness", "damping"))
+        time = self.point.scales.time if self._in_si() else None
+        own = self.dimensionless
+        w = dimensionless(time, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=float(own.omega[-1]))
+        K, C = (FrequencyCurve(own.omega, getattr(own, n), own.error_bars[n]) for n in ("stiffness", "damping"))
         error = {"stiffness": K.bars(w), "damping": C.bars(w)}
         damping = C.at(w)
-        found = Response(
-            omega=w, value=K.at(w) + 1j * w * damping, slope=damping, error_bars=error, point=self.point
-        )
-        return found if self.given is None else found.in_units_of(self.given)
+        value = K.at(w) + 1j * w * damping
+        found = Response(omega=w, value=value, slope=damping, error_bars=error, point=own.point)
+        return found.in_units_of(self.point)
 
     def to_dict(self) -> dict[str, Any]:
-        """Everything, ready for JSON; of an SI point with ``si``."""
-        document = super().to_dict() | {"point": self.point.to_dict(), "scales": plain(self.scales)}
+        """Everything, ready for JSON."""
+        document = super().to_dict() | {"point": self.point.to_dict()}
         document |= {} if self.temperature is None else {"temperature": self.temperature.to_dict()}
         return document | {"outside_assumptions": self.outside_assumptions}
 
@@ -159,7 +167,7 @@ class AtlasAnswers(QuantityTable):
     ----------
     M, L, kappa : ndarray, shape (n,)
     approach, h_central, h_min, film_share, moment : ndarray, shape (n,)
-    Omega : ndarray, shape (k,)
+    omega : ndarray, shape (k,)
     stiffness, damping : ndarray, shape (n, k)
     error_bars : dict
         Half widths of the error bars, in the same units and shapes.
@@ -173,9 +181,9 @@ class AtlasAnswers(QuantityTable):
     h_min: Annotated[_Floats, LENGTH.over("point")]
     film_share: Annotated[_Floats, LENGTH.over("point")]
     moment: Annotated[_Floats, MOMENT.over("point")]
-    Omega: Annotated[_Floats, FREQUENCY.over("Omega")]
-    stiffness: Annotated[_Floats, STIFFNESS.over("point Omega")]
-    damping: Annotated[_Floats, DAMPING.over("point Omega")]
+    omega: Annotated[_Floats, FREQUENCY.over("omega")]
+    stiffness: Annotated[_Floats, STIFFNESS.over("point omega")]
+    damping: Annotated[_Floats, DAMPING.over("point omega")]
     error_bars: dict[str, _Floats]
 
     DISPLAY: ClassVar[Display] = Display(

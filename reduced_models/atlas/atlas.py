@@ -20,7 +20,7 @@ from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
-from ehlcontact.point import MoesPoint, OperatingPoint, Point, Scales, moes_point, scales_of
+from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.supply import OilLayer
 from reduced_models.atlas.answer import AtlasAnswer, AtlasAnswers
 from reduced_models.atlas.atlas_elements import (
@@ -177,7 +177,7 @@ class Atlas:
         named, error = _named(values), _named(bars)
         error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
         axes = dict(zip(("M", "L", "kappa"), points.T, strict=True))
-        return AtlasAnswers(**axes, Omega=Omega, **named, error_bars=error)
+        return AtlasAnswers(**axes, omega=Omega, **named, error_bars=error)
 
     @by_name(3)
     def element(
@@ -335,8 +335,7 @@ class Atlas:
             numbers |= {name: float(numbers[name]) for name in NUMBERS}
         for condition in conditions:
             named |= condition.noted(float(flooded[0, 1]))
-        given = point if isinstance(point, OperatingPoint) else None
-        return AtlasAnswer(moes, Omega=Omega, **named, error_bars=bars, scales=scales_of(point), given=given)
+        return AtlasAnswer(moes, omega=Omega, **named, error_bars=bars).in_units_of(point)
 
     def _cubic(self, point: Point, w: float, conditions: Sequence[Condition]) -> SpringContact:
         moes, scales = self._inside(point), scales_of(point)
@@ -446,7 +445,7 @@ class Atlas:
         bars, low = answer.error_bars, self._table.interpolation.reference
         return {
             "atlas": self._table.metadata["version"],
-            "point": answer.point.to_dict(),
+            "point": answer.point.moes.to_dict(),
             "error_bars": {
                 "approach": bars["approach"],
                 "h_central": bars["h_central"],

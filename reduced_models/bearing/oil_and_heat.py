@@ -484,9 +484,9 @@ _Contact = Callable[[OperatingPoint, Conditions], tuple[tuple[float, float, floa
 def _solved_contact(
     hz: _Floats, point: OperatingPoint, conditions: Conditions
 ) -> tuple[tuple[float, float, float], _Complex]:
-    """Central and smallest film and moment of a contact, in units of its point, and its impedance [N/m]."""
+    """Central and smallest film [m] and moment [N m] of a contact, and its impedance [N/m]."""
     one = impedance(point, hz=hz, **conditions.keywords)
-    film = one.dimensionless.film
+    film = one.film
     assert film is not None
     return (film.h_central, film.h_min, film.moment), one.stiffness + 2j * np.pi * hz * one.damping
 

@@ -192,7 +192,7 @@ class Race:
         lightest = self.loads(speed_rpm)[0]
         central, smallest, moment = gap.copy(), gap.copy(), np.zeros(load.size)
         for k, one in enumerate(load.tolist()):
-            answer = self.answer(max(one, lightest), speed_rpm).si
+            answer = self.answer(max(one, lightest), speed_rpm)
             moment[k] = answer.moment
             if one >= lightest:
                 central[k], smallest[k] = answer.h_central, answer.h_min

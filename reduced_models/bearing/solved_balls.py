@@ -69,12 +69,12 @@ class _Curves:
     """K [N/m] and C [N s/m] of many answers over the angular frequency: those of `AtlasAnswer.impedance`."""
 
     def __init__(self, answers: Sequence[AtlasAnswer]) -> None:
-        scales = [one.scales for one in answers if one.scales is not None]
+        scales, own = [one.point.scales for one in answers], [one.dimensionless for one in answers]
         self._time, *self._units = np.array([(one.time, one.stiffness, one.damping) for one in scales]).T
-        nodes = answers[0].Omega  # of one table, so the same for all
+        nodes = own[0].omega  # of one table, so the same for all
         self._highest, self._x = nodes[-1], np.arcsinh(nodes)
         self._cubics = [
-            np.stack([FrequencyCurve(nodes, getattr(one, name)).coefficients for one in answers], axis=-1)
+            np.stack([FrequencyCurve(nodes, getattr(one, name)).coefficients for one in own], axis=-1)
             for name in ("stiffness", "damping")
         ]
 
@@ -175,7 +175,7 @@ def _below_zero(race: Race, speed_rpm: float, load: float) -> tuple[float, float
     if load <= race.loads(speed_rpm)[0]:
         return 0.0, 0.0
     bearable = race.heaviest(speed_rpm)[0] * (1.0 - INSIDE)
-    at = race.answer(min(load, bearable), speed_rpm).si
+    at = race.answer(min(load, bearable), speed_rpm)
     C, hz = at.damping, at.hz
     if not C[0] < -NEGATIVE * np.abs(C).max():
         return 0.0, 0.0

@@ -55,7 +55,7 @@ def table_bars(
         Of the bearing [N/m].
     """
     answers = [race.answer(force, speed_rpm) for race, force in zip(races, forces, strict=True)]
-    films = [one.si.error_bars for one in answers]
+    films = [one.error_bars for one in answers]
     Z = [one.impedance(hz=hz) for one in answers]
     K = np.array([one.stiffness for one in Z])
     share, ball = np.square(K[::-1] / K.sum(axis=0)), np.prod(K, axis=0) / K.sum(axis=0)

@@ -134,7 +134,7 @@ def test_lambda_of_a_given_roughness(call, refused, point):
     """--rq on every command that has a film."""
     at = options()
     found = json.loads(call("element", *at, "--rq", "0.1", "--json", "-").out)
-    answer = Atlas().at(ball()).si
+    answer = Atlas().at(ball())
     assert found["lambda_ratio"] == pytest.approx(answer.h_min / 1e-7, rel=1e-9)
     assert "lambda" in call("element", *at, "--rq", "0.1").out
     assert "lambda_ratio" not in json.loads(call("element", *at, "--json", "-").out)
@@ -229,7 +229,7 @@ def test_rows_of_an_element_are_the_answers_of_the_atlas_with_their_bars(call, g
     """Each row by its name, for the oil that was given."""
     contact = Contact(bearing="6205", oil=grade, temp=60.0, speed_rpm=3000.0, load=100.0)
     answer = Atlas().at(contact.point())
-    si, shaft = answer.si, answer.impedance(rpm=3000.0)
+    si, shaft = answer, answer.impedance(rpm=3000.0)
     shown = call("element", *options(oil=grade)).out
     rows, name = {}, ""
     for line in shown.splitlines()[1:]:

@@ -30,5 +30,5 @@ def test_a_point_in_si_has_both():
     answer = Atlas().at(point)
     approach, film, moment = quantity_rows(answer, NAMES, answer.error_bars)
     assert approach[1].endswith(" µm") and moment[1].endswith(" N mm")
-    assert float(film[1].split()[0]) * 1e-6 - answer.si.h_min < 1e-4 * answer.si.h_min
+    assert float(film[1].split()[0]) * 1e-6 - answer.h_min < 1e-4 * answer.h_min
     assert film[2].startswith(f"{answer.h_min:.4f}".rstrip("0")) and film[2].endswith(" µm") and "±" in film[2]

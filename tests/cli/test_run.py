@@ -56,7 +56,7 @@ def test_everything_is_there(finished, results):
     si = read(folder / "elements" / "rotor_band_cubic_si.json")
     memory = read(folder / "elements" / "memory_si.json")
     assert memory.units == "SI" and memory.parameters == results["memory"]["parameters"]
-    assert si.units == "SI" and dimensionless.to_si(read(folder / "rotor_band.h5").scales) == si
+    assert si.units == "SI" and dimensionless.to_si(read(folder / "rotor_band.h5").point.scales) == si
 
 
 def test_assumptions_in_every_output(finished, results):

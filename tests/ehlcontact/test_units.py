@@ -26,6 +26,7 @@ from ehlcontact.point import Geometry, OperatingPoint
 from ehlcontact.quantities import quantities_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
+from ehlcontact.transient.transient_contact import ContactNow
 
 POINT = OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 3.0, 1.3)
 OTHER = replace(POINT, load=4.0)
@@ -139,22 +140,19 @@ def test_tables_have_the_units_of_the_point(films):
     assert si.attrs["units"] == "SI" and moes.attrs["units"] == "Moes" and si.attrs["load"] == POINT.load
 
 
-def test_full_contact_in_si():
+def test_full_contact_in_the_units_of_its_point():
     contact = TransientContact(POINT, grid=Grid(n=32))
-    si = contact.si
-    assert si.force == contact.force * S.force
+    now, own = contact.now, TransientContact(POINT.moes, grid=Grid(n=32)).now
     assert contact.force == pytest.approx(1.0, rel=1e-5)  # a film at rest, solved to 1e-5 of its pressure
-    assert si.static_approach == contact.static_approach * S.length
-    assert (si.h_central, si.h_min) == (contact.h_central * S.length, contact.h_min * S.length)
-    assert repr(si).startswith("TransientContact in SI: force ")
+    units = dict.fromkeys(("static_approach", "h_central", "h_min"), S.length) | {"force": S.force}
+    for name, unit in units.items():
+        assert getattr(now, name) == getattr(own, name) * unit == getattr(contact, name) * unit
     pytest.importorskip("pandas")
-    assert si.to_pandas()["force [N]"].tolist() == [si.force] and si.to_pandas().attrs["M"] == POINT.moes.M
-    with pytest.raises(InputError, match=r"^scales = None"):
-        _ = TransientContact(POINT.moes, grid=Grid(n=32)).si
+    assert now.to_pandas()["force [N]"].tolist() == [now.force] and now.to_pandas().attrs["load"] == POINT.load
 
 
 @pytest.mark.parametrize(
-    "cls", [SteadyResult, SimulationResult, TransientContact, Film, Profile, Constriction, FilmHistory]
+    "cls", [SteadyResult, SimulationResult, ContactNow, Film, Profile, Constriction, FilmHistory]
 )
 def test_every_quantity_is_described(cls):
     """Names in the docstring: under Attributes, as numpydoc has it."""

@@ -350,12 +350,12 @@ def elements() -> Leaves:
         "isoviscous": MoesPoint(300, 0, 0.9),
         "bearing": BEARING,
     }.items():
-        yield from leaves(f"atlas {name}", atlas.at(point))
+        yield from leaves(f"atlas {name}", atlas.at(getattr(point, "moes", point)))
         between = atlas.at(point).impedance(Omega=[0.0, 0.02, 0.7, 5.0, 20.0])
         yield from named(f"atlas {name} between", between, "omega stiffness damping")
         if name == "bearing":
             yield from named(
-                "atlas si", atlas.at(point).si, "approach h_central h_min moment omega stiffness damping"
+                "atlas si", atlas.at(point), "approach h_central h_min moment omega stiffness damping"
             )
         for model in ("wide", "memory", "cubic"):
             if not (model == "cubic" and name == "light"):

@@ -15,8 +15,10 @@ from ehlcontact.cli.contact import Contact, Frequencies, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.rows import Row, in_unit, outside_rows, quantity_rows
 from ehlcontact.errors import InputError
+from ehlcontact.point import OperatingPoint
 
 SHOWN = 0.05, 1.0, math.tau  # dimensionless frequencies of the atlas that the table shows
+
 
 if TYPE_CHECKING:
     from reduced_models.atlas.answer import AtlasAnswer
@@ -54,8 +56,8 @@ def element(
     if contact.description:
         made = replace(made, source={**(made.source or {}), "contact": contact.description})
     found = contact.judged(point, answer, surfaces)
-    rough = () if surfaces.rq is None else surfaces.rows(answer.si.h_min)
-    about = {} if surfaces.rq is None else surfaces.about(answer.si.h_min)
+    rough = () if surfaces.rq is None else surfaces.rows(answer.h_min)
+    about = {} if surfaces.rq is None else surfaces.about(answer.h_min)
     shown = (
         f"{kind.model} element from the atlas, version {table.metadata['version']}",
         [
@@ -76,7 +78,7 @@ def element(
 
 def _answer(answer: AtlasAnswer, rpm: float | None) -> list[Row]:
     """Approach, films and tangent with error bars; C at some frequencies, in SI at that of the shaft first."""
-    si, view = answer.scales is not None, answer if answer.scales is None else answer.si
+    si, moes = isinstance(answer.point, OperatingPoint), answer.dimensionless
 
     def row(name: str, value: float, bar: float, unit: str, remark: str) -> Row:
         unit = unit if si else ""
@@ -86,13 +88,13 @@ def _answer(answer: AtlasAnswer, rpm: float | None) -> list[Row]:
         answer, dict.fromkeys(("approach", "h_central", "h_min", "moment"), ""), answer.error_bars
     )
     remark = "" if si else ", dimensionless, as C: time in 2a/u_sum"
-    rows.append(row("static tangent", view.stiffness[0], view.error_bars["stiffness"][0], "N/m", remark))
+    rows.append(row("static tangent", answer.stiffness[0], answer.error_bars["stiffness"][0], "N/m", remark))
     if rpm is not None:
         shaft, own = answer.impedance(rpm=rpm), ", the shaft's own frequency"
         hz = f"C at {numeral(rpm / 60.0)} Hz"
         rows.append(row(hz, shaft.damping[0], shaft.error_bars["damping"][0], "N s/m", own))
-    names = [f"{numeral(hz, 3)} Hz" for hz in answer.si.hz] if si else [""] * len(answer.Omega)
-    every = zip(answer.Omega, names, view.damping, view.error_bars["damping"], strict=True)
+    names = [f"{numeral(hz, 3)} Hz" for hz in answer.hz] if si else [""] * moes.omega.size
+    every = zip(moes.omega, names, answer.damping, answer.error_bars["damping"], strict=True)
     for w, hz, c, bar in every:
         if w in SHOWN:
             omega = f"Ω = {numeral(w, 3)}"

@@ -44,7 +44,7 @@ def bearing(rpm=3000.0, oil=OIL, load=486.0):
 def test_si_is_recovered_from_the_scales():
     """Rx, E' and the speed, which scales and Moes numbers hold only together."""
     point = bearing()
-    _, radius, modulus, speed = Contact.of(point, None, None).require_si()
+    _, radius, modulus, speed = Contact.of(point, None).require_si()
     assert radius == pytest.approx(point.geometry.radius_x, rel=1e-9)
     assert modulus == pytest.approx(point.geometry.e_reduced, rel=1e-9)
     assert speed == pytest.approx(point.u_sum / 2.0, rel=1e-12)
@@ -98,13 +98,6 @@ def test_solved_film_replaces_the_expected_one(steady):
     assert given["smooth"].details["h_min"] == pytest.approx(film.h_min * point.scales.length)
     with pytest.raises(InputError, match=r"^film = 'of the point M 200, .* one of this point, M "):
         assumptions(point, film=film)
-
-
-def test_moes_point_with_its_scales_is_the_same_contact():
-    point = bearing()
-    slope = {"temperature_slope": OIL.temperature_slope}
-    with_scales = assumptions(point.moes, scales=point.scales, domain=Domain(), **slope).to_dict()
-    assert with_scales == assumptions(point, domain=Domain()).to_dict()
 
 
 def test_unknown_slope_is_that_of_a_typical_oil():
@@ -291,7 +284,7 @@ def test_answers_name_what_does_not_hold():
         for found in (solve_steady(point, grid=grid), impedance(point, hz=500.0, grid=grid), Atlas().at(point)):
             said = found.outside_assumptions
             film = getattr(found, "film", found)
-            assert said == assumptions(found.point, film=film, scales=getattr(film, "scales", None)).headline
+            assert said == assumptions(found.point, film=film).headline
             assert found.to_dict()["outside_assumptions"] == said and ("isothermal" in said) is outside
             assert ("heats the inlet: film" in repr(found)) is outside and len(repr(found).splitlines()) <= 5
     lost = solve_steady(fast, grid=grid, max_cycles=1, throw=False)

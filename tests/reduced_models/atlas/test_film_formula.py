@@ -50,7 +50,7 @@ def test_film_of_the_atlas_makes_the_lambda_ratio():
     point = disc(200.0)
     answer = ATLAS.at(point)
     bare, known = (assumptions(point, film=film, roughness=ROUGH)["smooth"] for film in (None, answer))
-    assert known.value == pytest.approx(answer.si.h_min / np.hypot(*ROUGH), rel=1e-12)
+    assert known.value == pytest.approx(answer.h_min / np.hypot(*ROUGH), rel=1e-12)
     assert bare.value > 1.2 * known.value
     bar = 100.0 * answer.error_bars["h_min"] / answer.h_min
     assert f"(from the atlas, ± {bar:.2g} %)" in known.verdict

@@ -83,7 +83,7 @@ def test_what_heat_changes_is_found_to_a_small_part(held_out):
 def test_6305_at_10000_rpm(shipped):
     """Solved with n = 128 in docs/heat.md: film .827 -> .624 um, C 92.8 -> 57.2 N s/m, K 143.1."""
     point = ball("6305", 10_000.0, 2000.0)
-    cold, warm = shipped.at(point).si, shipped.at(point, thermal=Heat()).si
+    cold, warm = shipped.at(point), shipped.at(point, thermal=Heat())
     assert warm.h_central / cold.h_central == pytest.approx(0.624 / 0.827, abs=0.015)
     assert warm.damping[0] / cold.damping[0] == pytest.approx(57.2 / 92.8, abs=0.03)
     for name, solved in (("h_central", 0.624e-6), ("damping", 57.2), ("stiffness", 143.1e6)):
@@ -132,9 +132,9 @@ def test_gains_stay_where_heat_changes_nothing(shipped):
     answer = shipped.at(point)
     low, Z = answer.damping[table.interpolation.reference], answer.stiffness + 1j * answer.damping
     gains = np.array(shipped.element(point, "memory").gains) / low
-    again = heated_gains(answer.Omega, Z, Z, gains, shipped._rates, low)
+    again = heated_gains(answer.omega, Z, Z, gains, shipped._rates, low)
     np.testing.assert_allclose(again, gains, rtol=0, atol=1e-9 * gains.max())
-    hot = heated_gains(answer.Omega, Z, Z.real + 0.6j * Z.imag, gains, shipped._rates, low)
+    hot = heated_gains(answer.omega, Z, Z.real + 0.6j * Z.imag, gains, shipped._rates, low)
     assert hot.min() >= 0.0
     assert hot.sum() == pytest.approx(0.6 * gains.sum(), rel=0.1)
 

@@ -106,8 +106,8 @@ def test_elements_create_no_energy(point, r, model):
     found = element.impedance(Omega=at).damping
     assert np.abs(found - solver).max() < 0.25 * flooded
     if model == "memory":
-        first = answer.Omega[np.argmax(answer.damping > -0.02 * flooded)]
-        assert element.validity.omega[0] == pytest.approx(answer.Omega[answer.Omega < first].max(initial=0.0))
+        first = answer.omega[np.argmax(answer.damping > -0.02 * flooded)]
+        assert element.validity.omega[0] == pytest.approx(answer.omega[answer.omega < first].max(initial=0.0))
 
 
 def test_a_flooded_atlas_is_what_it_was():

@@ -90,7 +90,7 @@ def test_films_are_those_of_the_atlas(film, race):
     state = film.equilibrium(DOWN, speed_rpm=3000.0)
     column = ("inner", "outer").index(race)
     for k in (0, 1, 2):
-        answer = shared_atlas(None).at(film.race(race).point(state.force[k, column], 3000.0)).si
+        answer = shared_atlas(None).at(film.race(race).point(state.force[k, column], 3000.0))
         assert state.h_central[k, column] == pytest.approx(answer.h_central, rel=1e-9)
         assert state.h_min[k, column] == pytest.approx(answer.h_min, rel=1e-9)
     assert np.all(state.h_central[4:6] > state.h_central[0])

@@ -76,7 +76,7 @@ def test_films_of_a_changing_speed():
     """One speed for all, whose central film is the mean of those at both ends within 2 %."""
     ends, race = (600.0, 6000.0), OILED.race("outer")
     speed = mean_film_speed(*ends)
-    low, high, mean = (race.answer(300.0, one).si.h_central for one in (*ends, speed))
+    low, high, mean = (race.answer(300.0, one).h_central for one in (*ends, speed))
     assert mean == pytest.approx(0.5 * (low + high), rel=0.02)
     bearing = replace(OILED, features=[PIT])
     np.testing.assert_array_equal(

@@ -47,7 +47,7 @@ def test_torque_is_the_power_of_all_films_over_the_speed(film, rpm):
         race = film.race(name)
         for force in state.force[:, column]:
             point = race.point(max(force, race.loads(rpm)[0]), rpm)
-            lost += shared_atlas(None).at(point).si.moment * 0.5 * point.u_sum / point.geometry.radius_x
+            lost += shared_atlas(None).at(point).moment * 0.5 * point.u_sum / point.geometry.radius_x
     assert state.rolling_loss == pytest.approx(lost, rel=1e-9)
     assert state.rolling_torque == pytest.approx(lost / (rpm * pi / 30.0), rel=1e-9)
 
@@ -77,7 +77,7 @@ def test_biboulet_and_houpert(film, race, rpm, least):
     more of that oil lies outside our region, as far as contacts of the atlas are flooded (the next test).
     """
     ratio = [
-        shared_atlas(None).at(film.race(race).point(load, rpm)).si.moment
+        shared_atlas(None).at(film.race(race).point(load, rpm)).moment
         / (2.0 * biboulet_houpert(film.race(race).point(load, rpm), load))
         for load in (3.0, 30.0, 300.0, 1000.0)
     ]

@@ -32,7 +32,7 @@ def test_films_of_all_balls_are_those_of_the_atlas_with_heat(cold, warm, shipped
     for (k, column), force in np.ndenumerate(state.force):
         race = warm.race(("inner", "outer")[column])
         if force > race.loads(RPM)[0]:
-            alone = shipped.at(race.point(float(force), RPM), thermal=Heat()).si
+            alone = shipped.at(race.point(float(force), RPM), thermal=Heat())
             assert state.h_central[k, column] == pytest.approx(alone.h_central, rel=1e-12)
             assert state.moment[k, column] == pytest.approx(alone.moment, rel=1e-12)
     before = cold.equilibrium(LOAD, speed_rpm=RPM)

@@ -65,7 +65,7 @@ def test_error_bars_are_those_of_the_heaviest_balls_contacts():
         race = race_at(BEARING, state, state.heaviest, column)
         answer = replace(race, conditions=Conditions(heat=Heat())).answer(force, 3000.0)
         contacts.append(answer.impedance(hz=found.hz))
-        bar = answer.si.error_bars["h_min"]
+        bar = answer.error_bars["h_min"]
         assert found.error_bars[HEAT].h_min[column] == pytest.approx(bar, rel=1e-12)
         name = f"smallest film, {('inner', 'outer')[column]}"
         assert found.bars[name][HEAT] == pytest.approx(1e6 * bar) and found.bars[name][FLOODED] < 1e6 * bar * 1.5
@@ -193,7 +193,7 @@ def test_conditions_are_solved_ratios_times_flooded_values(coarse, without_table
         answers = [
             solve(point, hz=[HIGH], supply=one, thermal=heat) for point, one in zip(points, layers, strict=True)
         ]
-        ball = 1.0 / sum(1.0 / (a.si.stiffness[0] + 1j * a.si.damping[0] * tau * HIGH) for a in answers)
+        ball = 1.0 / sum(1.0 / (a.stiffness[0] + 1j * a.damping[0] * tau * HIGH) for a in answers)
         return np.array([a.h_central for a in answers]), ball.real, ball.imag
 
     cold, warm, starved = contacts([None] * 2), contacts([None] * 2, Heat()), contacts([supply] * 2)
@@ -275,7 +275,7 @@ def test_ratios_of_the_heaviest_ball_beside_those_of_all():
         for ball in range(3):
             points = [race_at(bearing, state, ball, k).point(float(state.force[ball, k]), 3000.0) for k in (0, 1)]
             answers = [impedance(point, hz=hz, **given) for point in points]
-            springs = 1.0 / sum(1.0 / (a.si.stiffness + 1j * a.si.damping * tau * hz) for a in answers)
+            springs = 1.0 / sum(1.0 / (a.stiffness + 1j * a.damping * tau * hz) for a in answers)
             total = total + (1 if ball == 0 else 2) * cos(ball * tau / 9) ** 2 * springs
         return total
 

@@ -43,7 +43,7 @@ def test_films_are_those_of_the_atlas_at_every_ball(at_r):
         for column, name in enumerate(RACES):
             race = at_r[1.0].race(name)
             point = race.point(float(state.force[ball, column]), 3000.0)
-            answer = Atlas().at(point, supply=OilLayer(over_flooded=1.0)).si
+            answer = Atlas().at(point, supply=OilLayer(over_flooded=1.0))
             assert state.h_central[ball, column] == pytest.approx(answer.h_central, rel=1e-12)
             assert state.h_min[ball, column] == pytest.approx(answer.h_min, rel=1e-12)
 
@@ -219,7 +219,7 @@ def test_damping_below_zero_that_elements_leave_out_is_said_once(axial):
     ]
     signs = np.array([at.impedance(hz=[0.9 * hz, 1.1 * hz]).damping for at in answers])
     assert signs[:, 0].min() < 0.0 < signs[:, 1].min()
-    assert least == pytest.approx(min(at.si.damping.min() for at in answers), rel=0.05)
+    assert least == pytest.approx(min(at.damping.min() for at in answers), rel=0.05)
     linearise(rotor, 9000.0)  # said already: another warning would be an error here
 
 

@@ -138,9 +138,9 @@ def test_every_reason_warns_once(shipped):
 
 
 def test_band_of_a_damper_is_where_it_is_right(shipped):
-    answer = shipped.at(POINT)
+    answer = shipped.at(POINT).dimensionless
     for w in (0.0, 0.012, 1.0, 6.0, 60.0):
-        low, high = damper_band(answer.Omega, FrequencyCurve(answer.Omega, answer.damping), w)
+        low, high = damper_band(answer.omega, FrequencyCurve(answer.omega, answer.damping), w)
         inside = np.linspace(low, high, 50)
         C = answer.impedance(Omega=inside).damping / answer.impedance(Omega=w).damping
         assert low <= w <= high and np.all(np.abs(C - 1.0) <= 0.05)

@@ -71,7 +71,7 @@ def test_arrays_under_a_layer_are_the_answers_one_by_one(atlas):
     assert found.h_central[0] < 0.9 * atlas.over(M, 12.0, 0.2).h_central[0]
     for k, m in enumerate(M.tolist()):
         alone = atlas.at(MoesPoint(m, 12.0, 0.2), supply=layer)
-        np.testing.assert_array_equal(found.Omega, alone.Omega)
+        np.testing.assert_array_equal(found.omega, alone.omega)
         for name in ("h_central", "moment", "stiffness", "damping"):
             np.testing.assert_allclose(getattr(found, name)[k], getattr(alone, name), rtol=1e-9)
             np.testing.assert_allclose(found.error_bars[name][k], alone.error_bars[name], rtol=1e-9)
