@@ -37,7 +37,7 @@ def rotor() -> Rotor:
 
 def linear(line: Rotor) -> Any:
     """About rest, balls standing still: an exact ``StateSpace``, from forces on the disc to both places."""
-    return linearise(line, RPM, passage=False).to_control(PUSH, PROBE, name="rotor")
+    return linearise(line, RPM, passage=False).to_control(PUSH, PROBE, name="rotor", tolerance=0.0)
 
 
 def nonlinear(line: Rotor) -> Any:

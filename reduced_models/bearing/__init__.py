@@ -32,6 +32,7 @@
 | track_surface | `TrackSurface`: features that pass a contact, as the surface of a full film |
 | excitation | forces of features on a fixed ring, as spectral lines over orders of the shaft |
 | ball_states | balls and films about static equilibrium as matrices of first order |
+| linear_reduction | a linear bearing with few states: balanced residualisation, with the bound of its error |
 | continuous_time | `BearingRates`: derivatives of the states of balls and films, by the C core |
 | motion | a bearing in the time domain: steps, tangents, prescribed motion |
 | equilibrium_result | `BearingState`: a bearing in static equilibrium, ball by ball |

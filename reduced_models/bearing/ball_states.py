@@ -23,7 +23,10 @@ small as the others.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from reduced_models.bearing.freedoms import PLANAR
@@ -100,23 +103,25 @@ def _on_ring(G: _Floats, b: _Floats, c: _Floats, n_i: _Floats, f_i: _Floats) -> 
     return np.asarray(G[2:, :2] @ b + G[2:, 2:] @ c + np.outer(np.append(n_i, 0.0), f_i))
 
 
+def ring_system(balls: LinearBalls, k: int) -> StateSpace:
+    """Ball `k` between motions of the ring, displacements, then their rates, and its share of the force."""
+    rows, force, maps = ball_system(balls, k)
+    own, share = len(rows), maps.T / balls.positions
+    through = np.kron(np.eye(2), maps[:2])  # motions of the ball's inner race
+    return StateSpace(
+        rows[:, :own], rows[:, own:] @ through, share @ force[:, :own], share @ force[:, own:] @ through
+    )
+
+
+def parallel(parts: Sequence[StateSpace]) -> StateSpace:
+    """Systems with one motion, whose forces add up."""
+    A, driven, C, D = zip(*parts, strict=True)
+    return StateSpace(scipy.linalg.block_diag(*A), np.concatenate(driven), np.hstack(C), np.sum(D, axis=0))
+
+
 def bearing_system(balls: LinearBalls) -> StateSpace:
     """All balls of a bearing."""
-    parts = [ball_system(balls, k) for k in range(len(balls.maps))]
-    size, n = sum(len(part[0]) for part in parts), balls.maps.shape[2]
-    A, driven = np.zeros((size, size)), np.zeros((size, 2 * n))
-    C, D = np.zeros((n, size)), np.zeros((n, 2 * n))
-    at = 0
-    for rows, force, maps in parts:
-        own, moves = len(rows), maps[:2]  # motions of the ball's inner race from those of the ring
-        here, share = slice(at, at + own), maps.T / balls.positions
-        A[here, here], C[:, here] = rows[:, :own], share @ force[:, :own]
-        for j in range(2):  # displacements, then their rates
-            given = slice(own + 2 * j, own + 2 * (j + 1))
-            driven[here, n * j : n * (j + 1)] = rows[:, given] @ moves
-            D[:, n * j : n * (j + 1)] += share @ force[:, given] @ moves
-        at += own
-    return seated(StateSpace(A, driven, C, D), balls.loss)
+    return seated(parallel([ring_system(balls, k) for k in range(len(balls.maps))]), balls.loss)
 
 
 def seated(bare: StateSpace, loss: Loss) -> StateSpace:

@@ -26,6 +26,7 @@ from reduced_models.bearing.continuous_time import BearingRates
 from reduced_models.bearing.core_bearing import ORIGIN
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.linear_balls import LinearBalls
+from reduced_models.bearing.linear_reduction import reduced_system
 from reduced_models.bearing.ring import equilibrium_at
 from reduced_models.bearing.ring_statics import linear_balls, static_ring
 from reduced_models.elements.film_response import FILTERS
@@ -48,26 +49,40 @@ def rings_of(rotor: Rotor) -> _Floats:
 
 
 def linear_block(
-    rotor: Rotor, omega: float, about: Sequence[Any], inputs: Signals, outputs: Signals, name: str
+    rotor: Rotor,
+    omega: float,
+    about: Sequence[LinearBalls],
+    inputs: Signals,
+    outputs: Signals,
+    name: str,
+    tolerance: float,
 ) -> Any:
     """`LinearRotor.to_control`: of a rotor at a speed [rad/s], `about` what it finds in its ball bearings."""
     import control
 
     size = rotor.size
     ins, outs = _signals("inputs", inputs, "F", size), _signals("outputs", outputs, "q", size)
-    A, driven = rotor_system(rotor.matrices(omega), rings_of(rotor), [bearing_system(balls) for balls in about])
+    reductions = [
+        reduced_system(balls, tolerance) if tolerance else (bearing_system(balls), 0.0) for balls in about
+    ]
+    A, driven = rotor_system(rotor.matrices(omega), rings_of(rotor), [space for space, _ in reductions])
     C = np.zeros((len(outs), len(A)))
     C[range(len(outs)), list(outs.values())] = UNIT
-    return control.ss(
+    states = _states(size, [] if tolerance else [_shape_of(balls) for balls in about])
+    for b, (space, _) in enumerate(reductions if tolerance else []):
+        states += [f"b{b}_{k}" for k in range(len(space.A))]
+    system = control.ss(
         A,
         driven[:, list(ins.values())] / UNIT,
         C,
         0.0,
         inputs=list(ins),
         outputs=list(outs),
-        states=_states(size, [_shape_of(balls) for balls in about]),
+        states=states,
         name=name,
     )
+    system.reduction_error = max((error for _, error in reductions), default=0.0)
+    return system
 
 
 def rotor_to_control(

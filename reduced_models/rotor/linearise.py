@@ -10,7 +10,14 @@ from typing import Any, Protocol, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, parts, require_finite, require_instance, require_integer
+from ehlcontact.checks import (
+    as_column,
+    parts,
+    require_finite,
+    require_instance,
+    require_integer,
+    require_nonnegative,
+)
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
 from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
@@ -54,6 +61,7 @@ DEFAULT_MODES = 8  # modes, unless another number is given
 SLOW = 1e-3  # rad/s, stands for rest where damping is computed: films forget in less than a second
 FREE = 1e-9  # of the largest stiffness, what rounding leaves where a rotor is free
 UNLOADED = 1e-9  # of its most loaded ball, the load of a preloaded bearing that is the rounding of none
+REDUCED = 1e-6  # of the static stiffness of a bearing, error of its impedance with fewer states
 SKEW = 1e-9  # of the largest stiffness, the part of it that is not symmetric: below is rounding
 VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 
@@ -231,11 +239,14 @@ class LinearRotor(Summary):
         turned = np.exp(1j * w * np.atleast_1d(np.asarray(t, float)))[:, None]
         return np.asarray(self.rest + np.real(turned * self._unbalanced(w)))
 
-    def to_control(self, inputs: Signals = None, outputs: Signals = None, name: str = "rotor") -> Any:
-        """Exact python-control ``StateSpace``, films' memory included, from forces [N] to displacements [m].
+    def to_control(
+        self, inputs: Signals = None, outputs: Signals = None, name: str = "rotor", *, tolerance: float = REDUCED
+    ) -> Any:
+        """Linear python-control ``StateSpace``, films' memory included, from forces [N] to displacements [m].
 
-        Its states are those of `rotor_to_control`, and their units. With means over a ball passage all positions
-        of all balls are states: better linearise with ``passage=False`` here.
+        Its first states are displacements and velocities, as of `rotor_to_control`, in their units. Bearings have
+        as few states as `tolerance` allows (`reduced_models.bearing.linear_reduction`). With a tolerance of 0 all
+        balls at all positions of the cage have theirs, as there: thousands with means over a ball passage.
 
         Parameters
         ----------
@@ -243,15 +254,25 @@ class LinearRotor(Summary):
             Degrees of freedom by name; without names they are F0, F1, ... and q0, q1, ... By default all.
         name : str
             Of the system.
+        tolerance : float
+            Largest error of the impedance of a bearing at any frequency, over its static stiffness.
+
+        Returns
+        -------
+        control.StateSpace
+            With the attribute ``reduction_error``, the bound of that error.
 
         Raises
         ------
         InputError
-            A degree of freedom that is not there; signed damping, which has no states.
+            A degree of freedom that is not there; a tolerance of 1 or more; signed damping, which has no states.
         """
         if self.signed_damping:
             raise InputError("signed_damping", True, "False: impedances of solved contacts have no states")
-        return linear_block(self.rotor, self.speed_rpm * RPM_TO_RAD_S, self.balls, inputs, outputs, name)
+        if require_nonnegative("tolerance", tolerance) >= 1.0:
+            raise InputError("tolerance", tolerance, "below 1, of the static stiffness of a bearing")
+        w = self.speed_rpm * RPM_TO_RAD_S
+        return linear_block(self.rotor, w, self.balls, inputs, outputs, name, tolerance)
 
     @cached_property
     def _rows(self) -> _Floats:

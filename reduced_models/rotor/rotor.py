@@ -31,6 +31,7 @@ from ehlcontact.checks.kinds import NAME, Object, Objects, shown
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
+from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.equilibrium import equilibrium
 from reduced_models.rotor.linear_bearing import LinearBearing
@@ -345,7 +346,9 @@ class Rotor(Summary):
     def dry(self) -> Self:
         """The rotor on ball bearings without oil, as they are while the shaft stands still."""
         mounts = [
-            replace(mount, bearing=mount.ball_bearing.dry) if is_ball_bearing(mount) else mount
+            replace(mount, bearing=mount.bearing.dry)
+            if isinstance(mount, BearingMount) and isinstance(mount.bearing, BallBearing)
+            else mount
             for mount in self.mounts
         ]
         return replace(self, mounts=tuple(mounts))

@@ -77,7 +77,7 @@ def test_block_of_the_rotor_is_the_rotor():
     """Frequency response by coefficients that are put in here, and eigenvalues against modes."""
     rotor = pair()
     at = linearise(rotor, RPM, passage=False)
-    block = at.to_control()
+    block = at.to_control(tolerance=0.0)
     for w in np.geomspace(100.0, 1e5, 4):
         Z = -w * w * rotor.mass + 1j * w * RPM * np.pi / 30.0 * rotor.gyroscopic
         for load, mount in zip(at.loads, rotor.mounts, strict=True):
@@ -111,7 +111,7 @@ def test_block_of_the_rotor_is_the_rotor():
 def test_the_state_space_is_that_of_differences(make, changes):
     """Rates of rotor, balls and films of the nonlinear block by every state and input, of 1e-4 um, N."""
     rotor = make(**changes)
-    exact = linearise(rotor, RPM, passage=False).to_control()
+    exact = linearise(rotor, RPM, passage=False).to_control(tolerance=0.0)
     moving = rotor_to_control(rotor, RPM, cage_turns=False)
     assert moving.state_labels == exact.state_labels
     n, m = exact.nstates, exact.ninputs
@@ -153,7 +153,7 @@ def test_names():
     assert moving.nstates == 10 + 2 * (3 * (2 + 2 * (lags + 2)) + 5 * 8 + 1)
     held = rotor_to_control(rotor, RPM, cage_turns=False)
     assert held.nstates == moving.nstates - 2
-    assert held.state_labels == linearise(rotor, RPM, passage=False).to_control().state_labels
+    assert held.state_labels == linearise(rotor, RPM, passage=False).to_control(tolerance=0.0).state_labels
 
 
 def test_a_dry_cage_turns_by_its_loads():
@@ -168,7 +168,7 @@ def test_a_dry_cage_turns_by_its_loads():
 def test_means_over_a_passage_have_all_positions_as_states(monkeypatch):
     monkeypatch.setattr(ring_statics, "POSITIONS", 2)
     at = linearise(single(balls=4), RPM)
-    block = at.to_control()
+    block = at.to_control(tolerance=0.0)
     assert block.nstates == 10 + 2 * 4 * (2 + 2 * (spindle().element("inner", RPM).lags + 2))
     for w in (100.0, 1e4):
         expected = at.receptance(omega=w)[0]

@@ -7,6 +7,8 @@ from control_blocks import response, slopes
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, linearise, rotor_to_control, simulate_rotor
 from reduced_models.bearing import ring_statics
+from reduced_models.bearing.ball_states import bearing_system
+from reduced_models.bearing.linear_reduction import reduced_system
 
 control = pytest.importorskip("control")
 
@@ -15,7 +17,7 @@ RPM, DISC = 3000.0, 12
 
 def test_states_have_the_frequency_response_of_the_impedances(film, beam):
     at = linearise(beam(film), RPM, passage=False)
-    block = at.to_control()
+    block = at.to_control(tolerance=0.0)
     omega = np.geomspace(10.0, 1e6, 6)
     for w, expected in zip(omega, at.receptance(omega=omega), strict=True):
         np.testing.assert_allclose(response(block, w), expected, rtol=0.0, atol=1e-9 * abs(expected).max())
@@ -23,7 +25,7 @@ def test_states_have_the_frequency_response_of_the_impedances(film, beam):
 
 def test_eigenvalues_of_the_states_are_the_modes(film, beam):
     at = linearise(beam(film), RPM, passage=False)
-    values = np.linalg.eigvals(at.to_control().A)
+    values = np.linalg.eigvals(at.to_control(tolerance=0.0).A)
     modes = at.modes(None)
     for mode in modes:
         assert np.abs(values - mode.eigenvalue).min() < 1e-9 * abs(mode.eigenvalue)
@@ -37,7 +39,7 @@ def test_eigenvalues_of_the_states_are_the_modes(film, beam):
 def test_means_over_a_passage_have_all_positions_as_states(film, block, monkeypatch):
     monkeypatch.setattr(ring_statics, "POSITIONS", 2)
     at = linearise(block(film), RPM)
-    found = at.to_control()
+    found = at.to_control(tolerance=0.0)
     assert found.nstates == 4 + 2 * 9 * (1 + 2 * (film.element("inner", RPM).lags + 2))
     for w in (100.0, 1e4):
         expected = at.receptance(omega=w)[0]
@@ -50,7 +52,7 @@ def test_linearize_is_the_state_space(film, block, cutoff_gap):
     rotor = block(BallBearing.catalogue("6205", oil=film.oil, cutoff_gap=cutoff_gap))
     at = linearise(rotor, RPM, passage=False)
     assert (cutoff_gap is None) == bool(np.all(at.balls[0].films.slope[0] > 0.0))  # the top balls are let go
-    exact, moving = at.to_control(), rotor_to_control(rotor, RPM, cage_turns=False)
+    exact, moving = at.to_control(tolerance=0.0), rotor_to_control(rotor, RPM, cage_turns=False)
     rest = np.zeros(moving.nstates)
     rates = moving.dynamics(0.0, rest, np.zeros(2))
     assert np.abs(rates[2:4]).max() < 1e-3  # um/s2
@@ -70,7 +72,7 @@ def test_the_state_space_is_that_of_differences(film, block, cutoff_gap):
     """Rates of rotor, balls and films by every state and input, to 1e-6 of those of the same row."""
     rotor = block(BallBearing.catalogue("6205", oil=film.oil, cutoff_gap=cutoff_gap))
     exact, moving = (
-        linearise(rotor, RPM, passage=False).to_control(),
+        linearise(rotor, RPM, passage=False).to_control(tolerance=0.0),
         rotor_to_control(rotor, RPM, cage_turns=False),
     )
     system = np.hstack([exact.A, exact.B])
@@ -80,7 +82,7 @@ def test_the_state_space_is_that_of_differences(film, block, cutoff_gap):
 
 def test_linearize_of_a_beam(film, beam):
     rotor = beam(film)
-    exact = linearise(rotor, RPM, passage=False).to_control([DISC], [DISC, 4])
+    exact = linearise(rotor, RPM, passage=False).to_control([DISC], [DISC, 4], tolerance=0.0)
     moving = rotor_to_control(rotor, RPM, inputs=[DISC], outputs=[DISC, 4], cage_turns=False)
     found = control.linearize(moving, np.zeros(moving.nstates), [0.0], eps=1e-5)
     for w in (10.0, 1e3, 1e4):
@@ -118,7 +120,7 @@ def test_block_in_time_is_the_run(film, block):
 def test_states_of_losses_and_of_balls_with_inertia(oil, block, oiled, changes, part, labels, omega, share):
     rotor = block(BallBearing.catalogue("6205", oil=oil if oiled else None, **changes))
     at = linearise(rotor, RPM, passage=False)
-    exact, moving = at.to_control(), rotor_to_control(rotor, RPM, cage_turns=False)
+    exact, moving = at.to_control(tolerance=0.0), rotor_to_control(rotor, RPM, cage_turns=False)
     assert exact.state_labels == moving.state_labels and exact.state_labels[part] == labels
     found = control.linearize(moving, np.zeros(moving.nstates), np.zeros(2), eps=1e-5)
     for w in omega:
@@ -131,14 +133,14 @@ def test_a_dry_ball_vibrates_on_its_two_contacts(block):
     at = linearise(block(BallBearing.catalogue("6205", ball_inertia=True, clearance=-4e-6)), RPM, passage=False)
     contact = at.balls[0]
     bounce = np.sqrt(contact.films.stiffness.sum(axis=0) / contact.inertia).max()
-    assert np.linalg.eigvals(at.to_control().A).imag.max() == pytest.approx(bounce, rel=0.02)
+    assert np.linalg.eigvals(at.to_control(tolerance=0.0).A).imag.max() == pytest.approx(bounce, rel=0.02)
     assert 30e3 < bounce / (2.0 * np.pi) < 45e3
 
 
 def test_dry_bearings_have_no_states(dry, block):
     rotor = block(dry)
     moving = rotor_to_control(rotor, RPM, cage_turns=False)
-    exact = linearise(rotor, RPM, passage=False).to_control()
+    exact = linearise(rotor, RPM, passage=False).to_control(tolerance=0.0)
     assert moving.nstates == exact.nstates == 4
     found = control.linearize(moving, np.zeros(4), np.zeros(2), eps=1e-5)
     np.testing.assert_allclose(found.A, exact.A, rtol=1e-4, atol=1e-4 * np.abs(exact.A).max())
@@ -147,7 +149,7 @@ def test_dry_bearings_have_no_states(dry, block):
 def test_names(film, block):
     moving, exact = (
         rotor_to_control(block(film), RPM),
-        linearise(block(film), RPM, passage=False).to_control(name="r"),
+        linearise(block(film), RPM, passage=False).to_control(name="r", tolerance=0.0),
     )
     for one in (moving, exact):
         assert one.input_labels == ["F0", "F1"] and one.output_labels == ["q0", "q1"]
@@ -180,3 +182,28 @@ def test_bad_speeds(film, block):
         rotor_to_control(block(film), 3e4)
     with pytest.raises(InputError, match=r"rotor = 'int': must be a Rotor"):
         rotor_to_control(3, RPM)
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, pytest.param(1e-6, marks=pytest.mark.long)])
+def test_bearings_with_few_states_have_the_impedance_within_their_bound(block, film, tolerance):
+    """Against the impedances of all balls at all positions of the cage; static stiffness is exact."""
+    at = linearise(block(film), RPM)
+    found = at.to_control(tolerance=tolerance)
+    whole = sum(len(bearing_system(balls).A) for balls in at.balls)
+    assert found.nstates < 0.05 * whole and 0.0 < found.reduction_error < tolerance
+    assert np.all(found.poles().real < 0.0)
+    for balls in at.balls:
+        space, bound = reduced_system(balls, tolerance)
+        K = np.sqrt(np.diag(balls.impedance(1e-3).real))
+        for s in 1j * np.geomspace(1e-2, 1e6, 17):
+            G = space.C @ np.linalg.solve(s * np.eye(len(space.A)) - space.A, space.B) + space.D
+            off = (G[:, :2] + s * G[:, 2:] - balls.impedance(s)) / np.outer(K, K)
+            assert np.linalg.norm(off, 2) < (bound if abs(s) > 1.0 else 1e-8)
+    for mode in at.modes(2):
+        pole = found.poles()[np.argmin(np.abs(found.poles() - mode.eigenvalue))]
+        assert abs(pole - mode.eigenvalue) < tolerance * abs(mode.eigenvalue)
+
+
+def test_a_tolerance_is_a_share(block, film):
+    with pytest.raises(InputError, match=r"tolerance = 1.0: must be below 1"):
+        linearise(block(film), RPM, passage=False).to_control(tolerance=1.0)
