@@ -68,6 +68,7 @@ Complex = NDArray[np.complex128]
 LARGEST_OMEGA = 200.0
 NEAR_ZERO = 1e-4  # where C(0) is evaluated
 FEWEST_NODES = 4.0  # of the mesh to a wave, as of `Roughness`: with fewer the film does not follow it
+SPEED_STEP = 1e-3  # relative: over which the balance of a starved film is differenced
 SLOW_SHARE = 0.1  # of C at low frequency that is not in C at `SLOW`, from which it is slow oil: else 7 % at most
 TO = f"{APPROACH!r}, {SPEED!r} or Waves(...)"
 
@@ -160,8 +161,9 @@ def response(
         as far as is affordable; computed region, by default that of `solve_steady` (C depends on it by about
         1/extent^2); engine of the elastic deflection.
     supply : OilLayer, optional
-        Oil that the surfaces carry to the contact, as in `solve_steady`. The front of the full film moves with the
-        change: the oil that it takes up and leaves behind is part of the problem.
+        Oil that the surfaces carry to the contact, as in `solve_steady`; the same layer at all speeds. The front
+        of the full film moves with the change: the oil that it takes up and leaves behind is part of the problem.
+        Not with waves; heat and sliding with neither speed nor waves.
     thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up, as in `solve_steady`; its temperatures follow the vibration as fast as oil and
         surfaces can (docs/heat.md).
@@ -187,10 +189,8 @@ def response(
     threads = require_threads("threads", threads)
     conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
     if to != APPROACH:
-        for name in conditions.keywords:
-            raise InputError(
-                name, "given", "left out of a response to speed or waves, which is that of a flooded film"
-            )
+        for name in conditions.keywords.keys() - ({"supply"} if waves is None else set()):
+            raise InputError(name, "given", f"left out of a response to {'speed' if waves is None else 'waves'}")
     if waves is None:
         meshes: Iterable[Mesh] = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
     else:
@@ -299,9 +299,23 @@ def _flow_by_waves(level: Level, system: LinearFilm, k: float) -> Complex:
 
 def force_of_speed(contact: LinearisedContact, omega: Array) -> tuple[Complex, Array]:
     """Force over relative change of speed, and the relative residual of its linear system, both (m,)."""
-    level = contact.level
-    carried = level.transport(level.fields.flow.mass, np.zeros_like(level.P)).ravel()
-    return contact.force_of(omega, lambda system, m: carried)
+    carried = carried_by_speed(contact.level, contact.u).ravel()
+    return contact.force_of(omega, lambda system, m: system.with_speed(carried))
+
+
+def carried_by_speed(level: Level, u: float) -> Array:
+    """What surfaces carry away from a node over a slow relative change of their speed, less what they carry to it.
+
+    Of a full film it is the difference of the gap along X. Where oil runs short surfaces carry what there is,
+    and the balance of the nodes at a front is differenced over the speed, at the approach `u`.
+    """
+    if not level.inflow.size:
+        return level.transport(level.fields.flow.mass, np.zeros_like(level.P))
+    residuals = []
+    for speed in (1.0 - SPEED_STEP, 1.0 + SPEED_STEP, 1.0):
+        level.set_speed(speed)
+        residuals.append(level.update(u).copy())
+    return np.asarray((residuals[1] - residuals[0]) / (2.0 * SPEED_STEP))
 
 
 def slow_part(

@@ -63,6 +63,11 @@ class LinearisedContact:
         self._row_scale = 1.0 / np.abs(self._steady.diagonal()[self.nodes])
         self._near: list[tuple[float, NearCorrection]] = []
 
+    @property
+    def u(self) -> float:
+        """Approach of the steady state."""
+        return self._multigrid.u
+
     def still(self) -> LinearisedContact:
         """The same with temperatures that stand still."""
         return LinearisedContact(self._multigrid, self._follows, still=True)

@@ -14,6 +14,7 @@ from ehlcontact import (
     KeepSettings,
     Lubricant,
     MoesPoint,
+    OilLayer,
     OperatingPoint,
     PrescribedApproach,
     PrescribedLoad,
@@ -221,13 +222,14 @@ def test_standstill_on_a_finer_grid():
     np.testing.assert_allclose(film[known_force > 0.4], known_film[known_force > 0.4], rtol=1.5e-3)
 
 
-def vibrating(point, grid, W, swing=0.02, periods=4, steps=40):
+def vibrating(point, grid, W, swing=0.02, periods=4, steps=40, **given):
     """Force over a relative change of speed at fixed approach, from a run."""
-    steady = solve_steady(point, grid=grid, tol=1e-9)
+    steady = solve_steady(point, grid=grid, tol=1e-9, **given)
     T = np.linspace(0.0, 2.0 * np.pi / W * periods, 2 * steps * periods + 1)
     grid, still = Grid(n=grid.n, domain=steady.domain), PrescribedApproach(T, np.full(T.size, steady.approach))
     time = TimeSteps(until=T[-1], dt=T[2], tol=1e-6)
-    run = simulate(point, still, grid=grid, time=time, speed=SpeedHistory(T, 1.0 + swing * np.sin(W * T)))
+    speed = SpeedHistory(T, 1.0 + swing * np.sin(W * T))
+    run = simulate(point, still, grid=grid, time=time, speed=speed, **given)
     last = run.t > 0.5 * T[-1] + 1e-9
     waves = np.stack([np.sin(W * run.t[last]), np.cos(W * run.t[last]), np.ones(last.sum())], axis=1)
     sine, cosine, _ = np.linalg.lstsq(waves, run.force[last], rcond=None)[0] / swing
@@ -253,6 +255,22 @@ def test_slow_response_is_the_derivative_of_the_steady_film():
     ]
     apart = (near[0].approach - near[1].approach) / np.log(1.01 / 0.99)
     assert found.lift[0] == pytest.approx(apart, rel=1e-3)
+
+
+@pytest.mark.long
+def test_response_of_a_starved_contact():
+    """Slow, the derivative of steady films under one layer; fast, that of a run: .53 % apart."""
+    point, layer = MoesPoint(50.0, 8.0, 0.7), OilLayer(over_flooded=1.0)
+    found = response(point, to="speed", Omega=[0.0, 2.0], grid=Grid(n=48), supply=layer)
+    grid, layer = Grid(n=48, domain=found.film.domain), OilLayer(H=float(found.film.layer[0]))
+    near = [
+        solve_steady(MoesPoint(50.0 * U**-0.75, 8.0 * U**0.25, 0.7), grid=grid, supply=layer, tol=1e-10)
+        for U in (0.99, 1.01)
+    ]
+    apart = (near[0].approach - near[1].approach) / np.log(1.01 / 0.99)
+    assert found.lift[0] == pytest.approx(apart, rel=1e-4)
+    run = vibrating(point, grid, 2.0, periods=3, steps=80, supply=layer)
+    assert found.value[1] == pytest.approx(run, rel=0.01)
 
 
 @pytest.mark.slow
