@@ -29,6 +29,7 @@ from ehlcontact.results.picture import (
 
 WIDTH, PX, DPI = 4.6, 1.0 / 80.0, 130  # inches of a panel, and of a px of a page; dots of files
 ALONE, STACKED = 1.3, 1.7  # width of a picture of one column over that of a panel: one panel, several
+MAP, LOWEST = 0.65, 1.7  # width of a map over that of its panel; inches that one is high at least
 MOST_NAMED = 8  # lines that a legend names
 LETTERS = 50  # of a title, over a panel
 PLAIN_DECADES, FEW_DECADES = 4.5, 1.6  # of a logarithmic axis with plain numbers; with numbers at 2 and 5 too
@@ -49,7 +50,11 @@ def draw(picture: Picture | Slides, path: str | os.PathLike[str] | None = None) 
     if isinstance(picture, Slides):
         picture = picture.pictures[picture.start]
     rows, columns = picture.shape
-    heights = [PX * height for height in picture.row_heights]
+    lines = [picture.panels[row * columns : (row + 1) * columns] for row in range(rows)]
+    heights = [
+        max((_tall(panel, PX * height) for panel in line), default=PX * height)
+        for line, height in zip(lines, picture.row_heights, strict=True)
+    ]
     wide = WIDTH * columns if columns > 1 else WIDTH * (ALONE if rows == 1 else STACKED)
     # room for maps that are to scale
     figure = Figure(figsize=(wide, sum(heights) + 0.25 * rows + 0.4), layout="compressed")
@@ -68,6 +73,14 @@ def draw(picture: Picture | Slides, path: str | os.PathLike[str] | None = None) 
     if picture.note:
         figure.supxlabel(fill(picture.note, 2 * LETTERS * columns), fontsize=8)
     return _written(figure, path)
+
+
+def _tall(panel: Panel | Map | LoadZone, most: float) -> float:
+    """Inches that a panel is high: a flat map that is to scale less than others."""
+    if not isinstance(panel, Map) or panel.aspect is None or panel.view is None:
+        return most
+    (left, right), (low, high) = panel.view
+    return min(most, max(LOWEST, MAP * WIDTH * panel.aspect * (high - low) / (right - left)))
 
 
 def _panel(axes: Any, panel: Panel) -> None:
