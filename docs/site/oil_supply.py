@@ -29,7 +29,7 @@ from ehlcontact.film_formulas import film_of_layer
 from ehlcontact.lubricant import density
 from ehlcontact.side_flow import layer_after_passes, oil_passes, side_flow
 from reduced_models import BallBearing, OilBalance
-from reduced_models.bearing.oil_balance import lost_share
+from reduced_models.bearing.fed_layer import lost_share
 
 IMAGES = Path(__file__).parents[1] / "images"
 POINTS = (MoesPoint(20, 10, 1), MoesPoint(200, 10, 1), MoesPoint(200, 10, 0.5), MoesPoint(2900, 19, 0.11))

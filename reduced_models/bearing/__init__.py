@@ -38,6 +38,8 @@
 | equilibrium_result | `BearingState`: a bearing in static equilibrium, ball by ball |
 | set_result | `SetState`: a `BearingSet` in static equilibrium, bearing by bearing |
 | oil_balance | `OilBalance`: oil on the tracks over time: layer, side flow, feed and replenishment |
+| fed_layer | `FedLayer`: the layer that a feed keeps; what a contact takes off a layer |
+| oil_feedback | layers that follow the passes of the balls before, in K and C of a bearing with a held feed |
 | ross_bearing | export to ROSS: bearings as elements of a ROSS rotor |
 | sliding | `bearing_friction`: sliding moment of the contacts by a traction law |
 | table_bars | error bars of films, K and C under these conditions, from the tables of the atlas |

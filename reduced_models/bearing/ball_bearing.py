@@ -46,6 +46,7 @@ from reduced_models.bearing.excitation import (
     with_cage_slip,
 )
 from reduced_models.bearing.features import Feature, feature_entries, features_from
+from reduced_models.bearing.fed_layer import layer_from
 from reduced_models.bearing.freedoms import PLANAR, held_tilt
 from reduced_models.bearing.grooves import angle_without_load, require_contact_angle, require_room, table_cosine
 from reduced_models.bearing.height_tables import require_features_fit
@@ -54,6 +55,7 @@ from reduced_models.bearing.kinematics import (
     DefectFrequencies,
 )
 from reduced_models.bearing.loss import require_loss_factor
+from reduced_models.bearing.oil_feedback import with_held_feed
 from reduced_models.bearing.race import (
     RACES,
     Race,
@@ -72,7 +74,7 @@ from reduced_models.elements.film_contact import FilmContact
 
 _Floats = NDArray[np.float64]
 
-SUPPLIES = ("h", "over_flooded")  # units of an oil supply that is the same at all balls
+SUPPLIES = ("h", "over_flooded", "fed")  # units of an oil supply that is the same at all balls, and its feed
 
 
 @stored("ball bearing")
@@ -143,7 +145,8 @@ class BallBearing(Summary):
     supply : OilLayer, optional
         Oil that the surfaces carry to every contact (docs/oil_supply.md): one layer ``OilLayer(h)`` [m] on all
         tracks, as that of an `OilBalance`, or ``OilLayer(over_flooded=r)`` times what each flooded film lets
-        through, r over the isothermal film with `thermal` too. By default contacts are flooded.
+        through, r over the isothermal film with `thermal` too. By default contacts are flooded. Under the layer
+        that a feed keeps, ``OilBalance(...).lasting_supply``, `coefficients` hold the feed, not the layer.
 
     Attributes
     ----------
@@ -405,8 +408,12 @@ class BallBearing(Summary):
         full = np.mean([at.load for at in places], axis=0)
         outside = "" if self.oil is None else assumptions_under(self, speed, places).headline
         left_out = damping_left_out(self, speed, np.array([at.force for at in places]))
-        notes = outside, signed_damping(self, speed, balls, places, w), left_out
-        return BearingCoefficients.of(full, speed, cage_angle, w, balls.coefficients(w), places, *notes)
+        K, C = balls.coefficients(w)
+        signed = signed_damping(self, speed, balls, places, w)
+        stiffer, damped, feed = with_held_feed(self, speed, balls, places, w)
+        signed = signed if signed is None else signed + damped
+        notes = outside, signed, left_out, feed
+        return BearingCoefficients.of(full, speed, cage_angle, w, (K + stiffer, C), places, *notes)
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")
     def excitation(
@@ -529,7 +536,7 @@ class BallBearing(Summary):
             given["oil"] = Lubricant(**oil)
         if supply is not None:
             require_names({**dict.fromkeys(SUPPLIES), **supply}, SUPPLIES, "supply.")
-            given["supply"] = OilLayer.from_dict(supply)
+            given["supply"] = layer_from(supply)
         if thermal is not None:
             require_names(thermal, [f.name for f in fields(Heat)], "thermal.")
             given["thermal"] = Heat.from_dict(thermal)

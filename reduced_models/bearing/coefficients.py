@@ -62,6 +62,10 @@ class BearingCoefficients(Response):
     damping_left_out : str
         Below which frequency contacts under an oil supply have damping below zero, which `damping` leaves out, in
         words; empty where there is none.
+    held_feed : str
+        That a feed of oil is held, in words: under the layer of an `OilBalance`, `stiffness` and `signed_damping`
+        include that layers follow the passes of the balls before (`reduced_models.bearing.oil_feedback`). Empty
+        elsewhere.
     """
 
     load: Annotated[_Floats, FORCE.over("axis")]
@@ -72,6 +76,7 @@ class BearingCoefficients(Response):
     outside: str = ""
     signed_damping: Annotated[_Floats | None, DAMPING.over("omega axis by")] = None
     damping_left_out: str = ""
+    held_feed: str = ""
 
     @property
     def outside_assumptions(self) -> str:
@@ -102,7 +107,7 @@ class BearingCoefficients(Response):
             *axial,
             *self._signed_line(),
             "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
-            *filter(None, [self.damping_left_out, self.negative_damping]),
+            *filter(None, [self.damping_left_out, self.negative_damping, self.held_feed]),
             *note_line(self.outside_assumptions),
         ]
 
@@ -115,8 +120,8 @@ class BearingCoefficients(Response):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        left_out = {"damping_left_out": self.damping_left_out} if self.damping_left_out else {}
-        return super().to_dict() | {"outside_assumptions": self.outside_assumptions} | left_out
+        notes = {name: getattr(self, name) for name in ("damping_left_out", "held_feed") if getattr(self, name)}
+        return super().to_dict() | {"outside_assumptions": self.outside_assumptions} | notes
 
     @classmethod
     def of(
@@ -130,6 +135,7 @@ class BearingCoefficients(Response):
         outside_assumptions: str = "",
         signed_damping: _Floats | None = None,
         damping_left_out: str = "",
+        held_feed: str = "",
     ) -> BearingCoefficients:
         """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""
         places = np.array([at.displacement for at in equilibria])
@@ -147,4 +153,5 @@ class BearingCoefficients(Response):
             outside=outside_assumptions,
             signed_damping=signed_damping,
             damping_left_out=damping_left_out,
+            held_feed=held_feed,
         )

@@ -93,6 +93,35 @@ class LinearBalls:
         forces *= -response(self.loss, s)[:, None]
         return np.asarray(np.einsum("ikc,cij->kcj", forces, self.maps[:, self._rows].astype(complex)))
 
+    def approaches(self, s: _Complex, heights: _Complex) -> tuple[_Complex, _Complex]:
+        """Approaches of all contacts at exp(s t), by the ring and by `heights` at both contacts of every ball.
+
+        Parameters
+        ----------
+        s : ndarray, shape (k,)
+        heights : ndarray, shape (2, k, contacts)
+
+        Returns
+        -------
+        ndarray, shape (2, k, contacts, n) and (2, k, contacts)
+            Of the bodies [m], without the heights themselves: by a unit of each direction of the ring, and by the
+            heights while the ring is held.
+        """
+        films, tangents = self._tangents(s[:, None])
+        by_inner, by_outer = heights * films
+        pressed = by_inner * self._pressed[0][:, None, None] - by_outer * self._pressed[1][:, None, None]
+        equations = np.concatenate([tangents, pressed], axis=1)
+        rows = np.zeros((2, *equations.shape[1:]), complex)
+        rows[:, : tangents.shape[1]] = self._along[:, :, None]
+        balls = len(self._acting)
+        found = _eliminated(np.concatenate([equations[:balls], rows]), balls)
+        signs = np.array([1.0, -1.0])[
+            :, None, None, None
+        ]  # the outer contact approaches as the ball moves outward
+        by_grooves, by_heights = signs * found[:, :-1], signs[..., 0] * found[:, -1]
+        maps = self.maps[:, self._acting].astype(complex)
+        return np.asarray(np.einsum("rjkc,cjn->rkcn", by_grooves, maps)), np.asarray(by_heights)
+
     def _tangents(self, s: _Complex) -> tuple[_Complex, _Complex]:
         """Impedances of all contacts at s, shape (k, 1): (2, k, contacts); and the equations of all balls.
 
@@ -129,11 +158,15 @@ class LinearBalls:
         return rows
 
     @cached_property
+    def _along(self) -> _Floats:
+        """Motion along the normals of both contacts by b and c, shape (2, columns, contacts)."""
+        n = self.normals[:, self._acting]
+        return np.concatenate([-n, n * [[[1.0]], [[0.0]]]], axis=1)  # the outer groove stands still
+
+    @cached_property
     def _stretched(self) -> _Floats:
         """Equations by a unit impedance of both contacts, shape (2, rows, columns, 1, contacts)."""
-        n = self.normals[:, self._acting]
-        stretch = np.concatenate([-n, n * [[[1.0]], [[0.0]]]], axis=1)  # the outer groove stands still
-        return np.asarray(self._pressed[:, :, None, None] * stretch[:, None, :, None])
+        return np.asarray(self._pressed[:, :, None, None] * self._along[:, None, :, None])
 
     @cached_property
     def _fixed(self) -> _Floats:

@@ -40,6 +40,7 @@ from ehlcontact.summary import Summary
 from ehlcontact.supply import OilLayer
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.equilibrium_result import BearingState
+from reduced_models.bearing.fed_layer import FedLayer, lost_share, require_return
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
 
@@ -47,23 +48,6 @@ _Floats = NDArray[np.float64]
 
 THICKEST, THINNEST = 1e3, 1e-6  # flooded films, between which a layer in balance is looked for
 ACCURACY = 1e-8  # relative, of layers over time
-
-
-def lost_share(ratio: Any, sharpness: Any, growth: Any) -> Any:
-    """Share x of a layer that leaves the track in a pass; numbers or arrays.
-
-    Parameters
-    ----------
-    ratio : float or ndarray
-        r, the layer over what the flooded film lets through.
-    sharpness : float or ndarray
-        g of `ehlcontact.film_formulas.film_of_layer`.
-    growth : float or ndarray
-        By how much r^-2 grows in a pass by side flow: `ehlcontact.side_flow` times the square of that layer.
-    """
-    starved = 1.0 - film_of_layer(ratio, sharpness) / ratio
-    aside = 1.0 - (1.0 + growth * ratio * ratio) ** -0.5
-    return (starved**3 + aside**3) ** (1.0 / 3.0)
 
 
 @fields_take(load=parts.FORCE, speed_rpm=parts.SPEED, feed=parts.FEED)
@@ -117,11 +101,7 @@ class OilBalance(Summary):
         if np.shape(self.load) != (2,):
             raise InputError("load", self.load, "(Fx, Fy): the balance is for radial loads")
         require_between("feed", self.feed, 0.0, 1.0)
-        require_between("returned", self.returned, 0.0, 1.0)
-        if self.returned > 0.0 and not 0.0 < self.return_time < inf:
-            raise InputError("return_time", self.return_time, "> 0 and finite [s], where oil returns")
-        if self.sharpness is not None:
-            require_between("sharpness", self.sharpness, 1.0, 30.0)
+        require_return(self.returned, self.return_time, self.sharpness)
         object.__setattr__(self, "state", self.bearing.equilibrium(self.load, speed_rpm=self.speed_rpm))
 
     @cached_property
@@ -207,8 +187,8 @@ class OilBalance(Summary):
         return float(scipy.optimize.brentq(lambda layer: self.feed_for(layer) - self.feed, *ends, rtol=ACCURACY))
 
     @property
-    def lasting_supply(self) -> OilLayer:
-        """The same as the ``supply`` of a `BallBearing`.
+    def lasting_supply(self) -> FedLayer:
+        """That layer as the ``supply`` of a `BallBearing`, whose `coefficients` then hold the feed, not the layer.
 
         Raises
         ------
@@ -217,7 +197,8 @@ class OilBalance(Summary):
         """
         if self.feed == 0.0:
             raise InputError("feed", 0.0, "> 0: without any no layer lasts")
-        return OilLayer(self.lasting_layer)
+        time = self.return_time if self.returned else inf
+        return FedLayer(h=self.lasting_layer, returned=self.returned, return_time=time, sharpness=self.sharpness)
 
     def history(self, layer: OilLayer, t: ArrayLike) -> OilHistory:
         """Layer and films over time.

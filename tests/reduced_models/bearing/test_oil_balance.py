@@ -12,7 +12,7 @@ from ehlcontact.film_formulas import expected_film
 from ehlcontact.lubricant import density
 from ehlcontact.side_flow import side_flow
 from reduced_models import BallBearing, OilBalance
-from reduced_models.bearing.oil_balance import lost_share
+from reduced_models.bearing.fed_layer import lost_share
 
 RPM = 10000.0
 BEARING = BallBearing.catalogue("6204", oil=Lubricant(eta0=0.0255, alpha=1.62e-8))
