@@ -5,6 +5,7 @@ python docs/site/oil_supply.py   # some minutes
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
@@ -238,7 +239,41 @@ def bearing_over_supply() -> None:
     figure.savefig(IMAGES / "oil_supply_bearing.png", dpi=110)
 
 
+def held_feed() -> None:
+    """Damping of a 6205 over frequency under a given layer and with the feed held, and losses that outweigh it."""
+    figure = Figure(figsize=(9.0, 3.8), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
+    load, rpm = (0.0, -1000.0), 3000.0
+    start = OilBalance(bearing=bearing, load=load, speed_rpm=rpm)
+    hz = np.geomspace(1.0, 1000.0, 61)
+    shown = [int(np.argmin(np.abs(hz - f))) for f in (1.0, 10.0, 50.0, 100.0, 500.0)]
+    for ratio, colour in ((1.0, "tab:orange"), (1.5, "tab:blue")):
+        feed = start.feed_for(ratio * start.full_layer)
+        fed = replace(start, feed=feed).lasting_supply
+        for supply, line in ((OilLayer(fed.h), ":"), (fed, "-")):
+            small = replace(bearing, supply=supply).coefficients(load, speed_rpm=rpm, hz=hz)
+            C, K = small.signed_damping[:, 1, 1], small.stiffness[:, 1, 1]
+            name = f"r = {ratio:g}, {'feed held' if supply is fed else 'layer given'}"
+            left.plot(hz, C, line, color=colour, label=name)
+            right.plot(hz, small.omega * C / K, line, color=colour)
+            print(f"r = {ratio:g}, {3.6e12 * feed:.0f} mm3/h, {'feed' if supply is fed else 'layer'} held:")
+            print("   Hz", *(f"{hz[k]:.0f}" for k in shown), "C", *(f"{C[k]:.0f}" for k in shown))
+            print("   K", *(f"{1e-6 * K[k]:.2f}" for k in shown))
+            print("   loss factor that outweighs C_yy", *(f"{-small.omega[k] * C[k] / K[k]:.1e}" for k in shown))
+    left.axhline(0.0, color="grey", linewidth=0.8)
+    left.set(xlabel="frequency, Hz", ylabel="C_yy, N s/m", xscale="log", ylim=(-500.0, 500.0))
+    left.axvline(50.0, color="grey", linewidth=0.8, linestyle="--")
+    right.axhspan(-0.005, 0.0, color="lightgrey", label="outweighed by rings that lose .005")
+    right.axhline(0.0, color="grey", linewidth=0.8)
+    right.set(xlabel="frequency, Hz", ylabel="omega C/K", xscale="log", ylim=(-0.006, 0.006))
+    left.legend()
+    right.legend(loc="upper left")
+    figure.savefig(IMAGES / "oil_feedback.png", dpi=130)
+
+
 if __name__ == "__main__":
+    held_feed()
     bearing_over_supply()
     passes()
     through_time()

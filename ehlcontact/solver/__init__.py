@@ -26,6 +26,7 @@ module           responsibility
 ``mixed_film``   pressure of asperities that carry part of the load beside a film
 ``linear_heat``  linearised film with temperatures that follow a vibration
 ``linear_fronts``  its fronts of full film, where oil runs short
+``passing_layer``  a layer that passes a linearised film: force, and what is left behind
 ``film_thinning`` shear thinning of a film by sliding
 ``film_heat``    temperatures of a film: energy equation
 ``followed_viscosity``  viscosity that follows heat and sliding, in cycles and in vibrations

@@ -61,14 +61,14 @@ class LinearFronts:
         front = self.nodes
         return np.asarray(back * self._level.P.ravel()[front] + self._back * dP.ravel()[front])
 
-    def through(self, full: Array, pressed: Array, back: Array) -> Array:
+    def through(self, full: Array, pressed: Array, back: Array, layer: float = 0.0) -> Array:
         """Change of the flow through the face behind each node, from that of a full gap.
 
         Where the gap is partly filled oil that is pressed in (`pressed`, over the area of a node) is passed on
-        with the surfaces.
+        with the surfaces, and so is the change of the `layer` that enters.
         """
         half, flow = self._half, full.astype(complex)
-        flow[self._enters, 0] = 0.0
+        flow[self._enters, 0] = layer
         for i in range(1, flow.shape[1] - 1):
             passed = ((1.0 - half) * flow[:, i - 1] + self._width * pressed[:, i]) / (1.0 + half)
             flow[:, i] = np.where(self._full[:, i], full[:, i], passed)

@@ -7,16 +7,17 @@ next ones. With the motion exp(s t), the approach u of a contact and the change 
     m_a = H (m - s D u),  H = 1/(1 + s T)          what arrives: the oil ahead of a contact is one store
     F   = Z u + f H m                              Z: under a layer that stands still, f: force by the layer
     m_b = a m_a + b u                              what it leaves: a of a change of layer, and b by the approach
-    m   = exp(-s tau) (mean(m_b + R/(1 + s tau_R) (m_a - m_b)) - q w/(1 + s tau_q)).
+    m   = E (mean(m_b + R/(1 + s tau_R) (m_a - m_b)) - q w/(1 + s tau_q)),  E = mean of exp(-s tau).
 
 The mean is over both contacts of all balls; those without load pass everything. It is the assumption of
-`OilBalance`, that balls mix what is on them so that the layer is the same everywhere, with one delay in the place
-of a rate: tau is the mean time between two passes, l/(4 Z u) of the tracks of length l, so that both are the same
-to first order in s. As s goes to 0 the mean says that all contacts together lose what they lost at rest: that is
-a held feed, and the equation of `OilBalance.lasting_layer`. a and b are derivatives of its loss, and w is the
-relative change of the width of the track on which the feed, q in a pass, is spread: that of the heaviest contact
-with the inner race. Oil that lies there already is not spread anew, so the width follows within tau_q, the time
-in which the feed renews the layer.
+`OilBalance`, that balls mix what is on them so that the layer is the same everywhere, with delays in the place of
+a rate. Half of what arrives is from the race, where the ball before passed, a quarter from each race in the mean,
+and half from the ball itself, half a turn ago. The mean of these delays tau is l/(4 Z u) of the tracks of length
+l, so both are the same to first order in s. As s goes to 0 the mean says that all contacts together lose what
+they lost at rest: that is a held feed, and the equation of `OilBalance.lasting_layer`. a and b are derivatives of
+its loss, and w is the relative change of the width of the track on which the feed, q in a pass, is spread: that
+of the heaviest contact with the inner race. Oil that lies there already is not spread anew, so the width follows
+within tau_q, the time in which the feed renews the layer.
 
 G = f D is what a store takes from the damping. G and T are fitted to C of the solved contact over the frequency,
 C = phi C_flooded - G/(1 + (T Omega)^2).
@@ -71,6 +72,7 @@ class Passage(NamedTuple):
 
 
 UNLOADED = Passage(1.0, *(len(Passage._fields) - 1) * (0.0,))
+FROM = np.array([0.25, 0.25, 0.5])  # shares of a layer ahead from the inner race, the outer race and the ball
 WIDTH_OF_LOAD = 1.0 / 3.0  # power of the load in the width of a Hertz contact
 
 
@@ -113,8 +115,9 @@ def store_of(answer: AtlasAnswer, flooded: AtlasAnswer) -> tuple[float, float]:
 
     def fitted(log_time: float) -> tuple[float, float]:
         store = -1.0 / (1.0 + (np.exp(log_time) * Omega) ** 2)
-        (_, G), left = scipy.optimize.nnls(np.column_stack([free, store]), C)
-        return float(left), float(G)
+        # phi <= 1: a film damps no more than it does flooded, else a fast store takes what a large phi gives
+        best = scipy.optimize.lsq_linear(np.column_stack([free, store]), C, ([0.0, 0.0], [1.0, np.inf]))
+        return float(best.cost), float(best.x[1])
 
     tried = np.linspace(np.log(SLOWEST), np.log(FASTEST), 60)
     best = int(np.argmin([fitted(x)[0] for x in tried]))
@@ -136,8 +139,8 @@ class OilFeedback:
         a, b, f, D and T of all contacts.
     spread : ndarray, shape (2, positions * balls)
         Feed of a pass that all contacts of a position have less by the approach of each, as the track gets wider.
-    delay : float
-        Mean time between two passes [s].
+    delays : ndarray, shape (3,)
+        Times between two passes [s]: on the inner and the outer race, and on a ball.
     renewal : ndarray, shape (positions * balls,)
         Time in which the feed renews the layer [s].
     returned, return_time : float
@@ -147,7 +150,7 @@ class OilFeedback:
     balls: LinearBalls
     passages: _Floats
     spread: _Floats
-    delay: float
+    delays: _Floats
     renewal: _Floats
     returned: float
     return_time: float
@@ -169,17 +172,17 @@ class OilFeedback:
                     found[key] = passage(race, key[0], speed_rpm)
                 rows.append(found.get(key, UNLOADED))
             columns.append(rows)
-        length = np.pi * (2.0 * bearing.pitch_diameter + bearing.balls * bearing.ball_diameter)
-        u_sum = bearing.race("inner").speed_sum * speed_rpm * RPM_TO_RAD_S
-        delay, supply = length / (2.0 * bearing.balls * u_sum), bearing.supply
+        across, ball, supply = bearing.pitch_diameter, bearing.ball_diameter, bearing.supply
+        ways = np.pi * np.array([across - ball, across + ball, 0.5 * bearing.balls * ball]) / bearing.balls
+        delays = ways / (0.5 * bearing.race("inner").speed_sum * speed_rpm * RPM_TO_RAD_S)
         *passages, lost, widening = np.moveaxis(np.array(columns), -1, 0)
         places, contacts = len(equilibria), 2 * bearing.balls
         fed = (1.0 - supply.returned) * lost.reshape(2, places, -1).sum(axis=(0, 2))  # contacts times q
         heaviest = np.concatenate([_heaviest(at.force[:, 0]) for at in equilibria])
         spread = np.array([heaviest * np.repeat(fed, contacts // 2) * widening[0], np.zeros(heaviest.size)])
-        renewal = np.repeat(delay * float(supply.h) * contacts / fed, contacts // 2)
+        renewal = np.repeat(FROM @ delays * float(supply.h) * contacts / fed, contacts // 2)
         oil = supply.returned, supply.return_time
-        return cls(solved, np.array(passages), spread, float(delay), renewal, *oil)
+        return cls(solved, np.array(passages), spread, delays, renewal, *oil)
 
     def impedance(self, s: _Complex) -> _Complex:
         """Addition to the impedance of the ring, shape (k, n, n), at frequencies s [1/s], shape (k,)."""
@@ -194,7 +197,7 @@ class OilFeedback:
         by_approach = -r * D * kept + (1.0 - back) * b - self.spread[:, None] / (1.0 + r * self.renewal)
         left = self._means(kept + by_approach * by_layer)
         moved = self._means(by_approach[..., None] * by_ring)
-        later = np.exp(-r * self.delay)
+        later = np.exp(-r * self.delays) @ FROM[:, None]
         layer = later[..., None] * moved / (1.0 - later * left)[..., None]  # by the ring, (k, positions, n)
         force = -self.balls.force_of_heights(s, *heights)
         pressed = force.reshape(s.size, self.balls.positions, -1, force.shape[-1]).sum(axis=2)
