@@ -88,13 +88,13 @@ def passage(race: Race, load: float, speed_rpm: float) -> Passage:
     more, less = 1.0 + STEP, 1.0 - STEP
     starved, thinner, thicker = (under(h * times).answer(load, speed_rpm) for times in (1.0, less, more))
     full, lighter, heavier = (flooded.answer(load * times, speed_rpm) for times in (1.0, less, more))
-    stiffness = float(starved.si.stiffness[0])
-    force = -stiffness * (thicker.si.approach - thinner.si.approach) / (2.0 * STEP * h)
+    stiffness = float(starved.stiffness[0])
+    force = -stiffness * (thicker.approach - thinner.approach) / (2.0 * STEP * h)
 
     def left(layer: float, by: AtlasAnswer, load: float) -> float:
         point = flooded.point(load, speed_rpm)
         moes = point.moes
-        most = float(plain(density)(1.0, moes.law)[0]) * by.si.h_central
+        most = float(plain(density)(1.0, moes.law)[0]) * by.h_central
         g = layer_sharpness(moes.kappa) if supply.sharpness is None else supply.sharpness
         return layer * (1.0 - float(lost_share(layer / most, g, side_flow(point) * most * most)))
 
@@ -109,9 +109,10 @@ def passage(race: Race, load: float, speed_rpm: float) -> Passage:
 
 def store_of(answer: AtlasAnswer, flooded: AtlasAnswer) -> tuple[float, float]:
     """G [N s/m] and T [s] of the oil ahead of a contact, by its C under a layer and flooded."""
-    Omega = answer.Omega[answer.Omega <= SLOW]
-    C = answer.damping[: Omega.size]
-    free = flooded.impedance(Omega=Omega).damping
+    own, scales = answer.dimensionless, answer.point.scales
+    Omega = own.omega[own.omega <= SLOW]
+    C = own.damping[: Omega.size]
+    free = flooded.dimensionless.impedance(Omega=Omega).damping
 
     def fitted(log_time: float) -> tuple[float, float]:
         store = -1.0 / (1.0 + (np.exp(log_time) * Omega) ** 2)
@@ -123,8 +124,7 @@ def store_of(answer: AtlasAnswer, flooded: AtlasAnswer) -> tuple[float, float]:
     best = int(np.argmin([fitted(x)[0] for x in tried]))
     ends = tried[max(best - 1, 0)], tried[min(best + 1, tried.size - 1)]
     found = scipy.optimize.minimize_scalar(lambda x: fitted(x)[0], bounds=ends, method="bounded")
-    assert answer.scales is not None
-    return fitted(found.x)[1] * answer.scales.damping, float(np.exp(found.x)) * answer.scales.time
+    return fitted(found.x)[1] * scales.damping, float(np.exp(found.x)) * scales.time
 
 
 @dataclass(frozen=True, eq=False)

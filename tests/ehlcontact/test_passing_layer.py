@@ -52,7 +52,7 @@ def test_what_enters_leaves_or_is_stored():
     film = film_of(CIRCLE, layer_at(CIRCLE))
     contact = linearised(film, held(film))
     found, faster = (passing_layer(contact, w, 1e-8) for w in (SLOW, 10.0 * SLOW))
-    weights = np.where(np.arange(film.Y.size) > 0, 1.0, 0.5)[:-1] * np.diff(film.Y)[0]
+    weights = np.where(np.arange(film.y.size) > 0, 1.0, 0.5)[:-1] * np.diff(film.y)[0]
     for k, enters in enumerate((0.0, 1.0)):
         kept = [weights @ (enters - one.behind[k][:-1]) for one in (found, faster)]
         assert abs(kept[0].real) < 1e-5
@@ -75,8 +75,8 @@ class Returned:
     """Oil ahead of a film: what left the track comes back later, as a change of the uniform layer at rest."""
 
     def __init__(self, film, delay):
-        self.layer, self.Y, self.delay = film.layer, film.Y, delay
-        self.T, self.left, self.way = [0.0], [on_track(film.layer_behind, film.Y)], 0.0
+        self.layer, self.Y, self.delay = film.layer, film.y, delay
+        self.T, self.left, self.way = [0.0], [on_track(film.layer_behind, film.y)], 0.0
 
     def entering(self, way, turned):
         change = np.interp(way - self.delay, self.T, self.left) - self.left[0]
@@ -96,7 +96,7 @@ def test_a_contact_that_follows_its_own_passes_in_time():
     layer = layer_at(CIRCLE)
     film = film_of(CIRCLE, layer)
     at = passing_layer(linearised(film, held(film)), omega, 1e-7)
-    B, A = (on_track(one, film.Y) for one in at.behind)
+    B, A = (on_track(one, film.y) for one in at.behind)
     E = np.exp(-1j * omega * delay)
     T = 2.0 * np.pi / omega / steps * np.arange(1, steps * periods + 1)
 

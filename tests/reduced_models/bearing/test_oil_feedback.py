@@ -125,11 +125,12 @@ def test_one_store_has_the_damping_of_the_contact(at_r):
     flooded = replace(race, conditions=replace(race.conditions, supply=None))
     answer, free = starved.answer(477.0, RPM), flooded.answer(477.0, RPM)
     G, T = store_of(answer, free)
-    assert T / answer.scales.time == pytest.approx(39.5, rel=0.25)
-    slow = answer.Omega <= 0.4
-    C = answer.damping[slow] * answer.scales.damping
-    store = -G / (1.0 + (T * answer.Omega[slow] / answer.scales.time) ** 2)
-    film = free.impedance(Omega=answer.Omega[slow]).damping * answer.scales.damping
+    time = answer.point.scales.time
+    assert T / time == pytest.approx(39.5, rel=0.25)
+    slow = answer.omega * time <= 0.4
+    C = answer.damping[slow]
+    store = -G / (1.0 + (T * answer.omega[slow]) ** 2)
+    film = free.impedance(omega=answer.omega[slow]).damping
     phi = np.linalg.lstsq(film[:, None], C - store, rcond=None)[0][0]
     assert 0.0 < phi < 1.0 and np.abs(C - store - phi * film).max() < 0.1 * np.abs(C).max()
 
