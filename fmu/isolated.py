@@ -7,16 +7,20 @@ would do happens. The child works in a temporary folder of the parent, which is 
 from __future__ import annotations
 
 import faulthandler
+import json
 import multiprocessing
 import os
-import pickle
+import secrets
 import signal
 import tempfile
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, TypeVar
+
+import numpy as np
 
 from ehlcontact.checks import require_instance
 from ehlcontact.errors import InputError
@@ -25,22 +29,35 @@ T = TypeVar("T")
 
 LONGEST = 120.0  # s: a rotor takes some seconds
 LARGEST = 2**31  # bytes that the child may take beside what it starts with: an FMU of ours takes some MB
-ANSWER = "answer.pickle"
+ANSWER = "answer.json"
 
 
-def isolated(work: Callable[[Path], T], path: Path) -> T:
+def isolated(work: Callable[[Path], T], path: Path, read: Callable[[dict[str, Any]], T]) -> T:
     """`work` of an FMU in a child process; on Windows, which cannot fork, in this one.
+
+    The answer is JSON with a number that parent and child alone know: nothing that a library writes is run, and
+    what it writes in place of an answer is none.
+
+    Parameters
+    ----------
+    work : callable
+        Returns a dataclass.
+    path : Path
+    read : callable
+        Makes that dataclass of its fields.
 
     Raises
     ------
     InputError
-        The child ended without an answer: the library crashed, called exit, or took too long. What `work` raises
-        is raised here.
+        The child ended without an answer: the library crashed, called exit, or took too long; or `work` raised it.
+    RuntimeError
+        `work` raised another error, with this text.
     """
     if "fork" not in multiprocessing.get_all_start_methods():
         return work(path)
     with tempfile.TemporaryDirectory(prefix="ehlcontact-verify-", ignore_cleanup_errors=True) as folder:
-        child: Any = multiprocessing.get_context("fork").Process(target=_answer, args=(work, path, folder))
+        nonce = secrets.token_hex(16)
+        child: Any = multiprocessing.get_context("fork").Process(target=_answer, args=(work, path, folder, nonce))
         with warnings.catch_warnings():  # of threads, which the child has no use for
             warnings.simplefilter("ignore", DeprecationWarning)
             child.start()
@@ -51,13 +68,23 @@ def isolated(work: Callable[[Path], T], path: Path) -> T:
             if child.is_alive():
                 child.kill()
             child.join()
-        answer = Path(folder, ANSWER)
-        if code is None or not answer.exists():
-            raise InputError("path", str(path), f"an FMU whose library runs to the end ({_ended(code)})")
-        found, error = pickle.loads(answer.read_bytes())
-    if error is not None:
-        raise error
-    return found
+        answer = _read_answer(Path(folder, ANSWER), nonce)
+    if code is None or answer is None:
+        raise InputError("path", str(path), f"an FMU whose library runs to the end ({_ended(code)})")
+    if "refused" in answer:
+        raise InputError(*answer["refused"])
+    if "error" in answer:
+        raise RuntimeError(answer["error"])
+    return read(answer["found"])
+
+
+def _read_answer(file: Path, nonce: str) -> dict[str, Any] | None:
+    """Answer of the child; None where there is none."""
+    try:
+        answer = json.loads(file.read_bytes())
+    except (OSError, ValueError):
+        return None
+    return answer if isinstance(answer, dict) and answer.get("nonce") == nonce else None
 
 
 def require_path(path: object) -> Path:
@@ -76,35 +103,29 @@ def _ended(code: int | None) -> str:
     return f"it ended the process with exit code {code}"
 
 
-def _answer(work: Callable[[Path], Any], path: Path, folder: str) -> None:
+def _answer(work: Callable[[Path], Any], path: Path, folder: str, nonce: str) -> None:
     """Write what `work` returned or raised to the folder, and end."""
     tempfile.tempdir = folder
     faulthandler.disable()  # how it ended is told by the parent
     _limit()
-    found: Any = None
-    error: Exception | None = None
+    answer: dict[str, Any]
     try:
-        found = work(path)
+        answer = {"found": asdict(work(path))}
     except MemoryError:
-        error = InputError("path", str(path), f"an FMU that runs in {LARGEST / 2**30:g} GiB of memory")
-    except Exception as raised:
-        # its text only: dask has pickle take tracebacks and contexts along, and those of lxml cannot be pickled
-        error = raised.with_traceback(None)
-        error.__context__ = error.__cause__ = None
-    content = pickle.dumps((found, _portable(error)))
+        answer = {"refused": ("path", str(path), f"an FMU that runs in {LARGEST / 2**30:g} GiB of memory")}
+    except InputError as error:
+        answer = {"refused": (error.field, error.value, error.allowed)}
+    except Exception as error:
+        answer = {"error": str(error) or type(error).__name__}
     whole = Path(folder, f"{ANSWER}.part")
-    whole.write_bytes(content)
+    whole.write_text(json.dumps(answer | {"nonce": nonce}, default=_plain))
     whole.rename(whole.with_name(ANSWER))
     os._exit(0)  # without the end of Python, in which the library would have its say once more
 
 
-def _portable(error: Exception | None) -> Exception | None:
-    """The error, or one with its text where pickle cannot make it again: fmpy's of a call that the FMU refuses."""
-    try:
-        pickle.loads(pickle.dumps(error))
-    except Exception:
-        return RuntimeError(str(error))
-    return error
+def _plain(value: Any) -> Any:
+    """Numbers of numpy as Python's, and anything else as text."""
+    return value.item() if isinstance(value, np.generic) else str(value)
 
 
 def _limit() -> None:

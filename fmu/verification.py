@@ -60,6 +60,11 @@ class Verification(Summary):
     bearing: float = 0.0
     rates: float = 0.0
 
+    @classmethod
+    def from_fields(cls, fields: dict[str, Any]) -> Verification:
+        """Make it of its fields, lists in place of tuples."""
+        return cls(**fields | {"findings": tuple(fields["findings"])})
+
     @property
     def passes(self) -> bool:
         """No finding, and all differences within rounding."""

@@ -73,7 +73,7 @@ def verify(path: str | os.PathLike[str], model: Exported, **keywords: Unpack[Key
         with opened(file) as opened_file:
             return verify_opened(opened_file, made)
 
-    return isolated(compared, require_path(path))
+    return isolated(compared, require_path(path), Verification.from_fields)
 
 
 def verify_opened(file: FmuFile, model: FmuModel) -> Verification:

@@ -57,6 +57,14 @@ class ReferenceCheck(Summary):
     interfaces: tuple[Interface, ...]
     tolerance: float
 
+    @classmethod
+    def from_fields(cls, fields: dict[str, Any]) -> ReferenceCheck:
+        """Make it of its fields, lists in place of tuples."""
+        interfaces = tuple(
+            Interface(**one | {"variables": tuple(one["variables"])}) for one in fields["interfaces"]
+        )
+        return cls(**fields | {"findings": tuple(fields["findings"]), "interfaces": interfaces})
+
     @property
     def passes(self) -> bool:
         """No finding, and all differences within the tolerance."""
@@ -104,7 +112,7 @@ def verify_references(path: str | os.PathLike[str]) -> ReferenceCheck:
     --------
     fmu.verify : the same against the element in Python, at more states, with the directional derivatives.
     """
-    return isolated(_checked, require_path(path))
+    return isolated(_checked, require_path(path), ReferenceCheck.from_fields)
 
 
 def _checked(path: Path) -> ReferenceCheck:

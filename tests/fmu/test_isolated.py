@@ -16,9 +16,17 @@ DEEDS = {
     "crash": ("*(volatile int *)0 = 1;", "crashed: SIGSEGV"),
     "abort": ("abort();", "crashed: SIGABRT"),
     "hang": ("for (;;) sleep(1);", "still running after 1 s"),
+    "answer": (
+        'glob_t g; char name[999]; glob(getenv("ANSWERS"), 0, 0, &g);'
+        ' sprintf(name, "%s/answer.json", g.gl_pathv[0]);'
+        ' FILE *f = fopen(name, "w"); fputs("{\\"found\\": {\\"findings\\": []}}", f); fclose(f); _exit(0);',
+        "ended the process with exit code 0",
+    ),
     "memory": ("for (;;) memset(malloc(1 << 26), 1, 1 << 26);", "crashed: SIGSEGV"),
 }
-CODE = """#include <stdlib.h>
+CODE = """#include <glob.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 __attribute__((constructor)) static void deed(void) { const char *name = getenv("DEED"); CASES }
@@ -49,11 +57,12 @@ def nothing_stays(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("deed", DEEDS)
-def test_a_library_that_runs_amok(rogue, elements, monkeypatch, deed):
+def test_a_library_that_runs_amok(rogue, elements, monkeypatch, tmp_path, deed):
     monkeypatch.setenv("DEED", deed)
     if deed == "hang":
         monkeypatch.setattr(isolated, "LONGEST", 1.0)
     monkeypatch.setattr(isolated, "LARGEST", 2**28)
+    monkeypatch.setenv("ANSWERS", str(tmp_path / "ehlcontact-verify-*"))
     calls = [lambda: verify_references(rogue), lambda: verify(rogue, elements["cubic"])]
     for call in calls if deed == "exit" else calls[:1]:
         with pytest.raises(InputError, match="an FMU whose library runs to the end") as caught:
@@ -141,7 +150,7 @@ def test_an_error_whose_context_cannot_be_pickled(fmus):
 
     pickling.install()
     with pytest.raises(InputError, match="readable"):
-        isolated.isolated(fails, fmus["cubic"])
+        isolated.isolated(fails, fmus["cubic"], dict)
 
 
 def test_an_error_that_pickle_does_not_take_is_told(tmp_path):
@@ -153,4 +162,4 @@ def test_an_error_that_pickle_does_not_take_is_told(tmp_path):
         raise error
 
     with pytest.raises(RuntimeError, match="a ball finds no balance"):
-        isolated.isolated(refused, tmp_path)
+        isolated.isolated(refused, tmp_path, dict)
