@@ -106,7 +106,7 @@ typedef struct {
     double l[2], cosine[2], sine[2], orbit, axis, rotation, speed_sum[2], factor[2], sum[2], ring[2], moment;
 } Turning;
 
-/* Factors of films where they vary, and the rotation of the ball about its own axis, at an end of a step alone. */
+/* Factors of films that vary, and the rotation of the ball about its own axis, at an end of a step alone. */
 IN_PLACE void turn(const Search *s, const double b[2], int end, Turning *t)
 {
     const Dual ball[2] = {number(b[0]), number(b[1])}, centre[2] = {number(s->ball->c[0]), number(s->ball->c[1])}, none = number(0.0);
@@ -120,7 +120,7 @@ IN_PLACE void turn(const Search *s, const double b[2], int end, Turning *t)
         t->speed_sum[i] = at.speed_sum[i].x;
         t->sum[i] = f.sum[i].x;
         t->ring[i] = f.ring[i].x;
-        t->factor[i] = end && films_vary(s->bearing) ? film_factor(s->bearing, &at, i).x : 1.0;
+        t->factor[i] = end && s->contact[i].film != NULL ? film_factor(s->bearing, &at, i).x : 1.0;
     }
     t->orbit = at.orbit.x;
     t->axis = at.axis.x;
