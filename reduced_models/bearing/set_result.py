@@ -82,8 +82,21 @@ class SetState(QuantityTable):
             f"axial forces of bearings facing {', '.join(self.facings)}: {forces} N",
             f"shaft displaced by {place_words(self.displacement)}, axial stiffness {axial:.4g} N/µm",
             f"most loaded ball {most.force[most.heaviest, 0]:.4g} N in bearing {k}; {film}",
+            *filter(None, [self.reservation]),
             *note_line(self.outside_assumptions),
         ]
+
+    @property
+    def reservation(self) -> str:
+        """Bearings that have lost their preload, in words; empty where all have a ball pressed between its races.
+
+        The inner race of such a bearing touches none of its balls but for the film.
+        """
+        lost = [str(k) for k, bearing in enumerate(self.bearings) if not (bearing.approach[:, 0] > 0.0).any()]
+        if not lost:
+            return ""
+        named = f"bearing {lost[0]} has" if len(lost) == 1 else f"bearings {', '.join(lost)} have"
+        return f"{named} no preload left: only films and centrifugal force press the balls"
 
     @property
     def outside_assumptions(self) -> str:

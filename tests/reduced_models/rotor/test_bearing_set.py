@@ -465,3 +465,12 @@ def test_bad_input():
     refused("speed_rpm = .*where the atlas ends", lambda: wet.equilibrium((0.0, 0.0, 0.0), speed_rpm=1e6))
     refused("a ball carries at most .* in bearing 0", lambda: wet.equilibrium((0.0, 0.0, 1e5), speed_rpm=6000.0))
     refused("tilt = .*rad", lambda: preloaded.equilibrium((0.0, 0.0, 0.0), tilt=(2.0, 0.0)))
+
+
+def test_a_set_whose_preload_is_used_up_says_so(oil):
+    pair = BearingSet.pair(BallBearing.catalogue("7205", oil=oil), "back to back", preload=300.0)
+    unloads = pair.dry.lift_off("+z")
+    for load, words in ((0.7 * unloads, ""), (1.3 * unloads, "has no preload left: only films")):
+        state = pair.equilibrium((0.0, 0.0, load), speed_rpm=3000.0)
+        assert words in state.reservation and bool(words) == bool(state.reservation)
+        assert bool(words) == ("no preload left" in str(state))
