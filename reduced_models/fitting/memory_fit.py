@@ -81,8 +81,8 @@ class Target:
         for i, record in enumerate(records):
             if record.units != "dimensionless":
                 raise InputError(f"records[{i}].units", record.units, "dimensionless")
-            for name in ("point", "n"):
-                ours, theirs = getattr(film, name), getattr(record, name)
+            point = None if record.point is None else record.point.moes  # of records in other units too
+            for name, ours, theirs in (("point", film.point.moes, point), ("n", film.n, record.n)):
                 if theirs is not None and ours != theirs:
                     raise InputError(f"records[{i}].{name}", theirs, f"as of the impedance, {ours!r}")
             record.require_matching_rate()

@@ -5,9 +5,21 @@ from math import pi
 
 import numpy as np
 import pytest
+from balls import OF_6205
 from programs import script
 
-from ehlcontact import FreeVibration, Grid, HarmonicLoad, InputError, MoesPoint, impedance, simulate
+from ehlcontact import (
+    FreeVibration,
+    Grid,
+    HarmonicLoad,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OperatingPoint,
+    TimeSteps,
+    impedance,
+    simulate,
+)
 from reduced_models import ContactRecord, fit_memory
 
 POINT = MoesPoint(200, 10, 0.5)
@@ -106,3 +118,14 @@ def test_one_element_for_all():
     assert np.abs(ours.real / between.stiffness - 1.0).max() < 0.01
     low = result.element.impedance(Omega=0.05)[0].imag / 0.05
     assert low == pytest.approx(np.interp(0.05, Z.omega, Z.damping), rel=0.03)
+
+
+def test_response_and_records_of_a_point_in_si():
+    """In the units of the point they are of one contact; the element is dimensionless and knows its scales."""
+    oil = Lubricant(0.037, 2e-8)
+    point = OperatingPoint.ball_bearing(oil, **OF_6205, speed_rpm=3000.0, load=49.0)
+    response = impedance(point, Omega=OMEGAS[::2], grid=Grid(n=32))
+    time = TimeSteps(until=8.0 * point.scales.time, dt=0.1 * point.scales.time)
+    run = simulate(point, HarmonicLoad(Omega=2.0), grid=Grid(n=32, domain=response.film.domain), time=time)
+    element = fit_memory(response, [ContactRecord.from_result(run)], lags=4).element
+    assert element.units == "dimensionless" and element.source["scales"]["force"] == pytest.approx(49.0)
