@@ -54,8 +54,6 @@ from ehlcontact.results.steady_result import SteadyResult
 from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.error_estimate import response_error, wave_error
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
-from ehlcontact.solver.level import Level
-from ehlcontact.solver.linear import LinearFilm
 from ehlcontact.solver.linearised_contact import TOLERANCE, LinearisedContact
 from ehlcontact.solver.mesh import Mesh, Solve
 from ehlcontact.solver.mesh_choice import Purpose, grid_for_waves, wider_meshes
@@ -68,7 +66,6 @@ Complex = NDArray[np.complex128]
 LARGEST_OMEGA = 200.0
 NEAR_ZERO = 1e-4  # where C(0) is evaluated
 FEWEST_NODES = 4.0  # of the mesh to a wave, as of `Roughness`: with fewer the film does not follow it
-SPEED_STEP = 1e-3  # relative: over which the balance of a starved film is differenced
 SLOW_SHARE = 0.1  # of C at low frequency that is not in C at `SLOW`, from which it is slow oil: else 7 % at most
 TO = f"{APPROACH!r}, {SPEED!r} or Waves(...)"
 
@@ -163,10 +160,9 @@ def response(
     supply : OilLayer, optional
         Oil that the surfaces carry to the contact, as in `solve_steady`; the same layer at all speeds. The front
         of the full film moves with the change: the oil that it takes up and leaves behind is part of the problem.
-        Not with waves; heat and sliding with neither speed nor waves.
     thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up, as in `solve_steady`; its temperatures follow the vibration as fast as oil and
-        surfaces can (docs/heat.md).
+        surfaces can (docs/heat.md). Not in a response to speed.
     sliding : ShearThinning, optional
         Shear thinning of the film by sliding, as in `solve_steady`; it follows at once.
     threads : int, optional
@@ -188,9 +184,9 @@ def response(
     require_grid(grid)
     threads = require_threads("threads", threads)
     conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
-    if to != APPROACH:
-        for name in conditions.keywords.keys() - ({"supply"} if waves is None else set()):
-            raise InputError(name, "given", f"left out of a response to {'speed' if waves is None else 'waves'}")
+    if to == SPEED and conditions.heat is not None:
+        allowed = "left out of a response to speed: what heat surfaces carry at a speed that changes is not known"
+        raise InputError("thermal", "given", allowed)
     if waves is None:
         meshes: Iterable[Mesh] = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
     else:
@@ -267,7 +263,7 @@ def _to_source(steady: SteadyResult, solved: Multigrid, w: Array, waves: Waves |
     contact, moving = linearised(steady, solved), np.maximum(w, NEAR_ZERO)
 
     def force(of: LinearisedContact) -> tuple[Complex, Array]:
-        return force_of_speed(of, moving) if waves is None else force_of_waves(of, moving, moving / waves.speed)
+        return of.force_of_speed(moving) if waves is None else of.force_of_waves(moving, moving / waves.speed)
 
     Z = contact.respond(moving, TOLERANCE)[0]
     value, residual = force(contact)
@@ -281,41 +277,6 @@ def _to_source(steady: SteadyResult, solved: Multigrid, w: Array, waves: Waves |
     bars = dict.fromkeys((*PARTS, "amplitude"), error) | {"contact_filter": error / np.abs(Z)}
     lengths = 2.0 * pi * waves.speed / w
     return Response(to=WAVES, wavelength=lengths, wave_speed=waves.speed, error_bars=bars, **shared)
-
-
-def force_of_waves(contact: LinearisedContact, omega: Array, k: Array) -> tuple[Complex, Array]:
-    """Force per height of waves of wave numbers k, and the relative residual of its linear system, both (m,)."""
-    return contact.force_of(omega, lambda system, m: -_flow_by_waves(contact.level, system, float(k[m])))
-
-
-def _flow_by_waves(level: Level, system: LinearFilm, k: float) -> Complex:
-    """Change of the Reynolds operator at all nodes, flat, by waves of unit height at fixed pressure."""
-    film = np.broadcast_to(-np.exp(-1j * k * level.X), level.P.shape)
-    still = np.zeros_like(level.P)
-    differenced = level.transport(film.real.copy(), still) + 1j * level.transport(film.imag.copy(), still)
-    exactly = level.fields.flow.rho * (differenced + 1j * k * film)
-    return np.asarray(system.by_film @ film.ravel() + exactly.ravel())
-
-
-def force_of_speed(contact: LinearisedContact, omega: Array) -> tuple[Complex, Array]:
-    """Force over relative change of speed, and the relative residual of its linear system, both (m,)."""
-    carried = carried_by_speed(contact.level, contact.u).ravel()
-    return contact.force_of(omega, lambda system, m: system.with_speed(carried))
-
-
-def carried_by_speed(level: Level, u: float) -> Array:
-    """What surfaces carry away from a node over a slow relative change of their speed, less what they carry to it.
-
-    Of a full film it is the difference of the gap along X. Where oil runs short surfaces carry what there is,
-    and the balance of the nodes at a front is differenced over the speed, at the approach `u`.
-    """
-    if not level.inflow.size:
-        return level.transport(level.fields.flow.mass, np.zeros_like(level.P))
-    residuals = []
-    for speed in (1.0 - SPEED_STEP, 1.0 + SPEED_STEP, 1.0):
-        level.set_speed(speed)
-        residuals.append(level.update(u).copy())
-    return np.asarray((residuals[1] - residuals[0]) / (2.0 * SPEED_STEP))
 
 
 def slow_part(

@@ -256,15 +256,6 @@ class Level:
         stored = (own - 0.5 * (given + full[before + 1])) / room
         return Fronts(before + 1, slopes[3], slopes[0], slopes[1], slopes[2], back / room, stored)
 
-    def pressed_in(self, nodes: NDArray[np.int64]) -> Array:
-        """Flow by pressure into nodes with P = 0, over a cell's area, by their flat numbers (`kernels.supply`)."""
-        f, P = self.fields.flow, self.fields.P
-        j, i = np.divmod(nodes, P.shape[1])
-        below, face = np.where(j > 0, j - 1, 1), np.maximum(j - 1, 0)
-        along = f.along[j, i] * P[j, i + 1] + f.along[j, i - 1] * P[j, i - 1]
-        across = f.across[j, i] * P[j + 1, i] + f.across[face, i] * P[below, i]
-        return np.asarray(self.stencil.cx * along + self.stencil.cy * across)
-
     @property
     def P(self) -> Array:
         """Pressure."""

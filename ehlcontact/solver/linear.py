@@ -118,7 +118,6 @@ class LinearFilm:
             self.by_pressure = self.by_pressure + beside[0]
             self.by_film = self.by_film + beside[1]
             self.by_approach = self.by_approach - np.asarray(beside[1].sum(axis=1)).ravel()
-        self._ahead: Any = None  # level, fronts, nodes that pass flow on and those that get it, of a starved film
         self._passed_on: Any = None  # what reaches the fronts of full film of changes at partly filled nodes
         self._pressed_back: Any = None  # and what the flow pressed back there does, of changes of ln(eps)
         if level.inflow.size:
@@ -142,7 +141,6 @@ class LinearFilm:
             self.by_film = self.by_film + passed_on @ self.by_film
             self.by_approach = self.by_approach + passed_on @ self.by_approach
             self._passed_on = passed_on
-        self._ahead = level, fronts, feeding, fed
         if self.c_t == 0.0 or not fronts.nodes.size:
             return
         # The front: what is pressed back moves it, and what it passes is stored
@@ -161,27 +159,6 @@ class LinearFilm:
         self.by_pressure = self.by_pressure + mass @ scipy.sparse.diags(flow.mass_slope.ravel())
         self.by_film = self.by_film + film
         self.by_approach = self.by_approach - np.asarray(film.sum(axis=1)).ravel()
-
-    def with_speed(self, carried: Array) -> Array:
-        """What surfaces carry away from a node over a relative change of their speed, which vibrates; flat.
-
-        `carried` is that of a slow change. Partly filled cells hold the layer at every speed. What is pressed into
-        them, or back from the full film, is more of their content at a lower speed: it comes later, and the front
-        moves.
-        """
-        if self._ahead is None:
-            return carried
-        level, fronts, feeding, fed = self._ahead
-        half, stored = 0.5 * self.c_t * (level.hx / level.speed), fronts.stored
-        back = -half / (1.0 + half) * (1.0 - half * (1.0 - fronts.passed + 2.0 * stored * fronts.passed))
-        found = carried.astype(np.result_type(half, float))
-        found[fronts.nodes] += (back - 2.0 * half * stored) * fronts.back
-        if feeding.size:
-            pressed = np.zeros(carried.size)
-            pressed[feeding] = level.pressed_in(feeding)
-            np.add.at(found, fed, -pressed[feeding])
-            found += self._passed_on @ pressed
-        return found
 
     def with_supply(self, change: Array, log_eps: Array) -> Array:
         """Change of the operator by that of ln(eps), with what a supply passes on of it and stores; all flat.

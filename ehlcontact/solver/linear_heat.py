@@ -115,26 +115,11 @@ class LinearHeat:
         self._nodes = np.flatnonzero(t.wet)
         self._lu = scipy.sparse.linalg.splu(matrix[self._nodes][:, self._nodes].tocsc(), **SPARSE_LU)
 
-    def viscous(self, d: Array) -> Array:
-        """Change of the Reynolds operator by a change d of ln(eps), (ny + 1, nx + 1)."""
-        s, P = self.level.stencil, self.level.P
-        along, across = self._means(d)
-        along, across = s.cx * along * np.diff(P, axis=1), s.cy * across * np.diff(P, axis=0)
-        return divergence(_padded(along, 1), _padded(across, 0))
-
     def weight(self) -> float:
         """Norm of the change of the Reynolds operator by a heating, over that of the heating; 1 without it."""
         heating = self.level.fields.flow.heat
         size = scipy.linalg.norm(heating)
-        return float(scipy.linalg.norm(self.viscous(self.above * heating)) / size) if size > 0.0 else 1.0
-
-    def _means(self, d: Array) -> tuple[Array, Array]:
-        """Change of the coefficients on the faces by that of ln(eps) at nodes, (ny + 1, nx) and (ny, nx + 1)."""
-        flow = self.level.fields.flow
-        mean, skew = flow.along[:, :-1], flow.along_skew[:, :-1]
-        along = (0.5 * mean + skew) * d[:, :-1] + (0.5 * mean - skew) * d[:, 1:]
-        mean, skew = flow.across[:-1], flow.across_skew[:-1]
-        return along, (0.5 * mean + skew) * d[:-1] + (0.5 * mean - skew) * d[1:]
+        return float(scipy.linalg.norm(viscous(self.level, self.above * heating)) / size) if size > 0.0 else 1.0
 
     def changes(self, dP: Array, dH: Array, dg: Array, aside: Array | None = None) -> Changes:
         """Changes of the terms; `aside` is that of ln of the viscosity along over that across by temperature."""
@@ -143,7 +128,7 @@ class LinearHeat:
         step_x, step_y = np.diff(P, axis=1), np.diff(P, axis=0)
         change_x, change_y = np.diff(dP, axis=1), np.diff(dP, axis=0)
         log_eps = flow.eps_slope * dP + flow.film_slope * dH - self.above * dg
-        mean_x, mean_y = self._means(log_eps)
+        mean_x, mean_y = flow_changes(level, log_eps)
         flow_x, flow_y = flow.along[:, :-1], flow.across[:-1]
         if (thinning := self.thinning) is not None:
             ratio = thinning.aside_by_pressure * dP + thinning.aside_by_film * dH
@@ -195,17 +180,27 @@ class LinearHeat:
             thicker = warm * self.thinning.cold_slope * dP  # of ln(eta), at the mean temperature
         return self._slid.by_stress * (thicker - dH / self.terms.H)
 
-    def respond(self, dP: Array, dH: Array, fields: Array) -> Array:
+    def to_change(self, height: Array, source: Array | None) -> Array:
+        """What follows of a change of the film at fixed pressure, as of `respond`.
+
+        A `source` of oil, which corrects how features are carried, has the temperature of the film.
+        """
+        still = np.zeros(self.level.P.shape, complex)
+        fields = np.array([still] * (1 if self.thinning is None else 2))
+        return self.respond(still, height, fields, source)
+
+    def respond(self, dP: Array, dH: Array, fields: Array, source: Array | None = None) -> Array:
         """Heating dg by the temperatures that follow from dP, dH and `fields`: dg itself; all (ny + 1, nx + 1).
 
-        With thinning a second field follows, the change of ln of the viscosity along over that across.
+        With thinning a second field follows, the change of ln of the viscosity along over that across. `source` as
+        of `to_change`.
         """
         heat, n, t = self.heat, self.heat.numbers, self.terms
         c = self.changes(dP, dH, *fields)
         # Compression in time, by the change of pressure at the node
         squeezed = np.where(t.wet, self.rate * n.expansion * t.H * dP, 0.0)
         compressed = (c.work + squeezed) * (n.inlet + self.mean)
-        rise, walls = self._temperatures(c, compressed)
+        rise, walls = self._temperatures(c, compressed, source)
         slid = c.slid + self._slid.by_mean * (rise + walls.mean(axis=0))
         beside = BY_PRESSURE * c.pressed * heat.ahead + BY_SLIDING * slid
         was = BY_PRESSURE * t.pressed * heat.ahead + BY_SLIDING * self._slid.made
@@ -219,12 +214,14 @@ class LinearHeat:
         thicker = self._by_mean_temperature * (rise + walls.mean(axis=0))
         return np.array([heating + self.thinning.along * thicker, self.thinning.aside * self.above * thicker])
 
-    def _temperatures(self, c: Changes, compressed: Array) -> tuple[Array, Array]:
+    def _temperatures(self, c: Changes, compressed: Array, source: Array | None) -> tuple[Array, Array]:
         """Changes of the rise and of both surfaces; `compressed` is the heat of compression."""
         heat, n, t = self.heat, self.heat.numbers, self.terms
         lost = self._lost(c)
+        if source is not None:
+            lost = lost - np.where(t.wet, n.convection * source * self.mean, 0.0)
         exchanged = c.exchange * heat.rise
-        source = (compressed + INNER * c.pressed) * heat.ahead + c.slid - lost - exchanged
+        made = (compressed + INNER * c.pressed) * heat.ahead + c.slid - lost - exchanged
         straight = (1.0 - INNER * heat.ahead) * c.pressed + ~heat.ahead * compressed + exchanged
         if (fronts := self._fronts) is not None:
             came = fronts.comes(t.heat_along, t.heat_across, heat.rise)
@@ -232,11 +229,11 @@ class LinearHeat:
             straight -= np.where(self._turns > 0.0, c.share * came, 0.0)
         through = c.exchange / 12.0 * (heat.walls[1] - heat.walls[0])
         now = np.array([wall * memory[0] for wall, memory in zip(n.walls, self._memories, strict=True)])
-        walls, rise = np.zeros((2, *source.shape), complex), np.zeros(source.shape, complex)
+        walls, rise = np.zeros((2, *made.shape), complex), np.zeros(made.shape, complex)
         for _ in range(MOST_ROUNDS):
             wall = walls.mean(axis=0)
             warmed = (self._warmer - self._storage_of_walls) * wall
-            rhs = source + warmed - n.convection * _with(t.along, t.across, wall)
+            rhs = made + warmed - n.convection * _with(t.along, t.across, wall)
             rise.ravel()[self._nodes] = self._lu.solve(rhs.ravel()[self._nodes].astype(complex))
             half = 0.5 * (t.exchange * rise + straight + ~heat.ahead * t.work * (rise + wall))
             if self._fronts is not None:
@@ -317,7 +314,7 @@ class HeatedSystem:
         left = self.film(film)
         given = fields.reshape(-1, *self.film.free.shape)
         log_eps = -self.heat.above * given[0]
-        changed = self.heat.viscous(log_eps).ravel()
+        changed = viscous(self.heat.level, log_eps).ravel()
         if self.by_aside is not None:
             changed = changed + self.by_aside @ given[1].ravel()
         left[:-1] += self.film.with_supply(changed, log_eps.ravel()) * self.film.free.ravel()
@@ -342,6 +339,23 @@ class HeatedPreconditioner:
         left, g = system.split(b)
         film = self._film(system.film, left)
         return np.concatenate([film, g / system.weight + system.response(film, np.zeros_like(g))])
+
+
+def viscous(level: Level, log_eps: Array) -> Array:
+    """Change of the Reynolds operator by a change of ln(eps), (ny + 1, nx + 1)."""
+    s, P = level.stencil, level.P
+    along, across = flow_changes(level, log_eps)
+    along, across = s.cx * along * np.diff(P, axis=1), s.cy * across * np.diff(P, axis=0)
+    return divergence(_padded(along, 1), _padded(across, 0))
+
+
+def flow_changes(level: Level, log_eps: Array) -> tuple[Array, Array]:
+    """Change of the coefficients on the faces by that of ln(eps) at nodes, (ny + 1, nx) and (ny, nx + 1)."""
+    flow, d = level.fields.flow, log_eps
+    mean, skew = flow.along[:, :-1], flow.along_skew[:, :-1]
+    along = (0.5 * mean + skew) * d[:, :-1] + (0.5 * mean - skew) * d[:, 1:]
+    mean, skew = flow.across[:-1], flow.across_skew[:-1]
+    return along, (0.5 * mean + skew) * d[:-1] + (0.5 * mean - skew) * d[1:]
 
 
 def _padded(faces: Array, axis: int) -> Array:

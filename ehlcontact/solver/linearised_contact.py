@@ -7,7 +7,7 @@ small least-squares problem, whose residual is the error measure: the frequency 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.followed_viscosity import FollowedViscosity
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
-from ehlcontact.solver.linear_heat import HeatedPreconditioner, HeatedSystem
+from ehlcontact.solver.linear_heat import HeatedPreconditioner, HeatedSystem, viscous
 from ehlcontact.solver.multigrid import Multigrid
 
 Array = NDArray[np.float64]
@@ -28,6 +28,14 @@ KEEP_FACTORS = 5.0  # change of Omega for which the factors of short waves serve
 MANY_NODES = 70_000  # beyond, factors of one band of frequencies are kept at a time: they take gigabytes
 SOLVE_SHARE = 0.3  # of the tolerance, for the solves themselves
 SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far
+
+
+class _Change(NamedTuple):
+    """Change of the equations at fixed pressure and approach."""
+
+    flow: NDArray[Any]  # of the Reynolds operator at all nodes, flat
+    height: Any = None  # of the film, (ny + 1, nx + 1)
+    source: Any = None  # of oil of the temperature of the film, (ny + 1, nx + 1)
 
 
 class LinearisedContact:
@@ -62,11 +70,6 @@ class LinearisedContact:
         self.b = self._unit.by_approach[self.nodes] - self.j
         self._row_scale = 1.0 / np.abs(self._steady.diagonal()[self.nodes])
         self._near: list[tuple[float, NearCorrection]] = []
-
-    @property
-    def u(self) -> float:
-        """Approach of the steady state."""
-        return self._multigrid.u
 
     def still(self) -> LinearisedContact:
         """The same with temperatures that stand still."""
@@ -164,17 +167,68 @@ class LinearisedContact:
                     space = np.array(basis)
                     products += self.products(basis[-1])
 
-    def force_of(self, omega: Array, source: Callable[[LinearFilm, int], NDArray[Any]]) -> tuple[Complex, Array]:
-        """Force by a source in Reynolds' equation at fixed approach, and relative residuals, both (k,).
+    def force_of_waves(self, omega: Array, k: Array) -> tuple[Complex, Array]:
+        """Force per height of waves of wave numbers k, at fixed approach, and relative residuals, both (m,).
 
-        ``source(system, m)`` is its value at all nodes, flat, for the m-th of the frequencies.
+        Waves of height ``exp(i (Omega T - k X))``, positive out of the surface, move with ``Omega/k``. The exact
+        change along X is put in the place of the differenced one, as runs with a surface do
+        (`transient.transient_film`), under a supply as of `Level.carry_exactly`.
+        """
+        return self._force_of(omega, lambda film, m: self._by_waves(film, float(k[m])))
+
+    def force_of_speed(self, omega: Array) -> tuple[Complex, Array]:
+        """Force over a relative change of speed, at fixed approach, and relative residuals, both (m,).
+
+        Over the speed, all flow by pressure changes in a film whose surfaces carry what they do: where oil runs
+        short that moves the fronts too. Surfaces slide in proportion to the speed.
+        """
+        return self._force_of(omega, lambda film, m: _Change(self._by_speed(film)))
+
+    def _by_waves(self, film: LinearFilm, k: float) -> _Change:
+        level = self.level
+        height = np.broadcast_to(-np.exp(-1j * k * level.X), level.P.shape)
+        still = np.zeros_like(level.P)
+        differenced = level.transport(height.real.copy(), still) + 1j * level.transport(height.imag.copy(), still)
+        off = differenced + 1j * k * height
+        if not level.inflow.size:
+            source = level.fields.flow.rho * off
+            return _Change(film.by_film @ height.ravel() + source.ravel(), height, source)
+        off[:, [0, -1]] = 0.0
+        flow = np.cumsum(off, axis=1) * (level.hx / level.speed)
+        flow = (flow - flow.mean(axis=1, keepdims=True)) * level.full_flow(level.fields.flow.rho)
+        given = level.fields.flow.open <= 0.0  # what comes to a front
+        before = np.where(given, 0.0, flow)[:, :-1]
+        source = np.zeros_like(flow)
+        source[:-1, 1:] = (flow[:, 1:] - before)[:-1] * (level.speed / level.hx)
+        return _Change(film.by_film @ height.ravel() + source.ravel(), height)
+
+    def _by_speed(self, film: LinearFilm) -> Array:
+        level, thinning = self.level, None if self._viscosity is None else self._viscosity.thinning
+        if not level.inflow.size and thinning is None:
+            return -level.transport(level.fields.flow.mass, np.zeros_like(level.P)).ravel()
+        log_eps = np.full(level.P.shape, -1.0)
+        change = viscous(level, log_eps).ravel()
+        if thinning is not None and self._viscosity is not None:
+            log_eps = log_eps - thinning.along
+            change = viscous(level, log_eps).ravel() + self._viscosity.by_aside @ thinning.aside.ravel()
+        return film.with_supply(change, log_eps.ravel())
+
+    def _force_of(self, omega: Array, change: Callable[[LinearFilm, int], _Change]) -> tuple[Complex, Array]:
+        """Force by a change in the equations at fixed pressure and approach, and relative residuals, both (k,).
+
+        ``change(system, m)`` is that of the m-th of the frequencies.
         """
         force, residual = np.empty(omega.size, dtype=complex), np.empty(omega.size)
         for m in np.argsort(omega):
             w = float(omega[m])
-            system = self.system(w)
-            b: NDArray[Any] = np.zeros(self._free.size + 1, dtype=complex)
-            b[self.nodes] = source(system, int(m))[self.nodes]
+            system = self._equations(w)
+            heated = isinstance(system, HeatedSystem)
+            film = system.film if heated else system
+            by = change(film, int(m))
+            b: NDArray[Any] = np.zeros(self._vector().size, dtype=complex)
+            b[self.nodes] = -by.flow[self.nodes]
+            if heated:
+                b[self._free.size + 1 :] = system.weight * system.heat.to_change(by.height, by.source).ravel()
             x: NDArray[Any] = self.change(w, system, b, SOLVE_SHARE * TOLERANCE * min(1.0, w))
             force[m] = self.weights @ x[self.nodes]
             residual[m] = scipy.linalg.norm(b - system(x)) / scipy.linalg.norm(b)

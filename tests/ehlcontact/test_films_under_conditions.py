@@ -7,6 +7,7 @@ from ehlcontact import (
     Domain,
     Grid,
     Heat,
+    InputError,
     KeepSettings,
     Lubricant,
     OilLayer,
@@ -21,8 +22,13 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
+from ehlcontact.conditions import Conditions
 from ehlcontact.linearised_film import held, linearised
 from ehlcontact.lubricant import Carreau
+from ehlcontact.response import Waves, response
+from ehlcontact.solver.balance import Balance
+from ehlcontact.solver.mesh import Mesh
+from ehlcontact.transient.transient_film import TransientFilm
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
 BALL = OperatingPoint.ball_bearing(
@@ -122,3 +128,59 @@ def test_thinned_films_follow_the_speed():
     turned = SpeedHistory([0.0, 0.5, 1.5, 12.0], [1.0, 1.0, -1.0, -1.0])
     run = simulate(BALL, load, speed=turned, **given, **THIN)
     assert run.h_central[-1] == pytest.approx(run.h_central[0], rel=3e-3)
+
+
+STEPS = 32  # a period: a run of the flooded film is then 1.1 % off
+VIBRATING = {
+    "thinned": THIN,
+    "starved": {"supply": OilLayer(over_flooded=0.9)},
+    "heated": {"thermal": Heat(slide_roll=0.5)},
+    "starved and heated": {"thermal": True, "supply": OilLayer(over_flooded=0.9)},
+}
+
+
+def amplitude(force, over):
+    """Complex amplitude of the last of three periods, over that of a sine."""
+    T = 2.0 * np.pi / STEPS * np.arange(1, STEPS + 1)
+    waves = np.column_stack([np.sin(T), np.cos(T), np.ones(STEPS)])
+    inside, beside, _ = np.linalg.lstsq(waves, np.array(force)[-STEPS:], rcond=None)[0] / over
+    return inside + 1j * beside
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", VIBRATING)
+def test_waves_in_time_have_the_response_to_waves(name):
+    given = VIBRATING[name]
+    linear = response(BALL, to=Waves(), Omega=[1.0], grid=Grid(48), **given)
+
+    def waves(X, Y, T):
+        return -AMPLITUDE * np.sin(T - X) + 0.0 * Y
+
+    contact = TransientContact(BALL, grid=Grid(48, linear.film.domain), tol=1e-5, surface=waves, **given)
+    rest, dt = contact.static_approach, 2.0 * np.pi / STEPS
+    force = [contact.advance(dt, rest) for _ in range(3 * STEPS)]
+    value = linear.dimensionless.value[0]
+    assert abs(amplitude(force, AMPLITUDE) - value) < 0.015 * abs(value)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["thinned", "starved"])
+def test_speeds_in_time_have_the_response_to_speed(name):
+    given, change = VIBRATING[name], 2e-3
+    linear = response(BALL, to="speed", Omega=[1.0], grid=Grid(48), **given)
+    conditions = Conditions.of(**given).at(BALL)
+    mesh = Mesh(48, linear.film.domain, BALL.moes.kappa)
+    film = TransientFilm.under(conditions, BALL.moes, BALL.scales, mesh, 1e-7, "fft", 1)
+    film.start_steady(Balance.of_load())
+    rest, dt, force = film.u, 2.0 * np.pi / STEPS, []
+    for step in range(1, 3 * STEPS + 1):
+        film.set_speed(1.0 + change * np.sin(step * dt))
+        assert film.advance(dt, Balance.of_approach(rest), rest).status.ok
+        force.append(film.level.force())
+    value = linear.dimensionless.value[0]
+    assert abs(amplitude(force, change) - value) < 0.025 * abs(value)
+
+
+def test_heat_is_left_out_of_a_response_to_speed():
+    with pytest.raises(InputError, match="thermal = 'given': must be left out of a response to speed"):
+        response(BALL, to="speed", Omega=[1.0], thermal=True)
