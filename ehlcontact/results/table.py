@@ -139,14 +139,12 @@ class QuantityTable(Summary):
         return Picture(self.panels(), self._title())
 
     def axis(self, name: str) -> tuple[Array, tuple[str, str]]:
-        """Values of a quantity as figures have them, in SI where the point is; words and unit of their axis."""
-        view = self._drawn()
-        own = name if name in view._declared() else name.lower()
-        return np.asarray(getattr(view, own)), view._axis(own)
+        """Values of a quantity, and words and unit of their axis in figures."""
+        return np.asarray(getattr(self, name)), self._axis(name)
 
     def panels(self) -> list[Any]:
         """Panels of that figure, for a `Picture` of several results."""
-        return list(self._drawn()._panels())
+        return list(self._panels())
 
     def require_complete(self, **sizes: int) -> None:
         """Raise `ValueError` unless the arrays of fields fit the dimensions, of given `sizes`, and each other."""
@@ -173,10 +171,6 @@ class QuantityTable(Summary):
     def _in_si(self) -> bool:
         """Whether values are in SI."""
         return self.UNITS == "SI"
-
-    def _drawn(self) -> QuantityTable:
-        """What a figure shows: the view in SI, where there is one."""
-        return self
 
     def _summary_lines(self) -> list[str]:
         """Numbers with their units, and shapes of arrays."""

@@ -51,7 +51,7 @@ def harmonic():
 def test_record_starts_at_rest(free, steady):
     static = steady(200, 10, 0.5, N)
     assert free.static_approach == pytest.approx(static.approach, abs=1e-6)
-    assert (free.T[0], free.approach[0]) == (0.0, free.static_approach)
+    assert (free.t[0], free.approach[0]) == (0.0, free.static_approach)
     assert free.force[0] == pytest.approx(1.0, abs=1e-6)
     assert free.rate[0] == pytest.approx(0.1 * 1.5**0.5 * OMEGA_N)
     assert free.h_central[0] == pytest.approx(static.h_central, rel=1e-4)
@@ -68,7 +68,7 @@ def test_equation_of_motion_holds_at_every_step(free):
 
 def test_newmark_rule(free):
     """Average acceleration: u and rate follow from the stored acceleration."""
-    dT = np.diff(free.T)
+    dT = np.diff(free.t)
     mean = 0.5 * (free.acceleration[1:] + free.acceleration[:-1])
     np.testing.assert_allclose(np.diff(free.rate), dT * mean, atol=1e-12)
     moved = 0.5 * dT * (free.rate[1:] + free.rate[:-1])
@@ -78,7 +78,7 @@ def test_newmark_rule(free):
 def test_energy_balance(free):
     """Kinetic energy + work of the film = work of the load, step by step: average acceleration is exact."""
     kinetic = 0.5 * (free.rate**2 - free.rate[0] ** 2) / OMEGA_N**2
-    work = np.array([free.dissipated(0.0, T) for T in free.T[1:]])
+    work = np.array([free.dissipated(0.0, T) for T in free.t[1:]])
     balance = kinetic[1:] + work - (free.approach[1:] - free.approach[0])
     assert np.abs(balance).max() < 1e-5 * abs(kinetic[0] - kinetic.min())
 
@@ -100,7 +100,7 @@ def test_free_vibration_dissipates_in_every_cycle():
 
 def test_harmonic_load_dissipates_in_every_cycle(harmonic):
     for start in (1.0, 2.0, 3.0):
-        inside = (harmonic.T >= start - 1e-9) & (harmonic.T <= start + 1.0 + 1e-9)
+        inside = (harmonic.t >= start - 1e-9) & (harmonic.t <= start + 1.0 + 1e-9)
         gap = np.ptp(harmonic.approach[inside][[0, -1]])
         amplitude = 0.5 * np.ptp(harmonic.approach[inside])
         lost = harmonic.dissipated(start - 1e-9, start + 1.0 + 1e-9)
@@ -110,14 +110,14 @@ def test_harmonic_load_dissipates_in_every_cycle(harmonic):
 
 
 def test_harmonic_load_is_carried_at_every_instant(harmonic):
-    np.testing.assert_allclose(harmonic.load, 1.0 + 0.1 * np.sin(2.0 * pi * harmonic.T), atol=1e-12)
+    np.testing.assert_allclose(harmonic.load, 1.0 + 0.1 * np.sin(2.0 * pi * harmonic.t), atol=1e-12)
     np.testing.assert_allclose(harmonic.force, harmonic.load, atol=1e-5)
-    np.testing.assert_allclose(harmonic.rate, np.gradient(harmonic.approach, harmonic.T, edge_order=2), atol=1e-12)
+    np.testing.assert_allclose(harmonic.rate, np.gradient(harmonic.approach, harmonic.t, edge_order=2), atol=1e-12)
 
 
 def test_fields_of_a_record(free):
     steps = free.steps
-    assert free.T.shape == (steps + 1,)
+    assert free.t.shape == (steps + 1,)
     for f in fields(free):
         value = getattr(free, f.name)
         if isinstance(value, np.ndarray):
@@ -128,19 +128,19 @@ def test_fields_of_a_record(free):
     assert free.h_midplane.shape == free.p_midplane.shape == (steps + 1, N + 1)
     assert (free.p_midplane >= 0.0).all()
     assert (free.h_min > 0.0).all()
-    assert np.allclose(np.diff(free.T), free.T[1])
-    assert free.T[-1] == pytest.approx(free.motion.default_end)
+    assert np.allclose(np.diff(free.t), free.t[1])
+    assert free.t[-1] == pytest.approx(free.motion.default_end)
 
 
 def test_snapshots(free):
-    assert free.snapshot_T.shape == (3,)
-    assert free.snapshot_T[0] == 0.0
-    for wanted, got in zip((0.0, 0.31, 1.0), free.snapshot_T, strict=True):
-        assert wanted - 1e-9 <= got < wanted + free.T[1]
-    at = np.searchsorted(free.T, free.snapshot_T - 1e-12)
-    np.testing.assert_array_equal(free.snapshot_H[:, :, 0], free.h_midplane[at])
-    np.testing.assert_array_equal(free.snapshot_P[:, :, 0], free.p_midplane[at])
-    assert (free.snapshot_P >= 0.0).all()
+    assert free.snapshot_t.shape == (3,)
+    assert free.snapshot_t[0] == 0.0
+    for wanted, got in zip((0.0, 0.31, 1.0), free.snapshot_t, strict=True):
+        assert wanted - 1e-9 <= got < wanted + free.t[1]
+    at = np.searchsorted(free.t, free.snapshot_t - 1e-12)
+    np.testing.assert_array_equal(free.snapshot_h[:, :, 0], free.h_midplane[at])
+    np.testing.assert_array_equal(free.snapshot_p[:, :, 0], free.p_midplane[at])
+    assert (free.snapshot_p >= 0.0).all()
 
 
 def test_snapshot_at_the_end():
@@ -156,14 +156,14 @@ def test_snapshot_at_the_end():
 
 
 def test_no_snapshots(harmonic):
-    assert harmonic.snapshot_T.shape == (0,)
-    assert harmonic.snapshot_H.shape == (0, N + 1, harmonic.Y.size)
+    assert harmonic.snapshot_t.shape == (0,)
+    assert harmonic.snapshot_h.shape == (0, N + 1, harmonic.y.size)
 
 
 def test_summary_is_plain(free):
     summary = free.to_dict()
     assert json.loads(json.dumps(summary)) == summary
-    wanted = "status steps seconds T approach rate force h_central h_min"
+    wanted = "status steps seconds t approach rate force h_central h_min"
     assert set(wanted.split()) <= set(summary)
 
 
