@@ -18,7 +18,7 @@ STEADY_KEYS = (
     "approach, force, h_central, h_min, p_max, moment, pressure_error, residual, load_residual, cycles, seconds, "
     "status, n, domain".split(", ")
 )
-SIMULATE_KEYS = "status, steps, seconds, T, approach, rate, force, h_central, h_min".split(", ")
+SIMULATE_KEYS = "status, steps, seconds, t, approach, rate, force, h_central, h_min".split(", ")
 FIT_KEYS = "model, parameters, rms, e_f, root, tangent, valid, condition".split(", ")
 
 
@@ -70,7 +70,7 @@ def test_from_simulation_to_fmu(call, refused, point, tmp_path):
     result = call("simulate", *point, *motion, "--save", record, "--json", "-")
     assert result.code == 0, result.err
     document = json.loads(result.out)
-    assert set(SIMULATE_KEYS) <= set(document) and len(document["T"]) == document["steps"] + 1
+    assert set(SIMULATE_KEYS) <= set(document) and len(document["t"]) == document["steps"] + 1
     assert np.ptp(document["force"]) == pytest.approx(0.4, rel=0.02)
 
     result = call("fit", record, "--model", "cubic", "--save", element, "--json", "-")
@@ -195,8 +195,8 @@ def test_a_finished_run_goes_on_to_a_later_end(call, point, tmp_path):
     result = call(*run, "--until", "0.33", "--restart", tmp_path / "c.h5")
     assert result.code == 0 and result.err == ""
     longer = json.loads(result.out)
-    assert longer["T"][: len(first["T"])] == first["T"] and 0.33 <= longer["T"][-1] < 0.33 + first["T"][1]
-    assert np.ptp(np.diff(longer["T"])) < 1e-12
+    assert longer["t"][: len(first["t"])] == first["t"] and 0.33 <= longer["t"][-1] < 0.33 + first["t"][1]
+    assert np.ptp(np.diff(longer["t"])) < 1e-12
 
 
 def test_step_that_cannot_meet_its_error(call, point, tmp_path, monkeypatch):
