@@ -144,7 +144,8 @@ class AtlasAnswer(PointTable):
         """
         time = self.point.scales.time if self._in_si() else None
         own = self.dimensionless
-        w = dimensionless(time, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=float(own.omega[-1]))
+        highest = float(own.omega[-1]) * (1.0 + 1e-12)  # but for rounding
+        w = dimensionless(time, Omega=Omega, omega=omega, hz=hz, rpm=rpm, most=highest)
         K, C = (FrequencyCurve(own.omega, getattr(own, n), own.error_bars[n]) for n in ("stiffness", "damping"))
         error = {"stiffness": K.bars(w), "damping": C.bars(w)}
         damping = C.at(w)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 import typer
 
 from ehlcontact.checks import require_choice
@@ -96,7 +97,7 @@ def _answer(answer: AtlasAnswer, rpm: float | None) -> list[Row]:
     names = [f"{numeral(hz, 3)} Hz" for hz in answer.hz] if si else [""] * moes.omega.size
     every = zip(moes.omega, names, answer.damping, answer.error_bars["damping"], strict=True)
     for w, hz, c, bar in every:
-        if w in SHOWN:
+        if np.isclose(w, SHOWN, rtol=1e-9, atol=0.0).any():
             omega = f"Ω = {numeral(w, 3)}"
             rows.append(row(f"C at {hz or omega}", c, bar, "N s/m", f", {omega}" if hz else ""))
     return rows
