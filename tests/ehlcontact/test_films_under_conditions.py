@@ -52,13 +52,13 @@ CONDITIONS = {
 def test_stiffness_at_rest_is_that_of_neighbours(name):
     given = CONDITIONS[name]
     film = solve_steady(BALL, grid=Grid(64), tol=1e-8, **given)
-    contact = linearised(film, held(film))
+    contact, scales = linearised(film, held(film)), BALL.scales
     Z, residual = contact.respond(np.array([1e-4]), 1e-6)
     if film.layer is not None:
-        given = given | {"supply": OilLayer(H=float(film.layer[0]))}
+        given = given | {"supply": OilLayer(float(film.layer[0]))}
     given = given | {"grid": Grid(64, film.domain), "tol": 1e-9, "throw": False}
-    sides = [solve_steady(BALL, approach=film.approach + side, **given) for side in (STEP, -STEP)]
-    slope = (sides[0].force - sides[1].force) / (2.0 * STEP)
+    sides = [solve_steady(BALL, approach=film.approach + side * scales.length, **given) for side in (STEP, -STEP)]
+    slope = (sides[0].force - sides[1].force) / (2.0 * STEP * scales.force)
     assert Z[0].real == pytest.approx(slope, rel=1e-6) and residual[0] < 1e-6
     if "thermal" in given:
         still = contact.still().respond(np.array([1e-4]), 1e-6)[0]

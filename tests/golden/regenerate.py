@@ -74,8 +74,8 @@ def transient(name):
     """End of one record at n = 32."""
     motion, arguments = TRANSIENT[name]
     record = simulate(PAPER, motion, **grouped(n=32, tol=1e-7, **arguments))
-    last = {k: float(getattr(record, k)[-1]) for k in ("T", "approach", "rate", "force", "h_central", "h_min")}
-    return {"steps": record.steps, **last}
+    last = {k: float(getattr(record, k)[-1]) for k in ("approach", "rate", "force", "h_central", "h_min")}
+    return {"steps": record.steps, "T": float(record.t[-1]), **last}
 
 
 def response(_):
