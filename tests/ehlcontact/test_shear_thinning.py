@@ -191,7 +191,7 @@ def test_starved_films_are_heated_and_thinned():
     given = {"grid": Grid(128, Domain(x_in=-9.0)), "sliding": ShearThinning(0.5, Carreau(5e6, 0.5)), "tol": 1e-7}
     point = OperatingPoint(Geometry.ball_bearing(7.94e-3, 38.5e-3, 0.52), OIL, 60.0, 6.0)
     all_three = solve_steady(point, supply=OilLayer(over_flooded=0.8), thermal=True, **given)
-    weights = np.r_[0.5, np.ones(all_three.Y.size - 2), 0.0]
+    weights = np.r_[0.5, np.ones(all_three.y.size - 2), 0.0]
     assert weights @ all_three.layer_behind == pytest.approx(weights @ all_three.layer, rel=1e-8)
     assert all_three.temperature.balance < 1e-6
 
