@@ -44,6 +44,8 @@ class BearingCoefficients(Response):
 
     Attributes
     ----------
+    to, omega, value, slope, error_bars, point, film, residual, impedance, wavelength, wave_speed, units, seconds
+        As of `ehlcontact.results.Response`: ``stiffness`` and ``damping`` have the shape (k, n, n) [N/m], [N s/m].
     load : ndarray, shape (n,)
         Force on the ring [N], [N m].
     speed_rpm : float
