@@ -370,7 +370,7 @@ def test_traction(call, refused):
     assert thin["traction"]["coefficient"][0] > 0.01
     bad(("--thinning = True", "with --slide-roll"), "--thinning")
     bad(("--limiting-shear = 0.05", "with --thinning"), "--slide-roll", "0.1", "--thinning", *both[:2])
-    bad(("slide_roll of sliding", "between -1 and 1"), "--slide-roll", "1.5", "--thinning", "--thermal")
+    bad(("--slide-roll = 1.5", "between 0 and 1"), "--slide-roll", "1.5", "--thinning", "--thermal")
     dimensionless = ("--M", "20", "--L", "10", "--kappa", "1", "--slide-roll", "0.1")
     refused(("--slide-roll = 0.1", "no pascals"), "steady", *dimensionless)
     refused(("--traction: no option of `impedance`", "has --slide-roll"), "impedance", *options(), "--traction")
