@@ -7,16 +7,19 @@ Equations become MathML by docutils' own translator: no script and no font from 
 
 from __future__ import annotations
 
+import importlib
 import inspect
 import os
 import re
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
 from docutils import nodes
 from docutils.utils.math import MathError
 from docutils.utils.math.latex2mathml import tex2mathml
+from sphinx import addnodes
 from sphinx.util import logging
+from sphinx.util.typing import stringify_annotation
 
 import ehlcontact
 import ehlcontact.film
@@ -90,14 +93,46 @@ def public(app: Any, env: Any, node: Any, contnode: Any) -> Any:
     return contnode
 
 
+ARRAY = re.compile(r"~?numpy\.ndarray\[.*?dtype\[[\w.~]+\]\]")
+
+
+def without_units(text: str) -> str:
+    """Signature whose `Annotated` types are types alone: units stand in the text."""
+    while start := re.search(r"~?(?:\w+\.)*Annotated\[", text):
+        depth, comma, end = 0, 0, start.end()
+        while depth or text[end] != "]":
+            depth += (text[end] in "[(") - (text[end] in "])")
+            comma = comma or (end if text[end] == "," and not depth else 0)
+            end += 1
+        text = text[: start.start()] + text[start.end() : comma] + text[end + 1 :]
+    return text
+
+
 def short(
     app: Any, what: str, name: str, obj: Any, options: Any, signature: str | None, returns: str | None
 ) -> Any:
     """An array is an array: its shape and what is in it stand in the text."""
     if not signature:
         return None
-    array = re.compile(r"~?numpy\.ndarray\[.*?dtype\[[\w.~]+\]\]")
-    return array.sub("ndarray", signature), array.sub("ndarray", returns or "")
+    return tuple(ARRAY.sub("ndarray", without_units(text)) for text in (signature, returns or ""))
+
+
+def property_type(app: Any, domain: str, kind: str, content: Any) -> None:
+    """A property of a result has its type alone, as arguments have: its unit stands in the text."""
+    if (domain, kind) != ("py", "property"):
+        return
+    for signature in content.parent.findall(addnodes.desc_signature):
+        for annotation in signature.findall(addnodes.desc_annotation):
+            if "Quantity(" in annotation.astext():
+                owner: Any = importlib.import_module(signature["module"])
+                for name in signature["fullname"].split("."):
+                    owner = getattr(owner, name)
+                words = ARRAY.sub("ndarray", stringify_annotation(get_type_hints(owner.fget)["return"]))
+                annotation[:] = [
+                    addnodes.desc_sig_punctuation("", ":"),
+                    addnodes.desc_sig_space(),
+                    addnodes.desc_sig_name("", words),
+                ]
 
 
 def mathml(node: Any, *, block: bool) -> str:
@@ -133,4 +168,5 @@ def setup(app: Any) -> None:
     app.add_html_math_renderer("mathml", (inline, None), (display, None))
     app.connect("missing-reference", public)
     app.connect("autodoc-process-signature", short)
+    app.connect("object-description-transform", property_type)
     app.connect("build-finished", explorer)

@@ -79,6 +79,21 @@ def curve(found, ratios):
     return np.array(rows)
 
 
+def draw_stress(axes, film):
+    """Map of the shear stress and Hertz's ellipse; the film is even in y."""
+    map_of, s = film.traction(0.01, Eyring()), film.point.scales
+    y = np.concatenate([-map_of.y[:0:-1], map_of.y])
+    stress = np.concatenate([map_of.stress[:, :0:-1], map_of.stress], axis=1)
+    mesh = axes.pcolormesh(
+        map_of.x * 1e6, y * 1e6, stress.T * 1e-6, shading="gouraud", cmap="magma", rasterized=True
+    )
+    turn, a, b = np.linspace(0.0, 2.0 * np.pi, 181), s.a * 1e6, s.b * 1e6
+    axes.plot(a * np.cos(turn), b * np.sin(turn), "--", color="white", linewidth=0.8)
+    axes.set(xlim=(-1.5 * a, 1.5 * a), ylim=(-1.5 * b, 1.5 * b), xlabel="x along rolling [µm]")
+    axes.set(ylabel="y across [µm]", title="shear stress, Eyring, slide-to-roll ratio 0.01")
+    axes.figure.colorbar(mesh, ax=axes, label="shear stress [MPa]")
+
+
 def main():
     """Print what the page says, and draw."""
     rows = curve(list(films()), np.geomspace(1e-5, 2.0, 25))
@@ -108,8 +123,7 @@ def main():
         xscale="log", xlabel="slide-to-roll ratio", ylabel="traction over load", title="6205, 200 N on the ball"
     )
     axes[0, 0].legend(frameon=False, fontsize=8)
-    film.traction(0.01, Eyring()).map().draw(axes[0, 1])
-    axes[0, 1].set_title("shear stress, Eyring, slide-to-roll ratio 0.01")
+    draw_stress(axes[0, 1], film)
     axes[1, 0].loglog(rows[heavy, 1], rows[heavy, 2], ".", ms=4, label=f"N > {HEAVY:g}")
     axes[1, 0].loglog(rows[~heavy, 1], rows[~heavy, 2], ".", ms=4, label="lightly loaded")
     at = np.geomspace(rows[:, 1].min(), rows[:, 1].max(), 200)
