@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from page_blocks import PAGES, ROOT, blocks, cases, commands, run
 
-from ehlcontact import HarmonicLoad, TimeSteps, impedance, simulate
+from ehlcontact import HarmonicLoad, TimeSteps, impedance, simulate, solve_steady
 from ehlcontact.cli import main
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.schema import load_study
@@ -78,6 +78,21 @@ def test_blocks_of_python_control_in_the_readme(readme):
     assert (loop.input_labels, loop.output_labels, loop.nstates) == (["u", "v"], ["F"], memory.state_count)
     tangent = memory.spring_tangent(memory.approach_at(1.0))
     assert readme["static_stiffness"] == pytest.approx(tangent, rel=1e-9)
+
+
+@pytest.mark.parametrize(("name", "frequency"), [("point", {"hz": 50}), ("moes", {"Omega": 0.05})])
+def test_film_and_coefficients_of_the_readme(readme, name, frequency):
+    """Film, K and C of both contacts, in the units of their points, are those of its comments."""
+    lines = next(block.code for block in blocks("README.md") if f"solve_steady({name})" in block.code)
+    film, small = solve_steady(readme[name]), impedance(readme[name], **frequency)
+    for field, value in (
+        ("film.h_central", film.h_central),
+        ("film.h_min", film.h_min),
+        ("stiffness", small.stiffness[0]),
+        ("damping", small.damping[0]),
+    ):
+        said = re.search(rf"# .*{re.escape(field)}(?:\[0\])? ([\d.e-]+)", lines)
+        assert float(said[1]) == pytest.approx(float(value), rel=0.006)
 
 
 def test_the_bearing_of_the_readme(readme):
