@@ -61,6 +61,6 @@ def documentation(spec: ModelSpec, readme: str, compiler: str, fmi: int = 2, ref
 
 
 def _row(variable: Variable) -> str:
-    start = "" if variable.start is None else repr(variable.start)
+    start = "" if variable.declared_start is None else repr(variable.declared_start)
     cells = (variable.name, variable.causality, variable.unit or "", start, variable.description)
     return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"

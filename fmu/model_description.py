@@ -163,7 +163,8 @@ def _variable(parent: Element, variable: Variable, spec: ModelSpec, fmi: int) ->
         "description": variable.description,
     }
     if variable.causality != "input":  # FMI 2.0 forbids it there
-        facts["initial"] = "calculated" if variable.start is None else "exact"
+        computed = "calculated" if variable.guess is None else "approx"
+        facts["initial"] = computed if variable.start is None else "exact"
     if fmi == 2:
         entry = _child(_child(parent, "ScalarVariable", **facts), variable.type)
     else:
@@ -184,7 +185,7 @@ def _set_value(entry: Element, variable: Variable) -> None:
         "min": variable.minimum,
         "max": variable.maximum,
         "nominal": variable.nominal,
-        "start": variable.start,
+        "start": variable.declared_start,
     }
     if variable.unit is not None:
         entry.set("unit", variable.unit)

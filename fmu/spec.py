@@ -58,7 +58,8 @@ class Variable:
     """One FMI variable.
 
     Inputs, parameters, constants and states have a start value; what is computed has none and names what it
-    depends on.
+    depends on. A state that is computed at the start has a `guess`: tools that do not let the FMU compute it, as
+    CasADi, begin there.
     """
 
     name: str
@@ -75,7 +76,13 @@ class Variable:
     depends: tuple[str, ...] = ()  # names of inputs, parameters and states
     derivative_of: str | None = None  # name of a state
     follows: tuple[str, ...] = ()  # of a state without a start value: names of inputs and parameters that give it
+    guess: float | None = None  # of such a state: its value at the start values of these
     rate: str | None = None  # of an input: name of the input that is its rate
+
+    @property
+    def declared_start(self) -> float | None:
+        """Start value in the model description."""
+        return self.guess if self.start is None else self.start
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from fmu.spec import ModelSpec, Variable
 from fmu.verification import Verification
 
 ROUNDING = 1e-12  # of a start value or its nominal value, within which both may differ
+BALANCE = 1e-9  # the same of a state at rest, which a search finds
 EXPORT_OPTIONS = {CONTACT.name, ROTOR.name}  # whose start values are chosen at export
 REACH = 3.0  # validity intervals above `high` up to which `verify` compares the force
 
@@ -129,16 +130,17 @@ def _declarations(spec: ModelSpec, known: dict[str, Any]) -> tuple[str, ...]:
         if not same and variable.name not in EXPORT_OPTIONS:
             differences.append(
                 f"{variable.name}: start {start} [{declared.unit}] in the FMU, "
-                f"{variable.start} [{variable.unit}] in the element"
+                f"{variable.declared_start} [{variable.unit}] in the element"
             )
     return tuple(differences)
 
 
 def _same_start(start: float | None, variable: Variable) -> bool:
     """Whether a start value is that of a variable, but for the rounding of places in equilibrium."""
-    if start is None or variable.start is None:
-        return start is variable.start
-    return abs(start - variable.start) <= ROUNDING * max(abs(variable.start), variable.nominal or 0.0)
+    expected, allowed = variable.declared_start, ROUNDING if variable.guess is None else BALANCE
+    if start is None or expected is None:
+        return start is expected
+    return abs(start - expected) <= allowed * max(abs(expected), variable.nominal or 0.0)
 
 
 class VerificationError(RuntimeError):

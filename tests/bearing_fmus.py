@@ -97,6 +97,21 @@ def assert_speeds_are_reached(slave, given):
     assert np.diff(turned) / 1e-4 == pytest.approx(means, rel=1e-9, abs=1e-9)
 
 
+def assert_states_start_as_declared(one, count):
+    """States of model exchange are those of the description, of which `count` are guesses: it computes them."""
+    names = [variable.variable.name[4:-1] for variable in one.description.derivatives]
+    known = {variable.name: variable for variable in one.description.modelVariables}
+    declared = np.array([float(known[name].start) for name in names])
+    guessed = [name for name in names if known[name].initial == "approx"]
+    assert len(guessed) == count and {known[name].initial for name in names} <= {"approx", "exact"}
+    for before in ({}, dict.fromkeys(guessed, 1e-6)):  # importers may set guesses: rest is computed all the same
+        model = Exchange(one.folder, one.description, [])
+        model.start(**before)
+        sizes = np.array([float(known[name].nominal) for name in names])
+        assert (np.abs(np.array(model.get(*names)) - declared) <= 1e-9 * sizes).all()
+        model.free()
+
+
 class ExportedBearing(Exported):
     """The FMU of a bearing."""
 

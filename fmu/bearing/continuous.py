@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu.bearing.model import BearingModel
-from fmu.bearing.places import counted_from
+from fmu.bearing.places import rates_of
 from fmu.bearing.trial import START
 from fmu.bearing.variables import BallStates
-from reduced_models.bearing.continuous_time import BearingRates
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 _Floats = NDArray[np.float64]
@@ -76,8 +75,3 @@ def state_points(model: BearingModel, count: int = POINTS, seed: int = 2) -> Sta
     found = [in_time.at(*row) for row in zip(speed.tolist(), states, place, velocity, strict=True)]
     rates, pushed = (np.array(part) for part in zip(*found, strict=True))
     return StatePoints(states, rates, place, velocity, speed, -pushed)
-
-
-def rates_of(model: BearingModel) -> BearingRates:
-    """The bearing in continuous time, its states those of the FMU."""
-    return BearingRates(model.balls, model.directions, counted_from(model))

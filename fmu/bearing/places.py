@@ -1,21 +1,28 @@
-"""Where balls at contact angles are counted from, and the damping that they have across their contacts.
+"""States of the FMU: where balls at contact angles are counted from, their damping across the contacts, and rest.
 
-In the FMU both are of the bearing alone, so that balls that go round, and bearings that start elsewhere, have the
-same: places are counted from where a ball is on the line between both groove centres of a ring in the middle.
+In the FMU origins and damping are of the bearing alone, so that balls that go round, and bearings that start
+elsewhere, have them in common: places are counted from where a ball is on the line between both groove centres of
+a ring in the middle.
 """
 
 from __future__ import annotations
+
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu.bearing.model import BearingModel
 from reduced_models.bearing.ball_states import ACROSS
+from reduced_models.bearing.continuous_time import BearingRates
 from reduced_models.bearing.core_bearing import ORIGIN
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import small_film
 
+_Floats = NDArray[np.float64]
+
 LOAD = 100.0  # N on a ball, for which nominal values and damping are
+DIGITS = 12  # of states at rest, which a search for the balance of balls gives
 
 
 def rolling_speed_sum(model: BearingModel) -> float:
@@ -41,3 +48,14 @@ def counted_from(model: BearingModel) -> NDArray[np.void]:
     origins = np.zeros(balls.number, ORIGIN)
     origins["place"], origins["across"] = place, across
     return origins
+
+
+def rates_of(model: BearingModel) -> BearingRates:
+    """The bearing in continuous time, its states those of the FMU."""
+    return BearingRates(model.balls, model.directions, counted_from(model))
+
+
+def rest_states(model: BearingModel, speed_rpm: float, angle: float, place: _Floats) -> list[float | None]:
+    """States at rest, the ring at `place` and the first ball at `angle` [rad]; None where there is no balance."""
+    states = rates_of(model).rest(speed_rpm * RPM_TO_RAD_S, angle, place).tolist()
+    return [float(f"{value:.{DIGITS}g}") if isfinite(value) else None for value in states]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import log
@@ -10,8 +9,9 @@ from math import log
 import numpy as np
 
 from fmu.bearing.model import BearingModel
-from fmu.bearing.places import LOAD, rolling_speed_sum
+from fmu.bearing.places import LOAD, rest_states, rolling_speed_sum
 from fmu.bearing.tables import bearing_table, state_size, work_size
+from fmu.bearing.trial import START
 from fmu.c_headers import c_double
 from fmu.contact_spec import checked_name
 from fmu.contact_variables import ALLOWED_ERROR
@@ -190,9 +190,11 @@ class _Variables(VariableList):
             (*self.model.directions, "speed"),
             tuple(name for name in fixed if name != "cage_angle_start"),
         )
+        at_rest = rest_states(self.model, float(self.model.speeds[-1]), START, self.model.place)
+        guesses = dict(zip(self.states.names, at_rest, strict=True))
         self.add(
             "cage_angle", "output", "continuous", CAGE, unit="rad", nominal=1.0,
-            depends=("cage_angle",), follows=("cage_angle_start",),
+            depends=("cage_angle",), follows=("cage_angle_start",), guess=guesses["cage_angle"],
         )  # fmt: skip
         # the cage of balls at contact angles turns at a speed that depends on all balls, and all depend on it;
         # what depends on so many states may as well be said to depend on all of them: the list can be left out
@@ -207,7 +209,7 @@ class _Variables(VariableList):
             for state in ball:
                 self.add(
                     state.name, "local", "continuous", state.text, unit=state.unit, nominal=state.nominal,
-                    follows=(*place, *fixed) if state.kind in PLACES else (),
+                    follows=(*place, *fixed) if state.kind in PLACES else (), guess=guesses[state.name],
                 )  # fmt: skip
                 if state.kind == "q":
                     places = (each.name for each in ball if each.kind in PLACES)
@@ -222,7 +224,7 @@ class _Variables(VariableList):
             text = f"{of.effort} of the balls {of.where}, as a lag of the losses of rings and fits has it"
             self.add(
                 name, "local", "continuous", text,
-                unit=of.force_unit, nominal=of.force_nominal, follows=(*place, *fixed),
+                unit=of.force_unit, nominal=of.force_nominal, follows=(*place, *fixed), guess=guesses[name],
             )  # fmt: skip
             rates.append((name, f"{of.force_unit}/s", tuple(dict.fromkeys((*forces, name)))))
         for name, unit, depends in rates:
@@ -243,7 +245,7 @@ class _Variables(VariableList):
             self.add("offset", "parameter", "fixed", text, unit="m", start=0.0, nominal=1e-5)
         self.add(
             "cage_angle_start", "parameter", "fixed", "Angle of the first ball at the start", unit="rad",
-            start=-math.pi / 2.0,
+            start=START,
         )  # fmt: skip
         self.add(
             "film", "parameter", "fixed", "1: with oil films; 0: dry", unit="1",

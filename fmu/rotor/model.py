@@ -239,10 +239,13 @@ class RotorModel:
             load = f"{rotor.load.tolist()} N"
             raise InputError("contacts", str(error), f"ones that carry the static load {load}") from None
 
+    def ring(self, station: Station) -> _Floats:
+        """Place of the inner ring of a bearing at the start, or approach of a contact."""
+        return np.asarray(station.mount.rows(self.rotor.size) @ self.motion[0] + station.shift, np.float64)
+
     def force(self, station: Station) -> _Floats:
         """Of a support outside at the start, as its own FMU gives it: of a contact, or on the inner ring."""
-        q, _ = self.motion
-        ring = station.mount.rows(self.rotor.size) @ q + station.shift
+        ring = self.ring(station)
         if isinstance(station.mount, ContactMount):
             contact = station.mount.contact
             return np.zeros(1) if contact is None else np.array([float(contact.spring(float(ring[0])))])

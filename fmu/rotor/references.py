@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu.bearing.continuous import rates_of
+from fmu.bearing.places import rates_of
 from fmu.bearing.variables import FORCES
 from fmu.contact_variables import Element, Film
 from fmu.lead import ROTOR

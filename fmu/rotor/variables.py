@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu.bearing.places import rest_states
 from fmu.bearing.variables import BEARING_HEADERS, BEARING_SOURCES, FORCES, RATES, bearing_spec
 from fmu.contact_spec import checked_name, contact_spec, source_text
 from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
@@ -17,6 +18,7 @@ from fmu.rotor.laws import PARAMETERS, shown, tunable
 from fmu.rotor.model import RotorModel, Station
 from fmu.rotor.tables import rotor_macros, rotor_tables
 from fmu.spec import ModelSpec, Variable, VariableList
+from reduced_models import BearingMount
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 _Floats = NDArray[np.float64]
@@ -225,13 +227,23 @@ class _Variables(VariableList):
                 minimum=0.0 if self.model.bearings else None,
             )  # fmt: skip
         for station, spec in zip(self.model.inside, self.specs, strict=True):
+            guesses = self._guesses(station, spec)
             for state in spec.states:
                 follows = tuple(self._start_names(station, spec, state)) if state.start is None else ()
                 text = f"{state.description} ({station.name})"
                 self.add(
                     f"{station.label}.{state.name}", "local", "continuous", text,
                     unit=state.unit, start=state.start, nominal=state.nominal, follows=follows,
+                    guess=guesses.get(state.name),
                 )  # fmt: skip
+
+    def _guesses(self, station: Station, spec: ModelSpec) -> dict[str, float | None]:
+        """States of a bearing at rest, by name, where the rotor starts; of a contact they have start values."""
+        if not isinstance(station.mount, BearingMount):
+            return {}
+        bearing = self.model.bearings[self.model.bearings_inside.index(station)]
+        states = rest_states(bearing, self.model.speed, station.mount.cage_angle, self.model.ring(station))
+        return {state.name: value for state, value in zip(spec.states, states, strict=True)}
 
     def _start_names(self, station: Station, spec: ModelSpec, state: Variable) -> list[str]:
         """Parameters of a support that a state at the start follows; the place of the rotor does too."""

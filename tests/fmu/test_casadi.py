@@ -6,9 +6,11 @@ It is of the extra ``importers``; CI installs it where it can be had.
 import fmpy
 import numpy as np
 import pytest
+from bearing_fmus import MODELS, RPM
 from scipy.integrate import solve_ivp
 
 from fmu import export
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 casadi = pytest.importorskip("casadi")
 OMEGA_N, END = 2.56, 4.0  # of a mass whose vibration parts the film, in units of 2a/u_sum
@@ -73,6 +75,25 @@ def test_a_mass_in_a_loop_by_its_own_integrator(block, elements):
 
     run = solve_ivp(right_side, (0.0, END), start, method="Radau", rtol=1e-9, atol=1e-11)
     assert found == pytest.approx(run.y[:, -1], abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "loads"),
+    [("lossy", (0.0, 500.0)), pytest.param("five", (0.0, 500.0, -200.0), marks=pytest.mark.long)],
+)
+def test_a_bearing_starts_in_equilibrium(tmp_path, name, loads):
+    """In FMI 2: of FMI 3 CasADi wants lists of all dependencies."""
+    model, path = MODELS[name](), tmp_path / "x.fmu"
+    export(model.bearing, path, speeds_rpm=model.speeds_rpm, load=model.load, directions=model.directions)
+    block = casadi.DaeBuilder(name, str(fmpy.extract(str(path), unzipdir=str(tmp_path / "x"))))
+    forces = [f"force_{k}" for k in "xyz"[: len(loads)]]
+    block.set_y(forces)
+    states, inputs = block.x(), block.u()
+    x, u = np.array(block.start(states)), np.array(block.start(inputs))
+    pushed = plain(block.create("f", ["x", "u"], ["y"])(x, u))
+    assert u[inputs.index("speed")] == RPM * RPM_TO_RAD_S
+    # the ring holds its load, but for a little that films add as their balls come under other loads
+    assert pushed[:, 0] == pytest.approx(loads, abs=1e-4 * np.abs(loads).max())
 
 
 @pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")

@@ -7,14 +7,14 @@ from types import SimpleNamespace
 import fmpy
 import numpy as np
 import pytest
-from bearing_fmus import RPM
+from bearing_fmus import RPM, assert_states_start_as_declared
 from exported import model_of
 from fmpy.fmi1 import FMICallException
 from fmpy.sundials import CVodeSolver
 from scipy.integrate import solve_ivp
 
-from fmu.bearing.continuous import rates_of, state_points
-from fmu.bearing.places import counted_from
+from fmu.bearing.continuous import state_points
+from fmu.bearing.places import counted_from, rates_of
 from fmu.bearing.references import knowns_of
 from fmu.bearing.trial import START
 from fmu.bearing.variables import FORCES, RATES, BallStates
@@ -174,6 +174,15 @@ def test_partial_derivatives_are_those_of_differences(made, name, fmi):
     k, j = np.unravel_index(off.argmax(), off.shape)
     assert off.max() <= 1.0, (unknowns[j], asked[k])
     model.free()
+
+
+@pytest.mark.parametrize(
+    ("name", "fmi"),
+    [("planar", 2), pytest.param("five", 3, marks=SECONDS), pytest.param("heavy five", 2, marks=SECONDS)],
+)
+def test_states_start_as_declared(made, name, fmi):
+    one = made(name, fmi)
+    assert_states_start_as_declared(one, len(states_of(one)))
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from bearing_fmus import OIL, POLAR, Exported, assert_speeds_are_reached, pressed_pair
+from bearing_fmus import (
+    OIL,
+    POLAR,
+    Exported,
+    assert_speeds_are_reached,
+    assert_states_start_as_declared,
+    pressed_pair,
+)
 from exported import OfRotor, given, verified
 from fmpy.fmi1 import FMICallException
 
@@ -200,6 +207,12 @@ def test_a_preload_that_is_set_is_that_of_the_mount(made):
     slave.free()
     assert found == pytest.approx(rest, rel=1e-6, abs=1e-15)
     assert abs(rest[2]) > 1e-6
+
+
+def test_states_start_as_declared(made):
+    one = made("five")
+    own = 2 * one.model.rotor.size + 2  # motions, angle and speed
+    assert_states_start_as_declared(one, len(one.description.derivatives) - own)
 
 
 def test_starts_in_equilibrium_with_the_parameters_that_are_set(made, tmp_path):
