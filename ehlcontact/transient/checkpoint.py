@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import time
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from math import inf, isfinite
 from pathlib import Path
 from reprlib import repr as shortened
@@ -20,6 +20,7 @@ import numpy as np
 from ehlcontact.conditions import KEYWORDS
 from ehlcontact.errors import InputError
 from ehlcontact.point import MoesPoint
+from ehlcontact.quantities import quantities_of
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.error_estimate import ErrorEstimate
@@ -27,7 +28,7 @@ from ehlcontact.solver.level import Level
 from ehlcontact.store import save, stored
 from ehlcontact.transient.features import Surface, surface_height
 from ehlcontact.transient.heat_over_time import HeatState
-from ehlcontact.transient.record import COLUMNS, Array, Record
+from ehlcontact.transient.record import OF_HEAT, Array, Record
 from ehlcontact.transient.run import Run
 from ehlcontact.transient.settings import RunInputs, even_step
 from ehlcontact.transient.time_step import StepControl
@@ -37,7 +38,7 @@ from ehlcontact.version import __version__
 SAME = 1e-12  # of a time or a step: they differ by rounding only
 
 
-@stored("checkpoint of `simulate`", 2)
+@stored("checkpoint of `simulate`", 3)
 @dataclass(frozen=True, slots=True, eq=False)
 class Checkpoint:
     """Content of the file: the run up to its last accepted state, and that state."""
@@ -124,16 +125,17 @@ class Checkpoint:
 
     def _fits(self, level: Level) -> bool:
         """Whether all arrays have the shapes of each other and of the grid, and the state is one of numbers."""
-        record, film, nx, field = self.record, self.film, level.nx + 1, level.P.shape
-        conditions = self.inputs.conditions
-        steps, kept = record.numbers.shape[0], record.snapshot_T.size
+        film, field, conditions = self.film, level.P.shape, self.inputs.conditions
+        columns, declared = self.record.by_name(), quantities_of(Record)
+        absent = {"layer_behind"} if conditions.supply is None else set[str]()
+        absent |= set(OF_HEAT) if conditions.heat is None else set()
+        if columns.keys() != {f.name for f in fields(Record)} - absent:
+            return False
+        steps = columns["t"].size
+        sizes = {"t": steps, "x": level.nx + 1, "y": level.ny + 1, "snapshot_t": columns["snapshot_t"].size}
         shapes: list[tuple[np.ndarray, tuple[int, ...]]] = [
-            (record.numbers, (steps, len(COLUMNS))),
-            *((profile, (steps, nx)) for profile in (record.film, record.pressure)),
-            (record.leaving, (steps, level.ny + 1 if conditions.supply is not None else 0)),
-            (record.heat, (steps, 3 if conditions.heat is not None else 0)),
+            *((array, tuple(sizes[dim] for dim in declared[name].dims)) for name, array in columns.items()),
             *((array, shape) for array, shape in _of_heat(film.heat, field)),
-            *((snapshots, (kept, nx, level.ny + 1)) for snapshots in (record.snapshot_H, record.snapshot_P)),
             *((array, field) for array in (film.P, film.mass, film.mass_before, *(P for _, P in film.past))),
         ]
         sound = steps > 0 and all(array.shape == shape and np.isfinite(array).all() for array, shape in shapes)

@@ -12,7 +12,6 @@ from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
 from ehlcontact.point import Point
 from ehlcontact.quantities import (
-    ACCELERATION,
     ACROSS,
     ALONG,
     FORCE,
@@ -20,10 +19,6 @@ from ehlcontact.quantities import (
     HERTZ,
     LENGTH,
     MASS,
-    NUMBER,
-    PRESSURE,
-    RATE,
-    TIME,
     in_hertz,
 )
 from ehlcontact.results.film_temperature import FilmTemperature
@@ -36,14 +31,15 @@ from ehlcontact.summary import contact_text, film_unit, span
 from ehlcontact.supply import OilLayer, layer_on
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.prescribed import passed_over_note
+from ehlcontact.transient.record import Columns, SmoothColumns
 from ehlcontact.transient.speed import SpeedHistory
 from ehlcontact.transient.time_step import coarse_step_note, coarse_tolerance_note
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Instants(PointTable):
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Instants(SmoothColumns, PointTable):
     """A simulation between its steps, continuous with continuous slopes, in the units of its point.
 
     Attributes
@@ -54,13 +50,6 @@ class Instants(PointTable):
     """
 
     point: Point
-    t: Annotated[Array, TIME.over("t")]
-    approach: Annotated[Array, LENGTH.over("t")]
-    rate: Annotated[Array, RATE.over("t")]
-    force: Annotated[Array, FORCE.over("t")]
-    load: Annotated[Array, FORCE.over("t")]
-    h_central: Annotated[Array, LENGTH.over("t")]
-    h_min: Annotated[Array, LENGTH.over("t")]
 
     DISPLAY: ClassVar[Display] = Display(rows="t", panels=("force load", "approach", "h_central h_min"))
 
@@ -74,7 +63,7 @@ class Instants(PointTable):
 
 @stored("result of simulate", 2)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class SimulationResult(PointTable, Origin):
+class SimulationResult(Columns, PointTable, Origin):
     """History of a transient contact, in the units of its point; entry 0 is the initial state at t = 0.
 
     Units are those at an `OperatingPoint` and, after the semicolon, at a `MoesPoint`.
@@ -140,33 +129,13 @@ class SimulationResult(PointTable, Origin):
     speed: SpeedHistory | None = None
     x: Annotated[Array, ALONG.over("x", listed=False)]
     y: Annotated[Array, ACROSS.over("y", listed=False)]
-    t: Annotated[Array, TIME.over("t")]
-    approach: Annotated[Array, LENGTH.over("t")]
-    rate: Annotated[Array, RATE.over("t")]
-    acceleration: Annotated[Array, ACCELERATION.over("t", listed=False)]
-    force: Annotated[Array, FORCE.over("t")]
-    load: Annotated[Array, FORCE.over("t")]
-    h_central: Annotated[Array, LENGTH.over("t")]
-    h_min: Annotated[Array, LENGTH.over("t")]
-    h_midplane: Annotated[Array, LENGTH.over("t x", listed=False)]
-    p_midplane: Annotated[Array, PRESSURE.over("t x", listed=False)]
-    residuals: Annotated[Array, NUMBER.over("t", listed=False)]
-    load_residuals: Annotated[Array, NUMBER.over("t", listed=False)]
-    cycles: Annotated[Array, NUMBER.over("t", listed=False)]
-    snapshot_t: Annotated[Array, TIME.over("snapshot_t", listed=False)]
-    snapshot_h: Annotated[Array, LENGTH.over("snapshot_t x y", listed=False)]
-    snapshot_p: Annotated[Array, PRESSURE.over("snapshot_t x y", listed=False)]
     static_approach: Annotated[float, LENGTH]
     status: Status
     tol: float | None = None
     film_error: ErrorEstimate | None = None
     supply: OilLayer | None = None
     layer: Annotated[Array | None, LENGTH.over("y", listed=False)] = None
-    layer_behind: Annotated[Array | None, LENGTH.over("t y", listed=False)] = None
     temperature: FilmTemperature | None = None
-    warmest_oil: Annotated[Array | None, NUMBER.over("t", listed=False)] = None
-    warmest_surface: Annotated[Array | None, NUMBER.over("t", listed=False)] = None
-    heat_balance: Annotated[Array | None, NUMBER.over("t", listed=False)] = None
 
     DISPLAY: ClassVar[Display] = Display(
         rows="t", panels=("force load", "approach", "h_central h_min", "h_midplane")

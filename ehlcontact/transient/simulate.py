@@ -245,11 +245,11 @@ def _first_inside(
 
 def _result(run: Run, inputs: RunInputs, status: Status, seconds: float) -> SimulationResult:
     """Result of a run, in Moes units."""
-    level, record, supply = run.film.level, run.history.record(run.film.level), inputs.conditions.supply
-    numbers: dict[str, Any] = record.columns()
-    if numbers["t"].size > 2:
-        columns = (numbers[name] for name in ("t", "approach", "rate", "acceleration"))
-        numbers["rate"], numbers["acceleration"] = inputs.motion.slopes(*columns)
+    level, supply = run.film.level, inputs.conditions.supply
+    columns: dict[str, Any] = run.history.record(level).by_name()
+    if columns["t"].size > 2:
+        course = (columns[name] for name in ("t", "approach", "rate", "acceleration"))
+        columns["rate"], columns["acceleration"] = inputs.motion.slopes(*course)
     return SimulationResult(
         point=inputs.point,
         domain=inputs.mesh.domain,
@@ -258,12 +258,7 @@ def _result(run: Run, inputs: RunInputs, status: Status, seconds: float) -> Simu
         speed=inputs.speed,
         x=level.X.copy(),
         y=level.Y.copy(),
-        **numbers,
-        h_midplane=record.film,
-        p_midplane=record.pressure,
-        snapshot_t=record.snapshot_T,
-        snapshot_h=record.snapshot_H,
-        snapshot_p=record.snapshot_P,
+        **columns,
         static_approach=run.static_approach,
         status=status,
         tol=inputs.steps.tol,
@@ -271,18 +266,8 @@ def _result(run: Run, inputs: RunInputs, status: Status, seconds: float) -> Simu
         seconds=seconds,
         supply=supply,
         layer=None if supply is None else level.inflow.copy(),
-        layer_behind=None if supply is None else record.leaving,
         temperature=run.film.temperature,
-        **_heat(run.history, inputs),
     )
-
-
-def _heat(history: History, inputs: RunInputs) -> dict[str, Any]:
-    """Temperatures of a run with heat, a number per step."""
-    if inputs.conditions.heat is None:
-        return {}
-    found = np.array([entry.heat for entry in history.entries])
-    return {"warmest_oil": found[:, 0], "warmest_surface": found[:, 1], "heat_balance": found[:, 2]}
 
 
 def _message(result: SimulationResult, end: RunEnd, highest: float) -> str:

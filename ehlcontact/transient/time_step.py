@@ -173,12 +173,12 @@ def difference(one: Entry, other: Entry, motion: Motion) -> float:
 
 def _state(entry: Entry) -> Array:
     """Approach, force, and film along the middle."""
-    return np.concatenate(((entry.motion.u, entry.force), entry.film))
+    return np.concatenate(((entry.motion.u, entry.row["force"]), entry.row["h_midplane"]))
 
 
 def _size(change: Array, entry: Entry, motion: Motion) -> float:
     """Largest change of what the motion leaves free and of the film, whose mean is weighted by pressure."""
-    film = np.abs(change[2:])
-    total = float(entry.pressure.sum())
-    mean_film = float(np.vdot(entry.pressure, film)) / total if total > 0.0 else 0.0
+    film, pressure = np.abs(change[2:]), entry.row["p_midplane"]
+    total = float(pressure.sum())
+    mean_film = float(np.vdot(pressure, film)) / total if total > 0.0 else 0.0
     return max(*motion.free(abs(change[0]), abs(change[1])), mean_film)

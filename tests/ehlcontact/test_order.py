@@ -145,7 +145,7 @@ def test_uneven_time_steps_are_second_order(motion):
             entry = run.advance(after, after - before)
             assert entry.step.status.ok
             run.keep(entry)
-        columns = run.history.record(run.film.level).columns()
+        columns = run.history.record(run.film.level).by_name()
         names = ("approach", "rate", "force") if motion.Omega_n else ("approach",)
         histories.append(np.array([columns[name][:: steps // 24] for name in names]))
     errors = np.abs(np.diff(histories, axis=0)).max(axis=-1)

@@ -266,7 +266,7 @@ def test_local_error_of_uneven_steps(times):
     made = (3.0 * end**2 * h + now * t2**3 - before * t1**3) / leading
     film, solved = np.zeros(3), Step(0.0, 0.0, 1, Status.CONVERGED)
     entries = [
-        Entry(MotionState(t, u, 0.0, 0.0), 0.0, 1.0, 0.0, 0.0, film, film, film[:0], solved)
+        Entry(MotionState(t, u, 0.0, 0.0), solved, {"force": 0.0, "h_midplane": film, "p_midplane": film})
         for t, u in ((t0, t0**3), (t1, t1**3), (t2, t2**3), (end, made))
     ]
     error = local_error(entries[:3], entries[3], HarmonicLoad(Omega=1.0))
