@@ -200,10 +200,20 @@ class BearingState(QuantityTable):
 
     @property
     def friction_torque(self) -> float | None:
-        """Rolling torque of the films and the sliding part of SKF's model together [N m]; without seals."""
+        """Rolling torque of the films and the sliding part of SKF's model together [N m]; without seals.
+
+        Above 5000 rev/min flooded films resist more than measured bearings do: `skf_torque`.
+        """
         if self.rolling_torque is None or self.skf_sliding is None:
             return None
         return self.rolling_torque + self.skf_sliding
+
+    @property
+    def skf_torque(self) -> float | None:
+        """Both parts of SKF's model together [N m], on which to rely above 5000 rev/min; without seals."""
+        if self.skf_rolling is None or self.skf_sliding is None:
+            return None
+        return self.skf_rolling + self.skf_sliding
 
     @property
     def friction_loss(self) -> float | None:

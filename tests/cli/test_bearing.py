@@ -85,6 +85,15 @@ def test_numbers_of_the_table(call):
     assert f"{state.rolling_torque * 1e3:.4g} N mm" in line and f"{state.rolling_loss:.4g} W" in line
 
 
+def test_the_model_of_skf_is_to_be_relied_on_at_speed(call):
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
+    for speed in 3000.0, 6000.0:
+        shown = call("bearing", "6205", *OIL, "--load", "1000", "--speed-rpm", f"{speed:.0f}").out
+        line = next(line for line in shown.splitlines() if line.startswith("friction by SKF"))
+        assert f"{1e3 * bearing.equilibrium((0.0, -1000.0), speed_rpm=speed).skf_torque:.4g} N mm" in line
+        assert ("rely on it" in " ".join(shown.split())) == (speed > 5000.0)
+
+
 @pytest.mark.parametrize("more", [(), ("--axial", "500")], ids=["radial", "combined"])
 def test_sliding_moment_beside_that_of_skf(call, more):
     given = ("bearing", "6205", *OIL, "--load", "1000", *more, "--speed-rpm", "3000")

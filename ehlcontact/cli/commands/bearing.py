@@ -60,6 +60,7 @@ _oil, _bearing, _load, _pair, _films = (
 )
 AXIAL = FIVE.index("z")  # up to it directions have forces, beyond it tilts have moments
 PASSAGE = "means over a ball passage"
+FAST = 5000.0  # rpm, above which flooded films resist rolling more than measured bearings do: docs/bearings.md
 SLIP_UNIT = "of the speed of the cage with balls that roll; in frequencies, orders under load and spall lines"
 # Of the entries of the JSON, whatever they are nested in; other entries have no unit, or have it in their name.
 UNITS = {
@@ -695,6 +696,10 @@ def _resistance(state: BearingState | SetState) -> list[Row]:
         if None not in torques:
             title = "films resist rolling" if name == "rolling" else "friction of the bearing"
             rows.append((title, in_unit(sum(torques), "N m"), f"{numeral(sum(losses))} W; {remark}"))
+    by_skf = [one.skf_torque for one in bearings_of(state).values()]
+    if None not in by_skf:
+        fast = f"; above {numeral(FAST)} rpm rely on it" if state.speed_rpm > FAST else ""
+        rows.append(("friction by SKF", in_unit(sum(by_skf), "N m"), f"fitted to measured bearings{fast}"))
     return rows
 
 

@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, Grid, read, save, solve_steady
+from ehlcontact import Domain, Grid, Lubricant, read, save, solve_steady
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import ellipse_ratio, hertz_contact
 from reduced_models import BallBearing
@@ -128,6 +128,15 @@ def test_light_and_free_films(film, oil):
     free = BallBearing.catalogue("6205", oil=oil, cutoff_gap=2e-6).equilibrium(DOWN, speed_rpm=3000.0)
     assert np.all((free.moment == 0.0) == (free.force == 0.0)) and np.any(free.moment == 0.0)
     assert 0.97 * state.rolling_torque < free.rolling_torque < state.rolling_torque
+
+
+def test_fast_films_resist_more_than_the_model_of_measured_bearings():
+    """Figures of docs/bearings.md."""
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
+    states = [bearing.equilibrium((0.0, -500.0), speed_rpm=speed) for speed in (1000.0, 5000.0, 10_000.0)]
+    over = [state.friction_torque / state.skf_torque for state in states]
+    assert over == pytest.approx([1.00, 1.44, 2.04], abs=0.005)
+    assert bearing.dry.equilibrium((0.0, -500.0)).skf_torque is None
 
 
 def test_dry_bearings_and_files(film, dry, tmp_path):
