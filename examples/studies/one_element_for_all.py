@@ -96,7 +96,7 @@ def table(result: MemoryFit, seen: dict[str, ContactRecord], unseen: dict[str, C
     one = Cubic(*seen.values())
     rows = []
     for name, r in (seen | unseen).items():
-        memory = result.element.drive(r.T, r.approach, r.rate)
+        memory = result.element.drive(r.t, r.approach, r.rate)
         errors = (memory, Cubic(r).force(r), one.force(r))
         rows.append((name, *(relative_error(force, r) for force in errors)))
     return rows
@@ -131,8 +131,8 @@ def picture(path: Path, Z: Response, result: MemoryFit, seen: dict[str, ContactR
     for ax, name in zip((axes[0, 2], *axes[1]), loops, strict=True):
         r = seen[name]
         period = 2.0 * pi / r.motion["Omega"]  # type: ignore[index]
-        last = r.T >= r.T[-1] - period - 1e-9
-        memory = result.element.drive(r.T, r.approach, r.rate)
+        last = r.t >= r.t[-1] - period - 1e-9
+        memory = result.element.drive(r.t, r.approach, r.rate)
         line = Z.stiffness[0] * (r.approach - Z.film.approach) + 1.0  # what all loops have in common
         for force, style in (
             (r.force, {"color": "black", "linewidth": 3.0, "label": "full EHL"}),

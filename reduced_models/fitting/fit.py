@@ -48,7 +48,7 @@ def fit(records: Records, model: str = "cubic", window: Window | None = None) ->
         terms of eq. 11, F = K (u + u0)^n + F0 + C1 u', or the film memory: `fit_memory`, which solves the
         impedance of the contact too.
     window : (start, end), optional
-        Part of T to fit, in every record. Left out, each record gives up its first third
+        Part of t to fit, in every record. Left out, each record gives up its first third
         (`ContactRecord.default_window`): the film of the steady start has to leave the contact first. A film
         memory includes that film and is fitted to whole records only.
 

@@ -276,6 +276,6 @@ def _element(target: Target, rates: FilterRates, gains: GainFit, inlet_saturatio
 def _force(law: FilmLaw, record: ContactRecord) -> _Floats:
     """Force of the law along the record."""
     force = np.empty(len(record))
-    motion = (np.array(values) for values in (record.T, record.approach, record.rate))  # not read-only
+    motion = (np.array(values) for values in (record.t, record.approach, record.rate))  # not read-only
     film_drive(law, *motion, force)
     return force

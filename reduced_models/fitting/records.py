@@ -26,7 +26,7 @@ FEWEST_SAMPLES = 4
 # Largest distance of approach and integrated rate, as a share of the motion: 8 samples per period of a true rate
 # stay below it, a wrong sign, unit or delay does not.
 RATE_MISMATCH = 0.1
-_REQUIRED = ("T", "approach", "rate", "force")
+_REQUIRED = ("t", "approach", "rate", "force")
 _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
 
@@ -37,7 +37,7 @@ class ContactRecord(QuantityTable):
 
     Parameters
     ----------
-    T, approach, rate, force : array_like, shape (N,)
+    t, approach, rate, force : array_like, shape (N,)
         Time, mutual approach, its time derivative and contact force: dimensionless, or s, m, m/s and N.
     load, acceleration : array_like, shape (N,), optional
         Applied load and second derivative of the approach.
@@ -58,16 +58,16 @@ class ContactRecord(QuantityTable):
     Raises
     ------
     InputError
-        A history that is not one-dimensional, too short, not finite or of another length than T; T not
+        A history that is not one-dimensional, too short, not finite or of another length than t; t not
         strictly increasing; Omega_n with SI units. The message names the field.
     """
 
-    T: Annotated[_Floats, TIME.over("T")]
-    approach: Annotated[_Floats, LENGTH.over("T")]
-    rate: Annotated[_Floats, RATE.over("T")]
-    force: Annotated[_Floats, FORCE.over("T")]
-    load: Annotated[_Floats | None, FORCE.over("T")] = None
-    acceleration: Annotated[_Floats | None, ACCELERATION.over("T")] = None
+    t: Annotated[_Floats, TIME.over("t")]
+    approach: Annotated[_Floats, LENGTH.over("t")]
+    rate: Annotated[_Floats, RATE.over("t")]
+    force: Annotated[_Floats, FORCE.over("t")]
+    load: Annotated[_Floats | None, FORCE.over("t")] = None
+    acceleration: Annotated[_Floats | None, ACCELERATION.over("t")] = None
     point: Point | None = None
     n: int | None = None
     domain: tuple[float, ...] | None = None
@@ -76,7 +76,7 @@ class ContactRecord(QuantityTable):
     static_load: float | None = None
     units: str = "dimensionless"
 
-    DISPLAY: ClassVar[Display] = Display(rows="T", panels=("force load", "approach", "rate"))
+    DISPLAY: ClassVar[Display] = Display(rows="t", panels=("force load", "approach", "rate"))
 
     def _in_si(self) -> bool:
         return self.units == "SI"
@@ -84,18 +84,18 @@ class ContactRecord(QuantityTable):
     def _summary_lines(self) -> list[str]:
         kind = "" if self.motion is None else f", {self.motion.get('kind', 'a motion')}"
         return [
-            f"{self.units}{kind}, {self.T.size} samples up to T = {self.T[-1]:.4g}",
+            f"{self.units}{kind}, {self.t.size} samples up to t = {self.t[-1]:.4g}",
             contact_text(self.point),
             f"approach {span(self.approach)}, force {span(self.force)}",
         ]
 
     def __post_init__(self) -> None:
         require_choice("units", self.units, UNITS)
-        object.__setattr__(self, "T", as_column("T", self.T, least=FEWEST_SAMPLES, increasing=True))
+        object.__setattr__(self, "t", as_column("t", self.t, least=FEWEST_SAMPLES, increasing=True))
         for name in _HISTORIES[1:]:
             values = getattr(self, name)
             if name in _REQUIRED or values is not None:
-                object.__setattr__(self, name, as_column(name, values, size=self.T.size))
+                object.__setattr__(self, name, as_column(name, values, size=self.t.size))
         if self.Omega_n is not None:
             object.__setattr__(self, "Omega_n", require_positive("Omega_n", self.Omega_n))
             if self.units == "SI":
@@ -137,7 +137,7 @@ class ContactRecord(QuantityTable):
         if not isinstance(domain, tuple | list):
             domain = (domain.x_in, domain.x_out, domain.y_max)
         return cls(
-            T=simulation.t,
+            t=simulation.t,
             approach=simulation.approach,
             rate=simulation.rate,
             force=simulation.force,
@@ -151,7 +151,7 @@ class ContactRecord(QuantityTable):
         )
 
     def __len__(self) -> int:
-        return int(self.T.size)
+        return int(self.t.size)
 
     @property
     def default_window(self) -> tuple[float, float]:
@@ -163,7 +163,7 @@ class ContactRecord(QuantityTable):
         misfit of the spring leak into the damper. Of a ramp the whole record is: later it never comes near
         the static load again.
         """
-        start, end = float(self.T[0]), float(self.T[-1])
+        start, end = float(self.t[0]), float(self.t[-1])
         motion = self.motion or {}
         if motion.get("kind") == "ramp":
             return start, end
@@ -198,8 +198,8 @@ class ContactRecord(QuantityTable):
             What remains is more than a tenth of the motion: another sign or unit, a delay, or samples too far
             apart for the motion.
         """
-        moved = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(self.T) * (self.rate[1:] + self.rate[:-1]))])
-        trend = np.column_stack([np.ones_like(self.T), self.T - self.T.mean()])
+        moved = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(self.t) * (self.rate[1:] + self.rate[:-1]))])
+        trend = np.column_stack([np.ones_like(self.t), self.t - self.t.mean()])
         error = self.approach - moved
         error = error - trend @ np.linalg.lstsq(trend, error, rcond=None)[0]
         motion = max(float(np.std(self.approach)), float(np.std(moved)))
@@ -213,7 +213,7 @@ class ContactRecord(QuantityTable):
             )
 
     def window(self, start: float, end: float) -> Self:
-        """The part with start <= T <= end.
+        """The part with start <= t <= end.
 
         Raises
         ------
@@ -223,10 +223,10 @@ class ContactRecord(QuantityTable):
         start, end = require_finite("start", start), require_finite("end", end)
         if start >= end:
             raise InputError("start", start, f"below end = {end!r}")
-        inside = (self.T >= start) & (self.T <= end)
+        inside = (self.t >= start) & (self.t <= end)
         if np.count_nonzero(inside) < FEWEST_SAMPLES:
-            span = f"[{float(self.T[0])!r}, {float(self.T[-1])!r}]"
-            raise InputError("window", (start, end), f"one that holds {FEWEST_SAMPLES} samples of T in {span}")
+            span = f"[{float(self.t[0])!r}, {float(self.t[-1])!r}]"
+            raise InputError("window", (start, end), f"one that holds {FEWEST_SAMPLES} samples of t in {span}")
         cut = {name: getattr(self, name)[inside] for name in _HISTORIES if getattr(self, name) is not None}
         return replace(self, **cut)
 

@@ -112,7 +112,7 @@ class FitResult(ElementFit):
     e_acc : float or None
         Eq. 13 for u'' = Omega_n^2 (load - f_fit); None without inertia.
     window : tuple of (float, float)
-        Start and end in T, one pair per record.
+        Start and end in t, one pair per record.
     samples : int
         That were fitted.
     independent_samples : float

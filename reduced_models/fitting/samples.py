@@ -15,7 +15,7 @@ from ehlcontact.errors import InputError
 from reduced_models.fitting.records import ContactRecord, as_records
 
 _Floats = NDArray[np.float64]
-Window = tuple[float, float]  # (start, end) in T
+Window = tuple[float, float]  # (start, end) in t
 
 
 @dataclass(frozen=True, eq=False)

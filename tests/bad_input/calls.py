@@ -61,7 +61,7 @@ def full_contact():
 
 
 def record(**changes):
-    columns = {"T": LINE, "approach": 0.8 + 0.1 * LINE, "rate": 0.1 + 0.0 * LINE, "force": 1.0 + LINE}
+    columns = {"t": LINE, "approach": 0.8 + 0.1 * LINE, "rate": 0.1 + 0.0 * LINE, "force": 1.0 + LINE}
     return rm.ContactRecord(**(columns | changes))
 
 
@@ -261,9 +261,9 @@ CALLS = {
     # elements, fits, atlas
     "damping below 0": (lambda: cubic(C1=-0.01), ("C1", "a finite number >= 0")),
     "range that falls": (lambda: cubic(low=1.0, high=0.7), ("low", "below high = 0.7")),
-    "record too short": (lambda: record(T=[0.0, 1.0]), ("length of T", "at least 4")),
+    "record too short": (lambda: record(t=[0.0, 1.0]), ("length of t", "at least 4")),
     "record of two lengths": (lambda: record(force=LINE[:-1]), ("length of force", "20")),
-    "record back in time": (lambda: record(T=LINE[::-1]), ("T[1]", "above T[0] = 1.0")),
+    "record back in time": (lambda: record(t=LINE[::-1]), ("t[1]", "above t[0] = 1.0")),
     "record nan": (lambda: record(force=LINE * np.nan), ("force[0]", "a finite number")),
     "fit nothing": (lambda: rm.fit([]), ("records", "at least one record")),
     "fit a file name": (lambda: rm.fit("r.h5"), ("records[0]", "a ContactRecord;")),

@@ -260,7 +260,7 @@ COMMANDS = [
     (("fit", RECORD, "--model", "Cubic"), ("--model = 'Cubic'", "linear, cubic")),
     (("fit", RECORD, "--window", "1"), ("--window", "2 values", "START END")),
     (("fit", RECORD, "--window", "3", "1"), ("--window START = 3.0", "below end = 1.0")),
-    (("fit", RECORD, "--window", "10", "20"), ("--window = (10.0, 20.0)", "samples of T in [0.0, 0.5]")),
+    (("fit", RECORD, "--window", "10", "20"), ("--window = (10.0, 20.0)", "samples of t in [0.0, 0.5]")),
     (("fit", RECORD, "--save", "e.h5"), ("--save = 'e.h5'", ".json")),
     (("fit", RECORD, "--json", RECORD), ("--json = 'record.h5'", "another file", "which is read")),
     (("fit", RECORD, "--save", "k.json", "--json", "k.json"), ("--json = 'k.json'", "for --save")),

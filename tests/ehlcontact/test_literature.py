@@ -139,7 +139,7 @@ def test_table_1(name, n):
     same, (k1, c1) = LINEAR[name]
     motion, _ = CUBICS[same]
     record = ContactRecord.from_result(simulate(POINT, motion, grid=Grid(n=n)))
-    result = fit(record, model="linear", window=(record.T[0], record.T[-1]))
+    result = fit(record, model="linear", window=(record.t[0], record.t[-1]))
     assert result.parameters["K1"] == pytest.approx(k1, rel=0.002 if n == 128 else 0.003)
     assert c1 is None or result.parameters["C1"] == pytest.approx(c1, rel=0.05)
 
@@ -155,7 +155,7 @@ def test_figure_6(n):
         simulate(POINT, replace(motion, rate=sign * motion.rate, start=None), grid=Grid(n=n), time=time)
         for sign in (1.0, -1.0)
     )
-    T, h = opening.T, opening.h_central
+    T, h = opening.t, opening.h_central
     assert T[h.argmin()] == pytest.approx(1.0, abs=0.08)
     assert np.ptp(h[T < 0.5]) < 0.1 * np.ptp(h)  # "initially, its value remains constant"
     assert h[0] - h.min() > 5.0 * (h[: h.argmin()].max() - h[0])

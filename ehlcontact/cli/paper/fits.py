@@ -19,7 +19,7 @@ from reduced_models.rotor.oscillator import OscillatorResult
 BEYOND = 0.25  # of the range of a motion that an element of the paper reaches beyond it on either side
 PAPER_METHOD, STIFF_METHOD = "RK23", "Radau"  # Bogacki and Shampine as in the paper, and a stiff integrator
 
-# Part of a record that is fitted: its last two thirds, all of it, or from one T to another.
+# Part of a record that is fitted: its last two thirds, all of it, or from one t to another.
 Window = str | tuple[float, float]
 LATE, WHOLE = "last two thirds", "whole record"
 ROUNDING = 1e-9  # of sums of time steps: a sample on the end of a window lies inside
@@ -57,7 +57,7 @@ class Fits:
             return "no simulation"
         record = self.record(case)
         if isinstance(window, str):
-            span = (float(record.T[0]), float(record.T[-1])) if window == WHOLE else None
+            span = (float(record.t[0]), float(record.t[-1])) if window == WHOLE else None
         else:
             span = window[0] - ROUNDING, window[1] + ROUNDING
         try:
@@ -93,7 +93,7 @@ class Fits:
             warnings.simplefilter("ignore", OutsideValidityWarning)
             return simulate_oscillator(
                 element,
-                cut.T,
+                cut.t,
                 Omega_n=cut.Omega_n,
                 load=cut.load,
                 u0=float(cut.approach[0]),

@@ -136,13 +136,13 @@ def force(table: int, case: str, *, acceleration: bool = False) -> Describe:
 
         own = record.acceleration if acceleration else record.force
         lines = [
-            Line(record.T, own, "full film", BLUE),
-            Line(record.T, of(theirs), f"paper's {theirs.kind}", **THEIRS),
+            Line(record.t, own, "full film", BLUE),
+            Line(record.t, of(theirs), f"paper's {theirs.kind}", **THEIRS),
         ]
         if found is not None:
-            if found.window[0][0] > record.T[0]:
-                bands.append(Band(float(record.T[0]), found.window[0][0]))
-            lines.append(_dots(record.T, of(found.element), f"our {found.model}"))
+            if found.window[0][0] > record.t[0]:
+                bands.append(Band(float(record.t[0]), found.window[0][0]))
+            lines.append(_dots(record.t, of(found.element), f"our {found.model}"))
         return Panel(lines, TIMES, "acceleration d²u/dT²" if acceleration else FORCES, bands=bands)
 
     return panel
@@ -155,7 +155,7 @@ def reduced(table: int, case: str) -> Describe:
         record, found = fits.record(case), fits.fit(case)
         theirs = fits.integrated(fits.theirs(table, case), case)
         lines = [
-            Line(record.T, record.approach, "full film", BLUE),
+            Line(record.t, record.approach, "full film", BLUE),
             Line(theirs.T, theirs.approach, "paper's cubic", **THEIRS),
         ]
         if found is not None:
@@ -200,7 +200,7 @@ def swapped(motion: str, cases: Sequence[str], table: int) -> Draw:
     def draw(fits: Fits) -> Picture:
         record, panels = fits.record(motion), []
         for whose, elements in elements_of(fits, cases, table, motion).items():
-            lines = [Line(record.T, record.approach, "full film", GREY, width=3.5)]
+            lines = [Line(record.t, record.approach, "full film", GREY, width=3.5)]
             for (case, element), colour in zip(elements.items(), COLOURS, strict=False):
                 run = fits.integrated(element, motion)
                 lines.append(Line(run.T, run.approach, f"element of case {case}", colour, width=1.1))

@@ -111,13 +111,13 @@ def test_several_records_are_fitted_sample_by_sample(record):
 
 def shorter(record):
     """The record without its last sample: another one."""
-    return record.window(float(record.T[0]), float(record.T[-2]))
+    return record.window(float(record.t[0]), float(record.t[-2]))
 
 
 @pytest.mark.parametrize("model", ["cubic", "memory"])
 def test_a_record_counts_once(record, model):
     """Twice the same data would make the intervals of the fit narrower than it is known."""
-    again = replace(record, T=record.T.copy(), n=64)
+    again = replace(record, t=record.t.copy(), n=64)
     for records in ([record, record], [shorter(record), record, again]):
         with pytest.raises(InputError, match=r"^records.* = .the record of records.*: must be another one"):
             fit(records, model)
@@ -132,7 +132,7 @@ def test_records_of_different_contacts_are_refused(record):
 
 
 @pytest.mark.parametrize("model", ["cubic", "memory"])
-@pytest.mark.parametrize("records", [5, None, SimpleNamespace(T=[0.0, 1.0])])
+@pytest.mark.parametrize("records", [5, None, SimpleNamespace(t=[0.0, 1.0])])
 def test_what_is_no_record_names_from_result(records, model):
     with pytest.raises(InputError, match=r"^records = .*a ContactRecord or a sequence of them.*from_result"):
         fit(records, model)
@@ -171,7 +171,7 @@ def test_assumptions_in_the_source(record):
 def test_measured_record_in_si(record, scales):
     s = scales
     measured = ContactRecord(
-        record.T * s.time, record.approach * s.length, record.rate * s.rate, record.force * s.force,
+        record.t * s.time, record.approach * s.length, record.rate * s.rate, record.force * s.force,
         units="SI", static_load=s.force,
     )  # fmt: skip
     result, twin = fit(measured), fit(record)
@@ -188,7 +188,7 @@ def test_without_inertia_there_is_no_acceleration_error(record):
 
 
 def test_constant_record_names_its_columns(record):
-    still = replace(record, approach=np.full(301, 0.87), rate=np.sin(record.T))
+    still = replace(record, approach=np.full(301, 0.87), rate=np.sin(record.t))
     with pytest.raises(InputError, match=r"columns approach, approach\^2, approach\^3 = .* varies too little"):
         fit(still)
     with pytest.raises(InputError, match=r"columns approach, approach\^2, approach\^3, rate = "):

@@ -50,7 +50,7 @@ def test_one_element_fits_impedance_and_records(coarse):
     assert element.rms == result.rms < 0.01
     assert element.source["n"] == 32 and element.source["point"]["M"] == 200
     assert element.is_valid(0.87) and element.omega_range == (0.0, 60.0)
-    T, u, v = (getattr(records[0], name) for name in ("T", "approach", "rate"))
+    T, u, v = (getattr(records[0], name) for name in ("t", "approach", "rate"))
     error = element.drive(T, u, v) - records[0].force
     assert np.sqrt(np.mean(error**2)) / np.std(records[0].force) == pytest.approx(result.record_rms[0])
 

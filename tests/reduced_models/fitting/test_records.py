@@ -12,7 +12,7 @@ from reduced_models import ContactRecord, SpringContact
 
 def plain(**changes):
     T = np.linspace(0.0, 3.0, 31)
-    return {"T": T, "approach": np.sin(T), "rate": np.cos(T), "force": np.sin(T)} | changes
+    return {"t": T, "approach": np.sin(T), "rate": np.cos(T), "force": np.sin(T)} | changes
 
 
 def test_plain_lists_become_read_only_copies():
@@ -36,8 +36,8 @@ def test_measured_record_in_si_has_no_static_load_unless_given():
         ({"approach": np.zeros(30)}, "length of approach"),
         ({"load": np.zeros(32)}, "length of load"),
         ({"acceleration": np.zeros((31, 1))}, "shape of acceleration"),
-        ({"T": np.r_[np.linspace(0, 1, 30), 1.0]}, "T[30]"),
-        ({"T": np.zeros(3)}, "length of T"),
+        ({"t": np.r_[np.linspace(0, 1, 30), 1.0]}, "t[30]"),
+        ({"t": np.zeros(3)}, "length of t"),
         ({"force": ["a"] * 31}, "force"),
         ({"force": None}, "force"),
         ({"Omega_n": -1.0}, "Omega_n"),
@@ -54,7 +54,7 @@ def test_bad_histories_are_named(changes, field):
 
 def test_window_is_closed_and_keeps_everything_else(record):
     cut = record.window(1.0, 2.0)
-    assert cut.T[0] == pytest.approx(1.0) and cut.T[-1] == pytest.approx(2.0) and len(cut) == 101
+    assert cut.t[0] == pytest.approx(1.0) and cut.t[-1] == pytest.approx(2.0) and len(cut) == 101
     assert cut.load.size == cut.acceleration.size == 101 and cut.Omega_n == record.Omega_n
     assert record.default_window == pytest.approx((1.0, 3.0))
 
@@ -67,15 +67,16 @@ def test_useless_windows(record, span):
 
 def simulation(status="converged", domain=(-4.5, 1.5, 3.0)):
     histories = plain(load=np.ones(31), acceleration=np.zeros(31))
-    return SimpleNamespace(
+    run = SimpleNamespace(
         **histories,
         point=MoesPoint(200.0, 10.0, 0.5),
-        scales=None,
         n=np.int64(64),
         domain=domain,
         motion=SimpleNamespace(to_dict=lambda: {"kind": "free", "Omega_n": 5.13}),
         status=status,
     )
+    run.dimensionless = run  # as of a MoesPoint
+    return run
 
 
 @pytest.mark.parametrize("domain", [(-4.5, 1.5, 3.0), SimpleNamespace(x_in=-4.5, x_out=1.5, y_max=3.0)])

@@ -48,7 +48,7 @@ def test_terms_that_the_truth_has_are_missed_and_the_others_are_not(noisy):
 
 
 def test_correlated_residuals_warn_and_are_counted(record):
-    wave = replace(record, force=record.force + 1e-3 * np.sin(40.0 * record.T))
+    wave = replace(record, force=record.force + 1e-3 * np.sin(40.0 * record.t))
     table = sensitivity(wave)
     assert table.lag_one > 0.8 and table.independent_samples < 0.3 * table.samples
     assert "hang together" in table.warning

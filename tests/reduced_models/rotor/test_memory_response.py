@@ -44,7 +44,7 @@ def test_oscillator_follows_full_ehl_better_than_on_the_cubic(free, fits):
     """Measured: approach 1.0 % and force 1.1 %; the cubic of the same record 2.7 % and 2.6 %."""
     errors = {}
     for model, found in fits.items():
-        run = simulate_oscillator(found.element, free.T, Omega_n=5.13, u0=free.approach[0], v0=free.rate[0])
+        run = simulate_oscillator(found.element, free.t, Omega_n=5.13, u0=free.approach[0], v0=free.rate[0])
         errors[model] = difference(run.approach, free.approach), difference(run.force, free.force)
     assert max(errors["memory"]) < 0.013
     assert all(2.0 * ours < theirs for ours, theirs in zip(errors["memory"], errors["cubic"], strict=True))
