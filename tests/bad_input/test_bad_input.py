@@ -230,7 +230,7 @@ def test_no_room_for_compiled_code(monkeypatch, capsys, tmp_path):
     kernel, other = jit(_unchanged), jit(_unchanged)
     monkeypatch.setattr("ehlcontact.steady.solve_steady", lambda *_, **__: [film, kernel(1.0), other(1.0)][0])
     with pytest.raises(SystemExit) as stop:
-        main(steady(n="16"))
+        main(steady(M="20", L="10", kappa="1", n="16"))
     (line,) = capsys.readouterr().err.splitlines()
     assert stop.value.code == 0 and str(tmp_path) in line and "No space left on device" in line, line
     assert line.startswith("ehlcontact: warning: compiled code is not kept") and "NUMBA_CACHE_DIR" in line
