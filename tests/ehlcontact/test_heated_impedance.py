@@ -44,12 +44,12 @@ STEP = 1e-3  # of the approach, for differences of steady films
 @cache
 def film_of(given, r=None):
     region = {"grid": GRID} if r is None else {"grid": WIDER, "supply": OilLayer(over_flooded=r)}
-    return solve_steady(POINT, **region, thermal=given, tol=1e-8).dimensionless
+    return solve_steady(POINT, **region, thermal=given, tol=1e-8)
 
 
 def region_of(film):
     """Grid, and the same layer of oil at any approach."""
-    layer = None if film.layer is None else OilLayer(H=float(film.layer[0]))
+    layer = None if film.layer is None else OilLayer(h=float(film.layer[0]))
     return {"grid": Grid(film.n, film.domain), "supply": layer}
 
 
@@ -69,11 +69,11 @@ class Neighbours:
         film = film_of(given, r)
         heats = []
         for side in (1.0, -1.0):
-            at = POINT.scales.length * (film.approach + side * STEP)
-            near = solve_steady(POINT, **region_of(film), thermal=given, approach=at, tol=1e-8).dimensionless
+            at = film.approach + side * STEP * POINT.scales.length
+            near = solve_steady(POINT, **region_of(film), thermal=given, approach=at, tol=1e-8)
             solved = held(near)
             heats.append((near, viscosity_on(near, solved).heat))
-        self.stiffness = self.slope(heats, lambda near, heat: near.force)
+        self.stiffness = self.slope(heats, lambda near, heat: near.dimensionless.force)
         self.pressure = self.slope(heats, lambda near, heat: heat.level.P)
         self.mass = self.slope(heats, lambda near, heat: heat.level.oil)
         self.stored = self.slope(heats, lambda near, heat: self.heat_of_oil(heat))
@@ -122,7 +122,7 @@ def force_on_a_ramp(given, near, rate, r=None):
     """Force at the approach of the film while the approach grows at a rate."""
     film = film_of(given, r)
     solved = held(film)
-    steady, balance = viscosity_on(film, solved).heat, Balance.of_approach(film.approach)
+    steady, balance = viscosity_on(film, solved).heat, Balance.of_approach(film.dimensionless.approach)
     heat = Ramp(solved.finest, steady.numbers)
     heat.rise[...], heat.walls[...], heat.rate, heat.near = steady.rise, steady.walls, rate, near
     solved.finest.rhs[...] = rate * near.mass

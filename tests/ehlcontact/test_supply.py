@@ -285,7 +285,7 @@ def test_simulation_under_a_supply(tmp_path):
     given = {"grid": SMALL, "supply": OilLayer(H=0.495), "time": TimeSteps(until=3.0, dt=0.1)}
     squeezed = simulate(CIRCLE, SHAKEN, **given)
     flooded = simulate(CIRCLE, SHAKEN, **given | {"supply": None})
-    assert f"under a layer of {squeezed.layer[0]:.4g} dry approaches" in str(squeezed)
+    assert f"under a layer of {squeezed.layer[0]:.4g} of the dry approach" in str(squeezed)
     assert "layer" not in str(flooded) and "heat" not in str(flooded)
     assert (squeezed.h_central < 0.85 * flooded.h_central).all()
     assert squeezed.layer_behind.shape == (31, squeezed.y.size)

@@ -48,7 +48,7 @@ def test_nothing_that_a_run_goes_on_from_is_changed(name, monkeypatch):
     monkeypatch.setattr(TransientFilm, "error_at_rest", lambda self, balance: None)
     silent = simulate(point, motion, **grouped(until=0.1, snapshots=(0.0, 0.1), **options))
     assert told.film_error is not None and silent.film_error is None
-    for field in (*HISTORY, "snapshot_H", "snapshot_P"):
+    for field in (*HISTORY, "snapshot_h", "snapshot_p"):
         np.testing.assert_array_equal(getattr(told, field), getattr(silent, field))
 
 
