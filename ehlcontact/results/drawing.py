@@ -163,7 +163,7 @@ def _plain_ticks(axis: Any) -> None:
     """Numbers as 0.5, 2, 1000 at a logarithmic axis; over few decades at 2 and 5 too."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-    low, high = np.log10(axis.get_data_interval())
+    low, high = np.log10(np.maximum(axis.get_data_interval(), axis.get_minpos()))
     if high - low > PLAIN_DECADES or not np.isfinite(high - low):
         return
     few = high - low < FEW_DECADES

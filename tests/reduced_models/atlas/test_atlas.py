@@ -435,16 +435,13 @@ def test_the_6205_on_vg_68_from_idling_to_its_limit(shipped, race, conformity, s
             load=load,
             race=race,
         )
-        answer = shipped.at(point)
+        answer = shipped.at(point).dimensionless
+        own_oil = MoesPoint(answer.point.M, answer.point.L, answer.point.kappa)
         # an oil of another alpha than the atlas's widens the bars; those of the atlas alone are narrow
-        assert (
-            shipped.at(MoesPoint(answer.point.M, answer.point.L, answer.point.kappa)).error_bars["approach"] < 0.01
-        )
+        assert shipped.at(own_oil).error_bars["approach"] < 0.01
         assert answer.error_bars["approach"] < 0.03 * max(1.0, answer.film_share)
         assert answer.error_bars["h_central"] < 0.1 * answer.h_central
-        assert (
-            0.0 < answer.moment < 2.0 * load * point.scales.a
-        )  # of a thick film, pressed well ahead of the centre
+        assert 0.0 < answer.moment < 2.0  # of a thick film, pressed well ahead of the centre
         assert shipped.element(point, "memory").rest(1.0) is not None
 
 

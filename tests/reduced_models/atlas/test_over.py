@@ -30,7 +30,7 @@ def test_as_one_by_one(analytic, axes, oil):
             np.testing.assert_allclose(getattr(many, name)[i], getattr(one, name), rtol=1e-9)
             np.testing.assert_allclose(many.error_bars[name][i], one.error_bars[name], rtol=1e-9)
     assert many.stiffness.shape == many.error_bars["damping"].shape == (MANY, many.omega.size)
-    assert set(many.error_bars) == {f.name for f in fields(many)} - {"M", "L", "kappa", "Omega", "error_bars"}
+    assert set(many.error_bars) == {f.name for f in fields(many)} - {"M", "L", "kappa", "omega", "error_bars"}
 
 
 def test_a_number_stands_for_all(analytic):

@@ -231,12 +231,12 @@ def test_runs_in_time_say_what_elements_leave_out():
 
 def test_export_to_ross_says_what_elements_leave_out(monkeypatch):
     """With something that takes the place of ROSS, which need not be installed."""
-    ross = SimpleNamespace(BearingElement=lambda **entries: entries)
+    ross = SimpleNamespace(BearingElement=lambda **entries: SimpleNamespace(**entries))
     monkeypatch.setattr(ross_bearing, "import_ross", lambda: ross)
     with pytest.warns(OutsideValidityWarning, match="6205: under this layer") as caught:
         bearing(OilLayer(over_flooded=1.0)).to_ross(0, speeds_rpm=[2000.0, 3000.0], load=1000.0)
     assert len(caught) == 1 and caught[0].filename == __file__
-    assert bearing().to_ross(0, speeds_rpm=3000.0, load=1000.0)["cyy"] > 0.0  # flooded: no warning
+    assert bearing().to_ross(0, speeds_rpm=3000.0, load=1000.0).cyy > 0.0  # flooded: no warning
 
 
 def test_flooded_and_well_fed_bearings_leave_nothing_out():
@@ -302,8 +302,8 @@ def test_under_a_layer_in_metres_approaches_of_light_loads_rise_within_their_err
     loads, approach = light_part(race, 300.0)
     assert np.all(np.diff(loads ** (2.0 / 3.0) * approach) > 0.0)
     answers = [race.answer(load, 300.0) for load in loads.tolist()]
-    less = np.array([answer.approach for answer in answers]) - approach
-    bars = np.array([answer.error_bars["approach"] for answer in answers])
+    less = np.array([answer.dimensionless.approach for answer in answers]) - approach
+    bars = np.array([answer.dimensionless.error_bars["approach"] for answer in answers])
     assert np.all((less > -1e-9) & (less < bars)) and 0 < np.count_nonzero(less > 1e-9) < loads.size
 
 
