@@ -21,26 +21,11 @@ size_t support_place(const Rotor *r, int support)
     return place;
 }
 
-/* Supports' own, then motions, rates and forces of the supports, slopes of one, and vectors and matrices of a step or of rest. */
+/* That of the supports, then vectors and matrices of a step or of rest. */
 size_t rotor_work(const Rotor *r)
 {
-    const size_t n = (size_t)(r->freedoms + r->held), p = (size_t)r->points, m = (size_t)r->motions;
-    size_t work = 0;
-    int i;
-    for (i = 0; i < r->supports; i++) {
-        work += r->support[i]->work;
-    }
-    return work + 3 * m + 2 * m * m + 6 * n + 8 * p + 2 * p * p + n * n + n;
-}
-
-static double product(const double row[], const double x[], int n)
-{
-    double sum = 0.0;
-    int k;
-    for (k = 0; k < n; k++) {
-        sum += row[k] * x[k];
-    }
-    return sum;
+    const size_t n = (size_t)(r->freedoms + r->held), p = (size_t)r->points;
+    return supports_work(r) + 6 * n + 8 * p + 2 * p * p + n * n + n;
 }
 
 double rotor_motion(const Rotor *r, int motion, const double q[])
@@ -50,7 +35,7 @@ double rotor_motion(const Rotor *r, int motion, const double q[])
     int j;
     for (j = 0; j < r->points; j++) {
         if (tie[j] != 0.0) {
-            sum += tie[j] * product(&r->B[j * r->freedoms], q, r->freedoms);
+            add_product(1, r->freedoms, tie[j], &r->B[j * r->freedoms], q, &sum);
         }
     }
     return sum;

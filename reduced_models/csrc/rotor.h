@@ -67,6 +67,7 @@ static inline RotorLayout rotor_layout(const Rotor *r)
 size_t rotor_size(const Rotor *rotor); /* of the state */
 size_t rotor_work(const Rotor *rotor);
 size_t support_place(const Rotor *rotor, int support); /* of its numbers, from layout.supports on */
+size_t supports_work(const Rotor *rotor);              /* of all supports; that of a step or of rest is behind it */
 
 /* Displacements of `motion` and their rates, from those of the rotor. */
 double rotor_motion(const Rotor *rotor, int motion, const double q[]);

@@ -9,20 +9,16 @@ static const double open = 1.0; /* N/m beside the slopes of supports that hold n
 static const double enough = 1e-9; /* imbalance over the load that is equilibrium where it gets no smaller */
 static const char *const no_number = "the motion is too large for a floating-point number";
 
-/* Room behind the motions and slopes of the supports. */
+/* Room behind that of the supports. */
 typedef struct {
     double *off, *step, *tried, *pivot, *r, *v, *slopes, *system;
 } Room;
 
 static Room room(const Rotor *r, double work[])
 {
-    const size_t n = (size_t)(r->freedoms + r->held), p = (size_t)r->points, m = (size_t)r->motions;
+    const size_t n = (size_t)(r->freedoms + r->held), p = (size_t)r->points;
     Room room;
-    int i;
-    for (i = 0; i < r->supports; i++) {
-        work += r->support[i]->work;
-    }
-    room.off = work + 3 * m + 2 * m * m;
+    room.off = work + supports_work(r);
     room.step = room.off + n;
     room.tried = room.step + n;
     room.pivot = room.tried + n;
@@ -35,15 +31,8 @@ static Room room(const Rotor *r, double work[])
 
 static void points_of(const Rotor *r, const double q[], double points[])
 {
-    int i, j;
-    for (j = 0; j < r->points; j++) {
-        const double *row = &r->B[j * r->freedoms];
-        double sum = 0.0;
-        for (i = 0; i < r->freedoms; i++) {
-            sum += row[i] * q[i];
-        }
-        points[j] = sum;
-    }
+    memset(points, 0, (size_t)r->points * sizeof points[0]);
+    add_product(r->points, r->freedoms, 1.0, r->B, q, points);
 }
 
 const char *rotor_place(const Rotor *r, const double *const parameters[], double state[], double work[])

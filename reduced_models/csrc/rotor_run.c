@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "linear_equations.h"
 #include "rotor.h"
 
 /* Load, and forces of the unbalances. */
@@ -32,15 +33,13 @@ void rotor_put(const Rotor *r, const double motion[], const double carried[], co
     const RotorLayout at = rotor_layout(r);
     const size_t n = (size_t)r->freedoms, p = (size_t)r->points;
     double *past = state + at.past;
-    size_t i, j;
+    size_t j;
     memcpy(state + at.place, motion, 3 * n * sizeof state[0]);
     memcpy(state + at.carried, carried, p * sizeof state[0]);
     memcpy(state + at.applied, applied, n * sizeof state[0]);
+    memset(past, 0, p * sizeof past[0]);
+    add_product(r->points, r->freedoms, 1.0, r->B, motion, past);
     for (j = 0; j < p; j++) {
-        past[j] = 0.0;
-        for (i = 0; i < n; i++) {
-            past[j] += r->B[j * n + i] * motion[i];
-        }
         past[p + j] = past[2 * p + j] = past[j];
     }
 }

@@ -66,13 +66,9 @@ typedef struct {
 
 static Room room(const Rotor *r, double work[])
 {
-    const size_t n = (size_t)(r->freedoms + r->held), p = (size_t)r->points, m = (size_t)r->motions;
+    const size_t n = (size_t)(r->freedoms + r->held), p = (size_t)r->points;
     Room room;
-    int i;
-    for (i = 0; i < r->supports; i++) {
-        work += r->support[i]->work;
-    }
-    room.place = work + 3 * m + 2 * m * m;
+    room.place = work + supports_work(r);
     room.inertial = room.place + n;
     room.damped = room.inertial + n;
     room.more = room.damped + n;
@@ -91,22 +87,12 @@ static Room room(const Rotor *r, double work[])
     return room;
 }
 
-static double product(const double row[], const double x[], int n)
-{
-    double sum = 0.0;
-    int k;
-    for (k = 0; k < n; k++) {
-        sum += row[k] * x[k];
-    }
-    return sum;
-}
-
 static const char *condense(const Rotor *r, const Method *m, double h, double omega, double state[], const Room *room)
 {
     const Condensed c = condensed(r, state);
     const int n = r->freedoms, p = r->points;
     const double inertial = (1.0 - m->alpha_m) * m->acceleration[0] * r->mass, damped = m->weight * m->velocity[0];
-    int i, j, k;
+    int i, j;
     for (i = 0; i < n * n; i++) {
         const double turned = r->G == NULL ? 0.0 : r->mass * omega * r->G[i];
         c.factors[i] = inertial * r->M[i] + damped * (r->damping * r->C[i] + turned) + m->weight * r->stiffness * r->K[i];
@@ -119,23 +105,14 @@ static const char *condense(const Rotor *r, const Method *m, double h, double om
         memcpy(&c.columns[j * n], &r->B[j * n], (size_t)n * sizeof c.columns[0]);
         substitute(n, c.factors, c.pivot, &c.columns[j * n]);
     }
+    memset(room->slopes, 0, (size_t)(p * p) * sizeof room->slopes[0]);
     for (j = 0; j < p; j++) {
-        for (k = 0; k < p; k++) {
-            room->slopes[j * p + k] = product(&r->B[j * n], &c.columns[k * n], n);
-        }
+        add_product(p, n, 1.0, c.columns, &r->B[j * n], &room->slopes[j * p]);
     }
     if (!factorise(p, room->slopes, room->pivot)) {
         return "supports act on points that move as one";
     }
-    for (k = 0; k < p; k++) {
-        for (j = 0; j < p; j++) {
-            room->off[j] = j == k ? 1.0 : 0.0;
-        }
-        substitute(p, room->slopes, room->pivot, room->off);
-        for (j = 0; j < p; j++) {
-            c.D[j * p + k] = room->off[j];
-        }
-    }
+    invert(p, room->slopes, room->pivot, room->off, c.D);
     if (r->G == NULL) { /* the same for all steps of this length: products in place of substitutions */
         invert(n, c.factors, c.pivot, room->place, room->system);
         memcpy(c.factors, room->system, (size_t)(n * n) * sizeof c.factors[0]);

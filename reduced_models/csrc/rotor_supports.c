@@ -18,6 +18,12 @@ static size_t own_work(const Rotor *r, int support)
     return place;
 }
 
+size_t supports_work(const Rotor *r)
+{
+    const size_t m = (size_t)r->motions;
+    return own_work(r, r->supports) + 3 * m + 2 * m * m;
+}
+
 static Shared shared(const Rotor *r, double work[])
 {
     const size_t m = (size_t)r->motions;
@@ -83,10 +89,10 @@ void supports_begin(const Rotor *r, const double state[], double work[], double 
     }
 }
 
-const char *supports_press(const Rotor *r, const double state[], double work[], const double points[], const double v[],
-                           double carried[], int *refused)
+/* Forces on the points; `rest`, the numbers of supports that come to rest with the shaft turning at omega, is NULL in a step. */
+static const char *exert(const Rotor *r, const double own[], double *rest, double work[], double omega, const double points[],
+                         const double v[], double carried[], int *refused)
 {
-    const double *own = state + rotor_layout(r).supports;
     const Shared s = shared(r, work);
     int i;
     move(r, points, r->shift, s.motion);
@@ -94,17 +100,26 @@ const char *supports_press(const Rotor *r, const double state[], double work[], 
     for (i = 0; i < r->supports; i++) {
         const Support *support = r->support[i];
         const int first = r->first[i];
-        const char *reason =
-            support->press(support->own, own, work, &s.motion[first], &s.rate[first], &s.force[first]);
+        const double *q = &s.motion[first], *rate = &s.rate[first];
+        double *force = &s.force[first];
+        const char *reason = rest == NULL ? support->press(support->own, own, work, q, rate, force)
+                                          : support->rest(support->own, rest, work, omega, q, rate, force);
         if (reason != NULL) {
             *refused = i;
             return reason;
         }
         own += support->size;
+        rest = rest == NULL ? NULL : rest + support->size;
         work += support->work;
     }
     carry(r, s.force, carried);
     return NULL;
+}
+
+const char *supports_press(const Rotor *r, const double state[], double work[], const double points[], const double v[],
+                           double carried[], int *refused)
+{
+    return exert(r, state + rotor_layout(r).supports, NULL, work, 0.0, points, v, carried, refused);
 }
 
 const double *supports_pressed(const Rotor *r, const double work[])
@@ -116,22 +131,8 @@ const char *supports_rest(const Rotor *r, double state[], double work[], double 
                           double carried[])
 {
     double *own = state + rotor_layout(r).supports;
-    const Shared s = shared(r, work);
-    int i;
-    move(r, points, r->shift, s.motion);
-    move(r, v, NULL, s.rate);
-    for (i = 0; i < r->supports; i++) {
-        const Support *support = r->support[i];
-        const int first = r->first[i];
-        const char *reason = support->rest(support->own, own, work, omega, &s.motion[first], &s.rate[first], &s.force[first]);
-        if (reason != NULL) {
-            return reason;
-        }
-        own += support->size;
-        work += support->work;
-    }
-    carry(r, s.force, carried);
-    return NULL;
+    int refused;
+    return exert(r, own, own, work, omega, points, v, carried, &refused);
 }
 
 void supports_slopes(const Rotor *r, double work[], double gain, double slopes[])
