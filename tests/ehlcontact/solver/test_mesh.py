@@ -225,8 +225,8 @@ def test_damping_of_stiff_oil_at_the_resonance_of_its_film_within_a_few_per_cent
 
 
 def test_impedance_tells_the_grid_it_chose():
-    assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0]).n == 80
-    assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0], grid=Grid(n=48)).n == 48
+    assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0]).film.n == 80
+    assert impedance(MoesPoint(200, 10, 0.5), Omega=[0.0], grid=Grid(n=48)).film.n == 48
 
 
 @pytest.mark.slow
@@ -234,7 +234,7 @@ def test_damping_of_a_thin_film_within_a_few_per_cent():
     """A deep groove at 1 kN on the chosen grid against one of half the mesh size."""
     point, omega = MoesPoint(2900, 19, 0.11), [0.05, 0.25, 1.0, 3.14, 6.28]
     chosen = impedance(point, Omega=omega)
-    finer = impedance(point, Omega=omega, grid=Grid(n=2 * chosen.n))
+    finer = impedance(point, Omega=omega, grid=Grid(n=2 * chosen.film.n))
     assert np.abs(chosen.damping / finer.damping - 1.0).max() < 0.05
     assert np.abs(chosen.stiffness / finer.stiffness - 1.0).max() < 0.005
 
@@ -282,7 +282,7 @@ def test_every_solve_widens_its_region_alike():
     run = simulate(LIGHT, motion, grid=Grid(n=128), time=TimeSteps(until=0.05, dt=0.025))
     contact = TransientContact(LIGHT, grid=Grid(n=128))
     response = impedance(LIGHT, Omega=1.0, grid=Grid(n=128))
-    assert run.domain == contact.domain == response.domain == wide
+    assert run.domain == contact.domain == response.film.domain == wide
     assert run.static_approach == pytest.approx(contact.static_approach, abs=1e-6)
     given = Domain.for_point(LIGHT)
     assert (
