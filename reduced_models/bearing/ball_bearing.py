@@ -60,6 +60,7 @@ from reduced_models.bearing.race import (
     RACES,
     Race,
     assumptions_under,
+    beyond_data,
     require_roughness,
 )
 from reduced_models.bearing.ring_statics import (
@@ -412,7 +413,7 @@ class BallBearing(Summary):
         signed = signed_damping(self, speed, balls, places, w)
         stiffer, damped, feed = with_held_feed(self, speed, balls, places, w)
         signed = signed if signed is None else signed + damped
-        notes = outside, signed, left_out, feed
+        notes = outside, signed, left_out, feed, beyond_data(self, speed, places, w)
         return BearingCoefficients.of(full, speed, cage_angle, w, (K + stiffer, C), places, *notes)
 
     @takes(load="N", speed_rpm="rev/min", cage_angle="rad")

@@ -64,6 +64,8 @@ class BearingCoefficients(Response):
     damping_left_out : str
         Below which frequency contacts under an oil supply have damping below zero, which `damping` leaves out, in
         words; empty where there is none.
+    beyond_data : str
+        Loads and frequencies outside those of the atlas, in words, part of ``reservation``; empty where none.
     held_feed : str
         That a feed of oil is held, in words: under the layer of an `OilBalance`, `stiffness` and `signed_damping`
         include that layers follow the passes of the balls before (`reduced_models.bearing.oil_feedback`). Empty
@@ -79,6 +81,12 @@ class BearingCoefficients(Response):
     signed_damping: Annotated[_Floats | None, DAMPING.over("omega axis by")] = None
     damping_left_out: str = ""
     held_feed: str = ""
+    beyond_data: str = ""
+
+    @property
+    def reservation(self) -> str:
+        """What the response leaves open, in words: loads and frequencies beyond the atlas; else empty."""
+        return "; ".join(filter(None, [super().reservation, self.beyond_data]))
 
     @property
     def outside_assumptions(self) -> str:
@@ -109,7 +117,7 @@ class BearingCoefficients(Response):
             *axial,
             *self._signed_line(),
             "means over a ball passage" if self.cage_angle is None else f"cage at {self.cage_angle:.4g} rad",
-            *filter(None, [self.damping_left_out, self.negative_damping, self.held_feed]),
+            *filter(None, [self.damping_left_out, self.negative_damping, self.held_feed, self.reservation]),
             *note_line(self.outside_assumptions),
         ]
 
@@ -122,8 +130,13 @@ class BearingCoefficients(Response):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        notes = {name: getattr(self, name) for name in ("damping_left_out", "held_feed") if getattr(self, name)}
-        return super().to_dict() | {"outside_assumptions": self.outside_assumptions} | notes
+        notes = {
+            name: getattr(self, name)
+            for name in ("damping_left_out", "held_feed", "beyond_data")
+            if getattr(self, name)
+        }
+        own = {"outside_assumptions": self.outside_assumptions, "reservation": self.reservation}
+        return super().to_dict() | own | notes
 
     @classmethod
     def of(
@@ -138,6 +151,7 @@ class BearingCoefficients(Response):
         signed_damping: _Floats | None = None,
         damping_left_out: str = "",
         held_feed: str = "",
+        beyond_data: str = "",
     ) -> BearingCoefficients:
         """From the mean `matrices` K and C, shape (k, n, n), and the positions that they are the mean of."""
         places = np.array([at.displacement for at in equilibria])
@@ -156,4 +170,5 @@ class BearingCoefficients(Response):
             signed_damping=signed_damping,
             damping_left_out=damping_left_out,
             held_feed=held_feed,
+            beyond_data=beyond_data,
         )

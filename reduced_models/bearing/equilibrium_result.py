@@ -76,6 +76,8 @@ class BearingState(QuantityTable):
         there.
     outside_assumptions : str
         Assumptions of films that do not hold at the most loaded ball (`ehlcontact.assumptions`); empty where none.
+    reservation : str
+        Loads below those of the atlas, in words; empty where the most loaded contacts are inside.
     contact_angles : ndarray, shape (balls, 2), or None
         Of every contact [rad]; None, as all below, in a planar bearing, where they are 0.
     spin_to_roll : ndarray, shape (balls, 2), or None
@@ -104,6 +106,7 @@ class BearingState(QuantityTable):
     skf_rolling: Annotated[float | None, MOMENT] = None
     skf_sliding: Annotated[float | None, MOMENT] = None
     outside_assumptions: str = ""
+    reservation: str = ""
     contact_angles: Annotated[_Floats | None, RADIAN.over("ball race")] = None
     spin_to_roll: Annotated[_Floats | None, NUMBER.over("ball race")] = None
     orbit: Annotated[_Floats | None, NUMBER.over("ball")] = None
@@ -159,7 +162,7 @@ class BearingState(QuantityTable):
         lines[-1] += "" if torque is None else f"; films resist rolling with {1e3 * torque:.4g} N mm"
         if self.friction_torque is not None:
             lines[2] += f"; friction {1e3 * self.friction_torque:.4g} N mm, its sliding part by SKF"
-        return [*lines, *note_line(self.outside_assumptions)]
+        return [*lines, *filter(None, [self.reservation]), *note_line(self.outside_assumptions)]
 
     @property
     def loaded(self) -> int:
@@ -226,4 +229,5 @@ class BearingState(QuantityTable):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        return {"name": self.name, **super().to_dict(), "outside_assumptions": self.outside_assumptions}
+        notes = {"outside_assumptions": self.outside_assumptions, "reservation": self.reservation}
+        return {"name": self.name, **super().to_dict(), **notes}

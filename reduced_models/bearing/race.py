@@ -276,14 +276,43 @@ def assumptions_under(bearing: Any, speed_rpm: float, places: Sequence[RingEquil
     """Worst of the assumptions at the heaviest contacts of a `BallBearing` in oil with each race."""
     rough = (bearing.roughness / sqrt(2.0),) * 2 if bearing.roughness else None
     found = []
+    for race, force in _heaviest_contacts(bearing, places):
+        load = max(force, race.loads(speed_rpm)[0])
+        point, film = race.point(load, speed_rpm), race.answer(load, speed_rpm)
+        found.append(assumptions(point, film=film, roughness=rough))
+    return Assumptions.worst_of(found)
+
+
+def beyond_data(
+    bearing: Any, speed_rpm: float, places: Sequence[RingEquilibrium], omega: _Floats | None = None
+) -> str:
+    """What films of a `BallBearing` at rest, or at frequencies [rad/s], go beyond the atlas, in words; else empty.
+
+    The most loaded contacts with each race count, the lighter ones hardly matter.
+    """
+    if bearing.oil is None:
+        return ""
+    found, highest = [], np.inf
+    for name, (race, force) in zip(RACES, _heaviest_contacts(bearing, places), strict=True):
+        lightest = race.loads(speed_rpm)[0]
+        if force < lightest:
+            found.append(f"{force:.3g} N on the {name} race, the atlas begins at {lightest:.3g} N")
+        if omega is not None:
+            highest = min(highest, float(race.answer(max(force, lightest), speed_rpm).omega[-1]))
+    said = [f"no ball carries more than {' and '.join(found)}"] if found else []
+    if omega is not None and omega.max() > highest:
+        hz = highest / (2.0 * np.pi)
+        said.append(f"the atlas ends at {hz:.3g} Hz, K and C above it are those of the elements")
+    return "; ".join(said)
+
+
+def _heaviest_contacts(bearing: Any, places: Sequence[RingEquilibrium]) -> Iterator[tuple[Race, float]]:
+    """The most loaded contact with each race at its angle, and its force [N]."""
     for column, name in enumerate(RACES):
         at = max(places, key=lambda one: float(one.force[:, column].max()))
         k = int(np.argmax(at.force[:, column]))
         race = races_at_angles(bearing, name, at.angles[k : k + 1, column], at.speed_sum[k : k + 1, column])[0]
-        load = max(float(at.force[k, column]), race.loads(speed_rpm)[0])
-        point, film = race.point(load, speed_rpm), race.answer(load, speed_rpm)
-        found.append(assumptions(point, film=film, roughness=rough))
-    return Assumptions.worst_of(found)
+        yield race, float(at.force[k, column])
 
 
 def films_under(bearing: Any, speed_rpm: float, at: RingEquilibrium) -> dict[str, Any]:
@@ -320,6 +349,7 @@ def films_under(bearing: Any, speed_rpm: float, at: RingEquilibrium) -> dict[str
             torque += float(power.sum()) / race.geometry.radius_x
     found: dict[str, Any] = {"h_central": h_central, "h_min": h_min, "moment": moment, "rolling_torque": torque}
     found["outside_assumptions"] = assumptions_under(bearing, speed_rpm, [at]).headline
+    found["reservation"] = beyond_data(bearing, speed_rpm, [at])
     return found | rough_surfaces(bearing, at.force, h_central, h_min)
 
 

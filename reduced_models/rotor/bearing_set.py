@@ -44,7 +44,7 @@ from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.coefficients import BearingCoefficients, stiffness_and_damping
 from reduced_models.bearing.equilibrium import angle_of, direction_of
 from reduced_models.bearing.freedoms import FACINGS, FIVE, bearing_load, facing_signs, held_tilt, require_offset
-from reduced_models.bearing.race import assumptions_under
+from reduced_models.bearing.race import assumptions_under, beyond_data
 from reduced_models.bearing.ring import RingEquilibrium, groove_distance, require_seated
 from reduced_models.bearing.ring_statics import cage_angles, require_in_grooves, state_of
 from reduced_models.bearing.ross_bearing import bearing_element
@@ -397,7 +397,9 @@ class BearingSet(Summary):
                     require_frequencies(balls, w)
             signed = _coefficients(solved, w)[1]
         left_out = "; ".join(f"bearing {k}: {words}" for k, words in enumerate(linear.damping_left_out) if words)
-        notes = outside, signed, left_out
+        beyond = [beyond_data(bearing, speed, own, w) for bearing, own in rows]
+        words = "; ".join(f"bearing {k}: {said}" for k, said in enumerate(beyond) if said)
+        notes = outside, signed, left_out, "", words
         return BearingCoefficients.of(full, speed, cage_angle, w, _coefficients(linear, w), rests, *notes)
 
     def _linear(

@@ -590,7 +590,7 @@ def _at_speed(
 ) -> list[Row]:
     """Deflection, stiffness, damping, resistance and frequencies at a speed."""
     return [
-        *_outside(state),
+        *_outside(state, at),
         ("deflection", _micrometres(-at.displacement[1]), _at_passage(at)),
         *_small_vibrations(at, (("along the load", 1), ("across it", 0))),
         *_asperities(state),
@@ -607,7 +607,7 @@ def _at_angles(
     moments = " and ".join(numeral(round(one, DECIMALS)) for one in state.load[3:].tolist())
     turned = " and ".join(numeral(round(1e3 * one, DECIMALS)) for one in at.displacement[3:].tolist())
     return [
-        *_outside(state),
+        *_outside(state, at),
         ("deflection", f"{down} down", _at_passage(at)),
         ("axial", along, f"displacement of the {'inner ring' if job.pair is None else 'shaft'} in +z"),
         ("tilts", f"{turned} mrad", f"moments {moments} N m, about x and y"),
@@ -653,10 +653,11 @@ def _largest_spin(state: BearingState | SetState) -> float:
     return max(one.largest_spin or 0.0 for one in bearings_of(state).values())
 
 
-def _outside(state: BearingState | SetState) -> list[Row]:
-    """Assumptions that do not hold."""
+def _outside(state: BearingState | SetState, at: BearingCoefficients) -> list[Row]:
+    """Assumptions that do not hold, loads and frequencies beyond the atlas."""
     outside = state.outside_assumptions.removeprefix("Outside what is assumed: ")
-    return [("NOT AS ASSUMED", "", outside)] if outside else []
+    rows = [("NOT AS ASSUMED", "", outside), ("BEYOND THE ATLAS", "", at.beyond_data)]
+    return [row for row in rows if row[-1]]
 
 
 def _small_vibrations(at: BearingCoefficients, directions: tuple[tuple[str, int], ...]) -> list[Row]:

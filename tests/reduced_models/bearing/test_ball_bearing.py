@@ -9,7 +9,7 @@ from refusals import refused
 
 from ehlcontact import Lubricant, read, save
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingMotion
+from reduced_models import BallBearing, BearingMotion, BearingSet
 from reduced_models.bearing.catalogue import ROWS
 from reduced_models.bearing.equilibrium_result import BearingState
 
@@ -194,3 +194,22 @@ def test_pictures(tmp_path, film, dry, ending):
 def test_a_load_beyond_any_bearing_says_what_a_ball_carries(load):
     with pytest.raises(InputError, match=r"a ball carries at most .* in the mean of all balls"):
         BallBearing.catalogue("6205").equilibrium(load, speed_rpm=3000.0)
+
+
+def test_loads_and_frequencies_beyond_the_atlas_are_named():
+    """A 6205 with clearance that carries nothing: its balls are where the atlas has no films, 0.13 N each."""
+    floating = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0), clearance="CN")
+    light = floating.coefficients((0.0, 0.0), speed_rpm=3000.0, hz=50.0)
+    words = "no ball carries more than 0.134 N on the inner race, the atlas begins at 0.163 N"
+    assert light.reservation == words and words in str(light)
+    assert floating.equilibrium((0.0, 0.0), speed_rpm=3000.0).reservation == words
+    loaded = [floating.coefficients((0.0, -1000.0), speed_rpm=3000.0, hz=hz) for hz in (1e4, [50.0, 1e6], 1e12)]
+    assert [bool(found.reservation) for found in loaded] == [False, True, True]
+    assert "the atlas ends at 1.96e+05 Hz" in loaded[1].reservation
+    assert floating.dry.coefficients((0.0, -1000.0), hz=1e12).reservation == ""
+    angular = BallBearing.catalogue("7205", oil=floating.oil)
+    pair = BearingSet.pair(angular, "back to back", preload=300.0, distance=0.05)
+    found = pair.coefficients((0.0, -500.0), speed_rpm=3000.0, hz=1e7)
+    assert (
+        found.reservation.startswith("bearing 0: the atlas ends at ") and "; bearing 1: the" in found.reservation
+    )
