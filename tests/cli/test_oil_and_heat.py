@@ -37,6 +37,7 @@ def coarse(monkeypatch):
     monkeypatch.setattr(module, "impedance", partial(impedance, grid=Grid(48)))
 
 
+@pytest.mark.long
 def test_table_json_and_csv_have_the_same_numbers(call, coarse, tmp_path):
     files = ("--json", tmp_path / "b.json", "--csv", tmp_path / "b.csv")
     result = call(*AT, *OIL, "--rq", "0.1", "--thermal", "--layer-ratio", "0.8", "--solve", *files)

@@ -46,7 +46,8 @@ def seen(page, tmp_path):
         inside = html.escape(page.read_text(encoding="utf-8").replace("</body>", f"{tell}</body>"))
         style = f'style="border: 0; width: {width}px; height: 3000px"'
         file = tmp_path / "framed.html"
-        file.write_text(f'<pre id="told"></pre><iframe {style} srcdoc="{inside}"></iframe>', encoding="utf-8")
+        frame = f'<meta charset="utf-8"><pre id="told"></pre><iframe {style} srcdoc="{inside}"></iframe>'
+        file.write_text(frame, encoding="utf-8")
         scheme = f"--blink-settings=preferredColorScheme={0 if dark else 1}"
         out, said = dom(file, flags=(*WAIT, scheme))
         assert "CONSOLE" not in said, said[-2000:]

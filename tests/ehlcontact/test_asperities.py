@@ -152,6 +152,7 @@ def test_the_share_without_a_solve(mixed):
 HEATED = [(3000.0, 480.0), (3000.0, 100.0), (10_000.0, 480.0), (500.0, 200.0), (6000.0, 1000.0)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("speed", "load"), HEATED)
 def test_asperities_beside_a_film_that_heats_up(speed, load):
     """Smooth surfaces, and an oil that heat hardly changes: each alone. Energy and load are closed."""

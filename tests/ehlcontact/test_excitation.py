@@ -67,6 +67,7 @@ def test_equals_dense_matrices_and_differences_of_the_operator(steady, speed):
     assert np.abs(G - expected).max() < 1e-5 and (residual < 1e-5).all()
 
 
+@pytest.mark.long
 def test_waves_of_a_thick_elliptic_film():
     """Force over height times |Z|: values of an independent program, .008 and .029 where the halves cancel."""
     result = excitation(POINT, wavelength=[16.0, 8.0, 4.0, 2.0], grid=Grid(n=96))
@@ -88,6 +89,7 @@ def test_what_is_left_of_waves_as_long_as_the_contact_stands_on_finer_grids():
     assert 0.02 < finest.contact_filter[3] < 0.04
 
 
+@pytest.mark.long
 def test_errors_hold_against_a_finer_grid():
     coarse, fine = (excitation(POINT, Omega=[0.05, 0.5, 2.0, 5.0], grid=Grid(n=n)) for n in (48, 96))
     assert (np.abs(coarse.value - fine.value) <= coarse.error_bars["amplitude"]).all()
@@ -102,6 +104,7 @@ def test_long_waves_are_an_approach():
     assert result.contact_filter == pytest.approx([1.0, 1.0], abs=1e-3)
 
 
+@pytest.mark.long
 def test_dry_limit():
     """Thin films: the mean of the waves weighted by 1/sqrt(1 - r^2), whatever the ellipse."""
     k = np.array([0.5, 1.0, 2.0, 4.0])
@@ -126,6 +129,7 @@ def force_in_time(point, n, waves, amplitude, dT):
     return 2.0 / turns.shape[1] * turns @ run.force[last] / amplitude
 
 
+@pytest.mark.long
 def test_agrees_with_a_run_in_time():
     waves = [8.0, 4.0, 2.0]
     G = excitation(POINT, wavelength=waves, grid=Grid(n=32)).value

@@ -210,6 +210,7 @@ def test_without_a_slope_it_is_the_isothermal_one():
     np.testing.assert_allclose(still.damping, cold.damping, rtol=1e-4)
 
 
+@pytest.mark.long
 def test_kept_and_said(tmp_path):
     """Film, K and C with heat: its damping falls by more than the film that stands still would have it."""
     found = impedance(POINT, Omega=[0.0, 1.0, 10.0], grid=Grid(64), thermal=Heat())

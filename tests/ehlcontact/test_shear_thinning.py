@@ -140,6 +140,7 @@ def test_film_falls_with_sliding():
 STARVED = [(60.0, 6.0), (40.0, 8.0), (200.0, 2.0), (100.0, 1.0), (200.0, 6.0)]  # N, m/s
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("load", "speed"), STARVED)
 def test_starved_films_are_thinned(load, speed):
     """Much oil, little sliding, thin layers: the flooded film, the Newtonian one, the layer; no oil is lost."""

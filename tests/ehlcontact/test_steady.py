@@ -316,6 +316,7 @@ def test_a_limit_of_cycles_ends_the_solve(monkeypatch, given):
     assert caught.value.result.cycles == 1 and len(runs) == 1
 
 
+@pytest.mark.long
 def test_a_budget_ends_the_attempts_with_the_best_film(monkeypatch):
     """Time of one core that the grids let expect, the same on any machine; a given grid is solved in any case."""
     runs, run = [], steady_module._Film.run

@@ -310,6 +310,7 @@ def test_simulation_under_a_supply(tmp_path):
         simulate(CIRCLE, SHAKEN, **resumed | {"supply": OilLayer(H=0.4)})
 
 
+@pytest.mark.long
 def test_much_oil_moves_as_a_flooded_inlet():
     """But for the outlet: a flooded film takes the gap behind it for full where it takes in or gives off oil."""
     given = {"grid": SMALL, "time": TimeSteps(until=2.0, dt=0.05, tol=1e-7)}

@@ -9,6 +9,7 @@ from ehlcontact import MoesPoint
 PNG = b"\x89PNG"
 
 
+@pytest.mark.long
 def test_bearing_with_a_spall(tmp_path, monkeypatch, capsys):
     """The bare step has several times the force above 5 kHz; the ball loses load at the edge of the spall."""
     study = script("examples/studies/spalled_bearing.py")

@@ -271,6 +271,7 @@ def tight(monkeypatch):
     monkeypatch.setattr(d, "LIGHT_SIDES_GROWTH", 0.8)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("tight")
 def test_every_solve_widens_its_region_alike():
     """The film at rest decides; of what is left open, all solvers take the same."""

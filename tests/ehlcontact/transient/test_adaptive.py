@@ -152,6 +152,7 @@ def test_controlled_motion_with_inertia_obeys_its_equation():
     np.testing.assert_allclose(np.diff(record.approach), moved, atol=1e-12)
 
 
+@pytest.mark.long
 def test_load_that_rises_forty_fold():
     """From 5 % to twice the static load: the domain is widened beforehand."""
     record = simulate(POINT, several_fold(0.05, 2.0), grid=Grid(n=64), time=TimeSteps(local_error=1e-3))

@@ -72,6 +72,7 @@ def stop_after(T_stop):
     return callback
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", RUNS)
 def test_restart_equals_the_uninterrupted_run(name, tmp_path):
     motion, settings = RUNS[name]

@@ -82,6 +82,7 @@ def test_steps_are_of_second_order():
     assert max(run.heat_balance.max() for run in runs) < 1e-9
 
 
+@pytest.mark.long
 def test_film_after_a_load_step_is_the_steady_one():
     """Under half more load, in steps longer than the film takes through the contact at last."""
     grid = Grid(48, Domain(-6.0, 2.0, 3.5))

@@ -83,6 +83,7 @@ def test_energy_balance(free):
     assert np.abs(balance).max() < 1e-5 * abs(kinetic[0] - kinetic.min())
 
 
+@pytest.mark.long
 def test_free_vibration_dissipates_in_every_cycle():
     """Loops closed at equal approach (upward passages of the static one, after the first transit)."""
     record = simulate(POINT, FreeVibration(Omega_n=OMEGA_N), grid=Grid(n=N), time=TimeSteps(until=6.0, tol=1e-6))

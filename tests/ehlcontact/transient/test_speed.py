@@ -65,6 +65,7 @@ def test_settled_at_another_speed_it_is_that_steady_film(end):
     assert run.approach[-1] == pytest.approx(steady.approach, abs=2e-5)
 
 
+@pytest.mark.long
 def test_slow_changes_are_steady_films_to_first_order():
     off = []
     for length in (20.0, 40.0, 80.0):

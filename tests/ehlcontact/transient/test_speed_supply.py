@@ -73,6 +73,7 @@ def test_a_constant_speed_is_none():
         np.testing.assert_array_equal(getattr(same, name), getattr(plain, name))
 
 
+@pytest.mark.long
 def test_no_oil_is_lost_while_the_speed_changes():
     """Within 1e-8 of the flow in every step; settled, the film is the steady one of the new speed."""
     U = np.r_[1.0, np.linspace(1.0, 0.5, 11), np.full(160, 0.5)]

@@ -477,6 +477,7 @@ def test_a_body_in_model_exchange_is_the_run_of_a_rotor(made, name, solve, until
     assert errors[2] < within
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["range", "five"])
 def test_fmpy_runs_model_exchange(made, name):
     """The ring stands still while balls go round, beside steps of co-simulation."""

@@ -378,6 +378,7 @@ def test_bad_models():
         assert error.value.field == field
 
 
+@pytest.mark.long
 def test_a_set_is_its_rigid_shaft(tmp_path):
     """A preloaded pair whose shaft starts beside its equilibrium, beside `simulate_rotor` of its rotor."""
     pair = BearingSet.pair(BallBearing.catalogue("7205", oil=OIL), "back to back", preload=300.0)

@@ -124,6 +124,7 @@ def test_places_count_from_any_origin(make):
     assert found == pytest.approx(expected, rel=1e-7, abs=1e-9 * np.abs(expected).max())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", [planar, angular])
 def test_steps_converge_to_it_with_second_order(kind):
     """Forces along a vibration of the ring by scipy's Radau, and by steps of three lengths."""

@@ -229,6 +229,7 @@ def test_waves_of_all_balls_excite_along_the_shaft():
     assert np.abs(found[:, :2]).max() < 0.01 * lines.amplitude[0, 2]
 
 
+@pytest.mark.long
 def test_a_defect_of_a_ball_meets_both_races_once_in_a_turn_of_the_ball():
     """Least forces of the ball at its angle on the inner race, and half a turn later on the outer one."""
     angle, steps = 1.0, 20_000
@@ -246,6 +247,7 @@ def test_a_defect_of_a_ball_meets_both_races_once_in_a_turn_of_the_ball():
     assert np.abs(np.delete(balls - smooth, 2, axis=1)).max() < 1e-6
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("freedoms", [2, 5])
 def test_steps_from_python_are_those_of_the_loop(freedoms):
     """Tried, then accepted one by one: the same bits."""
@@ -298,6 +300,7 @@ def test_a_mass_on_a_spall_feels_both_edges():
 LOST = BallBearing.catalogue("6205", clearance="C3", oil=Lubricant.iso_vg(68, temperature=40.0))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("load", "length", "depth", "until"),
     [

@@ -47,6 +47,7 @@ def test_waves_have_the_filter_of_their_film(track, length):
             assert found == pytest.approx((ratio * np.exp(1j * n * angle)).real, abs=0.01)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("race", ["inner", "outer"])
 def test_films_keep_the_volume_of_a_spall_and_round_its_edges(race):
     bearing = replace(OILED, features=[replace(PIT, race=race)])
@@ -72,6 +73,7 @@ def test_balls_of_another_diameter_have_no_filter():
     np.testing.assert_array_equal(heights_in_runs(bearing, [RPM]), bearing.tables.heights)
 
 
+@pytest.mark.long
 def test_films_of_a_changing_speed():
     """One speed for all, whose central film is the mean of those at both ends within 2 %."""
     ends, race = (600.0, 6000.0), OILED.race("outer")

@@ -170,6 +170,7 @@ def run_up(oil):
     return simulate_rotor(rotor, speed_rpm=SpeedProfile.ramp(3000.0, 9000.0, 0.4), dt=2e-5, until=0.4)
 
 
+@pytest.mark.long
 def test_a_run_up_through_a_critical_speed_is_what_it_was(oil):
     run = run_up(oil)
     far = np.hypot(*run.disc.T)

@@ -145,6 +145,7 @@ def test_solved_contacts_correct_the_tables_of_preloaded_bearings(monkeypatch, m
     np.testing.assert_allclose(share, np.broadcast_to(share[:, :1], share.shape), rtol=1e-6)
 
 
+@pytest.mark.long
 def test_a_layer_as_thick_as_any_is_flooded_with_heat_too():
     found = oil_and_heat(BEARING, LOAD, speed_rpm=SPEED, supply=OilLayer(over_flooded=1e6), thermal=Heat())
     one, other = found.conditions[BOTH], found.conditions[HEAT]
@@ -229,6 +230,7 @@ def test_limits_of_much_oil_and_of_an_oil_that_heat_does_not_change(coarse):
     assert list(cold.conditions) == [FLOODED, HEAT]
 
 
+@pytest.mark.long
 def test_a_layer_without_a_film_is_refused_and_the_rest_is_there(coarse):
     find, _ = coarse
     found = find(supply=OilLayer(1e-10))

@@ -179,6 +179,7 @@ def test_layers_that_no_feed_keeps(given, words):
         FedLayer(**given)
 
 
+@pytest.mark.long
 def test_passages_of_unloaded_contacts_change_nothing(at_r):
     one = feedback_of(at_r[1.0])
     light = one.passages[0] == 1.0
@@ -186,6 +187,7 @@ def test_passages_of_unloaded_contacts_change_nothing(at_r):
     assert (one.passages[0][~light] < 1.0).all() and len(Passage._fields) == 7
 
 
+@pytest.mark.long
 def test_mean_delay_is_that_of_the_oil_balance(at_r):
     """Of its rate of passes: tracks of length l are passed by both contacts of all balls at half of u_sum."""
     u_sum = FLOODED.race("inner").speed_sum * RPM * np.pi / 30.0

@@ -131,6 +131,7 @@ def test_spin_of_an_axial_load(bearing):
     assert found.by_contact[:, 0] == pytest.approx(found.by_contact[0, 0], rel=1e-3)
 
 
+@pytest.mark.long
 def test_cage_slip(bearing):
     """Without drag the cage is a little faster the heavier the load; drag slows it down, less under more load."""
     free = [cage_slip(bearing, (0.0, -load), speed_rpm=1500.0, law=LAW) for load in (100.0, 500.0)]

@@ -48,6 +48,7 @@ def test_films_are_those_of_the_atlas_at_every_ball(at_r):
             assert state.h_min[ball, column] == pytest.approx(answer.h_min, rel=1e-12)
 
 
+@pytest.mark.long
 def test_the_less_oil_the_thinner_the_film_and_the_less_the_damping(at_r):
     supplies = {**at_r, 1e4: bearing(OilLayer(over_flooded=1e4)), np.inf: bearing()}
     films, damping = [], []

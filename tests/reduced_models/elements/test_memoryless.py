@@ -211,6 +211,7 @@ def test_exact_record_gives_its_law_back(swing):
     assert result.rms < 1e-6 and result.root == pytest.approx(result.element.approach_at(1.0))
 
 
+@pytest.mark.long
 def test_jacobian_covariance_is_the_scatter_over_many_records(swing):
     def exponent(seed):
         noise = 3e-3 * np.random.default_rng(seed).standard_normal(len(swing))

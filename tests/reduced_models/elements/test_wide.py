@@ -214,6 +214,7 @@ def test_bad_tables_are_named(changes, message):
         FilmContact.wide(**(TABLES | changes))
 
 
+@pytest.mark.long
 def test_from_solves_meets_loads_it_was_not_made_of():
     point = MoesPoint(200, 10, 0.5)
     loads, unused = (0.05, 0.1, 0.25, 0.6, 1.0, 2.0), (0.16, 0.4, 1.5)

@@ -124,6 +124,7 @@ def dry_pair(offset=4e-6, **others):
     return rigid(LIGHT, LIGHT, offset=offset, **gyroscopic)
 
 
+@pytest.mark.long
 def test_energy_of_a_dry_rotor_is_kept():
     rotor = dry_pair(load=np.zeros(5))
     start = np.array([1e-6, 0.0, 2e-6, 1e-5, 0.0]), np.array([3e-3, 4e-3, 5e-3, 0.02, 0.03])

@@ -196,6 +196,7 @@ def test_films_that_no_run_can_have(smooth, known):
         simulate_full_films(block(smooth), [film], processes=0, **options)
 
 
+@pytest.mark.long
 def test_waves_that_the_grid_does_not_show_are_refused(smooth):
     """Four nodes of the grid to a wave, as of a rough surface in `simulate`."""
     film = FullFilm(ball=8, race="outer", between=(0.0, 1e-3), grid=Grid(n=48))

@@ -125,6 +125,7 @@ def test_tables_of_an_unbalance_response_have_names_and_units(dry, block):
         assert table.attrs["result"] == "UnbalanceResponse"
 
 
+@pytest.mark.long
 def test_unbalance_peaks_at_the_critical_speed(dry, block):
     """A block that its bearing lets swing at about 100 Hz."""
     rotor = block(dry, mass=200.0, damping=1e3 * np.eye(2))

@@ -85,6 +85,7 @@ def test_all_modes_of_a_dry_rotor_are_those_of_its_matrices(dry, beam):
     assert whirling[0] < -0.5 < 0.5 < whirling[1]
 
 
+@pytest.mark.long
 def test_free_decay_in_time_is_that_of_the_first_mode(film, beam):
     """Balls standing still, so that nothing is averaged: the run decays as the eigenvalue says."""
     rotor = beam(replace(film, density=1e-6), gyroscopic=None)

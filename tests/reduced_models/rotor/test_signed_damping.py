@@ -47,6 +47,7 @@ def starved():
     return linearise(rotor_on(OilLayer(over_flooded=1.0)), RPM, signed_damping=True)
 
 
+@pytest.mark.long
 def test_modes_are_those_of_a_hand_made_eigenproblem(starved):
     """K there is that of elements, here of solved contacts: within what tables differ, 0.5 %."""
     modes = starved.modes()

@@ -56,6 +56,7 @@ def test_lines_are_where_the_label_says(files):
     assert set(healthy.columns) >= REQUIRED and healthy.signal.size == healthy.columns["n_samples"] == 6000
 
 
+@pytest.mark.long
 def test_made_once_and_again_the_same(files):
     """A second call makes what is missing or damaged only; a record depends on its case alone."""
     folder, cases, made, seen = files
