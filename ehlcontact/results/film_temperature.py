@@ -26,7 +26,8 @@ class FilmTemperature:
     surfaces : ndarray, shape (2, nx + 1, ny + 1)
         Of both surfaces, the faster one first.
     film_share : float
-        Central film over that without heat, and between smooth surfaces, on the same grid.
+        Central film over that without heat, without thinning by sliding and between smooth surfaces, on the same
+        grid.
     thermal_load : float
         Q = -d eta0/dT u_mean^2/k.
     balance : float
@@ -45,11 +46,10 @@ class FilmTemperature:
         """Largest mean temperature [K]."""
         return float(self.mean.max())
 
-    @property
-    def summary(self) -> str:
-        """Loss of film by heat, and the warmest oil, in words."""
+    def summary(self, causes: str = "heat makes") -> str:
+        """Loss of film by heat, or by `causes` with it, and the warmest oil, in words."""
         loss = 100.0 * (1.0 - self.film_share)
-        return f"heat makes the film {loss:.3g} % thinner in the centre; the oil warms by {self.largest:.3g} K"
+        return f"{causes} the film {loss:.3g} % thinner in the centre; the oil warms by {self.largest:.3g} K"
 
     def to_dict(self) -> dict[str, Any]:
         """Numbers without the fields, ready for JSON."""

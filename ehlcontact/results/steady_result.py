@@ -102,7 +102,8 @@ class SteadyResult(PointTable, Origin):
     sliding : ShearThinning or None
         As given to `solve_steady`; None of a Newtonian film.
     thinned_share : float or None
-        Central film over the Newtonian one, on the same grid, where sliding thins the oil.
+        Central film over the Newtonian one, on the same grid, where sliding thins the oil. With heat it is over
+        the isothermal Newtonian film, as `temperature.film_share`: what both do together.
     temperature : FilmTemperature or None
         Of a film that was solved with heat: temperatures [K], and the film over the isothermal one.
     asperities : AsperityContact or None
@@ -276,7 +277,7 @@ class SteadyResult(PointTable, Origin):
             f"approach {size * self.approach:.5g} {unit}; largest pressure {largest:.4g} of the Hertz pressure",
             f"film {central:.4g}{bars[0]} in the centre, {least:.4g}{bars[1]} at least, {unit}",
             *([] if self.layer is None else [self._supply_line(size, unit)]),
-            *([] if self.temperature is None else [self.temperature.summary]),
+            *([] if self.temperature is None else [self._heat_line(self.temperature)]),
             *([] if self.asperities is None else [self.asperities.summary]),
             *([] if self.sliding is None else [self._sliding_line(self.sliding)]),
             *filter(None, [self.reservation]),
@@ -299,8 +300,14 @@ class SteadyResult(PointTable, Origin):
         layers = sorted({f"{size * h:.4g}" for h in (self.layer.min(), self.layer.max())})
         return f"layer of oil {' to '.join(layers)} {unit}; the film is full from x/a = {front:.3g} on"
 
+    def _heat_line(self, temperature: FilmTemperature) -> str:
+        """Loss of film by heat, and by sliding where it thins the oil too, in words."""
+        return temperature.summary("heat makes" if self.sliding is None else "heat and sliding make")
+
     def _sliding_line(self, sliding: ShearThinning) -> str:
-        """Shear thinning by sliding, in words."""
+        """Shear thinning by sliding, in words; with heat its share is that of both, in the line of the heat."""
+        if self.temperature is not None:
+            return f"slide-to-roll ratio {sliding.slide_roll:g}"
         assert self.thinned_share is not None
         share = 100.0 * self.thinned_share
         return f"slide-to-roll ratio {sliding.slide_roll:g}: central film {share:.4g} % of the Newtonian one"

@@ -53,6 +53,8 @@ def test_stiffness_at_rest_is_that_of_neighbours(name):
     given = CONDITIONS[name]
     film = solve_steady(BALL, grid=Grid(64), tol=1e-8, **given)
     contact, scales = linearised(film, held(film)), BALL.scales
+    told = {"heated": "heat makes the film", "heated and thinned": "heat and sliding make the film"}
+    assert told.get(name, "") in repr(film)
     Z, residual = contact.respond(np.array([1e-4]), 1e-6)
     if film.layer is not None:
         given = given | {"supply": OilLayer(float(film.layer[0]))}
