@@ -27,11 +27,11 @@ _Floats = NDArray[np.float64]
 
 DEGREE = 16  # of the polynomials at most; surfaces that press each other need 4 to 13
 POINTS = 4  # of every cubic, to which they are fitted
-NEGLIGIBLE, NEGLIGIBLE_IN_GAPS = 1e-13, 5e-11  # of g: last term of a polynomial; the cubics are 2e-10 off in gaps
+NEGLIGIBLE, NEGLIGIBLE_IN_GAPS = 2e-14, 5e-11  # of g: last term of a polynomial; the cubics are 2e-10 off in gaps
 MISFIT = 1e-9  # of g: what a polynomial may leave before its interval is halved
 HALVINGS = 7  # down to one cubic
 # Rounding for small files: a digit is in the binaries of five platforms and in the source. Rates keep 12 digits.
-CURVE_UNIT, CURVE_UNIT_IN_GAPS = 2.0**-46, 2.0**-36  # of g, for the coefficients
+CURVE_UNIT, CURVE_UNIT_IN_GAPS = 2.0**-48, 2.0**-36  # of g, for the coefficients
 DIRECT_UNIT, CHAIN_UNIT = 2.0**-45, 2.0**-42  # of a gain itself; of the largest gain of a chain at its node
 FILM_NODES = 48  # loads of the films, even in their logarithm
 FILM_UNIT = 2.0**-24  # of the logarithms of films: far below what lies between two loads

@@ -260,7 +260,7 @@ def test_a_layer_of_oil(call, refused):
     assert 0.45 < starved["h_central"] / flooded["h_central"] < 0.5
     assert starved["supply"] == {"over_flooded": 0.5}
     shown = call("steady", *options(), *COARSE, "--layer", "0.2").out
-    assert re.search(r"layer of oil +0\.2 µm +full from X = -1", shown)
+    assert re.search(r"layer of oil +0\.2 µm +full from x/a = -1", shown)
     full, short = (
         json.loads(call("impedance", *point, *given, "--Omega", "1", "--json", "-").out)["damping"][0]
         for given in ((), ("--layer-ratio", "0.5"))

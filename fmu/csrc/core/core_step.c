@@ -257,7 +257,7 @@ static void compare_rates(State *s, double time, double h)
     }
     for (k = 0; k < N_INPUTS; k++) {
         const double travelled = s->travelled[k];
-        if (travelled > BLOCK * still * still && travelled >= small * small * s->most_travelled) {
+        if (travelled > (double)BLOCK * still * still && travelled >= small * small * s->most_travelled) {
             s->unlike[k] = s->apart[k] > most * travelled ? s->unlike[k] + 1.0 : 0.0;
         }
         s->apart[k] = s->travelled[k] = 0.0;
@@ -385,7 +385,7 @@ const char *core_step_warning(State *s)
     enum { LONG_BLOCKS = 3, UNLIKE_BLOCKS = 2 };
     int k;
     for (k = 0; k < N_INPUTS && !s->told_unlike; k++) {
-        if (s->unlike[k] >= UNLIKE_BLOCKS) {
+        if (s->unlike[k] >= (double)UNLIKE_BLOCKS) {
             s->told_unlike = 1;
             return unlike_rate[k];
         }

@@ -123,8 +123,7 @@ def test_solved_contacts_correct_the_tables_of_preloaded_bearings(monkeypatch, m
         scaled = {name: factor * getattr(one, name) for name, factor in off.items() if name != "stiffness"}
         K, C = Z.stiffness * off.get("stiffness", 1.0), Z.damping * off.get("stiffness", 1.0)
         films = {name: getattr(one, name) for name in ("h_central", "h_min", "moment")}
-        film = SimpleNamespace(film=SimpleNamespace(**films | scaled))
-        return SimpleNamespace(stiffness=K, damping=C, dimensionless=film)
+        return SimpleNamespace(stiffness=K, damping=C, film=SimpleNamespace(**films | scaled))
 
     monkeypatch.setattr(module, "impedance", answered)
     given = {"speed_rpm": speed, "supply": OilLayer(over_flooded=0.6), "thermal": Heat()}
@@ -195,7 +194,7 @@ def test_conditions_are_solved_ratios_times_flooded_values(coarse, without_table
             solve(point, hz=[HIGH], supply=one, thermal=heat) for point, one in zip(points, layers, strict=True)
         ]
         ball = 1.0 / sum(1.0 / (a.stiffness[0] + 1j * a.damping[0] * tau * HIGH) for a in answers)
-        return np.array([a.h_central for a in answers]), ball.real, ball.imag
+        return np.array([a.film.h_central for a in answers]), ball.real, ball.imag
 
     cold, warm, starved = contacts([None] * 2), contacts([None] * 2, Heat()), contacts([supply] * 2)
     share = warm[0] / cold[0]
