@@ -46,8 +46,9 @@ class FilmTemperature:
         """Largest mean temperature [K]."""
         return float(self.mean.max())
 
-    def summary(self, causes: str = "heat makes") -> str:
-        """Loss of film by heat, or by `causes` with it, and the warmest oil, in words."""
+    def summary(self, sliding: bool) -> str:
+        """Loss of film by heat, together with sliding that thins the oil too, and the warmest oil, in words."""
+        causes = "heat and sliding make" if sliding else "heat makes"
         loss = 100.0 * (1.0 - self.film_share)
         return f"{causes} the film {loss:.3g} % thinner in the centre; the oil warms by {self.largest:.3g} K"
 

@@ -339,8 +339,10 @@ class Response(PointTable):
         return f"{span(self.hz)} Hz" if self._in_si() else f"omega {span(self.omega)}"
 
     def _heat(self) -> str:
-        heated = None if self.film is None else self.film.temperature
-        return "" if heated is None else heated.summary
+        film = self.film
+        return (
+            "" if film is None or film.temperature is None else film.temperature.summary(film.sliding is not None)
+        )
 
     def _numbers(self) -> str:
         """Ranges of the quantities, with their errors."""

@@ -277,7 +277,7 @@ class SteadyResult(PointTable, Origin):
             f"approach {size * self.approach:.5g} {unit}; largest pressure {largest:.4g} of the Hertz pressure",
             f"film {central:.4g}{bars[0]} in the centre, {least:.4g}{bars[1]} at least, {unit}",
             *([] if self.layer is None else [self._supply_line(size, unit)]),
-            *([] if self.temperature is None else [self._heat_line(self.temperature)]),
+            *([] if self.temperature is None else [self.temperature.summary(self.sliding is not None)]),
             *([] if self.asperities is None else [self.asperities.summary]),
             *([] if self.sliding is None else [self._sliding_line(self.sliding)]),
             *filter(None, [self.reservation]),
@@ -299,10 +299,6 @@ class SteadyResult(PointTable, Origin):
         front = self.front / self.point.scales.a
         layers = sorted({f"{size * h:.4g}" for h in (self.layer.min(), self.layer.max())})
         return f"layer of oil {' to '.join(layers)} {unit}; the film is full from x/a = {front:.3g} on"
-
-    def _heat_line(self, temperature: FilmTemperature) -> str:
-        """Loss of film by heat, and by sliding where it thins the oil too, in words."""
-        return temperature.summary("heat makes" if self.sliding is None else "heat and sliding make")
 
     def _sliding_line(self, sliding: ShearThinning) -> str:
         """Shear thinning by sliding, in words; with heat its share is that of both, in the line of the heat."""

@@ -275,7 +275,7 @@ def test_a_layer_of_oil(call, refused):
     assert starved["supply"] == {"over_flooded": 0.5}
     assert max(starved["h_central"]) < 0.6 * min(flooded["h_central"])
     shown = call("simulate", *point, *moved, "--layer-ratio", "0.5").out
-    assert re.search(r"layer of oil +0\.2\d+ dry approaches +0\.\d+ to 0\.\d+ dry approaches leave", shown)
+    assert re.search(r"layer of oil +0\.2\d+ of the dry approach +0\.\d+ to 0\.\d+ of the dry", shown)
     refused(("--layer = 1.0", "--layer-ratio instead"), "steady", *point, "--layer", "1")
     refused(("--layer = 2e-07", "in m? then 0.2 um"), "steady", *options(), "--layer", "2e-7")
     refused(
