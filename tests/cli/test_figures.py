@@ -190,6 +190,7 @@ def test_figures_of_the_paper(reproduction, number):
     assert ("The surfaces move" in " ".join(said)) == (number in (4, 7, 12))  # fringes
 
 
+@pytest.mark.long
 def test_the_papers_elements_are_drawn_as_printed(reproduction):
     """Fig. 19, left: K1 u + K2 u^2 + K3 u^3 + C1 u' of Table 6 along our motion."""
     (figure,) = (figure for figure in reproduction.figures if figure.number == 19)

@@ -428,6 +428,7 @@ def test_layers_over_y():
         _ = flooded.supply_behind
 
 
+@pytest.mark.long
 def test_layer_in_metres_and_over_the_flooded_film(tmp_path):
     point = OperatingPoint.ball_on_flat(
         Lubricant(eta0=0.04, alpha=2.2e-8), ball_diameter=0.02, entrainment_speed=1.0, load=20.0

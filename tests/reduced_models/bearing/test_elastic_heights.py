@@ -40,6 +40,7 @@ def pit(depth, place=0.0, length=2.5, edge=0.6):
     return lambda X: -depth * np.clip((0.5 * length - np.abs(X - place)) / edge, 0.0, 1.0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("depth", [0.3, 0.8, 3.0])
 def test_force_over_a_pit_is_that_of_the_slow_twin(depth):
     """Forces within 0.02 of the smooth one's, beside, over the edge and in the middle of a pit."""

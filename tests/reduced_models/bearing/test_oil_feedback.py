@@ -135,6 +135,7 @@ def test_one_store_has_the_damping_of_the_contact(at_r):
     assert 0.0 < phi < 1.0 and np.abs(C - store - phi * film).max() < 0.1 * np.abs(C).max()
 
 
+@pytest.mark.long
 def test_coefficients_say_that_the_feed_is_held(at_r):
     bearing, hz = at_r[1.0], [10.0, 50.0, 500.0]
     found = bearing.coefficients(LOAD, speed_rpm=RPM, cage_angle=DOWN, hz=hz)

@@ -45,6 +45,7 @@ def test_signed_damping_at_contact_angles():
         STARVED.coefficients(load, speed_rpm=RPM, omega=1e9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("given", [{"supply": SUPPLY}, {"thermal": True}])
 def test_a_pair_is_both_of_its_bearings(given):
     """Tandem: twice a single one under half the load. Back to back: the sum of both under their axial forces."""

@@ -201,6 +201,7 @@ def starved_rotor(axial):
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("axial", [False, True])
 def test_damping_below_zero_that_elements_leave_out_is_said_once(axial):
     """Numbers are those of the heaviest contact; the solver's C changes its sign at the frequency named."""

@@ -44,6 +44,7 @@ def files(tmp_path_factory):
     return folder, cases, made, seen
 
 
+@pytest.mark.long
 def test_lines_are_where_the_label_says(files):
     healthy, outer, inner = (read(path, VibrationRecord) for path in files[2])
     for record, name in ((outer, "bpfo"), (inner, "bpfi")):
