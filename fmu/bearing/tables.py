@@ -31,7 +31,7 @@ NEGLIGIBLE, NEGLIGIBLE_IN_GAPS = 2e-14, 5e-11  # of g: last term of a polynomial
 MISFIT = 1e-9  # of g: what a polynomial may leave before its interval is halved
 HALVINGS = 7  # down to one cubic
 # Rounding for small files: a digit is in the binaries of five platforms and in the source. Rates keep 12 digits.
-CURVE_UNIT, CURVE_UNIT_IN_GAPS = 2.0**-48, 2.0**-36  # of g, for the coefficients
+CURVE_UNIT, CURVE_UNIT_IN_GAPS = 2.0**-52, 2.0**-36  # of g, for the coefficients
 DIRECT_UNIT, CHAIN_UNIT = 2.0**-45, 2.0**-42  # of a gain itself; of the largest gain of a chain at its node
 FILM_NODES = 48  # loads of the films, even in their logarithm
 FILM_UNIT = 2.0**-24  # of the logarithms of films: far below what lies between two loads
