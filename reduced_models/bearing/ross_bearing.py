@@ -36,6 +36,7 @@ from reduced_models.elements.validity import OutsideValidityWarning
 
 _Floats = NDArray[np.float64]
 
+ROUNDING = 1e-12  # of the end of a table: a unit of speed that was converted
 ELEMENT = ("xx", "xy", "yx", "yy", "zz")  # places of an element
 
 # Whirl frequencies of tables [rad/s] unless others are given: 0, and 1 Hz to 10 kHz in 40 equal ratios. Between
@@ -94,7 +95,9 @@ class TableRange:
         known = next(place for place in places.values() if place is not None)  # one place: whirl and speed alike
         asked = {axis: known if places.get(axis) is None else places[axis] for axis in self._ends}
         inside = {axis: np.clip(place, *self._ends[axis]) for axis, place in asked.items()}
-        beyond = [axis for axis, place in inside.items() if np.any(place != asked[axis])]
+        beyond = [
+            axis for axis, place in inside.items() if not np.allclose(place, asked[axis], rtol=ROUNDING, atol=0.0)
+        ]
         if beyond and not self._warned:
             self._warned = True
             warnings.warn(f"{self._name}: {self._words(beyond[0])}", OutsideValidityWarning, stacklevel=4)
