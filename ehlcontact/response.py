@@ -237,7 +237,7 @@ def _change(to: str | Waves, time_unit: float | None, frequency: Frequency) -> t
     """Waves, where the response is to them, and Omega, shape (k,)."""
     if isinstance(to, Waves):
         return to, to.frequencies(time_unit, frequency)
-    if to not in (APPROACH, SPEED):
+    if not isinstance(to, str) or to not in (APPROACH, SPEED):
         raise InputError("to", shown(to), TO)
     return None, dimensionless(time_unit, **frequency, most=LARGEST_OMEGA)
 

@@ -16,7 +16,7 @@ VIEW = (-1.8, 1.5, 1.5)  # along rolling from, to; across to: in semi-axes
 MIDPLANE = 1.6  # semi-axes across, along which the film of one half is drawn
 LEVELS = (0.92, 1.08, 1.3, 1.8)  # of the central film, where lines are drawn; the last ends the colours
 DEEPEST = 5.0  # central films up to which a mid-plane shows the film
-FLATTEST = 0.3  # height over width of a map: a flatter one is stretched
+FLATTEST = 0.55  # height over width of a map: a flatter one is stretched
 TALL = 420.0  # px of a page that a map may be high
 MOVES = ("the surfaces move to the right", "the surfaces move upwards")
 
@@ -135,7 +135,7 @@ def contact_panels(
     """
     maps = [view.pressure(*p), view.film(*h, central)]
     if content is not None:
-        maps.append(view.map(content, "part of the gap filled with oil", "cividis", (0.0, 1.0)))
+        maps.append(view.map(content, "share", "cividis", (0.0, 1.0), title="share of the gap filled with oil"))
     i, j = (int(np.argmin(np.abs(place))) for place in (view.x, view.y))
     along = midplane(view, (p[0][:, j], p[1]), (h[0][:, j], h[1]), central, hertz)
     across = midplane(view, (p[0][i], p[1]), (h[0][i], h[1]), central, hertz, across=True)
