@@ -35,7 +35,6 @@ def test_papers_numbers_are_all_there():
     assert found[1, "1"].K2 is None and found[4, "4"].e_second is None
 
 
-@pytest.mark.long
 def test_table_3_and_its_figures(call, folder):
     arguments = ("reproduce", "--table", "3", "--figure", "10", "--figure", "18", "-o", folder, "--n", "64")
     result = call(*arguments, "--json", "-")
