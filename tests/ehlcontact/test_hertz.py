@@ -29,10 +29,10 @@ def test_circle():
     assert ellipse_ratio(0.02, 0.02) == pytest.approx(1.0, abs=1e-12)
     c = hertz_contact(30.0, 0.02, 0.02, 2e11)
     a = (1.5 * 30.0 * 0.02 / 2e11) ** (1.0 / 3.0)  # Johnson (4.22) with E* = E'/2, R = Rx
-    assert c.a == pytest.approx(a, rel=1e-12)
-    assert c.b == pytest.approx(a, rel=1e-12)
-    assert c.approach == pytest.approx(a**2 / 0.02, rel=1e-12)
-    assert c.pressure == pytest.approx(1.5 * 30.0 / (pi * a**2), rel=1e-12)
+    assert c.a == pytest.approx(a, rel=1e-12, abs=0.0)
+    assert c.b == pytest.approx(a, rel=1e-12, abs=0.0)
+    assert c.approach == pytest.approx(a**2 / 0.02, rel=1e-12, abs=0.0)
+    assert c.pressure == pytest.approx(1.5 * 30.0 / (pi * a**2), rel=1e-12, abs=0.0)
 
 
 @pytest.mark.parametrize("offset", [1e-4, 5.0e-4, 5.1e-4, 1e-3])
@@ -47,19 +47,19 @@ def test_series_at_the_circle_joins_the_formula(offset, sign):
 @pytest.mark.parametrize("kappa", [0.05, 0.3, 0.999, 2.5])
 def test_swapping_both_axes(kappa):
     assert shape_factor(kappa) + shape_factor(1.0 / kappa) == pytest.approx(1.0, abs=1e-9)
-    assert radius_ratio(kappa) * radius_ratio(1.0 / kappa) == pytest.approx(1.0, rel=1e-8)
+    assert radius_ratio(kappa) * radius_ratio(1.0 / kappa) == pytest.approx(1.0, rel=1e-8, abs=0.0)
     rx, ry = 0.01, 0.01 / radius_ratio(kappa)
     one, other = hertz_contact(100.0, rx, ry, 2e11), hertz_contact(100.0, ry, rx, 2e11)
-    assert (one.a, one.b) == pytest.approx((other.b, other.a), rel=1e-9)
-    assert (one.approach, one.pressure) == pytest.approx((other.approach, other.pressure), rel=1e-9)
-    assert one.kappa * other.kappa == pytest.approx(1.0, rel=1e-9)
+    assert (one.a, one.b) == pytest.approx((other.b, other.a), rel=1e-9, abs=0.0)
+    assert (one.approach, one.pressure) == pytest.approx((other.approach, other.pressure), rel=1e-9, abs=0.0)
+    assert one.kappa * other.kappa == pytest.approx(1.0, rel=1e-9, abs=0.0)
 
 
 @pytest.mark.parametrize("ratio", [0.03, 0.35, 0.8])
 def test_against_the_oracle(ratio):
     c = hertz_contact(500.0, 0.004, 0.004 / ratio, 2.26e11)
     a, b, p, approach = oracles.hertz_si(500.0, 0.004, 0.004 / ratio, 2.26e11)
-    assert (c.a, c.b, c.pressure, c.approach) == pytest.approx((a, b, p, approach), rel=1e-9)
+    assert (c.a, c.b, c.pressure, c.approach) == pytest.approx((a, b, p, approach), rel=1e-9, abs=0.0)
 
 
 @pytest.mark.literature

@@ -79,10 +79,10 @@ def test_scales(operating_point):
     p, s = operating_point, operating_point.scales
     a, b, pressure, approach = oracles.hertz_si(60.0, 0.004, 0.03, p.geometry.e_reduced)
     got = (s.a, s.b, s.pressure, s.length, s.force, s.time)
-    assert got == pytest.approx((a, b, pressure, approach, 60.0, 2.0 * a / 1.3), rel=1e-9)
-    assert s.stiffness == pytest.approx(60.0 / approach, rel=1e-9)
-    assert s.damping == pytest.approx(60.0 / approach * 2.0 * a / 1.3, rel=1e-9)
-    assert s.rate == pytest.approx(approach * 1.3 / (2.0 * a), rel=1e-9)
+    assert got == pytest.approx((a, b, pressure, approach, 60.0, 2.0 * a / 1.3), rel=1e-9, abs=0.0)
+    assert s.stiffness == pytest.approx(60.0 / approach, rel=1e-9, abs=0.0)
+    assert s.damping == pytest.approx(60.0 / approach * 2.0 * a / 1.3, rel=1e-9, abs=0.0)
+    assert s.rate == pytest.approx(approach * 1.3 / (2.0 * a), rel=1e-9, abs=0.0)
 
 
 def test_scaled_axis_and_pressure_agree_with_si(operating_point):
@@ -128,9 +128,9 @@ def test_swapped_axes_scale_alike():
     oil = Lubricant(0.08, 1.9e-8)
     one = OperatingPoint(Geometry(0.004, 0.03), oil, 60.0, 1.3)
     other = OperatingPoint(Geometry(0.03, 0.004), oil, 60.0, 1.3)
-    assert one.scales.a == pytest.approx(other.scales.b, rel=1e-9)
-    assert one.scales.pressure == pytest.approx(other.scales.pressure, rel=1e-9)
-    assert one.moes.kappa * other.moes.kappa == pytest.approx(1.0, rel=1e-9)
+    assert one.scales.a == pytest.approx(other.scales.b, rel=1e-9, abs=0.0)
+    assert one.scales.pressure == pytest.approx(other.scales.pressure, rel=1e-9, abs=0.0)
+    assert one.moes.kappa * other.moes.kappa == pytest.approx(1.0, rel=1e-9, abs=0.0)
     assert shape_factor(one.moes.kappa) == pytest.approx(1.0 - shape_factor(other.moes.kappa), abs=1e-9)
 
 
@@ -151,12 +151,12 @@ class TestBallBearing:
         point = OperatingPoint.ball_bearing(Lubricant(0.037), speed_rpm=3000, load=1000.0, **OF_6205)
         g = point.geometry
         a, b, pressure, approach = oracles.hertz_si(1000.0, g.radius_x, g.radius_y, 2.06e11 / 0.91)
-        assert point.moes.kappa == pytest.approx(a / b, rel=1e-9)
+        assert point.moes.kappa == pytest.approx(a / b, rel=1e-9, abs=0.0)
         assert point.moes.kappa == pytest.approx(0.107, abs=5e-4)
-        assert point.scales.pressure == pytest.approx(pressure, rel=1e-9)
-        assert point.scales.length == pytest.approx(approach, rel=1e-9)
-        assert point.moes.M == pytest.approx(6069, rel=1e-3)
-        assert point.moes.L == pytest.approx(20.79, rel=1e-3)
+        assert point.scales.pressure == pytest.approx(pressure, rel=1e-9, abs=0.0)
+        assert point.scales.length == pytest.approx(approach, rel=1e-9, abs=0.0)
+        assert point.moes.M == pytest.approx(6069, rel=1e-3, abs=0.0)
+        assert point.moes.L == pytest.approx(20.79, rel=1e-3, abs=0.0)
 
     @pytest.mark.parametrize("race", ["inner", "outer"])
     def test_rolling_speed(self, race):

@@ -100,8 +100,8 @@ def test_thinning_is_the_slope_and_the_ratio_of_the_law(law):
     step = 1e-5
     slope = (law.of(x + step, 1.0) - law.of(x - step, 1.0)) / (np.exp(x + step) - np.exp(x - step))
     along, across = law.thinning(x)
-    assert np.exp(along) == pytest.approx(slope, rel=1e-6)
-    assert np.exp(across) == pytest.approx(law.of(x, 1.0) / np.exp(x), rel=1e-9)
+    assert np.exp(along) == pytest.approx(slope, rel=1e-6, abs=0.0)
+    assert np.exp(across) == pytest.approx(law.of(x, 1.0) / np.exp(x), rel=1e-9, abs=0.0)
     assert law.thinning(-math.inf) == (0.0, 0.0)
 
 
@@ -153,11 +153,11 @@ def test_starved_films_are_thinned(load, speed):
         return solve_steady(point, grid=grid, supply=supply, sliding=sliding, tol=tol)
 
     flooded, starved = film(), film(r=0.8, tol=1e-7)
-    assert film(r=1.5).thinned_share - 1.0 == pytest.approx(flooded.thinned_share - 1.0, rel=0.1)
-    assert film(slide=0.0, r=0.8).h_central == pytest.approx(film(slide=None, r=0.8).h_central, rel=3e-6)
+    assert film(r=1.5).thinned_share - 1.0 == pytest.approx(flooded.thinned_share - 1.0, rel=0.1, abs=0.0)
+    assert film(slide=0.0, r=0.8).h_central == pytest.approx(film(slide=None, r=0.8).h_central, rel=3e-6, abs=0.0)
     assert abs(film(r=0.4).thinned_share - 1.0) < 0.02 * abs(flooded.thinned_share - 1.0)
     weights = np.r_[0.5, np.ones(starved.y.size - 2), 0.0]
-    assert weights @ starved.layer_behind == pytest.approx(weights @ starved.layer, rel=1e-8)
+    assert weights @ starved.layer_behind == pytest.approx(weights @ starved.layer, rel=1e-8, abs=0.0)
 
 
 @pytest.mark.long
@@ -174,8 +174,8 @@ def test_heated_films_are_thinned(load, speed):
     assert both.temperature.inputs.slide_roll == 0.5
     assert both.temperature.balance < 1e-6
     assert both.h_central < min(thinned.h_central, heated.h_central)
-    assert film(heat=Heat(temperature_slope=0.0)).h_central == pytest.approx(thinned.h_central, rel=1e-6)
-    assert film(slide=1e-5, heat=True).h_central == pytest.approx(film(None, True).h_central, rel=1e-6)
+    assert film(heat=Heat(temperature_slope=0.0)).h_central == pytest.approx(thinned.h_central, rel=1e-6, abs=0.0)
+    assert film(slide=1e-5, heat=True).h_central == pytest.approx(film(None, True).h_central, rel=1e-6, abs=0.0)
 
 
 def test_slow_films_are_thinned_alone():
@@ -193,7 +193,7 @@ def test_starved_films_are_heated_and_thinned():
     point = OperatingPoint(Geometry.ball_bearing(7.94e-3, 38.5e-3, 0.52), OIL, 60.0, 6.0)
     all_three = solve_steady(point, supply=OilLayer(over_flooded=0.8), thermal=True, **given)
     weights = np.r_[0.5, np.ones(all_three.y.size - 2), 0.0]
-    assert weights @ all_three.layer_behind == pytest.approx(weights @ all_three.layer, rel=1e-8)
+    assert weights @ all_three.layer_behind == pytest.approx(weights @ all_three.layer, rel=1e-8, abs=0.0)
     assert all_three.temperature.balance < 1e-6
 
 

@@ -155,17 +155,23 @@ def test_an_operating_point(Q):
 
 def test_a_bearing_and_a_rotor(Q):
     bearing = BallBearing.catalogue("6205", clearance=Q(10, "um"))
-    assert bearing.clearance == pytest.approx(1e-5, rel=1e-12)
+    assert bearing.clearance == pytest.approx(1e-5, rel=1e-12, abs=0.0)
     given = bearing.equilibrium([Q(0, "N"), Q(-0.5, "kN")], speed_rpm=Q(100 * pi, "rad/s"))
     same = bearing.equilibrium(Q([0.0, -500.0], "N"), speed_rpm=3000.0)
-    assert given.force == pytest.approx(same.force, rel=1e-12) and given.speed_rpm == pytest.approx(3000.0)
+    assert given.force == pytest.approx(same.force, rel=1e-12, abs=0.0) and given.speed_rpm == pytest.approx(
+        3000.0
+    )
     assert np.all(Shaft(length=Q([50, 60], "mm"), diameter=Q(20, "mm")).length == [0.05, 0.06])
-    assert Disc(position=0.1, mass=Q(500, "g"), unbalance=Q(5, "g*mm")).unbalance == pytest.approx(5e-6, rel=1e-12)
-    assert SpeedProfile.ramp(0.0, Q(50, "Hz"), Q(100, "ms")).speed_rpm[-1] == pytest.approx(3000.0, rel=1e-12)
+    assert Disc(position=0.1, mass=Q(500, "g"), unbalance=Q(5, "g*mm")).unbalance == pytest.approx(
+        5e-6, rel=1e-12, abs=0.0
+    )
+    assert SpeedProfile.ramp(0.0, Q(50, "Hz"), Q(100, "ms")).speed_rpm[-1] == pytest.approx(
+        3000.0, rel=1e-12, abs=0.0
+    )
     rotor = jeffcott_rotor(
         bearings=1, disc_mass=Q(5, "kg"), journal_mass=0.5, shaft_stiffness=Q(5, "kN/mm"), speed_rpm=Q(50, "Hz")
     )
-    assert rotor.stiffness[0, 0] == pytest.approx(5e6, rel=1e-12)
-    assert rotor.speed_rpm == pytest.approx(3000.0, rel=1e-12)
+    assert rotor.stiffness[0, 0] == pytest.approx(5e6, rel=1e-12, abs=0.0)
+    assert rotor.speed_rpm == pytest.approx(3000.0, rel=1e-12, abs=0.0)
     with pytest.raises(InputError, match=r"^ball_diameter = 8.0 kilogram: .* into m$"):
         BallBearing(balls=9, ball_diameter=Q(8.0, "kg"), pitch_diameter=0.039)
