@@ -48,10 +48,10 @@ def test_beyond_the_table_it_goes_on(film):
     own = contact(film, law)
     for end, step in ((law.u[0, 0], -1e-12), (law.u[0, -1], 1e-12)):
         inside, outside = (own.curve(end + s) for s in (-step, step))
-        assert outside[0] == pytest.approx(inside[0], rel=1e-6)
+        assert outside[0] == pytest.approx(inside[0], rel=1e-6, abs=0.0)
     assert 0.0 < own.curve(2.0 * law.u[0, 0])[0] < law.cells[0, 0, 0, 0]
     far, farther = (own.curve(law.u[0, -1] + s)[0] for s in (1e-4, 2e-4))
-    assert farther - far == pytest.approx(1e-4, rel=0.01)
+    assert farther - far == pytest.approx(1e-4, rel=0.01, abs=0.0)
 
 
 def test_an_element_of_all_loads_is_near_those_of_each(film):
@@ -87,7 +87,7 @@ def test_at_its_own_speeds_a_law_of_many_is_that_of_one(film):
         one = film.tables.balls(speed)
         for approach in u:
             ours = CoreRace(many).curve(approach, row_at(many, speed))[0]
-            assert ours == pytest.approx(CoreRace(one).curve(approach)[0], rel=1e-9)
+            assert ours == pytest.approx(CoreRace(one).curve(approach)[0], rel=1e-9, abs=0.0)
 
 
 def test_between_speeds_films_grow_as_they_should(film):

@@ -201,7 +201,7 @@ def test_in_si_and_from_a_file(atlas, tmp_path):
     )
     slow = replace(BALL, u_sum=0.2)
     over.set_speed(0.2)
-    assert over.approach_at(20.0) == pytest.approx(atlas.element(slow).approach_at(20.0), rel=1e-9)
+    assert over.approach_at(20.0) == pytest.approx(atlas.element(slow).approach_at(20.0), rel=1e-9, abs=0.0)
     assert over.copy().speed == over.speed == pytest.approx(0.2)
     ours, own = over.impedance(hz=300.0), atlas.element(slow).impedance(hz=300.0)
     np.testing.assert_allclose(ours.value, own.value, rtol=1e-9)
