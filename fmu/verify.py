@@ -22,7 +22,7 @@ from fmu.spec import ModelSpec, Variable
 from fmu.verification import Verification
 
 ROUNDING = 1e-12  # of a start value or its nominal value, within which both may differ
-BALANCE = 1e-9  # the same of a state at rest, which a search finds
+BALANCE = 1e-9  # of a state at rest, which a search finds
 EXPORT_OPTIONS = {CONTACT.name, ROTOR.name}  # whose start values are chosen at export
 REACH = 3.0  # validity intervals above `high` up to which `verify` compares the force
 

@@ -20,9 +20,9 @@ COMMON = (
     "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math",
 )  # fmt: skip
 # Functions that nothing calls are left out; linkers of macOS do not know these flags.
-CALLED = ("-ffunction-sections", "-fdata-sections", "-Wl,--gc-sections")
+WITHOUT_UNUSED = ("-ffunction-sections", "-fdata-sections", "-Wl,--gc-sections")
 # A missing function is an error when linking, not in an importer.
-LINUX = ("-fPIC", "-Wl,-z,defs", *CALLED)
+LINUX = ("-fPIC", "-Wl,-z,defs", *WITHOUT_UNUSED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ PLATFORMS = {
     for one in (
         Platform("x86_64-linux", "linux64", "x86_64-linux-gnu.2.17", ".so", LINUX),
         Platform("aarch64-linux", None, "aarch64-linux-gnu.2.17", ".so", LINUX),
-        Platform("x86_64-windows", "win64", "x86_64-windows-gnu", ".dll", CALLED),
+        Platform("x86_64-windows", "win64", "x86_64-windows-gnu", ".dll", WITHOUT_UNUSED),
         Platform("x86_64-darwin", "darwin64", "x86_64-macos.10.13", ".dylib"),
         Platform("aarch64-darwin", "darwin64", "aarch64-macos.11.0", ".dylib"),
     )

@@ -20,10 +20,7 @@ Array = NDArray[np.float64]
 ROUNDS = 1  # after a cycle, whose film changes by more
 LARGE_CHANGE, STEP = 0.3, 0.8  # of the heating in a cycle, over itself, of which it takes this share
 ROUGH = 0.5  # change of the pressure in a cycle, above which the temperatures stay: they would be those of no film
-FRONT_ROUGH, FRONT_CYCLES = (
-    0.1,
-    3,
-)  # the same where a front of full film moves, and cycles that are to bring it there
+FRONT_ROUGH, FRONT_CYCLES = 0.1, 3  # tolerance and cycles of a film whose front moves
 # Change of the heating from which it is taken as it is where such a front moves: nodes that fill up are no series
 FRONT_FINE = 5e-4
 START = 0.75  # of the heating of an isothermal film: one with heat is thinner and has thinner oil

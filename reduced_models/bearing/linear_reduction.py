@@ -25,8 +25,8 @@ from reduced_models.elements.film_response import StateSpace
 _Floats = NDArray[np.float64]
 
 ROUNDING = 1e-14  # of the largest singular value: below is that of the Gramians
-STATIC = 1e-3  # rad/s, where the stiffness is static
-STEPS = 3  # reductions in a row: of a ball, of a position of the cage, of the bearing
+STATIC_OMEGA = 1e-3  # rad/s, where the stiffness is static
+REDUCTIONS = 3  # reductions in a row: of a ball, of a position of the cage, of the bearing
 
 
 @one_blas_thread()  # matrices are small
@@ -39,18 +39,20 @@ def reduced_system(balls: LinearBalls, tolerance: float) -> tuple[StateSpace, fl
     tolerance : float
         Largest error, over the static stiffness in any motion of the ring.
     """
-    static = balls.impedance(STATIC).real
+    static = balls.impedance(STATIC_OMEGA).real
     stiffness, along = np.linalg.eigh(0.5 * (static + static.T))
     scale = (along / np.sqrt(np.abs(stiffness))) @ along.T
     number = len(balls.maps) // balls.positions
     error, positions = 0.0, []
     for first in range(0, len(balls.maps), number):
         own = [ring_system(balls, k) for k in range(first, first + number)]
-        reductions = [_reduced(space, scale, tolerance / STEPS / len(balls.maps)) for space in own]
-        whole = _reduced(parallel([space for space, _ in reductions]), scale, tolerance / STEPS / balls.positions)
+        reductions = [_reduced(space, scale, tolerance / REDUCTIONS / len(balls.maps)) for space in own]
+        whole = _reduced(
+            parallel([space for space, _ in reductions]), scale, tolerance / REDUCTIONS / balls.positions
+        )
         positions.append(whole[0])
         error += whole[1] + sum(part for _, part in reductions)
-    space, last = _reduced(parallel(positions), scale, tolerance / STEPS)
+    space, last = _reduced(parallel(positions), scale, tolerance / REDUCTIONS)
     return seated(space, balls.loss), error + last
 
 

@@ -50,13 +50,13 @@ _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
 STEP = 0.02  # relative, of layers and loads in differences
-SLOW = 0.4  # Omega up to which one store describes C
+SLOW_OMEGA = 0.4  # Omega up to which one store describes C
 SLOWEST, FASTEST = 0.1, 300.0  # times T, in 2a/u_sum, between which that of the store lies
 LEAST_FORCE = 1e-4  # of a layer that doubles, over the load: below, the film does not depend on it
 HELD_FEED = (
     "the feed is held: layers follow the passes of the balls before, in K and in the damping of either sign"
 )
-ALIKE = 6  # digits to which the loads of two contacts are the same
+LOAD_DIGITS = 6  # digits to which the loads of two contacts are the same
 
 
 class Passage(NamedTuple):
@@ -72,7 +72,9 @@ class Passage(NamedTuple):
 
 
 UNLOADED = Passage(1.0, *(len(Passage._fields) - 1) * (0.0,))
-FROM = np.array([0.25, 0.25, 0.5])  # shares of a layer ahead from the inner race, the outer race and the ball
+LAYER_SHARES = np.array(
+    [0.25, 0.25, 0.5]
+)  # shares of a layer ahead from the inner race, the outer race and the ball
 WIDTH_OF_LOAD = 1.0 / 3.0  # power of the load in the width of a Hertz contact
 
 
@@ -110,7 +112,7 @@ def passage(race: Race, load: float, speed_rpm: float) -> Passage:
 def store_of(answer: AtlasAnswer, flooded: AtlasAnswer) -> tuple[float, float]:
     """G [N s/m] and T [s] of the oil ahead of a contact, by its C under a layer and flooded."""
     own, scales = answer.dimensionless, answer.point.scales
-    Omega = own.omega[own.omega <= SLOW]
+    Omega = own.omega[own.omega <= SLOW_OMEGA]
     C = own.damping[: Omega.size]
     free = flooded.dimensionless.impedance(Omega=Omega).damping
 
@@ -167,7 +169,7 @@ class OilFeedback:
             )
             rows = []
             for race, load in zip(races_at_angles(bearing, name, angles, speeds), force.tolist(), strict=True):
-                key = tuple(float(f"{x:.{ALIKE}g}") for x in (load, race.geometry.radius_x, race.speed_sum))
+                key = tuple(float(f"{x:.{LOAD_DIGITS}g}") for x in (load, race.geometry.radius_x, race.speed_sum))
                 if load > race.loads(speed_rpm)[0] and key not in found:
                     found[key] = passage(race, key[0], speed_rpm)
                 rows.append(found.get(key, UNLOADED))
@@ -180,7 +182,7 @@ class OilFeedback:
         fed = (1.0 - supply.returned) * lost.reshape(2, places, -1).sum(axis=(0, 2))  # contacts times q
         heaviest = np.concatenate([_heaviest(at.force[:, 0]) for at in equilibria])
         spread = np.array([heaviest * np.repeat(fed, contacts // 2) * widening[0], np.zeros(heaviest.size)])
-        renewal = np.repeat(FROM @ delays * float(supply.h) * contacts / fed, contacts // 2)
+        renewal = np.repeat(LAYER_SHARES @ delays * float(supply.h) * contacts / fed, contacts // 2)
         oil = supply.returned, supply.return_time
         return cls(solved, np.array(passages), spread, delays, renewal, *oil)
 
@@ -197,7 +199,7 @@ class OilFeedback:
         by_approach = -r * D * kept + (1.0 - back) * b - self.spread[:, None] / (1.0 + r * self.renewal)
         left = self._means(kept + by_approach * by_layer)
         moved = self._means(by_approach[..., None] * by_ring)
-        later = np.exp(-r * self.delays) @ FROM[:, None]
+        later = np.exp(-r * self.delays) @ LAYER_SHARES[:, None]
         layer = later[..., None] * moved / (1.0 - later * left)[..., None]  # by the ring, (k, positions, n)
         force = -self.balls.force_of_heights(s, *heights)
         pressed = force.reshape(s.size, self.balls.positions, -1, force.shape[-1]).sum(axis=2)
@@ -226,5 +228,5 @@ def with_held_feed(
 
 def _heaviest(force: _Floats) -> _Floats:
     """Shares of the heaviest balls, which sum to 1: two by symmetry share alike."""
-    most = force >= (1.0 - 10.0**-ALIKE) * force.max()
+    most = force >= (1.0 - 10.0**-LOAD_DIGITS) * force.max()
     return np.asarray(most / np.count_nonzero(most))
