@@ -127,7 +127,7 @@ def called(line, folder):
 OURS = {page: lines for page in WRITTEN if (lines := commands(page))}
 
 
-@pytest.mark.parametrize("page", cases(OURS, ["README.md", "docs/bearings.md", "docs/signals.md"]))
+@pytest.mark.parametrize("page", cases(OURS, ["docs/guide/start.md", "docs/bearings.md", "docs/signals.md"]))
 def test_quick_command_lines_do_what_they_say(page, checkout, capsys):
     """In the order of the page; `SLOW` tells which are left to the slow tests."""
     for line in OURS[page]:

@@ -78,7 +78,7 @@ def test_marks_of_the_readme():
     for name in ("README.md", "examples/README.md"):
         text = (ROOT / name).read_text(encoding="utf-8")
         marks[name] = re.findall(r"<!-- docs: (.*?) -->", text)
-    assert marks["README.md"] == ["what it is", "how it is used", "its limits", "end"]
+    assert marks["README.md"] == ["what it is", "how it is used", "tasks", "end"]
     assert marks["examples/README.md"] == ["examples", "end of the examples"]
     pages = "".join(page.read_text(encoding="utf-8") for page in DOCS.rglob("*.md"))
     asked = re.findall(r"<!-- docs: (.*?) -->", pages)
