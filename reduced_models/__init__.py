@@ -41,6 +41,7 @@ from reduced_models.rotor.control import rotor_to_control as rotor_to_control
 from reduced_models.rotor.jeffcott import jeffcott_rotor as jeffcott_rotor
 from reduced_models.rotor.linear_bearing import LinearBearing as LinearBearing
 from reduced_models.rotor.linearise import linearise as linearise
+from reduced_models.rotor.machine_state import machine_state as machine_state
 from reduced_models.rotor.oscillator import simulate_oscillator as simulate_oscillator
 from reduced_models.rotor.parts import Disc as Disc
 from reduced_models.rotor.parts import Shaft as Shaft

@@ -26,6 +26,9 @@
 | linearise | `linearise`: a rotor about static equilibrium at a speed, `LinearRotor` |
 | modes | `RotorMode`: damped vibrations, exact with film memory |
 | campbell | `campbell`: modes over the speed, critical speeds |
+| support_state | `support_state`: a bearing or a set under its load, in the numbers of a designer |
+| machine_state | `machine_state`: such a rotor at a speed: supports, modes, critical speeds, limits of the data |
+| machine_tiles | its answer in a few numbers |
 | unbalance | `unbalance_response`: amplitudes under the unbalances over shaft speed |
 | unbalance_result | `UnbalanceResponse`: its result |
 | control | python-control: `rotor_to_control`, and the state space of a `LinearRotor` |

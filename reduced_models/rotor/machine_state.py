@@ -1,0 +1,357 @@
+"""`machine_state`: a rotor on ball bearings at a speed, in the numbers that its designer asks for.
+
+Its supports (`support_state`), modes, critical speeds, response to unbalance, the highest speed that the data
+cover, and what does not hold. All of it is computed elsewhere. `single_bearing_state` is a bearing alone, as a
+machine of one support.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import inf
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ehlcontact.checks import parts, require_positive
+from ehlcontact.checks.kinds import Object
+from ehlcontact.checks.quantity import takes
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.results.picture import Picture
+from ehlcontact.summary import Summary
+from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.coefficients import BearingCoefficients
+from reduced_models.bearing.kinematics import RPM_TO_HZ, RPM_TO_RAD_S
+from reduced_models.bearing.picture import load_zone
+from reduced_models.bearing.race import beyond_data
+from reduced_models.bearing.ring import RingEquilibrium
+from reduced_models.bearing.ring_statics import state_of
+from reduced_models.rotor.bearing_set import BearingSet
+from reduced_models.rotor.campbell import Campbell, CriticalSpeed, campbell
+from reduced_models.rotor.equilibrium import StaticRotor
+from reduced_models.rotor.linearise import LinearRotor, linearise
+from reduced_models.rotor.machine_tiles import Tile, machine_tiles
+from reduced_models.rotor.modes import RotorMode
+from reduced_models.rotor.picture import campbell_picture
+from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.support_state import SupportState, states_of, support_of, support_state
+from reduced_models.rotor.unbalance import unbalance_response
+from reduced_models.rotor.unbalance_result import UnbalanceResponse
+
+_Floats = NDArray[np.float64]
+
+MODES = 6  # of the machine, the slowest
+# Speeds of the response: multiples of the operating speed over PARTS, up to UP_TO times the speed; of the diagram
+# every second one, between which frequencies are straight within 1e-4
+PARTS, UP_TO, EVERY = 15, 2.0, 2
+ROUNDING = 1e-9  # of a multiple of the speed
+SPEED_DIGITS = 1e-3  # of the highest speed that the data cover, to which it is looked for
+
+
+class LargestResponse(NamedTuple):
+    """Largest response to unbalance: semi-major axis of an orbit [m], its node, and the speed [rev/min]."""
+
+    size: float
+    node: str
+    speed_rpm: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MachineState(Summary):
+    """A machine at a speed, or a bearing alone: then it has neither modes, critical speeds nor a response.
+
+    Attributes
+    ----------
+    speed_rpm : float
+    supports : tuple of SupportState
+    modes : tuple of RotorMode
+        The slowest first.
+    diagram : Campbell or None
+        Modes over the speed.
+    response : UnbalanceResponse or None
+        Over the speeds of the diagram; None without an unbalance.
+    highest_speed : float
+        Up to which the data cover this machine [rev/min]: films of the most loaded contacts are in the atlas, and
+        its balls stay between the races; infinite where all bearings are dry.
+    ends : str
+        What ends there, in words.
+    failed : tuple of str
+        What could not be computed, and why.
+    """
+
+    speed_rpm: float
+    supports: tuple[SupportState, ...]
+    modes: tuple[RotorMode, ...] = ()
+    diagram: Campbell | None = None
+    response: UnbalanceResponse | None = None
+    highest_speed: float = inf
+    ends: str = ""
+    failed: tuple[str, ...] = ()
+
+    def _summary_lines(self) -> list[str]:
+        tiles = [str(tile) for tile in self.tiles()]
+        bearings = ", ".join(support.label for support in self.supports)
+        return [f"{self.speed_rpm:.5g} rev/min on {bearings}", *tiles, *self.reservations]
+
+    @property
+    def hz(self) -> float:
+        """Frequency of the shaft."""
+        return self.speed_rpm * RPM_TO_HZ
+
+    @cached_property
+    def critical_speeds(self) -> tuple[CriticalSpeed, ...]:
+        """Speeds at which a mode has the frequency of the shaft, in the range of the diagram."""
+        return () if self.diagram is None else self.diagram.critical_speeds()
+
+    def margin(self, critical: CriticalSpeed) -> float:
+        """By which share of the speed a critical speed lies above it; below 0 it lies below."""
+        return critical.speed_rpm / self.speed_rpm - 1.0
+
+    @property
+    def nearest_critical(self) -> CriticalSpeed | None:
+        """The critical speed nearest to the speed."""
+        return min(self.critical_speeds, key=lambda one: abs(self.margin(one)), default=None)
+
+    @property
+    def largest_response(self) -> LargestResponse | None:
+        """Largest orbit at the speeds of `response`, which peaks between them exceed."""
+        if self.response is None:
+            return None
+        k, node = np.unravel_index(int(np.argmax(self.response.major)), self.response.major.shape)
+        return self._orbit(int(k), int(node))
+
+    @property
+    def response_at_speed(self) -> LargestResponse | None:
+        """Largest orbit at the operating speed."""
+        if self.response is None:
+            return None
+        k = int(np.argmin(np.abs(self.response.speed_rpm - self.speed_rpm)))
+        return self._orbit(k, int(np.argmax(self.response.major[k])))
+
+    def _orbit(self, k: int, node: int) -> LargestResponse:
+        assert self.response is not None
+        size, name = float(self.response.major[k, node]), self.response.names[node]
+        return LargestResponse(size, name or f"node {node}", float(self.response.speed_rpm[k]))
+
+    @property
+    def worst_support(self) -> SupportState:
+        """Support with the smallest film; where all are dry that with the largest ball load."""
+        wet = [support for support in self.supports if support.h_min is not None]
+        if wet:
+            return min(wet, key=lambda one: one.h_min or inf)
+        return max(self.supports, key=lambda one: one.ball_load)
+
+    @property
+    def reservations(self) -> tuple[str, ...]:
+        """What does not hold at this speed, a text with its number each."""
+        growing = [
+            f"the vibration of {mode.hz:.4g} Hz grows: damping ratio {mode.damping_ratio:.3g}"
+            for mode in self.modes
+            if mode.decrement < 0.0
+        ]
+        own = (text for support in self.supports for text in support.reservations)
+        return (*self.failed, *growing, *own)
+
+    def tiles(self) -> tuple[Tile, ...]:
+        """The answer in a few numbers: what report, command line and explorer show first."""
+        return machine_tiles(self)
+
+    def picture(self) -> Picture:
+        """Load zones of up to two bearings beside the Campbell diagram."""
+        states = [(support, state) for support in self.supports for _, state in support.bearings][:2]
+        most = max(float(state.force.max()) for _, state in states)
+        panels: list[Any] = [load_zone(state, most, support.label) for support, state in states]
+        if self.diagram is not None:
+            panels.append(campbell_picture(self.diagram).panels[0])
+        return Picture(panels, f"{self.speed_rpm:g} rev/min", columns=len(panels), heights=(340.0,))
+
+    def to_dict(self) -> dict[str, Any]:
+        """All numbers, SI, ready for JSON."""
+        largest, own = self.largest_response, self.response_at_speed
+        return {
+            "speed_rpm": self.speed_rpm,
+            "supports": [support.to_dict() for support in self.supports],
+            "modes": [
+                mode.to_dict() | {"damping_ratio": mode.damping_ratio, "axial_share": mode.axial_share}
+                for mode in self.modes
+            ],
+            "critical_speeds": [
+                {"speed_rpm": one.speed_rpm, "hz": one.hz, "margin": self.margin(one), "decrement": one.decrement}
+                for one in self.critical_speeds
+            ],
+            "largest_response": None if largest is None else largest._asdict(),
+            "response_at_speed": None if own is None else own._asdict(),
+            "highest_speed": None if self.highest_speed == inf else self.highest_speed,
+            "ends": self.ends,
+            "reservations": list(self.reservations),
+            "tiles": [tile._asdict() for tile in self.tiles()],
+        }
+
+
+def single_bearing_state(
+    bearing: BallBearing | BearingSet,
+    load: ArrayLike,
+    speed_rpm: float,
+    *,
+    tilt: ArrayLike | None = None,
+    name: str = "",
+) -> MachineState:
+    """A bearing alone, or a set, as a machine of one support; arguments and errors as of `support_state`."""
+    support = support_state(bearing, load, speed_rpm, tilt=tilt, name=name)
+
+    def missing(speed: float) -> str:
+        state = bearing.equilibrium(load, speed_rpm=speed, tilt=tilt)
+        return "; ".join(one.reservation for one in states_of(state) if one.reservation)
+
+    highest, ends = _highest_speed(missing, speed_rpm, bearing.highest_speed)
+    return MachineState(speed_rpm=speed_rpm, supports=(support,), highest_speed=highest, ends=ends)
+
+
+@takes(rotor=Object(Rotor, "a Rotor"), speed_rpm=parts.SPEED, highest_rpm=parts.SPEED_OR_NONE)
+def machine_state(
+    rotor: Rotor,
+    speed_rpm: float,
+    *,
+    highest_rpm: float | None = None,
+    names: Sequence[str] = (),
+    positions: Sequence[float] = (),
+) -> MachineState:
+    """State of a rotor on ball bearings at a speed: supports, vibrations, and how far the data reach.
+
+    Parameters
+    ----------
+    rotor : Rotor
+        On ball bearings, as `rotor_on_bearings` makes it; other supports are part of it, without a state here.
+    speed_rpm : float
+        Of the shaft [rev/min].
+    highest_rpm : float, optional
+        Up to which critical speeds and the response to unbalance are looked for [rev/min]; by default twice the
+        speed, or as far as the data reach.
+    names : sequence of str
+        Of the ball bearings; by default those of the rotor.
+    positions : sequence of float
+        Of the ball bearings along the shaft [m].
+
+    Returns
+    -------
+    MachineState
+
+    Raises
+    ------
+    InputError
+        A rotor without ball bearings, a speed of 0, another number of names or positions than of ball bearings;
+        what `linearise` refuses.
+    ConvergenceError
+        The supports do not hold the rotor.
+    """
+    speed, mounts = require_positive("speed_rpm", speed_rpm), rotor.ball_bearings
+    if not mounts:
+        raise InputError("rotor", "without ball bearings", "one on ball bearings: they are what a state is of")
+    for field, values in (("names", names), ("positions", positions)):
+        if len(values) not in (0, len(mounts)):
+            raise InputError(field, f"{len(values)} of them", f"one for each of {len(mounts)} ball bearings")
+    linear = linearise(rotor, speed)
+    supports = _supports(linear, names or rotor.ball_bearing_names, positions or [None] * len(mounts))
+    most = min(mount.ball_bearing.highest_speed for mount in mounts)
+    highest, ends = _highest_speed(lambda at: _missing(rotor, at), speed, most)
+    failed: list[str] = []
+    last = max(speed, min(highest, UP_TO * speed if highest_rpm is None else highest_rpm))
+    speeds = speed / PARTS * np.arange(1, max(int(PARTS * last / speed * (1.0 + ROUNDING)), PARTS) + 1)
+    modes = _tried(lambda: linear.modes(MODES), "modes", failed) or ()
+    diagram = _tried(
+        lambda: campbell(rotor, speeds[EVERY - 1 :: EVERY], count=max(len(modes), 1)),
+        "diagram over the speed",
+        failed,
+    )
+    response = None
+    if rotor.unbalances:
+        response = _tried(lambda: unbalance_response(rotor, speeds), "response to unbalance", failed)
+    return MachineState(
+        speed_rpm=speed,
+        supports=supports,
+        modes=modes,
+        diagram=diagram,
+        response=response,
+        highest_speed=highest,
+        ends=ends,
+        failed=tuple(failed),
+    )
+
+
+def _tried(compute: Callable[[], Any], what: str, failed: list[str]) -> Any:
+    """What is computed; None, and the reason among `failed`, where it cannot be."""
+    try:
+        return compute()
+    except (ConvergenceError, InputError) as error:
+        failed.append(f"no {what}: {error}")
+        return None
+
+
+def _at_rest(rotor: Rotor, speed: float, q: _Floats | None = None) -> list[RingEquilibrium]:
+    """Ball bearings of a rotor in static equilibrium, each in its own frame."""
+    stiffness = rotor.matrices(speed * RPM_TO_RAD_S)[2]
+    static = StaticRotor(rotor.mounts, rotor.load, stiffness, speed)
+    return static.bearings(rotor.equilibrium(speed) if q is None else q)
+
+
+def _missing(rotor: Rotor, speed: float) -> str:
+    """What films of a rotor in equilibrium at a speed go beyond the data, in words; empty where they do not."""
+    rows = zip(rotor.ball_bearings, _at_rest(rotor, speed), strict=True)
+    said = (beyond_data(mount.ball_bearing, speed, [rest]) for mount, rest in rows)
+    return "; ".join(filter(None, said))
+
+
+def _highest_speed(missing: Callable[[float], str], speed: float, most: float) -> tuple[float, str]:
+    """Highest speed up to `most` [rev/min] without anything `missing`, from a speed on, and what ends there."""
+
+    def reason(at: float) -> str:
+        try:
+            return missing(at)
+        except InputError as error:
+            return f"{error.field}: {error.allowed.split(' (here ')[0]}"
+        except ConvergenceError as error:
+            return str(error)
+
+    if most == inf:
+        return inf, ""
+    if said := reason(speed):
+        return speed, said
+    if not (said := reason(most)):
+        return most, "the end of the atlas"
+    low, high = speed, most
+    while high > low * (1.0 + SPEED_DIGITS):
+        middle = float(np.sqrt(low * high))
+        if words := reason(middle):
+            high, said = middle, words
+        else:
+            low = middle
+    return low, said
+
+
+def _supports(
+    linear: LinearRotor, names: Sequence[str], positions: Sequence[float | None]
+) -> tuple[SupportState, ...]:
+    """Ball bearings of a linearised rotor, the first ball of each at the angle of its mount."""
+    rotor, speed, omega = linear.rotor, linear.speed_rpm, np.array([linear.speed_rpm * RPM_TO_RAD_S])
+    rows = zip(rotor.ball_bearings, _at_rest(rotor, speed, linear.rest), linear.balls, strict=True)
+    found = []
+    for k, (mount, rest, balls) in enumerate(rows):
+        bearing = mount.ball_bearing
+        state = state_of(bearing, rest, bearing.speed(speed), mount.cage_angle)
+        words = linear.damping_left_out[k], "", beyond_data(bearing, speed, [rest], omega)
+        coefficients = BearingCoefficients.of(
+            rest.load,
+            speed,
+            None,
+            omega,
+            balls.coefficients(omega),
+            [rest],
+            state.outside_assumptions,
+            None,
+            *words,
+        )
+        found.append(support_of(names[k], positions[k], bearing, state, coefficients))
+    return tuple(found)

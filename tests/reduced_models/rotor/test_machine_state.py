@@ -1,0 +1,143 @@
+"""`machine_state`: the motor of the guide, a bearing with a spring alone, and what is refused."""
+
+import json
+from math import degrees
+
+import numpy as np
+import pytest
+
+from ehlcontact import InputError, Lubricant
+from reduced_models import (
+    BallBearing,
+    Disc,
+    Rotor,
+    Shaft,
+    Support,
+    jeffcott_rotor,
+    machine_state,
+    rotor_on_bearings,
+)
+from reduced_models.rotor.machine_state import MachineState, single_bearing_state
+from reduced_models.rotor.support_state import support_state
+
+OIL = Lubricant.iso_vg(32, temperature=80.0)
+RPM = 15000.0
+
+
+def bearing(name: str, **changes: object) -> BallBearing:
+    return BallBearing.catalogue(name, **{"clearance": "CN", "oil": OIL, "rq_race": 1e-7, **changes})
+
+
+def motor() -> Rotor:
+    """A shaft of 35 mm on a 6306 and a 6206, which a spring presses."""
+    return rotor_on_bearings(
+        Shaft(length=0.36, diameter=0.035),
+        discs=[Disc.cylinder(position=0.18, diameter=0.11, width=0.12, bore=0.035, unbalance=1e-5)],
+        supports=[
+            Support(position=0.03, bearing=bearing("6306"), facing="-z"),
+            Support(position=0.33, bearing=bearing("6206"), facing="+z", preload=200.0),
+        ],
+    )
+
+
+@pytest.fixture(scope="module")
+def machine() -> MachineState:
+    return machine_state(motor(), RPM, names=("left", "right"), positions=(0.03, 0.33))
+
+
+@pytest.mark.long
+class TestMotor:
+    def test_films_and_friction(self, machine: MachineState) -> None:
+        left, right = machine.supports
+        assert left.label == "left 6306"
+        assert (left.h_min, right.h_min) == pytest.approx((3.6901e-7, 3.2154e-7), rel=1e-4, abs=0.0)
+        assert (left.lambda_ratio, right.lambda_ratio) == pytest.approx((3.690, 3.215), rel=1e-3)
+        assert (left.film_torque, right.film_torque) == pytest.approx((0.05853, 0.04537), rel=1e-3)
+        assert (left.torque, right.torque) == (left.skf_torque, right.skf_torque)
+        assert left.loss == pytest.approx(left.torque * RPM * np.pi / 30.0, rel=1e-12)
+        assert machine.worst_support is right
+
+    def test_balls(self, machine: MachineState) -> None:
+        left, right = machine.supports
+        assert (left.ball_load, right.ball_load) == pytest.approx((111.4, 95.9), rel=1e-3)
+        assert left.p_hertz == pytest.approx(0.957e9, rel=2e-3)
+        angles = left.contact_angles
+        assert [degrees(angle) for angle in angles] == pytest.approx([14.58, 7.99], rel=0.02)
+
+    def test_vibrations(self, machine: MachineState) -> None:
+        hz = [mode.hz for mode in machine.modes]
+        assert hz[1:5] == pytest.approx([266.1, 266.6, 778.2, 961.4], rel=2e-4)
+        speeds = [one.speed_rpm for one in machine.critical_speeds]
+        assert speeds == pytest.approx([10363.0, 15926.0, 15958.0], rel=5e-4)
+        assert machine.nearest_critical.speed_rpm == speeds[1]
+        assert machine.margin(machine.nearest_critical) == pytest.approx(0.0616, rel=5e-3)
+        most = machine.largest_response
+        assert most.node == "disc"
+        assert most.speed_rpm == pytest.approx(16000.0, rel=1e-12)
+        assert most.size == pytest.approx(194.8e-6, rel=1e-3, abs=0.0)
+        assert machine.response_at_speed.size == pytest.approx(7.956e-6, rel=1e-3, abs=0.0)
+
+    def test_data_end_where_balls_are_too_heavy(self, machine: MachineState) -> None:
+        assert 1.9e5 < machine.highest_speed < 1.95e5
+        assert "end of the atlas" in machine.ends
+        with pytest.raises(InputError, match="outer race"):
+            motor().equilibrium(1.01 * machine.highest_speed)
+        motor().equilibrium(0.99 * machine.highest_speed)
+
+    def test_tiles_and_reservations(self, machine: MachineState) -> None:
+        tiles = {tile.name: tile for tile in machine.tiles()}
+        assert tiles["smallest film"][1:3] == ("0.322", "µm")
+        assert "0.369 µm, lambda 3.69" in tiles["smallest film"].note
+        assert tiles["nearest critical speed"].value == "15924"
+        assert "6.2 % above" in tiles["nearest critical speed"].note
+        assert tiles["largest response to unbalance"].value == "195"
+        assert [text.split(":")[0] for text in machine.reservations] == ["left 6306", "right 6206"]
+        assert all("not isothermal" in text and "%" in text for text in machine.reservations)
+
+    def test_whole_answer_is_json(self, machine: MachineState) -> None:
+        found = json.loads(json.dumps(machine.to_dict()))
+        assert [one["name"] for one in found["supports"]] == ["left", "right"]
+        assert found["critical_speeds"][0]["margin"] < 0.0 < found["critical_speeds"][1]["margin"]
+        assert len(found["tiles"]) == len(machine.tiles())
+
+    def test_picture_has_both_load_zones_and_the_diagram(self, machine: MachineState) -> None:
+        assert len(machine.picture().panels) == 3
+
+    def test_supports_are_those_under_the_forces_of_the_rotor(self, machine: MachineState) -> None:
+        for support in machine.supports:
+            alone = support_state(support.bearing, support.state.load, RPM)
+            assert alone.h_min == pytest.approx(support.h_min, rel=1e-6, abs=0.0)
+            assert np.diag(alone.stiffness) == pytest.approx(np.diag(support.stiffness), rel=1e-6)
+
+
+class TestBearingAlone:
+    def test_with_a_spring(self) -> None:
+        machine = single_bearing_state(bearing("6206", rq_ball=3e-8), (0.0, -59.0, 200.0), RPM)
+        support = machine.supports[0]
+        assert support.ball_load == pytest.approx(97.55, rel=1e-4)
+        assert (1e6 * support.h_min, support.lambda_ratio) == pytest.approx((0.3212, 3.076), rel=1e-3)
+        assert machine.modes == machine.critical_speeds == ()
+        assert machine.largest_response is None
+        assert {tile.name for tile in machine.tiles()} >= {"smallest film", "largest ball load", "friction torque"}
+
+    def test_friction_is_that_of_films_at_low_speed(self) -> None:
+        support = support_state(bearing("6205"), (0.0, -500.0), 3000.0)
+        assert not support.relies_on_skf
+        assert support.torque == support.friction[0].total
+
+    def test_dry_has_loads_alone(self) -> None:
+        machine = single_bearing_state(bearing("6205").dry, (0.0, -500.0), 3000.0)
+        assert machine.highest_speed == np.inf
+        assert machine.supports[0].h_min is machine.supports[0].torque is None
+        assert next(tile.name for tile in machine.tiles()) == "largest ball load"
+
+
+class TestRefused:
+    def test_rotor_without_ball_bearings(self) -> None:
+        rotor = jeffcott_rotor(disc_mass=1.0, journal_mass=0.1, shaft_stiffness=1e7, half_angle=0.5)
+        with pytest.raises(InputError, match="ball bearings"):
+            machine_state(rotor, RPM)
+
+    def test_names_for_another_number_of_bearings(self) -> None:
+        with pytest.raises(InputError, match="names"):
+            machine_state(motor(), RPM, names=("left",))
