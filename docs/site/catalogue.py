@@ -24,6 +24,7 @@ turn of the shaft, at the contact angle of the table. Under an axial load they a
 ## Deep groove, at zero contact angle
 
 """
+ORDERS = "ftf_order", "bpfo_order", "bpfi_order", "bsf_order"
 COLUMNS = "| name | bore, mm | balls | ball, mm | pitch, mm | {angle}FTF | BPFO | BPFI | BSF | source |\n"
 ANGULAR = """
 ## Angular contact
@@ -84,7 +85,7 @@ def table(rows: dict[str, Row], letters: dict[str, str], angle: str = "") -> str
         bore = "" if row.bore is None else f"{1e3 * row.bore:.4g}"
         lengths = [f"{1e3 * row.ball_diameter:.3f}", f"{1e3 * row.pitch_diameter:.2f}"]
         lengths += [] if row.contact_angle is None else [f"{degrees(row.contact_angle):.4g}"]
-        numbers = [f"{getattr(orders, kind):.4f}" for kind in ("ftf", "bpfo", "bpfi", "bsf")]
+        numbers = [f"{getattr(orders, kind):.4f}" for kind in ORDERS]
         lines.append(
             " | ".join([f"| {name}", bore, str(row.balls), *lengths, *numbers, f"{letters[row.source]} |"])
         )

@@ -261,7 +261,7 @@ def bearings() -> list[Row]:
         slope = bearing.coefficients(tests.DOWN, hz=0.0).stiffness[0, 1, 1]
         rows.append(row(name, "deflection, µm", tests.deflections(bearing)[0] * 1e6, on))
         rows.append(row(name, "stiffness, N/µm", slope * 1e-6, tangent * 1e-6))
-        rows.append(row(name, "balls passed per turn", bearing.orders.bpfo, bpfo))
+        rows.append(row(name, "balls passed per turn", bearing.orders.bpfo_order, bpfo))
     state = BallBearing.catalogue("209", clearance=15e-6).equilibrium((0.0, -8900.0))
     rows.append(row("209, Harris", "deflection, µm", -state.displacement[1] * 1e6, 60.4))
     for ball, theirs in enumerate((4527.0, 2840.0, 61.0)):

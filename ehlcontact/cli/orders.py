@@ -35,7 +35,7 @@ class MeasuredOrder(NamedTuple):
     @property
     def given(self) -> dict[str, float]:
         """Arguments of `angle_from_order` and `clearance_from_order`."""
-        return {self.name: self.order, "error": self.error}
+        return {f"{self.name}_order": self.order, "error": self.error}
 
 
 class Found(NamedTuple):

@@ -17,7 +17,7 @@ from reduced_models.bearing.height_tables import defect_limits
 if TYPE_CHECKING:
     from reduced_models import BallBearing
     from reduced_models.bearing.excitation import BearingExcitation
-    from reduced_models.bearing.kinematics import DefectFrequencies
+    from reduced_models.bearing.kinematics import DefectOrders
 
 OPTION = "--spall"
 WORDS = "race,length,depth, as outer,0.5,3: mm along the track, um"
@@ -67,10 +67,10 @@ def summary(spall: Spall, found: list[BearingExcitation]) -> dict[str, Any]:
     return {"race": spall.race, "angle": spall.angle, "length": spall.length, "depth": spall.depth, "lines": lines}
 
 
-def show(spall: Spall, orders: DefectFrequencies | None, found: BearingExcitation) -> None:
+def show(spall: Spall, orders: DefectOrders | None, found: BearingExcitation) -> None:
     """Table of the strongest lines at one speed, by order; without forces where a ball loses its load."""
     assert orders is not None  # a bearing that is loaded
-    defect, name = (orders.bpfi, "BPFI") if spall.race == "inner" else (orders.bpfo, "BPFO")
+    defect, name = (orders.bpfi_order, "BPFI") if spall.race == "inner" else (orders.bpfo_order, "BPFO")
     axes = FIVE[: min(found.load.size, 3)]
     forces = found.amplitude[:, : len(axes)]
     strongest = np.sort(np.where(found.order > 0.0, forces.max(axis=1), 0.0).argsort()[::-1][:SHOWN])

@@ -108,7 +108,7 @@ def peaks(held: BallBearing, diagram: Campbell, runs: tuple[RotorResult, RotorRe
     """All crossings of the ball passage and of twice it, each in the motion of its own mode."""
     line, found = rotor(held), []
     for passages in (1, 2):
-        order = passages * held.orders.bpfo
+        order = passages * held.orders.bpfo_order
         for crossing in diagram.critical_speeds(order):
             shape = shape_of(line, crossing)
             speeds: list[float | None] = []
@@ -156,7 +156,7 @@ def picture(path: Path, held: BallBearing, diagram: Campbell, runs: tuple[RotorR
     axes.pcolormesh(speed, hz[shown], size[:, shown].T, vmin=size.max() - 5.0, cmap="viridis", rasterized=True)
     for mode in range(diagram.hz.shape[1]):
         axes.plot(diagram.speed_rpm, diagram.hz[:, mode], color="white", linewidth=0.9, linestyle=":")
-    for order, name in ((1.0, "1x"), (held.orders.bpfo, "balls"), (2.0 * held.orders.bpfo, "twice")):
+    for order, name in ((1.0, "1x"), (held.orders.bpfo_order, "balls"), (2.0 * held.orders.bpfo_order, "twice")):
         axes.annotate(name, (min(650.0 / order * 60.0, 8300.0), min(650.0, 8300.0 / 60.0 * order)), color="white")
     axes.set(xlabel="speed [rev/min]", ylabel="frequency [Hz]", xlim=(speed[0], speed[-1]))
     axes.set_title("the modes' motion as the rotor runs up; dotted: Campbell diagram")
@@ -165,7 +165,8 @@ def picture(path: Path, held: BallBearing, diagram: Campbell, runs: tuple[RotorR
         shape = shape_of(line, peak.crossing)
         for one, course, colour, way in zip(runs, courses(), ("#0072b2", "#d55e00"), ("up", "down"), strict=True):
             near = np.abs(one.speed_rpm / peak.crossing.speed_rpm - 1.0) < BESIDE
-            size = tracked(one.displacement @ line.mass @ shape, held.orders.bpfo * course.at(one.t)[1])[near]
+            balls = held.orders.bpfo_order * course.at(one.t)[1]
+            size = tracked(one.displacement @ line.mass @ shape, balls)[near]
             axes.plot(one.speed_rpm[near], size / size.max(), color=colour, label=way)
         axes.axvline(peak.crossing.speed_rpm, color="#7f7f7f", linestyle=":", label="crossing")
         axes.set(title=f"mode {peak.crossing.mode + 1}, {peak.crossing.hz:.0f} Hz", xlabel="speed [rev/min]")

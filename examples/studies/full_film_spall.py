@@ -24,7 +24,7 @@ BALL, START = 8, 0.4  # that comes to the spall, so many pitches after the start
 BEFORE_AND_AFTER = 6e-4  # m, between the spall's edges and the contact where its film is solved
 STEP = 4.75e-6  # m along the track per time step: a node of the grid of n = 128
 SMOOTH = BallBearing.catalogue("6205", clearance=5e-6, oil=Lubricant.iso_vg(68, temperature=50.0))
-CAGE = SMOOTH.orders.ftf * SPEED * pi / 30.0  # rad/s
+CAGE = SMOOTH.orders.ftf_order * SPEED * pi / 30.0  # rad/s
 TRACK = track_radius(SMOOTH, "outer")
 
 

@@ -83,7 +83,7 @@ def lines(record: Record, clearance: float, axial: float) -> Lines:
     found = bearing.excitation([pit], load, speed_rpm=record.rpm)
     orders = bearing.equilibrium(load, speed_rpm=record.rpm).orders
     force = found.amplitude * np.exp(1j * found.phase)
-    return Lines(found.order, force, orders.bpfi if record.race == "inner" else orders.bpfo)
+    return Lines(found.order, force, orders.bpfi_order if record.race == "inner" else orders.bpfo_order)
 
 
 def acceleration(at: Lines, rpm: float, path: ModalPath, axis: int = 1) -> NDArray[np.float64]:
@@ -135,7 +135,7 @@ def fit() -> tuple[ModalPath, float, float]:
 
 def clearances(record: Record, axial: tuple[float, ...]) -> Any:
     """Clearances [m] that the measured order allows, with the interval of its error."""
-    named = {"bpfi" if record.race == "inner" else "bpfo": record.order}
+    named = {"bpfi_order" if record.race == "inner" else "bpfo_order": record.order}
     bearing = BallBearing(clearance=8e-6, oil=OIL, **SIZE)
     return clearance_from_order(bearing, axial, error=ERROR, radial=WEIGHT, speed_rpm=record.rpm, **named)
 

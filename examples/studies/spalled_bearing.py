@@ -62,7 +62,7 @@ def run(bearing: BallBearing, length: float) -> Run:
 
 def passages(cage_angle: float, length: float) -> np.ndarray:
     """Times at which balls are over both edges of the spall [s]."""
-    cage = SMOOTH.orders.ftf * SPEED * pi / 30.0
+    cage = SMOOTH.orders.ftf_order * SPEED * pi / 30.0
     edges = AT + np.array([-0.5, 0.5]) * length / track_radius(SMOOTH, "outer")
     turns = 2.0 * pi * np.arange(round(UNTIL * cage * SMOOTH.balls / (2.0 * pi)) + 1) / SMOOTH.balls
     return (edges + turns[:, None] - cage_angle) / cage

@@ -51,8 +51,8 @@ from reduced_models.bearing.freedoms import PLANAR, held_tilt
 from reduced_models.bearing.grooves import angle_without_load, require_contact_angle, require_room, table_cosine
 from reduced_models.bearing.height_tables import require_features_fit
 from reduced_models.bearing.kinematics import (
-    RPM_TO_HZ,
     DefectFrequencies,
+    DefectOrders,
 )
 from reduced_models.bearing.loss import require_loss_factor
 from reduced_models.bearing.oil_feedback import with_held_feed
@@ -259,17 +259,17 @@ class BallBearing(Summary):
         return angle_without_load(self)
 
     @property
-    def orders(self) -> DefectFrequencies:
+    def orders(self) -> DefectOrders:
         """Defect frequencies per turn of the shaft; of deep-groove bearings under radial load.
 
         `orders_under` has those at the contact angles of a load.
         """
-        return DefectFrequencies.of(self.balls, self.gamma, table_cosine(self))
+        return DefectOrders.of(self.balls, self.gamma, table_cosine(self))
 
     @takes(load="N", axial="N", speed_rpm="rev/min")
     def orders_under(
         self, load: ArrayLike, *, axial: float = 0.0, speed_rpm: float = 0.0, slip: float = 0.0
-    ) -> DefectFrequencies:
+    ) -> DefectOrders:
         """Defect frequencies per turn of the shaft at the contact angles under a load, with slip of the cage.
 
         Parameters
@@ -299,8 +299,7 @@ class BallBearing(Summary):
     @takes(speed_rpm="rev/min")
     def frequencies(self, speed_rpm: float) -> DefectFrequencies:
         """Defect frequencies [Hz] at a speed of the shaft [rev/min]."""
-        turns = require_nonnegative("speed_rpm", speed_rpm) * RPM_TO_HZ
-        return DefectFrequencies.of(self.balls, self.gamma, table_cosine(self), turns)
+        return self.orders.at(require_nonnegative("speed_rpm", speed_rpm))
 
     @property
     def roughness(self) -> float | None:

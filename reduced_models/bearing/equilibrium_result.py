@@ -16,7 +16,7 @@ from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import note_line
 from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words, place_words
-from reduced_models.bearing.kinematics import RPM_TO_RAD_S, DefectFrequencies
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S, DefectOrders
 from reduced_models.bearing.picture import state_picture
 
 _Floats = NDArray[np.float64]
@@ -182,7 +182,7 @@ class BearingState(QuantityTable):
         return float(np.abs(self.spin_to_roll[self.force[:, 0] > 0.0]).max(initial=0.0))
 
     @property
-    def orders(self) -> DefectFrequencies | None:
+    def orders(self) -> DefectOrders | None:
         """Defect frequencies per turn of the shaft at these contact angles; None in a planar or unloaded bearing.
 
         The cage turns as the mean of the balls, each with the weight of its load.
@@ -192,8 +192,9 @@ class BearingState(QuantityTable):
         cage, rotation = (
             float(np.average(one, weights=self.force[:, 0])) for one in (self.orbit, self.ball_rotation)
         )
-        return DefectFrequencies(
-            ftf=cage, bpfo=len(self.angles) * cage, bpfi=len(self.angles) * (1.0 - cage), bsf=rotation
+        balls = len(self.angles)
+        return DefectOrders(
+            ftf_order=cage, bpfo_order=balls * cage, bpfi_order=balls * (1.0 - cage), bsf_order=rotation
         )
 
     @property

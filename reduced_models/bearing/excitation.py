@@ -49,7 +49,7 @@ from reduced_models.bearing.features import (
 )
 from reduced_models.bearing.freedoms import PLANAR, in_freedoms, labelled, load_words
 from reduced_models.bearing.height_tables import profile_of, track_radius
-from reduced_models.bearing.kinematics import RPM_TO_HZ, RPM_TO_RAD_S, DefectFrequencies
+from reduced_models.bearing.kinematics import RPM_TO_HZ, RPM_TO_RAD_S, DefectOrders
 from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.bearing.race import RACES
 from reduced_models.bearing.ring import RingEquilibrium
@@ -422,5 +422,5 @@ def turns_of(places: Sequence[RingEquilibrium]) -> tuple[float, float]:
 
 def with_cage_slip(balls: int, cage: float, rotation: float, slip: float) -> tuple[float, float]:
     """Turns of the cage and of a ball where the cage turns slower by the share `slip`."""
-    found = DefectFrequencies(cage, balls * cage, balls * (1.0 - cage), rotation).with_slip(slip)
-    return found.ftf, found.bsf
+    orders = DefectOrders(cage, balls * cage, balls * (1.0 - cage), rotation).with_slip(slip)
+    return orders.ftf_order, orders.bsf_order

@@ -56,7 +56,7 @@ def heights_of(bearing: BallBearing) -> _Floats:
     if not bearing.features:
         return np.zeros((0, 0, LOADS))
     numbers = np.zeros((1 + bearing.balls, LOADS))
-    numbers[0, ROTATION] = bearing.orders.bsf
+    numbers[0, ROTATION] = bearing.orders.bsf_order
     tracks: list[tuple[str, float, _Floats, list[Defect]]] = []
     for column, name in enumerate(RACES):
         for row in range(1 + bearing.balls):
@@ -205,7 +205,7 @@ def shortest_meeting(bearing: BallBearing, speed_rpm: float, force: float) -> tu
     wave.
     """
     radii = {name: track_radius(bearing, name) for name in RACES}
-    speed = speed_rpm * RPM_TO_RAD_S * bearing.orders.ftf * radii["outer"]
+    speed = speed_rpm * RPM_TO_RAD_S * bearing.orders.ftf_order * radii["outer"]
     bodies = [bearing.race(name).geometry for name in RACES]
     unit = min(2.0 * hertz_contact(1.0, one.radius_x, one.radius_y, one.e_reduced).a for one in bodies)
     contact = unit * float(np.cbrt(force)) if force > 0.0 else np.inf

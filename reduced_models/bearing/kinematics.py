@@ -19,9 +19,7 @@ LEAST_SLIP = -0.5  # of a cage: one that turns half as fast again is an error of
 
 @dataclass(frozen=True, slots=True)
 class DefectFrequencies:
-    """Frequencies of a ball bearing whose outer ring stands still, balls rolling without slip.
-
-    Per turn of the shaft they are the orders; at a speed they are in Hz.
+    """Frequencies [Hz] of a ball bearing whose outer ring stands still, at a speed of its shaft.
 
     Attributes
     ----------
@@ -38,23 +36,48 @@ class DefectFrequencies:
     bpfi: float
     bsf: float
 
+
+@dataclass(frozen=True, slots=True)
+class DefectOrders:
+    """`DefectFrequencies` per turn of the shaft.
+
+    Attributes
+    ----------
+    ftf_order, bpfo_order, bpfi_order, bsf_order : float
+    """
+
+    ftf_order: float
+    bpfo_order: float
+    bpfi_order: float
+    bsf_order: float
+
     @classmethod
-    def of(cls, balls: int, ratio: float, cosine: float = 1.0, turns: float = 1.0) -> DefectFrequencies:
-        """Frequencies for `balls` balls of diameter `ratio` D/dm, at `turns` shaft turns per unit of time.
+    def of(cls, balls: int, ratio: float, cosine: float = 1.0) -> DefectOrders:
+        """Orders for `balls` balls of diameter `ratio` D/dm, rolling without slip.
 
         At a contact angle, of that `cosine`, the cage follows gamma = D/dm cos(angle). A ball turns dm/(2 D)
         (1 - gamma^2) times: over its diameter, not over gamma (Harris, Rolling Bearing Analysis, ch. 8).
         """
         gamma = ratio * cosine
         return cls(
-            ftf=cage_ratio(gamma) * turns,
-            bpfo=balls * cage_ratio(gamma) * turns,
-            bpfi=balls * 0.5 * (1.0 + gamma) * turns,
-            bsf=0.5 * (1.0 - gamma * gamma) / ratio * turns,
+            ftf_order=cage_ratio(gamma),
+            bpfo_order=balls * cage_ratio(gamma),
+            bpfi_order=balls * 0.5 * (1.0 + gamma),
+            bsf_order=0.5 * (1.0 - gamma * gamma) / ratio,
         )
 
-    def with_slip(self, slip: float) -> DefectFrequencies:
-        """The same where the cage turns slower by the share `slip`, as `cage_slip` gives it.
+    def at(self, speed_rpm: float) -> DefectFrequencies:
+        """Frequencies [Hz] at a speed of the shaft [rev/min]."""
+        turns = speed_rpm * RPM_TO_HZ
+        return DefectFrequencies(
+            ftf=self.ftf_order * turns,
+            bpfo=self.bpfo_order * turns,
+            bpfi=self.bpfi_order * turns,
+            bsf=self.bsf_order * turns,
+        )
+
+    def with_slip(self, slip: float) -> DefectOrders:
+        """Orders with a cage that turns slower by the share `slip`, as `cage_slip` gives it.
 
         A spot of the inner race meets more balls then. A ball slides by as much on both races, so its surface has
         the mean of their speeds, seen from the cage: its rotation loses slip gamma/(1 + gamma).
@@ -70,14 +93,14 @@ class DefectFrequencies:
             raise InputError(
                 "slip", slip, f"above {LEAST_SLIP:g} and below 1: a share of the speed of the cage (in per cent?)"
             )
-        shaft = self.ftf + self.bpfi * self.ftf / self.bpfo
-        gamma, slower = 1.0 - 2.0 * self.ftf / shaft, 1.0 - slip
-        balls = self.bpfo / self.ftf
-        return DefectFrequencies(
-            ftf=self.ftf * slower,
-            bpfo=self.bpfo * slower,
-            bpfi=balls * (shaft - self.ftf * slower),
-            bsf=self.bsf * (1.0 - slip * gamma / (1.0 + gamma)),
+        shaft = self.ftf_order + self.bpfi_order * self.ftf_order / self.bpfo_order
+        gamma, slower = 1.0 - 2.0 * self.ftf_order / shaft, 1.0 - slip
+        balls = self.bpfo_order / self.ftf_order
+        return DefectOrders(
+            ftf_order=self.ftf_order * slower,
+            bpfo_order=self.bpfo_order * slower,
+            bpfi_order=balls * (shaft - self.ftf_order * slower),
+            bsf_order=self.bsf_order * (1.0 - slip * gamma / (1.0 + gamma)),
         )
 
 

@@ -21,7 +21,7 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.grooves import LARGEST_ANGLE, LARGEST_PLAY
-from reduced_models.bearing.kinematics import DefectFrequencies
+from reduced_models.bearing.kinematics import DefectOrders
 
 _Floats = NDArray[np.float64]
 
@@ -40,8 +40,8 @@ class Interval(NamedTuple):
 def angle_from_order(
     bearing: BallBearing,
     *,
-    bpfo: float | None = None,
-    bpfi: float | None = None,
+    bpfo_order: float | None = None,
+    bpfi_order: float | None = None,
     error: float = 0.0,
     slip: float = 0.0,
 ) -> Interval:
@@ -50,7 +50,7 @@ def angle_from_order(
     Parameters
     ----------
     bearing : BallBearing
-    bpfo, bpfi : float
+    bpfo_order, bpfi_order : float
         Order of a defect of the outer or of the inner race, per turn of the shaft; one of them.
     error : float
         Of the order.
@@ -63,13 +63,13 @@ def angle_from_order(
         No order or both; one that no contact angle up to 45 degrees has; an error that is negative, or that allows
         larger angles; a slip that is no share.
     """
-    name, order, outer = _outer_order(bearing, bpfo, bpfi)
-    slower = bearing.orders.with_slip(slip).ftf / bearing.orders.ftf
+    name, order, outer = _outer_order(bearing, bpfo_order, bpfi_order)
+    slower = bearing.orders.with_slip(slip).ftf_order / bearing.orders.ftf_order
     outer, reach = outer / slower, require_nonnegative("error", error) / slower
-    least, most = _bpfo(bearing, 0.0), _bpfo(bearing, LARGEST_ANGLE)
+    least, most = _order(bearing, 0.0), _order(bearing, LARGEST_ANGLE)
     if not least - reach <= outer <= most:
         low, high = slower * least, slower * most
-        if name == "bpfi":
+        if name == "bpfi_order":
             low, high = bearing.balls - high, bearing.balls - low
         raise InputError(name, order, f"between {low:.5g} and {high:.5g}: contact angles from 0 to 45 degrees")
     if outer + reach > most:
@@ -84,8 +84,8 @@ def clearance_from_order(
     bearing: BallBearing,
     axial: ArrayLike,
     *,
-    bpfo: float | None = None,
-    bpfi: float | None = None,
+    bpfo_order: float | None = None,
+    bpfi_order: float | None = None,
     error: float = 0.0,
     slip: float = 0.0,
     radial: float = 0.0,
@@ -99,7 +99,7 @@ def clearance_from_order(
         A deep-groove bearing, of any clearance.
     axial : float or sequence of float
         Axial loads [N], above 0.
-    bpfo, bpfi, error, slip
+    bpfo_order, bpfi_order, error, slip
         As in `angle_from_order`.
     radial : float
         Radial load beside it [N].
@@ -124,7 +124,7 @@ def clearance_from_order(
     if loads.ndim != 1 or not loads.size or not (loads > 0.0).all():
         raise InputError("axial", loads.tolist(), "one load or a flat list, each > 0")
     require_nonnegative("radial", radial)
-    angles = angle_from_order(bearing, bpfo=bpfo, bpfi=bpfi, error=error, slip=slip)
+    angles = angle_from_order(bearing, bpfo_order=bpfo_order, bpfi_order=bpfi_order, error=error, slip=slip)
     solved = {
         angle: [_clearance(bearing, (0.0, -radial, one), speed_rpm, angle) for one in loads.tolist()]
         for angle in {float(angle) for angle in angles}
@@ -133,27 +133,30 @@ def clearance_from_order(
     return Interval(value, np.where(np.isnan(low) & np.isfinite(high), 0.0, low), high)
 
 
-def _outer_order(bearing: BallBearing, bpfo: float | None, bpfi: float | None) -> tuple[str, float, float]:
-    """Name and value of the order that is given, and BPFO."""
-    if (bpfo is None) == (bpfi is None):
-        raise InputError("order", None if bpfo is None else "bpfo and bpfi", "given once, as bpfo or bpfi")
-    name, order = ("bpfo", bpfo) if bpfo is not None else ("bpfi", bpfi)
-    found = require_finite(name, order)
-    return name, found, found if bpfo is not None else bearing.balls - found
+def _outer_order(
+    bearing: BallBearing, bpfo_order: float | None, bpfi_order: float | None
+) -> tuple[str, float, float]:
+    """Name and value of the order that is given, and the order of the outer race."""
+    if (bpfo_order is None) == (bpfi_order is None):
+        both = None if bpfo_order is None else "bpfo_order and bpfi_order"
+        raise InputError("order", both, "given once, as bpfo_order or bpfi_order")
+    name, order = ("bpfo_order", bpfo_order) if bpfo_order is not None else ("bpfi_order", bpfi_order)
+    value = require_finite(name, order)
+    return name, value, value if bpfo_order is not None else bearing.balls - value
 
 
-def _bpfo(bearing: BallBearing, angle: float) -> float:
-    return DefectFrequencies.of(bearing.balls, bearing.gamma, cos(angle)).bpfo
+def _order(bearing: BallBearing, angle: float) -> float:
+    return DefectOrders.of(bearing.balls, bearing.gamma, cos(angle)).bpfo_order
 
 
-def _angle(bearing: BallBearing, bpfo: float) -> float:
-    cosine = (1.0 - 2.0 * bpfo / bearing.balls) / bearing.gamma
+def _angle(bearing: BallBearing, order: float) -> float:
+    cosine = (1.0 - 2.0 * order / bearing.balls) / bearing.gamma
     return acos(min(cosine, 1.0))
 
 
 def _clearance(bearing: BallBearing, load: tuple[float, ...], speed_rpm: float, angle: float) -> float:
     """Clearance [m] with which BPFO under a load is that of a contact angle; not a number where there is none."""
-    wanted = _bpfo(bearing, angle)
+    wanted = _order(bearing, angle)
 
     def above(clearance: float) -> float:
         try:
@@ -163,7 +166,7 @@ def _clearance(bearing: BallBearing, load: tuple[float, ...], speed_rpm: float, 
                 raise
             raise InputError("axial", load[2], error.allowed) from None
         assert orders is not None  # axial load presses balls
-        return orders.bpfo - wanted
+        return orders.bpfo_order - wanted
 
     distance = (bearing.conformity_inner + bearing.conformity_outer - 1.0) * bearing.ball_diameter
     # with the clearance of the free angle any load leads to a larger one, but for the inertia of balls

@@ -92,7 +92,7 @@ def tracks_at(
     """
     inner = race == RACES[0]
     (ball, shaft), (ball_rate, shaft_rate) = angles, rates
-    turns = bearing.orders.bsf
+    turns = bearing.orders.bsf_order
     found = (
         (features_on(bearing, race=race), track_radius(bearing, race),
          ball - shaft if inner else ball, ball_rate - shaft_rate if inner else ball_rate),

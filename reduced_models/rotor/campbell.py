@@ -131,7 +131,7 @@ class Campbell(QuantityTable):
         Parameters
         ----------
         order : float
-            1 for unbalance; ``bearing.orders.bpfo`` for the balls that pass.
+            1 for unbalance; ``bearing.orders.bpfo_order`` for the balls that pass.
 
         Returns
         -------

@@ -8,7 +8,7 @@ record, `write_dataset` makes of them the Parquet files that `bearing_datasets.o
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, fields
 from math import ceil, hypot
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
@@ -30,6 +30,7 @@ from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.features import Indentation, Spall
 from reduced_models.bearing.height_tables import LEAST_STEPS, shortest_meeting
+from reduced_models.bearing.kinematics import DefectOrders
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.simulate import simulate_rotor
 from reduced_models.rotor.supports import BearingMount
@@ -164,7 +165,7 @@ class RecordCase(Summary):
         return Rotor(mass=np.diag(mass), stiffness=np.diag(held), load=load, mounts=(mount,))
 
     def columns(self) -> dict[str, Any]:
-        """Row of the metadata table, in the columns of bearing-datasets; additional ones at its end."""
+        """Row of the metadata table, in the columns of bearing-datasets but for orders; own ones at its end."""
         b, faults = self.bearing, list(self.bearing.features)
         kinds = sorted({PARTS.get(str(getattr(fault, "race", None)), BALL) for fault in faults})
         defects = [fault for fault in faults if isinstance(fault, Spall | Indentation)]
@@ -184,12 +185,14 @@ class RecordCase(Summary):
             "fault_origin": "artificial" if kinds else "none", "fault_size_mm": 1e3 * length,
             "fault_severity": words or graded, "fault_severity_level": int(bool(kinds)),
             "bearing_id": key_of(b.to_dict()), "bearing_model": b.name or "ball bearing",
-            "bpfo": orders.bpfo, "bpfi": orders.bpfi, "bsf": orders.bsf, "ftf": orders.ftf,
+            **asdict(orders),
             "axial_load_n": self.load[2] if len(self.load) == 3 else 0.0, "clearance_um": 1e6 * b.clearance,
             "noise": self.noise, "seed": self.seed,
         }  # fmt: skip
 
 
+# Columns of bearing-datasets that have orders, where here a name without _order is in Hz
+COLUMN_OF = {field.name: field.name.removesuffix("_order") for field in fields(DefectOrders)}
 OWN_COLUMNS = {
     "axial_load_n": "axial load on the inner ring [N]",
     "clearance_um": "radial internal clearance [um]",
@@ -211,7 +214,8 @@ class VibrationRecord(QuantityTable):
     rate : float
         Samples per s.
     columns : dict
-        Metadata by column, as in bearing-datasets, without the name and files of a data set.
+        Metadata by column, as in bearing-datasets, without the name and files of a data set. Its ``bpfo``,
+        ``bpfi``, ``bsf`` and ``ftf`` are orders, and are called ``bpfo_order`` and so on here.
     """
 
     signal: Annotated[NDArray[np.float32], ACCELERATION.over("sample")]
@@ -373,7 +377,8 @@ def write_dataset(records: Sequence[VibrationRecord], folder: str | Path, *, tit
             signal = pyarrow.ListArray.from_arrays(ends, pyarrow.array(record.signal, pyarrow.float32()))
             writer.write_table(pyarrow.table([pyarrow.array([names[k]]), signal], schema=kinds))
             place = {"signal_file": file, "signal_row_group": k, "signal_row": 0}
-            rows.append({"dataset": folder.name, **record.columns, **place})
+            columns = {COLUMN_OF.get(name, name): value for name, value in record.columns.items()}
+            rows.append({"dataset": folder.name, **columns, **place})
     parquet.write_table(pyarrow.Table.from_pylist(rows), folder / "metadata.parquet", compression="zstd")
     manifest = {
         "dataset": folder.name, "title": title, "license": "", "citation": "", "schema_version": 2,

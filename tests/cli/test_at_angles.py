@@ -41,7 +41,7 @@ def test_statics_and_coefficients_are_those_of_the_library(found, tmp_path):
     np.testing.assert_array_equal(at.state.contact_angles, state.contact_angles)
     small = bearing.coefficients(load, speed_rpm=3000.0, hz=(5.0, 5000.0))
     np.testing.assert_allclose(at.over_frequency.stiffness[[0, -1]], small.stiffness, rtol=1e-12)
-    assert at.frequencies[0]["bpfo"] == pytest.approx(50.0 * state.orders.bpfo)
+    assert at.frequencies[0]["bpfo"] == pytest.approx(50.0 * state.orders.bpfo_order)
     assert run_whole(one, tmp_path) is None  # nothing in time
 
 

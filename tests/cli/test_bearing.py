@@ -54,7 +54,7 @@ def test_json_is_what_the_library_has(call):
         for name in ("force", "h_min", "lambda_ratio", "angles", "moment"):
             np.testing.assert_array_equal(found["states"][k][name], getattr(state, name))
         assert found["frequencies_hz"][k]["bpfo"] == bearing.frequencies(speed).bpfo
-    assert found["orders"]["bpfi"] == pytest.approx(5.4152, abs=1e-4)
+    assert found["orders"]["bpfi_order"] == pytest.approx(5.4152, abs=1e-4)
 
 
 @pytest.mark.parametrize(("given", "shown"), [("CN", "12.5 µm"), ("c3", "20.5 µm"), ("-2.5", "-2.5 µm")])
@@ -276,8 +276,8 @@ def test_json_of_an_axial_load_is_what_the_library_has(call):
         np.testing.assert_array_equal(found["coefficients"][k]["damping"], at.damping[k])
     for name in ("force", "h_min", "contact_angles", "spin_to_roll", "displacement"):
         np.testing.assert_array_equal(found["states"][0][name], getattr(state, name))
-    assert found["orders_under_load"][0]["bpfo"] == state.orders.bpfo != found["orders"]["bpfo"]
-    assert found["frequencies_hz"][0]["bpfo"] == pytest.approx(state.orders.bpfo * 100.0)
+    assert found["orders_under_load"][0]["bpfo_order"] == state.orders.bpfo_order != found["orders"]["bpfo_order"]
+    assert found["frequencies_hz"][0]["bpfo"] == pytest.approx(state.orders.bpfo_order * 100.0)
     inner = found["coefficients"][0].keys() | found["states"][0].keys()
     assert found["units"].keys() <= found.keys() | inner
 
@@ -293,7 +293,7 @@ def test_table_of_an_axial_load(call):
     assert f"{at.stiffness[0, 1, 1] * 1e-6:.4g} N/µm" in lines["along the load"]
     assert f"{at.stiffness[0, 3, 3] * 1e-3:.4g} N m/mrad" in lines["tilt about x"]
     assert f"{at.stiffness[0, 2, 2] * 1e-6:.4g} N/µm" in result.out
-    assert f"{state.orders.bpfo:.5g} per turn" in lines["BPFO"]
+    assert f"{state.orders.bpfo_order:.5g} per turn" in lines["BPFO"]
     assert "spin to roll" in result.out and "outer" in lines["race control"]
     assert f"up to {state.spin_to_roll.max():.3g}" in lines["spin"] and "friction" in lines["spin"]
 
@@ -316,7 +316,7 @@ def test_a_deep_groove_bearing_with_clearance_and_axial_load(call):
     """9.1 um and 30 N axially at rest: BPFO of an independent model."""
     changed = ("--clearance", "9.1", "--axial", "30", "--speed-rpm", "0")
     found = json.loads(call("bearing", "6205", *changed, "--json", "-").out)
-    assert found["orders_under_load"][0]["bpfo"] == pytest.approx(3.6022, abs=1e-4)
+    assert found["orders_under_load"][0]["bpfo_order"] == pytest.approx(3.6022, abs=1e-4)
     shown = call("bearing", "6205", *changed).out  # rounding reads 0
     assert "0 µm down" in shown and "0 nm up and down" in shown and "e-" not in shown
 
@@ -371,10 +371,10 @@ def test_lines_of_a_spall(call):
     np.testing.assert_allclose(np.array(shown["hz"]), 30.0 * lines.order)
     assert {"spall", "lines", "amplitude", "hz"} <= set(found["units"])
     table = call("bearing", "6205", *OIL, *given).out
-    order = bearing.equilibrium((0.0, -30.0, 32.0), speed_rpm=1800.0).orders.bpfi
+    order = bearing.equilibrium((0.0, -30.0, 32.0), speed_rpm=1800.0).orders.bpfi_order
     row = next(line for line in table.splitlines() if "BPFI - 1" in line and "2 BPFI" not in line)
     assert row.split()[0] == f"{order - 1.0:.5g}" and "NOT LINEAR" not in table
-    slipping = bearing.orders_under((0.0, -30.0, 32.0), speed_rpm=1800.0, slip=0.01).bpfi
+    slipping = bearing.orders_under((0.0, -30.0, 32.0), speed_rpm=1800.0, slip=0.01).bpfi_order
     row = next(
         line
         for line in call("bearing", "6205", *OIL, *given, "--slip", "1").out.splitlines()
@@ -395,7 +395,7 @@ def test_orders_with_slip_and_from_a_measured_order(call):
     bearing = BallBearing.catalogue("6205", clearance=8e-6)
     orders = bearing.orders_under(5.0, axial=20.0, speed_rpm=1800.0, slip=0.005)
     assert found["orders_under_load"][0] == pytest.approx(asdict(orders)) and found["cage_slip"] == 0.005
-    assert f"{orders.bpfo:.5g} per turn" in printed and "0.5 %" in printed
+    assert f"{orders.bpfo_order:.5g} per turn" in printed and "0.5 %" in printed
     order = {"bpfi": 5.4021, "error": 5e-4, "slip": 0.005}
     angle, back = angle_from_order(bearing, **order), found["measured_order"]
     assert list(back["contact_angle"].values()) == pytest.approx(list(angle))

@@ -30,7 +30,7 @@ def test_json_is_what_the_library_has(call):
     assert found["lift_off"] == [{way: pair.lift_off(way, speed_rpm=6000.0) for way in ("+z", "-z")}]
     for k, one in enumerate(state.bearings):
         np.testing.assert_array_equal(found["states"][0]["bearings"][k]["h_min"], one.h_min)
-        assert found["frequencies_hz"][0][k]["bpfi"] == pytest.approx(100.0 * one.orders.bpfi)
+        assert found["frequencies_hz"][0][k]["bpfi"] == pytest.approx(100.0 * one.orders.bpfi_order)
     inner = found["coefficients"][0].keys() | found["states"][0].keys() | found["states"][0]["bearings"][0].keys()
     assert found["units"].keys() <= found.keys() | inner
 

@@ -87,7 +87,7 @@ def test_page_and_picture(found, tmp_path):
     page = write_page(tmp_path / "d.html", "defect.html.j2", {}, found=inside, picture=lambda name, text: text)
     text = re.sub(r"<[^>]*>|\s+", " ", page.read_text())
     assert "What a defect looks like" in text and f"multiples of {one.name}" in text
-    assert f"{one.orders.bpfo:.5g}" in text and f"{one.highest['film']:.3g}" in text
+    assert f"{one.orders.bpfo_order:.5g}" in text and f"{one.highest['film']:.3g}" in text
     assert ("at the contact angles" in text) == (one.spall.race == "inner")
     assert ("with 0.5&nbsp;% slip" in text) == (one.spall.race == "outer") == (one.to_dict()["cage_slip"] > 0.0)
     assert one.to_dict()["envelope_harmonics"] == one.harmonics

@@ -13,7 +13,7 @@ from ehlcontact.cli.explorer import COMPUTING, UNITS, script
 from ehlcontact.errors import InputError
 from reduced_models import Atlas, BallBearing
 from reduced_models.bearing.catalogue import DEEP_GROOVE
-from reduced_models.bearing.kinematics import DefectFrequencies
+from reduced_models.bearing.kinematics import DefectOrders
 from reduced_models.elements.film_response import FilterRates
 
 CLOSE = 1e-6  # of every number: what the issue asks for
@@ -179,10 +179,10 @@ def test_bearings_stand_and_vibrate_as_in_python(ask, bearings):
         stood += 1
         state, vibrations, bearing = there
         assert here["highest"] == pytest.approx(bearing.highest_speed, rel=CLOSE)
-        orders = {name.upper(): order for name, order in asdict(bearing.orders).items()}
+        orders = {name.removesuffix("_order").upper(): order for name, order in asdict(bearing.orders).items()}
         assert here["orders"] == pytest.approx(orders, rel=1e-12)
-        steep = DefectFrequencies.of(bearing.balls, bearing.gamma, np.cos(np.radians(12.5)))
-        angular = {name.upper(): order for name, order in asdict(steep).items()}
+        steep = DefectOrders.of(bearing.balls, bearing.gamma, np.cos(np.radians(12.5)))
+        angular = {name.removesuffix("_order").upper(): order for name, order in asdict(steep).items()}
         assert here["angular"] == pytest.approx(angular, rel=1e-12)
         films = np.stack([state.h_central, state.h_min], axis=-1)
         np.testing.assert_allclose(here["films"], films, rtol=CLOSE)
@@ -301,13 +301,16 @@ def test_orders_under_an_axial_load(ask):
              for load, axial, rpm, slip in loads]  # fmt: skip
     steep = [case(clearance=1.5e-4) | {"axial": 1.2e4, "slip": 0.0}, case() | {"axial": 100.0, "slip": 1.0}]
     *found, beyond, slipping = ask(body, cases + steep)
-    near = {"ftf": 5e-5, "bpfo": 3e-4, "bpfi": 3e-4, "bsf": 3e-4}
+    near = {"ftf_order": 5e-5, "bpfo_order": 3e-4, "bpfi_order": 3e-4, "bsf_order": 3e-4}
     for one, here, (load, axial, rpm, slip) in zip(cases, found, loads, strict=True):
         bearing = BallBearing(**one["bearing"], oil=Lubricant(**one["oil"]))
         state = bearing.equilibrium((0.0, -load, axial), speed_rpm=rpm)
         there = bearing.orders_under(load, axial=axial, speed_rpm=rpm, slip=slip)
         for name, order in asdict(there).items():
-            assert here["orders"][name.upper()] == pytest.approx(order, abs=near[name]), (name, one)
+            assert here["orders"][name.removesuffix("_order").upper()] == pytest.approx(order, abs=near[name]), (
+                name,
+                one,
+            )
         angle = np.average(state.contact_angles.mean(axis=1), weights=state.force[:, 0])
         assert here["angle"] == pytest.approx(np.degrees(angle), abs=0.02)
     assert "refused" in beyond and slipping["refused"]["field"] == "slip"

@@ -11,7 +11,7 @@ from browsers import dom
 
 from ehlcontact import Lubricant
 from reduced_models import Atlas, BallBearing
-from reduced_models.bearing.kinematics import DefectFrequencies
+from reduced_models.bearing.kinematics import DefectOrders
 
 LARGEST = 3e6  # bytes
 WIDTHS = (400, *(pytest.param(width, marks=pytest.mark.long) for width in (768, 1280)))
@@ -106,7 +106,7 @@ def test_what_it_shows_is_what_python_answers(seen):
     assert any(f"{K * 1e-6:.{decimals}f}" in found["hz"] for decimals in (0, 1))
     hz, orders = bearing.frequencies(2400), bearing.orders
     for name in ("FTF", "BPFO", "BPFI", "BSF"):
-        shown = f"{getattr(hz, name.lower()):.4g}{getattr(orders, name.lower()):.5g}"
+        shown = f"{getattr(hz, name.lower()):.4g}{getattr(orders, f'{name.lower()}_order'):.5g}"
         assert name in found["defects"] and shown in found["defects"]
 
 
@@ -115,8 +115,8 @@ def test_defect_frequencies_at_a_contact_angle(seen):
     found = seen(TEXTS, "#contact_angle=9.71&load=500")
     assert found["refused"] is False and "at a contact angle of 9.71°" in found["defects"]
     bearing = BallBearing.catalogue("6205")
-    for name, order in asdict(DefectFrequencies.of(9, bearing.gamma, np.cos(np.radians(9.71)))).items():
-        assert name.upper() in found["defects"] and f"{order:.5g}" in found["defects"]
+    for name, order in asdict(DefectOrders.of(9, bearing.gamma, np.cos(np.radians(9.71)))).items():
+        assert name.removesuffix("_order").upper() in found["defects"] and f"{order:.5g}" in found["defects"]
     found = seen(TEXTS, "#contact_angle=50")
     assert "contact_angle" in found["invalid"] and "0 to 45" in found["refused"]
 
@@ -126,7 +126,7 @@ def test_defect_frequencies_under_an_axial_load(seen):
     """The page shows BPFO as the library has it, to its fourth digit, and that the rest is of the radial load."""
     found = seen(TEXTS, "#axial_load=60&load=500&clearance=8&slip=0.5&temperature=50")
     bearing = BallBearing.catalogue("6205", clearance=8e-6, oil=Lubricant.iso_vg(68, temperature=50.0))
-    bpfo = bearing.orders_under(500.0, axial=60.0, speed_rpm=3000.0, slip=0.005).bpfo
+    bpfo = bearing.orders_under(500.0, axial=60.0, speed_rpm=3000.0, slip=0.005).bpfo_order
     assert "under 60 N of axial load, without which all else is computed" in found["defects"]
     assert "with 0.5 % slip of the cage" in found["defects"]
     shown = re.search(r"outer race[^0-9]*?[\d.]+?(3\.\d{4})", found["defects"])

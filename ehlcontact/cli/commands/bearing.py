@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from reduced_models.bearing.coefficients import BearingCoefficients
     from reduced_models.bearing.equilibrium_result import BearingState
     from reduced_models.bearing.excitation import BearingExcitation
-    from reduced_models.bearing.kinematics import DefectFrequencies
+    from reduced_models.bearing.kinematics import DefectOrders
     from reduced_models.bearing.oil_and_heat import OilAndHeat
     from reduced_models.bearing.set_result import SetState
     from reduced_models.bearing.sliding import BearingFriction
@@ -67,8 +67,8 @@ UNITS = {
     "load": "N; radial; of a state (x, y), downwards is -y",
     "force": "N",
     "speed_rpm": "rev/min, of the shaft",
-    "orders": "FTF, BPFO, BPFI, BSF: per turn of the shaft",
-    "frequencies_hz": "FTF, BPFO, BPFI, BSF: Hz, at each speed",
+    "orders": "ftf_order, bpfo_order, bpfi_order, bsf_order: per turn of the shaft",
+    "frequencies_hz": "ftf, bpfo, bpfi, bsf: Hz, at each speed",
     "coefficients": "of small vibrations at frequency_hz, means over a ball passage; in x, y",
     "stiffness": "N/m; of a state: slope of the static force",
     "damping": "N s/m",
@@ -96,7 +96,7 @@ UNITS_AT_ANGLES = {
     "axial_load": "N; along z",
     "moments": "N m; about x, y; null where tilts are held",
     "tilt": "rad; about x, y, at which the ring is held; null where it is not",
-    "orders": "FTF, BPFO, BPFI, BSF: per turn of the shaft, at the contact angle without load",
+    "orders": "ftf_order, bpfo_order, bpfi_order, bsf_order: per turn of the shaft, at the angle without load",
     "orders_under_load": "the same at the contact angles of each speed",
     "coefficients": "of small vibrations at frequency_hz, means over a ball passage; in x, y, z, tilts about x, y",
     "stiffness": "N/m, N, N m; of a state: slope of the static force",
@@ -118,7 +118,7 @@ UNITS_OF_PAIRS = {
     "lift_off_at_rest": "the same of a preloaded pair at rest without films",
     "axial_forces": "N; of each bearing, along its facing",
     "orders_under_load": "the same at the contact angles of each speed, by bearing; null of an unloaded one",
-    "frequencies_hz": "FTF, BPFO, BPFI, BSF: Hz, at each speed, bearing by bearing",
+    "frequencies_hz": "ftf, bpfo, bpfi, bsf: Hz, at each speed, bearing by bearing",
     "displacement": "m, rad; of the shaft, or of the inner ring of a bearing along its facing",
     "mean_displacement": "m, rad; of the shaft, mean over a ball passage",
     "bearings": "the state of each, in its own frame: z along its facing",
@@ -152,11 +152,8 @@ class BearingReport:
         ]
         under_load = [[None if one is None else asdict(one) for one in row] for row in orders]
         hertz = [
-            [
-                None if one is None else {name: order * (at.speed_rpm * RPM_TO_HZ) for name, order in one.items()}
-                for one in row
-            ]
-            for at, row in zip(self.states, under_load, strict=True)
+            [None if one is None else asdict(one.at(state.speed_rpm)) for one in row]
+            for state, row in zip(self.states, orders, strict=True)
         ]
         axial: dict[str, Any] = {}
         units = UNITS | ({} if job.planar else UNITS_AT_ANGLES)
@@ -714,7 +711,7 @@ def _sliding(friction: tuple[BearingFriction, ...]) -> list[Row]:
     return [("sliding in contacts", in_unit(sum(one.sliding for one in friction), "N m"), remark)]
 
 
-def _orders(b: BallBearing, state: BearingState, slip: float = 0.0) -> DefectFrequencies | None:
+def _orders(b: BallBearing, state: BearingState, slip: float = 0.0) -> DefectOrders | None:
     """Defect frequencies per turn of the shaft, at the contact angles of the state where it has any.
 
     None of a bearing of a pair that carries nothing.
@@ -727,10 +724,13 @@ def _defects(b: BallBearing, state: BearingState | SetState, slip: float) -> lis
     """Defect frequencies at a speed in Hz, with their orders."""
     rows = []
     for title, one in bearings_of(state).items():
-        found, which = _orders(b, one, slip), f"{title.partition(',')[0]}: " if title else ""
-        for name, meaning in DEFECTS.items() if found is not None else ():
-            order = getattr(found, name.lower())
-            hertz, words = numeral(order * (state.speed_rpm * RPM_TO_HZ), 4), numeral(order, 5)
+        orders, which = _orders(b, one, slip), f"{title.partition(',')[0]}: " if title else ""
+        if orders is None:
+            continue
+        frequencies = orders.at(state.speed_rpm)
+        for name, meaning in DEFECTS.items():
+            hertz = numeral(getattr(frequencies, name.lower()), 4)
+            words = numeral(getattr(orders, f"{name.lower()}_order"), 5)
             rows.append((name, f"{hertz} Hz", f"{which}{words} per turn: {meaning}"))
     if slip:
         rows.append(("cage slip", f"{numeral(100.0 * slip)} %", "in these four"))

@@ -14,7 +14,7 @@ from ehlcontact.results.picture import BLUE, ORANGE, Line, Mark, Panel, Picture
 from reduced_models import Spall
 from reduced_models.bearing.excitation import BearingExcitation
 from reduced_models.bearing.height_tables import track_radius
-from reduced_models.bearing.kinematics import RPM_TO_HZ, DefectFrequencies
+from reduced_models.bearing.kinematics import RPM_TO_HZ, DefectFrequencies, DefectOrders
 from reduced_models.signals import envelope_spectrum
 from reduced_models.signals.spectra import EnvelopeSpectrum
 
@@ -43,7 +43,7 @@ class StudyDefect:
     """Orders of a bearing under load, and what a spall does, by `FILTERS` of the contacts."""
 
     spall: Spall
-    orders: DefectFrequencies
+    orders: DefectOrders
     speed_rpm: float
     slip: float  # of the cage, a share of its speed with balls that roll
     lines: dict[str, BearingExcitation]
@@ -55,7 +55,7 @@ class StudyDefect:
 
     def picture(self) -> Picture:
         """Force over the turns, one passage of it, the spectrum of its envelope, and lines of the force."""
-        hertz = self.order * self.speed_rpm * RPM_TO_HZ
+        hertz = self.hz
         change = ("change of the force", "N")
         spans = (0.0, SHOWN_TURNS), self.passage
         over_turns = [
@@ -102,7 +102,17 @@ class StudyDefect:
     @property
     def order(self) -> float:
         """At which balls meet the spall, per turn of the shaft."""
-        return float(getattr(self.orders, self.name.lower()))
+        return float(getattr(self.orders, f"{self.name.lower()}_order"))
+
+    @property
+    def frequencies(self) -> DefectFrequencies:
+        """Defect frequencies [Hz]."""
+        return self.orders.at(self.speed_rpm)
+
+    @property
+    def hz(self) -> float:
+        """At which balls meet the spall [Hz]."""
+        return float(getattr(self.frequencies, self.name.lower()))
 
     @property
     def reservation(self) -> str:
@@ -122,7 +132,7 @@ class StudyDefect:
     @property
     def harmonics(self) -> dict[str, list[float]]:
         """Lines of the envelope at the first three multiples of the order of the spall [N], by filter."""
-        hz = self.order * self.speed_rpm * RPM_TO_HZ
+        hz = self.hz
         return {
             name: [one.line(j * hz, NEAR * hz).amplitude for j in (1, 2, 3)] for name, one in self.envelope.items()
         }
@@ -132,6 +142,7 @@ class StudyDefect:
         return {
             "spall": asdict(self.spall),
             "orders": asdict(self.orders),
+            "frequencies_hz": asdict(self.frequencies),
             "cage_slip": self.slip,
             "reservation": self.reservation,
             "largest_force": None if self.loses_load else self.highest,
@@ -160,7 +171,7 @@ def defect_of(study: Study) -> StudyDefect | None:
     envelopes = {name: envelope_spectrum(one, rate, band) for name, one in force.items()}
     force["none"] = _vibration(_without_ripple(lines["none"]), turns)
     orders = bearing.orders_under(load, speed_rpm=speed, slip=slip)
-    met = orders.bpfi if spall.race == "inner" else orders.bpfo
+    met = orders.bpfi_order if spall.race == "inner" else orders.bpfo_order
     rolled = spall.length * bearing.balls / (2.0 * pi * track_radius(bearing, str(spall.race)) * met)
     reach = BESIDE * (rolled + 2.0 / highest)  # the shortest waves are half a semi-axis
     strongest = float(turns[np.abs(force[FILTERS[0]][turns <= FIRST]).argmax()])

@@ -113,8 +113,9 @@ class BearingAtAngles:
     @property
     def frequencies(self) -> list[Mapping[str, float]]:
         """Defect frequencies at the contact angles [Hz], by name; of every bearing."""
-        orders = [asdict(one.orders or self.bearing.orders) for one in self.bearings.values()]
-        return [{name: order * self.state.speed_rpm / 60.0 for name, order in one.items()} for one in orders]
+        return [
+            asdict((one.orders or self.bearing.orders).at(self.state.speed_rpm)) for one in self.bearings.values()
+        ]
 
     @staticmethod
     def balls(state: BearingState) -> list[tuple[Any, ...]]:

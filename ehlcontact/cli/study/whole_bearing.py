@@ -159,7 +159,7 @@ def require_whole_bearing(study: Any) -> None:
         raise InputError(
             names["load"], (-load[1], *load[2:]), f"one with a balance of all balls ({error})"
         ) from None
-    least = 0 if isinstance(bearing, BearingSet) else ceil(LEAST_STEPS * bearing.orders.bpfo)
+    least = 0 if isinstance(bearing, BearingSet) else ceil(LEAST_STEPS * bearing.orders.bpfo_order)
     if steps < least and len(load) == len(PLANAR):
         allowed = f"at least {least}, {LEAST_STEPS} while a ball passes"
         raise InputError("whole_bearing.steps_per_revolution", steps, allowed)

@@ -64,11 +64,11 @@ def heights_at(feature, bearing, ball, psi, turns, rotation):
 def one_by_one(bearing, features, load, turns, cage_angle):
     """Change of the force on the held ring by the features, by differences, (5,)."""
     Z, orders = bearing.balls, bearing.equilibrium(load, speed_rpm=SLOW).orders
-    cage = cage_angle + 2.0 * pi * orders.ftf * turns
+    cage = cage_angle + 2.0 * pi * orders.ftf_order * turns
     q, total = bearing.equilibrium(load, speed_rpm=SLOW, cage_angle=cage).displacement, np.zeros(5)
     for k in range(Z):
         psi = cage + 2.0 * pi * k / Z
-        h = sum(heights_at(one, bearing, k, psi, turns, orders.bsf) for one in features)
+        h = sum(heights_at(one, bearing, k, psi, turns, orders.bsf_order) for one in features)
         if h.any():
             total += 0.5 * (pressed(bearing, q, psi, h) - pressed(bearing, q, psi, -h))
     return total
@@ -114,7 +114,7 @@ def test_orders_of_race_waviness_under_axial_load(waves, aside, k):
     load = (0.0, 0.0, 300.0)
     found = DRY.excitation([RaceWaviness(race=race, waves=n, amplitude=1e-7)], load, speed_rpm=SLOW)
     orders = DRY.equilibrium(load, speed_rpm=SLOW).orders
-    expected = k * orders.bpfi + aside if race == "inner" else k * orders.bpfo
+    expected = k * orders.bpfi_order + aside if race == "inner" else k * orders.bpfo_order
     assert found.order == pytest.approx([expected], abs=1e-6)
     forces = found.amplitude[0]
     if aside:
@@ -138,10 +138,10 @@ def test_orders_of_balls_under_axial_load():
     load = (0.0, 0.0, 300.0)
     orders = DRY.equilibrium(load, speed_rpm=SLOW).orders
     larger = DRY.excitation([BallDiameter(ball=0, excess=1e-7)], load, speed_rpm=SLOW)
-    assert larger.order == pytest.approx([0.0, orders.ftf], abs=1e-6)
+    assert larger.order == pytest.approx([0.0, orders.ftf_order], abs=1e-6)
     wavy = DRY.excitation([BallWaviness(ball=0, waves=4, amplitude=1e-7)], load, speed_rpm=SLOW)
-    centre = 4.0 * orders.bsf
-    assert wavy.order == pytest.approx([centre - orders.ftf, centre, centre + orders.ftf], abs=1e-6)
+    centre = 4.0 * orders.bsf_order
+    assert wavy.order == pytest.approx([centre - orders.ftf_order, centre, centre + orders.ftf_order], abs=1e-6)
     assert wavy.amplitude[1, 2] > 0.1 and wavy.amplitude[[0, 2], 0].min() > 0.1
 
 
@@ -151,7 +151,7 @@ def test_waves_around_an_inner_race_move_it_like_its_shaft():
     bearing = BallBearing.catalogue("6205", oil=oil, clearance=-10e-6)
     eccentric, load = RaceWaviness(race="inner", waves=1, amplitude=1e-7), (0.0, -1e-3)
     found = bearing.excitation([eccentric], load, speed_rpm=3000.0)
-    seen = 1.0 - bearing.orders.ftf  # the frequency at which a ball meets it
+    seen = 1.0 - bearing.orders.ftf_order  # the frequency at which a ball meets it
     K = bearing.coefficients(load, speed_rpm=3000.0, hz=50.0 * seen)
     Z = np.hypot(K.stiffness[0, 0, 0], K.omega[0] * K.damping[0, 0, 0])
     strongest = int(np.argmax(found.amplitude[:, 0]))
@@ -241,9 +241,9 @@ def test_slip_of_the_cage_moves_lines(load):
     )
     orders = DRY.orders_under(load, **given)
     found, turned = (DRY.excitation([one], load, **given).order for one in (race, ball))
-    assert np.abs(found - (orders.bpfi + 1.0)).min() < 2e-4
-    assert np.abs(turned - (2.0 * orders.bsf + orders.ftf)).min() < 2e-4
-    assert (np.abs(DRY.excitation([race], load, speed_rpm=SLOW).order - (orders.bpfi + 1.0)) > 0.02).all()
+    assert np.abs(found - (orders.bpfi_order + 1.0)).min() < 2e-4
+    assert np.abs(turned - (2.0 * orders.bsf_order + orders.ftf_order)).min() < 2e-4
+    assert (np.abs(DRY.excitation([race], load, speed_rpm=SLOW).order - (orders.bpfi_order + 1.0)) > 0.02).all()
 
 
 def test_large_features_are_named():

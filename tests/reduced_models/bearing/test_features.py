@@ -173,7 +173,7 @@ def test_a_ring_on_small_features_rests_where_their_forces_push_it(load):
     moved = bearing.equilibrium(load, cage_angle=cage, shaft_angle=shaft).displacement - smooth.displacement
     assert np.abs(moved).max() > 1e-9
     turns = shaft / (2.0 * pi)
-    start = cage - 2.0 * pi * (smooth.orders if len(load) > 2 else DRY.orders).ftf * turns
+    start = cage - 2.0 * pi * (smooth.orders if len(load) > 2 else DRY.orders).ftf_order * turns
     push = DRY.excitation(features, load, cage_angle=start).force(turns)
     free = len(load)
     expected = np.linalg.solve(smooth.stiffness[:free, :free], push[:free])
@@ -207,7 +207,11 @@ def test_a_ball_loses_its_load_where_the_spall_begins(freedoms):
     )
     force, without = balls[:, ball, 1], smooth[:, ball, 1]
     low = np.flatnonzero((force < 0.5 * without) & (without > 100.0))
-    ftf = DRY.orders.ftf if freedoms == 2 else DRY.equilibrium(load, speed_rpm=60.0, cage_angle=CAGE).orders.ftf
+    ftf = (
+        DRY.orders.ftf_order
+        if freedoms == 2
+        else DRY.equilibrium(load, speed_rpm=60.0, cage_angle=CAGE).orders.ftf_order
+    )
     angle = CAGE + 2.0 * pi * (ball / 9 + ftf * (low[[0, -1]] + 1) / steps) - 1.5 * pi
     approach = sum((without[low[0]] / bearing.race(name).kn) ** (2.0 / 3.0) for name in ("inner", "outer"))
     parted = sqrt(2.0 * bearing.race("outer").geometry.radius_x * approach)
@@ -240,9 +244,9 @@ def test_a_defect_of_a_ball_meets_both_races_once_in_a_turn_of_the_ball():
     lost = smooth[:, 2, 0] - balls[:, 2, 0]
     inside = lost[1:-1]
     peaks = np.flatnonzero((inside > lost[:-2]) & (inside >= lost[2:]) & (inside > 0.5 * lost.max())) + 2
-    met = 2.0 * pi * DRY.orders.bsf * peaks / steps
+    met = 2.0 * pi * DRY.orders.bsf_order * peaks / steps
     expected = angle + pi * np.arange(len(met))
-    assert len(met) == int((2.0 * pi * DRY.orders.bsf - angle) / pi) + 1
+    assert len(met) == int((2.0 * pi * DRY.orders.bsf_order - angle) / pi) + 1
     np.testing.assert_allclose(met, expected, atol=0.005)
     assert np.abs(np.delete(balls - smooth, 2, axis=1)).max() < 1e-6
 
@@ -282,7 +286,7 @@ def test_a_mass_on_a_spall_feels_both_edges():
         load=(0.0, -500.0), mounts=(mount,),
     )  # fmt: skip
     run = simulate_rotor(rotor, speed_rpm=speed, dt=dt, until=0.02)
-    cage, radius = bearing.orders.ftf * speed * pi / 30.0, track_radius(bearing, "outer")
+    cage, radius = bearing.orders.ftf_order * speed * pi / 30.0, track_radius(bearing, "outer")
     force = -run.force[:, 1]
     ball = 1  # the second passage, with the first ball starting over the spall
     middle = 2.0 * pi / bearing.balls * ball / cage

@@ -52,7 +52,7 @@ def ball(film):
     angles, rpm = np.radians(np.linspace(0.0, 92.0, 185)), 3000.0
     states = [film.equilibrium(DOWN, speed_rpm=rpm, cage_angle=a - pi / 2.0) for a in angles.tolist()]
     approach, force = (np.array([getattr(s, name)[0, 0] for s in states]) for name in ("approach", "force"))
-    time = angles / (rpm * pi / 30.0 * film.orders.ftf)
+    time = angles / (rpm * pi / 30.0 * film.orders.ftf_order)
     point = film.race("inner").point(force[0], rpm)
     s = point.scales
     full = simulate(point, PrescribedApproach(time / s.time, approach / s.length), time=TimeSteps(dt=s.time))

@@ -29,7 +29,7 @@ def test_against_scipy():
     damping = 200.0 * np.eye(2)
     ki, ko = (bearing.race(race).kn for race in ("inner", "outer"))
     m, omega = bearing.density * pi / 6.0 * bearing.ball_diameter**3, RPM * pi / 30.0
-    cage = bearing.orders.ftf * omega
+    cage = bearing.orders.ftf_order * omega
     thrown = m * 0.5 * bearing.pitch_diameter * cage**2
     rotor = block(bearing, damping=damping)
 

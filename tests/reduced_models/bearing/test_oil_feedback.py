@@ -194,5 +194,5 @@ def test_mean_delay_is_that_of_the_oil_balance(at_r):
     u_sum = FLOODED.race("inner").speed_sum * RPM * np.pi / 30.0
     mean = feedback_of(at_r[1.0]).delays @ [0.25, 0.25, 0.5]
     assert mean == pytest.approx(balance().track_length / (2.0 * FLOODED.balls * u_sum))
-    inner = 60.0 / RPM / FLOODED.orders.bpfi
+    inner = 60.0 / RPM / FLOODED.orders.bpfi_order
     assert feedback_of(at_r[1.0]).delays[0] == pytest.approx(inner)

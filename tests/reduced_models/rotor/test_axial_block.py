@@ -139,7 +139,7 @@ def test_block_in_time_is_the_run():
     far = np.ptp(expected, axis=1)
     assert far.min() > 5e-7
     assert np.all(np.abs(seen.outputs - expected).max(axis=1) < 2e-5 * far)
-    turned = rotor.mounts[0].bearing.orders.ftf * 6e-4 * RPM * np.pi / 30.0  # at the free contact angle
+    turned = rotor.mounts[0].bearing.orders.ftf_order * 6e-4 * RPM * np.pi / 30.0  # at the free contact angle
     assert seen.states[-1, -1] * 1e-6 == pytest.approx(turned, rel=0.02)
 
 

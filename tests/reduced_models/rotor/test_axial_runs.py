@@ -150,7 +150,7 @@ def test_through_lift_off_against_scipy():
 
     def rates(t, z):
         q, v = z[:5], z[5:]
-        cage = LIGHT.orders.ftf * omega * t
+        cage = LIGHT.orders.ftf_order * omega * t
         pressed = sum(turned_force(m, q, cage) for m in rotor.mounts)
         swing = 4e-4 * omega**2 * np.array([np.cos(omega * t), np.sin(omega * t), 0.0, 0.0, 0.0])
         net = rotor.load + swing - pressed - omega * rotor.gyroscopic @ v
@@ -181,8 +181,8 @@ def test_balls_pass_at_the_order_of_their_contact_angle(spindle):
         motion.forces(np.array(state.displacement), np.zeros(5))
         motion.accept()
     passes = spindle.balls * motion.angle / (RPM * RPM_TO_RAD_S * 1e-3)
-    assert passes == pytest.approx(state.orders.bpfo, abs=1e-4)
-    assert abs(spindle.orders.bpfo - state.orders.bpfo) > 1e-3
+    assert passes == pytest.approx(state.orders.bpfo_order, abs=1e-4)
+    assert abs(spindle.orders.bpfo_order - state.orders.bpfo_order) > 1e-3
 
 
 def test_run_up_of_a_motor():

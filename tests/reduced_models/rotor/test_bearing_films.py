@@ -55,7 +55,7 @@ def block(bearing, **options):
 
 def passage(bearing):
     """Time at which ball 8 is at `AT`, and its speed along the outer track."""
-    cage = bearing.orders.ftf * RPM * pi / 30.0
+    cage = bearing.orders.ftf_order * RPM * pi / 30.0
     return (1.0 - PITCH) * 2.0 * pi / bearing.balls / cage, cage * track_radius(bearing, "outer")
 
 
@@ -131,12 +131,12 @@ def test_surface_is_what_the_height_tables_have(smooth, race, psi):
     bearing = replace(smooth, features=[*waves, BallDiameter(ball=2, excess=1e-6)])
     point = bearing.race(race).point(200.0, RPM)
     s, omega, shaft = point.scales, RPM * pi / 30.0, 0.7
-    rates = bearing.orders.ftf * omega * s.time, omega * s.time
+    rates = bearing.orders.ftf_order * omega * s.time, omega * s.time
     surface = TrackSurface(tracks_at(bearing, 2, race, (psi, shaft), rates), s.a, s.length)
     X, T = np.array([[0.0, 0.5]]), 0.8
     here = surface(X, np.zeros((1, 1)), T)[0]
     turned = shaft + rates[1] * T
-    at = psi + rates[0] * T, (turned, bearing.orders.bsf * turned)
+    at = psi + rates[0] * T, (turned, bearing.orders.bsf_order * turned)
     table = contact_height(bearing.tables.heights, 2, ("inner", "outer").index(race), *at, 0.0)
     assert -here[0] * s.length + 5e-7 == pytest.approx(table, abs=1e-8)
     later = surface(X, np.zeros((1, 1)), T + 0.5)[0]
@@ -296,7 +296,7 @@ def test_dent_on_a_ball_passes_the_inner_race(smooth):
     """A feature of a ball meets a race when the tables say so."""
     dent = Indentation(ball=8, angle=0.0, length=6e-4, depth=1.5e-6)
     bearing = replace(smooth, features=[dent])
-    spin = bearing.orders.bsf * RPM * pi / 30.0
+    spin = bearing.orders.bsf_order * RPM * pi / 30.0
     meets = 2.0 * pi / spin
     film = FullFilm(ball=8, race="inner", between=(meets - 4e-4, meets + 4e-4), grid=Grid(n=96))
     rotor = block(bearing)

@@ -67,7 +67,7 @@ def test_modes_are_followed_through_crossings(diagram):
 
 
 def test_critical_speeds_lie_where_a_mode_has_the_frequency_of_the_order(film, beam, diagram):
-    bpfo = film.orders.bpfo
+    bpfo = film.orders.bpfo_order
     found = diagram.critical_speeds(bpfo)
     assert [one.mode for one in found[:2]] == [0, 1]
     assert [one.speed_rpm for one in found] == sorted(one.speed_rpm for one in found)
@@ -101,7 +101,7 @@ def test_a_run_up_resonates_where_balls_pass_at_the_frequency_of_a_mode(film, be
     rotor, window = beam(film, unbalances=()), np.ones(400) / 400.0
     course = SpeedProfile(np.array([0.0, 2.0]), np.array([3000.0, 5000.0]))
     run = simulate_rotor(rotor, speed_rpm=course, dt=5e-5, until=2.0)
-    for direction, one in enumerate(diagram.critical_speeds(film.orders.bpfo)[:2]):
+    for direction, one in enumerate(diagram.critical_speeds(film.orders.bpfo_order)[:2]):
         swing = run.displacement[:, 12 + direction]
         swing = np.convolve((swing - np.convolve(swing, window, "same")) ** 2, window, "same")[1000:-1000]
         peak = run.speed_rpm[1000:-1000][np.argmax(swing)]

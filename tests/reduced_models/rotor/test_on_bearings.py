@@ -49,7 +49,7 @@ def test_against_scipy():
     omega = RPM * pi / 30.0
 
     def rates(t, z):
-        psi = -pi / 2.0 + still.orders.ftf * omega * t + 2.0 * pi / 9.0 * np.arange(9)
+        psi = -pi / 2.0 + still.orders.ftf_order * omega * t + 2.0 * pi / 9.0 * np.arange(9)
         n = np.array([np.cos(psi), np.sin(psi)])
         forces = kn * np.maximum(z[:2] @ n - 5e-6, 0.0) ** 1.5
         swing = 2e-4 * omega**2 * np.array([np.cos(omega * t + 0.7), np.sin(omega * t + 0.7)])

@@ -48,7 +48,7 @@ def files(tmp_path_factory):
 def test_lines_are_where_the_label_says(files):
     healthy, outer, inner = (read(path, VibrationRecord) for path in files[2])
     for record, name in ((outer, "bpfo"), (inner, "bpfi")):
-        at = record.columns[name] * record.columns["speed_rpm"] / 60.0
+        at = record.columns[f"{name}_order"] * record.columns["speed_rpm"] / 60.0
         found = envelope_spectrum(record.signal, record.rate, (2000.0, 5500.0))
         assert found.line(at, 3.0).amplitude > 20.0 * np.median(found.amplitude)
         assert indicators(record.signal).kurtosis > 4.0
@@ -86,6 +86,7 @@ def test_dataset_of_parquet(files, tmp_path):
         assert table["signal_id"][row["signal_row"]].as_py() == row["signal_id"]
         assert np.array_equal(np.float32(table["signal"][row["signal_row"]].as_py()), record.signal)
         assert row["dataset"] == "synthetic" and None not in row.values()
+        assert row["bpfo"] == record.columns["bpfo_order"] and "bpfo_order" not in row  # orders in that layout
     with pytest.raises(InputError, match="new or empty"):
         write_dataset(records, folder)
 
