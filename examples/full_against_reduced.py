@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact import Grid, Lubricant, OperatingPoint, TransientContact
-from reduced_models import Atlas, ScaledContact, jeffcott_rotor, simulate_rotor
+from reduced_models import Atlas, jeffcott_rotor, simulate_rotor
 from reduced_models.rotor.baselines import dry_contact
 from reduced_models.rotor.decay import log_decrement
 from reduced_models.rotor.result import RotorResult
@@ -41,7 +41,7 @@ def kicked(contact: Any, rest: float, periods: float, steps: int = 40) -> RotorR
 def full(periods: float = 8.0, n: int | None = None) -> RotorResult:
     """On the film, solved in every step."""
     film = TransientContact(POINT, grid=Grid(n=n))
-    return kicked(ScaledContact(film, POINT.scales), film.static_approach * POINT.scales.length, periods)
+    return kicked(film, film.static_approach, periods)
 
 
 def reduced(periods: float = 8.0) -> dict[str, RotorResult]:

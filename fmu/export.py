@@ -58,7 +58,7 @@ def export(
     nodes; outputs are the motions of these and of the supports. Supports are inside: the FMU then solves their
     forces in every step, by the steps of `simulate_rotor` and Newton's method. The forces of those that are
     `outside` are inputs, named and directed as in the FMU of a contact or a bearing, and the motions there
-    outputs. Contacts are elements of any kind, in SI or as `ScaledContact`; their films start at rest, and of
+    outputs. Contacts are elements of any kind, in SI; their films start at rest, and of
     those outside the FMU starts with the static force. Masses, stiffness and dampers can be set before
     initialization.
 

@@ -49,7 +49,6 @@ from reduced_models.rotor.parts import Support as Support
 from reduced_models.rotor.ross_rotor import from_ross as from_ross
 from reduced_models.rotor.rotor import Rotor as Rotor
 from reduced_models.rotor.rotor import Unbalance as Unbalance
-from reduced_models.rotor.scaled_contact import ScaledContact as ScaledContact
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
 from reduced_models.rotor.speed_profile import SpeedProfile as SpeedProfile
 from reduced_models.rotor.supports import BearingMount as BearingMount

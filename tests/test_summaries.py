@@ -136,9 +136,7 @@ WITHOUT_PLOT = {
     **dict.fromkeys(("ReferenceCheck", "Verification"), NUMBERS),
     **dict.fromkeys(("InputError", "ConvergenceError", "OutsideValidityWarning", "BuildError"), KIND),
     **dict.fromkeys(("VerificationError", "Status"), KIND),
-    **dict.fromkeys(
-        ("ScaledContact", "RossCallback", "BearingMotion", "TransientContact"), "stepped: its run has one"
-    ),
+    **dict.fromkeys(("RossCallback", "BearingMotion", "TransientContact"), "stepped: its run has one"),
     "Atlas": "what it answers has one",
     "LinearRotor": "asked for modes and responses, by frequency",
 }

@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Annotated, ClassVar
+from dataclasses import dataclass, fields, replace
 
 from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.heat import Heat
-from ehlcontact.point import Point, require_solvable, scales_of
+from ehlcontact.point import OperatingPoint, Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
-from ehlcontact.quantities import FORCE, LENGTH
+from ehlcontact.quantities import FORCE, scaled
 from ehlcontact.results.steady_result import grid_doubt
-from ehlcontact.results.table import Display, PointTable
 from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
 from ehlcontact.solver.lowest_film import beside_lowest
 from ehlcontact.solver.mesh_choice import Purpose, wider_meshes
 from ehlcontact.status import Status
-from ehlcontact.summary import Summary, contact_text
+from ehlcontact.summary import Summary, contact_text, film_unit
 from ehlcontact.supply import OilLayer
 from ehlcontact.transient.features import Surface, require_surface, surface_height, surface_step
 from ehlcontact.transient.time_step import DEFAULT_TOL
 from ehlcontact.transient.transient_film import FilmState, Step, TransientFilm
 
-LIKE_METRES = 1e-3  # dry approaches, below which an approach is more likely one in metres
+FAR = 100.0  # dry approaches, beyond which an approach is hardly one in the units of the point
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,35 +35,11 @@ class ContactState(FilmState):
     T: float = 0.0
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class ContactNow(PointTable):
-    """A `TransientContact` at one instant, in the units of its point.
-
-    Attributes
-    ----------
-    point : MoesPoint or OperatingPoint
-    force : float
-        Of the film [N; static load].
-    static_approach : float
-        Approach at rest under the static load [m; dry approach].
-    h_central, h_min : float
-        Film in the centre, and the smallest [m; dry approach].
-    """
-
-    point: Point
-    force: Annotated[float, FORCE]
-    static_approach: Annotated[float, LENGTH]
-    h_central: Annotated[float, LENGTH]
-    h_min: Annotated[float, LENGTH]
-
-    DISPLAY: ClassVar[Display] = Display(rows="")
-
-
 class TransientContact(Summary):
     """Transient EHL contact driven by its approach, for a rotor or any other time integrator.
 
-    It starts at rest, steady under load 1. Everything is dimensionless: approach in dry approaches, force in
-    static loads, time in 2a/u_sum; ``reduced_models.ScaledContact`` wraps it in SI units.
+    It starts at rest, steady under the load of its point, whose units it has. At an `OperatingPoint` these are m,
+    m/s, s and N; at a `MoesPoint` dry approaches, times of 2a/u_sum and static loads.
 
     Parameters
     ----------
@@ -93,14 +67,16 @@ class TransientContact(Summary):
     ----------
     tol : float
         As given.
+    units : {"SI", "dimensionless"}
+        Those of the point.
     force : float
-        Of the film, over the static load; ``now`` has it, and the following, in the units of the point.
+        Of the film [N; static load].
     static_approach : float
-        At rest under load 1, over the dry approach.
+        Approach at rest under the load of the point [m; dry approach].
     h_central, h_min : float
-        Film in the centre, and the smallest, over the dry approach.
+        Film in the centre, and the smallest [m; dry approach].
     film_error : ErrorEstimate or None
-        How far approach (dry approaches) and films at rest may be from those of an endless fine mesh on the same
+        How far approach [m; dry approach] and films at rest may be from those of an endless fine mesh on the same
         region; None without a coarser grid to compare with.
 
     Raises
@@ -110,9 +86,6 @@ class TransientContact(Summary):
     ConvergenceError
         The steady state at the start did not converge.
     """
-
-    force: float
-    static_approach: float
 
     @one_blas_thread()
     def __init__(
@@ -129,8 +102,8 @@ class TransientContact(Summary):
         threads: int | None = None,
     ) -> None:
         load = require_positive("largest_load", largest_load)
-        self.point, self.scales = point, scales_of(point)
         moes = require_solvable(point, load)
+        self.point, self.scales = point, point.scales
         require_grid(grid)
         conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
         require_surface(surface)
@@ -139,7 +112,7 @@ class TransientContact(Summary):
         threads = require_threads("threads", threads)
         left: Step | None = None
         for mesh in wider_meshes(moes, Purpose.CONTACT, grid, largest_load=load):
-            given = (conditions, moes, self.scales, mesh, tol, grid.deflection, threads)
+            given = (conditions, moes, scales_of(point), mesh, tol, grid.deflection, threads)
             self._film = TransientFilm.under(*given)
             self.n, self.domain = mesh.n, mesh.domain
             level = self._film.level
@@ -150,21 +123,26 @@ class TransientContact(Summary):
                 break
             left = left or start
         self._check(start if start.status.ok else left or start)
-        self.film_error = self._film.error_at_rest(Balance.of_load())
-        self.static_approach = self._film.u
-        self.force = self._film.level.force()
+        error = self._film.error_at_rest(Balance.of_load())
+        self.film_error = None if error is None else replace(error, **scaled(error, self.scales))
+        self.static_approach = self._film.u * self.scales.length
 
     def _summary_lines(self) -> list[str]:
-        s = self.scales
-        size, unit, load, newton = (1.0, "", 1.0, "") if s is None else (1e6 * s.length, " µm", s.force, " N")
+        size, unit = film_unit(self.point)
+        force = f"{self.force:.5g} {FORCE.unit_at(self.point)}"
         return [
             contact_text(self.point),
             f"whole film on n = {self.n}, x from {self.domain.x_in:g} to {self.domain.x_out:g} semi-axes",
-            f"now: force {load * self.force:.5g}{newton}, film {size * self.h_central:.4g}{unit} in the centre, "
-            f"{size * self.h_min:.4g}{unit} at least",
-            f"at rest approach {size * self.static_approach:.5g}{unit}",
+            f"now: force {force}, film {size * self.h_central:.4g} {unit} in the centre, "
+            f"{size * self.h_min:.4g} {unit} at least",
+            f"at rest approach {size * self.static_approach:.5g} {unit}",
             *filter(None, [self.reservation]),
         ]
+
+    @property
+    def units(self) -> str:
+        """Those of the point: "SI" or "dimensionless"."""
+        return "SI" if isinstance(self.point, OperatingPoint) else "dimensionless"
 
     @property
     def coarseness(self) -> float:
@@ -178,7 +156,7 @@ class TransientContact(Summary):
 
     @one_blas_thread()
     def advance(self, dt: float, approach: float, rate: float = 0.0) -> float:
-        """Move to `approach` within `dt` and return the force at the end of the step.
+        """Move to `approach` [m; dry approach] within `dt` [s; 2a/u_sum]: force at the end of the step.
 
         The film equations need the approach at both ends only; `rate` belongs to the common interface of
         contacts and is not used.
@@ -190,40 +168,38 @@ class TransientContact(Summary):
         ConvergenceError
             The step was not solved; ``error.result`` is the `Step`, and the contact is left unchanged.
         """
-        dt = require_positive("dt", dt)
-        u = require_finite("approach", approach)
-        film, T = self._film, self._T + dt
-        feature = surface_step(self._surface, film.level.X, film.level.Y, T, dt, film.last_step)
+        dT = require_positive("dt", dt) / self.scales.time
+        u = require_finite("approach", approach) / self.scales.length
+        film, T = self._film, self._T + dT
+        feature = surface_step(self._surface, film.level.X, film.level.Y, T, dT, film.last_step)
         state = film.save_state()
         try:
-            self._check(film.advance(dt, Balance.of_approach(u), u, feature), self._unit_hint(dt, u))
+            self._check(film.advance(dT, Balance.of_approach(u), u, feature), self._unit_hint(u))
         except ConvergenceError:
             film.restore_state(state)
             raise
         self._T = T
-        self.force = self._film.level.force()
         return self.force
 
     @property
+    def force(self) -> float:
+        """Force of the film [N; static load]."""
+        return self._film.level.force() * self.scales.force
+
+    @property
     def h_central(self) -> float:
-        """Film at the centre of the contact."""
-        return self._film.level.central_film()
+        """Film at the centre of the contact [m; dry approach]."""
+        return self._film.level.central_film() * self.scales.length
 
     @property
     def h_min(self) -> float:
-        """Smallest film."""
-        return self._film.level.lowest_film()
+        """Smallest film [m; dry approach]."""
+        return self._film.level.lowest_film() * self.scales.length
 
     @property
     def beside_h_min(self) -> float:
         """Film at the nodes beside the lowest one along X, over its own: near 1 where the grid resolves it."""
         return beside_lowest(self._film.level.H)
-
-    @property
-    def now(self) -> ContactNow:
-        """Force, films and approach at rest as they are now, in the units of the point."""
-        numbers = {name: float(getattr(self, name)) for name in ("force", "static_approach", "h_central", "h_min")}
-        return ContactNow(point=self.point.moes, **numbers).in_units_of(self.point)
 
     def save_state(self) -> ContactState:
         """Everything needed to come back to the present."""
@@ -238,18 +214,14 @@ class TransientContact(Summary):
             raise InputError("state", f"of {state.P.shape} nodes", f"one of this grid, {self._film.level.P.shape}")
         self._film.restore_state(state)
         self._T = state.T
-        self.force = self._film.level.force()
 
     def _check(self, step: Step, hint: str = "") -> None:
         if step.status is not Status.CONVERGED:
             raise ConvergenceError(f"EHL step {step.status}: {step.status.advice}{hint}", step)
 
-    def _unit_hint(self, dt: float, u: float) -> str:
-        """For a step that fails: what the units are, where an approach of an SI point is like none of its own."""
-        if self.scales is None or not 0.0 < abs(u) < LIKE_METRES:
+    def _unit_hint(self, u: float) -> str:
+        """For a step that fails: what the units are, where `u` dry approaches are none of the contact's."""
+        if abs(u) < FAR or self.units != "SI":
             return ""
-        return (
-            f" Or were SI units meant? approach = {u:.3g} counts in dry approaches of {self.scales.length:.3g} m "
-            f"({self.static_approach:.3g} at rest) and dt = {dt:.3g} in 2a/u_sum = {self.scales.time:.3g} s here; "
-            "reduced_models.ScaledContact takes metres and seconds."
-        )
+        rest = f"{self.static_approach:.3g} m at rest"
+        return f" Are the units right? approach = {u * self.scales.length:.3g} m here ({rest}), dt counts in s."

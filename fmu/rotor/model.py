@@ -18,7 +18,6 @@ from fmu.bearing.model import BearingModel
 from fmu.contact_variables import Element
 from fmu.rotor.parameters import parameters_of
 from fmu.steps import default_step, round_down
-from reduced_models import ScaledContact
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import motion_of
 from reduced_models.rotor.linear_bearing import LinearBearing
@@ -361,11 +360,8 @@ def _with_elements(rotor: Rotor, outside: str | Iterable[str]) -> Rotor:
 
 def _element(name: str, contact: Any) -> Element:
     """A contact element in SI that the FMU can hold."""
-    element = contact
-    if isinstance(contact, ScaledContact) and isinstance(contact.contact, Element):
-        element = contact.contact.to_si(contact.scales)
-    if not isinstance(element, Element):
+    if not isinstance(contact, Element):
         raise InputError(name, type(contact).__name__, "a contact element (linear, cubic, ..., wide)")
-    if element.units != "SI":
-        raise InputError(f"{name}.units", element.units, "SI; see to_si and ScaledContact")
-    return element.copy()
+    if contact.units != "SI":
+        raise InputError(f"{name}.units", contact.units, "SI: an element of an OperatingPoint")
+    return contact.copy()

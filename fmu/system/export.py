@@ -59,7 +59,7 @@ def export_system(
     Parameters
     ----------
     rotor : Rotor
-        On ball bearings, or contacts that are elements, in SI or as `ScaledContact`; the same element may be there
+        On ball bearings, or contacts that are elements, in SI; the same element may be there
         twice, and its state stays. Linear bearings stay inside.
     path : path-like
         File to write, ending in ``.ssp``.

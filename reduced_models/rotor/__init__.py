@@ -5,7 +5,7 @@
 | rotor | `Rotor`: matrices, supports, loads; `Unbalance`, `Parameter` |
 | supports | `ContactMount`, `BearingMount`: what a rotor stands on |
 | linear_bearing | `LinearBearing`: a bearing as stiffness and damping |
-| scaled_contact | the protocol of contacts; `ScaledContact` shows a dimensionless one in SI |
+| contact_protocol | what a contact of a rotor has: a step and a state; tangents besides |
 | jeffcott | `jeffcott_rotor`: such a rotor by its parameters |
 | parts | `Shaft`, `Disc`, `Support`: what a rotor on bearings is made of |
 | beam | rotating shaft element: its matrices |

@@ -420,7 +420,7 @@ class _RunningFilm:
         angles = self._motion.angle + 2.0 * np.pi * k / bearing.balls, float(run.angle[step])
         rates = self._motion.cage * omega * s.time, omega * s.time
         surface = TrackSurface(tracks_at(bearing, k, spec.race, angles, rates), s.a, s.length)
-        task = self._submit(open_film, id(self), self._point, spec.grid, surface, spec.largest_load)
+        task = self._submit(open_film, id(self), self._point.moes, spec.grid, surface, spec.largest_load)
         self._answer = task.result()
         self._doubt = self._answer.doubt
         here = self._approach()

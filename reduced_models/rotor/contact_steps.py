@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from reduced_models.rotor.scaled_contact import has_tangents
+from reduced_models.rotor.contact_protocol import has_tangents
 from reduced_models.rotor.supports import ContactMount
 
 _Floats = NDArray[np.float64]

@@ -14,8 +14,8 @@ from reduced_models.bearing.equilibrium import equilibrium as solve
 from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.ring import RingEquilibrium, equilibrium_at, grow_gyroscopic
 from reduced_models.bearing.ring_statics import require_in_grooves, static_ring
+from reduced_models.rotor.contact_protocol import has_tangents
 from reduced_models.rotor.nodes import LENGTHS
-from reduced_models.rotor.scaled_contact import has_tangents
 from reduced_models.rotor.supports import (
     BearingMount,
     ContactMount,

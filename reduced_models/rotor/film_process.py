@@ -11,7 +11,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
-from ehlcontact import Grid, OperatingPoint, TransientContact
+from ehlcontact import Grid, MoesPoint, TransientContact
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.executors import ProcessExecutor
 from reduced_models.bearing.track_surface import TrackSurface
@@ -20,7 +20,7 @@ SHARES = (1, 2, 4, 8)  # of a time step, tried one after another where a film is
 
 
 class FilmAnswer(NamedTuple):
-    """A full film at the end of a step, in the units of its operating point."""
+    """A full film at the end of a step, in Moes units."""
 
     approach: float
     force: float
@@ -44,9 +44,7 @@ class _Following:
 _films: dict[int, _Following] = {}  # of this process
 
 
-def open_film(
-    number: int, point: OperatingPoint, grid: Grid, surface: TrackSurface, largest_load: float
-) -> FilmAnswer:
+def open_film(number: int, point: MoesPoint, grid: Grid, surface: TrackSurface, largest_load: float) -> FilmAnswer:
     """A film at rest under the load of its point; raises `InputError` for waves too short for its grid."""
     contact = TransientContact(point, grid=grid, surface=surface, largest_load=largest_load)
     surface.require_resolved((contact.domain.x_out - contact.domain.x_in) / contact.n)

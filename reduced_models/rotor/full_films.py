@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Sequence
 from math import ceil
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +17,6 @@ from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.linearise import linearise
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
-from reduced_models.rotor.scaled_contact import ScaledContact
 from reduced_models.rotor.settling import require_turning, run_until_settled
 from reduced_models.rotor.simulate import simulate_rotor
 
@@ -35,12 +33,12 @@ LEAD_IN = (8.0, 3)
 
 def on_films(rotor: Rotor, point: OperatingPoint, grid: Grid) -> Rotor:
     """The rotor on films at rest under the load of the operating point."""
-    return rotor.on([ScaledContact(TransientContact(point, grid=grid), point.scales) for _ in rotor.contacts])
+    return rotor.on([TransientContact(point, grid=grid) for _ in rotor.contacts])
 
 
 def rest_on_films(rotor: Rotor) -> _Floats:
     """Displacements at rest on films that are at rest, shape (N,)."""
-    return rotor.rest_at([_approach_at_rest(mount.contact) for mount in rotor.contacts])
+    return rotor.rest_at([mount.contact.static_approach for mount in rotor.contacts])
 
 
 def settled_run(rotor: Rotor, element: ContactElement, *, steps: int, revolutions: int) -> RotorResult:
@@ -111,12 +109,7 @@ def simulate_on_films(
     )
 
 
-def _approach_at_rest(contact: Any) -> float:
-    """Approach of a film under its static load [m]."""
-    return float(contact.contact.static_approach * contact.scales.length)
-
-
-def _lead(contacts: Sequence[ScaledContact], orbit: RotorResult, film_time: float) -> None:
+def _lead(contacts: Sequence[TransientContact], orbit: RotorResult, film_time: float) -> None:
     """Move every film along the end of an orbit, so that it has the past that belongs to where it starts.
 
     From where the orbit passes its place of rest, so that no film has to jump.
@@ -124,7 +117,7 @@ def _lead(contacts: Sequence[ScaledContact], orbit: RotorResult, film_time: floa
     dt = float(orbit.t[1] - orbit.t[0])
     steps = max(LEAD_IN[1], ceil(LEAD_IN[0] * film_time / dt))
     for i, contact in enumerate(contacts):
-        away = np.abs(orbit.approach[:, i] - _approach_at_rest(contact))
+        away = np.abs(orbit.approach[:, i] - contact.static_approach)
         first = int(np.argmin(away[: max(1, away.size - steps)]))
         for u, v in zip(orbit.approach[first:, i], orbit.rate[first:, i], strict=True):
             contact.advance(dt, float(u), float(v))

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
 from reduced_models.bearing.motion import BallMotion
+from reduced_models.rotor.contact_protocol import has_tangents
 from reduced_models.rotor.core_rotor import CoreRotor, FreeStep
 from reduced_models.rotor.prepared_run import PreparedRun
-from reduced_models.rotor.scaled_contact import has_tangents
 
 _Floats = NDArray[np.float64]
 

@@ -49,7 +49,6 @@ from reduced_models.rotor.modes import (
 )
 from reduced_models.rotor.nodes import flat_nodes
 from reduced_models.rotor.rotor import Matrices, Rotor
-from reduced_models.rotor.scaled_contact import ScaledContact
 from reduced_models.rotor.supports import BearingMount, ContactMount
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
@@ -423,8 +422,6 @@ def _is_impedance(contact: object) -> bool:
 def _linear_contact(mount: ContactMount, approach: float) -> LinearElement | ContactImpedance:
     """A contact about the approach at which it rests."""
     contact = mount.contact
-    if isinstance(contact, ScaledContact) and isinstance(contact.contact, ContactElement):
-        contact = contact.contact.to_si(contact.scales)
     if isinstance(contact, ContactElement):
         return LinearElement(contact.state_space(float(contact.spring(approach))), mount.count)
     if not _is_impedance(contact):

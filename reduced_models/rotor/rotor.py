@@ -262,7 +262,7 @@ class Rotor(Summary):
         Parameters
         ----------
         contacts : sequence
-            One per `ContactMount`, in SI: elements, full films in `ScaledContact`, or impedances for linear
+            One per `ContactMount`, in SI: elements, full films (`TransientContact`), or impedances for linear
             responses.
 
         Raises

@@ -21,6 +21,7 @@ from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
 from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out
 from reduced_models.elements.validity import OutsideValidityWarning, frequency_of
+from reduced_models.rotor.contact_protocol import Contact
 from reduced_models.rotor.integrate_compiled import CompiledSteps
 from reduced_models.rotor.integrate_python import PythonSteps
 from reduced_models.rotor.linear_bearing import LinearBearing
@@ -28,7 +29,6 @@ from reduced_models.rotor.nodes import flat_nodes
 from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
-from reduced_models.rotor.scaled_contact import Contact
 from reduced_models.rotor.speed_profile import SpeedProfile, law_speeds
 from reduced_models.rotor.supports import bearing_names
 
@@ -75,7 +75,7 @@ def simulate_rotor(
     Parameters
     ----------
     rotor : Rotor
-        Its contacts in SI (see `ScaledContact`), those with a memory each their own object; they are left at the
+        Its contacts in SI, those with a memory each their own object; they are left at the
         state of the end.
     speed_rpm : float or SpeedProfile, optional
         Of the shaft [rev/min], constant or over time; by default that of the rotor.
@@ -131,7 +131,7 @@ def simulate_rotor(
 
 def default_tolerance(rotor: Rotor) -> float:
     """Tolerance of the balance of forces; larger with full films that are solved more coarsely than by default."""
-    films = (getattr(mount.contact, "contact", mount.contact) for mount in rotor.contacts)
+    films = (mount.contact for mount in rotor.contacts)
     coarsest = max((film.coarseness for film in films if isinstance(film, TransientContact)), default=1.0)
     return TOLERANCE * max(coarsest, 1.0)
 
@@ -180,7 +180,7 @@ def _check_contacts(rotor: Rotor) -> None:
             )
         if getattr(contact, "units", "SI") != "SI":
             units = getattr(contact, "units", "")
-            raise InputError(f"contacts[{i}].units", units, "SI; see to_si and ScaledContact")
+            raise InputError(f"contacts[{i}].units", units, "SI: a film or an element of an OperatingPoint")
         if any(contact is other for other in contacts[:i]) and contact.save_state() is not None:
             raise InputError(f"contacts[{i}]", "used twice", "its own object: it has a memory (take a copy)")
 

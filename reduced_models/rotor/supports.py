@@ -160,7 +160,7 @@ class ContactMount:
     point : OperatingPoint or MoesPoint, optional
         The contact that sits there: an element made for another speed, oil or shape then warns.
     contact : Contact or callable, optional
-        In SI: an element, a full film in a `ScaledContact`, or for linear responses an impedance alone. `Rotor.on`
+        In SI: an element, a full film (`TransientContact`), or for linear responses an impedance alone. `Rotor.on`
         gives a rotor others.
     x, y : int, optional
         Degrees of freedom of the shaft there; None where it does not move.

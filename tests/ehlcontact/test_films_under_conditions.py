@@ -78,10 +78,11 @@ def test_vibrations_in_time_have_the_impedance(name):
     others = {"starved": starved, "starved and heated": starved | {"thermal": True}}
     given = CONDITIONS.get(name) or others.get(name, {})
     linear = impedance(BALL, Omega=[OMEGA], grid=Grid(48), **given)
-    contact = TransientContact(BALL, grid=Grid(48, linear.film.domain), tol=1e-7, **given)
+    contact, s = TransientContact(BALL, grid=Grid(48, linear.film.domain), tol=1e-7, **given), BALL.scales
     rest, dt = contact.static_approach, 2.0 * np.pi / OMEGA / N
     T = dt * np.arange(1, 2 * N + 1)
-    force = np.array([contact.advance(dt, rest + AMPLITUDE * np.sin(OMEGA * t)) for t in T])[N:]
+    path = rest + AMPLITUDE * s.length * np.sin(OMEGA * T)
+    force = np.array([contact.advance(dt * s.time, u) for u in path])[N:] / s.force
     waves = np.column_stack([np.sin(OMEGA * T[N:]), np.cos(OMEGA * T[N:]), np.ones(N)])
     inside, beside, _ = np.linalg.lstsq(waves, force, rcond=None)[0] / AMPLITUDE
     moes = linear.dimensionless
@@ -96,7 +97,7 @@ def test_a_slow_ramp_of_a_thinned_film_has_its_stiffness_and_damping():
     moes, unit, rate = linear.dimensionless, BALL.scales.time, 2e-4
     contact = TransientContact(BALL, grid=Grid(48, linear.film.domain), tol=1e-6, **THIN)
     T = np.linspace(0.0, 16.0, 9)
-    ramp = PrescribedApproach(T, contact.static_approach + rate * T)
+    ramp = PrescribedApproach(T, contact.static_approach / BALL.scales.length + rate * T)
     steps = TimeSteps(until=16.0 * unit, dt=0.1 * unit, tol=1e-6)
     run = simulate(BALL, ramp, grid=Grid(48, linear.film.domain), time=steps, **THIN)
     t, force = np.linspace(0.0, 16.0, len(run.force)), run.force / run.force[0] - 1.0
@@ -160,7 +161,8 @@ def test_waves_in_time_have_the_response_to_waves(name):
 
     contact = TransientContact(BALL, grid=Grid(48, linear.film.domain), tol=1e-5, surface=waves, **given)
     rest, dt = contact.static_approach, 2.0 * np.pi / STEPS
-    force = [contact.advance(dt, rest) for _ in range(3 * STEPS)]
+    s = BALL.scales
+    force = [contact.advance(dt * s.time, rest) / s.force for _ in range(3 * STEPS)]
     value = linear.dimensionless.value[0]
     assert abs(amplitude(force, AMPLITUDE) - value) < 0.015 * abs(value)
 

@@ -26,7 +26,6 @@ from ehlcontact.point import Geometry, OperatingPoint
 from ehlcontact.quantities import quantities_of
 from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
-from ehlcontact.transient.transient_contact import ContactNow
 
 POINT = OperatingPoint(Geometry(0.004, 0.01), Lubricant(0.08, 1.9e-8), 3.0, 1.3)
 OTHER = replace(POINT, load=4.0)
@@ -141,19 +140,23 @@ def test_tables_have_the_units_of_the_point(films):
 
 
 def test_full_contact_in_the_units_of_its_point():
-    contact = TransientContact(POINT, grid=Grid(n=32))
-    now, own = contact.now, TransientContact(POINT.moes, grid=Grid(n=32)).now
-    assert contact.force == pytest.approx(1.0, rel=1e-5)  # a film at rest, solved to 1e-5 of its pressure
+    """Steps too: they are those of the dimensionless contact but for rounding of their inputs."""
+    si, moes = (TransientContact(point, grid=Grid(n=32)) for point in (POINT, POINT.moes))
     units = dict.fromkeys(("static_approach", "h_central", "h_min"), S.length) | {"force": S.force}
-    for name, unit in units.items():
-        assert getattr(now, name) == getattr(own, name) * unit == getattr(contact, name) * unit
-    pytest.importorskip("pandas")
-    assert now.to_pandas()["force [N]"].tolist() == [now.force] and now.to_pandas().attrs["load"] == POINT.load
+    assert si.force == pytest.approx(POINT.load, rel=1e-5)  # a film at rest, solved to 1e-5 of its pressure
+    assert (si.units, moes.units) == ("SI", "dimensionless")
+    assert si.film_error.approach == moes.film_error.approach * S.length
+    assert si.film_error.h_min == moes.film_error.h_min
+    assert "µm" in repr(si) and "µm" not in repr(moes)
+    for moved in (0.0, 0.02, -0.01):
+        for name, unit in units.items():
+            assert getattr(si, name) == pytest.approx(getattr(moes, name) * unit, rel=1e-9, abs=0.0), name
+        u = moes.static_approach + moved
+        force = si.advance(0.1 * S.time, u * S.length, 0.0)
+        assert force == pytest.approx(moes.advance(0.1, u) * S.force, rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    "cls", [SteadyResult, SimulationResult, ContactNow, Film, Profile, Constriction, FilmHistory]
-)
+@pytest.mark.parametrize("cls", [SteadyResult, SimulationResult, Film, Profile, Constriction, FilmHistory])
 def test_every_quantity_is_described(cls):
     """Names in the docstring: under Attributes, as numpydoc has it."""
     text = getdoc(cls).split("Attributes\n", 1)[1]

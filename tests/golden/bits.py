@@ -61,7 +61,6 @@ from reduced_models import (
     BallBearing,
     ContactRecord,
     Disc,
-    ScaledContact,
     Shaft,
     SpeedProfile,
     SpringContact,
@@ -389,10 +388,8 @@ def motions() -> Leaves:
                 )
                 yield from leaves(f"oscillator {model} {omega_n}", swing)
         full = TransientContact(BEARING, grid=Grid(n=64))
-        start = (UPRIGHT.rest_at([full.static_approach * BEARING.scales.length]), np.zeros(2))
-        run = simulate_rotor(
-            UPRIGHT.on([ScaledContact(full, BEARING.scales)]), dt=2e-4, until=0.004, start=start, tolerance=1e-4
-        )
+        start = (UPRIGHT.rest_at([full.static_approach]), np.zeros(2))
+        run = simulate_rotor(UPRIGHT.on([full]), dt=2e-4, until=0.004, start=start, tolerance=1e-4)
     yield from named("rotor full", run, ROTOR)
     yield from leaves("compared", compare(run, runs["memory"]).to_dict())
     t = np.linspace(0.0, 0.1, 2001)

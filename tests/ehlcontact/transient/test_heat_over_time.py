@@ -111,9 +111,10 @@ def test_without_a_slope_the_film_is_the_isothermal_one():
 def test_contact_goes_back_to_a_saved_state():
     contact = TransientContact(POINT, grid=GRID, thermal=Heat())
     saved = contact.save_state()
-    forces = [contact.advance(0.1, contact.static_approach + 0.01 * k) for k in (1, 2)]
+    path = [contact.static_approach + 0.01 * k * POINT.scales.length for k in (1, 2)]
+    forces = [contact.advance(0.1 * UNIT, u) for u in path]
     contact.restore_state(saved)
-    assert [contact.advance(0.1, contact.static_approach + 0.01 * k) for k in (1, 2)] == forces
+    assert [contact.advance(0.1 * UNIT, u) for u in path] == forces
     cold = TransientContact(POINT, grid=GRID)
     assert cold.h_central > 1.2 * contact.h_central
 

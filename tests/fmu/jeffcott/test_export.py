@@ -12,7 +12,7 @@ from exported import given, model_of, verified
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from fmu import VerificationError, export, sources, verify
-from reduced_models import OutsideValidityWarning, ScaledContact, simulate_rotor
+from reduced_models import OutsideValidityWarning, simulate_rotor
 
 SAYS_NOTHING = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 SCALES = Scales(force=850.0, length=1.31e-5, time=2.1e-5, a=1.1e-4, b=9e-4, pressure=1.6e9)
@@ -22,10 +22,9 @@ SCALES = Scales(force=850.0, length=1.31e-5, time=2.1e-5, a=1.1e-4, b=9e-4, pres
     ("contacts", "words"),
     [
         (lambda e: [e["cubic_si"]], ("contacts", "1", "one per mount, 2")),
-        (lambda e: [e["cubic_si"], e["cubic"]], ("contacts[1].units", "dimensionless", "ScaledContact")),
+        (lambda e: [e["cubic_si"], e["cubic"]], ("contacts[1].units", "dimensionless", "OperatingPoint")),
         (lambda e: [e["cubic_si"], 3.0], ("contacts[1]", "float", "contact element")),
         (lambda e: e["cubic_si"], ("contacts", "SpringContact", "list")),
-        (lambda e: [ScaledContact(object(), SCALES)] * 2, ("contacts[0]", "ScaledContact", "contact element")),
     ],
 )
 def test_contacts_that_do_not_fit_are_refused(rotors, elements, contacts, words, tmp_path):
@@ -143,14 +142,6 @@ def test_least_inner_step_is_declared(rotors):
 def test_elements_for_another_speed_say_so(rotors, elements, tmp_path):
     with pytest.warns(OutsideValidityWarning, match="133"):
         export(rotors["alone"].rotor.on([elements["wide_si"]] * 2), tmp_path / "x.fmu")
-
-
-@SAYS_NOTHING
-def test_dimensionless_contacts_in_their_scales(unit, rotors, elements, tmp_path):
-    """As `simulate_rotor` takes them; the same FMU comes out, to the byte."""
-    scaled = [ScaledContact(elements["cubic"], SCALES) for _ in range(2)]
-    path = export(rotors["cubic"].rotor.on(scaled), tmp_path / "x.fmu")
-    assert path.read_bytes() == unit("cubic").path.read_bytes()
 
 
 @SAYS_NOTHING

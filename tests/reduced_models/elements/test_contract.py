@@ -19,7 +19,7 @@ from reduced_models import (
     SpringContact,
 )
 from reduced_models.elements.base import ContactElement
-from reduced_models.rotor.scaled_contact import has_tangents
+from reduced_models.rotor.contact_protocol import has_tangents
 
 BOX = {"low": 0.75, "high": 1.0, "rate": 1.2, "load_range": (0.8, 1.2), "omega_range": (3.0, 6.0)}
 BOX |= {"fit": {"rms": 0.01}, "source": {"n": 64}}

@@ -8,7 +8,7 @@ import pytest
 from balls import OF_6205
 
 from ehlcontact import InputError, Lubricant, OperatingPoint, read, save
-from reduced_models import ContactMount, OutsideValidityWarning, ScaledContact, jeffcott_rotor, simulate_rotor
+from reduced_models import ContactMount, OutsideValidityWarning, jeffcott_rotor, simulate_rotor
 from reduced_models.atlas.atlas_elements import damper_band
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.elements.design_point import DesignPoint
@@ -105,9 +105,6 @@ def test_speed_of_a_rotor_is_checked_before_the_run(shipped):
             OutsideValidityWarning, match=r": 50 Hz \(fitted 23420 to 25940 Hz\); it is for the band"
         ):
             start()
-    wrapped = ScaledContact(shipped.element(POINT.moes, "cubic", Omega=6.0), POINT.scales)
-    with pytest.warns(OutsideValidityWarning, match=r": Omega 0\.01187 \(fitted Omega 5\."):
-        rotor().on([wrapped]).check_contacts()
     for model, at in (("cubic", {"rpm": 3000}), ("memory", {}), ("wide", {})):
         rotor(speed_rpm=1000.0).on([shipped.element(POINT, model, **at)]).check_contacts()
     rotor(speed_rpm=0.0).on([fast]).check_contacts()
@@ -119,7 +116,7 @@ def test_operating_point_of_a_mount_is_checked(shipped):
         rotor(point=FASTER).on([wide]).check_contacts()
     vee = jeffcott_rotor(half_angle=0.35, point=THINNER, **BODY)
     with pytest.warns(OutsideValidityWarning, match=r"eta0 = 0\.02") as told:
-        vee.on([wide.copy(), ScaledContact(shipped.element(POINT.moes, "wide"), POINT.scales)]).check_contacts()
+        vee.on([wide.copy(), shipped.element(POINT.moes, "wide").to_si(POINT.scales)]).check_contacts()
     assert len(told) == 2
     with pytest.raises(InputError, match=r"^point = 'str'"):
         ContactMount(0.0, point="6205")

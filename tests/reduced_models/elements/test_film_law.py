@@ -10,7 +10,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from ehlcontact import InputError, read, save
-from reduced_models import ScaledContact
 from reduced_models.elements.film_filters import filter_rates
 from reduced_models.elements.film_response import FilterRates, fit_gains
 
@@ -167,14 +166,15 @@ def test_active_gains_are_refused(memory):
         replace(memory, gains=(0.0,) * 10 + (0.05,))
 
 
-def test_impedance_and_wrapper_in_si(memory, scales):
-    si, wrapped = memory.to_si(scales), ScaledContact(memory.copy(), scales)
+def test_impedance_and_steps_in_si(memory, scales):
+    si, moes = memory.to_si(scales), memory.copy()
     np.testing.assert_allclose(
         si.impedance(omega=pi / scales.time).value, memory.impedance(Omega=pi).value * scales.stiffness
     )
     for i in range(1, 40):
-        at = 0.05 * scales.time, (0.87 + 0.05 * np.sin(0.05 * pi * i)) * scales.length, 0.1 * scales.rate
-        assert si.advance(*at) == pytest.approx(wrapped.advance(*at), rel=1e-12)
+        at = np.array([0.05, 0.87 + 0.05 * np.sin(0.05 * pi * i), 0.1])
+        force = si.advance(*(at * [scales.time, scales.length, scales.rate]))
+        assert force == pytest.approx(moes.advance(*at) * scales.force, rel=1e-12)
 
 
 @pytest.mark.parametrize(

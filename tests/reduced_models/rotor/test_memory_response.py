@@ -11,7 +11,6 @@ from ehlcontact import FreeVibration, Grid, InputError, MoesPoint, simulate
 from reduced_models import (
     ContactRecord,
     OutsideValidityWarning,
-    ScaledContact,
     fit,
     jeffcott_rotor,
     simulate_oscillator,
@@ -119,17 +118,13 @@ def test_rotor_steps_of_nine_transits_have_the_damping_of_the_impedance(memory, 
 
 
 def test_static_start_rests_every_contact(memory, scales):
-    """Whatever the contacts went through before, and through the wrapper as in SI."""
-    rotor = vee(1.2 * scales.force)
-    for contacts in (
-        [memory.to_si(scales), memory.to_si(scales)],
-        [ScaledContact(memory, scales), ScaledContact(memory.copy(), scales)],
-    ):
-        for contact in contacts:
-            contact.advance(1e-5, 0.9 * scales.length, 0.3 * scales.rate)
-        run = simulate_rotor(rotor.on(contacts), dt=1e-4, until=1e-2)
-        np.testing.assert_allclose(run.force, 1.2 * scales.force, rtol=1e-6)
-        assert np.ptp(run.journal, axis=0).max() < 1e-12
+    """Whatever the contacts went through before."""
+    rotor, contacts = vee(1.2 * scales.force), [memory.to_si(scales), memory.to_si(scales)]
+    for contact in contacts:
+        contact.advance(1e-5, 0.9 * scales.length, 0.3 * scales.rate)
+    run = simulate_rotor(rotor.on(contacts), dt=1e-4, until=1e-2)
+    np.testing.assert_allclose(run.force, 1.2 * scales.force, rtol=1e-6)
+    assert np.ptp(run.journal, axis=0).max() < 1e-12
 
 
 def test_one_memory_in_two_mounts_is_refused(memory, scales):

@@ -7,16 +7,14 @@ import pytest
 from beam_rotor import NODES, beam, block
 from scipy.integrate import solve_ivp
 
-from ehlcontact import Grid, Lubricant, MoesPoint, TransientContact, read, save
+from ehlcontact import Geometry, Grid, Lubricant, OperatingPoint, TransientContact, read, save
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.point import Scales
 from ehlcontact.status import Status
 from reduced_models import (
     BallBearing,
     BearingMount,
     OutsideValidityWarning,
     Rotor,
-    ScaledContact,
     SpeedProfile,
     Unbalance,
     jeffcott_rotor,
@@ -246,16 +244,15 @@ def test_steps_too_short_for_rounding_are_told(dry):
         simulate_rotor(block(dry), speed_rpm=3000.0, dt=1e-9, until=1e-6)
 
 
-SCALES = Scales(force=20.0, length=1e-6, time=2e-5, a=1e-4, b=2e-4, pressure=1e9)
-STILL = np.array([0.0, -1e-6 * 0.5]), np.zeros(2)
+BALL = OperatingPoint(Geometry(0.01, 0.02), Lubricant(eta0=0.04, alpha=1e-8), load=5.0, u_sum=2.0)
+STILL = np.array([0.0, -0.5 * BALL.scales.length]), np.zeros(2)
 
 
 def test_films_that_are_solved_coarsely_are_balanced_as_coarsely():
     """Their force is good to their own tolerance; with an explicit one the error says which to change."""
-    films = {tol: TransientContact(MoesPoint(20, 5, 0.5), grid=Grid(n=16), tol=tol) for tol in (3e-3, 0.3)}
+    films = {tol: TransientContact(BALL, grid=Grid(n=16), tol=tol) for tol in (3e-3, 0.3)}
     for tol, film in films.items():
-        scaled = ScaledContact(film, SCALES)
-        rotor = jeffcott_rotor(bearings=1, disc_mass=2.0, journal_mass=0.3, shaft_stiffness=1e8).on([scaled])
+        rotor = jeffcott_rotor(bearings=1, disc_mass=2.0, journal_mass=0.3, shaft_stiffness=1e8).on([film])
         assert default_tolerance(rotor) == pytest.approx(1e-6 * tol / 3e-3)
     with pytest.raises(ConvergenceError, match="a smaller tol of TransientContact, or a larger tolerance"):
         simulate_rotor(rotor, speed_rpm=0.0, dt=1e-5, until=1e-3, start=STILL, tolerance=1e-9, max_iterations=1)

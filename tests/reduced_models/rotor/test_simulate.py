@@ -8,7 +8,7 @@ from scipy.linalg import expm
 
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
-from reduced_models import OutsideValidityWarning, ScaledContact, SpringContact, jeffcott_rotor, simulate_rotor
+from reduced_models import OutsideValidityWarning, SpringContact, jeffcott_rotor, simulate_rotor
 
 BODY = {"disc_mass": 20.0, "journal_mass": 1.0, "shaft_stiffness": 2e7, "shaft_damping": 200.0}
 TURNING = BODY | {"unbalance": 1e-4, "speed_rpm": 6000.0}
@@ -112,12 +112,6 @@ def test_secants_give_what_tangents_give(contact, rotor, hidden):
     dynamic = np.ptp(by_tangent.force)
     assert np.abs(by_secant.force - by_tangent.force).max() < 1e-4 * dynamic
     assert blind.calls <= 2 * 1000 + 2
-
-
-def test_scaled_contact_runs_as_the_si_element_does(cubic, contact, scales, rotor):
-    a = simulate_rotor(rotor.on([contact]), dt=2e-5, until=4e-3)
-    b = simulate_rotor(rotor.on([ScaledContact(cubic, scales)]), dt=2e-5, until=4e-3)
-    np.testing.assert_allclose(b.journal, a.journal, rtol=1e-9)
 
 
 def maxwell_exact(rotor, branch, start, times):
