@@ -16,10 +16,11 @@ PAGE = Path(__file__).parents[1] / "guide" / "catalogue.md"
 HEAD = """# Bearings by name
 
 `BallBearing.catalogue("6205", oil=oil, clearance="CN")`, `ehlcontact bearing 7205 --axial 200`,
-`--bearing 6205` and `catalogue = "6205"` take their dimensions from these tables. Spaces, hyphens and capitals in
-a name do not matter. FTF, BPFO, BPFI and BSF are the [defect frequencies](glossary.md#bearings-and-rotors) per
-turn of the shaft, at the contact angle of the table. Under an axial load they are those of
-`BallBearing.equilibrium(load).orders`.
+`--bearing 6205` and `catalogue = "6205"` take their dimensions from these tables. Spaces, hyphens, capitals and
+the maker do not matter, and suffixes are read: SKF 6205-2RS/C3 is a 6205 with clearance class C3 unless another
+clearance is given. Roller bearings (NU205, 22228, 30205) are not in the library. FTF, BPFO, BPFI and BSF are the
+[defect frequencies](glossary.md#bearings-and-rotors) per turn of the shaft, at the contact angle of the table.
+Under an axial load they are those of `BallBearing.equilibrium(load).orders`.
 
 ## Deep groove, at zero contact angle
 
@@ -47,10 +48,13 @@ equations then hold within 1 %. For 17 bearings whose balls are printed elsewher
 balls of 16. The exception is the 6200: 8 balls of 4.762 mm by the ratings of NSK, and 7 of 5.556 mm in the
 catalogue of GMN (`tests/reduced_models/bearing/test_catalogue.py`). With the contact angle a both standards have
 C0r/f0 = Z D^2 cos a and Cr = 1.3 fc (cos a)^0.7 Z^(2/3) D^1.8, f0 and fc from D cos a/dm; bore and outside
-diameter of 72 and 73 are those of 62 and 63. The load ratings of series 72 and 73 were quoted from memory: compare
-them with the maker's table. Both equations hold for them within 1 %.
+diameter of 72 and 73 are those of 62 and 63. The load ratings of series 72, 73 and 160 and of the 608 were quoted
+from memory: compare them with the maker's table. Both equations hold for them within 1 %.
 
-Conformities are assumed to be 0.52, except for the 209 and the 218, whose groove radii are printed.
+Conformities, groove radius over ball diameter, are assumed to be 0.52, except for the 209 and the 218, whose
+groove radii are printed. Values of 0.501 to 0.7 are allowed: grooves of bearings have 0.505 to 0.60. Some programs
+and papers give the groove radius over the radius of the ball (1.04), or the inverse (0.9615): both are refused,
+and the message has the value meant, 0.52.
 
 ## Radial clearance by class
 

@@ -32,6 +32,7 @@ class Quantity(NamedTuple):
     signed: bool = False  # limits and usual values are magnitudes, of which the lower limit is 0
     shifts: Mapping[str, float] = {}  # other unit of the same size: what is to be added, as for K
     most: int = 10**9  # numbers of an array
+    definitions: Mapping[str, tuple[float, int]] = {}  # other definition: (factor, power) of such a value
     slips: bool = False  # a value within the limits is refused that another unit would make a usual one
 
     def slip(self, value: float) -> str:
@@ -45,6 +46,9 @@ class Quantity(NamedTuple):
         for other, then in corrected.items():
             if low <= (abs(then) if self.signed else then) <= high:
                 return f"in {other}? then {then:.4g} {self.unit}".rstrip()
+        for definition, (factor, power) in self.definitions.items():
+            if value > 0.0 and low <= (then := factor * value**power) <= high:
+                return f"as {definition}? then {then:.4g} {self.unit}".rstrip()
         return ""
 
     def in_unit(self, unit: str) -> Quantity:
@@ -94,6 +98,20 @@ class Quantity(NamedTuple):
         return value
 
 
+# Groove radius over ball diameter. Bearings have 0.505 to 0.60, miniature ones the widest grooves. A larger number
+# is another definition of such a groove; a contact with any other radii is `Geometry(radius_x, radius_y)`.
+CONFORMITY = Quantity(
+    "",
+    (0.501, 0.7),
+    (0.503, 0.65),
+    {"%": 0.01},
+    definitions={
+        "groove radius over ball radius": (0.5, 1),
+        "ball radius over groove radius": (0.5, -1),
+        "ball diameter over groove radius": (1.0, -1),
+    },
+)
+
 # Lengths: from the balls of a watch to the pitch circle of a wind turbine's main bearing. Moduli: from soft rubber
 # to diamond. Viscosities: from hot refrigerant to oils beyond ISO VG 680 at 20 C (3.4 Pa s): above are mPa s.
 # Pressure-viscosity coefficients: from water up. m2/s is the kinematic viscosity of data sheets, times the density
@@ -103,7 +121,7 @@ INPUTS: Mapping[str, Quantity] = {
     "radius_y": Quantity("m", (1e-5, 1e3), (2e-4, 10.0), {"mm": 1e-3, "inches": 0.0254}),
     "ball_diameter": Quantity("m", (1e-4, 0.5), (5e-4, 0.15), {"mm": 1e-3, "inches": 0.0254}),
     "pitch_diameter": Quantity("m", (5e-4, 10.0), (2e-3, 5.0), {"mm": 1e-3, "inches": 0.0254}),
-    "conformity": Quantity("", (0.501, 10.0), (0.503, 0.8), {"%": 0.01}),
+    "conformity": CONFORMITY,
     "speed_rpm": Quantity("rev/min", (1e-3, 1e6), (30.0, 2e5), {"rad/s": 30.0 / pi, "rev/s": 60.0}),
     "e1": Quantity("Pa", (1e6, 2e12), (1e9, 1.3e12), {"GPa": 1e9, "MPa": 1e6}),
     "e2": Quantity("Pa", (1e6, 2e12), (1e9, 1.3e12), {"GPa": 1e9, "MPa": 1e6}),

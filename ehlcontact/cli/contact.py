@@ -158,7 +158,7 @@ class Contact(Options):
             )
 
     def _ball(self) -> OperatingPoint:
-        from reduced_models.bearing.catalogue import deep_groove_row
+        from reduced_models.bearing.catalogue import BY_DIMENSIONS, deep_groove_row
 
         for name in ("bearing", "speed_rpm", "load"):
             if getattr(self, name) is None:
@@ -166,8 +166,8 @@ class Contact(Options):
         try:
             _, row = deep_groove_row(self.bearing or "")
         except InputError as error:
-            known = error.allowed.partition("; any other bearing")[0]
-            allowed = f"{known}; any other by its dimensions, in a study as `ehlcontact init` writes it"
+            dimensions = "any other by its dimensions, in a study as `ehlcontact init` writes it"
+            allowed = error.allowed.replace(BY_DIMENSIONS, dimensions)
             raise InputError("--bearing", error.value, allowed) from None
         assert self.speed_rpm is not None
         with self.called():

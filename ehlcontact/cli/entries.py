@@ -83,9 +83,7 @@ BallDiameter = Annotated[Positive, Physical(INPUTS["ball_diameter"].in_unit("mm"
 PitchDiameter = Annotated[
     Positive, Physical(INPUTS["pitch_diameter"].in_unit("mm")), meaning("circle through the centres of the balls")
 ]
-Conformity = Annotated[
-    Finite, Field(gt=0.5, le=10.0), Physical(INPUTS["conformity"]), meaning("groove radius over ball diameter")
-]
+Conformity = Annotated[Finite, Physical(INPUTS["conformity"]), meaning("groove radius over ball diameter")]
 Race = Annotated[Literal["inner", "outer"], meaning("race of the contact")]
 YoungsModulus = Annotated[Positive, Physical(INPUTS["e1"]), meaning("Young's modulus of balls and rings")]
 PoissonRatio = Annotated[Finite, Field(ge=0.0, le=0.5, description="Poisson's ratio of balls and rings")]

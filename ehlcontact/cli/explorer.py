@@ -137,7 +137,7 @@ def _in_units(name: str) -> Quantity:
 
 
 def _quantity(quantity: Quantity) -> dict[str, Any]:
-    return {**quantity._asdict(), "others": dict(quantity.others)}
+    return {**quantity._asdict(), "others": dict(quantity.others), "definitions": dict(quantity.definitions)}
 
 
 def _base64(array: ArrayLike, kind: type[np.generic] = np.float64) -> str:

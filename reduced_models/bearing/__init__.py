@@ -7,6 +7,7 @@
 | bearing_conditions | oil, supply and heat: which go together; speeds of films |
 | bearing_tables | `BearingTables`: races, elements, tables and heights, made once |
 | catalogue | dimensions by name, with their sources |
+| designation | names as makers print them: maker, suffixes, other kinds of bearings |
 | clearance | radial clearance by class and bore |
 | freedoms | degrees of freedom of the ring: names, units, loads |
 | core_bearing | `CoreBearing`: a bearing as the C core has it, views of its state |

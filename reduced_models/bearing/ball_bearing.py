@@ -30,7 +30,7 @@ from ehlcontact.summary import Summary
 from ehlcontact.supply import OilLayer
 from reduced_models.bearing.bearing_conditions import condition_lines, conditions_of, require_oil, require_speed
 from reduced_models.bearing.bearing_tables import BearingTables
-from reduced_models.bearing.catalogue import USUAL_CONFORMITY, catalogue_row
+from reduced_models.bearing.catalogue import ROWS, USUAL_CONFORMITY, designation_of
 from reduced_models.bearing.clearance import clearance_of_class
 from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.contact_angles import CONTROLS
@@ -105,7 +105,8 @@ class BallBearing(Summary):
     ball_diameter, pitch_diameter : float
         In m.
     conformity_inner, conformity_outer : float
-        Groove radius over ball diameter.
+        Groove radius over ball diameter, 0.501 to 0.7; other definitions of it (1.04 or 0.9615 for 0.52) are
+        refused with the value meant.
     clearance : float
         Radial internal clearance, the play across the bearing [m]; below 0 it is preloaded by so much. An angular
         contact bearing has it from its contact angle.
@@ -225,11 +226,14 @@ class BallBearing(Summary):
     def catalogue(cls, name: str, **changes: Any) -> Self:
         """Bearing by its name, as ``BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))``.
 
-        `reduced_models.bearing.catalogue` has the table, and where each row is from.
+        `reduced_models.bearing.catalogue` has the table, and where each row is from; its `designation_of` what the
+        suffixes of a name mean.
 
         Parameters
         ----------
         name : str
+            As people type it, "6205-2RS" or "SKF 6205/C3": a clearance class in the name of a deep-groove bearing
+            is the one of the bearing where no clearance is given; the other suffixes change nothing.
         **changes
             Any other argument of the bearing, or another value than that of the table. ``clearance`` may be a
             class, "C2", "CN", "C3" or "C4": the middle of its limits at the bore, before mounting.
@@ -237,10 +241,16 @@ class BallBearing(Summary):
         Raises
         ------
         InputError
-            A name that is not in the table; it names the nearest. A class of clearance that is none, or a bearing
-            whose bore is not known.
+            A name that is not in the table; it names the nearest. A class of clearance that is none, or is not the
+            one in the name, or a bearing whose bore is not known.
         """
-        known, row = catalogue_row(name)
+        read = designation_of(name)
+        known, row = read.name, ROWS[read.name]
+        if read.clearance is not None and row.contact_angle is None and changes.get("contact_angle") is None:
+            wished = changes.setdefault("clearance", read.clearance)
+            if isinstance(wished, str) and wished.strip().upper() != read.clearance:
+                allowed = f"{read.clearance}, the class in the name {read.given}, or a number"
+                raise InputError("clearance", wished, allowed)
         if isinstance(changes.get("clearance"), str):
             changes["clearance"] = clearance_of_class(changes["clearance"], row.bore)
         dimensions = {"balls": row.balls, "ball_diameter": row.ball_diameter, "pitch_diameter": row.pitch_diameter}

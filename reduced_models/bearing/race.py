@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from math import ceil, cos, log10, sqrt
+from math import ceil, cos, inf, log10, sqrt
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from ehlcontact.asperities import Asperities
 from ehlcontact.assumptions import Assumptions
 from ehlcontact.assumptions.judge import ROUGHEST
 from ehlcontact.checks import require_nonnegative
-from ehlcontact.checks.admissible_range import LIMITS
+from ehlcontact.checks.admissible_range import CONFORMITY, LIMITS
 from ehlcontact.conditions import FLOODED, Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact, radius_ratio
@@ -213,7 +213,8 @@ class Race:
             low, high = max(low, ellipses()[0]), min(high, ellipses()[1])
         if not low <= self.geometry.kappa <= high:
             ends = [_conformity(self, kappa) for kappa in (low, high)]
-            between = f"at least {ends[0]:.4f}" if ends[1] is None else f"between {ends[0]:.4f} and {ends[1]:.4f}"
+            least, most = f"at least {ends[0]:.4f}", f"between {ends[0]:.4f} and {ends[1]:.4f}"
+            between = most if ends[1] <= CONFORMITY.limits[1] else least
             table = "the atlas" if self.conditions.heat is None else "the table of heat"
             allowed = f"{between}: its ellipse, a/b = {self.geometry.kappa:.4g}, lies outside {table}"
             raise InputError(f"conformity_{self.name}", self.conformity, f"{allowed} ({low:g} to {high:g})")
@@ -353,7 +354,7 @@ def films_under(bearing: Any, speed_rpm: float, at: RingEquilibrium) -> dict[str
     return found | rough_surfaces(bearing, at.force, h_central, h_min)
 
 
-def _conformity(race: Race, kappa: float) -> float | None:
-    """Conformity at which this contact has the ellipse ratio `kappa`; None where none is so wide."""
+def _conformity(race: Race, kappa: float) -> float:
+    """Conformity at which this contact has the ellipse ratio `kappa`; infinite where none is so wide."""
     closeness = 2.0 - race.ball_diameter * radius_ratio(kappa) / race.geometry.radius_x
-    return 1.0 / closeness if closeness > 0.0 else None
+    return 1.0 / closeness if closeness > 0.0 else inf

@@ -220,7 +220,7 @@ ARGUMENTS = [
         True, "x"),
         "rq_ball": (0.1, True, "x"), "rq_race": (True, "x"), "contact_angle": (25.0, True, "x"),
         "loss_factor": (True, "x"), "ball_inertia": NO_FLAG, "name": NO_NAME, "conformity_inner": (52.0, True,
-        "x"),
+        1.04, "x"),
         "conformity_outer": (True, "x", nan), "poisson_ratio": (True, "x"), "features": (5, "x", [5]),
         "shoulder_inner": (35.0, True, "x"), "shoulder_outer": (True, "x"), "balls": (True, "9", 9.0, 2),
         "atlas": (5, True), "race_control": (True, None),

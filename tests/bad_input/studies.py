@@ -44,10 +44,10 @@ SLIPS = {
         ("pitch_diameter_mm = 5", "bearing.pitch_diameter_mm", "5", "above bearing.ball_diameter_mm = 7.94"),
     ],
     "conformity = 0.52": [
-        ("conformity = 0.48", "bearing.conformity = 0.48", "between 0.501 and 10"),
+        ("conformity = 0.48", "bearing.conformity = 0.48", "between 0.501 and 0.7"),
         ("conformity = 52", "bearing.conformity", "in %? then 0.52"),
         ("conformity = 0.500001", "bearing.conformity", "0.501"),
-        ("conformity = 0.5", "bearing.conformity", "0.5", "between 0.501 and 10"),
+        ("conformity = 0.5", "bearing.conformity", "0.5", "between 0.501 and 0.7"),
         ("", "bearing.conformity", "given"),
     ],
     'race = "inner"': [

@@ -266,7 +266,7 @@ NO_BEARINGS = [
     {"balls": 2}, {"balls": 16}, {"pitch_diameter": 7e-3}, {"conformity_inner": 0.5}, {"conformity_outer": 0.501},
     {"clearance": 1e-3}, {"clearance": -4e-4}, {"rpm": 0.0}, {"rpm": 60000.0}, {"load": 2e4},
     {"oil": {"eta0": 1.2, "alpha": 2e-8}}, {"oil": {"eta0": 0.03, "alpha": 5e-8}},
-    {"load": 0.0, "clearance": -3.5e-4},
+    {"load": 0.0, "clearance": -3.5e-4}, {"conformity_inner": 1.04},
 ]  # fmt: skip
 
 
@@ -280,6 +280,7 @@ def test_what_is_no_bearing_is_refused_as_in_python(ask):
 def test_typed_numbers_are_checked_as_by_the_study(ask):
     """In the units of the page, with a guess at a slip of unit."""
     asked = [("ball_diameter", 0.00794), ("pitch_diameter", 1e5), ("conformity", 52.0), ("speed_rpm", 2e6)]
+    asked += [("conformity", 1.04), ("conformity", 0.9615), ("conformity", 1.923)]
     asked += [("eta0", 0.037), ("eta0", 1e9), ("alpha", 2e-8), ("alpha", 22.0), ("ball_diameter", 7.94)]
     body = "return { kept: requireQuantity(asked[0], asked[1], DATA.quantities[asked[0]]) };"
     guesses = 0

@@ -163,6 +163,8 @@ class BearingReport:
         if self.spall is not None:
             units |= defect.UNITS
             axial["spall"] = defect.summary(self.spall, list(self.excitations))
+        if job.designation is not None and job.designation.suffixes:
+            axial["designation"] = {"given": job.designation.given, "suffixes": dict(job.designation.suffixes)}
         if self.slip:
             axial["cage_slip"], units["cage_slip"] = self.slip, SLIP_UNIT
         if self.order is not None and self.allowed is not None:
@@ -467,7 +469,7 @@ def _show(report: BearingReport, json_to: str | None) -> None:
     job = report.job
     bearing = job.bearing
     name = bearing.name or "ball bearing" if job.pair is None else job.pair.name
-    show_table(f"{name}, {_load_words(job)}", [*_rows(bearing), *_pair_rows(job)], json_to)
+    show_table(f"{name}, {_load_words(job)}", [*_name_rows(job), *_rows(bearing), *_pair_rows(job)], json_to)
     for k, (state, found) in enumerate(zip(report.states, report.coefficients, strict=True)):
         sliding = _sliding(report.friction[k])
         rows = _at_speed(bearing, state, found, sliding) if job.planar else _at_angles(job, state, found, sliding)
@@ -528,6 +530,12 @@ def _rows(b: BallBearing) -> list[Row]:
         *(play if b.contact_angle is None else angle),
         *oil,
     ]
+
+
+def _name_rows(job: BearingJob) -> list[Row]:
+    """A name with suffixes as it was read."""
+    named = job.designation
+    return [("read as", named.name, named.words)] if named is not None and named.suffixes else []
 
 
 def _pair_rows(job: BearingJob) -> list[Row]:

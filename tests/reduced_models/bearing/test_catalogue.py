@@ -7,8 +7,16 @@ from refusals import refusals
 
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
-from reduced_models.bearing.catalogue import DEEP_GROOVE, ROWS, catalogue_row, deep_groove_row, names_in_short
+from reduced_models.bearing.catalogue import (
+    DEEP_GROOVE,
+    ROWS,
+    catalogue_row,
+    deep_groove_row,
+    designation_of,
+    names_in_short,
+)
 from reduced_models.bearing.clearance import CLASSES, clearance_limits
+from reduced_models.bearing.designation import NOT_READ
 
 # NSK, Rolling Bearings, tables of single-row deep groove ball bearings: d, D [mm], Cr, C0r [N], f0
 NSK = {
@@ -48,6 +56,15 @@ NSK = {
     "6310": (50, 110, 62000, 38500, 13.2),
     "6311": (55, 120, 71500, 44500, 13.1),
     "6312": (60, 130, 82000, 52000, 13.1),
+    # quoted from memory
+    "608": (8, 22, 3300, 1370, 12.4),
+    "16004": (20, 42, 7900, 4450, 14.5),
+    "16005": (25, 47, 8850, 5600, 15.1),
+    "16006": (30, 55, 11200, 7350, 15.2),
+    "16007": (35, 62, 11700, 8200, 15.6),
+    "16008": (40, 68, 12600, 9650, 16.0),
+    "16009": (45, 75, 14900, 11400, 15.9),
+    "16010": (50, 80, 15400, 12400, 16.1),
 }
 # NSK, Rolling Bearings, tables of single-row angular contact ball bearings: as above, f0 where the table has it
 NSK_ANGULAR = {
@@ -126,8 +143,8 @@ def test_the_rule_finds_the_balls_that_others_print():
 def test_series_and_bores():
     assert len(ROWS) >= 30
     for name, row in ROWS.items():
-        if len(name) == 4 and name.isdigit():
-            bore = {0: 10, 1: 12, 2: 15, 3: 17}.get(int(name[2:]), 5 * int(name[2:]))
+        if len(name) > 3 and name.isdigit():
+            bore = {0: 10, 1: 12, 2: 15, 3: 17}.get(int(name[-2:]), 5 * int(name[-2:]))
             assert row.bore == pytest.approx(1e-3 * bore), name
         assert row.bore is None or row.bore < row.pitch_diameter - row.ball_diameter
 
@@ -139,7 +156,7 @@ def test_page_of_the_catalogue_is_made_from_it():
 
 
 def test_names_in_short():
-    shown = "6000 to 6010, 6200 to 6211, 6300 to 6312, 209, UER204, ER-16K, NICE"
+    shown = "6000 to 6010, 6200 to 6211, 6300 to 6312, 16004 to 16010, 608, 209, UER204, ER-16K, NICE"
     assert names_in_short(list(DEEP_GROOVE)) == shown
     assert names_in_short(["6000", "6001", "6003", "209"]) == "6000, 6001, 6003, 209"
 
@@ -221,11 +238,67 @@ def test_angular_contact_bearings_as_people_type_them(typed, name, angle):
         ("7205 D", "7205 [ABC], .*nearest"),
         ("S 6205", "S 6205 C"),
         ("s6250c", "one of S 6205 C, .*nearest"),
+        ("7205 AC", "7205 [ABC], .*nearest"),
+        ("62205-2RS1", "one of 6205, .*nearest"),
     ],
 )
 def test_nearest_name_of_an_angular_contact_bearing(typed, words):
     with pytest.raises(InputError, match=words):
         catalogue_row(typed)
+
+
+@pytest.mark.parametrize(
+    ("typed", "name", "clearance", "suffixes"),
+    [
+        ("6205-2RS", "6205", None, ["2RS"]),
+        ("6203-2RS-JEM", "6203", None, ["2RS", "JEM"]),
+        ("6205 ZZ", "6205", None, ["ZZ"]),
+        ("6201-2Z", "6201", None, ["2Z"]),
+        ("SKF 6205", "6205", None, []),
+        ("6205/C3", "6205", "C3", ["C3"]),
+        ("6205-2Z/C3", "6205", "C3", ["2Z", "C3"]),
+        ("nsk6205ddu c4", "6205", "C4", ["DDU", "C4"]),
+        ("6205-2RSH/C3LHT23", "6205", "C3", ["2RSH", "C3", "LHT23"]),
+        ("7205 BECBP", "7205 B", None, ["ECBP"]),
+        ("7205-2RS", "7205 A", None, ["2RS"]),
+        ("S 6205 C/P4", "S 6205 C", None, ["P4"]),
+        ("608ZZ", "608", None, ["ZZ"]),
+    ],
+)
+def test_suffixes_of_names_as_people_type_them(typed, name, clearance, suffixes):
+    read = designation_of(typed)
+    assert (read.name, read.clearance, [suffix for suffix, _ in read.suffixes]) == (name, clearance, suffixes)
+    assert (NOT_READ in read.words) == ("ECBP" in suffixes) and BallBearing.catalogue(typed).name == name
+
+
+def test_the_class_in_a_name_is_the_clearance_where_none_is_given():
+    by_class = BallBearing.catalogue("6205", clearance="C3")
+    assert BallBearing.catalogue("6205/C3") == by_class == BallBearing.catalogue("6205-2RS C3", clearance="c3")
+    assert BallBearing.catalogue("6205/C3", clearance=3e-6).clearance == 3e-6
+    assert BallBearing.catalogue("7205 B/C3") == BallBearing.catalogue("7205 B")
+    with pytest.raises(InputError, match="clearance = 'C2': must be C3, the class in the name 6205/C3"):
+        BallBearing.catalogue("6205/C3", clearance="C2")
+
+
+@pytest.mark.parametrize(
+    ("typed", "words"),
+    [
+        ("NU205", "NU205 is one of the cylindrical roller bearings, which are not in this library"),
+        ("SKF NU 205 ECP", "cylindrical roller bearings"),
+        ("22228", "spherical roller bearings"),
+        ("30205", "tapered roller bearings"),
+        ("HK1512", "needle roller bearings"),
+        ("1205", "self-aligning ball bearings of two rows"),
+        ("3205 A-2RS1", "angular contact ball bearings of two rows"),
+        ("51105", "thrust ball bearings"),
+        ("QJ205", "four-point contact ball bearings"),
+        ("S6205-2RS", "6205 for one of stainless steel, or a spindle .*: S 6205 C with 15 degrees or S 6205 E"),
+        ("S6201", "6201 for one of stainless steel$"),
+    ],
+)
+def test_other_kinds_of_bearings_are_named(typed, words):
+    with pytest.raises(InputError, match=words):
+        designation_of(typed)
 
 
 def test_single_contacts_have_deep_groove_bearings_only():

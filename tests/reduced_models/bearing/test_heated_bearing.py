@@ -147,7 +147,7 @@ def test_oil_that_is_given_by_its_viscosity():
             "temperature_slope = None: must be given in Heat .*typical",
             {"thermal": True, "oil": Lubricant(0.04, 2e-8)},
         ),
-        ("conformity_inner = 0.9: must be", {"thermal": True, "oil": OIL, "conformity_inner": 0.9}),
+        ("conformity_inner = 0.6: must be between 0.5", {"thermal": True, "oil": OIL, "conformity_inner": 0.6}),
     ],
 )
 def test_refused(words, changes):

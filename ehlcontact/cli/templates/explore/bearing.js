@@ -14,7 +14,8 @@ class Bearing {
     if (!(Number.isInteger(balls) && balls >= 3)) throw new InputError("balls", balls, "a whole number >= 3");
     if (dm <= D) throw new InputError("pitch_diameter", dm, `above ball_diameter = ${D}`);
     for (const name of ["conformity_inner", "conformity_outer"])
-      if (!(given[name] > 0.5)) throw new InputError(name, given[name], "above 0.5 (a tighter groove pinches the ball) and <= 10");
+      if (!(given[name] > 0.5)) throw new InputError(name, given[name], "above 0.5 (a tighter groove pinches the ball)");
+      else requireQuantity(name, given[name], DATA.quantities.conformity);
     this.races = { inner: new Race("inner", this, atlas), outer: new Race("outer", this, atlas) };
     if (D >= dm * Math.sin(Math.PI / balls)) {
       const most = Math.floor(Math.PI / Math.asin(D / dm));

@@ -25,6 +25,8 @@ function slip(quantity, value) {
   if (usual(value)) return "";
   for (const [other, size] of Object.entries(quantity.others))
     if (usual(value * size)) return `in ${other}? then ${g(value * size, 4)} ${quantity.unit}`.trimEnd();
+  for (const [definition, [factor, power]] of Object.entries(quantity.definitions))
+    if (usual(factor * value ** power)) return `as ${definition}? then ${g(factor * value ** power, 4)} ${quantity.unit}`.trimEnd();
   return "";
 }
 

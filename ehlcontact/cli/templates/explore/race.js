@@ -43,9 +43,8 @@ class Race {
   requireInAtlas() {
     const [low, high] = this.atlas.box.kappa;
     if (!(low <= this.kappa && this.kappa <= high)) {
-      const ends = [low, high].map(kappa => 1 / (2 - this.D * radiusRatio(kappa) / this.radiusX));
-      const ranges = ends[1] > 0 ? `between ${ends[0].toFixed(4)} and ${ends[1].toFixed(4)}` : `at least ${ends[0].toFixed(4)}`;
-      const allowed = `${ranges}: its ellipse, a/b = ${g(this.kappa, 4)}, lies outside the atlas (${g(low)} to ${g(high)})`;
+      const least = 1 / (2 - this.D * radiusRatio(low) / this.radiusX);
+      const allowed = `at least ${least.toFixed(4)}: its ellipse, a/b = ${g(this.kappa, 4)}, lies outside the atlas (${g(low)} to ${g(high)})`;
       throw new InputError(`conformity_${this.name}`, this.conformity, allowed);
     }
     this.atlas.requireOil(this.oil);
