@@ -75,7 +75,8 @@ class ContactElement(ElementSummary, _Common, ABC):
     ``validity`` holds what the data covered, ``design_point`` the speed and the oil. Motion outside the box
     (`advance`, `state_rates`, ``force`` of single values, `simulate_oscillator`, `simulate_rotor`), at a frequency
     outside the band, or use for another contact (`check`) is warned of once per element and reason. Tangents, the
-    spring and arrays are evaluated anywhere without a warning.
+    spring and arrays are evaluated anywhere without a warning. A `SpringContact` takes the frequency from single
+    values too.
 
     Parameters
     ----------
@@ -369,10 +370,14 @@ class ContactElement(ElementSummary, _Common, ABC):
         self.warn_outside(force=force, stacklevel=stacklevel, **frequency)
 
     def _watch(self, approach: float, rate: float, force: float) -> None:
-        """Warn of a single state outside the box."""
+        """Warn of a single state outside the box, and of a motion outside the band."""
         low, high, fastest, least, most = self._reach
         if not (low <= approach <= high and -fastest <= rate <= fastest and least <= force <= most):
             self.warn_outside(approach, rate, force=force, stacklevel=3)
+        self._follow(approach, rate, stacklevel=4)
+
+    def _follow(self, approach: float, rate: float, stacklevel: int) -> None:
+        """Take a state as the next one of a motion, for its frequency; nothing where the element is for all."""
 
     def _note(self, reasons: set[str]) -> None:
         """Note reasons that have been warned of; after "motion" single states are no longer compared."""

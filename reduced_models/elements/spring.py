@@ -12,6 +12,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_float, as_numbers, require_finite, require_nonnegative, require_positive
+from ehlcontact.checks.frequency import Frequency
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.store import stored
@@ -34,7 +35,7 @@ from reduced_models.elements.spring_law import (
     spring,
     spring_law,
 )
-from reduced_models.elements.validity import require_size
+from reduced_models.elements.validity import HalfCycles, require_size
 
 _Floats = NDArray[np.float64]
 
@@ -47,6 +48,10 @@ class SpringContact(ContactElement):
     F = K1 u + K2 u^2 + K3 u^3 + K (u + u0)^n + F0 + C1 u' + C2 u'^2 + C3 u'^3 + B4 u u' on [low, high], of which
     each kind has some terms: `linear`, `cubic`, `polynomial` (Nonato and Cavalca 2010, eqs. 8, 11 and 12) and
     `power`, of the literature after them. Outside the box see `reduced_models.elements.spring_law`.
+
+    A damper is for one band. Single values of `force`, `advance` and `state_rates` are taken as a motion. Where
+    its frequency is outside ``omega_range`` by more than an octave, over eight half cycles and over the next
+    eight, the element warns once.
 
     Parameters
     ----------
@@ -170,8 +175,11 @@ class SpringContact(ContactElement):
         """
         return cls(kind="power", K=K, n=n, u0=u0, F0=F0, C1=C1, low=low, high=high, **box)
 
+    _cycles: HalfCycles | None = field(init=False, repr=False, compare=False)  # None: no band, or warned of it
+
     def __post_init__(self) -> None:
         super().__post_init__()
+        object.__setattr__(self, "_cycles", None if self.omega_range is None else HalfCycles())
         object.__setattr__(self, "law", joined(self._law()))
         require_rising(self.law)
         require_size("damping", float(np.abs(self._parts([self.low, self.high])[1]).max()))
@@ -227,6 +235,8 @@ class SpringContact(ContactElement):
         low, high, fastest, least, most = self._reach  # here, for the sake of integrators: a call takes 0.1 us
         if not (low <= approach <= high and -fastest <= rate <= fastest and least <= force <= most):
             self.warn_outside(approach, rate, force=force)
+        if self._cycles is not None:
+            self._follow(approach, rate, stacklevel=3)
         return force
 
     @overload
@@ -350,6 +360,26 @@ class SpringContact(ContactElement):
 
     def restore_state(self, state: object) -> None:
         """Nothing to restore."""
+
+    def _follow(self, approach: float, rate: float, stacklevel: int) -> None:
+        """Take a state as the next one of a motion; warn where its frequency is outside the band twice on end."""
+        cycles = self._cycles
+        if cycles is None:
+            return
+        speed = rate if cycles.rising else -rate
+        if speed > cycles.peak:
+            cycles.peak = speed
+        elif speed < 0.0 and (omega := cycles.turn(approach, rate)) is not None:
+            outside = bool(self.validity.excess(omega=omega))
+            if outside and cycles.outside:
+                frequency: Frequency = {"omega": omega} if self.units == "SI" else {"Omega": omega}
+                self.warn_outside(stacklevel=stacklevel, **frequency)
+            cycles.outside = outside
+
+    def _note(self, reasons: set[str]) -> None:
+        super()._note(reasons)
+        if "frequency" in reasons:
+            object.__setattr__(self, "_cycles", None)
 
     def _value(self, index: int, approach: ArrayLike, rate: ArrayLike) -> float | _Floats:
         if isinstance(approach, float) and isinstance(rate, float):

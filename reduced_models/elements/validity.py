@@ -19,6 +19,9 @@ STILL = 1e-6  # spread of an approach over its size, below which its frequency m
 OCTAVE = (
     2.0  # of frequency that goes unmentioned: in the contact's own band damping changes by a fifth over an octave
 )
+TURNS = 8  # half cycles over which `HalfCycles` takes a frequency
+SMALL = 0.25  # of the largest half cycle, below which one is left out
+FADING = 0.99  # of the largest, for each that is left out
 
 # Magnitude of any number of an element, in SI or not, powers of a length in the divisor apart: stiffnesses in N/m
 # come to 1e10. Beyond it the units are wrong, and products of several overflow.
@@ -153,6 +156,49 @@ class Validity:
         ends = numbers("valid", valid, ("low", "high"))
         rate = None if valid.get("rate") is None else numbers("valid", valid, ("rate",))["rate"]
         return cls((ends["low"], ends["high"]), rate, _read_band(valid, "load"), _read_band(valid, "omega"))
+
+
+class HalfCycles:
+    """Angular frequency of a motion of which approach and rate come one by one, without their times.
+
+    Between two changes of sign of its rate a harmonic motion moves by twice its amplitude A, and its largest rate
+    is A omega. The frequency is the root of the sum of (A omega)^2 over the sum of A^2, of `TURNS` half cycles on
+    end. Half cycles much smaller than the largest are left out. A drift without change of sign has no frequency,
+    and values whose approach does not follow the rate, as those of a table, have none.
+    """
+
+    __slots__ = ("amplitudes", "count", "fastest", "largest", "outside", "peak", "place", "rates", "rising")
+
+    def __init__(self) -> None:
+        self.rising, self.peak, self.place = True, 0.0, math.nan  # where the rate changed its sign last
+        self.largest, self.fastest = 0.0, 0.0  # half cycle: distance, rate
+        self._begin()
+
+    def _begin(self) -> None:
+        self.count, self.rates, self.amplitudes = 0, 0.0, 0.0
+        self.outside = False  # whether the frequency before, of this motion, was outside the band
+
+    def turn(self, approach: float, rate: float) -> float | None:
+        """End a half cycle at `approach`, where `rate` has another sign; the frequency after `TURNS` of them."""
+        moved = approach - self.place if self.rising else self.place - approach
+        peak, size = self.peak, STILL * abs(approach)
+        self.rising, self.peak, self.place = rate > 0.0, abs(rate), approach
+        if not moved > max(SMALL * self.largest, size):
+            if moved <= 0.0 and peak > SMALL * self.fastest:
+                self._begin()
+            self.largest, self.fastest = FADING * self.largest, FADING * self.fastest
+            return None
+        if SMALL * moved > self.largest:
+            self._begin()
+        self.largest, self.fastest = max(self.largest, moved), max(self.fastest, peak)
+        self.count += 1
+        self.rates += peak**2
+        self.amplitudes += 0.25 * moved**2
+        if self.count < TURNS:
+            return None
+        omega = math.sqrt(self.rates / self.amplitudes)
+        self.count, self.rates, self.amplitudes = 0, 0.0, 0.0
+        return omega
 
 
 def frequency_of(approach: NDArray[np.float64], rate: NDArray[np.float64]) -> float | None:
