@@ -54,7 +54,7 @@ def elements(study: Study) -> dict[str, ContactElement]:
     record = simulate(point, motion, grid=Grid(n=study.solver.n_transient, domain=study.domain))
     return {
         MEMORY: Atlas().element(point, "memory"),
-        CUBIC: fit(ContactRecord.from_result(record), model="cubic").element.to_si(scales),
+        CUBIC: fit(ContactRecord.from_result(record), model="cubic").element,
         DRY: dry_contact(scales),
         GUESSED: local_contact(study.ball_load, scales.length, stiffness, GUESS * stiffness),
     }

@@ -173,7 +173,7 @@ EXAMPLES = {
     ),
     "fit": (
         "ehlcontact fit free.h5 --model cubic --save element.json",
-        "ehlcontact fit run.h5 --model memory --si --save memory.json",
+        "ehlcontact fit run.h5 --model memory --save memory.json",
     ),
     "element": (
         f"ehlcontact element {_BALL} --save ball.json",

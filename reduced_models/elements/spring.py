@@ -212,10 +212,24 @@ class SpringContact(ContactElement):
         return law
 
     def _si_coefficients(self, scales: Scales) -> dict[str, Any]:
+        factors = self._si_factors(scales)
+        return {name: value * factors[name] for name, value in self.parameters.items()}
+
+    def _si_factors(self, scales: Scales) -> dict[str, float]:
         f, u, v = scales.force, scales.length, scales.rate
         factors = {f"K{i}": f / u**i for i in (1, 2, 3)} | {"K": f / u**self.n, "n": 1.0, "u0": u, "F0": f}
-        factors |= {"C1": scales.damping, "C2": f / v**2, "C3": f / v**3, "B4": f / (u * v)}
-        return {name: value * factors[name] for name, value in self.parameters.items()}
+        return factors | {"C1": scales.damping, "C2": f / v**2, "C3": f / v**3, "B4": f / (u * v)}
+
+    def si_jacobian(self, scales: Scales) -> _Floats:
+        """Derivatives of the coefficients in SI to the dimensionless ones, in their order, shape (k, k).
+
+        The unit of K of a power law depends on its exponent n.
+        """
+        factors, names = self._si_factors(scales), self.parameter_names
+        jacobian = np.diag([factors[name] for name in names])
+        if "n" in names:
+            jacobian[names.index("K"), names.index("n")] = -self.K * factors["K"] * math.log(scales.length)
+        return jacobian
 
     @overload
     def force(self, approach: float, rate: float) -> float: ...

@@ -11,6 +11,7 @@ import numpy as np
 from ehlcontact.checks import require_choice
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
+from ehlcontact.point import OperatingPoint
 from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import Validity
 from reduced_models.fitting.memory_fit import fit_memory
@@ -42,13 +43,14 @@ def fit(records: Records, model: str = "cubic", window: Window | None = None) ->
     Parameters
     ----------
     records : ContactRecord or sequence of ContactRecord
-        Several are fitted together, sample by sample.
+        Several are fitted together, sample by sample. The fit and its element are in their units: SI at an
+        `OperatingPoint`, Moes units at a `MoesPoint`.
     model : {"cubic", "linear", "polynomial", "power", "memory"}
         F = K1 u + K2 u^2 + K3 u^3 + C1 u' (eq. 11 as Table 2 reduces it), F = K1 u + C1 u' (eq. 8), the seven
         terms of eq. 11, F = K (u + u0)^n + F0 + C1 u', or the film memory: `fit_memory`, which solves the
         impedance of the contact too.
     window : (start, end), optional
-        Part of t to fit, in every record. Left out, each record gives up its first third
+        Part of t to fit, in every record, in its unit. Left out, each record gives up its first third
         (`ContactRecord.default_window`): the film of the steady start has to leave the contact first. A film
         memory includes that film and is fitted to whole records only.
 
@@ -108,19 +110,19 @@ def _least_squares(records: Records, model: str, window: Window | None) -> FitRe
         samples=int(samples.force.size),
         independent_samples=known.independent_samples,
     )
-    return replace(result, element=replace(element, fit=result.quality()))
+    result = replace(result, element=replace(element, fit=result.quality()))
+    return result.to_si(samples.point.scales) if isinstance(samples.point, OperatingPoint) else result
 
 
 def _element(samples: Samples, kind: str, fitted: Estimate) -> SpringContact:
     """Element of the estimate, with validity box and origin of the samples."""
-    first = samples.records[0]
     frequencies = [cut.frequency for cut in samples.cuts]
     box = Validity.of(samples.approach, samples.rate, samples.force, frequencies).fields()
     return SpringContact(
         kind=kind,
         **(fitted.parameters | box),
-        units=first.units,
-        source=source_of(first.point, samples.each("n"), samples.each("domain"), samples.each("motion")),
+        units=samples.records[0].units,
+        source=source_of(samples.point, samples.each("n"), samples.each("domain"), samples.each("motion")),
     )
 
 

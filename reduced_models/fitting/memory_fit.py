@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ehlcontact import Domain, Grid, impedance
 from ehlcontact.checks.kinds import shown
 from ehlcontact.errors import InputError
+from ehlcontact.point import OperatingPoint
 from ehlcontact.process.blas import one_blas_thread
 from ehlcontact.results import Response
 from reduced_models.elements.film_contact import FilmContact
@@ -49,7 +50,7 @@ LOAD_RANGE_OF_IMPEDANCE = 0.1  # share of the load about 1 that an impedance alo
 
 @dataclass(frozen=True)
 class Target:
-    """Data of one fit as arrays in the order of frequency."""
+    """Data of one fit in Moes units, as arrays in the order of frequency."""
 
     Omega: _Floats
     stiffness: _Floats
@@ -80,9 +81,9 @@ class Target:
             raise InputError("approach", film.approach, "below 1: there must be a film (refine the grid)")
         for i, record in enumerate(records):
             if record.units != "dimensionless":
-                raise InputError(f"records[{i}].units", record.units, "dimensionless")
-            point = None if record.point is None else record.point.moes  # of records in other units too
-            for name, ours, theirs in (("point", film.point.moes, point), ("n", film.n, record.n)):
+                allowed = "dimensionless, or with a point that has its units"
+                raise InputError(f"records[{i}].units", record.units, allowed)
+            for name, ours, theirs in (("point", film.point, record.point), ("n", film.n, record.n)):
                 if theirs is not None and ours != theirs:
                     raise InputError(f"records[{i}].{name}", theirs, f"as of the impedance, {ours!r}")
             record.require_matching_rate()
@@ -142,9 +143,14 @@ def fit_memory(
         To approach, from `impedance`, with an Omega of at most 0.1; 20 or more from 0 to 60 make a good element.
         None has it solved for the point, grid and domain of the first record.
     records : ContactRecord or sequence of ContactRecord
-        Dimensionless, of the same contact on the same grid and domain.
+        Of the same contact on the same grid and domain.
     lags : int, optional
         Length of the chain; by default the shortest whose cross-validation error is within 5 % of the best.
+
+    Returns
+    -------
+    MemoryFit
+        In the units of the impedance: SI at an `OperatingPoint`, Moes units at a `MoesPoint`.
 
     Raises
     ------
@@ -156,7 +162,11 @@ def fit_memory(
         raise InputError("response", shown(response), "a Response, from `impedance`, or None")
     if response is None:
         response = impedance_of(taken)
-    target = Target.of(response.dimensionless, taken)
+    point = response.point
+    target = Target.of(
+        response if point is None else response.dimensionless,
+        [record if record.point is None else record.dimensionless for record in taken],
+    )
     scores: dict[int, float] = {}
     if lags is None:
         scores = {length: cross_validate(target, length) for length in CHAIN_LENGTHS}
@@ -164,7 +174,7 @@ def fit_memory(
         lags = min(length for length, score in scores.items() if score <= SHORTER_CHAIN * best)
     FilterRates(lags, 1.0, 1.0, 1.0)  # raises InputError for a wrong number of lags
     element, gains = _solve(target, lags)
-    forces = [(record.force, _force(element.law, record)) for record in taken]
+    forces = [(record.force, _force(element.law, record)) for record in target.records]
     whole = [np.concatenate(parts) for parts in zip(*forces, strict=True)]
     root = element.approach_at(1.0)
     result = MemoryFit(
@@ -185,7 +195,8 @@ def fit_memory(
     )
     assert response.film is not None
     source = response.film.source([record.motion for record in taken])
-    return replace(result, element=replace(element, fit=result.quality(), source=source))
+    result = replace(result, element=replace(element, fit=result.quality(), source=source))
+    return result.to_si(point.scales) if isinstance(point, OperatingPoint) else result
 
 
 def impedance_of(records: Sequence[ContactRecord]) -> Response:

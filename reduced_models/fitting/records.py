@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
 from ehlcontact.checks.frequency import fields_by_name
 from ehlcontact.errors import InputError
-from ehlcontact.point import Point
-from ehlcontact.quantities import ACCELERATION, FORCE, LENGTH, RATE, TIME
-from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.point import OperatingPoint, Point, moes_point
+from ehlcontact.quantities import ACCELERATION, FORCE, LENGTH, MASS, RATE, TIME, scaled
+from ehlcontact.results.table import Display, PointTable
 from ehlcontact.status import Status
 from ehlcontact.summary import contact_text, span
 from reduced_models.elements.validity import UNITS
@@ -26,40 +26,47 @@ FEWEST_SAMPLES = 4
 # Largest distance of approach and integrated rate, as a share of the motion: 8 samples per period of a true rate
 # stay below it, a wrong sign, unit or delay does not.
 RATE_MISMATCH = 0.1
+_MASS = "mass: 1/Omega_n^2 of a dimensionless record"
 _REQUIRED = ("t", "approach", "rate", "force")
 _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
 
-@fields_by_name(6, omega_n="Omega_n, dimensionless")
+@fields_by_name(6, omega_n=_MASS, Omega_n=_MASS)
 @dataclass(frozen=True, eq=False)
-class ContactRecord(QuantityTable):
-    """One history of a contact, simulated or measured.
+class ContactRecord(PointTable):
+    """One history of a contact, simulated or measured, in the units of its point.
+
+    These are SI at an `OperatingPoint` and, after the semicolon, Moes units at a `MoesPoint`.
 
     Parameters
     ----------
     t, approach, rate, force : array_like, shape (N,)
-        Time, mutual approach, its time derivative and contact force: dimensionless, or s, m, m/s and N.
+        Time [s; 2a/u_sum], mutual approach [m; dry approach], its time derivative and contact force [N; static
+        load].
     load, acceleration : array_like, shape (N,), optional
         Applied load and second derivative of the approach.
     point : MoesPoint or OperatingPoint, optional
-        Operating point of the contact.
+        The contact.
     n : int, optional
         Grid intervals of the simulation.
     domain : tuple of float, optional
         (x_in, x_out, y_max) of the simulation; damping depends on it.
     motion : mapping, optional
-        Description of the motion.
-    Omega_n : float, optional
-        Of eq. 5; None for a record without inertia. Dimensionless records only.
+        Description of the motion. ``Omega`` of a harmonic load is in u_sum/(2a) where there is a point, else in
+        the units of the record.
+    mass : float, optional
+        Of bodies with inertia [kg; 1/Omega_n^2 of eq. 5].
     static_load : float, optional
-        Load at which the static approach (``root``) of a fit is given; 1 for a dimensionless record.
-    units : {"dimensionless", "SI"}
+        Load at which the static approach (``root``) of a fit is given; by default that of the point, 1 for a
+        dimensionless record.
+    units : {"SI", "dimensionless"}, optional
+        By default those of the point; without a point "dimensionless".
 
     Raises
     ------
     InputError
         A history that is not one-dimensional, too short, not finite or of another length than t; t not
-        strictly increasing; Omega_n with SI units. The message names the field.
+        strictly increasing; units of another point. The message names the field.
     """
 
     t: Annotated[_Floats, TIME.over("t")]
@@ -68,13 +75,13 @@ class ContactRecord(QuantityTable):
     force: Annotated[_Floats, FORCE.over("t")]
     load: Annotated[_Floats | None, FORCE.over("t")] = None
     acceleration: Annotated[_Floats | None, ACCELERATION.over("t")] = None
-    point: Point | None = None
+    point: Point | None = None  # type: ignore[assignment]  # nothing is converted where it is None
     n: int | None = None
     domain: tuple[float, ...] | None = None
     motion: Mapping[str, Any] | None = None
-    Omega_n: float | None = None
-    static_load: float | None = None
-    units: str = "dimensionless"
+    mass: Annotated[float | None, MASS] = None
+    static_load: Annotated[float | None, FORCE] = None
+    units: str = ""
 
     DISPLAY: ClassVar[Display] = Display(rows="t", panels=("force load", "approach", "rate"))
 
@@ -90,24 +97,29 @@ class ContactRecord(QuantityTable):
         ]
 
     def __post_init__(self) -> None:
-        require_choice("units", self.units, UNITS)
+        if self.point is None:
+            units = self.units or "dimensionless"
+        else:
+            units = "SI" if isinstance(self.point, OperatingPoint) else "dimensionless"
+            if self.units not in ("", units):
+                raise InputError("units", self.units, f"left out, or those of the point, {units!r}")
+        object.__setattr__(self, "units", require_choice("units", units, UNITS))
         object.__setattr__(self, "t", as_column("t", self.t, least=FEWEST_SAMPLES, increasing=True))
         for name in _HISTORIES[1:]:
             values = getattr(self, name)
             if name in _REQUIRED or values is not None:
                 object.__setattr__(self, name, as_column(name, values, size=self.t.size))
-        if self.Omega_n is not None:
-            object.__setattr__(self, "Omega_n", require_positive("Omega_n", self.Omega_n))
-            if self.units == "SI":
-                raise InputError("Omega_n", self.Omega_n, "None for a record in SI units")
-        if self.static_load is None and self.units == "dimensionless":
+        if self.static_load is None and self.point is not None:
+            object.__setattr__(self, "static_load", self.point.scales.force)
+        elif self.static_load is None and self.units == "dimensionless":
             object.__setattr__(self, "static_load", 1.0)
-        elif self.static_load is not None:
-            object.__setattr__(self, "static_load", require_positive("static_load", self.static_load))
+        for name in ("mass", "static_load"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, require_positive(name, getattr(self, name)))
 
     @classmethod
     def from_result(cls, simulation: Any, *, accept_unconverged: bool = False) -> Self:
-        """Record of an `ehlcontact` simulation.
+        """Record of an `ehlcontact` simulation, in its units.
 
         Parameters
         ----------
@@ -121,7 +133,7 @@ class ContactRecord(QuantityTable):
         InputError
             No simulation, one that did not converge, or histories that cannot be used.
         """
-        if not all(hasattr(simulation, name) for name in ("t", *_HISTORIES[1:], "status", "motion", "domain")):
+        if not all(hasattr(simulation, name) for name in ("t", *_HISTORIES[1:], "status", "motion", "mass")):
             allowed = "a SimulationResult, as of ehlcontact.simulate"
             raise InputError("simulation", type(simulation).__name__, allowed)
         status = str(simulation.status)
@@ -131,8 +143,6 @@ class ContactRecord(QuantityTable):
                 status,
                 "'converged' (in Python, accept_unconverged=True takes it all the same)",
             )
-        motion, point = dict(simulation.motion.to_dict()), simulation.point
-        simulation = simulation.dimensionless
         domain = simulation.domain
         if not isinstance(domain, tuple | list):
             domain = (domain.x_in, domain.x_out, domain.y_max)
@@ -143,15 +153,40 @@ class ContactRecord(QuantityTable):
             force=simulation.force,
             load=simulation.load,
             acceleration=simulation.acceleration,
-            point=point,
+            point=simulation.point,
             n=int(simulation.n),
             domain=tuple(float(value) for value in domain),
-            motion=motion,
-            Omega_n=motion.get("Omega_n"),
+            motion=dict(simulation.motion.to_dict()),
+            mass=simulation.mass,
         )
 
     def __len__(self) -> int:
         return int(self.t.size)
+
+    @property
+    def dimensionless(self) -> Self:
+        """The record in Moes units.
+
+        Raises
+        ------
+        InputError
+            In SI without a point.
+        """
+        if self.units == "dimensionless":
+            return self
+        if self.point is None:
+            raise InputError("point", None, "given: it has the units of a record in SI")
+        own = scaled(self, self.point.scales, back=True)
+        return replace(self, point=self.point.moes, units="dimensionless", **own)
+
+    def in_units_of(self, point: Point) -> Self:
+        """The record in the units of a point; raises `InputError` where that is another one."""
+        own, moes = self.dimensionless, moes_point(point)
+        if own.point != moes:
+            raise InputError("point", contact_text(moes), f"that of the record, {contact_text(own.point)}")
+        if moes is point:
+            return own
+        return replace(own, point=point, units="SI", **scaled(own, point.scales))
 
     @property
     def default_window(self) -> tuple[float, float]:
@@ -168,7 +203,7 @@ class ContactRecord(QuantityTable):
         if motion.get("kind") == "ramp":
             return start, end
         if motion.get("kind") == "harmonic" and motion.get("Omega"):
-            period = 2.0 * np.pi / motion["Omega"]
+            period = 2.0 * np.pi / self._own_frequency(motion["Omega"])
             periods = int((end - start) / 1.5 / period + 1e-9)
             if periods >= 1:
                 return end - periods * period, end
@@ -182,9 +217,13 @@ class ContactRecord(QuantityTable):
         """
         motion = self.motion or {}
         if motion.get("kind") == "harmonic" and motion.get("Omega"):
-            return float(motion["Omega"])
+            return self._own_frequency(motion["Omega"])
         spread = float(np.std(self.approach))
         return float(np.std(self.rate)) / spread if spread > 0.0 else 0.0
+
+    def _own_frequency(self, Omega: float) -> float:
+        """Frequency of the motion in the units of the record."""
+        return float(Omega) if self.point is None else float(Omega) * self.point.scales.frequency
 
     def require_matching_rate(self) -> None:
         """Make sure that `rate` is the time derivative of `approach`.

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from math import nan
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.point import Scales
 from ehlcontact.results.table import frame_of, plain
 from ehlcontact.summary import Summary
 from reduced_models.elements.base import ContactElement
@@ -22,7 +23,7 @@ _Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ElementFit(Summary):
-    """Fitted element and its errors; judge by ``rms``.
+    """Fitted element and its errors, in the units of its records; judge by ``rms``.
 
     Attributes
     ----------
@@ -36,11 +37,11 @@ class ElementFit(Summary):
     e_f : float or None
         Eq. 13 for the force: sum(f - f_fit)/sum(f), near zero by construction.
     root, tangent : float or None
-        Approach where the spring carries the static load (1, dimensionless), and its tangent there.
+        Approach where the spring carries the static load, and its tangent there.
     valid : mapping
         low, high: approach that was fitted; rate: largest magnitude of the rate; load, omega: [low, high].
     condition : float or None
-        Of the column-scaled design matrix, or Jacobian; None where there is none.
+        Of the column-scaled design matrix, or Jacobian, in Moes units at a point; None where there is none.
     """
 
     element: ContactElement
@@ -89,6 +90,20 @@ class ElementFit(Summary):
         """Everything but the element, ready for JSON."""
         return {f.name: plain(getattr(self, f.name)) for f in fields(self) if f.name != "element"}
 
+    def to_si(self, scales: Scales) -> Self:
+        """The fit in SI, of the contact whose Moes units are `scales`; raises `InputError` as the element's."""
+        element = self.element.to_si(scales)
+        units = {"root": scales.length, "tangent": scales.stiffness}
+        known = {name: value for name in units if (value := getattr(self, name)) is not None}
+        changes = {name: value * units[name] for name, value in known.items()} | self._in_si(element, scales)
+        own: dict[str, Any] = {"parameters": element.parameters, "valid": element.validity.to_dict()}
+        result = replace(self, element=element, **own, **changes)
+        return replace(result, element=replace(element, fit=result.quality()))
+
+    def _in_si(self, element: ContactElement, scales: Scales) -> dict[str, Any]:
+        """Fields in SI that only a class of its own has."""
+        return {}
+
     def quality(self) -> dict[str, Any]:
         """Part of `to_dict` that the element stores; coefficients and validity box have their own entries."""
         return {key: value for key, value in self.to_dict().items() if key not in ("parameters", "valid")}
@@ -133,6 +148,19 @@ class FitResult(ElementFit):
     window: tuple[tuple[float, float], ...]
     samples: int
     independent_samples: float
+
+    def _in_si(self, element: ContactElement, scales: Scales) -> dict[str, Any]:
+        jacobian = self.element.si_jacobian(scales)
+        covariance = jacobian @ self.covariance @ jacobian.T
+        errors = dict(zip(self.std_errors, np.sqrt(np.diag(covariance)).tolist(), strict=True))
+        intervals = {}
+        for name, value in element.parameters.items():
+            low, high = self.intervals[name]
+            half = 0.5 * (high - low)  # as many standard errors in any unit
+            half *= errors[name] / self.std_errors[name] if self.std_errors[name] else 0.0
+            intervals[name] = (value - half, value + half)
+        window = tuple((start * scales.time, end * scales.time) for start, end in self.window)
+        return {"std_errors": errors, "intervals": intervals, "covariance": covariance, "window": window}
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

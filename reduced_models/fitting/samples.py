@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import as_column
 from ehlcontact.errors import InputError
+from ehlcontact.point import Point
 from reduced_models.fitting.records import ContactRecord, as_records
 
 _Floats = NDArray[np.float64]
@@ -20,8 +21,21 @@ Window = tuple[float, float]  # (start, end) in t
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Records of one contact, and of each the part inside its window."""
+    """Records of one contact, and of each the part inside its window.
 
+    Records of an `OperatingPoint` are in Moes units here, in which all fits are made.
+
+    Attributes
+    ----------
+    point : MoesPoint, OperatingPoint or None
+        In whose units the records were given; those without a point stay as they are.
+    records, cuts : tuple of ContactRecord
+        Whole, and their parts.
+    windows : tuple of (float, float)
+        Of each.
+    """
+
+    point: Point | None
     records: tuple[ContactRecord, ...]
     windows: tuple[Window, ...]
     cuts: tuple[ContactRecord, ...]
@@ -40,13 +54,20 @@ class Samples:
         if not taken:
             raise InputError("records", 0, "at least one record")
         _require_one_contact(taken)
+        point = taken[0].point
+        if window is not None:
+            start, end = as_column("window", window, size=2).tolist()
+            for record in taken:
+                record.window(start, end)  # raises InputError in the units of the record
+        if point is not None:
+            taken = tuple(record.dimensionless for record in taken)
         if window is None:
             windows = tuple(record.default_window for record in taken)
         else:
-            start, end = as_column("window", window, size=2).tolist()
-            windows = ((start, end),) * len(taken)
+            time = 1.0 if point is None else point.scales.time
+            windows = ((start / time, end / time),) * len(taken)
         cuts = (record.window(*span) for record, span in zip(taken, windows, strict=True))
-        return cls(taken, windows, tuple(cuts))
+        return cls(point, taken, windows, tuple(cuts))
 
     @cached_property
     def approach(self) -> _Floats:
@@ -81,10 +102,10 @@ class Samples:
         """Eq. 13 for the acceleration that the motion equation (eq. 7) gives with the fitted force."""
         true, modelled = 0.0, 0.0
         for cut, force in zip(self.cuts, self.split(fitted), strict=True):
-            if cut.Omega_n is None or cut.load is None or cut.acceleration is None:
+            if cut.mass is None or cut.load is None or cut.acceleration is None:
                 return None
             true += float(np.sum(cut.acceleration))
-            modelled += float(np.sum(cut.Omega_n**2 * (cut.load - force)))
+            modelled += float(np.sum((cut.load - force) / cut.mass))
         return (true - modelled) / true if true != 0.0 else None
 
 

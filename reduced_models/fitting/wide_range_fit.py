@@ -15,7 +15,7 @@ from ehlcontact.checks import as_column
 from ehlcontact.checks.frequency import by_name
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
-from ehlcontact.point import Point, moes_point, require_solvable
+from ehlcontact.point import OperatingPoint, Point, moes_point, require_solvable
 from ehlcontact.results import Response
 from reduced_models.elements.film_contact import FilmContact
 from reduced_models.elements.film_response import FilterRates, fit_gains, inlet_saturation_of
@@ -106,7 +106,7 @@ def wide_range_from_solves(
     Parameters
     ----------
     point : MoesPoint or OperatingPoint
-        The reference: its load is 1.
+        The reference: its load is 1. The element is in its units.
     loads, memory_loads : sequence of float
         Loads of the steady solves and of the impedances, increasing, in units of the reference load.
     Omega : sequence of float
@@ -137,7 +137,8 @@ def wide_range_from_solves(
     responses = [impedance(replace(moes, M=moes.M * f), Omega=Omega, grid=Grid(n=n)) for f in places.tolist()]
     approach, domains = [s.approach for s in steady], [list(s.domain.as_tuple()) for s in steady]
     source = source_of(point, n, domains)
-    return wide_range_contact(at, approach, places, responses, lags=lags, memory=memory, source=source)
+    found = wide_range_contact(at, approach, places, responses, lags=lags, memory=memory, source=source)
+    return found.to_si(point.scales) if isinstance(point, OperatingPoint) else found
 
 
 def _static(response: Response) -> float:

@@ -113,15 +113,8 @@ def test_simulation_in_hz_and_its_element_in_si(call, refused, tmp_path):
     stored = read(record)
     assert isinstance(stored, SimulationResult)
     assert stored.hz == pytest.approx(2e4) and stored.t[-1] == pytest.approx(1e-4)
-    assert call("fit", record, "--model", "linear", "--si", "--save", element).code == 0
+    assert call("fit", record, "--model", "linear", "--save", element).code == 0
     assert read(element).units == "SI"
-
-
-def test_si_of_a_fit_needs_a_record_in_si(call, refused, point, tmp_path):
-    record = tmp_path / "r.h5"
-    short = ("--harmonic", "3", "--until", "2", "--dt", "0.2")
-    assert call("simulate", *point, *COARSE, *short, "--save", record).code == 0
-    refused(("--si", "without dimensions"), "fit", record, "--model", "linear", "--si")
 
 
 def test_bearing_takes_the_same_oil(call):

@@ -80,7 +80,7 @@ def test_loops_show_the_element_that_was_fitted():
     unit = IN_SI.scales.time
     steps = TimeSteps(until=4.0 * unit, dt=0.05 * unit)
     run = simulate(IN_SI, HarmonicLoad(Omega=3.0), grid=Grid(n=32), time=steps)
-    found = fit(ContactRecord.from_result(run), "cubic", (2.0, 4.0))
+    found = fit(ContactRecord.from_result(run.dimensionless), "cubic", (2.0, 4.0))
     picture = loops({"harmonic": run}, {"harmonic": found}, {"harmonic": "a title"})
     assert picture.panels[0].title == "a title"
     run, s = run.dimensionless, IN_SI.scales

@@ -172,7 +172,7 @@ def test_fits(films, results):
     for row in results["fits"]:
         if "refused" in row:
             continue
-        again = fit(ContactRecord.from_result(films[row["record"]]), row["model"])
+        again = fit(ContactRecord.from_result(films[row["record"]].dimensionless), row["model"])
         for name in ("rms", "root", "tangent", "e_f"):
             assert row[name] == pytest.approx(getattr(again, name), rel=1e-9)
         assert row["parameters"] == pytest.approx(again.parameters)

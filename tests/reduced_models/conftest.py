@@ -75,7 +75,7 @@ def record():
     v = np.gradient(u, T)
     f = PAPER["K1"] * u + PAPER["K2"] * u**2 + PAPER["K3"] * u**3 + PAPER["C1"] * v
     return ContactRecord(
-        t=T, approach=u, rate=v, force=f, load=np.ones(T.size), acceleration=5.13**2 * (1.0 - f), Omega_n=5.13
+        t=T, approach=u, rate=v, force=f, load=np.ones(T.size), acceleration=5.13**2 * (1.0 - f), mass=5.13**-2
     )
 
 

@@ -13,7 +13,6 @@ from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.rows import Row
 from ehlcontact.errors import InputError
-from ehlcontact.point import OperatingPoint
 
 if TYPE_CHECKING:
     from reduced_models.fitting.result import ElementFit, FitResult
@@ -29,14 +28,11 @@ def fit(
         typer.Option(
             "--window",
             metavar="START END",
-            help="Part of T to fit; by default the last two thirds, of a ramp all.",
+            help="Part of t to fit, in its unit; by default the last two thirds, of a ramp all.",
         ),
     ] = None,
-    si: Annotated[
-        bool, typer.Option("--si", help="Save it in N, m and s; of simulations of a bearing's contact.")
-    ] = False,
 ) -> None:
-    """Fit a contact element to one or several simulations of the same contact."""
+    """Fit a contact element to one or several simulations of the same contact, in their units."""
     from ehlcontact.store import read
     from ehlcontact.transient.result import SimulationResult
     from reduced_models import ContactRecord
@@ -66,19 +62,15 @@ def fit(
         except InputError as error:
             name, allowed = (_with_files(text, files) for text in (error.field, error.allowed))
             raise InputError(name, error.value, allowed) from None
-    saved = fitted.element
-    if si:
-        if not isinstance(records[0].point, OperatingPoint):
-            raise InputError("--si", True, f"left out: {files[0]} is of a point without dimensions")
-        saved = saved.to_si(records[0].point.scales)
+    element = fitted.element
     rows = _coefficients(fitted) if isinstance(fitted, FitResult) else _memory(fitted)
-    valid = fitted.valid
+    valid, units = fitted.valid, "N, m, s" if element.units == "SI" else "static loads, dry approaches, 2a/u_sum"
     table = (
-        f"{model} element, {fitted.element.units}: static loads, dry approaches, 2a/u_sum",
+        f"{model} element, {element.units}: {units}",
         [
             *rows,
-            ("root", "-" if fitted.root is None else f"{fitted.root:.5f}", "approach under the static load"),
-            ("tangent", "-" if fitted.tangent is None else f"{fitted.tangent:.4f}", "stiffness there"),
+            ("root", numeral(fitted.root, 5), "approach under the static load"),
+            ("tangent", numeral(fitted.tangent, 5), "stiffness there"),
             ("rms error", f"{100 * (fitted.rms or 0.0):.2f} %", "of the standard deviation of the force"),
             (
                 "e_f (eq. 13)",
@@ -87,12 +79,12 @@ def fit(
             ),
             (
                 "valid approach",
-                f"{valid['low']:.4f} .. {valid['high']:.4f}",
+                f"{numeral(valid['low'])} .. {numeral(valid['high'])}",
                 f"|rate| <= {numeral(valid['rate'], 3)}",
             ),
         ],
     )
-    out.deliver(fitted.to_dict(), table, save=saved)
+    out.deliver(fitted.to_dict(), table, save=element)
 
 
 def _with_files(text: str, files: list[Path]) -> str:
@@ -110,8 +102,9 @@ def _coefficients(fitted: FitResult) -> list[Row]:
 
 
 def _memory(fitted: ElementFit) -> list[Row]:
+    from reduced_models.elements.validity import frequency_text
+
     p, found = fitted.parameters, fitted.to_dict()
-    low, high = fitted.valid["omega"]
     gains = p["gains"]
     return [
         (
@@ -130,6 +123,6 @@ def _memory(fitted: ElementFit) -> list[Row]:
         (
             "C(Ω)",
             f"{100 * found['damping_error_max']:.1f} %",
-            f"of its C; both for Ω {numeral(low)} .. {numeral(high)}",
+            f"of its C; both for {frequency_text(fitted.valid['omega'], fitted.element.units)}",
         ),
     ]

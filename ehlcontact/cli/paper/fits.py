@@ -94,7 +94,7 @@ class Fits:
             return simulate_oscillator(
                 element,
                 cut.t,
-                Omega_n=cut.Omega_n,
+                Omega_n=None if cut.mass is None else cut.mass**-0.5,
                 load=cut.load,
                 u0=float(cut.approach[0]),
                 v0=float(cut.rate[0]),

@@ -131,8 +131,8 @@ def force(table: int, case: str, *, acceleration: bool = False) -> Describe:
             fitted = np.asarray(element.force(record.approach, record.rate))
             if not acceleration:
                 return fitted
-            assert record.Omega_n is not None and record.load is not None
-            return record.Omega_n**2 * (record.load - fitted)
+            assert record.mass is not None and record.load is not None
+            return (record.load - fitted) / record.mass
 
         own = record.acceleration if acceleration else record.force
         lines = [

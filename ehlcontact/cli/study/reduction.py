@@ -111,7 +111,7 @@ def reduce_records(
     records = []
     for record, simulation in simulations.items():
         window = _window(simulation)
-        records.append(ContactRecord.from_result(simulation))
+        records.append(ContactRecord.from_result(simulation.dimensionless))
         for model in MODELS:
             try:
                 fits[record, model] = _with_source(fit(records[-1], model, window), known)

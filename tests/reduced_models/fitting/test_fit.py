@@ -7,11 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ehlcontact import Domain, assumptions
+from ehlcontact import Domain, Geometry, Lubricant, MoesPoint, OperatingPoint, assumptions
 from ehlcontact.errors import InputError
-from ehlcontact.point import MoesPoint
 from reduced_models import ContactRecord, SpringContact, fit
 
+BALL = OperatingPoint(Geometry(0.01, 0.02), Lubricant(eta0=0.04, alpha=2.2e-8), load=50.0, u_sum=2.0)
 # Nonato and Cavalca (2010): coefficients, and the root and tangent that follow from them.
 TABLES = [
     ((1.552, -1.414, 1.093, 0.011), 0.8702, 1.574),
@@ -183,8 +183,46 @@ def test_measured_record_in_si(record, scales):
     assert fit(replace(measured, static_load=None)).root is None
 
 
+@pytest.mark.parametrize("model", ["linear", "cubic", "polynomial", "power"])
+def test_a_fit_is_in_the_units_of_the_point(record, model):
+    """At an OperatingPoint it is that of the Moes numbers in SI, with the uncertainty of a fit in SI."""
+    bent = replace(record, force=record.force + 1e-3 * np.sin(40.0 * record.t), point=BALL.moes)
+    given, s = bent.in_units_of(BALL), BALL.scales
+    result, twin = fit(given, model), fit(given.dimensionless, model)
+    si = twin.element.to_si(s)
+    assert result.element.units == "SI" and result.element.parameters == result.parameters
+    assert result.parameters == pytest.approx(si.parameters, rel=1e-12, abs=0.0)
+    assert result.element.validity.approach == pytest.approx(si.validity.approach, rel=1e-12, abs=0.0)
+    assert result.valid == result.element.validity.to_dict()
+    assert result.root == pytest.approx(twin.root * s.length, rel=1e-9, abs=0.0)
+    assert result.tangent == pytest.approx(twin.tangent * s.stiffness, rel=1e-9)
+    assert result.window[0] == pytest.approx([t * s.time for t in twin.window[0]], rel=1e-12, abs=0.0)
+    assert (result.rms, result.e_f) == (twin.rms, twin.e_f)
+    assert result.element.fit["root"] == result.root and result.element.source["scales"]["force"] == s.force
+    measured = replace(given, point=None, units="SI")  # fitted in SI numbers
+    plain = fit(measured, model)
+    assert result.std_errors == pytest.approx(plain.std_errors, rel=1e-3, abs=0.0)
+    for name, interval in plain.intervals.items():
+        size = max(map(abs, interval))
+        assert result.intervals[name] == pytest.approx(interval, abs=1e-3 * size), name
+    errors = np.sqrt(np.diag(plain.covariance))
+    np.testing.assert_allclose(
+        result.covariance / np.outer(errors, errors), plain.covariance / np.outer(errors, errors), atol=2e-3
+    )
+
+
+def test_a_window_counts_in_the_time_of_the_record(record):
+    unit = BALL.scales.time
+    si = replace(record, point=BALL.moes).in_units_of(BALL)
+    assert fit(si, window=(0.5 * unit, 2.0 * unit)).samples == fit(record, window=(0.5, 2.0)).samples
+    with pytest.raises(
+        InputError, match=r"^window = \(0\.5, 2\.0\): must be one that holds 4 samples of t in \[0\.0, "
+    ):
+        fit(si, window=(0.5, 2.0))
+
+
 def test_without_inertia_there_is_no_acceleration_error(record):
-    assert fit(replace(record, Omega_n=None)).e_acc is None
+    assert fit(replace(record, mass=None)).e_acc is None
 
 
 def test_constant_record_names_its_columns(record):

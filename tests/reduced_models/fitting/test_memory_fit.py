@@ -121,11 +121,19 @@ def test_one_element_for_all():
 
 
 def test_response_and_records_of_a_point_in_si():
-    """In the units of the point they are of one contact; the element is dimensionless and knows its scales."""
+    """The element has the units of the response; its numbers are those of Moes units."""
     oil = Lubricant(0.037, 2e-8)
     point = OperatingPoint.ball_bearing(oil, **OF_6205, speed_rpm=3000.0, load=49.0)
     response = impedance(point, Omega=OMEGAS[::2], grid=Grid(n=32))
     time = TimeSteps(until=8.0 * point.scales.time, dt=0.1 * point.scales.time)
     run = simulate(point, HarmonicLoad(Omega=2.0), grid=Grid(n=32, domain=response.film.domain), time=time)
-    element = fit_memory(response, [ContactRecord.from_result(run)], lags=4).element
-    assert element.units == "dimensionless" and element.source["scales"]["force"] == pytest.approx(49.0)
+    record = ContactRecord.from_result(run)
+    found, moes = (fit_memory(one, [record], lags=4) for one in (response, response.dimensionless))
+    element, twin = found.element, moes.element
+    assert (element.units, twin.units) == ("SI", "dimensionless") and element.parameters == twin.parameters
+    assert found.root == moes.root * point.scales.length and found.tangent == moes.tangent * point.scales.stiffness
+    assert found.record_rms == moes.record_rms and element.fit["root"] == found.root
+    drive = element.drive(record.t, record.approach, record.rate)
+    assert np.std(drive - record.force) == pytest.approx(found.rms * np.std(record.force), rel=0.05)
+    Z = element.impedance(omega=response.omega[1:])
+    assert np.abs(Z.stiffness / response.stiffness[1:] - 1.0).max() <= np.abs(found.stiffness_error).max() * 1.001

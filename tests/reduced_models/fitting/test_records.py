@@ -5,9 +5,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from ehlcontact import Geometry, Lubricant, MoesPoint, OperatingPoint
 from ehlcontact.errors import InputError
-from ehlcontact.point import MoesPoint
 from reduced_models import ContactRecord, SpringContact
+
+BALL = OperatingPoint(Geometry(0.01, 0.02), Lubricant(eta0=0.04, alpha=2.2e-8), load=50.0, u_sum=2.0)
 
 
 def plain(**changes):
@@ -40,9 +42,11 @@ def test_measured_record_in_si_has_no_static_load_unless_given():
         ({"t": np.zeros(3)}, "length of t"),
         ({"force": ["a"] * 31}, "force"),
         ({"force": None}, "force"),
-        ({"Omega_n": -1.0}, "Omega_n"),
-        ({"Omega_n": 1.0, "units": "SI"}, "Omega_n"),
+        ({"mass": -1.0}, "mass"),
+        ({"Omega_n": 1.0}, "Omega_n"),
         ({"units": "um"}, "units"),
+        ({"units": "SI", "point": MoesPoint(200.0, 10.0, 0.5)}, "units"),
+        ({"units": "dimensionless", "point": BALL}, "units"),
         ({"static_load": 0.0}, "static_load"),
     ],
 )
@@ -55,7 +59,7 @@ def test_bad_histories_are_named(changes, field):
 def test_window_is_closed_and_keeps_everything_else(record):
     cut = record.window(1.0, 2.0)
     assert cut.t[0] == pytest.approx(1.0) and cut.t[-1] == pytest.approx(2.0) and len(cut) == 101
-    assert cut.load.size == cut.acceleration.size == 101 and cut.Omega_n == record.Omega_n
+    assert cut.load.size == cut.acceleration.size == 101 and cut.mass == record.mass
     assert record.default_window == pytest.approx((1.0, 3.0))
 
 
@@ -73,16 +77,16 @@ def simulation(status="converged", domain=(-4.5, 1.5, 3.0)):
         n=np.int64(64),
         domain=domain,
         motion=SimpleNamespace(to_dict=lambda: {"kind": "free", "Omega_n": 5.13}),
+        mass=5.13**-2,
         status=status,
     )
-    run.dimensionless = run  # as of a MoesPoint
     return run
 
 
 @pytest.mark.parametrize("domain", [(-4.5, 1.5, 3.0), SimpleNamespace(x_in=-4.5, x_out=1.5, y_max=3.0)])
 def test_from_result_takes_what_the_fit_will_need(domain):
     record = ContactRecord.from_result(simulation(domain=domain))
-    assert record.Omega_n == 5.13 and record.domain == (-4.5, 1.5, 3.0) and record.n == 64
+    assert record.mass == 5.13**-2 and record.domain == (-4.5, 1.5, 3.0) and record.n == 64
     assert record.motion["kind"] == "free" and record.load is not None
 
 
@@ -96,3 +100,23 @@ def test_from_result_refuses_an_unconverged_run_by_default():
     with pytest.raises(InputError, match="accept_unconverged"):
         ContactRecord.from_result(simulation("diverged"))
     assert len(ContactRecord.from_result(simulation("diverged"), accept_unconverged=True)) == 31
+
+
+def test_a_record_has_the_units_of_its_point():
+    """Those of the point by default, and into Moes units and back."""
+    s = BALL.scales
+    motion = {"kind": "harmonic", "Omega": 9.0}
+    record = ContactRecord(**plain(t=np.linspace(0.0, 3.0 * s.time, 31)), point=BALL, mass=2.0, motion=motion)
+    assert record.units == "SI" and record.static_load == 50.0
+    moes = record.dimensionless
+    assert moes.units == "dimensionless" and moes.point == BALL.moes and moes.static_load == 1.0
+    for name, unit in {"t": s.time, "approach": s.length, "rate": s.rate, "force": s.force}.items():
+        np.testing.assert_array_equal(getattr(moes, name), getattr(record, name) / unit)
+    assert moes.mass == 2.0 / s.mass and moes.in_units_of(BALL).mass == pytest.approx(2.0)
+    assert moes.in_units_of(BALL).units == "SI" and moes.in_units_of(BALL.moes) is moes
+    assert record.frequency == 9.0 / s.time and moes.frequency == 9.0
+    assert record.default_window == pytest.approx([s.time * t for t in moes.default_window], rel=1e-12, abs=0.0)
+    with pytest.raises(InputError, match=r"^point = 'M 20"):
+        moes.in_units_of(MoesPoint(20.0, 10.0, 0.5))
+    with pytest.raises(InputError, match="point = None: must be given"):
+        _ = ContactRecord(**plain(), units="SI").dimensionless
