@@ -18,7 +18,7 @@ from ehlcontact import HarmonicLoad, TimeSteps, impedance, simulate, solve_stead
 from ehlcontact.cli import main
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.schema import load_study
-from reduced_models import Atlas, ContactRecord, fit
+from reduced_models import Atlas, BearingMount, ContactRecord, OutsideValidityWarning, Rotor, fit, simulate_rotor
 
 START = "docs/guide/start.md"
 LONG = ["docs/oil_supply.md", "docs/signals.md", "docs/traction.md"]
@@ -47,6 +47,7 @@ def test_pages_are_found():
         "bearing.md",
         "rotor.md",
         "spindle.md",
+        "integrator.md",
         "fmu.md",
     }
     assert len(blocks("README.md")) == 1 and len(blocks(START)) >= 4
@@ -226,6 +227,32 @@ def test_tutorial_of_the_spindle(capsys):
     np.testing.assert_allclose(force[-1, 1] - force[-1, 0], 60.0, atol=1.0)
     last = run_up.node("disc")[-100:, 0]
     assert 0.5 * np.ptp(last) == pytest.approx(found["orbit"][-1], rel=0.05)
+
+
+@pytest.mark.long
+def test_tutorial_of_the_integrator(capsys):
+    """Damping of every element in a loop, beside that of the impedance; the warning; the whole film."""
+    found = {}
+    run("docs/tutorials/integrator.md", found)
+    film, decrement = found["film"], found["decrement"]
+    small = film.impedance(hz=1000.0)
+    exact = np.pi * float(small.damping[0]) / np.sqrt(found["mass"] * float(small.stiffness[0]))
+    assert decrement(found["solved"].y[0]) == pytest.approx(exact, rel=0.02)
+    assert decrement(found["moved"]) == pytest.approx(exact, rel=0.02)
+    right = decrement(found["on"](found["right"]))
+    with pytest.warns(OutsideValidityWarning):
+        wrong = decrement(found["on"](found["wrong"]))
+    assert right == pytest.approx(exact, rel=0.03) and 5.0 < right / wrong < 7.0
+    (told,) = found["told"]
+    assert "(fitted 12280 to 13770 Hz)" in str(told.message)
+    assert found["off"] < 0.005
+    # the library's own steps at rho_inf = 1 are those of average acceleration
+    path, mount = found["path"], BearingMount(bearing=found["bearing"], x=0, y=1)
+    rotor = Rotor(mass=5.0 * np.eye(2), stiffness=np.zeros((2, 2)), load=found["weight"], mounts=(mount,))
+    begun = (found["low"], np.zeros(2))
+    own = simulate_rotor(rotor, speed_rpm=3000, dt=found["dt"], until=found["t"][-1], start=begun, rho_inf=1.0)
+    swing = np.ptp(path[:, 1])
+    np.testing.assert_allclose(own.displacement[: path.shape[0]], path, rtol=0.0, atol=1e-5 * swing)
 
 
 def test_tutorial_of_the_bearing():
