@@ -23,7 +23,8 @@ Result = TypeVar("Result")
 
 _RADIANS = {"rad/s": 1.0, "Hz": 2.0 * pi, "rev/min": pi / 30.0}  # rad/s in one of each
 _SPELLED = {"Pa s": "Pa*s", "kg m": "kg*m", "kg m2": "kg*m**2", "kg/m3": "kg/m**3", "N s/m": "N*s/m",
-            "m/s2": "m/s**2", "W/(m K)": "W/(m*K)", "1/Pa": "1/Pa", "degrees Celsius": "degC"}  # fmt: skip
+            "m/s2": "m/s**2", "W/(m K)": "W/(m*K)", "1/Pa": "1/Pa", "degrees Celsius": "degC",
+            "mm2/s": "mm**2/s"}  # fmt: skip
 _PER_SECOND = re.compile(r"hertz|hz", re.IGNORECASE)
 _TURNING = re.compile(r"rad|rev|rpm|turn|cycle|degree", re.IGNORECASE)
 

@@ -65,6 +65,8 @@ class Contact(Options):
         typer.Option("--bearing", metavar="NAME", autocompletion=known_bearings, show_default=False),
     ] = None
     oil: Annotated[str | None, OIL_NAME] = None
+    nu40: Annotated[e.Nu40 | None, typer.Option("--nu40", show_default=False)] = None
+    nu100: Annotated[e.Nu100 | None, typer.Option("--nu100", show_default=False)] = None
     temp: Annotated[e.Temperature | None, typer.Option("--temp", show_default=False)] = None
     speed_rpm: Annotated[e.Speed | None, typer.Option("--speed-rpm", show_default=False)] = None
     load: Annotated[e.Load | None, typer.Option("--load", show_default=False)] = None
@@ -93,7 +95,7 @@ class Contact(Options):
 
     @property
     def _of_bearing(self) -> dict[str, Any]:
-        return self.by_option("bearing", "oil", "temp", "load", "speed_rpm", "race")
+        return self.by_option("bearing", "oil", "nu40", "nu100", "temp", "load", "speed_rpm", "race")
 
     @property
     def _of_disc(self) -> dict[str, Any]:
@@ -133,7 +135,7 @@ class Contact(Options):
         other = next(iter(of_bearing))
         whose = (
             "a bearing"
-            if other in ("--bearing", "--oil", "--temp", "--speed-rpm", "--load")
+            if other in ("--bearing", "--oil", "--nu40", "--nu100", "--temp", "--speed-rpm", "--load")
             else "a contact in SI"
         )
         raise InputError(name, value, f"left out where {other} is given: {whose} has its own")
@@ -192,6 +194,7 @@ class Contact(Options):
         grade = None if self.oil is None else oil_grade(self.oil, "--oil")
         names = {"iso_vg": "--oil", "temperature": "--temp"}
         given = {"eta0": self.eta0, "alpha": self.alpha, "iso_vg": grade, "temperature": self.temp}
+        given |= {"nu40": self.nu40, "nu100": self.nu100}
         laws = {"viscosity": self.viscosity, "density": self.density}
         return lubricant_of(given, laws, lambda name: names.get(name, f"--{name}"))
 
@@ -281,6 +284,9 @@ class Contact(Options):
         return (self.bearing or "").strip().upper()
 
     def _oil_name(self) -> str:
+        if self.nu40 is not None:
+            viscosities = f"{numeral(self.nu40)} and {numeral(self.nu100)} mm2/s at 40 and 100 °C"
+            return f"{viscosities}, at {numeral(self.temp)} °C"
         if self.oil is None:
             return "by its numbers"
         return f"ISO VG {oil_grade(self.oil, '--oil')} at {numeral(self.temp)} °C"

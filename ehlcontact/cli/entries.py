@@ -19,7 +19,7 @@ from pydantic_core import CoreSchema, PydanticCustomError
 from pydantic_core.core_schema import no_info_after_validator_function
 
 from ehlcontact.checks.admissible_range import INPUTS, Quantity
-from ehlcontact.lubricant.oil import DENSITIES, GRADES, INDICES, TEMPERATURES
+from ehlcontact.lubricant.oil import DENSITIES, GRADES, INDICES, KINEMATIC, TEMPERATURES
 from ehlcontact.transient.motion import FASTEST, SLOWEST
 
 
@@ -142,6 +142,8 @@ Alpha = Annotated[Positive, Physical(INPUTS["alpha"]), meaning("pressure-viscosi
 Grade = Annotated[
     Whole, Allowed(", ".join(map(str, GRADES))), meaning("ISO VG grade of a mineral oil: mm2/s at 40 C")
 ]
+Nu40 = Annotated[Positive, Physical(KINEMATIC), meaning("kinematic viscosity at 40 C, of a data sheet")]
+Nu100 = Annotated[Positive, Physical(KINEMATIC), meaning("kinematic viscosity at 100 C, of a data sheet")]
 Temperature = Annotated[Finite, _between(TEMPERATURES, "C"), meaning("temperature of the oil in the inlet")]
 ViscosityIndex = Annotated[Finite, _between(INDICES, ""), meaning("viscosity index of the grade; 95 if left out")]
 Density15 = Annotated[Finite, _between(DENSITIES, "kg/m3"), meaning("density at 15 C; 875 if left out")]

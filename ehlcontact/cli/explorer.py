@@ -75,9 +75,8 @@ def write_explorer(path: Path) -> Path:
     """
     from ehlcontact.cli.page import write_page
 
-    usual = MineralOil(GRADES[0], 40.0)  # what is left out is as in `Lubricant.iso_vg`
     content: dict[str, Any] = {"script": script(), "version": __version__, "ratio": USUAL_DAMPING}
-    content |= {"index": usual.viscosity_index, "density": usual.density_15}
+    content |= {"index": oil.USUAL_INDEX, "density": oil.USUAL_DENSITY_15}  # as in `Lubricant.iso_vg`
     return write_page(path, "explore/page.html.j2", {}, **content)
 
 
@@ -124,10 +123,10 @@ def _spline_slopes(x: np.ndarray) -> np.ndarray:
 
 
 def _oils() -> dict[str, Any]:
-    walther = {grade: MineralOil(grade, 40.0).walther_slope for grade in GRADES}
+    walther = {grade: MineralOil.of_grade(grade, 40.0).walther_slope for grade in GRADES}
     names = ("TEMPERATURES", "THINNEST", "EXPANSION", "KELVIN", "GOLD_S", "GOLD_T", "GOLD_PRESSURE")
     numbers = {name.lower(): getattr(oil, name) for name in names}
-    numbers |= {"shift": oil.WALTHER_SHIFT, "density_15": MineralOil(GRADES[0], 40.0).density_15}
+    numbers |= {"shift": oil.WALTHER_SHIFT, "density_15": oil.USUAL_DENSITY_15}
     numbers |= {"roelands_p0": ROELANDS_P0, "roelands_log": ROELANDS_LOG}
     return {"walther_slopes": walther, **numbers}
 

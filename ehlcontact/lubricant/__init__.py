@@ -5,7 +5,7 @@ module  responsibility
 ======= =======================================================================================
 ``oil_laws`` `Lubricant`; the laws of viscosity and density, dimensionless and compiled
 ``traction_laws`` `Eyring`, `Carreau`, `LimitingShear`: non-Newtonian shear stress of an oil
-``oil`` mineral oils by grade and temperature: viscosity, density, their slopes and scatter
+``oil`` mineral oils by viscosities or grade, at a temperature: viscosity, density, their slopes and scatter
 ======= =======================================================================================
 """
 

@@ -1,7 +1,8 @@
-"""Mineral oils by ISO viscosity grade, viscosity index and temperature.
+"""Mineral oils by their viscosities at 40 and 100 C, or by ISO viscosity grade and viscosity index.
 
-From grade to film: the grade is the viscosity at 40 C (ISO 3448), the viscosity index gives the one at 100 C
-(ASTM D2270), Walther's line through both any other (ASTM D341), and thermal expansion the density (ASTM D1250).
+Walther's line through both viscosities gives any other (ASTM D341), and thermal expansion the density
+(ASTM D1250). Data sheets print both. A grade is the one at 40 C (ISO 3448), and the viscosity index gives the one
+at 100 C (ASTM D2270).
 None of this says how viscosity rises with pressure: that is a correlation over measured oils, and its scatter is
 the largest uncertainty of all. Formulas, sources and checks: docs/assumptions.md.
 """
@@ -16,18 +17,24 @@ from operator import attrgetter
 from typing import NamedTuple
 
 from ehlcontact.checks import require_finite
+from ehlcontact.checks.admissible_range import Quantity
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 
 KELVIN = 273.15  # of 0 C
 GRADES = (10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680)  # ISO 3448: mm2/s at 40 C; thinner ones have no VI
 GRADE_SCATTER = 0.10  # relative, of the viscosity at 40 C: what ISO 3448 allows a grade
+SHEET_SCATTER = 0.05  # relative, our judgement: batches of a product about the values of its data sheet
 # C: around 40 and 100, between which Walther's line is drawn; colder, oils leave it, hotter, few are run
 TEMPERATURES = (20.0, 120.0)
 INDICES = (80.0, 120.0)  # of API group I and II oils (API 1509): the mineral oils that the correlations are of
+ALL_INDICES = (-100.0, 400.0)  # from traction fluids to the thinnest silicone oils
+USUAL_INDEX = 95.0
 DENSITIES = (800.0, 950.0)  # kg/m3 at 15 C, of any mineral oil
+USUAL_DENSITY_15 = 875.0
 WALTHER_SHIFT = 0.7  # mm2/s, ASTM D341; good down to the viscosity below
 THINNEST = 2.0  # mm2/s, for which ASTM D341 and D2270 hold without further terms
+KINEMATIC = Quantity("mm2/s", (THINNEST, 2000.0), (THINNEST, 2000.0), {"m2/s": 1e6, "St": 100.0})
 EXPANSION = 0.6278  # kg/(m3 K): K1 of lubricating oils, ASTM D1250 (API MPMS 11.1), table 54D; K0 is 0
 
 # alpha = s nu^t over the secant from 0 to 200 MPa, of mineral oils: Gold, Schmidt, Dicke, Loos and Assmann,
@@ -37,6 +44,9 @@ GOLD_PRESSURE = 2e8  # Pa, the end of that secant
 # Relative, our judgement: the correlation is 3 to 10 % below the secants measured of FVA 3 (ISO VG 100) between 20
 # and 100 C, and 3 to 13 % below what is quoted for VG 68 at 50 C; oils of another crude differ as much again.
 ALPHA_SCATTER = 0.20
+# Oils with another viscosity index than the correlation's are hydrocracked or synthetic: Gold et al. measured a
+# quarter (polyalphaolefins) to a third (esters) less than of mineral oils of the same viscosity.
+OTHER_ALPHA_SCATTER = 0.35
 
 # -d ln(eta)/dT over ln(nu + 0.7), 1/K: within 15 % of ASTM D341 for VG 22 to 220 at 40 to 80 C
 TYPICAL_SLOPE = 0.0112
@@ -75,6 +85,7 @@ INDEX_ROWS = (  # ASTM D2270, table X2.1
     _IndexRow(70.0, 0.83531, 14.6731, -216.246, 0.16841, 11.8493, -96.947),
 )
 INDEX_PER_POWER = 0.00715  # ASTM D2270, procedure B
+INDEX_ROUNDING = 0.05  # where rows of the table meet
 HALVINGS = 60  # of the interval for the viscosity at 100 C: to the last bit
 
 
@@ -103,53 +114,83 @@ def typical_temperature_slope(eta0: float) -> float:
     return max(TYPICAL_SLOPE * log(eta0 / TYPICAL_DENSITY * 1e6 + WALTHER_SHIFT), LEAST_SLOPE)
 
 
-@fields_take(temperature="degrees Celsius", density_15="kg/m3")
+@fields_take(nu40=KINEMATIC, nu100=KINEMATIC, temperature="degrees Celsius", density_15="kg/m3")
 @dataclass(frozen=True, slots=True)
 class MineralOil:
-    """A mineral oil at a temperature.
+    """A mineral oil at a temperature, by its viscosities at 40 and 100 C; `of_grade` has it by its grade.
 
     Parameters
     ----------
-    grade : int
-        ISO viscosity grade, the kinematic viscosity at 40 C [mm2/s]; 10 to 680.
+    nu40, nu100 : float
+        Kinematic viscosities at 40 and 100 C [mm2/s], 2 to 2000.
     temperature : float
         In degrees Celsius, 20 to 120.
-    viscosity_index : float
-        80 to 120, as mineral oils of API groups I and II have.
     density_15 : float
         Density at 15 C [kg/m3]; those of one grade differ by 1 to 2 %.
 
     Raises
     ------
     InputError
-        A value outside its range, or an oil so thin and hot (below 2 mm2/s) that no standard covers it.
+        A value outside its range; viscosities of no oil; or an oil so thin and hot (below 2 mm2/s) that no
+        standard covers it.
     """
 
-    grade: int
+    nu40: float
+    nu100: float
     temperature: float
-    viscosity_index: float = 95.0
-    density_15: float = 875.0
-    viscosity_100: float = field(init=False)  # mm2/s
+    density_15: float = USUAL_DENSITY_15
     walther_slope: float = field(init=False)  # B of lg lg(nu + 0.7) = A - B lg(T/K)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "grade", _require_grade(self.grade))
+        if not self.nu100 < self.nu40:
+            raise InputError("nu100", self.nu100, f"below nu40 = {self.nu40:g} mm2/s: oils are thinner at 100 C")
         hint = " (degrees Celsius; given in K?)" if _looks_kelvin(self.temperature) else " degrees Celsius"
         self._require("temperature", TEMPERATURES, hint)
-        self._require("viscosity_index", INDICES, ", as mineral oils have")
         hint = " kg/m3 (given in g/cm3?)" if _looks_gram(self.density_15) else " kg/m3"
         self._require("density_15", DENSITIES, hint)
-        hot = viscosity_at_100(self.grade, self.viscosity_index)
-        object.__setattr__(self, "viscosity_100", hot)
-        object.__setattr__(self, "walther_slope", (_double_log(self.grade) - _double_log(hot)) / _log_ratio(100.0))
+        if not ALL_INDICES[0] <= self.viscosity_index <= ALL_INDICES[1]:
+            allowed = (
+                f"that of an oil with {self.nu40:g} mm2/s at 40 C: a viscosity index of {ALL_INDICES[0]:g} to"
+            )
+            raise InputError("nu100", self.nu100, f"{allowed} {ALL_INDICES[1]:g}, not {self.viscosity_index:.4g}")
+        slope = (_double_log(self.nu40) - _double_log(self.nu100)) / _log_ratio(100.0)
+        object.__setattr__(self, "walther_slope", slope)
         if self.kinematic_viscosity < THINNEST:
-            nu = f"one with at least {THINNEST:g} mm2/s (ASTM D341); ISO VG {self.grade} has"
+            nu = f"one with at least {THINNEST:g} mm2/s (ASTM D341); this oil has"
             raise InputError("temperature", self.temperature, f"{nu} {self.kinematic_viscosity:.2f}")
+
+    @classmethod
+    def of_grade(
+        cls,
+        grade: int,
+        temperature: float,
+        viscosity_index: float = USUAL_INDEX,
+        density_15: float = USUAL_DENSITY_15,
+    ) -> MineralOil:
+        """A mineral oil by its ISO viscosity grade, the kinematic viscosity at 40 C [mm2/s]; 10 to 680.
+
+        Raises
+        ------
+        InputError
+            Another grade; a viscosity index outside 80 to 120, as API groups I and II have; what the class
+            refuses.
+        """
+        nu40 = _require_grade(grade)
+        index = require_finite("viscosity_index", viscosity_index)
+        if not INDICES[0] <= index <= INDICES[1]:
+            allowed = f"between {INDICES[0]:g} and {INDICES[1]:g}, as mineral oils have"
+            raise InputError("viscosity_index", index, f"{allowed}; any other oil by nu40 and nu100")
+        return cls(nu40, viscosity_at_100(nu40, index), temperature, density_15)
+
+    @property
+    def viscosity_index(self) -> float:
+        """ASTM D2270."""
+        return viscosity_index(self.nu40, self.nu100)
 
     @property
     def kinematic_viscosity(self) -> float:
         """Viscosity at the temperature [mm2/s]: Walther's line, ASTM D341."""
-        line = _double_log(self.grade) - self.walther_slope * _log_ratio(self.temperature)
+        line = _double_log(self.nu40) - self.walther_slope * _log_ratio(self.temperature)
         return float(10.0**10.0**line) - WALTHER_SHIFT
 
     @property
@@ -160,7 +201,7 @@ class MineralOil:
 
     @property
     def eta0(self) -> float:
-        """Dynamic viscosity at ambient pressure [Pa s], within `GRADE_SCATTER`."""
+        """Dynamic viscosity at ambient pressure [Pa s]."""
         return self.kinematic_viscosity * 1e-6 * self.density
 
     @property
@@ -174,8 +215,14 @@ class MineralOil:
 
     @property
     def alpha_secant(self) -> float:
-        """``ln(eta/eta0)/p`` at 200 MPa [1/Pa], within `ALPHA_SCATTER`: Gold et al. (2001)."""
+        """``ln(eta/eta0)/p`` at 200 MPa [1/Pa], within `alpha_scatter`: Gold et al. (2001)."""
         return float(GOLD_S * self.kinematic_viscosity**GOLD_T)
+
+    @property
+    def alpha_scatter(self) -> float:
+        """How far, relative, the oil may be from that correlation: more, where it has another viscosity index."""
+        usual = INDICES[0] - INDEX_ROUNDING <= self.viscosity_index <= INDICES[1] + INDEX_ROUNDING
+        return ALPHA_SCATTER if usual else OTHER_ALPHA_SCATTER
 
     def _require(self, name: str, allowed: tuple[float, float], unit: str) -> None:
         value = require_finite(name, getattr(self, name))

@@ -18,7 +18,15 @@ from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.elementary import exponential, logarithm
 from ehlcontact.errors import InputError
 from ehlcontact.jit import jit_node
-from ehlcontact.lubricant.oil import ALPHA_SCATTER, GOLD_PRESSURE, GRADE_SCATTER, MineralOil
+from ehlcontact.lubricant.oil import (
+    GOLD_PRESSURE,
+    GRADE_SCATTER,
+    KINEMATIC,
+    SHEET_SCATTER,
+    USUAL_DENSITY_15,
+    USUAL_INDEX,
+    MineralOil,
+)
 
 VISCOSITY_LAWS = ("roelands", "barus")
 DENSITY_LAWS = ("dowson-higginson", "incompressible")
@@ -48,7 +56,7 @@ class FluidLaw(NamedTuple):
 @fields_take(eta0="Pa s", alpha="1/Pa", temperature_slope="1/K", temperature=TEMPERATURE)
 @dataclass(frozen=True, slots=True)
 class Lubricant:
-    """Oil at inlet temperature; `iso_vg` makes one from its grade.
+    """Oil at inlet temperature; `iso_vg` makes one from its grade, `from_viscosities` from its data sheet.
 
     Parameters
     ----------
@@ -104,8 +112,8 @@ class Lubricant:
         grade: int,
         *,
         temperature: float,
-        viscosity_index: float = 95.0,
-        density_15: float = 875.0,
+        viscosity_index: float = USUAL_INDEX,
+        density_15: float = USUAL_DENSITY_15,
         viscosity: str = "roelands",
         density: str = "dowson-higginson",
     ) -> Lubricant:
@@ -134,15 +142,54 @@ class Lubricant:
         InputError
             A value outside its range, or an unknown law.
         """
+        oil = MineralOil.of_grade(grade, temperature, viscosity_index, density_15)
+        return cls._of(oil, viscosity, density, GRADE_SCATTER)
+
+    @classmethod
+    @takes(nu40=KINEMATIC, nu100=KINEMATIC, temperature="degrees Celsius", density_15="kg/m3")
+    def from_viscosities(
+        cls,
+        *,
+        nu40: float,
+        nu100: float,
+        temperature: float,
+        density_15: float = USUAL_DENSITY_15,
+        viscosity: str = "roelands",
+        density: str = "dowson-higginson",
+    ) -> Lubricant:
+        """Oil by its kinematic viscosities at 40 and 100 C, as data sheets have them, of greases for the base oil.
+
+        eta0 follows from ASTM D341 and D1250, `alpha` as in `iso_vg`. That correlation is of mineral oils: with a
+        viscosity index outside 80 to 120, `alpha_scatter` is 0.35, and a synthetic oil is on the lower side.
+
+        Parameters
+        ----------
+        nu40, nu100 : float
+            In mm2/s (cSt).
+        temperature : float
+            Of the inlet, in degrees Celsius; 20 to 120.
+        density_15 : float
+            Density at 15 C [kg/m3], 800 to 950.
+        viscosity : {"roelands", "barus"}
+        density : {"dowson-higginson", "incompressible"}
+
+        Raises
+        ------
+        InputError
+            A value outside its range, viscosities of no oil, or an unknown law.
+        """
+        return cls._of(MineralOil(nu40, nu100, temperature, density_15), viscosity, density, SHEET_SCATTER)
+
+    @classmethod
+    def _of(cls, oil: MineralOil, viscosity: str, density: str, eta0_scatter: float) -> Lubricant:
         require_choice("viscosity", viscosity, VISCOSITY_LAWS)
-        oil = MineralOil(grade, temperature, viscosity_index, density_15)
         return cls(
             oil.eta0,
             alpha_through(oil.alpha_secant, oil.eta0, viscosity),
             viscosity,
             density,
-            eta0_scatter=GRADE_SCATTER,
-            alpha_scatter=ALPHA_SCATTER,
+            eta0_scatter=eta0_scatter,
+            alpha_scatter=oil.alpha_scatter,
             temperature_slope=oil.temperature_slope,
             temperature=oil.temperature,
         )

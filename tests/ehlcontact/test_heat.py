@@ -225,7 +225,7 @@ def test_roelands_follows_walther():
         for warmer in (10.0, 40.0):
             factor = (1.0 + warmer / numbers.temperature_scale) ** -numbers.exponent
             ours = np.exp((np.log(oil.eta0) + 9.67) * factor - 9.67)
-            assert ours == pytest.approx(MineralOil(grade, 50.0 + warmer).eta0, rel=0.001 * warmer)
+            assert ours == pytest.approx(MineralOil.of_grade(grade, 50.0 + warmer).eta0, rel=0.001 * warmer)
 
 
 @pytest.mark.slow

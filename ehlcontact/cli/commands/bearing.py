@@ -261,6 +261,8 @@ class BearingOptions(o.Options):
             help='ISO grade of a mineral oil, as "ISO VG 68"; without an oil the bearing is dry.',
         ),
     ] = None
+    nu40: Annotated[e.Nu40 | None, _oil("--nu40")] = None
+    nu100: Annotated[e.Nu100 | None, _oil("--nu100")] = None
     temp: Annotated[e.Temperature | None, _oil("--temp")] = None
     clearance: Annotated[
         str | None,

@@ -52,6 +52,8 @@ OPTIONS = {
     "--contact-angle": "bearing.contact_angle_deg",
     "--race-control": "bearing.race_control",
     "--oil": "oil.iso_vg",
+    "--nu40": "oil.nu40",
+    "--nu100": "oil.nu100",
     "--temp": "oil.temperature",
     "--clearance": "bearing.clearance_um",
     "--rq": "surface.rq_um",
@@ -74,6 +76,7 @@ ENTRIES = {
     "spring": "pair.spring",
     "preload and spring": "pair.spring",
 }
+OF_OIL = "--oil", "--nu40", "--nu100", "--temp"
 LOADS = "--load", "--axial", "--moment-x", "--moment-y"
 AXIAL = "axial_load", "moment_x", "moment_y", "tilt_x_mrad", "tilt_y_mrad"  # with these, balls have contact angles
 STUDY = ("free", "harmonic", "rotor", "solver")  # sections that only a study has
@@ -358,7 +361,7 @@ def _called(file: str, given: frozenset[str], values: Mapping[str, Any]) -> Iter
         if value is None and option == "--pair":
             allowed = "given with a preload, spring or distance: those of a pair; a single bearing has its --axial"
         elif value is None and option is not None:
-            if option in ("--oil", "--temp"):
-                allowed = "given: an oil has --oil and --temp"
+            if option in OF_OIL:
+                allowed = "given: an oil has --oil and --temp, or --nu40, --nu100 and --temp"
             allowed += f", or {option}" if file else ""
         raise InputError(entry, value, allowed) from None

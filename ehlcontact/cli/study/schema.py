@@ -29,6 +29,7 @@ from reduced_models.rotor.rotor import require_unbalance
 
 BY_NUMBERS = ("eta0", "alpha")  # entries of an oil
 BY_GRADE = ("iso_vg", "temperature", "viscosity_index", "density_15")
+BY_SHEET = ("nu40", "nu100", "temperature", "density_15")  # of its data sheet
 # As on the drum, and as people shorten it: "ISO VG 68", "VG68", "iso-vg 68", "68".
 _GRADE = re.compile(r"(?:(?:iso[\s_-]*)?vg[\s_-]*|iso[\s_-]*)?(\d{1,4})", re.IGNORECASE)
 ENTRIES = {  # as the library calls them
@@ -61,12 +62,14 @@ class Bearing(Section):
 
 
 class Oil(Section):
-    """The oil in the inlet of the contact: a grade and a temperature, or eta0 and alpha in their place."""
+    """The oil in the inlet: a grade and a temperature; nu40, nu100 and a temperature, or eta0 and alpha."""
 
     name: Annotated[e.Text, e.meaning("as the report calls it; by its grade where left out")] = "oil"
     eta0: e.Eta0 | None = None
     alpha: e.Alpha | None = None
     iso_vg: e.Grade | None = None
+    nu40: e.Nu40 | None = None
+    nu100: e.Nu100 | None = None
     temperature: e.Temperature | None = None
     viscosity_index: e.ViscosityIndex | None = None
     density_15: e.Density15 | None = None
@@ -76,7 +79,12 @@ class Oil(Section):
     @property
     def label(self) -> str:
         """Its name; by its grade where it has none of its own."""
-        if self.iso_vg is None or "name" in self.model_fields_set:
+        if "name" in self.model_fields_set:
+            return self.name
+        if self.nu40 is not None:
+            viscosities = f"{numeral(self.nu40)} and {numeral(self.nu100)} mm2/s at 40 and 100 °C"
+            return f"oil of {viscosities}, at {numeral(self.temperature)} °C"
+        if self.iso_vg is None:
             return self.name
         return f"ISO VG {self.iso_vg} at {numeral(self.temperature)} °C"
 
@@ -87,15 +95,15 @@ class Oil(Section):
         Raises
         ------
         InputError
-            Given in no way, in part, or in both ways; or an oil that the library refuses.
+            Given in no way, in part, or in two ways; or an oil that the library refuses.
         """
-        given = {name: getattr(self, name) for name in (*BY_NUMBERS, *BY_GRADE)}
+        given = {name: getattr(self, name) for name in {*BY_NUMBERS, *BY_GRADE, *BY_SHEET}}
         laws = {"viscosity": self.viscosity, "density": self.density}
         return lubricant_of(given, laws, lambda name: f"oil.{name}")
 
 
 def lubricant_of(given: Mapping[str, Any], laws: Mapping[str, str], called: Callable[[str], str]) -> Lubricant:
-    """The oil of inputs: by its numbers, or by its grade and temperature.
+    """The oil of inputs: by its numbers, by its grade and temperature, or by its viscosities at 40 and 100 C.
 
     Parameters
     ----------
@@ -109,26 +117,31 @@ def lubricant_of(given: Mapping[str, Any], laws: Mapping[str, str], called: Call
     Raises
     ------
     InputError
-        Given in no way, in part, or in both ways; or an oil that the library refuses.
+        Given in no way, in part, or in two ways; or an oil that the library refuses.
     """
-    numbers, grade = (
-        {n: given.get(n) for n in names if given.get(n) is not None} for names in (BY_NUMBERS, BY_GRADE)
-    )
-    ways = [" and ".join(map(called, names[:2])) for names in (BY_GRADE, BY_NUMBERS)]
-    if numbers and grade:
-        name, value = next(iter(grade.items()))
-        other = called(next(iter(numbers)))
-        allowed = f"left out where {other} is given: the oil is given by its numbers or by its grade"
-        raise InputError(called(name), value, allowed)
-    for name in BY_GRADE[:2] if grade else BY_NUMBERS:
-        if name not in grade and name not in numbers:
-            raise InputError(called(name), None, f"given: {ways[0]}, or {ways[1]} in their place")
-    if numbers:
-        return Lubricant(numbers["eta0"], numbers["alpha"], **laws)  # type: ignore[arg-type]
+    known = {name: given[name] for name in (*BY_GRADE, *BY_SHEET, *BY_NUMBERS) if given.get(name) is not None}
+    own = BY_NUMBERS if not known or set(known) & set(BY_NUMBERS) else BY_GRADE
+    own = BY_SHEET if own is BY_GRADE and set(known) & set(BY_SHEET[:2]) else own
+    for name, value in known.items():
+        if name not in own:
+            other = called(next(one for one in own if one in known))
+            ways = "by its numbers or by its grade" if own is BY_NUMBERS else "by its grade or by its viscosities"
+            raise InputError(called(name), value, f"left out where {other} is given: the oil is given {ways}")
+    for name in own if own is BY_NUMBERS else BY_SHEET[:3] if own is BY_SHEET else BY_GRADE[:2]:
+        if name not in known:
+            grade, sheet, numbers = (
+                " and ".join(map(called, names[:2])) for names in (BY_GRADE, BY_SHEET, BY_NUMBERS)
+            )
+            raise InputError(called(name), None, f"given: {grade}, or {numbers}, or {sheet} in their place")
+    make = {BY_NUMBERS: Lubricant, BY_GRADE: _of_grade, BY_SHEET: Lubricant.from_viscosities}[own]
     try:
-        return Lubricant.iso_vg(grade.pop("iso_vg"), **grade, **laws)  # type: ignore[arg-type]
+        return make(**known, **laws)  # type: ignore[operator]
     except InputError as error:
         raise InputError(called(error.field), error.value, error.allowed) from None
+
+
+def _of_grade(iso_vg: int, **more: Any) -> Lubricant:
+    return Lubricant.iso_vg(iso_vg, **more)
 
 
 def oil_grade(text: str, field: str) -> int:

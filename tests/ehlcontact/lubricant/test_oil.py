@@ -143,9 +143,9 @@ def test_index_is_inverted(grade, index):
 @pytest.mark.parametrize("grade", [32, 46, 68, 100])
 def test_grade_is_the_viscosity_at_40(grade):
     """ISO 3448: exactly."""
-    assert MineralOil(grade, 40.0).kinematic_viscosity == pytest.approx(grade, rel=1e-12)
-    hot = MineralOil(grade, 100.0)
-    assert hot.kinematic_viscosity == pytest.approx(hot.viscosity_100, rel=1e-12)
+    assert MineralOil.of_grade(grade, 40.0).kinematic_viscosity == pytest.approx(grade, rel=1e-12)
+    hot = MineralOil.of_grade(grade, 100.0)
+    assert hot.kinematic_viscosity == pytest.approx(hot.nu100, rel=1e-12)
 
 
 @pytest.mark.literature
@@ -157,9 +157,28 @@ def test_usual_viscosities_at_100(grade, low, high):
     assert low <= viscosity_at_100(grade, 95.0) and viscosity_at_100(grade, 100.0) <= high
 
 
+@pytest.mark.parametrize(
+    ("nu40", "nu100", "temperature", "nu"),  # lg lg(nu + 0.7) linear in lg T, by hand
+    [(67.0, 9.1, 60.0, 29.086), (110.0, 11.5, 70.0, 28.793), (24.6, 5.3, 60.0, 13.084)],
+)
+def test_viscosity_from_a_data_sheet(nu40, nu100, temperature, nu):
+    sheet = MineralOil(nu40, nu100, temperature)
+    assert sheet.kinematic_viscosity == pytest.approx(nu, rel=4e-5)
+    oil = Lubricant.from_viscosities(nu40=nu40, nu100=nu100, temperature=temperature)
+    assert oil.eta0 == sheet.eta0 and oil.temperature_slope == sheet.temperature_slope
+    assert (oil.eta0_scatter, oil.alpha_scatter) == (0.05, 0.35 if nu40 == 24.6 else 0.20)
+
+
+def test_a_grade_and_its_two_viscosities_are_one_oil():
+    by_grade = Lubricant.iso_vg(68, temperature=55.0, viscosity_index=110.0, viscosity="barus")
+    hot = viscosity_at_100(68.0, 110.0)
+    by_sheet = Lubricant.from_viscosities(nu40=68.0, nu100=hot, temperature=55.0, viscosity="barus")
+    assert replace(by_sheet, eta0_scatter=by_grade.eta0_scatter) == by_grade
+
+
 def test_walther_by_hand():
-    oil = MineralOil(68, 50.0, viscosity_index=98.0)
-    hot = oil.viscosity_100
+    oil = MineralOil.of_grade(68, 50.0, viscosity_index=98.0)
+    hot = oil.nu100
     w = [log10(log10(nu + 0.7)) for nu in (68.0, hot)]
     slope = (w[0] - w[1]) / log10(373.15 / 313.15)
     assert oil.kinematic_viscosity == pytest.approx(
@@ -179,7 +198,7 @@ def test_derivation_of_the_shipped_study():
 @pytest.mark.literature
 @pytest.mark.parametrize("t", [20.0, 40.0, 60.0, 80.0, 100.0])
 def test_density_of_a_measured_oil(t):
-    assert MineralOil(100, t, density_15=887.6).density == pytest.approx(Fva3(t).density, rel=5e-3)
+    assert MineralOil.of_grade(100, t, density_15=887.6).density == pytest.approx(Fva3(t).density, rel=5e-3)
 
 
 @pytest.mark.literature
@@ -201,7 +220,7 @@ def test_viscosity_and_its_slope_of_a_measured_oil(t):
     """Walther's line from the oil's own index, and Vogel's law through its measurements."""
     index = viscosity_index(Fva3(40.0).nu, Fva3(100.0).nu)
     assert 105.0 < index < 112.0
-    oil, measured = MineralOil(100, t, index, 887.6), Fva3(t)
+    oil, measured = MineralOil.of_grade(100, t, index, 887.6), Fva3(t)
     scale = measured.nu / Fva3(40.0).nu  # 96.9 mm2/s at 40 C, where the grade has 100
     assert oil.kinematic_viscosity / 100.0 == pytest.approx(scale, rel=0.015)
     assert oil.temperature_slope == pytest.approx(measured.temperature_slope, rel=0.06)
@@ -210,7 +229,7 @@ def test_viscosity_and_its_slope_of_a_measured_oil(t):
 @pytest.mark.parametrize("viscosity", ["roelands", "barus"])
 def test_law_passes_through_the_correlation(viscosity):
     oil = Lubricant.iso_vg(100, temperature=60.0, viscosity=viscosity, density="incompressible")
-    secant = MineralOil(100, 60.0).alpha_secant
+    secant = MineralOil.of_grade(100, 60.0).alpha_secant
     p = 2e8
     q = log(oil.eta0) + 9.67
     z = oil.alpha * 1.96e8 / q
@@ -220,14 +239,14 @@ def test_law_passes_through_the_correlation(viscosity):
 
 
 def test_slope_is_the_derivative():
-    here, there = (log(MineralOil(46, 55.0 + d).eta0) for d in (-1e-3, 1e-3))
-    assert MineralOil(46, 55.0).temperature_slope == pytest.approx((here - there) / 2e-3, rel=1e-6)
+    here, there = (log(MineralOil.of_grade(46, 55.0 + d).eta0) for d in (-1e-3, 1e-3))
+    assert MineralOil.of_grade(46, 55.0).temperature_slope == pytest.approx((here - there) / 2e-3, rel=1e-6)
 
 
 @pytest.mark.parametrize("grade", [22, 46, 100, 220])
 @pytest.mark.parametrize("t", [40.0, 60.0, 80.0])
 def test_typical_slope(grade, t):
-    oil = MineralOil(grade, t)
+    oil = MineralOil.of_grade(grade, t)
     assert oils.typical_temperature_slope(oil.eta0) == pytest.approx(oil.temperature_slope, rel=0.15)
 
 
@@ -256,6 +275,27 @@ BAD = [
     ("viscosity", dict(viscosity="walther"), "roelands"),
     ("density", dict(density="constant"), "dowson"),
 ]
+
+
+BAD_SHEET = [
+    ("nu40", dict(nu40=6.7e-5), "in m2/s? then 67 mm2/s"),
+    ("nu40", dict(nu40="67"), "a number"),
+    ("nu100", dict(nu100=0.0), "between 2 and 2000 mm2/s"),
+    ("nu100", dict(nu100=70.0), "below nu40 = 67 mm2/s"),
+    ("nu100", dict(nu100=66.0), "a viscosity index of -100 to 400, not"),
+    ("temperature", dict(temperature=333.0), "given in K?"),
+    ("temperature", dict(nu40=5.0, nu100=2.0, temperature=120.0), "ASTM D341"),
+    ("density_15", dict(density_15=0.875), "given in g/cm3?"),
+    ("viscosity", dict(viscosity="walther"), "roelands"),
+]
+
+
+@pytest.mark.parametrize(("field", "changes", "allowed"), BAD_SHEET)
+def test_bad_data_sheet_is_named(field, changes, allowed):
+    with pytest.raises(InputError) as caught:
+        Lubricant.from_viscosities(**({"nu40": 67.0, "nu100": 9.1, "temperature": 60.0} | changes))
+    assert caught.value.field == field and allowed in caught.value.allowed
+    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(("field", "changes", "allowed"), BAD)

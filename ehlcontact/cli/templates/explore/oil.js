@@ -13,7 +13,7 @@ function mineralOil(data, grade, temperature) {
     - slope * Math.log10((temperature + data.kelvin) / (40 + data.kelvin));
   const nu = 10 ** 10 ** line - data.shift;
   if (nu < data.thinnest) {
-    const allowed = `one with at least ${g(data.thinnest)} mm2/s (ASTM D341); ISO VG ${grade} has ${nu.toFixed(2)}`;
+    const allowed = `one with at least ${g(data.thinnest)} mm2/s (ASTM D341); this oil has ${nu.toFixed(2)}`;
     throw new InputError("temperature", temperature, allowed);
   }
   const x = data.expansion / data.density_15 * (temperature - 15);
