@@ -218,6 +218,29 @@ Feature = Waves | Defect | BallDiameter
 FEATURES = "RaceWaviness, BallWaviness, BallDiameter, Spall or Indentation"
 
 
+def usual_waviness(amplitude: float, waves: int, seed: int) -> list[RaceWaviness]:
+    """Waviness of both races as new bearings have it: n waves are an n-th as high as one, their phases random.
+
+    So all waves move the ring equally fast, as the velocities of new bearings in the three bands of ISO 15242 are
+    of one size.
+
+    Parameters
+    ----------
+    amplitude : float
+        Of one wave around a race [m].
+    waves : int
+        Largest number of waves around a race; the smallest is 2, an oval race.
+    seed : int
+        Of the phases.
+    """
+    phase = np.random.default_rng(seed).uniform(0.0, 2.0 * pi, (len(RACES), max(waves - 1, 0)))
+    return [
+        RaceWaviness(race=race, waves=n, amplitude=amplitude / n, phase=float(phase[j, n - 2]))
+        for j, race in enumerate(RACES)
+        for n in range(2, waves + 1)
+    ]
+
+
 _KINDS: dict[str, type[Any]] = {
     kind.__name__: kind for kind in (RaceWaviness, BallWaviness, BallDiameter, Spall, Indentation)
 }

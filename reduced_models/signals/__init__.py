@@ -11,7 +11,7 @@
 
 from reduced_models.signals.indicators import indicators
 from reduced_models.signals.records import RecordCase, make_records, write_dataset
-from reduced_models.signals.sampling import housing_acceleration, node_acceleration
+from reduced_models.signals.sampling import housing_acceleration, node_acceleration, shaft_angle
 from reduced_models.signals.spectra import envelope_spectrum, order_spectrum
 from reduced_models.signals.transfer_path import MeasuredPath, ModalPath, SystemPath
 
@@ -26,6 +26,7 @@ __all__ = [
     "make_records",
     "node_acceleration",
     "order_spectrum",
+    "shaft_angle",
     "write_dataset",
 ]
 

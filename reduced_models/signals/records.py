@@ -8,7 +8,8 @@ record, `write_dataset` makes of them the Parquet files that `bearing_datasets.o
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
+from functools import cached_property
 from math import ceil, hypot
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
@@ -28,9 +29,11 @@ from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import read, save, stored
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.features import Indentation, Spall
+from reduced_models.bearing.equilibrium_result import BearingState
+from reduced_models.bearing.excitation import HIGHEST
+from reduced_models.bearing.features import Indentation, Spall, usual_waviness
 from reduced_models.bearing.height_tables import LEAST_STEPS, shortest_meeting
-from reduced_models.bearing.kinematics import DefectOrders
+from reduced_models.bearing.kinematics import RPM_TO_HZ, DefectOrders
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.simulate import simulate_rotor
 from reduced_models.rotor.supports import BearingMount
@@ -43,6 +46,7 @@ _Floats = NDArray[np.float64]
 LEAD = 0.1  # s of a simulation before its record, in which the transient of the start decays
 FINER, COARSEST = 4, 48_000.0  # least steps per sample and per s: a mass on its contacts swings at some kHz
 TILT_INERTIA, TILT_STIFFNESS = 1e-3, 1e5  # kg m2, N m/rad: a stiff shaft holds the ring against tilts
+MOST_WAVES = 1000  # around a race: as high as noise of the measurement of roundness
 SUFFIX = ".h5"
 MOST_SAMPLES = 1e8  # of a record: 400 MB
 LONGEST_LABEL = 100  # letters: a part of a file name
@@ -77,8 +81,11 @@ class RecordCase(Summary):
         On the inner ring [kg].
     noise : float
         Root of the mean square of white Gaussian noise that is added [m/s2].
+    waviness : float
+        Height of one wave around a race [m], of which n waves have an n-th; 0 for smooth races. The record has
+        waves up to half of its rate, beside the features of the bearing.
     seed : int
-        Of the noise.
+        Of noise and waviness.
     seconds, rate : float
         Length of the record [s], samples per s.
 
@@ -96,6 +103,7 @@ class RecordCase(Summary):
     label: str
     mass: float = 2.0
     noise: float = 0.0
+    waviness: float = 1e-7
     seed: int = 0
     seconds: float = 10.0
     rate: float = 12_000.0
@@ -110,6 +118,10 @@ class RecordCase(Summary):
         if self.seconds * self.rate > MOST_SAMPLES:
             allowed = f"at most {MOST_SAMPLES / self.rate:g} s at {self.rate:g} Hz, {MOST_SAMPLES:g} samples"
             raise InputError("seconds", self.seconds, allowed)
+        most = HIGHEST * self.bearing.ball_diameter
+        if self.waviness > most:
+            allowed = f"at most {most:.3g} m, {HIGHEST:g} of the ball's diameter (given in um?)"
+            raise InputError("waviness", self.waviness, allowed)
         require_integer("seed", self.seed, "a whole number >= 0", 0)
         require_sampling(self.bearing, self.speed_rpm, self.rate)
         passage = 1.0 / self.bearing.frequencies(self.speed_rpm).bpfo
@@ -127,13 +139,14 @@ class RecordCase(Summary):
         name = self.bearing.name or "ball bearing"
         return [
             f"{self.label}: {name} under ({force}) N at {self.speed_rpm:.5g} rev/min",
-            f"{self.seconds:g} s at {self.rate:g} Hz, noise of {self.noise:g} m/s2",
+            f"{self.seconds:g} s at {self.rate:g} Hz, noise of {self.noise:g} m/s2,"
+            f" waviness of {1e6 * self.waviness:g} µm",
         ]
 
     def to_dict(self) -> dict[str, Any]:
         """Everything that the record depends on, ready for JSON."""
         path = {name: np.asarray(getattr(self.path, name)).tolist() for name in ("hz", "damping", "mass")}
-        plain = ("load", "speed_rpm", "label", "mass", "noise", "seed", "seconds", "rate")
+        plain = ("load", "speed_rpm", "label", "mass", "noise", "waviness", "seed", "seconds", "rate")
         return {"bearing": self.bearing.to_dict(), "path": path} | {name: getattr(self, name) for name in plain}
 
     @property
@@ -142,25 +155,44 @@ class RecordCase(Summary):
         return f"{self.label}-{key_of(self.to_dict())}"
 
     @property
+    def wavy_bearing(self) -> BallBearing:
+        """The bearing with the waviness of its races."""
+        if self.waviness == 0.0:
+            return self.bearing
+        met = (
+            self.speed_rpm * RPM_TO_HZ * (1.0 - self.bearing.orders.ftf_order)
+        )  # Hz, of one wave of the inner race
+        waves = min(int(0.5 * self.rate / met), MOST_WAVES)
+        return replace(
+            self.bearing,
+            features=[*self.bearing.features, *usual_waviness(self.waviness, waves, self.seed)],
+        )
+
+    @property
     def steps_per_sample(self) -> int:
         """Steps of the simulation per sample.
 
         At least 4, 48 000 per s, and 3 while a ball meets its shortest feature.
         """
-        force = float(self.bearing.equilibrium(self.load, speed_rpm=self.speed_rpm).force.max())
-        met = shortest_meeting(self.bearing, self.speed_rpm, force)
+        force = float(self._at_rest.force.max())
+        met = shortest_meeting(self.wavy_bearing, self.speed_rpm, force)
         needed = COARSEST if met is None else max(COARSEST, LEAST_STEPS / met[0])
         return max(FINER, ceil(needed / self.rate))
+
+    @cached_property
+    def _at_rest(self) -> BearingState:
+        """Equilibrium without features, which depends on no angle of the cage."""
+        return replace(self.bearing, features=()).equilibrium(self.load, speed_rpm=self.speed_rpm)
 
     def rotor(self) -> Rotor:
         """The mass on its bearing."""
         if len(self.load) == 2:
-            mount = BearingMount(bearing=self.bearing, x=0, y=1)
+            mount = BearingMount(bearing=self.wavy_bearing, x=0, y=1)
             return Rotor(
                 mass=self.mass * np.eye(2), stiffness=np.zeros((2, 2)), load=np.array(self.load), mounts=(mount,)
             )
         mass, held = [self.mass] * 3 + [TILT_INERTIA] * 2, [0.0] * 3 + [TILT_STIFFNESS] * 2
-        mount = BearingMount(bearing=self.bearing, x=0, y=1, z=2, tilt_x=3, tilt_y=4)
+        mount = BearingMount(bearing=self.wavy_bearing, x=0, y=1, z=2, tilt_x=3, tilt_y=4)
         load = np.array([*self.load, 0.0, 0.0])
         return Rotor(mass=np.diag(mass), stiffness=np.diag(held), load=load, mounts=(mount,))
 
@@ -170,7 +202,7 @@ class RecordCase(Summary):
         kinds = sorted({PARTS.get(str(getattr(fault, "race", None)), BALL) for fault in faults})
         defects = [fault for fault in faults if isinstance(fault, Spall | Indentation)]
         length = max((fault.length for fault in defects), default=0.0)
-        orders = b.equilibrium(self.load, speed_rpm=self.speed_rpm).orders or b.orders
+        orders = self._at_rest.orders or b.orders
         size = round(self.seconds * self.rate)
         words = "; ".join(f"length {1e3 * fault.length:g} mm, depth {1e6 * fault.depth:g} um" for fault in defects)
         graded = "not graded" if kinds else "none"
@@ -187,7 +219,7 @@ class RecordCase(Summary):
             "bearing_id": key_of(b.to_dict()), "bearing_model": b.name or "ball bearing",
             **asdict(orders),
             "axial_load_n": self.load[2] if len(self.load) == 3 else 0.0, "clearance_um": 1e6 * b.clearance,
-            "noise": self.noise, "seed": self.seed,
+            "noise": self.noise, "waviness_um": 1e6 * self.waviness, "seed": self.seed,
         }  # fmt: skip
 
 
@@ -197,7 +229,8 @@ OWN_COLUMNS = {
     "axial_load_n": "axial load on the inner ring [N]",
     "clearance_um": "radial internal clearance [um]",
     "noise": "root of the mean square of the added white noise [m/s^2]",
-    "seed": "of the noise",
+    "waviness_um": "height of one wave around a race, of which n waves have an n-th [um]",
+    "seed": "of noise and waviness",
 }
 
 
@@ -231,8 +264,10 @@ class VibrationRecord(QuantityTable):
             raise InputError("signal", self.signal.shape, f"{self.columns.get('n_samples')} samples")
 
     def _summary_lines(self) -> list[str]:
-        at, found = self.columns, indicators(self.signal)
+        at, found = self.columns, indicators(self.signal, self.rate)
         features = f"rms {found.rms:.4g} m/s2, kurtosis {found.kurtosis:.4g}"
+        if found.velocity_rms_mm_s is not None:
+            features += f", velocity {found.velocity_rms_mm_s:.4g} mm/s rms"
         return [
             f"{at['fault_type']} ({at['native_label']}), {at['bearing_model']} at {at['speed_rpm']:.5g} rev/min",
             f"{self.signal.size} samples at {self.rate:g} Hz, {features}",

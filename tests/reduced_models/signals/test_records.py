@@ -74,6 +74,32 @@ def test_made_once_and_again_the_same(files):
     assert len({one.recording_id for one in (*cases, case(seed=8), case(speed_rpm=1801.0))}) == 5
 
 
+@pytest.mark.long
+def test_a_healthy_record_has_a_bearing_in_it():
+    """Ball passage and waviness of new races, of the velocity of new bearings; smooth races are far quieter."""
+    wavy, smooth = (make_record(case(noise=0.0, waviness=height, seconds=2.0)) for height in (1e-7, 0.0))
+    bpfo = wavy.columns["bpfo_order"] * 30.0
+    found = envelope_spectrum(wavy.signal, wavy.rate, (2000.0, 5500.0))
+    assert found.line(bpfo, 3.0).amplitude > 5.0 * np.median(found.amplitude[: found.hz.searchsorted(1000.0)])
+    loud, quiet = (indicators(one.signal, one.rate) for one in (wavy, smooth))
+    assert loud.rms > 30.0 * quiet.rms and 2.5 < loud.kurtosis < 3.5
+    assert 0.01 < loud.velocity_rms_mm_s < 0.2
+    assert f"velocity {loud.velocity_rms_mm_s:.4g} mm/s rms" in repr(wavy)
+
+
+def test_waviness_of_a_case():
+    """Both races have it up to half of the rate, n waves an n-th as high, and another seed other phases."""
+    fine, coarse, other = case(rate=12_000.0), case(rate=6000.0), case(seed=8)
+    waves = fine.wavy_bearing.features
+    assert {one.race for one in waves} == {"inner", "outer"} and len(waves) == 2 * 331
+    assert max(one.waves for one in waves) == int(6000.0 / (30.0 * (1.0 - fine.bearing.orders.ftf_order)))
+    assert all(one.amplitude == 1e-7 / one.waves for one in waves)
+    assert len(coarse.wavy_bearing.features) == 2 * 165
+    assert waves[0].phase != other.wavy_bearing.features[0].phase
+    assert case(waviness=0.0).wavy_bearing.features == fine.bearing.features == ()
+    assert fine.columns()["fault_type"] == "normal" and fine.columns()["waviness_um"] == pytest.approx(0.1)
+
+
 def test_dataset_of_parquet(files, tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet")
     records = [read(path) for path in files[2]]
@@ -105,6 +131,7 @@ def test_without_pyarrow_one_line(files, tmp_path, monkeypatch):
         ({"load": (0.0,)}, "load"),
         ({"load": (0.0, 1.0, 2.0, 3.0)}, "two or three"),
         ({"noise": -1.0}, "noise"),
+        ({"waviness": 0.1}, "waviness = 0.1"),
         ({"rate": 1000.0}, "8 samples per ball passage"),
         ({"seconds": np.nan}, "seconds"),
         ({"seconds": 1e-3}, "seconds = 0.001: must be at least 0.0093 s, a ball passage"),
