@@ -19,7 +19,6 @@ module            responsibility
 ``shear_thinning`` `ShearThinning`: shear thinning of a film by sliding
 ``response``      `response`: force over frequency by changes of approach or speed, or by waves; two plain names
 ``linearised_film``  steady films to linearise, on the finest and on coarser meshes
-``layer_response`` `layer_response`: force and layer behind over the layer ahead, of a starved contact
 ``transient/``    film through time: motions, surfaces, `simulate`, `TransientContact`
 ``assumptions/``  assumptions of every solve, each with the number that shows whether it holds
 ``quantities``    units, scales and dimensions of quantities, declared once in the annotations of results

@@ -1,4 +1,4 @@
-"""`response`: force of the linearised steady contact over frequency, to its approach, its speed, or passing waves.
+"""`response`: force of the linearised steady contact, to its approach, speed, layer of oil, or waves.
 
 A harmonic change of unit size makes a pressure ``P + dP exp(i Omega T)`` with
 
@@ -16,6 +16,8 @@ approach  ``-(j + i Omega b)``                 impedance ``Z = K + i Omega C``: 
 speed     ``d(rho H)/dX``, of u_sum (1 + s)    at low frequency what the steady force at this approach gains with
                                                ln(u_sum), at high frequency less and later, for the film has to
                                                cross the contact first
+layer     oil that reaches the front of the    under a supply: the rest of a change of the layer ahead is left
+          full film                            behind the contact, later
 waves     ``-(Jg + i Omega Bg + rho (D + i k)) G(Omega), per height at X = 0; long waves are an approach: G tends
           g``, ``g = -exp(-i k X)``            to Z. ``|G/Z|`` is the contact filter; dry it is ``|sin(k)/k|``
 ========= ==================================== =================================================================
@@ -31,8 +33,9 @@ Grids of half and a quarter of the intervals give error estimates (`solver.error
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from math import pi
 from typing import Any, Unpack
 
@@ -49,15 +52,17 @@ from ehlcontact.heat import Heat
 from ehlcontact.linearised_film import coarser_contacts, film_to_linearise, held, linearised
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, require_solvable
 from ehlcontact.process.blas import one_blas_thread
-from ehlcontact.results.response import APPROACH, PARTS, SLOW, SPEED, WAVES, Response
+from ehlcontact.results.response import APPROACH, LAYER, PARTS, SLOW, SPEED, WAVES, Response
 from ehlcontact.results.steady_result import SteadyResult
 from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.error_estimate import response_error, wave_error
 from ehlcontact.solver.grid import AUTOMATIC, Grid, require_grid
-from ehlcontact.solver.linearised_contact import TOLERANCE, LinearisedContact
+from ehlcontact.solver.level import Level
+from ehlcontact.solver.linearised_contact import TOLERANCE, Forces, LinearisedContact
 from ehlcontact.solver.mesh import Mesh, Solve
 from ehlcontact.solver.mesh_choice import Purpose, grid_for_waves, wider_meshes
 from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.solver.passing_layer import on_track
 from ehlcontact.supply import OilLayer
 
 Array = NDArray[np.float64]
@@ -67,7 +72,7 @@ LARGEST_OMEGA = 200.0
 NEAR_ZERO = 1e-4  # where C(0) is evaluated
 FEWEST_NODES = 4.0  # of the mesh to a wave, as of `Roughness`: with fewer the film does not follow it
 SLOW_SHARE = 0.1  # of C at low frequency that is not in C at `SLOW`, from which it is slow oil: else 7 % at most
-TO = f"{APPROACH!r}, {SPEED!r} or Waves(...)"
+TO = f"{APPROACH!r}, {SPEED!r}, {LAYER!r} or Waves(...)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,9 +152,10 @@ def response(
     Parameters
     ----------
     point : MoesPoint or OperatingPoint
-    to : "approach", "speed" or Waves
-        What changes: the mutual approach; the speed of both surfaces, at fixed approach (large changes: `simulate`
-        with a `SpeedHistory`); or the height of waves that pass on a surface, at fixed approach.
+    to : "approach", "speed", "layer" or Waves
+        What changes: the mutual approach; or, at fixed approach, the speed of both surfaces (large changes:
+        `simulate` with a `SpeedHistory`), the layer of oil ahead under a supply, the same across, or the height of
+        waves that pass on a surface.
     Omega, omega, hz, rpm : float or sequence of float
         Frequencies, in exactly one of these: dimensionless (time unit 2a/u_sum, from 0 to 200) at every point; at
         an `OperatingPoint` also in rad/s, Hz or rev/min. Waves with a wavelength have theirs from it.
@@ -162,7 +168,7 @@ def response(
         of the full film moves with the change: the oil that it takes up and leaves behind is part of the problem.
     thermal : Heat, or True for ``Heat()``, optional
         Let the film heat up, as in `solve_steady`; its temperatures follow the vibration as fast as oil and
-        surfaces can (docs/heat.md). Not in a response to speed.
+        surfaces can (docs/heat.md).
     sliding : ShearThinning, optional
         Shear thinning of the film by sliding, as in `solve_steady`; it follows at once.
     threads : int, optional
@@ -172,8 +178,8 @@ def response(
     ------
     InputError
         Frequencies not given in exactly one way, in SI at a dimensionless point, not finite, negative or above
-        Omega = 200; of waves also Omega = 0, a wavelength beside a frequency, fewer than 4 nodes to a wave; a grid
-        that would not fit into memory; more threads than cores.
+        Omega = 200; of waves also Omega = 0, a wavelength beside a frequency, fewer than 4 nodes to a wave; a
+        response to the layer of a flooded contact; a grid that would not fit into memory; more threads than cores.
     ConvergenceError
         The steady state did not converge.
     """
@@ -184,9 +190,8 @@ def response(
     require_grid(grid)
     threads = require_threads("threads", threads)
     conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
-    if to == SPEED and conditions.heat is not None:
-        allowed = "left out of a response to speed: what heat surfaces carry at a speed that changes is not known"
-        raise InputError("thermal", "given", allowed)
+    if to == LAYER and conditions.supply is None:
+        raise InputError("supply", None, "given in a response to the layer ahead: a flooded contact has none")
     if waves is None:
         meshes: Iterable[Mesh] = wider_meshes(moes, Purpose.DAMPING, grid, solve=Solve.IMPEDANCE)
     else:
@@ -194,8 +199,8 @@ def response(
         wider = wider_meshes(moes, Purpose.DAMPING, fine, solve=Solve.IMPEDANCE)
         meshes = (waves.resolved_by(mesh, float(w.max()), point) for mesh in wider)
     steady = film_to_linearise(point, meshes, grid.deflection, threads, conditions)
-    by = _to_approach if to == APPROACH else _to_source
-    found = by(steady, held(steady, grid.deflection, threads), w, waves)
+    solved = held(steady, grid.deflection, threads)
+    found = _to_approach(steady, solved, w) if to == APPROACH else _to_source(steady, solved, w, waves or str(to))
     return replace(found, seconds=time.perf_counter() - started).in_units_of(point)
 
 
@@ -237,46 +242,60 @@ def _change(to: str | Waves, time_unit: float | None, frequency: Frequency) -> t
     """Waves, where the response is to them, and Omega, shape (k,)."""
     if isinstance(to, Waves):
         return to, to.frequencies(time_unit, frequency)
-    if not isinstance(to, str) or to not in (APPROACH, SPEED):
+    if not isinstance(to, str) or to not in (APPROACH, SPEED, LAYER):
         raise InputError("to", shown(to), TO)
     return None, dimensionless(time_unit, **frequency, most=LARGEST_OMEGA)
 
 
-def _to_approach(steady: SteadyResult, solved: Multigrid, w: Array, waves: Waves | None) -> Response:
+def _to_approach(steady: SteadyResult, solved: Multigrid, w: Array) -> Response:
     """Impedance, dimensionless."""
     contact, moving = linearised(steady, solved), np.maximum(w, NEAR_ZERO)
-    Z, residual = contact.respond(moving, TOLERANCE)
-    coarser = [other.respond(moving, TOLERANCE)[0] for other in coarser_contacts(steady, solved)]
-    stiffness, damping = response_error(moving, [Z, *coarser])
+    finest, *coarser = [
+        (other.respond(moving, TOLERANCE), other.level)
+        for other in chain([contact], coarser_contacts(steady, solved))
+    ]
+    Z = finest[0].force
+    stiffness, damping = response_error(moving, [Z, *(other.force for other, _ in coarser)])
     if steady.temperature is not None:
         # A front of full film is slow by itself
         still = None if steady.supply is None else contact.still()
         damping = damping + slow_part(contact, moving, Z.imag / moving, still)
-    bars = {"stiffness": stiffness, "damping": damping}
-    return Response.to_approach(
-        w, Z, moving, point=steady.point.moes, film=steady, residual=residual, error_bars=bars
-    )
+    behind, layer_error = _behind([finest, *coarser])
+    bars = {"stiffness": stiffness, "damping": damping} | layer_error
+    shared: dict[str, Any] = {"point": steady.point.moes, "film": steady, "layer_behind": behind}
+    return Response.to_approach(w, Z, moving, residual=finest[0].residual, error_bars=bars, **shared)
 
 
-def _to_source(steady: SteadyResult, solved: Multigrid, w: Array, waves: Waves | None) -> Response:
-    """Force of a change of speed, or of waves, dimensionless."""
+def _to_source(steady: SteadyResult, solved: Multigrid, w: Array, to: Waves | str) -> Response:
+    """Force of a change of speed, of the layer ahead, or of waves, dimensionless."""
     contact, moving = linearised(steady, solved), np.maximum(w, NEAR_ZERO)
 
-    def force(of: LinearisedContact) -> tuple[Complex, Array]:
-        return of.force_of_speed(moving) if waves is None else of.force_of_waves(moving, moving / waves.speed)
+    def forces(of: LinearisedContact) -> Forces:
+        if isinstance(to, Waves):
+            return of.force_of_waves(moving, moving / to.speed)
+        return of.force_of_speed(moving) if to == SPEED else of.force_of_layer(moving)
 
-    Z = contact.respond(moving, TOLERANCE)[0]
-    value, residual = force(contact)
-    every = [value, *(force(other)[0] for other in coarser_contacts(steady, solved))]
+    Z = contact.respond(moving, TOLERANCE).force
+    found = [(forces(one), one.level) for one in chain([contact], coarser_contacts(steady, solved))]
+    every, value = [one.force for one, _ in found], found[0][0].force
     shared: dict[str, Any] = {"point": steady.point.moes, "film": steady, "omega": w, "value": value}
-    shared |= {"residual": residual, "impedance": Z}
-    if waves is None:
-        bars = dict.fromkeys(PARTS, wave_error(every, np.abs(value)))
-        return Response(to=SPEED, error_bars=bars, **shared)
+    shared |= {"residual": found[0][0].residual, "impedance": Z}
+    if not isinstance(to, Waves):
+        behind, layer_error = _behind(found)
+        bars = dict.fromkeys(PARTS, wave_error(every, np.abs(value))) | layer_error
+        return Response(to=to, error_bars=bars, layer_behind=behind, **shared)
     error = wave_error(every, np.abs(Z))
     bars = dict.fromkeys((*PARTS, "amplitude"), error) | {"contact_filter": error / np.abs(Z)}
-    lengths = 2.0 * pi * waves.speed / w
-    return Response(to=WAVES, wavelength=lengths, wave_speed=waves.speed, error_bars=bars, **shared)
+    lengths = 2.0 * pi * to.speed / w
+    return Response(to=WAVES, wavelength=lengths, wave_speed=to.speed, error_bars=bars, **shared)
+
+
+def _behind(found: Sequence[tuple[Forces, Level]]) -> tuple[Complex | None, dict[str, Array]]:
+    """Layer behind, over the width of the contact, of the finest of several levels, and its error by name."""
+    layers = [on_track(one.behind, level.Y) for one, level in found if one.behind is not None]
+    if not layers:
+        return None, {}
+    return layers[0], {"layer_behind": wave_error(layers, np.abs(layers[0]))}
 
 
 def slow_part(
@@ -293,8 +312,8 @@ def slow_part(
     low, part = omega < SLOW, np.zeros_like(omega)
     if low.any():
         w = np.append(omega[low], SLOW)
-        C = np.append(damping[low], contact.respond(w[-1:], TOLERANCE)[0].imag / SLOW)
+        C = np.append(damping[low], contact.respond(w[-1:], TOLERANCE).force.imag / SLOW)
         if still is not None:
-            C -= still.respond(w, TOLERANCE)[0].imag / w
+            C -= still.respond(w, TOLERANCE).force.imag / w
         part[low] = np.abs(C[:-1] - C[-1])
     return np.where(part > SLOW_SHARE * np.abs(damping), part, 0.0)

@@ -181,6 +181,7 @@ def results(point):
         excitation(point, hz=[5e3, 1e4], grid=Grid(n=32)), excitation(moes, wavelength=8.0, grid=Grid(n=16)),
         response(point, to="speed", hz=[0.0, 1e4], grid=Grid(n=32)),
         response(moes, to="speed", Omega=3.0, grid=Grid(n=16)),
+        response(point, to="layer", hz=[0.0, 1e4], grid=Grid(n=32), supply=OilLayer(over_flooded=1.0)),
         atlas.at(point), atlas.at(point).dimensionless, atlas.at(moes), atlas.at(point).impedance(hz=50.0),
         contact_filter(MoesPoint(200, 10, 0.5), wavelength=[4.0, 8.0, 16.0]),
         atlas.over([20.0, 30.0], 5.0, 0.5), element, atlas.element(point), atlas.element(point, "cubic", rpm=3000),

@@ -24,7 +24,7 @@ from ehlcontact.summary import contact_text, note_line, span
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-APPROACH, SPEED, WAVES = "approach", "speed", "waves"
+APPROACH, SPEED, LAYER, WAVES = "approach", "speed", "layer", "waves"
 SLOW = 0.2  # Omega below which oil that heats and cools slowly may add to C
 COARSE = 1.1  # mesh over the one that damping needs, from which a result says so
 PARTS = "in_phase", "quadrature"
@@ -32,6 +32,7 @@ PARTS = "in_phase", "quadrature"
 KINDS: Mapping[str, tuple[Quantity, tuple[str, ...], tuple[str, ...]]] = {
     APPROACH: (STIFFNESS, ("stiffness", "damping"), ("stiffness", "damping")),
     SPEED: (FORCE, (*PARTS, "lift"), ("in_phase quadrature", "lift")),
+    LAYER: (STIFFNESS, (*PARTS, "passed_share"), ("in_phase quadrature", "passed_share")),
     WAVES: (
         STIFFNESS,
         (*PARTS, "amplitude", "wavelength", "contact_filter"),
@@ -51,15 +52,17 @@ class Response(PointTable):
 
     Attributes
     ----------
-    to : {"approach", "speed", "waves"}
-        What changes: the mutual approach; the speed of both surfaces, relative to its mean; the height of waves
-        that pass on a surface, at X = 0 and positive out of the surface.
+    to : {"approach", "speed", "layer", "waves"}
+        What changes: the mutual approach; the speed of both surfaces, relative to its mean; the layer of oil
+        ahead of a starved contact, the same across, at the border of the computed region; the height of waves that
+        pass on a surface, at X = 0 and positive out of the surface.
     omega : ndarray, shape (k,)
         Angular frequency [rad/s; u_sum/(2a)]; at an `OperatingPoint` also ``hz``.
     value : complex ndarray, shape (k,) or (k, n, n)
         Amplitude of the force over that of the change, with ``exp(i omega t)``: the impedance K + i omega C
-        [N/m; f0/delta_H], the force by the relative change of speed [N; f0], or by the height of the waves [N/m;
-        f0/delta_H]. Its parts are ``in_phase`` and ``quadrature``; a quadrature below zero: the force comes later.
+        [N/m; f0/delta_H], the force by the relative change of speed [N; f0], or by the thickness of the layer or
+        the height of the waves [N/m; f0/delta_H]. Its parts are ``in_phase`` and ``quadrature``; a quadrature
+        below zero: the force comes later.
     slope : ndarray, shape of `value`, or None
         Of a response to approach: what ``damping`` shows.
     stiffness, damping : ndarray, shape of `value`
@@ -75,7 +78,11 @@ class Response(PointTable):
     residual : ndarray, shape (k,), or None
         Relative residual of the linear system.
     impedance : complex ndarray, shape (k,), or None
-        Of the contact at the frequencies of a response to speed or waves.
+        Of the contact at the frequencies of a response to speed, layer or waves.
+    layer_behind : complex ndarray, shape (k,), or None
+        Of a starved contact, in a response to approach or layer: amplitude of the layer that it leaves, mean over
+        its width 2b, over that of the change. Oil is seen where it leaves the computed region: its phase has the
+        time of the way through the region.
     wavelength : ndarray, shape (k,), or None
         Of waves, along rolling [m; a].
     wave_speed : float
@@ -95,6 +102,7 @@ class Response(PointTable):
     film: SteadyResult | None = None
     residual: Annotated[Array | None, NUMBER.over("omega")] = None
     impedance: Annotated[Complex | None, STIFFNESS.over("omega", listed=False)] = None
+    layer_behind: Annotated[Complex | None, NUMBER.over("omega", listed=False)] = None
     wavelength: Annotated[Array | None, ALONG.over("omega")] = None
     wave_speed: float = 1.0
     units: str = "SI"
@@ -114,7 +122,7 @@ class Response(PointTable):
 
     def __getitem__(self, kept: Any) -> Self:
         """The response at some of its frequencies: a slice, or a mask over them."""
-        over = ("omega", "value", "slope", "residual", "impedance", "wavelength")
+        over = ("omega", "value", "slope", "residual", "impedance", "layer_behind", "wavelength")
         arrays = {name: getattr(self, name) for name in over}
         some: dict[str, Any] = {name: array if array is None else array[kept] for name, array in arrays.items()}
         return replace(self, **some, error_bars={name: bar[kept] for name, bar in self.error_bars.items()})
@@ -157,6 +165,11 @@ class Response(PointTable):
         return self._of(SPEED, "lift", self.impedance, moved=True)
 
     @property
+    def passed_share(self) -> Annotated[Array, NUMBER.over("omega")]:
+        """``|layer_behind|``, of a response to layer: share of a change of it that the contact passes on."""
+        return np.abs(self._of(LAYER, "passed_share", self.layer_behind))
+
+    @property
     def contact_filter(self) -> Annotated[Array, NUMBER.over("omega")]:
         """``|G/Z|``: share of the height of waves that acts like an approach."""
         return self._of(WAVES, "contact_filter", self.impedance, moved=True)
@@ -184,6 +197,7 @@ class Response(PointTable):
         name, words = {
             APPROACH: ("damping", "C"),
             SPEED: ("in_phase", "the force"),
+            LAYER: ("in_phase", "the force"),
             WAVES: ("contact_filter", "the force of these waves"),
         }[self.to]
         if name not in self.error_bars:
@@ -249,7 +263,7 @@ class Response(PointTable):
 
         Z = np.moveaxis(self.value, 0, -1)
         axes = self._display().labels.get("axis", ())
-        change = {APPROACH: "u", SPEED: "s", WAVES: "h"}[self.to]
+        change = {APPROACH: "u", SPEED: "s", LAYER: "m", WAVES: "h"}[self.to]
         inputs, outputs = ([f"{change}_{x}" for x in axes], [f"F_{x}" for x in axes]) if axes else (change, "F")
         return control.frd(Z, self.omega, inputs=inputs, outputs=outputs, name="contact")
 
@@ -271,7 +285,7 @@ class Response(PointTable):
             raise ValueError(f"to is {self.to!r}")
         if self.value.shape[:1] != self.omega.shape or (self.to == APPROACH) == (self.slope is None):
             raise ValueError(f"{self.value.shape} values at {self.omega.shape} frequencies")
-        for name in ("slope", "residual", "impedance", "wavelength"):
+        for name in ("slope", "residual", "impedance", "layer_behind", "wavelength"):
             array = getattr(self, name)
             if array is not None and np.shape(array)[:1] != self.omega.shape:
                 raise ValueError(f"{name} has the shape {np.shape(array)}, not {self.omega.shape}")
@@ -317,7 +331,7 @@ class Response(PointTable):
 
     def _declared(self) -> Mapping[str, Quantity]:
         """Quantities of tables and figures: those of its kind, which are real."""
-        hidden = {"value", "slope", "impedance", "loss_factor", *(OWN - set(KINDS[self.to][1]))}
+        hidden = {"value", "slope", "impedance", "layer_behind", "loss_factor", *(OWN - set(KINDS[self.to][1]))}
         return {name: one for name, one in PointTable._declared(self).items() if name not in hidden}
 
     def _display(self) -> Display:
@@ -359,6 +373,9 @@ class Response(PointTable):
             return ", ".join(found)
         if self.to == SPEED:
             return f"force over relative change of speed {span(self.amplitude, *force)}"
+        if self.to == LAYER:
+            passed = f"passes on {span(self.passed_share)} of a change"
+            return f"force over thickness of the layer ahead {span(self.amplitude, *rigid)}, {passed}"
         unit = (1e6, "µm") if si else (1.0, "a")
         waves = f"waves of {span(self.wavelength, *unit)}"  # type: ignore[arg-type]
         size, share = span(self.amplitude, *rigid), span(self.contact_filter)

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.solver.film_heat import FilmHeat, Terms
+from ehlcontact.solver.film_heat import Terms
+from ehlcontact.solver.level import Level
 
 Array = NDArray[Any]
 
@@ -20,16 +21,15 @@ class LinearFronts:
 
     Parameters
     ----------
-    heat : FilmHeat
-    terms : Terms
-        Of its energy equation.
+    level : Level
     rate : complex
         i Omega.
+    heated : (Terms, array), optional
+        Of a film with heat: terms of its energy equation, and the rise of `FilmHeat`.
     """
 
-    def __init__(self, heat: FilmHeat, terms: Terms, rate: complex) -> None:
-        level = self._level = heat.level
-        self._terms, self._rise = terms, heat.rise
+    def __init__(self, level: Level, rate: complex, heated: tuple[Terms, Array] | None = None) -> None:
+        self._level, self._heated = level, heated
         fronts, flow = level.fronts(), level.fields.flow
         self.nodes, self.before = fronts.nodes, fronts.nodes - 1
         self._width = level.hx / level.speed
@@ -85,7 +85,8 @@ class LinearFronts:
 
     def comes(self, along: Array, across: Array, rise: Array) -> Array:
         """What comes into each node from those behind and beside it, of given flows, as of `FilmHeat`."""
-        t, found = self._terms, np.zeros(rise.shape, complex)
+        assert self._heated is not None
+        t, found = self._heated[0], np.zeros(rise.shape, complex)
         north = across[:-1]
         found[:, :-1] = -np.where(t.heat_along < 0.0, along, 0.0)[:, :-1] * rise[:, 1:]
         found[:-1] -= np.where(t.heat_across[:-1] < 0.0, north, 0.0) * rise[1:]
@@ -95,7 +96,8 @@ class LinearFronts:
 
     def seen_ahead(self, share: Array) -> Array:
         """Change of the rise that is seen ahead of the fronts, by that of the shares."""
-        rise, change = self._rise.ravel(), np.zeros(share.shape[0], complex)
+        assert self._heated is not None
+        rise, change = self._heated[1].ravel(), np.zeros(share.shape[0], complex)
         front, before = self.nodes[self._first], self.before[self._first]
         change[self._lines] = share.ravel()[before] * (rise[before] - rise[front])
         return np.asarray(change[:, None] * self._ahead)

@@ -45,6 +45,25 @@ MOST_ROUNDS = 100
 STILL = 1e-12  # least Omega in `_memory`: as good as 0, without a division by it
 
 
+class Forcing(NamedTuple):
+    """What changes in the equations at fixed pressure, approach and heating; of nodes (ny + 1, nx + 1).
+
+    With a change of `speed`, what follows of it stands over the speed: surfaces then carry what they do, and all
+    that the oil does in time is less.
+    """
+
+    flow: Array  # of the Reynolds operator at all nodes, flat
+    height: Any = 0.0  # of the film
+    source: Any = None  # of oil, which corrects how features are carried and has the temperature of the film
+    log_eps: Any = 0.0  # of ln(eps)
+    ratio: Any = 0.0  # of ln of the viscosity along over that across
+    layer: float = 0.0  # of oil that enters
+    speed: float = 0.0  # of both surfaces, over itself
+
+
+NO_FORCING = Forcing(np.zeros(0))
+
+
 class Changes(NamedTuple):
     """Changes of the terms of the energy equation by pressure, film and heating, (ny + 1, nx + 1) each."""
 
@@ -89,7 +108,7 @@ class LinearHeat:
         self._storage_of_walls = self._storage
         # Of a unit of mean temperature: what compression and sliding make
         self._warmer = t.work * heat.ahead + self._slid.by_mean
-        self._fronts = LinearFronts(heat, t, self.rate) if level.inflow.size else None
+        self._fronts = LinearFronts(level, self.rate, (t, heat.rise)) if level.inflow.size else None
         if self._fronts is not None:
             # Walls see the oil in the cells, the rise the part of it that is in the full film
             self._storage *= t.share
@@ -101,6 +120,7 @@ class LinearHeat:
         self._by_mean = 0.5 * t.exchange * kept / own
         self._factorise()
         self._memories = [_memory(level.nx, level.hx, omega / speed) for speed in heat.speeds]
+        self._omega = omega
 
     def _factorise(self) -> None:
         t, shape = self.terms, self.level.P.shape
@@ -121,31 +141,34 @@ class LinearHeat:
         size = scipy.linalg.norm(heating)
         return float(scipy.linalg.norm(viscous(self.level, self.above * heating)) / size) if size > 0.0 else 1.0
 
-    def changes(self, dP: Array, dH: Array, dg: Array, aside: Array | None = None) -> Changes:
+    def changes(
+        self, dP: Array, dH: Array, dg: Array, aside: Array | None = None, by: Forcing = NO_FORCING
+    ) -> Changes:
         """Changes of the terms; `aside` is that of ln of the viscosity along over that across by temperature."""
         level, n, t = self.level, self.heat.numbers, self.terms
         flow, s, P = level.fields.flow, level.stencil, level.P
         step_x, step_y = np.diff(P, axis=1), np.diff(P, axis=0)
         change_x, change_y = np.diff(dP, axis=1), np.diff(dP, axis=0)
-        log_eps = flow.eps_slope * dP + flow.film_slope * dH - self.above * dg
+        log_eps = flow.eps_slope * dP + flow.film_slope * dH - self.above * dg + by.log_eps
         mean_x, mean_y = flow_changes(level, log_eps)
         flow_x, flow_y = flow.along[:, :-1], flow.across[:-1]
         if (thinning := self.thinning) is not None:
-            ratio = thinning.aside_by_pressure * dP + thinning.aside_by_film * dH
+            ratio = thinning.aside_by_pressure * dP + thinning.aside_by_film * dH + by.ratio
             ratio = ratio if aside is None else ratio + aside
             mean_y = mean_y + 0.5 * flow_y * (ratio[:-1] + ratio[1:])
         mass = flow.mass_slope * dP + flow.rho * dH
         through: Array = level.full_flow(mass)
         share: Any = 0.0
         by_pressure = s.cx * (mean_x * step_x + flow_x * change_x)
-        across = _padded(-s.cy * (mean_y * step_y + flow_y * change_y), 0)
-        back = _padded(0.5 * s.inv_hx * (mass[:, :-1] + mass[:, 1:]), 1)
+        across = padded(-s.cy * (mean_y * step_y + flow_y * change_y), 0)
+        back = padded(0.5 * s.inv_hx * (mass[:, :-1] + mass[:, 1:]), 1)
         by_x = s.cx * (mean_x * step_x + 2.0 * flow_x * change_x) * step_x
         if (fronts := self._fronts) is not None:
             pressed_back, full = fronts.back(dP, log_eps), through
-            through = fronts.through(full, divergence(_padded(by_pressure, 1), -across), pressed_back)
+            pressed_in = divergence(padded(by_pressure, 1), -across)
+            through = fronts.through(full, pressed_in, pressed_back, by.layer)
             share = fronts.share(full, through, pressed_back)
-            by_x = _padded(by_x, 1).astype(complex)
+            by_x = padded(by_x, 1).astype(complex)
             by_x.ravel()[fronts.before] = fronts.made(dP, pressed_back)
             by_x = by_x[:, :-1]
         along = s.inv_hx * through
@@ -162,14 +185,16 @@ class LinearHeat:
             heat_across=n.convection * NET * across,
             pressed=np.where(t.wet, pressed / flow.rho, 0.0) - lighter * t.pressed,
             work=np.where(t.wet, n.expansion * work / flow.rho, 0.0) - lighter * t.work,
-            exchange=np.where(t.wet, share * n.conduction / t.H, 0.0) - t.exchange * dH / t.H,
-            slid=self._sliding(dP, dH),
+            exchange=np.where(t.wet, share * n.conduction / t.H, 0.0)
+            - t.exchange * dH / t.H
+            - by.speed * t.exchange,
+            slid=self._sliding(dP, dH, by.speed),
             mass=mass,
             share=share,
         )
 
-    def _sliding(self, dP: Array, dH: Array) -> Array:
-        """Change of the heat of sliding at given temperatures."""
+    def _sliding(self, dP: Array, dH: Array, speed: float) -> Array:
+        """Change of the heat of sliding at given temperatures, over the speed."""
         if self.heat.numbers.slide_roll == 0.0:
             return np.zeros_like(dP)
         flow = self.level.fields.flow
@@ -178,31 +203,28 @@ class LinearHeat:
             thicker = warm / (1.0 + flow.heat) * (self.rho_slope - flow.eps_slope) * dP
         else:
             thicker = warm * self.thinning.cold_slope * dP  # of ln(eta), at the mean temperature
-        return self._slid.by_stress * (thicker - dH / self.terms.H)
+        return self._slid.by_stress * (thicker - dH / self.terms.H + speed)
 
-    def to_change(self, height: Array, source: Array | None) -> Array:
-        """What follows of a change of the film at fixed pressure, as of `respond`.
-
-        A `source` of oil, which corrects how features are carried, has the temperature of the film.
-        """
+    def to_change(self, by: Forcing) -> Array:
+        """What follows of a change at fixed pressure, as of `respond`."""
         still = np.zeros(self.level.P.shape, complex)
         fields = np.array([still] * (1 if self.thinning is None else 2))
-        return self.respond(still, height, fields, source)
+        return self.respond(still, still + by.height, fields, by)
 
-    def respond(self, dP: Array, dH: Array, fields: Array, source: Array | None = None) -> Array:
+    def respond(self, dP: Array, dH: Array, fields: Array, by: Forcing = NO_FORCING) -> Array:
         """Heating dg by the temperatures that follow from dP, dH and `fields`: dg itself; all (ny + 1, nx + 1).
 
-        With thinning a second field follows, the change of ln of the viscosity along over that across. `source` as
-        of `to_change`.
+        With thinning a second field follows, the change of ln of the viscosity along over that across. The height
+        of `by` is part of dH.
         """
         heat, n, t = self.heat, self.heat.numbers, self.terms
-        c = self.changes(dP, dH, *fields)
+        c = self.changes(dP, dH, fields[0], fields[1] if len(fields) > 1 else None, by)
         # Compression in time, by the change of pressure at the node
         squeezed = np.where(t.wet, self.rate * n.expansion * t.H * dP, 0.0)
         compressed = (c.work + squeezed) * (n.inlet + self.mean)
-        rise, walls = self._temperatures(c, compressed, source)
-        slid = c.slid + self._slid.by_mean * (rise + walls.mean(axis=0))
-        beside = BY_PRESSURE * c.pressed * heat.ahead + BY_SLIDING * slid
+        rise, walls = self._temperatures(c, compressed, by)
+        slid = c.slid + self._slid.by_mean * (rise + walls.mean(axis=0)) + by.speed * self._slid.made
+        beside = BY_PRESSURE * (c.pressed + by.speed * t.pressed) * heat.ahead + BY_SLIDING * slid
         was = BY_PRESSURE * t.pressed * heat.ahead + BY_SLIDING * self._slid.made
         of_rise = heat.behind(rise, t.share)
         if self._fronts is not None:
@@ -214,12 +236,12 @@ class LinearHeat:
         thicker = self._by_mean_temperature * (rise + walls.mean(axis=0))
         return np.array([heating + self.thinning.along * thicker, self.thinning.aside * self.above * thicker])
 
-    def _temperatures(self, c: Changes, compressed: Array, source: Array | None) -> tuple[Array, Array]:
+    def _temperatures(self, c: Changes, compressed: Array, by: Forcing) -> tuple[Array, Array]:
         """Changes of the rise and of both surfaces; `compressed` is the heat of compression."""
         heat, n, t = self.heat, self.heat.numbers, self.terms
         lost = self._lost(c)
-        if source is not None:
-            lost = lost - np.where(t.wet, n.convection * source * self.mean, 0.0)
+        if by.source is not None:
+            lost = lost - np.where(t.wet, n.convection * by.source * self.mean, 0.0)
         exchanged = c.exchange * heat.rise
         made = (compressed + INNER * c.pressed) * heat.ahead + c.slid - lost - exchanged
         straight = (1.0 - INNER * heat.ahead) * c.pressed + ~heat.ahead * compressed + exchanged
@@ -230,6 +252,7 @@ class LinearHeat:
         through = c.exchange / 12.0 * (heat.walls[1] - heat.walls[0])
         now = np.array([wall * memory[0] for wall, memory in zip(n.walls, self._memories, strict=True)])
         walls, rise = np.zeros((2, *made.shape), complex), np.zeros(made.shape, complex)
+        moved = by.speed * self._moved() if by.speed else walls
         for _ in range(MOST_ROUNDS):
             wall = walls.mean(axis=0)
             warmed = (self._warmer - self._storage_of_walls) * wall
@@ -241,12 +264,23 @@ class LinearHeat:
             cross = through + t.exchange / 12.0 * (walls[1] - walls[0])
             given = enumerate((half + cross, half - cross))
             lacking = np.array([n.walls[k] * (one @ self._memories[k]) - walls[k] for k, one in given])
+            if by.speed:
+                lacking += moved
             if not heat.even:
                 warm_walls(now, self._by_mean, t.exchange / 12.0, lacking)
             walls += lacking
             if np.abs(lacking).max() <= SETTLED * np.abs(walls).max():
                 return rise, walls
         raise ConvergenceError("temperatures of the surfaces do not converge: the film is too thin", None)
+
+    def _moved(self) -> Array:
+        """Changes of both surfaces by a unit of speed at the heat that they are given over it (eq. 11)."""
+        heat, level = self.heat, self.level
+        found = []
+        for k, (given, speed) in enumerate(zip(heat.into_walls(self.terms), heat.speeds, strict=True)):
+            places = _places(level.nx, level.hx, self._omega / speed)
+            found.append(heat.numbers.walls[k] * (given @ (self._memories[k] + places)))
+        return np.array(found)
 
     def _lost(self, c: Changes) -> Array:
         """Change of the heat that leaves a node and is stored there, at given temperatures."""
@@ -346,7 +380,7 @@ def viscous(level: Level, log_eps: Array) -> Array:
     s, P = level.stencil, level.P
     along, across = flow_changes(level, log_eps)
     along, across = s.cx * along * np.diff(P, axis=1), s.cy * across * np.diff(P, axis=0)
-    return divergence(_padded(along, 1), _padded(across, 0))
+    return divergence(padded(along, 1), padded(across, 0))
 
 
 def flow_changes(level: Level, log_eps: Array) -> tuple[Array, Array]:
@@ -358,7 +392,7 @@ def flow_changes(level: Level, log_eps: Array) -> tuple[Array, Array]:
     return along, (0.5 * mean + skew) * d[:-1] + (0.5 * mean - skew) * d[1:]
 
 
-def _padded(faces: Array, axis: int) -> Array:
+def padded(faces: Array, axis: int) -> Array:
     """Values on faces with zeros behind the last node along an axis."""
     return np.pad(faces, [(0, int(k == axis)) for k in (0, 1)])
 
@@ -385,3 +419,15 @@ def _memory(nx: int, hx: float, omega: float) -> Array:
     sine, cosine = scipy.special.fresnel(np.sqrt(2.0 * w * edges / np.pi))
     weights = np.diff(np.sqrt(2.0 * np.pi / w) * (cosine - 1j * sine))
     return scipy.linalg.toeplitz(weights, np.zeros(nx + 1)).T
+
+
+def _places(nx: int, hx: float, omega: float) -> Array:
+    """Change of the rise of a surface at one node by its speed, which shifts where it was given its heat.
+
+    By a vibration of its speed a surface was ``(1 - exp(-i Omega a))/(i Omega)`` times the amplitude further
+    upstream at an age a, which is integrated by parts over the cells as of `_memory`.
+    """
+    w = max(omega, STILL)
+    edges = (np.arange(nx + 1) + 0.5) * hx
+    way = np.append(0.0, -np.expm1(-1j * w * edges) / (1j * w) / np.sqrt(edges))
+    return scipy.linalg.toeplitz(-np.diff(way), np.zeros(nx + 1)).T

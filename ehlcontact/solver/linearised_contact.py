@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.followed_viscosity import FollowedViscosity
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
-from ehlcontact.solver.linear_heat import HeatedPreconditioner, HeatedSystem, viscous
+from ehlcontact.solver.linear_heat import Forcing, HeatedPreconditioner, HeatedSystem, viscous
 from ehlcontact.solver.multigrid import Multigrid
+from ehlcontact.solver.passing_layer import arriving, layer_behind
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -30,12 +31,12 @@ SOLVE_SHARE = 0.3  # of the tolerance, for the solves themselves
 SMALLEST_NEW_PART = 1e-10  # of a vector, outside the space so far
 
 
-class _Change(NamedTuple):
-    """Change of the equations at fixed pressure and approach."""
+class Forces(NamedTuple):
+    """Forces over a unit of what vibrates, at k frequencies."""
 
-    flow: NDArray[Any]  # of the Reynolds operator at all nodes, flat
-    height: Any = None  # of the film, (ny + 1, nx + 1)
-    source: Any = None  # of oil of the temperature of the film, (ny + 1, nx + 1)
+    force: Complex  # (k,)
+    residual: Array  # (k,), relative, of the linear system
+    behind: Complex | None = None  # (k, ny + 1): layer behind on each line, by the approach or the layer ahead
 
 
 class LinearisedContact:
@@ -87,7 +88,7 @@ class LinearisedContact:
         """Complex solution dP for du = 1 at one frequency, improving on `start`, both (m,)."""
         x = self._vector()
         x[self.nodes] = start
-        return self._solve(omega, x, tolerance)[self.nodes]
+        return self._solve(omega, self._equations(omega), x, tolerance)[self.nodes]
 
     def _vector(self) -> Complex:
         """Unknowns at rest, with du = 1."""
@@ -95,9 +96,8 @@ class LinearisedContact:
         x[self._free.size] = 1.0
         return x
 
-    def _solve(self, omega: float, start: Complex, tolerance: float) -> Complex:
-        """All unknowns at one frequency, improving on `start`, where du is 1."""
-        system = self._equations(omega)
+    def _solve(self, omega: float, system: Any, start: Complex, tolerance: float) -> Complex:
+        """All unknowns at one frequency, improving on `start`, where du is 1; `system` is that of omega."""
         b: NDArray[Any] = -system(start)
         b[self._free.size] = 0.0
         drop = tolerance * scipy.linalg.norm(self.j + 1j * omega * self.b) / scipy.linalg.norm(b)
@@ -115,7 +115,7 @@ class LinearisedContact:
         film = self.system(omega)
         return film if self._viscosity is None else self._viscosity.system(film, omega)
 
-    def change(self, omega: float, system: LinearFilm | HeatedSystem, b: NDArray[Any], rtol: float) -> Complex:
+    def change(self, omega: float, system: Any, b: NDArray[Any], rtol: float) -> Complex:
         """Solution of ``system(x) = b`` to ``|b - system(x)| <= rtol |b|``, system that of omega."""
         film = system.film if isinstance(system, HeatedSystem) else system
         reach = [abs(omega - w) for w, _ in self._near]
@@ -131,11 +131,11 @@ class LinearisedContact:
             preconditioner = HeatedPreconditioner(preconditioner)
         return np.asarray(solve_linear(system, preconditioner, b, rtol).x)
 
-    def respond(self, omega: Array, tolerance: float) -> tuple[Complex, Array]:
-        """Impedance at each frequency > 0, and the relative residual of its linear system, both (k,).
+    def respond(self, omega: Array, tolerance: float) -> Forces:
+        """Impedance at each frequency > 0, and the relative residual of its linear system.
 
-        `tolerance` is for the residuals, their imaginary part counted relative to Omega below Omega = 1. Where
-        a solve fails to reach it, the residual returned is larger.
+        Under a supply with the layer behind. `tolerance` is for the residuals, their imaginary part counted
+        relative to Omega below Omega = 1. Where a solve fails to reach it, the residual returned is larger.
         """
         if self.level.inflow.size or self._fields:
             return self._respond_one_by_one(omega, tolerance)
@@ -153,7 +153,7 @@ class LinearisedContact:
             worst = int(np.argmax(error))
             if error[worst] < tolerance:
                 Z = np.array([(space @ self.weights) @ y for y, _, _ in solutions])
-                return Z, np.array([r for _, r, _ in solutions])
+                return Forces(Z, np.array([r for _, r, _ in solutions]))
             done.add(worst)
             w = float(omega[worst])
             dP = self.solve(w, solutions[worst][0] @ space, SOLVE_SHARE * tolerance * min(1.0, w))
@@ -167,8 +167,8 @@ class LinearisedContact:
                     space = np.array(basis)
                     products += self.products(basis[-1])
 
-    def force_of_waves(self, omega: Array, k: Array) -> tuple[Complex, Array]:
-        """Force per height of waves of wave numbers k, at fixed approach, and relative residuals, both (m,).
+    def force_of_waves(self, omega: Array, k: Array) -> Forces:
+        """Force per height of waves of wave numbers k, at fixed approach.
 
         Waves of height ``exp(i (Omega T - k X))``, positive out of the surface, move with ``Omega/k``. The exact
         change along X is put in the place of the differenced one, as runs with a surface do
@@ -176,15 +176,19 @@ class LinearisedContact:
         """
         return self._force_of(omega, lambda film, m: self._by_waves(film, float(k[m])))
 
-    def force_of_speed(self, omega: Array) -> tuple[Complex, Array]:
-        """Force over a relative change of speed, at fixed approach, and relative residuals, both (m,).
+    def force_of_speed(self, omega: Array) -> Forces:
+        """Force over a relative change of speed, at fixed approach.
 
         Over the speed, all flow by pressure changes in a film whose surfaces carry what they do: where oil runs
-        short that moves the fronts too. Surfaces slide in proportion to the speed.
+        short that moves the fronts too. Surfaces slide in proportion to the speed, and are given heat elsewhere.
         """
-        return self._force_of(omega, lambda film, m: _Change(self._by_speed(film)))
+        return self._force_of(omega, lambda film, m: self._by_speed(film))
 
-    def _by_waves(self, film: LinearFilm, k: float) -> _Change:
+    def force_of_layer(self, omega: Array) -> Forces:
+        """Force and layer behind over a uniform change of the layer ahead, at fixed approach, under a supply."""
+        return self._force_of(omega, lambda film, m: Forcing(arriving(self.level, film.c_t), layer=1.0))
+
+    def _by_waves(self, film: LinearFilm, k: float) -> Forcing:
         level = self.level
         height = np.broadcast_to(-np.exp(-1j * k * level.X), level.P.shape)
         still = np.zeros_like(level.P)
@@ -192,7 +196,7 @@ class LinearisedContact:
         off = differenced + 1j * k * height
         if not level.inflow.size:
             source = level.fields.flow.rho * off
-            return _Change(film.by_film @ height.ravel() + source.ravel(), height, source)
+            return Forcing(film.by_film @ height.ravel() + source.ravel(), height, source)
         off[:, [0, -1]] = 0.0
         flow = np.cumsum(off, axis=1) * (level.hx / level.speed)
         flow = (flow - flow.mean(axis=1, keepdims=True)) * level.full_flow(level.fields.flow.rho)
@@ -200,25 +204,29 @@ class LinearisedContact:
         before = np.where(given, 0.0, flow)[:, :-1]
         source = np.zeros_like(flow)
         source[:-1, 1:] = (flow[:, 1:] - before)[:-1] * (level.speed / level.hx)
-        return _Change(film.by_film @ height.ravel() + source.ravel(), height)
+        return Forcing(film.by_film @ height.ravel() + source.ravel(), height)
 
-    def _by_speed(self, film: LinearFilm) -> Array:
+    def _by_speed(self, film: LinearFilm) -> Forcing:
         level, thinning = self.level, None if self._viscosity is None else self._viscosity.thinning
-        if not level.inflow.size and thinning is None:
-            return -level.transport(level.fields.flow.mass, np.zeros_like(level.P)).ravel()
         log_eps = np.full(level.P.shape, -1.0)
+        if not level.inflow.size and thinning is None:
+            flow = -level.transport(level.fields.flow.mass, np.zeros_like(level.P)).ravel()
+            return Forcing(flow, log_eps=log_eps, speed=1.0)
         change = viscous(level, log_eps).ravel()
+        ratio: Any = 0.0
         if thinning is not None and self._viscosity is not None:
-            log_eps = log_eps - thinning.along
+            log_eps, ratio = log_eps - thinning.along, thinning.aside
             change = viscous(level, log_eps).ravel() + self._viscosity.by_aside @ thinning.aside.ravel()
-        return film.with_supply(change, log_eps.ravel())
+        flow = film.with_supply(change, log_eps.ravel())
+        return Forcing(flow, log_eps=log_eps, ratio=ratio, speed=1.0)
 
-    def _force_of(self, omega: Array, change: Callable[[LinearFilm, int], _Change]) -> tuple[Complex, Array]:
-        """Force by a change in the equations at fixed pressure and approach, and relative residuals, both (k,).
+    def _force_of(self, omega: Array, change: Callable[[LinearFilm, int], Forcing]) -> Forces:
+        """Force by a change in the equations at fixed pressure and approach.
 
         ``change(system, m)`` is that of the m-th of the frequencies.
         """
         force, residual = np.empty(omega.size, dtype=complex), np.empty(omega.size)
+        behind = np.empty((omega.size, self.level.inflow.size), dtype=complex)
         for m in np.argsort(omega):
             w = float(omega[m])
             system = self._equations(w)
@@ -228,25 +236,46 @@ class LinearisedContact:
             b: NDArray[Any] = np.zeros(self._vector().size, dtype=complex)
             b[self.nodes] = -by.flow[self.nodes]
             if heated:
-                b[self._free.size + 1 :] = system.weight * system.heat.to_change(by.height, by.source).ravel()
+                b[self._free.size + 1 :] = system.weight * system.heat.to_change(by).ravel()
             x: NDArray[Any] = self.change(w, system, b, SOLVE_SHARE * TOLERANCE * min(1.0, w))
-            force[m] = self.weights @ x[self.nodes]
-            residual[m] = scipy.linalg.norm(b - system(x)) / scipy.linalg.norm(b)
-        return force, residual
+            force[m], size = self.weights @ x[self.nodes], float(scipy.linalg.norm(b))
+            # A coarse film may have no front that a layer reaches
+            residual[m] = scipy.linalg.norm(b - system(x)) / size if size > 0.0 else 0.0
+            if by.layer:
+                behind[m] = self._layer_behind(system, x, by.layer)
+        return Forces(force, residual, behind if behind.size else None)
 
-    def _respond_one_by_one(self, omega: Array, tolerance: float) -> tuple[Complex, Array]:
+    def _layer_behind(self, system: Any, x: Complex, layer: float = 0.0) -> Complex:
+        """Change of the layer behind on each line by all unknowns, and by that of the layer ahead."""
+        film: LinearFilm = system
+        heating: Any = 0.0
+        ratio: Any = 0.0
+        if isinstance(system, HeatedSystem):
+            film, (x, others) = system.film, system.split(x)
+            fields = others.reshape(-1, *self.level.P.shape)
+            heating, ratio = -system.heat.above * fields[0], fields[1] if len(fields) > 1 else 0.0
+        dP: Any = x[:-1].reshape(self.level.P.shape)
+        dH = film.deflect(dP).reshape(dP.shape) - x[-1]
+        if self._viscosity is not None and (thinning := self._viscosity.thinning) is not None:
+            ratio = ratio + thinning.aside_by_pressure * dP + thinning.aside_by_film * dH
+        return layer_behind(self.level, film.c_t, dP, dH, heating, ratio, layer)
+
+    def _respond_one_by_one(self, omega: Array, tolerance: float) -> Forces:
         """`respond` with a supply or heat: what comes later is not linear in Omega, and no space serves."""
         x = self._vector()
         Z, residual = np.empty(omega.size, dtype=complex), np.empty(omega.size)
+        behind = np.empty((omega.size, self.level.inflow.size), dtype=complex)
         for k in np.argsort(omega):
             w = float(omega[k])
-            x = self._solve(w, x, SOLVE_SHARE * tolerance * min(1.0, w))
-            Z[k], residual[k] = self.weights @ x[self.nodes], self.residual(w, x)
-        return Z, residual
+            system = self._equations(w)
+            x = self._solve(w, system, x, SOLVE_SHARE * tolerance * min(1.0, w))
+            Z[k], residual[k] = self.weights @ x[self.nodes], self._residual(system, x)
+            if behind.size:
+                behind[k] = self._layer_behind(system, x)
+        return Forces(Z, residual, behind if behind.size else None)
 
-    def residual(self, omega: float, x: Complex) -> float:
+    def _residual(self, system: Any, x: Complex) -> float:
         """Relative residual of the equations of the nodes with the unknowns `x`, where du is 1."""
-        system = self._equations(omega)
         alone = system(self._vector())[self.nodes]
         return float(scipy.linalg.norm(system(x)[self.nodes]) / scipy.linalg.norm(alone))
 

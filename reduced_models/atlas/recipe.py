@@ -128,7 +128,7 @@ def linear_answer(
     """Steady film and impedance under conditions; `least` stands for lower frequencies."""
     film = solve_steady(point, grid=grid, **conditions)
     moving = np.maximum(Omega, least)
-    Z, _ = linearised(film, held(film)).respond(moving, tolerance)
+    Z = linearised(film, held(film)).respond(moving, tolerance).force
     own = film.dimensionless
     numbers = {name: float(getattr(own, name)) for name in FILM}
     return numbers | {"stiffness": Z.real.tolist(), "damping": (Z.imag / moving).tolist()}

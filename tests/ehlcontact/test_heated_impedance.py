@@ -31,7 +31,7 @@ from ehlcontact.solver.effects import CyclesWithEffects
 from ehlcontact.solver.film_heat import FilmHeat
 from ehlcontact.solver.followed_viscosity import FollowedViscosity
 from ehlcontact.solver.linear_heat import LinearHeat
-from ehlcontact.solver.linearised_contact import TOLERANCE, LinearisedContact
+from ehlcontact.solver.linearised_contact import TOLERANCE, Forces, LinearisedContact
 
 OIL = Lubricant.iso_vg(68, temperature=50.0)
 GRID = Grid(48)
@@ -258,7 +258,7 @@ class Known:
 
     @staticmethod
     def respond(omega, _tolerance):
-        return 1.0 + 0.5j * omega, np.zeros_like(omega)
+        return Forces(1.0 + 0.5j * omega, np.zeros_like(omega))
 
 
 def test_what_slow_oil_adds_is_seen_at_low_frequencies_alone():

@@ -62,6 +62,23 @@ def test_a_starved_bearing_says_it_of_its_solved_contacts():
     assert f"from 10 Hz to 50 Hz; a loss factor above {largest:.2g} outweighs it" in repr(found)
 
 
+def test_a_response_to_the_layer_is_in_the_units_of_the_point():
+    """Force in N/m at an `OperatingPoint`; the share passed on is a number, and others have none."""
+    point = OperatingPoint.ball_bearing(
+        Lubricant.iso_vg(68, temperature=60.0), **OF_6205, speed_rpm=3000.0, load=49.0
+    )
+    found = response(point, to="layer", hz=[10.0, 1e3], grid=Grid(n=48), supply=OilLayer(over_flooded=1.0))
+    own = found.dimensionless
+    np.testing.assert_allclose(found.value, own.value * point.scales.stiffness)
+    np.testing.assert_array_equal(found.layer_behind, own.layer_behind)
+    assert 0.4 < found.passed_share[0] < 0.9 and found.in_phase[0] > 0.0
+    assert set(found.error_bars) == {"in_phase", "quadrature", "layer_behind"}
+    assert "force over thickness of the layer ahead" in repr(found) and "passed_share" in found.to_dict()
+    assert len(found.panels()) == 2
+    with pytest.raises(InputError, match=r"^passed_share = 'speed': must be asked of a response to layer"):
+        _ = response(POINT, to="speed", Omega=1.0, grid=Grid(n=32)).passed_share
+
+
 def test_plain_names_are_the_response():
     one, same = (f(POINT, Omega=[0.0, 1.0], grid=Grid(n=32)) for f in (response, impedance))
     np.testing.assert_array_equal(one.value, same.value)
@@ -88,8 +105,10 @@ def test_of_elements_and_the_atlas_alike():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"to": "load", "Omega": 1.0}, "to = 'load': must be 'approach', 'speed' or Waves"),
+        ({"to": "load", "Omega": 1.0}, "to = 'load': must be 'approach', 'speed', 'layer' or Waves"),
         ({"to": "speed", "hz": 50.0}, NO_TIME.format("hz")),
+        ({"to": "layer", "hz": 50.0}, NO_TIME.format("hz")),
+        ({"to": "layer", "Omega": 1.0}, "supply = None: must be given in a response to the layer ahead"),
         (
             {"to": Waves(), "rpm": 50.0},
             NO_TIME.format("rpm"),
