@@ -43,15 +43,18 @@ class Summary:
         return "<br>".join([f"<strong>{self._summary_name()}</strong>: {first}", *others])
 
 
-def contact_text(point: Point | None) -> str:
-    """Contact in words: Moes numbers and kappa; of an `OperatingPoint` also load and Hertz pressure."""
-    if point is None:
-        return "a contact that is not known"
+def contact_text(point: Point) -> str:
+    """Contact in words: of an `OperatingPoint` load, speed and Hertz pressure; then its Moes numbers and kappa."""
     moes = point.moes
     text = f"M {moes.M:.4g}, L {moes.L:.4g}, kappa {moes.kappa:.4g}"
     if isinstance(point, MoesPoint):
         return text
-    return f"{text}; {point.load:.4g} N, {point.scales.pressure * 1e-9:.3g} GPa"
+    return f"{point.load:.4g} N, u_sum {point.u_sum:.4g} m/s, {point.scales.pressure * 1e-9:.3g} GPa; {text}"
+
+
+def counted(number: int, one: str, many: str = "") -> str:
+    """A number of things in words: "1 frequency", "2 frequencies"; by default the plural ends in s."""
+    return f"{number} {one if number == 1 else many or f'{one}s'}"
 
 
 def film_unit(point: Point) -> tuple[float, str]:

@@ -41,7 +41,7 @@ from ehlcontact.results import Response, SteadyResult, Traction
 from ehlcontact.results.picture import LoadZone, Map, in_unit
 from ehlcontact.results.table import QuantityTable
 from ehlcontact.status import Status
-from ehlcontact.summary import Summary, span
+from ehlcontact.summary import Summary, contact_text, counted, span
 from ehlcontact.transient.result import Instants, SimulationResult
 from fmu.bearing.model import BearingModel
 from fmu.references.check import Interface, ReferenceCheck
@@ -410,6 +410,21 @@ def test_a_missing_library_is_one_line(results, monkeypatch, library, method):
         ehlcontact.InputError, match=rf"^{library} = None: must be installed: pip install 'ehl.*tables"
     ):
         getattr(results[0], method)()
+
+
+def test_a_contact_in_si_is_headed_by_load_speed_and_pressure():
+    point = OperatingPoint.ball_bearing(Lubricant(0.0367, 2.0e-8), **OF_6205, speed_rpm=3000.0, load=300.0)
+    moes = "M 1832, L 18.86, kappa 0.1071"
+    assert contact_text(point.moes) == moes
+    assert (
+        contact_text(point) == f"300 N, u_sum {point.u_sum:.4g} m/s, {point.scales.pressure / 1e9:.3g} GPa; {moes}"
+    )
+
+
+def test_one_frequency_of_an_element_is_no_unknown_contact():
+    element = Atlas().element(MoesPoint(200, 10, 0.5), "cubic", Omega=0.1)
+    assert repr(element.impedance(Omega=0.1)).startswith("Response: 1 frequency, omega 0.1\n  stiffness K 1.469")
+    assert counted(2, "frequency", "frequencies") == "2 frequencies" and counted(0, "step") == "0 steps"
 
 
 def test_span():

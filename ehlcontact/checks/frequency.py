@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import wraps
+from inspect import signature
 from math import inf, pi
 from typing import ParamSpec, TypedDict, TypeVar
 
@@ -32,7 +33,8 @@ Result = TypeVar("Result")
 
 _RADIANS = {"omega": 1.0, "hz": 2.0 * pi, "rpm": pi / 30.0}  # rad/s in one of each
 _UNITS = {"Omega": "", "omega": "rad/s", "hz": "Hz", "rpm": "rev/min"}
-_KEYWORDS = "Omega (dimensionless), omega (rad/s), hz or rpm"
+_IN_SI = "omega (rad/s), hz or rpm"
+_KEYWORDS = f"Omega (dimensionless), {_IN_SI}"
 
 
 class Frequency(TypedDict, total=False):
@@ -80,7 +82,8 @@ def dimensionless(
         None is given, or several; omega, hz or rpm of a contact without a unit of time; no numbers, or negative,
         infinite or too large ones. The line says what to give instead.
     """
-    name, value = _the_one(time, {"Omega": Omega, "omega": omega, "hz": hz, "rpm": rpm})
+    keywords = "Omega (dimensionless)" if time is None else _KEYWORDS
+    name, value = _the_one(keywords, {"Omega": Omega, "omega": omega, "hz": hz, "rpm": rpm})
     if name == "Omega":
         return _checked(name, value, most)
     if time is None:
@@ -104,7 +107,8 @@ def radians_per_second(
     InputError
         As `dimensionless`.
     """
-    name, value = _the_one(1.0, {"Omega": Omega, "omega": omega, "hz": hz, "rpm": rpm})
+    keywords = _IN_SI if time is None and Omega is None else _KEYWORDS
+    name, value = _the_one(keywords, {"Omega": Omega, "omega": omega, "hz": hz, "rpm": rpm})
     if name != "Omega":
         return _checked(name, value, inf) * _RADIANS[name]
     if time is None:
@@ -122,7 +126,7 @@ def one(name: str, found: Array) -> float:
 
 
 def by_name(
-    positional: int | None, how: str = f"named with its unit: {_KEYWORDS}", **mistaken: str
+    positional: int | None, how: str = "", **mistaken: str
 ) -> Callable[[Callable[P, Result]], Callable[P, Result]]:
     """Let a call say in one line how its frequency is given, where it has no name or that of another unit.
 
@@ -131,16 +135,22 @@ def by_name(
     positional : int or None
         Arguments that it takes without a name: one more is taken for a frequency that lacks its own. None for any.
     how : str
-        How a frequency is given.
+        How a frequency is given; by default "named with its unit" and those that the call takes.
     **mistaken : str
         How a frequency is given, by a name that it does not have: ``omega_n`` of a dimensionless `Omega_n`.
     """
 
     def decorate(call: Callable[P, Result]) -> Callable[P, Result]:
+        parameters = signature(call).parameters
+        in_si = "hz" in parameters and "Omega" not in parameters
+        named = how or f"named with its unit: {_IN_SI if in_si else _KEYWORDS}"
+        if in_si:
+            mistaken.setdefault("Omega", f"{_IN_SI}: there is no unit of time that it counts in")
+
         @wraps(call)
         def checked(*args: P.args, **kwargs: P.kwargs) -> Result:
             if positional is not None and len(args) > positional:
-                raise InputError("frequency", args[positional], how)
+                raise InputError("frequency", args[positional], named)
             for name in mistaken.keys() & kwargs.keys():
                 raise InputError(name, kwargs[name], f"given as {mistaken[name]}")
             return call(*args, **kwargs)
@@ -162,11 +172,10 @@ def fields_by_name(positional: int, **mistaken: str) -> Callable[[type[Result]],
     return decorate
 
 
-def _the_one(time: float | None, values: Mapping[str, ArrayLike | None]) -> tuple[str, ArrayLike]:
+def _the_one(keywords: str, values: Mapping[str, ArrayLike | None]) -> tuple[str, ArrayLike]:
     given = {name: value for name, value in values.items() if value is not None}
     if len(given) != 1:
-        allowed = "given once, as Omega (dimensionless)" if time is None else f"given once, as {_KEYWORDS}"
-        raise InputError("frequency", " and ".join(given) or None, allowed)
+        raise InputError("frequency", " and ".join(given) or None, f"given once, as {keywords}")
     name, value = next(iter(given.items()))
     return name, in_unit(name, value, _UNITS[name])
 

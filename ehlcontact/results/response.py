@@ -19,7 +19,7 @@ from ehlcontact.solver.error_estimate import ALL
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import damping_mesh
 from ehlcontact.store import stored
-from ehlcontact.summary import contact_text, note_line, span
+from ehlcontact.summary import contact_text, counted, note_line, span
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -342,8 +342,8 @@ class Response(PointTable):
     def _summary_lines(self) -> list[str]:
         origin = "" if self.film is None else f"; linearised on n = {self.film.n}"
         return [
-            contact_text(self.point),
-            f"{self.omega.size} frequencies, {self._band()}{origin}",
+            *([] if self.point is None else [contact_text(self.point)]),
+            f"{counted(self.omega.size, 'frequency', 'frequencies')}, {self._band()}{origin}",
             self._numbers(),
             *filter(None, [self.negative_damping, self._heat(), self.reservation]),
             *note_line(self.outside_assumptions),

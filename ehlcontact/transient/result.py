@@ -27,7 +27,7 @@ from ehlcontact.results.table import Display, PointTable, QuantityTable
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
-from ehlcontact.summary import contact_text, film_unit, span
+from ehlcontact.summary import contact_text, counted, film_unit, span
 from ehlcontact.supply import OilLayer, layer_on
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.prescribed import passed_over_note
@@ -259,7 +259,7 @@ class SimulationResult(Columns, PointTable, Origin):
         films = span(self.approach, size, unit if self._in_si() else "")
         lines = [
             contact_text(self.point),
-            f"{self.motion.kind}: {self.status} after {self.steps} steps on n = {self.n} to {end}",
+            f"{self.motion.kind}: {self.status} after {counted(self.steps, 'step')} on n = {self.n} to {end}",
             f"approach {films}, force {span(self.force, 1.0, 'N' if self._in_si() else '')}",
             f"film at least {size * self.h_min.min():.4g} {unit}",
         ]

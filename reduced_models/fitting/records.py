@@ -92,7 +92,7 @@ class ContactRecord(PointTable):
         kind = "" if self.motion is None else f", {self.motion.get('kind', 'a motion')}"
         return [
             f"{self.units}{kind}, {self.t.size} samples up to t = {self.t[-1]:.4g}",
-            contact_text(self.point),
+            *([] if self.point is None else [contact_text(self.point)]),
             f"approach {span(self.approach)}, force {span(self.force)}",
         ]
 
@@ -183,7 +183,10 @@ class ContactRecord(PointTable):
         """The record in the units of a point; raises `InputError` where that is another one."""
         own, moes = self.dimensionless, moes_point(point)
         if own.point != moes:
-            raise InputError("point", contact_text(moes), f"that of the record, {contact_text(own.point)}")
+            theirs = (
+                "given to the record" if own.point is None else f"that of the record, {contact_text(own.point)}"
+            )
+            raise InputError("point", contact_text(moes), theirs)
         if moes is point:
             return own
         return replace(own, point=point, units="SI", **scaled(own, point.scales))

@@ -19,7 +19,7 @@ from ehlcontact.quantities import FREQUENCY, HERTZ, NUMBER, PER_SECOND, SPEED
 from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
-from ehlcontact.summary import span
+from ehlcontact.summary import counted, span
 from reduced_models.rotor.linearise import DEFAULT_MODES, linearise
 from reduced_models.rotor.modes import RotorMode, mode_distance
 from reduced_models.rotor.picture import campbell_picture
@@ -104,7 +104,8 @@ class Campbell(QuantityTable):
 
     def _summary_lines(self) -> list[str]:
         lines = [
-            f"{self.omega.shape[1]} modes at {self.speed_rpm.size} speeds, {span(self.speed_rpm)} rev/min",
+            f"{counted(self.omega.shape[1], 'mode')} at {counted(self.speed_rpm.size, 'speed')}, "
+            f"{span(self.speed_rpm)} rev/min",
             f"{span(self.hz, 1.0, 'Hz')}, logarithmic decrements {span(self.decrement)}",
         ]
         if self.speed_rpm.size > 1:

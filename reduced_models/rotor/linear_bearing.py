@@ -12,7 +12,7 @@ from ehlcontact.checks import as_column, as_numbers, parts
 from ehlcontact.checks.kinds import NAME
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
-from ehlcontact.summary import Summary
+from ehlcontact.summary import Summary, counted
 from reduced_models.bearing.freedoms import FIVE, PLANAR
 
 _Floats = NDArray[np.float64]
@@ -56,7 +56,7 @@ class LinearBearing(Summary):
             object.__setattr__(self, name, matrices)
 
     def _summary_lines(self) -> list[str]:
-        table = "constant" if self.speeds_rpm is None else f"at {self.speeds_rpm.size} speeds"
+        table = "constant" if self.speeds_rpm is None else f"at {counted(self.speeds_rpm.size, 'speed')}"
         return [f"{self.name or 'linear bearing'}, stiffness and damping {table}"]
 
     def at(self, speed_rpm: float | _Floats) -> tuple[_Floats, _Floats]:

@@ -16,7 +16,7 @@ from ehlcontact.results.drawing import draw
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
 from ehlcontact.store import stored
-from ehlcontact.summary import span
+from ehlcontact.summary import counted, span
 from reduced_models.rotor.nodes import LENGTHS, PLANE, ByNode
 from reduced_models.rotor.picture import run_picture
 
@@ -107,7 +107,8 @@ class RotorResult(QuantityTable, ByNode):
         nodes = f"nodes {', '.join(self.nodes)}" if self.names else "nodes without names"
         pushing = [k for k, name in enumerate(self.columns) if " tilt_" not in name]
         lines = [
-            f"{self.status} after {len(self.t) - 1} steps to {self.t[-1]:.4g} s, {span(self.speed_rpm)} rev/min",
+            f"{self.status} after {counted(len(self.t) - 1, 'step')} to {self.t[-1]:.4g} s, "
+            f"{span(self.speed_rpm)} rev/min",
             f"{self.displacement.shape[1]} degrees of freedom, {nodes}",
             f"forces {span(self.force[:, pushing], 1.0, 'N')} of {', '.join(self.columns[k] for k in pushing)}",
         ]

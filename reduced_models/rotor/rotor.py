@@ -30,7 +30,7 @@ from ehlcontact.checks import (
 from ehlcontact.checks.kinds import NAME, Object, Objects, shown
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
-from ehlcontact.summary import Summary
+from ehlcontact.summary import Summary, counted
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.equilibrium import equilibrium
@@ -182,8 +182,8 @@ class Rotor(Summary):
     def _summary_lines(self) -> list[str]:
         bearings = [mount.bearing.name or "ball bearing" for mount in self.bearings]
         contacts = self.contacts
-        on = [f"{len(bearings)} bearings: {', '.join(bearings)}"] if bearings else []
-        on += [f"{len(contacts)} contacts"] if contacts else []
+        on = [f"{counted(len(bearings), 'bearing')}: {', '.join(bearings)}"] if bearings else []
+        on += [counted(len(contacts), "contact")] if contacts else []
         amounts = ", ".join(f"{1e6 * abs(unbalance.amount):.4g}" for unbalance in self.unbalances)
         speed = "" if self.speed_rpm is None else f", {self.speed_rpm:.5g} rev/min"
         return [

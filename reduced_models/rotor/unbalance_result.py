@@ -13,7 +13,7 @@ from ehlcontact.quantities import LENGTH, SPEED, Quantity
 from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
-from ehlcontact.summary import span
+from ehlcontact.summary import counted, span
 from reduced_models.rotor.picture import unbalance_picture
 from reduced_models.rotor.rotor import Rotor
 
@@ -81,7 +81,8 @@ class UnbalanceResponse(QuantityTable):
         largest = np.unravel_index(int(np.argmax(self.major)), self.major.shape)
         name = self._name(int(largest[1]))
         return [
-            f"{len(self.nodes)} nodes at {self.speed_rpm.size} speeds, {span(self.speed_rpm)} rev/min",
+            f"{counted(len(self.nodes), 'node')} at {counted(self.speed_rpm.size, 'speed')}, "
+            f"{span(self.speed_rpm)} rev/min",
             f"largest orbit: {name}, semi-major axis {1e6 * self.major[largest]:.4g} µm "
             f"at {self.speed_rpm[largest[0]]:.5g} rev/min",
         ]

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_column, as_numbers, parts, require_positive
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
-from ehlcontact.summary import Summary, span
+from ehlcontact.summary import Summary, counted, span
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -165,7 +165,10 @@ class MeasuredPath(TransferPath):
     def _summary_lines(self) -> list[str]:
         largest = np.abs(np.asarray(self.accelerance)).max()
         hz = np.asarray(self.hz)
-        return [f"{hz.size} frequencies {span(hz, 1.0, 'Hz')}, accelerance up to {largest:.4g} (m/s2)/N"]
+        return [
+            f"{counted(hz.size, 'frequency', 'frequencies')} {span(hz, 1.0, 'Hz')}, "
+            f"accelerance up to {largest:.4g} (m/s2)/N"
+        ]
 
     @property
     def decay_time(self) -> float:

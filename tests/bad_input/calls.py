@@ -244,6 +244,14 @@ CALLS = {
         lambda: impedance(point(), [50.0]),
         ("frequency", "Omega (dimensionless), omega (rad/s), hz or rpm"),
     ),
+    "Omega of a bearing": (
+        lambda: rm.BallBearing.catalogue("6205").coefficients((0.0, -500.0), speed_rpm=3000.0, Omega=1.0),
+        ("Omega = 1.0", "omega (rad/s), hz or rpm: there is no unit of time"),
+    ),
+    "frequency of a bearing without its unit": (
+        lambda: rm.BallBearing.catalogue("6205").coefficients((0.0, -500.0), 50.0),
+        ("frequency = 50.0", "named with its unit: omega (rad/s), hz or rpm"),
+    ),
     "full contact backwards": (
         lambda: full_contact().advance(-1.0, 0.8, 0.0),
         ("dt", "a finite number > 0"),
