@@ -115,10 +115,10 @@ def build_library(
     tried = compilers(target, any_of_them=True)
     for compiler in tried[:-1]:
         try:
-            return _made(work, target, compiler)[0]
+            return _kept(work, target, compiler)
         except BuildError:  # a gcc without the headers of the C library, say
             continue
-    return _made(work, target, tried[-1])[0]
+    return _kept(work, target, tried[-1])
 
 
 def _libraries(
@@ -169,15 +169,20 @@ def _key_of_too_new(work: Work, compiler: Compiler) -> str:
 
 
 def _made(work: Work, target: Platform, compiler: Compiler) -> tuple[bytes, Library]:
-    """Library by one compiler, from the cache if it is there."""
+    """Library by one compiler, from the cache if it is there, and its headers."""
+    library = _kept(work, target, compiler)
+    return library, _checked(library, target, compiler)
+
+
+def _kept(work: Work, target: Platform, compiler: Compiler) -> bytes:
+    """Library by one compiler, from the cache if it is there; its headers are checked before it is kept."""
     key = _key(work, target, compiler)
     library = cache.recall(key)
     if library is None:
         library = _compile(work, target, compiler)
-        found = _checked(library, target, compiler)
+        _checked(library, target, compiler)
         cache.remember(key, library)
-        return library, found
-    return library, _checked(library, target, compiler)
+    return library
 
 
 def _key(work: Work, target: Platform, compiler: Compiler) -> str:

@@ -72,8 +72,8 @@ class SlidingContact:
         s, moes, rx = point.scales, point.moes, point.geometry.radius_x
         P, X, Y, weights = _quadrature()
         self.speed, self._law, self._weights = 0.5 * point.u_sum, law, weights * pi * s.a * s.b
-        viscosity = plain(log_viscosity)
-        log_eta = np.interp(P, TABLE, [viscosity(one, moes.law)[0] for one in TABLE.tolist()])
+        viscosity, fluid = plain(log_viscosity), moes.law
+        log_eta = np.interp(P, TABLE, [viscosity(one, fluid)[0] for one in TABLE.tolist()])
         self._p = s.pressure * P
         self._newton = log_eta + log(moes.eta0 * self.speed / film)
         x, y = s.a * X, s.b * Y

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.constants import g
 
 from ehlcontact.checks import as_column, require_flag, require_instance, require_integer
 from ehlcontact.checks.frequency import is_given, one, radians_per_second
@@ -45,6 +44,7 @@ _Floats = NDArray[np.float64]
 ON_SHAFT = {4: DIRECTIONS, 6: FIVE}
 UNCOUPLED = 1e-9  # entries that tie bending to the rest, over the largest: below is rounding
 SAME_STEP = 1e-6  # relative: lengths of steps as differences of times
+GRAVITY = 9.80665  # m/s2, standard gravity
 
 
 def from_ross(
@@ -117,7 +117,7 @@ def from_ross(
     dofs = without_torsion(bare, five)
     M, C, G, K = _uncoupled((bare.M(*point), bare.C(*point), bare.G(), bare.K(*point)), dofs)
     upward = np.searchsorted(dofs, [_first(bare, node) + 1 for node in range(_count(bare))])
-    load = np.asarray(-g * M[:, upward].sum(axis=1) if gravity else np.zeros(dofs.size))
+    load = np.asarray(-GRAVITY * M[:, upward].sum(axis=1) if gravity else np.zeros(dofs.size))
 
     def places(name: str, node: int) -> list[int]:
         _require_node(bare, name, node)
