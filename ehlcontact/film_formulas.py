@@ -7,7 +7,7 @@ converges to on its grid does not depend on them. They take plain numbers: the i
 
 from __future__ import annotations
 
-from math import exp, log, pi
+from math import exp, hypot, log, pi
 from typing import Any
 
 from ehlcontact.hertz import radius_ratio, scaled_axis, shape_factor
@@ -60,6 +60,18 @@ def nvm_central_film(M: float, L: float, kappa: float) -> float:
     h_ep = 1.48 * shape ** (-7.0 / 20.0) * lam ** (-1.0 / 24.0) * M ** (-1.0 / 12.0) * L**0.75
     piezoviscous = (h_rp**-8 + h_ep**-8) ** (-1.0 / 8.0)
     return (isoviscous**s + piezoviscous**s) ** (1.0 / s)
+
+
+def film_scatter(M: float, L: float, kappa: float, eta0: float, alpha: float) -> float:
+    """Relative scatter of the central film by those of viscosity and pressure-viscosity coefficient of its oil.
+
+    The root of the sum of squares of what either changes in `nvm_central_film`; M goes with eta0^-3/4, L with
+    alpha eta0^1/4.
+    """
+    own = expected_film(M, L, kappa)
+    thicker = expected_film(M * (1.0 + eta0) ** -0.75, L * (1.0 + eta0) ** 0.25, kappa) / own - 1.0
+    stiffer = expected_film(M, L * (1.0 + alpha), kappa) / own - 1.0
+    return hypot(thicker, stiffer)
 
 
 def film_to_moes(M: float, kappa: float) -> float:

@@ -33,7 +33,7 @@ from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.campbell import Campbell, CriticalSpeed, campbell
 from reduced_models.rotor.equilibrium import StaticRotor
 from reduced_models.rotor.linearise import LinearRotor, linearise
-from reduced_models.rotor.machine_tiles import Tile, machine_tiles
+from reduced_models.rotor.machine_tiles import Tile, machine_concerns, machine_tiles
 from reduced_models.rotor.modes import RotorMode
 from reduced_models.rotor.picture import campbell_picture
 from reduced_models.rotor.rotor import Rotor
@@ -155,6 +155,11 @@ class MachineState(Summary):
         own = (text for support in self.supports for text in support.reservations)
         return (*self.failed, *growing, *own)
 
+    @property
+    def concerns(self) -> tuple[str, ...]:
+        """What is critical at this speed, a text each, with its number and what changes it."""
+        return machine_concerns(self)
+
     def tiles(self) -> tuple[Tile, ...]:
         """The answer in a few numbers: what report, command line and explorer show first."""
         return machine_tiles(self)
@@ -186,6 +191,7 @@ class MachineState(Summary):
             "response_at_speed": None if own is None else own._asdict(),
             "highest_speed": None if self.highest_speed == inf else self.highest_speed,
             "ends": self.ends,
+            "concerns": list(self.concerns),
             "reservations": list(self.reservations),
             "tiles": [tile._asdict() for tile in self.tiles()],
         }
@@ -257,6 +263,8 @@ def machine_state(
     supports = _supports(linear, names or rotor.ball_bearing_names, positions or [None] * len(mounts))
     most = min(mount.ball_bearing.highest_speed for mount in mounts)
     highest, ends = _highest_speed(lambda at: _missing(rotor, at), speed, most)
+    for own, support in zip(rotor.ball_bearing_names, supports, strict=True):
+        ends = ends.replace(own, support.label)
     failed: list[str] = []
     last = max(speed, min(highest, UP_TO * speed if highest_rpm is None else highest_rpm))
     speeds = speed / PARTS * np.arange(1, max(int(PARTS * last / speed * (1.0 + ROUNDING)), PARTS) + 1)

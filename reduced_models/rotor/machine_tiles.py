@@ -1,4 +1,4 @@
-"""Tiles of a `MachineState`: its answer in a few numbers, each with what belongs to it in a note."""
+"""Tiles of a `MachineState`: its answer in a few numbers; and what is critical about it, with what changes it."""
 
 from __future__ import annotations
 
@@ -6,13 +6,18 @@ from math import degrees, inf
 from typing import Any, NamedTuple
 
 from reduced_models.rotor.modes import ALONG
+from reduced_models.rotor.support_state import RELY_ON_SKF
 
-HEAVIEST, SMALLEST = 1e4, 1e-3  # between which numbers are shown without exponent
 AXIS = {"x": 0, "y": 1, "z": 2}
+MARGIN = 0.15  # of the speed, least separation of a critical speed
+BACKWARD = -0.5  # whirl below which an unbalance hardly excites a mode
+HALF = 50.0  # %, of the strain energy
+FULL_FILM = 3.0  # lambda from which films keep the surfaces apart
+LINEAR = 1.0  # displacement by unbalance over the approach of the balls, up to which it is small
 
 
 class Tile(NamedTuple):
-    """One number of an answer."""
+    """One number of an answer; parts of its note are parted by semicolons."""
 
     name: str
     value: str
@@ -25,7 +30,7 @@ class Tile(NamedTuple):
 
 
 def digits(value: float, count: int = 3) -> str:
-    """A number with so many digits, without exponent where it is neither large nor small; "-0" is 0."""
+    """A number with so many digits, those before its point kept; without exponent from 1 to 1e15."""
     text = f"{value + 0.0:.{count}g}"
     if "e" not in text:
         return text
@@ -33,27 +38,35 @@ def digits(value: float, count: int = 3) -> str:
 
 
 def machine_tiles(machine: Any) -> tuple[Tile, ...]:
-    """Film, ball load, stiffness, lowest mode, critical speeds, response, friction, highest speed."""
-    rows = (_film, _ball_load, _stiffness, _damping, _mode, _critical, _response, _friction, _highest)
+    """Film, ball load, stiffness and damping, lowest mode, critical speeds, response, friction, highest speed."""
+    rows = (_film, _ball_load, _coefficients, _mode, _critical, _response, _friction, _highest)
     return tuple(tile for row in rows if (tile := row(machine)) is not None)
+
+
+def machine_concerns(machine: Any) -> tuple[str, ...]:
+    """Critical speed near by, growing vibration, surfaces that touch, a response that is no small vibration."""
+    rows = (_near_critical, _growing, _thin_film, _large_response)
+    return tuple(text for row in rows if (text := row(machine)))
 
 
 def _others(machine: Any, own: Any, words: Any) -> list[str]:
     """Of the other supports: each by its label and what `words` has of it."""
-    return [f"{one.label} {text}" for one in machine.supports if one is not own and (text := words(one))]
+    return [f"{one.label}: {text}" for one in machine.supports if one is not own and (text := words(one))]
 
 
 def _note(*parts: str) -> str:
     return "; ".join(filter(None, parts))
 
 
+def _of(machine: Any, own: Any) -> str:
+    """Whose the value of a tile is, where there are several supports."""
+    return own.label if len(machine.supports) > 1 else ""
+
+
 def _film(machine: Any) -> Tile | None:
     own = machine.worst_support
     if own.h_min is None:
         return None
-    worst = own.worst_contact
-    of = f"{own.label}, {worst.race_name} race"
-    ratio = "" if own.lambda_ratio is None else f"lambda {digits(own.lambda_ratio)}"
 
     def words(one: Any) -> str:
         if one.h_min is None:
@@ -61,7 +74,11 @@ def _film(machine: Any) -> Tile | None:
         beside = "" if one.lambda_ratio is None else f", lambda {digits(one.lambda_ratio)}"
         return f"{digits(1e6 * one.h_min)} µm{beside}"
 
-    return Tile("smallest film", digits(1e6 * own.h_min), "µm", _note(ratio, of, *_others(machine, own, words)))
+    ratio = "" if own.lambda_ratio is None else f"lambda {digits(own.lambda_ratio)}"
+    of = " ".join(filter(None, (_of(machine, own), f"{own.worst_contact.race_name} race")))
+    sure = ", ".join(f"± {digits(100.0 * error, 2)} % {cause}" for cause, error in own.film_errors.items())
+    note = _note(ratio, of, *_others(machine, own, words), sure)
+    return Tile("smallest film", digits(1e6 * own.h_min), "µm", note)
 
 
 def _ball_load(machine: Any) -> Tile:
@@ -69,36 +86,34 @@ def _ball_load(machine: Any) -> Tile:
 
     def words(one: Any) -> str:
         angles = one.contact_angles
-        at = "" if angles is None else f" at {digits(degrees(angles[0]))} degrees"
+        at = "" if angles is None else f" at {digits(degrees(angles[0]))}°"
         return f"{digits(1e-9 * one.p_hertz)} GPa{at}"
 
     others = _others(machine, own, lambda one: f"{digits(one.ball_load)} N, {words(one)}")
-    return Tile("largest ball load", digits(own.ball_load), "N", _note(words(own), own.label, *others))
+    return Tile("largest ball load", digits(own.ball_load), "N", _note(words(own), _of(machine, own), *others))
 
 
-def _stiffness(machine: Any) -> Tile:
-    return _coefficient(machine, "stiffness", 1e-6, "N/µm")
+def _coefficients(machine: Any) -> Tile:
+    """Along y, the direction of the weight, of the support that is softest, with the axial ones beside it."""
 
+    def along(one: Any, axis: str) -> tuple[str, str] | None:
+        k = AXIS[axis]
+        if k >= len(one.stiffness):
+            return None
+        return digits(1e-6 * float(one.stiffness[k, k])), digits(float(one.damping[k, k]))
 
-def _damping(machine: Any) -> Tile:
-    return _coefficient(machine, "damping", 1.0, "N s/m")
-
-
-def _coefficient(machine: Any, name: str, factor: float, unit: str) -> Tile:
-    """Along y, the direction of the weight, of the support that has least, with x and z beside it."""
-
-    def along(one: Any, axis: str) -> str:
-        matrix, k = getattr(one, name), AXIS[axis]
-        return digits(factor * float(matrix[k, k])) if k < len(matrix) else ""
+    def axial(one: Any) -> str:
+        pair = along(one, "z")
+        return "" if pair is None else f"axial {pair[0]} N/µm, {pair[1]} N s/m"
 
     def words(one: Any) -> str:
-        ways = [f"{axis} {value}" for axis in "xz" if (value := along(one, axis))]
-        return ", ".join(ways)
+        K, C = along(one, "y")
+        return f"{K} N/µm, {C} N s/m, {axial(one)}".removesuffix(", ")
 
-    own = min(machine.supports, key=lambda one: float(getattr(one, name)[1, 1]))
-    others = _others(machine, own, lambda one: f"y {along(one, 'y')}, {words(one)}")
-    title = f"{name} at {digits(machine.hz, 4)} Hz, y"
-    return Tile(title, along(own, "y"), unit, _note(words(own), own.label, *others))
+    own = min(machine.supports, key=lambda one: float(one.stiffness[1, 1]))
+    K, C = along(own, "y")
+    note = _note(f"damping {C} N s/m", axial(own), _of(machine, own), *_others(machine, own, words))
+    return Tile(f"stiffness of a bearing at {digits(machine.hz, 4)} Hz", K, "N/µm", note)
 
 
 def _mode(machine: Any) -> Tile | None:
@@ -106,9 +121,9 @@ def _mode(machine: Any) -> Tile | None:
         return None
     lowest, *others = machine.modes
     way = "along the shaft" if lowest.axial_share > ALONG else "across the shaft"
-    note = f"damping ratio {digits(lowest.damping_ratio, 2)}, {way}"
     across = [f"{digits(one.hz, 4)} Hz ({digits(one.damping_ratio, 2)})" for one in others]
-    return Tile("lowest mode", digits(lowest.hz, 4), "Hz", _note(note, ", ".join(across)))
+    note = _note(f"damping ratio {digits(lowest.damping_ratio, 2)}", way, ", ".join(across))
+    return Tile("lowest mode", digits(lowest.hz, 4), "Hz", note)
 
 
 def _critical(machine: Any) -> Tile | None:
@@ -117,36 +132,89 @@ def _critical(machine: Any) -> Tile | None:
     own = machine.nearest_critical
     if own is None:
         rpm = machine.diagram.speed_rpm
-        return Tile("critical speeds", "none", f"from {rpm[0]:.5g} to {rpm[-1]:.5g} rev/min")
-    share = machine.margin(own)
-    side = "above" if share >= 0.0 else "below"
+        return Tile("critical speed", "none", f"from {rpm[0]:.5g} to {rpm[-1]:.5g} rev/min")
     speeds = ", ".join(digits(one.speed_rpm, 5) for one in machine.critical_speeds)
-    note = f"{digits(100.0 * abs(share), 2)} % {side} the speed; all: {speeds}"
+    note = _note(_side(machine, own), f"all: {speeds} rev/min" if len(machine.critical_speeds) > 1 else "")
     return Tile("nearest critical speed", digits(own.speed_rpm, 5), "rev/min", note)
+
+
+def _side(machine: Any, critical: Any) -> str:
+    """By how much a critical speed lies above or below the speed."""
+    share = machine.margin(critical)
+    return f"{digits(100.0 * abs(share), 2)} % {'above' if share >= 0.0 else 'below'} the speed"
 
 
 def _response(machine: Any) -> Tile | None:
     if machine.largest_response is None:
         return None
     most, own = machine.largest_response, machine.response_at_speed
-    note = f"{most.node} at {digits(most.speed_rpm, 5)} rev/min"
-    here = f"{digits(1e6 * own.size)} µm at {digits(own.speed_rpm, 5)} rev/min, {own.node}"
-    return Tile("largest response to unbalance", digits(1e6 * most.size), "µm", _note(note, here))
+    here = f"{digits(1e6 * own.size)} µm at {digits(own.speed_rpm, 5)} rev/min"
+    note = _note(f"{most.node} at {digits(most.speed_rpm, 5)} rev/min", here)
+    return Tile("largest response to unbalance", digits(1e6 * most.size), "µm", note)
 
 
 def _friction(machine: Any) -> Tile | None:
-    torques = [one.torque for one in machine.supports]
+    supports = machine.supports
+    torques = [one.torque for one in supports]
     if None in torques:
         return None
-    by = "SKF" if all(one.relies_on_skf for one in machine.supports) else "films and sliding"
-    each = ", ".join(f"{one.label} {digits(one.torque)}" for one in machine.supports)
-    films = ", ".join(digits(one.film_torque) for one in machine.supports)
-    loss = digits(sum(one.loss for one in machine.supports))
-    note = _note(f"{loss} W by {by}", each if len(torques) > 1 else "", f"films resist rolling with {films} N m")
-    return Tile("friction torque", digits(sum(torques)), "N m", note)
+    by = "SKF's model" if all(one.relies_on_skf for one in supports) else "films and sliding"
+    each = ", ".join(f"{one.label} {digits(one.torque)}" for one in supports) if len(supports) > 1 else ""
+    films = "films alone " + ", ".join(digits(one.film_torque) for one in supports) + " N m"
+    more = not all(one.relies_on_skf for one in supports) and machine.speed_rpm > RELY_ON_SKF
+    doubt = "flooded films resist more than measured bearings do at this speed" if more else ""
+    loss = f"{digits(sum(one.loss for one in supports))} W by {by}"
+    return Tile("friction torque", digits(sum(torques)), "N m", _note(loss, each, films, doubt))
 
 
 def _highest(machine: Any) -> Tile | None:
     if machine.highest_speed == inf:
         return None
-    return Tile("data cover up to", digits(machine.highest_speed, 3), "rev/min", machine.ends)
+    return Tile("highest speed that the data cover", digits(machine.highest_speed), "rev/min", machine.ends)
+
+
+def _near_critical(machine: Any) -> str:
+    """Nearest critical speed within `MARGIN` that an unbalance excites, and what moves it."""
+    near = [one for one in machine.critical_speeds if abs(machine.margin(one)) < MARGIN and one.whirl > BACKWARD]
+    if not near or not machine.modes:
+        return ""
+    own = min(near, key=lambda one: abs(machine.margin(one)))
+    share = 100.0 * min(machine.modes, key=lambda one: abs(one.hz - own.hz)).support_share
+    bends = f"{digits(100.0 - share, 2)} % of its strain energy is in the shaft, {digits(share, 2)} % in bearings"
+    moves = "a stiffer or shorter shaft moves it" if share < HALF else "more preload or stiffer bearings move it"
+    return f"critical speed {digits(own.speed_rpm, 5)} rev/min, {_side(machine, own)}: {bends}, so {moves}"
+
+
+def _growing(machine: Any) -> str:
+    growing = [mode for mode in machine.modes if mode.decrement < 0.0]
+    if not growing:
+        return ""
+    said = ", ".join(f"{digits(one.hz, 4)} Hz (damping ratio {digits(one.damping_ratio, 2)})" for one in growing)
+    return f"vibrations grow at {said}: more damping or more oil keeps them down"
+
+
+def _thin_film(machine: Any) -> str:
+    own = machine.worst_support
+    if own.lambda_ratio is None or own.lambda_ratio >= FULL_FILM:
+        return ""
+    need = f"a full film needs {digits(FULL_FILM)}: thicker oil or smoother surfaces"
+    return f"lambda {digits(own.lambda_ratio)} at {own.label or 'the bearing'}, {need}"
+
+
+def _large_response(machine: Any) -> str:
+    """Response at the operating speed that is not small beside the approach of the balls."""
+    if machine.response is None:
+        return ""
+    k = int(abs(machine.response.speed_rpm - machine.speed_rpm).argmin())
+    for number, support in enumerate(machine.supports):
+        name = f"bearing {number}"
+        if name not in machine.response.names:
+            continue
+        moved = float(machine.response.major[k, machine.response.names.index(name)])
+        pressed = max(float(state.approach[state.heaviest].sum()) for _, state in support.bearings)
+        if moved > LINEAR * pressed:
+            size = f"{digits(1e6 * moved)} µm, its balls are pressed in by {digits(1e6 * pressed)} µm"
+            return (
+                f"unbalance moves {support.label} by {size}: no small vibration; balance better, or run it in time"
+            )
+    return ""

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.checks import parts, require_instance, require_positive
 from ehlcontact.checks.quantity import takes
+from ehlcontact.film_formulas import film_scatter
 from ehlcontact.hertz import hertz_contact
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
@@ -124,6 +125,22 @@ class SupportState(Summary):
         return None if worst is None or values is None else float(values[worst.ball, worst.race])
 
     @property
+    def film_errors(self) -> dict[str, float]:
+        """Relative uncertainty of that film by its cause: atlas, and oil where its scatter is known."""
+        worst = self.worst_contact
+        if worst is None:
+            return {}
+        bearing, state = self.bearings[worst.bearing]
+        race, oil = race_at(bearing, state, worst.ball, worst.race), bearing.oil
+        load = max(float(state.force[worst.ball, worst.race]), race.loads(state.speed_rpm)[0])
+        answer, moes = race.answer(load, state.speed_rpm), race.point(load, state.speed_rpm).moes
+        errors = {"atlas": float(answer.error_bars["h_min"] / answer.h_min)}
+        if oil is not None and (oil.eta0_scatter or oil.alpha_scatter):
+            scatter = oil.eta0_scatter or 0.0, oil.alpha_scatter or 0.0
+            errors["oil"] = film_scatter(moes.M, moes.L, moes.kappa, *scatter)
+        return errors
+
+    @property
     def heaviest_ball(self) -> Contact:
         """Contact of the most loaded ball with the inner race."""
         heaviest = [float(state.force[state.heaviest, 0]) for _, state in self.bearings]
@@ -217,6 +234,7 @@ class SupportState(Summary):
             "bearing": self.bearing.to_dict(),
             "h_min": self.h_min,
             "lambda_ratio": self.lambda_ratio,
+            "film_errors": self.film_errors,
             "worst_contact": None if worst is None else worst._asdict() | {"race": worst.race_name},
             "ball_load": self.ball_load,
             "p_hertz": self.p_hertz,
