@@ -7,8 +7,9 @@ machine of one support.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
 from typing import Any, NamedTuple
@@ -20,7 +21,7 @@ from ehlcontact.checks import parts, require_positive
 from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
-from ehlcontact.results.picture import Picture
+from ehlcontact.results.picture import Panel, Picture
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.coefficients import BearingCoefficients
@@ -48,6 +49,9 @@ MODES = 6  # of the machine, the slowest
 # every second one, between which frequencies are straight within 1e-4
 PARTS, UP_TO, EVERY = 15, 2.0, 2
 ROUNDING = 1e-9  # of a multiple of the speed
+# Frequencies that the picture shows: multiples of that of the shaft at the highest speed, and room above a mode
+SHOWN, SEEN = 2.0, 1.08
+LARGE = re.compile(r"\d\.\d+e\+\d+")  # a number with exponent in a message
 SPEED_DIGITS = 1e-3  # of the highest speed that the data cover, to which it is looked for
 
 
@@ -165,12 +169,17 @@ class MachineState(Summary):
         return machine_tiles(self)
 
     def picture(self) -> Picture:
-        """Load zones of up to two bearings beside the Campbell diagram."""
-        states = [(support, state) for support in self.supports for _, state in support.bearings][:2]
-        most = max(float(state.force.max()) for _, state in states)
-        panels: list[Any] = [load_zone(state, most, support.label) for support, state in states]
+        """Load zone of the bearing with the most loaded ball beside the Campbell diagram, round its speeds."""
+        own = max(self.supports, key=lambda one: one.ball_load)
+        _, state = own.bearings[own.heaviest_ball.bearing]
+        panels: list[Any] = [load_zone(state, None, f"{own.label or 'bearing'}: force on the balls [N]")]
         if self.diagram is not None:
-            panels.append(campbell_picture(self.diagram).panels[0])
+            modes = campbell_picture(self.diagram).panels[0]
+            assert isinstance(modes, Panel)
+            high = max(
+                SHOWN * float(self.diagram.speed_rpm[-1]) * RPM_TO_HZ, SEEN * float(self.diagram.hz[:, 0].max())
+            )
+            panels.append(replace(modes, y_ends=(0.0, min(high, SEEN * float(self.diagram.hz.max())))))
         return Picture(panels, f"{self.speed_rpm:g} rev/min", columns=len(panels), heights=(340.0,))
 
     def to_dict(self) -> dict[str, Any]:
@@ -319,7 +328,8 @@ def _highest_speed(missing: Callable[[float], str], speed: float, most: float) -
         try:
             return missing(at)
         except InputError as error:
-            return f"{error.field}: {error.allowed.split(' (here ')[0]}"
+            words = f"{error.field}: {error.allowed.split(' (here ')[0]}"
+            return LARGE.sub(lambda number: f"{float(number[0]):.0f}", words)
         except ConvergenceError as error:
             return str(error)
 

@@ -13,6 +13,7 @@ MARGIN = 0.15  # of the speed, least separation of a critical speed
 BACKWARD = -0.5  # whirl below which an unbalance hardly excites a mode
 HALF = 50.0  # %, of the strain energy
 FULL_FILM = 3.0  # lambda from which films keep the surfaces apart
+BRIEF = 2  # parts of a note in a line
 LINEAR = 1.0  # displacement by unbalance over the approach of the balls, up to which it is small
 
 
@@ -23,10 +24,16 @@ class Tile(NamedTuple):
     value: str
     unit: str
     note: str = ""
+    critical: bool = False  # whether `machine_concerns` has something about it
 
     def __str__(self) -> str:
         note = f" ({self.note})" if self.note else ""
         return f"{self.name} {self.value} {self.unit}".rstrip() + note
+
+    @property
+    def brief(self) -> str:
+        """The tile with the first parts of its note, for a line of a terminal."""
+        return str(self._replace(note=", ".join(self.note.split("; ")[:BRIEF])))
 
 
 def digits(value: float, count: int = 3) -> str:
@@ -78,7 +85,7 @@ def _film(machine: Any) -> Tile | None:
     of = " ".join(filter(None, (_of(machine, own), f"{own.worst_contact.race_name} race")))
     sure = ", ".join(f"± {digits(100.0 * error, 2)} % {cause}" for cause, error in own.film_errors.items())
     note = _note(ratio, of, *_others(machine, own, words), sure)
-    return Tile("smallest film", digits(1e6 * own.h_min), "µm", note)
+    return Tile("smallest film", digits(1e6 * own.h_min), "µm", note, bool(_thin_film(machine)))
 
 
 def _ball_load(machine: Any) -> Tile:
@@ -96,15 +103,15 @@ def _ball_load(machine: Any) -> Tile:
 def _coefficients(machine: Any) -> Tile:
     """Along y, the direction of the weight, of the support that is softest, with the axial ones beside it."""
 
-    def along(one: Any, axis: str) -> tuple[str, str] | None:
+    def along(one: Any, axis: str) -> tuple[str, str]:
         k = AXIS[axis]
-        if k >= len(one.stiffness):
-            return None
         return digits(1e-6 * float(one.stiffness[k, k])), digits(float(one.damping[k, k]))
 
     def axial(one: Any) -> str:
-        pair = along(one, "z")
-        return "" if pair is None else f"axial {pair[0]} N/µm, {pair[1]} N s/m"
+        if len(one.stiffness) <= AXIS["z"]:
+            return ""
+        K, C = along(one, "z")
+        return f"axial {K} N/µm, {C} N s/m"
 
     def words(one: Any) -> str:
         K, C = along(one, "y")
@@ -132,10 +139,11 @@ def _critical(machine: Any) -> Tile | None:
     own = machine.nearest_critical
     if own is None:
         rpm = machine.diagram.speed_rpm
-        return Tile("critical speed", "none", f"from {rpm[0]:.5g} to {rpm[-1]:.5g} rev/min")
+        return Tile("critical speed", "none", "", f"from {rpm[0]:.5g} to {rpm[-1]:.5g} rev/min")
     speeds = ", ".join(digits(one.speed_rpm, 5) for one in machine.critical_speeds)
     note = _note(_side(machine, own), f"all: {speeds} rev/min" if len(machine.critical_speeds) > 1 else "")
-    return Tile("nearest critical speed", digits(own.speed_rpm, 5), "rev/min", note)
+    critical = bool(_near_critical(machine))
+    return Tile("nearest critical speed", digits(own.speed_rpm, 5), "rev/min", note, critical)
 
 
 def _side(machine: Any, critical: Any) -> str:
@@ -150,7 +158,8 @@ def _response(machine: Any) -> Tile | None:
     most, own = machine.largest_response, machine.response_at_speed
     here = f"{digits(1e6 * own.size)} µm at {digits(own.speed_rpm, 5)} rev/min"
     note = _note(f"{most.node} at {digits(most.speed_rpm, 5)} rev/min", here)
-    return Tile("largest response to unbalance", digits(1e6 * most.size), "µm", note)
+    critical = bool(_large_response(machine))
+    return Tile("largest response to unbalance", digits(1e6 * most.size), "µm", note, critical)
 
 
 def _friction(machine: Any) -> Tile | None:
@@ -178,7 +187,7 @@ def _near_critical(machine: Any) -> str:
     near = [one for one in machine.critical_speeds if abs(machine.margin(one)) < MARGIN and one.whirl > BACKWARD]
     if not near or not machine.modes:
         return ""
-    own = min(near, key=lambda one: abs(machine.margin(one)))
+    own = machine.nearest_critical
     share = 100.0 * min(machine.modes, key=lambda one: abs(one.hz - own.hz)).support_share
     bends = f"{digits(100.0 - share, 2)} % of its strain energy is in the shaft, {digits(share, 2)} % in bearings"
     moves = "a stiffer or shorter shaft moves it" if share < HALF else "more preload or stiffer bearings move it"

@@ -10,7 +10,20 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact.results.picture import BLUE, GREEN, GREY, ORANGE, RED, Band, Line, Mark, Panel, Picture, Slides
+from ehlcontact.results.picture import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    RED,
+    Band,
+    Label,
+    Line,
+    Mark,
+    Panel,
+    Picture,
+    Slides,
+)
 from reduced_models.bearing.picture import over_frequency, speeds_slides
 from reduced_models.rotor.compare_bearing_models import CONSTANT, DRY, FILM, USUAL
 from reduced_models.rotor.decay import Decrement
@@ -69,20 +82,26 @@ def coefficients(found: Any, names: Names) -> Picture:
     return Picture(over_frequency(found.over_frequency, constants, found.speed_rpm / 60.0), heights=(280.0,))
 
 
-def response(found: Any, names: Names) -> Picture:
-    """Displacement of the disc over its eccentricity, over the frequency of the unbalance."""
-    most = max(float(values.max()) for values in found.responses.values())
-    least = min(float(values.min()) for values in found.responses.values())
+def response(found: Any, names: Names, eccentricity: float | None = None) -> Picture:
+    """Displacement of the disc over the frequency of the unbalance, in m where its eccentricity is given [m]."""
+    size, label = _displacement(eccentricity)
+    most = size * max(float(values.max()) for values in found.responses.values())
+    least = size * min(float(values.min()) for values in found.responses.values())
     panels = []
     for column, way in enumerate(DIRECTIONS.values()):
         lines = [
-            Line(found.response_hz, found.responses[name][:, column], names[name], *LOOKS[name])
+            Line(found.response_hz, size * found.responses[name][:, column], names[name], *LOOKS[name])
             for name in ORDER
             if name in found.responses
         ]
         ends = (0.7 * least, 1.4 * most)
-        panels.append(Panel(lines, UNBALANCE, RESPONSE, title=f"disc, {way}", logs="XY", y_ends=ends))
+        panels.append(Panel(lines, UNBALANCE, label, title=f"disc, {way}", logs="XY", y_ends=ends))
     return Picture(panels, heights=(290.0,))
+
+
+def _displacement(eccentricity: float | None) -> tuple[float, Label]:
+    """Factor of responses over the eccentricity, and their label: in m where that is given [m]."""
+    return (eccentricity, ("displacement", "m")) if eccentricity else (1.0, RESPONSE)
 
 
 def speeds(found: Any) -> Slides:
@@ -90,8 +109,12 @@ def speeds(found: Any) -> Slides:
     return speeds_slides(found.over_speed, found.speed_rpm)
 
 
-def bode(responses: Resonances, looks: Looks, names: Names) -> Picture:
-    """Amplification and phase of the disc under unbalance, by direction, each over its span of frequency."""
+def bode(responses: Resonances, looks: Looks, names: Names, eccentricity: float | None = None) -> Picture:
+    """Displacement and phase of the disc under unbalance, by direction, each over its span of frequency.
+
+    Displacements are over the eccentricity, where none is given [m].
+    """
+    size, label = _displacement(eccentricity)
     hz, above, below = responses.hz, [], []
     for direction, found in responses.curves.items():
         low, high = responses.spans[direction]
@@ -101,10 +124,10 @@ def bode(responses: Resonances, looks: Looks, names: Names) -> Picture:
             curve, look = whole[shown], (names[name], *looks[name])
             # behind the force of the unbalance, which in y comes a quarter of a turn after that in x
             behind = np.angle(curve * (1j if direction == "y" else 1.0), deg=True)
-            sizes.append(Line(hz[shown], np.abs(curve), *look))
+            sizes.append(Line(hz[shown], size * np.abs(curve), *look))
             phases.append(Line(hz[shown], np.where(behind > 90.0, behind - 360.0, behind), *look))
         ends, title = (float(low), float(high)), f"disc, {DIRECTIONS[direction]}"
-        above.append(Panel(sizes, UNBALANCE, RESPONSE, title=title, logs="Y", x_ends=ends))
+        above.append(Panel(sizes, UNBALANCE, label, title=title, logs="Y", x_ends=ends))
         below.append(Panel(phases, UNBALANCE, "phase [degrees]", x_ends=ends, y_tick=90.0))
     return Picture([*above, *below], columns=len(above), heights=(240.0, 150.0), shared=True)
 

@@ -219,7 +219,7 @@ class SupportState(Summary):
     def reservations(self) -> tuple[str, ...]:
         """What does not hold, a text with its number each."""
         broken = () if self.assumptions is None else self.assumptions.out_of_range
-        said = [f"not {one.name}: {one.verdict.split(';')[0]}" for one in broken]
+        said = [f"{one.name}: {one.verdict.split(';')[0]}" for one in broken]
         said += [self.state.reservation if isinstance(self.state, SetState) else ""]
         said.append(self.coefficients.beyond_data)
         said += [self.coefficients.damping_left_out, self.coefficients.held_feed]

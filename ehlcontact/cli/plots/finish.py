@@ -175,9 +175,9 @@ def _panel(figure: go.Figure, cell: tuple[int, int]) -> dict[str, Any]:
     if polar is not None:
         return {
             "polar": polar.plotly_name,
-            "right": RIGHT,
+            "right": ROUND,
             "gap": 2.0 * ROUND,
-            "head": max(head, ROUND),
+            "head": max(head, ROUND) + TITLE * str(polar.angularaxis.ticktext).count("<br>"),
             "foot": ROUND,
         }
     x, y = next(figure.select_xaxes(row=row, col=col)), next(figure.select_yaxes(row=row, col=col))

@@ -28,6 +28,7 @@ from ehlcontact.results.picture import (
 DASHES = {"-": "solid", "--": "dash", ":": "dot", "-.": "dashdot"}
 SYMBOLS = {"o": "circle", "s": "square", "^": "triangle-up", "v": "triangle-down", "D": "diamond", "*": "star"}
 POINTS, MOVING = (175, 111), (81, 49)  # of a map, horizontally and vertically; of one behind a slider
+QUARTERS, UPWARDS = (0, 90, 180, 270), 90  # degrees round a load zone, and that under its title
 REACH = 0.04  # of the span of an axis behind a slider, on either side of its values
 
 
@@ -86,6 +87,8 @@ def _panel(figure: go.Figure, panel: Panel, at: dict[str, int]) -> None:
     first = {"secondary_y": False} if panel.second else {}
     for axis, label, ends, tick in axes:
         options: dict[str, Any] = {"title_text": label, "type": "log" if logs[axis] else None, "dtick": tick}
+        if "rev/min" in label:
+            options["exponentformat"] = "none"
         if ends is not None:
             options["range"] = _range(ends, logs[axis])
         elif axis == "y" and panel.bottom is not None:
@@ -255,7 +258,10 @@ def _load_zone(figure: go.Figure, zone: LoadZone, at: dict[str, int]) -> None:
     radius: dict[str, Any] = {"range": [0.0, LoadZone.ROOM * most], "ticksuffix": " N"}
     # numbers upright, wherever their axis points
     radius |= {"angle": zone.free_angle, "tickangle": zone.free_angle}
-    figure.update_polars(barmode="overlay", radialaxis=radius, **at)
+    around: dict[str, Any] = {"tickmode": "array", "tickvals": [*QUARTERS]}
+    words = zone.title.replace("\n", "<br>")  # above the circle, in place of its degrees
+    around["ticktext"] = [words if angle == UPWARDS and words else f"{angle}°" for angle in QUARTERS]
+    figure.update_polars(barmode="overlay", radialaxis=radius, angularaxis=around, **at)
 
 
 def _move_together(figure: go.Figure, panels: Sequence[Any]) -> None:

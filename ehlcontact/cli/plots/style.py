@@ -27,6 +27,7 @@ TEMPLATE = go.layout.Template(
         "paper_bgcolor": _CLEAR,
         "plot_bgcolor": _CLEAR,
         "font": {"size": 12, "color": INK},
+        "separators": ".\u202f",  # of thousands a narrow space
         "hovermode": "closest",
         "hoverlabel": {"font": {"size": 13}},
         "xaxis": _AXIS,

@@ -1,6 +1,7 @@
 """`machine_state`: the motor of the guide, a bearing with a spring alone, and what is refused."""
 
 import json
+from dataclasses import replace
 from math import degrees
 
 import numpy as np
@@ -92,7 +93,26 @@ class TestMotor:
         assert "6.2 % above" in tiles["nearest critical speed"].note
         assert tiles["largest response to unbalance"].value == "195"
         assert [text.split(":")[0] for text in machine.reservations] == ["left 6306", "right 6206"]
-        assert all("not isothermal" in text and "%" in text for text in machine.reservations)
+        assert all(": isothermal: " in text and "%" in text for text in machine.reservations)
+        assert tiles["stiffness of a bearing at 250 Hz"].note.startswith("damping 32.7 N s/m")
+        assert "\n" not in "".join(map(str, machine.tiles()))
+        assert tiles["smallest film"].brief == "smallest film 0.322 µm (lambda 3.22, right 6206 inner race)"
+
+    def test_critical_is_the_speed_next_to_a_mode_of_the_shaft(self, machine: MachineState) -> None:
+        (concern,) = machine.concerns
+        assert concern.startswith("critical speed 15924 rev/min, 6.2 % above the speed: 86 % of its strain energy")
+        assert "stiffer or shorter shaft" in concern
+        marked = [tile.name for tile in machine.tiles() if tile.critical]
+        assert marked == ["nearest critical speed"]
+
+    def test_films_are_as_sure_as_atlas_and_oil(self, machine: MachineState) -> None:
+        support = machine.worst_support
+        answer = support.bearing.race("inner").answer(support.ball_load, RPM)
+        assert support.film_errors["atlas"] == pytest.approx(answer.error_bars["h_min"] / answer.h_min, rel=0.05)
+        thicker = replace(OIL, eta0=OIL.eta0 * (1.0 + OIL.eta0_scatter))
+        changed = replace(support.bearing, oil=thicker).race("inner").answer(support.ball_load, RPM)
+        by_viscosity = changed.h_central / answer.h_central - 1.0
+        assert by_viscosity < support.film_errors["oil"] < by_viscosity + OIL.alpha_scatter
 
     def test_whole_answer_is_json(self, machine: MachineState) -> None:
         found = json.loads(json.dumps(machine.to_dict()))
@@ -100,8 +120,10 @@ class TestMotor:
         assert found["critical_speeds"][0]["margin"] < 0.0 < found["critical_speeds"][1]["margin"]
         assert len(found["tiles"]) == len(machine.tiles())
 
-    def test_picture_has_both_load_zones_and_the_diagram(self, machine: MachineState) -> None:
-        assert len(machine.picture().panels) == 3
+    def test_picture_shows_the_crossings_of_modes_and_speed(self, machine: MachineState) -> None:
+        zone, diagram = machine.picture().panels
+        assert zone.title == "left 6306: force on the balls [N]"
+        assert diagram.y_ends == (0.0, pytest.approx(2.0 * 28000.0 / 60.0, rel=0.1))
 
     def test_supports_are_those_under_the_forces_of_the_rotor(self, machine: MachineState) -> None:
         for support in machine.supports:
@@ -124,6 +146,12 @@ class TestBearingAlone:
         support = support_state(bearing("6205"), (0.0, -500.0), 3000.0)
         assert not support.relies_on_skf
         assert support.torque == support.friction[0].total
+
+    def test_thin_films_are_critical(self) -> None:
+        machine = single_bearing_state(bearing("6205", rq_race=4e-7), (0.0, -500.0), 3000.0)
+        assert machine.supports[0].lambda_ratio < 3.0
+        assert machine.concerns[0].startswith("lambda ") and "thicker oil" in machine.concerns[0]
+        assert machine.tiles()[0].critical
 
     def test_dry_has_loads_alone(self) -> None:
         machine = single_bearing_state(bearing("6205").dry, (0.0, -500.0), 3000.0)
