@@ -30,7 +30,7 @@ from reduced_models.atlas.heat import ellipses, fastest
 from reduced_models.atlas.supply import heaviest_load, supply_box
 from reduced_models.bearing.bearing_conditions import conditions_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, speed_sum_per_omega
-from reduced_models.bearing.ring import RingEquilibrium
+from reduced_models.bearing.ring import STEEPEST, RingEquilibrium
 from reduced_models.elements.film_contact import FilmContact
 
 _Floats = NDArray[np.float64]
@@ -199,10 +199,13 @@ class Race:
         return central, smallest, moment
 
     def at_angle(self, pitch_diameter: float, contact_angle: float, speed_sum: float) -> Race:
-        """The contact of one ball at its own angle [rad] and sum of surface speeds over that of the shaft [m]."""
+        """The contact of one ball at its own angle [rad] and sum of surface speeds over that of the shaft [m].
+
+        An unloaded ball may stand at any angle: beyond `STEEPEST` it has the radii of that angle.
+        """
         body = self.geometry
         material = {"e1": body.e1, "e2": body.e2, "nu1": body.nu1, "nu2": body.nu2}
-        cone = pitch_diameter / cos(contact_angle)
+        cone = pitch_diameter / cos(min(abs(contact_angle), STEEPEST))
         own = Geometry.ball_bearing(self.ball_diameter, cone, self.conformity, self.name, **material)
         return replace(self, geometry=own, speed_sum=speed_sum)
 

@@ -12,7 +12,7 @@ from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet
 from reduced_models.bearing.contact_angles import CONTROLS
 from reduced_models.bearing.equilibrium_result import BearingState
-from reduced_models.bearing.ring import StaticRing
+from reduced_models.bearing.ring import STEEPEST, StaticRing
 
 # Harris, Rolling Bearing Analysis: 218 angular contact bearing; steel of 206.8 GPa
 HARRIS_218 = {
@@ -400,3 +400,14 @@ def test_gyroscopic_moments_that_no_friction_holds():
     refused(
         "load = .*friction holds the gyroscopic", lambda: bearing.equilibrium((0.0, 0.0, 200.0), speed_rpm=12000.0)
     )
+
+
+def test_unloaded_balls_stand_at_any_angle():
+    """Up to right angles, where there is no cone: they have the radii of the steepest angle of a groove."""
+    bearing = BallBearing.catalogue("7205 B", oil=Lubricant.iso_vg(68, temperature=50.0))
+    state = bearing.equilibrium((0.0, -900.0, 60.0), speed_rpm=3000.0)
+    steep = state.contact_angles[:, 0] > STEEPEST
+    assert degrees(state.contact_angles.max()) > 85.0 and steep.any()
+    assert state.force[steep, 0].max() < 0.1 and np.isfinite(state.rolling_torque)
+    own = bearing.race("inner").at_angle(bearing.pitch_diameter, 0.5 * pi, 0.04).geometry
+    assert own == bearing.race("inner").at_angle(bearing.pitch_diameter, STEEPEST, 0.04).geometry
