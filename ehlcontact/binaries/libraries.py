@@ -17,11 +17,12 @@ from threading import Event
 from ehlcontact.binaries import cache
 from ehlcontact.binaries.compiler import Compiler, compilers
 from ehlcontact.binaries.headers import Library, read_library, universal
-from ehlcontact.binaries.platforms import Platform, this_machine
+from ehlcontact.binaries.platforms import WEB, WEB_FLAGS, Platform, this_machine
 from ehlcontact.binaries.process import BuildError, run
 
 # Binaries shall run on Linux from here on; what a newer system's compiler makes may need that system.
 OLDEST_GLIBC = (2, 17)
+WEB_MAGIC = b"\0asm"
 LAYOUT = b"2"  # of what is kept: another number where compiled libraries would differ for a reason not in the key
 
 MACRO = re.compile(rb"^#define (\w+)", flags=re.MULTILINE)
@@ -41,6 +42,8 @@ class Work:
 
     def all_flags(self, target: Platform) -> tuple[str, ...]:
         """Flags of the compiler."""
+        if target is WEB:
+            return (*WEB_FLAGS, *self.flags)
         return (*target.all_flags(self.identifier), *self.flags)
 
 
@@ -119,6 +122,30 @@ def build_library(
         except BuildError:  # a gcc without the headers of the C library, say
             continue
     return _kept(work, target, tried[-1])
+
+
+def build_module(sources: Mapping[str, bytes], units: Sequence[str], identifier: str) -> bytes:
+    """Compile C sources to a module of WebAssembly, by zig, which has a C library for it.
+
+    Parameters
+    ----------
+    sources, units, identifier
+        As of `build_binaries`.
+
+    Raises
+    ------
+    BuildError
+        No zig, or sources that it does not compile.
+    """
+    work, compiler = Work(sources, units, identifier), compilers(WEB)[-1]
+    key = _key(work, WEB, compiler)
+    module = cache.recall(key)
+    if module is None:
+        module = _compile(work, WEB, compiler)
+        if not module.startswith(WEB_MAGIC):
+            raise BuildError(f"the C compiler {compiler.label} made no module of WebAssembly")
+        cache.remember(key, module)
+    return module
 
 
 def _libraries(

@@ -77,6 +77,14 @@ PLATFORMS = {
     )
 }
 
+# WebAssembly of a page: it imports nothing, and functions that are visible can be called.
+WEB = Platform("wasm32-web", None, "wasm32-wasi", ".wasm")
+WEB_FLAGS = (
+    "-std=c99", "-O2", "-fvisibility=hidden", "-s", "-mexec-model=reactor", "-Wl,--export-dynamic",
+    "-Wl,--gc-sections", "-ffunction-sections", "-fdata-sections",
+    "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math",
+)  # fmt: skip
+
 
 def this_machine() -> Platform | None:
     """Platform of this process; None if FMUs are not built for it."""

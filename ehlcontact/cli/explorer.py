@@ -1,7 +1,8 @@
-"""The page of ``ehlcontact explore``: one file that computes in the browser, from the atlas inside it.
+"""The page of ``ehlcontact explore``: one file that computes in the browser, atlas and C core inside.
 
-Its JavaScript in ``templates/explore`` repeats the Python formulas; tests compare both. This module puts in the
-atlas, oils, bearings, ranges of inputs and the constants of its rules.
+Balls between their races, equilibrium, stiffness and damping are those of ``reduced_models/csrc``, compiled to
+WebAssembly with ``templates/explore/bearing.c``; JavaScript there reads the atlas as `reduced_models.atlas` does.
+This module puts in both, oils, bearings, ranges of inputs and the constants of its rules.
 """
 
 from __future__ import annotations
@@ -9,8 +10,10 @@ from __future__ import annotations
 import base64
 import json
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import asdict, fields
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +24,9 @@ from numpy.typing import ArrayLike
 from ehlcontact import __version__
 from ehlcontact.assumptions import film, judge
 from ehlcontact.assumptions.film import LEAST_LAMBDA, MIXED_LAMBDA
+from ehlcontact.binaries import build_module
 from ehlcontact.checks.admissible_range import INPUTS, Quantity
+from ehlcontact.errors import InputError
 from ehlcontact.lubricant import MineralOil, oil
 from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.lubricant.oil_laws import ROELANDS_LOG, ROELANDS_P0
@@ -29,14 +34,19 @@ from reduced_models import BallBearing
 from reduced_models.atlas import film as atlas_film
 from reduced_models.atlas import frequency_curve
 from reduced_models.atlas.surface import Surface, shipped
-from reduced_models.bearing import coefficients, grooves, kinematics, race, ring, ring_statics
-from reduced_models.bearing.catalogue import DEEP_GROOVE
+from reduced_models.bearing import grooves, kinematics, race, ring, ring_statics, skf_friction
+from reduced_models.bearing.catalogue import DEEP_GROOVE, ROWS, Row
+from reduced_models.bearing.clearance import CLASSES, clearance_of_class
+from reduced_models.bearing.sliding import USUAL_LAW
+from reduced_models.core import CSRC
 from reduced_models.elements import film_curve, film_response
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
+from reduced_models.rotor.support_state import RELY_ON_SKF
 
 # In the order in which they are joined: each stands on those before it; the last two are about the page itself.
-SCRIPTS = ("numbers", "hertz", "oil", "atlas", "race", "bearing", "assumptions", "plot", "page")
-COMPUTING = SCRIPTS[:7]
+SCRIPTS = ("numbers", "core", "hertz", "oil", "atlas", "race", "bearing", "assumptions", "plot", "page")
+COMPUTING = SCRIPTS[:8]
+GLUE = "bearing.c"  # functions of the page on the C core
 UNITS = {"ball_diameter": "mm", "pitch_diameter": "mm", "eta0": "mPa s", "alpha": "1/GPa"}  # others as in Python
 # Numbers of the library's own rules, by the modules that have them
 RULES: Mapping[Any, tuple[str, ...]] = {
@@ -44,12 +54,11 @@ RULES: Mapping[Any, tuple[str, ...]] = {
     atlas_film: ("THICKEST",),
     race: ("INSIDE", "PER_DECADE", "NEAR"),
     film_curve: ("DECADE", "RIGID_SLOPE"),
-    film_response: ("DRY", "LEAST_VISCOUS", "SMALL_OMEGA"),
+    film_response: ("DRY", "LEAST_VISCOUS"),
     grooves: ("LARGEST_PLAY",),
     ring_statics: ("POSITIONS",),
-    ring: ("SEATED",),
+    ring: ("SEATED", "CARRIES", "STEEPEST"),
     kinematics: ("LEAST_SLIP",),
-    coefficients: ("TINY_OMEGA",),
     judge: ("CONDUCTIVITY",),
     film: ("LEAST_HEATING_FACTOR", "EYRING_STRESS", "LARGEST_STRESS"),
     oil: ("TYPICAL_SLOPE", "TYPICAL_DENSITY", "LEAST_SLOPE"),
@@ -59,9 +68,8 @@ OF_INPUTS = ("ball_diameter", "pitch_diameter", "conformity", "speed_rpm", "eta0
 
 def script(names: Iterable[str] = SCRIPTS) -> str:
     """JavaScript of the page, or some of its files joined, and the data first that all of it reads."""
-    folder = files("ehlcontact.cli") / "templates" / "explore"
     data = json.dumps(page_data(), allow_nan=False, separators=(",", ":")).replace("</", "<\\/")
-    parts = [(folder / f"{name}.js").read_text(encoding="utf-8") for name in names]
+    parts = [_template(f"{name}.js").read_text(encoding="utf-8") for name in names]
     return "\n".join([f"const DATA = {data};", *parts])
 
 
@@ -86,11 +94,32 @@ def page_data() -> dict[str, Any]:
         "version": __version__,
         "atlas": _atlas(shipped("film")),
         "oil": _oils(),
-        "catalogue": {name: row._asdict() for name, row in DEEP_GROOVE.items()},
+        "catalogue": {name: row._asdict() | {"classes": _classes(row)} for name, row in ROWS.items()},
+        "classes": CLASSES,
         "quantities": {name: _quantity(_in_units(name)) for name in OF_INPUTS},
-        "rules": {name: getattr(module, name) for module, names in RULES.items() for name in names},
+        "rules": {name: getattr(module, name) for module, names in RULES.items() for name in names}
+        | {"TRACTION": USUAL_LAW.coefficient, "RELY_ON_SKF": RELY_ON_SKF},
+        "skf": _skf(),
+        "core": base64.b64encode(core_module()).decode("ascii"),
         "lambda": {"smooth": LEAST_LAMBDA, "mixed": MIXED_LAMBDA},
     }
+
+
+def core_module() -> bytes:
+    """The C core with the functions of the page, as WebAssembly; compiled once for every version of the sources.
+
+    Raises
+    ------
+    BuildError
+        No zig to compile it.
+    """
+    sources = {path.name: path.read_bytes() for path in sorted(CSRC.glob("*.[ch]"))}
+    sources[GLUE] = _template(GLUE).read_bytes()
+    return build_module(sources, [name for name in sources if name.endswith(".c")], "bearing")
+
+
+def _template(name: str) -> Traversable:
+    return files("ehlcontact.cli") / "templates" / "explore" / name
 
 
 def _atlas(surface: Surface) -> dict[str, Any]:
@@ -129,6 +158,30 @@ def _oils() -> dict[str, Any]:
     numbers |= {"shift": oil.WALTHER_SHIFT, "density_15": oil.USUAL_DENSITY_15}
     numbers |= {"roelands_p0": ROELANDS_P0, "roelands_log": ROELANDS_LOG}
     return {"walther_slopes": walther, **numbers}
+
+
+def _classes(row: Row) -> dict[str, float]:
+    """Clearance of each class [m]; of bearings that have none, nothing."""
+    if row.contact_angle is not None or row.bore is None:
+        return {}
+    return {name: clearance_of_class(name, row.bore) for name in CLASSES}
+
+
+def _skf() -> dict[str, Any]:
+    """Numbers of SKF's model of friction; constants and boundary diameters of the bearings that have some."""
+    numbers = {
+        "density": skf_friction.USUAL_DENSITY,
+        "K_rs": skf_friction.OIL_BATH,
+        "K_Z": skf_friction.DEEP_GROOVE,
+    }
+    numbers |= {"mu_boundary": skf_friction.MU_BOUNDARY, "mu_film": skf_friction.MU_MINERAL}
+    numbers |= {"pressure": skf_friction.RATED_PRESSURE, "stribeck": skf_friction.STRIBECK}
+    known = {}
+    for name in DEEP_GROOVE:
+        with suppress(InputError):
+            series, bore, outside = skf_friction.boundary_diameters(name)
+            known[name] = {"series": skf_friction.CONSTANTS[series], "bore": bore, "outside": outside}
+    return {**numbers, "constants": known}
 
 
 def _in_units(name: str) -> Quantity:

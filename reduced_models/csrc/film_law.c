@@ -9,8 +9,6 @@
 
 static const double few_moments = 3.0; /* of lag_moments: full relative accuracy */
 
-#define LEAST_MADE 1e-9 /* added to G, so that shares of it exist where a row of gains has no chain */
-
 /* ---- the static curve ---- */
 
 static const double nothing = -400.0; /* ln of a force that is none */
@@ -57,6 +55,12 @@ static double film(const FilmLaw *law, double x, int guess, double *slope, doubl
     *slope = h * dy / w;
     *curvature = h * (dy * dy + ddy) / (w * w);
     return h;
+}
+
+double film_under(const FilmLaw *law, double x)
+{
+    double slope, curvature;
+    return film(law, x, 0, &slope, &curvature);
 }
 
 void film_static(const FilmLaw *law, double u, const Rest *near, Rest *rest)

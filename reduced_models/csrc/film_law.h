@@ -18,6 +18,7 @@ typedef struct {
     double lag_rate, inlet_rate, fast_rate, inlet_saturation, rim;
 } FilmLaw;
 
+#define LEAST_MADE 1e-9 /* added to G, so that shares of it exist where a row of gains has no chain */
 #define LEAST_THETA 0.01      /* of the clock of film_rates: the static force is a millionth of the reference load there */
 #define SHORTEST_STEP 1e-100 /* in units of 2a/u_sum; its square must be a number */
 
@@ -45,6 +46,9 @@ typedef struct {
     double by_state[MOST_RATES];
     double second_state[2][MOST_RATES]; /* of dF/du and dF/dv by each state */
 } FilmInstant;
+
+/* Film h_s under the load e^x. */
+double film_under(const FilmLaw *law, double x);
 
 /* At approach u; `near` is a point close by, which may be `rest` itself, or NULL. */
 void film_static(const FilmLaw *law, double u, const Rest *near, Rest *rest);

@@ -15,9 +15,10 @@ def explore(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="PAGE.html", help="Page to write.")],
     force: Annotated[bool, typer.Option("--force", help="Replace the page if there is one.")] = False,
 ) -> None:
-    """Write a page to explore ball bearings in: films, load zone, stiffness and damping at any speed and load.
+    """Write a page to explore ball bearings in: films, load zone, friction, stiffness and damping at any load.
 
-    One file of 1.4 MB that needs no network: the atlas stands in it, and the browser computes what Python does.
+    One file of 1.6 MB that needs no network: atlas and C core stand in it, and the browser computes what Python
+    does, axial load and preload included.
     """
     require_writable("--output", output, (".html", ".htm"))
     check_new("--output", output, force)

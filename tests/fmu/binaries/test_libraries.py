@@ -19,6 +19,7 @@ from ehlcontact.binaries import (
     PLATFORMS,
     BuildError,
     build_binaries,
+    build_module,
     choose,
     libraries,
     read_library,
@@ -285,3 +286,23 @@ def test_unknown_platform(tmp_path):
     with pytest.raises(InputError, match="platforms = 'win32': must be x86_64-linux"):
         export(ELEMENT, tmp_path / "x.fmu", platforms="win32")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_module_of_webassembly_imports_nothing_and_offers_what_is_visible(tmp_path):
+    visible = b'__attribute__((visibility("default")))'
+    source = (
+        b"#include <math.h>\n"
+        + visible
+        + b"double root(double x) { return sqrt(x); }\nint hidden(void) { return 1; }\n"
+    )
+    module = build_module({"one.c": source}, ["one.c"], "one")
+    assert module == build_module({"one.c": source}, ["one.c"], "one")
+    if shutil.which("node") is not None:
+        (tmp_path / "one.wasm").write_bytes(module)
+        ask = """const module = new WebAssembly.Module(require("fs").readFileSync("one.wasm"));
+        const { exports } = new WebAssembly.Instance(module);
+        console.log(WebAssembly.Module.imports(module).length, exports.root(2), typeof exports.hidden);"""
+        done = subprocess.run(["node", "-e", ask], cwd=tmp_path, capture_output=True, text=True, check=True)
+        assert done.stdout.split() == ["0", str(2.0**0.5), "undefined"]
+    with pytest.raises(BuildError, match="failed"):
+        build_module({"one.c": b"int root(void) { return nothing; }"}, ["one.c"], "one")

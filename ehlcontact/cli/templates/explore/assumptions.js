@@ -17,13 +17,16 @@ function guptaHeating(load, pressure) {
 const wilsonHeating = load => 1 / (1 + 0.1 * (4 * load) ** 0.64);
 const shareText = share => `${(100 * share).toFixed(share < 0.1 ? 1 : 0)} %`;
 
-// Assumptions of the contact of a race under a load [N]: how far beyond its limit, relative, and what it says. Balls
-// leave dents at higher pressures than the atlas has.
-function assumptions(race, atSpeed, load) {
-  const carried = Math.max(load, race.loads(atSpeed.rpm)[0]), point = race.point(carried, atSpeed.rpm);
-  const { eta0 } = race.oil, { a } = race.hertz(carried), u = a / point.time;
-  const pressure = 1.5 * carried * race.kappa / (Math.PI * a * a), film = race.atlas.at(point).h_central * point.length;
-  const heat = temperatureSlope(race.oil) * eta0 * u * u / CONDUCTIVITY, left = guptaHeating(heat, pressure / race.eReduced);
+function thermalLoad(race, point, oil) {
+  const u = race.hertz(point.force).a / point.time;
+  return temperatureSlope(oil) * oil.eta0 * u * u / CONDUCTIVITY;
+}
+
+// Assumptions of a contact: how far beyond its limit, relative, and what it says.
+function assumptions({ race, point }) {
+  const { eta0 } = race.oil, { a } = race.hertz(point.force), u = a / point.time;
+  const pressure = 1.5 * point.force * race.kappa / (Math.PI * a * a), film = race.atlas.at(point).h_central * point.length;
+  const heat = thermalLoad(race, point, race.oil), left = guptaHeating(heat, pressure / race.eReduced);
   const stress = 1.5 * (point.L > 0 ? Math.E : 1) * eta0 * u / film;
   const heated = `shear heats the inlet: film ${shareText(1 - left)} thinner, ${shareText(1 - wilsonHeating(heat))} by Wilson and Sheu`;
   return [
@@ -32,10 +35,10 @@ function assumptions(race, atSpeed, load) {
   ];
 }
 
-// What does not hold at the largest forces on both races, the worse of them; empty where all does.
-function outsideAssumptions(bearing, atSpeed, balls) {
-  const [inner, outer] = ["inner", "outer"].map((name, i) =>
-    assumptions(bearing.races[name], atSpeed, Math.max(...balls.map(ball => ball.force[i]))));
+// What does not hold at the most loaded contacts of both races, the worse of them; empty where all does.
+function outsideAssumptions(loaded) {
+  const heaviest = i => loaded.balls.reduce((best, ball, k) => (ball.force[i] > loaded.balls[best].force[i] ? k : best), 0);
+  const [inner, outer] = RACES.map((_, i) => assumptions(loaded.films[heaviest(i)][i]));
   const worst = inner.map((one, k) => (outer[k][1] > one[1] ? outer[k] : one)).filter(one => one[1] > 0);
   return worst.length ? `Outside what is assumed: ${worst.map(([name, , text]) => `${name} (${text})`).join("; ")}.` : "";
 }

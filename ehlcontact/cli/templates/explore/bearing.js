@@ -1,22 +1,24 @@
-// A ball bearing under a load, in -y, at a speed: reduced_models.bearing.ball_bearing, .equilibrium and .impedance, in SI.
-// Python balances every ball by its approach at the outer race; here ln of the force at the inner race is looked
-// for, from which the approaches of both contacts follow: the same balance, with one search instead of three.
+// A ball bearing under a load at a speed, in SI: reduced_models.bearing.ball_bearing. Equilibrium, contact angles, stiffness and damping
+// are those of the C core; this puts in grooves and races, and reads films of the atlas at the contacts that it finds.
 
-const { LARGEST_PLAY, LEAST_SLIP, POSITIONS, SEATED, TINY_OMEGA } = DATA.rules;
-const BALANCED = 1e-12, ROUNDING = 1e-9, REGULARISATION = 1e-6, FIRST_STEP = 1e-9, LARGEST_ANGLE = 45;
+const { LARGEST_PLAY, LEAST_SLIP, POSITIONS, SEATED, CARRIES, TRACTION } = DATA.rules;
+const LARGEST_ANGLE = Math.PI / 4, RACES = ["inner", "outer"], AXES = ["x", "y", "z"];
+const OF_BALL = ["angle", "force", "approach", "compression", "slope", "factor", "rolling"]; // [inner, outer] each; then:
+const OF_ROLLING = ["orbit", "rotation", "axis"];
 
 class Bearing {
-  // `given`: balls, ball_diameter, pitch_diameter, conformity_inner, conformity_outer, clearance [m]; `oil`: eta0
-  // and alpha.
+  // `given`: balls, ball_diameter, pitch_diameter, conformity_inner, conformity_outer, clearance [m], contact_angle [rad] of an
+  // angular contact bearing, else 0, name in the catalogue; `oil`: eta0 and alpha, temperature_slope where it is known.
   constructor(given, oil, atlas) {
-    Object.assign(this, given, { oil, atlas });
-    const { balls, ball_diameter: D, pitch_diameter: dm, clearance } = given;
+    Object.assign(this, { contact_angle: 0 }, given, { oil, atlas });
+    const { balls, ball_diameter: D, pitch_diameter: dm, clearance, contact_angle: angle } = this;
     if (!(Number.isInteger(balls) && balls >= 3)) throw new InputError("balls", balls, "a whole number >= 3");
+    if (!(angle >= 0 && angle <= LARGEST_ANGLE * (1 + 1e-12))) throw new InputError("contact_angle", angle * 180 / Math.PI, "from 0 to 45 degrees");
     if (dm <= D) throw new InputError("pitch_diameter", dm, `above ball_diameter = ${D}`);
     for (const name of ["conformity_inner", "conformity_outer"])
       if (!(given[name] > 0.5)) throw new InputError(name, given[name], "above 0.5 (a tighter groove pinches the ball)");
       else requireQuantity(name, given[name], DATA.quantities.conformity);
-    this.races = { inner: new Race("inner", this, atlas), outer: new Race("outer", this, atlas) };
+    this.races = RACES.map(name => new Race(name, this, atlas));
     if (D >= dm * Math.sin(Math.PI / balls)) {
       const most = Math.floor(Math.PI / Math.asin(D / dm));
       throw new InputError("balls", balls, `at most ${most} on this pitch circle: they overlap`);
@@ -24,43 +26,24 @@ class Bearing {
     const play = LARGEST_PLAY * D;
     if (!(Math.abs(clearance) <= play))
       throw new InputError("clearance", clearance, `between ${g(-play, 3)} and ${g(play, 3)} m`);
-    for (const race of Object.values(this.races)) race.requireInAtlas();
+    for (const race of this.races) race.requireInAtlas();
   }
 
   get highestSpeed() {
-    return Math.min(this.races.inner.highestSpeed, this.races.outer.highestSpeed);
+    return Math.min(...this.races.map(race => race.highestSpeed));
   }
 
-  // Defect frequencies per turn of the shaft at a contact angle [degrees] (reduced_models.bearing.kinematics), with
-  // the cage slower by the share `slip`.
-  orders(angle = 0, slip = 0) {
-    if (!(angle >= 0 && angle <= LARGEST_ANGLE)) throw new InputError("contact_angle", angle, `0 to ${LARGEST_ANGLE} degrees`);
-    const ratio = this.ball_diameter / this.pitch_diameter, gamma = ratio * Math.cos(angle * Math.PI / 180);
-    return this.named(0.5 * (1 - gamma), 0.5 * (1 - gamma * gamma) / ratio, slip);
+  // Numbers of `Grooves` of csrc/bearing.h: reduced_models.bearing.grooves. Outer race control needs no moments of spin.
+  get grooves() {
+    const { ball_diameter: D, pitch_diameter: dm, conformity_inner: fi, conformity_outer: fo, clearance, contact_angle: angle } = this;
+    const distance = (fi + fo - 1) * D, inner = (fi - 0.5) * D;
+    const free = angle > 0 ? angle : Math.acos(1 - 0.5 * Math.max(clearance, 0) / distance);
+    const centre = angle > 0 ? [distance * Math.cos(angle), distance * Math.sin(angle)] : [distance - 0.5 * clearance, 0];
+    const mass = this.atlas.steel.density * Math.PI / 6 * D ** 3;
+    return [...centre, 0, inner, (fo - 0.5) * D, 0.5 * dm + inner * Math.cos(free), fi * D, D, dm, mass, 1, 0, 0, Math.cos(angle)];
   }
 
-  named(rolling, spin, slip) {
-    if (!(slip > LEAST_SLIP && slip < 1)) throw new InputError("slip", 100 * slip, `above ${100 * LEAST_SLIP} and below 100 %`);
-    const cage = rolling * (1 - slip), gamma = 1 - 2 * rolling;
-    return { FTF: cage, BPFO: this.balls * cage, BPFI: this.balls * (1 - cage), BSF: spin * (1 - slip * gamma / (1 + gamma)) };
-  }
-
-  // Those under a radial and an axial load [N]: the cage turns as the mean of the balls, each with the weight of its
-  // load; and that mean of the contact angles [degrees]. Both races have the same angle here: the centrifugal force
-  // of a ball acts along the line of its contacts. The axis about which a ball turns is that of outer race control,
-  // steeper than the line between both contacts, so it turns slightly faster than at a contact angle that is given.
-  ordersUnder(atSpeed, load, axial, slip = 0) {
-    const { balls } = this.angularEquilibrium(atSpeed, load, axial), ratio = this.ball_diameter / this.pitch_diameter;
-    const total = balls.reduce((sum, ball) => sum + ball.force[0], 0);
-    const mean = read => balls.reduce((sum, ball) => sum + ball.force[0] * read(ball), 0) / total;
-    const gamma = ball => ratio * Math.cos(ball.contact), angle = mean(ball => ball.contact) * 180 / Math.PI;
-    if (!(angle <= LARGEST_ANGLE)) throw new InputError("axial_load", axial, `less: contact angles up to ${LARGEST_ANGLE} degrees`);
-    const spin = ball => 0.5 * (1 - gamma(ball)) * Math.hypot(1 + gamma(ball), ratio * Math.sin(ball.contact)) / ratio;
-    return { angle, orders: this.named(mean(ball => 0.5 * (1 - gamma(ball))), mean(spin), slip) };
-  }
-
-  // Both contacts and the centrifugal force at a speed [rev/min].
-  speedState(rpm) {
+  requireSpeed(rpm) {
     if (!(isFinite(rpm) && rpm >= 0)) throw new InputError("speed_rpm", rpm, "a finite number >= 0");
     if (rpm === 0)
       throw new InputError("speed_rpm", rpm, "> 0 for a bearing with oil: without rolling there is no film");
@@ -68,167 +51,224 @@ class Bearing {
       const allowed = `at most ${g(this.highestSpeed, 5)}, where the atlas ends for this bearing and oil`;
       throw new InputError("speed_rpm", rpm, allowed);
     }
-    const { ball_diameter: D, pitch_diameter: dm } = this, mass = this.atlas.steel.density * Math.PI / 6 * D ** 3;
-    const cage = 0.5 * (1 - D / dm) * rpm * Math.PI / 30, { inner, outer } = this.races;
-    return { rpm, inner: inner.contact(rpm), outer: outer.contact(rpm), centrifugal: mass * 0.5 * dm * cage * cage };
   }
 
-  // One ball whose rings have come closer by delta [m]: ln of its forces, approaches, and dF/d(delta).
-  ball({ inner, outer, centrifugal }, delta) {
-    const both = (inner.kn ** (-2 / 3) + outer.kn ** (-2 / 3)) ** -1.5;
-    let x = Math.max(Math.log(both * Math.max(delta, 0) ** 1.5), inner.x[0]), low = -Infinity, high = Infinity;
-    for (let step = 0; step < 200; step++) {
-      const force = Math.exp(x), x2 = Math.log(force + centrifugal), a = inner.at(x), b = outer.at(x2);
-      const missing = delta - a.approach - b.approach, slope = a.byX + b.byX * force / (force + centrifugal);
-      if (missing > 0) low = x; else high = x;
-      let next = x + Math.min(Math.max(missing / slope, -2), 2);
-      if (Math.min(Math.abs(next - x), high - low) <= 1e-14 * (1 + Math.abs(x)))
-        return { x: [x, x2], approach: [a.approach, b.approach], stiffness: force / slope };
-      if (!(low < next && next < high)) next = 0.5 * (low + high);
-      x = next;
+  // At rest under a force on the inner ring, [Fx, Fy] with axial motion and tilts held or [Fx, Fy, Fz] with tilts held [N].
+  under(load, rpm) {
+    this.requireSpeed(rpm);
+    const axial = load.length > 2;
+    if (this.contact_angle > 0 && !(axial && load[2] > 0))
+      throw new InputError("axial_load", axial ? load[2] : 0, "above 0 with the preload: an angular contact bearing needs an axial load, in one direction");
+    if (axial) this.requireBearableByAll(load, rpm);
+    return new Loaded(this, load, rpm);
+  }
+
+  requireBearableByAll(load, rpm) {
+    const share = Math.hypot(...load) / this.balls;
+    for (const race of this.races) {
+      const highest = race.loads(rpm)[1], allowed = `such that a ball carries at most ${g(highest, 4)} N on the ${race.name} race, `
+        + `the end of the atlas at this speed (here ${g(share, 4)} N in the mean of all balls)`;
+      if (share > highest) throw new InputError("load", load, allowed);
     }
-    throw new Error(`a ball finds no balance at ${delta} m`);
   }
 
-  // Force on the ring at q [m], its slopes, and the balls, the first at `angle`.
-  press(atSpeed, angle, q) {
-    const force = [0, 0], slope = [[0, 0], [0, 0]], balls = [];
-    for (let k = 0; k < this.balls; k++) {
-      const psi = angle + 2 * Math.PI * k / this.balls, n = [Math.cos(psi), Math.sin(psi)];
-      const ball = this.ball(atSpeed, n[0] * q[0] + n[1] * q[1] - 0.5 * this.clearance), F = Math.exp(ball.x[0]);
-      for (let i = 0; i < 2; i++) {
-        force[i] += F * n[i];
-        for (let j = 0; j < 2; j++) slope[i][j] += ball.stiffness * n[i] * n[j];
+  // Defect frequencies per turn of the shaft without a load, and others with the cage slower by the share `slip`
+  // (reduced_models.bearing.kinematics).
+  get orders() {
+    const ratio = this.ball_diameter / this.pitch_diameter, gamma = ratio * Math.cos(this.contact_angle);
+    return this.named(0.5 * (1 - gamma), 0.5 * (1 - gamma * gamma) / ratio);
+  }
+
+  named(cage, spin) {
+    return { FTF: cage, BPFO: this.balls * cage, BPFI: this.balls * (1 - cage), BSF: spin };
+  }
+
+  withSlip({ FTF, BSF }, slip) {
+    if (!(slip > LEAST_SLIP && slip < 1)) throw new InputError("slip", 100 * slip, `above ${100 * LEAST_SLIP} and below 100 %`);
+    const gamma = 1 - 2 * FTF;
+    return this.named(FTF * (1 - slip), BSF * (1 - slip * gamma / (1 + gamma)));
+  }
+}
+
+// A bearing at rest under a load at a speed: ring, balls, films, and what follows from them.
+class Loaded {
+  constructor(bearing, load, rpm) {
+    const core = new Core(), n = load.length, omega = rpm * Math.PI / 30, { lags, lag_rate, inlet_rate, fast_rate } = bearing.atlas.rates;
+    Object.assign(this, { bearing, load, rpm, core, omega });
+    this.ring = core.c.bearing_new(bearing.balls, n, 0, omega, core.put(bearing.grooves));
+    bearing.races.forEach((race, i) => {
+      const { nodes, curve, gains } = race.curve(rpm), law = [race.kn, 2 * race.hertz(1).a / Math.sqrt(race.length), lag_rate, inlet_rate, fast_rate];
+      core.c.bearing_race(this.ring, i, core.put(law), nodes, core.put(curve), lags, core.put(gains));
+    });
+    this.first = Math.atan2(load[1], load[0]);
+    if (load.every(force => force === 0)) this.first = -Math.PI / 2;
+    Object.assign(this, this.stand(this.first));
+    this.requireSeated();
+    this.requireInGrooves();
+    this.requireBearable();
+  }
+
+  // The ring and its balls with the first one at an angle [rad].
+  stand(angle) {
+    const { core, load, bearing: { balls } } = this, n = load.length;
+    const reason = core.text(core.c.bearing_stand(this.ring, angle, core.put(load)));
+    if (reason !== null) {
+      this.bearing.requireBearableByAll(load, this.rpm);
+      throw new Error(reason);
+    }
+    const ring = core.read(core.c.bearing_ring(this.ring), 6 + n * n), width = 2 * OF_BALL.length + OF_ROLLING.length;
+    const all = core.read(core.c.bearing_of_balls(this.ring), width * balls);
+    const ball = row => Object.fromEntries([...OF_BALL.map((name, j) => [name, row.slice(2 * j, 2 * j + 2)]),
+      ...OF_ROLLING.map((name, j) => [name, row[2 * OF_BALL.length + j]])]);
+    const found = Array.from({ length: balls }, (_, k) => ({ psi: angle + 2 * Math.PI * k / balls, ...ball(all.slice(width * k, width * (k + 1))) }));
+    const slope = AXES.slice(0, n).map((_, i) => ring.slice(6 + n * i, 6 + n * (i + 1)));
+    return { q: ring.slice(0, n), stiffness: slope, balls: found };
+  }
+
+  get largest() {
+    return Math.max(...this.balls.map(ball => ball.force[0]));
+  }
+
+  get heaviest() {
+    return this.balls.findIndex(ball => ball.force[0] === this.largest);
+  }
+
+  requireSeated() {
+    const K = this.stiffness, diagonal = K.map((row, i) => row[i]), free = diagonal.indexOf(Math.min(...diagonal));
+    if (determinant(K) > SEATED * diagonal.reduce((sum, one) => sum + one, 0) ** K.length) return;
+    const allowed = K.length === 2 ? "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)"
+      : `one that seats the ring: nothing holds it in ${AXES[free]}; more axial load or preload would`;
+    throw new InputError("load", this.load, allowed);
+  }
+
+  requireInGrooves() {
+    const degrees = angle => g(angle * 180 / Math.PI, 3);
+    this.balls.forEach(({ force, approach, angle }, k) => {
+      if (!(approach[0] + approach[1] > 0 && force[0] > CARRIES * this.largest)) return;
+      const steepest = Math.max(...angle.map(Math.abs));
+      if (steepest > STEEPEST) {
+        const allowed = `one whose contact angles stay below ${degrees(STEEPEST)} degrees (here ${degrees(steepest)} degrees at ball ${k})`;
+        throw new InputError("load", this.load, allowed);
       }
-      balls.push({ ...ball, n, psi, force: ball.x.map(Math.exp) });
-    }
-    return { force, slope, balls };
-  }
-
-  // The ring at rest under a load [N] in -y, the first ball at `angle` (reduced_models.rotor.equilibrium).
-  ringEquilibrium(atSpeed, load, angle = -Math.PI / 2) {
-    const q = balanced(q => this.press(atSpeed, angle, q), [0, -load]);
-    const { slope, balls } = this.press(atSpeed, angle, q), trace = slope[0][0] + slope[1][1];
-    if (!(slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0] > SEATED * trace * trace)) {
-      const allowed = "one that presses balls on both sides of its direction; or preload the bearing (clearance < 0)";
-      throw new InputError("load", load, allowed);
-    }
-    this.requireCarried(atSpeed, load, balls);
-    return { q, stiffness: slope, balls };
-  }
-
-  // Force on the ring at q = (y, z) [m] with contact angles, a ball under the load: along the lines of groove centres.
-  pressAtAngles(atSpeed, q) {
-    const grooves = (this.conformity_inner + this.conformity_outer - 1) * this.ball_diameter;
-    const force = [0, 0], slope = [[0, 0], [0, 0]], balls = [];
-    for (let k = 0; k < this.balls; k++) {
-      const down = Math.sin(-Math.PI / 2 + 2 * Math.PI * k / this.balls), radial = grooves - 0.5 * this.clearance + down * q[0];
-      const length = Math.hypot(radial, q[1]), [c, s] = [radial / length, q[1] / length];
-      const ball = this.ball(atSpeed, length - grooves), F = Math.exp(ball.x[0]), along = [c * down, s], beside = [-s * down, c];
-      for (let i = 0; i < 2; i++) {
-        force[i] += F * along[i];
-        for (let j = 0; j < 2; j++) slope[i][j] += ball.stiffness * along[i] * along[j] + F / length * beside[i] * beside[j];
+      if (this.bearing.contact_angle > 0 && Math.min(...angle) < 0) {
+        const allowed = "one with more axial force in +z: an angular contact bearing carries it in this direction only";
+        throw new InputError("load", this.load, `${allowed} (ball ${k} runs at ${degrees(Math.min(...angle))} degrees)`);
       }
-      balls.push({ ...ball, contact: Math.atan2(q[1], radial), force: ball.x.map(Math.exp) });
-    }
-    return { force, slope, balls };
+    });
   }
 
-  // The ring at rest under a load in -y and one along the shaft [N], tilts held.
-  angularEquilibrium(atSpeed, load, axial) {
-    const q = balanced(q => this.pressAtAngles(atSpeed, q), [-load, axial]), { balls } = this.pressAtAngles(atSpeed, q);
-    this.requireCarried(atSpeed, Math.hypot(load, axial), balls);
-    return { q, balls };
-  }
-
-  requireCarried(atSpeed, load, balls) {
-    ["inner", "outer"].forEach((name, i) => {
-      const most = Math.max(...balls.map(ball => ball.force[i])), highest = this.races[name].loads(atSpeed.rpm)[1];
+  requireBearable() {
+    this.bearing.races.forEach((race, i) => {
+      const most = Math.max(...this.balls.map(ball => ball.force[i])), highest = race.loads(this.rpm)[1];
       if (most <= highest) return;
-      const [what, value] = load > 0 ? ["load", load] : ["clearance", this.clearance];
-      const allowed = `such that a ball carries at most ${g(highest, 4)} N on the ${name} race, `
+      const none = this.load.every(force => force === 0) && this.bearing.clearance < 0;
+      const [what, value] = none ? ["clearance", this.bearing.clearance] : ["load", this.load];
+      const allowed = `such that a ball carries at most ${g(highest, 4)} N on the ${race.name} race, `
         + `the end of the atlas at this speed (here ${g(most, 4)} N)`;
       throw new InputError(what, value, allowed);
     });
   }
 
-  // Central and smallest film [m] of a ball with both races; below the lightest load of the atlas both are the gap.
-  films(atSpeed, ball) {
-    return ["inner", "outer"].map((name, i) => {
-      const race = this.races[name], load = ball.force[i];
-      if (load < race.loads(atSpeed.rpm)[0]) {
-        const gap = (load / race.kn) ** (2 / 3) - ball.approach[i];
-        return { h_central: gap, h_min: gap };
+  // The contact of a ball with a race: with its own angle and speeds.
+  race(ball, i) {
+    const nominal = this.bearing.races[i], same = this.bearing.contact_angle === 0 && ball.angle[i] === 0;
+    if (same && Math.abs(ball.rolling[i] / nominal.rolling - 1) < INSIDE) return nominal;
+    return new Race(RACES[i], this.bearing, this.bearing.atlas, ball.angle[i], ball.rolling[i]);
+  }
+
+  // Films [m] of every ball at both races, moments of their pressure [N m], answers of the atlas where it has the load, Hertz pressures
+  // [Pa]. Below the lightest load of the atlas both films are the gap, and the moment is that of the lightest load.
+  get films() {
+    this.found ??= this.balls.map(ball => RACES.map((name, i) => {
+      const race = this.race(ball, i), load = ball.force[i], [lightest, highest] = race.loads(this.rpm);
+      if (this.rpm > race.highestSpeed) {
+        const allowed = `at most ${g(race.highestSpeed, 5)}, where the atlas ends at a contact angle of ${g(ball.angle[i], 3)} rad`;
+        throw new InputError("speed_rpm", this.rpm, allowed);
       }
-      const point = race.point(load, atSpeed.rpm), answer = this.atlas.at(point);
-      return { answer, point, h_central: answer.h_central * point.length, h_min: answer.h_min * point.length };
-    });
+      if (load > highest) {
+        const allowed = `such that a ball carries at most ${g(highest, 4)} N on the ${name} race, the end of the atlas at this speed (here ${g(load, 4)} N)`;
+        throw new InputError("load", this.load, allowed);
+      }
+      const point = race.point(Math.max(load, lightest), this.rpm), answer = this.bearing.atlas.at(point), { a } = race.hertz(point.force);
+      const moment = answer.moment * point.force * a, pressure = load > 0 ? 1.5 * load * race.kappa / (Math.PI * race.hertz(load).a ** 2) : 0;
+      if (load >= lightest) return { race, point, answer, moment, pressure, h_central: answer.h_central * point.length, h_min: answer.h_min * point.length };
+      const gap = (load / this.bearing.races[i].kn) ** (2 / 3) - ball.approach[i];
+      return { race, point, moment, pressure, h_central: gap, h_min: gap };
+    }));
+    return this.found;
   }
 
-  // K [N/m] and C [N s/m] along and across the load at angular frequencies [rad/s], means over a ball passage.
-  coefficients(atSpeed, load, omegas) {
-    const rows = omegas.map(() => ({ along: [0, 0], across: [0, 0] }));
+  // Torque on the shaft [N m] that the films of rolling balls take, and that of sliding under the usual traction law: those of
+  // reduced_models.bearing.sliding, rolling times what heat leaves of the inlet where the oil is known.
+  get torque() {
+    const { oil } = this.bearing, { roelands_p0: p0, roelands_log } = DATA.oil, q = Math.log(oil.eta0) + roelands_log;
+    let rolling = 0, sliding = 0;
+    this.balls.forEach((ball, k) => this.films[k].forEach(({ race, point, moment, pressure, answer, h_central }, i) => {
+      const speed = 0.5 * race.rolling * this.omega, f = 2 * race.conformity;
+      rolling += 0.5 * race.rolling * moment / race.radiusX;
+      if (!answer) return;
+      const { a } = race.hertz(point.force), across = f * race.D / (f + 1);
+      const contact = [a, a / race.kappa, pressure, race.radiusX, across, speed, h_central, this.spin(ball, i)];
+      contact.push(Math.log(oil.eta0), q, oil.alpha * p0 / q, p0, TRACTION);
+      sliding += this.core.c.sliding_power(this.core.put(contact)) / this.omega;
+    }));
+    const { race, point } = this.films[this.heaviest][0];
+    const heat = oil.temperature_slope === undefined ? 1 : wilsonHeating(thermalLoad(race, point, oil));
+    return { rolling: heat * rolling, sliding, heat, skf: this.skf };
+  }
+
+  // Moment of friction by SKF's published model [N m] (reduced_models.bearing.skf_friction); null of a bearing without its constants.
+  get skf() {
+    const { constants, density, K_rs, K_Z, mu_boundary, mu_film, pressure, stribeck } = DATA.skf, own = constants[this.bearing.name];
+    if (own === undefined || this.bearing.contact_angle > 0) return null;
+    const { series: [r1, r2, s1, s2], bore, outside } = own, dm = 0.5 * (bore + outside), nu = 1e6 * this.bearing.oil.eta0 / density;
+    const n = this.rpm, radial = Math.hypot(this.load[0], this.load[1]), axial = Math.abs(this.load[2] ?? 0);
+    let rolling = r1 * dm ** 1.96 * radial ** 0.54, sliding = s1 * dm ** -0.26 * radial ** (5 / 3);
+    if (axial > 0) {
+      const inner = this.bearing.races[0], unit = 1.5 * inner.kappa / (Math.PI * inner.hertz(1).a ** 2);
+      const rating = this.bearing.balls * (pressure / unit) ** 3 / stribeck, angle = 24.6 * (axial / rating) ** 0.24;
+      if (angle > 90) return null;
+      const slope = Math.sin(angle * Math.PI / 180);
+      rolling = r1 * dm ** 1.96 * (radial + r2 * axial / slope) ** 0.54;
+      sliding = s1 * dm ** -0.145 * (radial ** 5 + s2 * dm ** 1.5 * axial ** 4 / slope) ** (1 / 3);
+    }
+    const heat = 1 / (1 + 1.84e-9 * (n * dm) ** 1.28 * nu ** 0.64);
+    const supply = Math.exp(-K_rs * nu * n * (bore + outside) * Math.sqrt(K_Z / (2 * (outside - bore))));
+    const boundary = Math.exp(-2.6e-8 * (n * nu) ** 1.4 * dm), mu = boundary * mu_boundary + (1 - boundary) * mu_film;
+    return 1e-3 * (heat * supply * rolling * (nu * n) ** 0.6 + sliding * mu);
+  }
+
+  // Spin over rolling of a contact: reduced_models.bearing.ring. Balls of a radial load have none.
+  spin({ angle, axis, rotation, orbit }, i) {
+    if (this.load.length < 3) return 0;
+    const a = angle[i], turn = i === 0 ? 1 - orbit : -orbit;
+    const by = turn * Math.sin(a) + rotation * Math.sin(a - axis), roll = turn * Math.cos(a) + rotation * Math.cos(a - axis);
+    return by / roll;
+  }
+
+  // Defect frequencies per turn of the shaft: the cage turns as the mean of the balls, each with the weight of its load.
+  get orders() {
+    const total = this.balls.reduce((sum, ball) => sum + ball.force[0], 0);
+    if (this.load.length < 3 || total === 0) return this.bearing.orders;
+    const mean = name => this.balls.reduce((sum, ball) => sum + ball.force[0] * ball[name], 0) / total;
+    return this.bearing.named(mean("orbit"), mean("rotation"));
+  }
+
+  // K [N/m] and C [N s/m] at angular frequencies [rad/s], rows over x, y and z: means over a ball passage.
+  coefficients(omegas) {
+    const { core, bearing } = this, size = AXES.length ** 2, at = core.put(omegas), sum = core.c.numbers(2 * size * omegas.length);
     for (let k = 0; k < POSITIONS; k++) {
-      const { balls } = this.ringEquilibrium(atSpeed, load, -Math.PI / 2 + 2 * Math.PI / this.balls * k / POSITIONS);
-      for (const ball of balls) this.add(atSpeed, ball, omegas, rows);
+      this.stand(this.first + 2 * Math.PI / bearing.balls * k / POSITIONS);
+      core.c.bearing_vibrate(this.ring, 1 / POSITIONS, omegas.length, at, sum);
     }
-    const named = ([K, C]) => ({ stiffness: K / POSITIONS, damping: C / POSITIONS });
-    return rows.map(row => ({ along: named(row.along), across: named(row.across) }));
-  }
-
-  // Both contacts of a ball in series.
-  add(atSpeed, { x, n }, omegas, rows) {
-    const inner = atSpeed.inner.impedance(x[0]), outer = atSpeed.outer.impedance(x[1]);
-    omegas.forEach((omega, i) => {
-      const w = Math.max(omega, TINY_OMEGA), [a, b] = inner(w), [c, d] = outer(w);
-      const re = a + c, im = b + d, over = re * re + im * im, pr = a * c - b * d, pi = a * d + b * c;
-      const K = (pr * re + pi * im) / over, C = (pi * re - pr * im) / over / w;
-      rows[i].along[0] += K * n[1] * n[1]; rows[i].along[1] += C * n[1] * n[1];
-      rows[i].across[0] += K * n[0] * n[0]; rows[i].across[1] += C * n[0] * n[0];
-    });
+    const all = core.read(sum, 2 * size * omegas.length), n = this.load.length;
+    const matrix = from => AXES.slice(0, n).map((_, i) => all.slice(from + 3 * i, from + 3 * i + n));
+    return omegas.map((_, f) => ({ stiffness: matrix(2 * size * f), damping: matrix(2 * size * f + size) }));
   }
 }
 
-// Where `press` gives this force on the ring [N]: Newton's method, and searches along its steps.
-function balanced(press, wanted) {
-  const size = v => Math.hypot(...v), plus = (q, t, step) => [q[0] + t * step[0], q[1] + t * step[1]], load = size(wanted);
-  const balance = q => { const { force } = press(q); return [force[0] - wanted[0], force[1] - wanted[1]]; };
-  const search = (q, step) => plus(q, root(t => { const r = balance(plus(q, t, step)); return step[0] * r[0] + step[1] * r[1]; }), step);
-  let q = [0, 0];
-  if (load > 0) {
-    const way = wanted.map(one => one / load), missing = balance(q), sign = -Math.sign(way[0] * missing[0] + way[1] * missing[1]);
-    q = search(q, way.map(one => FIRST_STEP * sign * one));
-  }
-  for (let step = 0; load > 0; step++) {
-    const { force, slope: [[a, b], [c, d]] } = press(q), r = [force[0] - wanted[0], force[1] - wanted[1]];
-    const error = size(r), soft = REGULARISATION * Math.max(a + d, load), det = (a + soft) * (d + soft) - b * c;
-    if (error <= BALANCED * load || (step > 30 && error <= ROUNDING * load)) break;
-    if (step > 100) throw new Error("static equilibrium not found");
-    const go = [(b * r[1] - (d + soft) * r[0]) / det, (c * r[0] - (a + soft) * r[1]) / det];
-    q = size(balance(plus(q, 1, go))) < 0.5 * error || error <= ROUNDING * load ? plus(q, 1, go) : search(q, go);
-  }
-  return q;
-}
-
-// Where a rising function that is negative at 0 becomes 0: doubling, then the Illinois rule.
-function root(along) {
-  let low = 0, below = along(0), high = 1, above = along(1);
-  if (below >= 0) return 0;
-  for (let step = 0; above < 0; step++) {
-    if (step > 60) throw new Error("the contacts do not hold the load");
-    [low, below, high] = [high, above, 2 * high];
-    above = along(high);
-  }
-  for (let step = 0, side = 0; step < 100 && high - low > 1e-12 * high; step++) {
-    const t = (low * above - high * below) / (above - below), value = along(t);
-    if (value === 0) return t;
-    if (value < 0) {
-      if (side < 0) above /= 2;
-      [low, below, side] = [t, value, -1];
-    } else {
-      if (side > 0) below /= 2;
-      [high, above, side] = [t, value, 1];
-    }
-  }
-  return 0.5 * (low + high);
+function determinant(m) {
+  if (m.length === 2) return m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  const minor = (i, j) => m[1][i] * m[2][j] - m[1][j] * m[2][i];
+  return m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1);
 }

@@ -37,10 +37,13 @@ function requireQuantity(field, value, quantity) {
   throw new InputError(field, value, guess ? `${allowed} (${guess})` : allowed);
 }
 
+function bytes(base64) {
+  return Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
+}
+
 // Little-endian numbers out of base64; `kind` is Float64Array or Float32Array.
 function floats(base64, kind = Float64Array) {
-  const bytes = Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
-  return new kind(bytes.buffer);
+  return new kind(bytes(base64).buffer);
 }
 
 // Index of the interval of the increasing array `x` that `at` lies in, or is nearest to.

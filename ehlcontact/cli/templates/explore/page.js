@@ -1,15 +1,16 @@
-// The page: what is typed to a bearing, what is found to tables and pictures, and all of it in the address.
+// The page: what is typed to a bearing, its answers to tiles, tables and pictures, and all that is typed in the address.
 
 const FIELDS = [...document.querySelectorAll("#inputs input, #inputs select")].map(input => input.name);
-const SIZES = ["balls", "ball_diameter", "pitch_diameter", "conformity_inner", "conformity_outer"];
-const OWN = "own", SIZE = { mm: 1e-3, "µm": 1e-6, "mPa s": 1e-3, "1/GPa": 1e-9 };
+const SIZES = ["balls", "ball_diameter", "pitch_diameter", "conformity_inner", "conformity_outer", "contact_angle"];
+const OWN = "own", SIZE = { mm: 1e-3, "µm": 1e-6, "mPa s": 1e-3, "1/GPa": 1e-9, "°": Math.PI / 180 };
 const RANGED = { conformity_inner: "conformity", conformity_outer: "conformity" }; // that share a range of inputs
 const USUAL = [0.25e-5, 2.5e-5]; // s, damping over stiffness: Kraemer, Dynamics of Rotors and Foundations, 1993
 const DEFECTS = { FTF: "cage", BPFO: "balls on the outer race", BPFI: "balls on the inner race", BSF: "spin of a ball" };
+const WAYS = { along: 1, across: 0, axial: 2 }; // place among the axes of the bearing
 const FREQUENCIES = 90, SHOWN = 14; // of curves; of a table
 const field = name => document.getElementById(name);
 const atlas = new Atlas(DATA.atlas);
-let found = null;
+let current = null;
 
 function typed(name) {
   const text = field(name).value.trim(), value = Number(text);
@@ -27,15 +28,30 @@ function positive(name, least = "> 0") {
   throw new InputError(name, typed(name), `a finite number ${least}`);
 }
 
-// Names bring their dimensions and oils by grade their viscosity: shown where one's own would stand.
+function requireFinite(name) {
+  const value = given(name);
+  if (isFinite(value)) return value;
+  throw new InputError(name, typed(name), "a finite number");
+}
+
+// Dimensions of a name, in SI; undefined for those of one's own.
+function catalogued() {
+  const row = DATA.catalogue[field("bearing").value];
+  return row && { ...row, conformity_inner: row.conformity, conformity_outer: row.conformity, contact_angle: row.contact_angle ?? 0 };
+}
+
+// Names bring their dimensions, classes their clearance and oils by grade their viscosity: shown where one's own would stand.
 function fillIn() {
-  const bearing = DATA.catalogue[field("bearing").value], grade = field("grade").value;
-  if (bearing) {
-    const row = { ...bearing, conformity_inner: bearing.conformity, conformity_outer: bearing.conformity };
-    for (const name of SIZES) field(name).value = g(row[name] / (SIZE[field(name).dataset.unit] ?? 1), 8);
-    field("source").textContent = bearing.sourced ? `Dimensions: ${bearing.source}.` : `Dimensions: ${bearing.source}; measure yours.`;
-  } else field("source").textContent = "";
-  for (const name of SIZES) field(name).readOnly = Boolean(bearing);
+  const row = catalogued(), grade = field("grade").value, classes = row?.classes ?? {}, chosen = classes[field("clearance_class").value];
+  const text = (name, value) => { field(name).value = g(value / (SIZE[field(name).dataset.unit] ?? 1), 8); };
+  if (row) for (const name of SIZES) text(name, row[name]);
+  field("source").textContent = row ? `Dimensions: ${row.source}${row.sourced ? "." : "; measure yours."}` : "";
+  for (const name of SIZES) field(name).readOnly = Boolean(row);
+  const angular = Number(field("contact_angle").value) > 0;
+  field("clearance_class").disabled = Object.keys(classes).length === 0;
+  field("clearance").readOnly = chosen !== undefined;
+  field("clearance").disabled = angular;
+  if (chosen !== undefined) text("clearance", chosen);
   for (const name of ["eta0", "alpha"]) field(name).readOnly = grade !== OWN;
   field("temperature").disabled = grade === OWN;
   if (grade === OWN) return;
@@ -49,26 +65,25 @@ function fillIn() {
 }
 
 function compute() {
-  const name = field("bearing").value, row = DATA.catalogue[name], grade = field("grade").value;
-  const sizes = row && { ...row, conformity_inner: row.conformity, conformity_outer: row.conformity };
-  const bearing = { clearance: given("clearance") };
+  const sizes = catalogued(), grade = field("grade").value, bearing = { name: field("bearing").value };
   for (const size of SIZES) bearing[size] = sizes ? sizes[size] : given(size);
+  bearing.clearance = bearing.contact_angle > 0 ? 0 : given("clearance");
   const oil = grade === OWN ? { eta0: given("eta0"), alpha: given("alpha") } : mineralOil(DATA.oil, grade, typed("temperature"));
-  const rq = positive("rq"), ratio = positive("ratio", ">= 0");
+  const rq = positive("rq"), ratio = positive("ratio", ">= 0"), slip = 0.01 * typed("slip");
   const whole = new Bearing(bearing, oil, atlas), rpm = typed("speed_rpm"), load = positive("load", ">= 0");
-  const axial = positive("axial_load", ">= 0"), slip = 0.01 * typed("slip");
-  const atSpeed = whole.speedState(rpm), state = whole.ringEquilibrium(atSpeed, load), films = state.balls.map(ball => whole.films(atSpeed, ball));
-  const typedAngle = typed("contact_angle"), byAngle = { angle: typedAngle, orders: whole.orders(typedAngle, slip) };
-  const { angle, orders } = axial > 0 ? whole.ordersUnder(atSpeed, load, axial, slip) : byAngle;
-  const times = ["inner", "outer"].map((race, i) => whole.races[race].point(state.balls[0].force[i], rpm).time);
-  const highest = Math.min(...times.map(time => atlas.highest_omega / (2 * Math.PI * time)));
+  const axial = requireFinite("axial_load") + positive("preload", ">= 0");
+  const there = whole.under(axial === 0 ? [0, -load] : [0, -load, axial], rpm), { heaviest } = there, films = there.films[heaviest];
+  const highest = Math.min(...films.map(({ point }) => atlas.highest_omega / (2 * Math.PI * point.time)));
   const hz = field("hz").value.trim() === "" ? rpm / 60 : positive("hz", ">= 0");
   if (hz > highest) throw new InputError("hz", hz, `at most ${g(highest, 4)}: there the atlas ends for the film's memory`);
   const low = Math.min(1, rpm / 600), hzs = Array.from({ length: FREQUENCIES }, (_, i) => low * (highest / low) ** (i / (FREQUENCIES - 1)));
-  const rows = whole.coefficients(atSpeed, load, [0, hz, ...hzs].map(one => 2 * Math.PI * one));
-  const contacts = films[0].map(film => film.answer && contact(film));
-  const outside = outsideAssumptions(whole, atSpeed, state.balls);
-  return { outside, whole, orders, angle, axial, slip, rpm, load, rq, ratio, state, films, hz, hzs, contacts, still: rows[0], there: rows[1], over: rows.slice(2) };
+  const balls = there.balls, torque = there.torque, outside = outsideAssumptions(there), orders = whole.withSlip(there.orders, slip);
+  const rows = there.coefficients([0, hz, ...hzs].map(one => 2 * Math.PI * one));
+  const contacts = films.map(film => film.answer && contact(film)), ways = Object.keys(WAYS).filter(way => WAYS[way] < rows[0].stiffness.length);
+  const worst = balls.flatMap((_, k) => RACES.map((_, i) => [k, i]))
+    .reduce((best, next) => (there.films[next[0]][next[1]].h_min < there.films[best[0]][best[1]].h_min ? next : best));
+  return { whole, there, balls, heaviest, worst, films, outside, orders, torque, axial, slip, rpm, load, rq, ratio, hz, hzs, contacts, ways,
+    still: rows[0], at: rows[1], over: rows.slice(2) };
 }
 
 // K and C of one film in SI, with their bars: hz => { K: [value, bar], C: [value, bar] }.
@@ -85,45 +100,64 @@ function give(value, bar, size = 1) {
     : `${show(value * size)} ± ${show(bar * size, 2)}`;
 }
 
-function filmRows({ state, films, rq }) {
-  const [inner, outer] = films[0].map(({ answer, point, h_central, h_min }, i) => {
-    const force = show(state.balls[0].force[i], 4);
-    if (!answer) return [force, show(h_central * 1e6), show(h_min * 1e6), show(h_min / rq)];
+function filmRows({ there, heaviest, films, rq }) {
+  const ball = there.balls[heaviest];
+  const [inner, outer] = films.map(({ answer, point, pressure, h_central, h_min }, i) => {
+    const carried = [show(ball.force[i], 4), show(pressure * 1e-9), show(ball.angle[i] * 180 / Math.PI)];
+    if (!answer) return [...carried, show(h_central * 1e6), show(h_min * 1e6), show(h_min / rq)];
     const { h_central: central, h_min: least } = answer.error, length = point.length;
-    const films = [give(h_central, central * length, 1e6), give(h_min, least * length, 1e6)];
-    return [force, ...films, give(h_min, least * length, 1 / rq)];
+    return [...carried, give(h_central, central * length, 1e6), give(h_min, least * length, 1e6), give(h_min, least * length, 1 / rq)];
   });
-  return ["load [N]", "film in the centre [µm]", "smallest film [µm]", "lambda ratio"].map((name, i) => [name, inner[i], outer[i]]);
+  const names = ["load [N]", "Hertz pressure [GPa]", "contact angle [°]", "film in the centre [µm]", "smallest film [µm]", "lambda ratio"];
+  return names.map((name, i) => [name, inner[i], outer[i]]);
 }
 
-function frequencyRows({ contacts, hz, there, still, ratio }) {
+const IN_WORDS = { along: "along the radial load", across: "across it", axial: "along the shaft" };
+
+// K [N/m], C [N s/m] of a direction.
+const entry = (row, way) => ({ K: row.stiffness[WAYS[way]][WAYS[way]], C: row.damping[WAYS[way]][WAYS[way]] });
+
+function frequencyRows({ contacts, hz, at, still, ratio, ways }) {
   const rows = contacts.map((one, i) => {
-    const name = `contact of the most loaded ball, ${i ? "outer" : "inner"} race`;
+    const name = `contact of the most loaded ball, ${RACES[i]} race`;
     if (!one) return [name, "–", "–"];
     const { K, C } = one(hz);
     return [name, give(...K, 1e-6), give(...C)];
   });
-  for (const way of ["along", "across"])
-    rows.push([`whole bearing, ${way} the load`, show(there[way].stiffness * 1e-6), show(there[way].damping)]);
-  const K = still.along.stiffness;
+  for (const way of ways) rows.push([`whole bearing, ${IN_WORDS[way]}`, show(entry(at, way).K * 1e-6), show(entry(at, way).C)]);
+  const { K } = entry(still, "along");
   rows.push([`guessed for it: c = ${show(ratio)} s × k`, show(K * 1e-6), show(ratio * K)]);
   return rows;
 }
 
-function headline({ state, films, rq, there, still, ratio, hz }) {
-  const loaded = state.balls.filter(ball => ball.approach[0] + ball.approach[1] > 0).length;
-  const lambda = Math.min(...films[0].map(film => film.h_min)) / rq, C = there.along.damping;
-  const times = ratio * still.along.stiffness / C;
-  const guess = times > 1 ? `${show(times, 2)} times that` : `${show(100 * times, 2)} % of that`;
-  const { smooth, mixed } = DATA.lambda, rough = lambda >= mixed ? ", mixed: asperities touch" : ", boundary: asperities touch all the time";
-  return `${loaded} of ${state.balls.length} balls are pressed by both rings. The heaviest carries ${show(state.balls[0].force[0])} N `
-    + `on a film of at least ${show(lambda * rq * 1e6)} µm: lambda ${show(lambda)}${lambda >= smooth ? "" : rough}. Along the load the films of the bearing damp `
-    + `${show(C)} N s/m at ${show(hz, 4)} Hz; the guess is ${guess}.`;
+// A whole number in groups of three digits, not above the value.
+const thousands = value => String(Math.floor(value)).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+
+// What is asked first: rows of name, value, and what belongs to it.
+function tiles(f) {
+  const [k, i] = f.worst, lambda = f.there.films[k][i].h_min / f.rq, { smooth, mixed } = DATA.lambda, ball = f.balls[f.heaviest];
+  const touching = lambda >= smooth ? "" : lambda >= mixed ? "; mixed: asperities touch" : "; boundary: asperities touch all the time";
+  const pressed = f.balls.filter(({ approach }) => approach[0] + approach[1] > 0).length;
+  const K = f.ways.map(way => show(entry(f.at, way).K * 1e-6)), C = f.ways.map(way => show(entry(f.at, way).C));
+  const others = f.ways.slice(1).map((way, j) => `${IN_WORDS[way]} ${K[j + 1]} and ${C[j + 1]}`).join(", ");
+  const { rolling, sliding, skf } = f.torque, relies = skf !== null && f.rpm > DATA.rules.RELY_ON_SKF, torque = relies ? skf : rolling + sliding;
+  const films = `rolling ${show(rolling * 1e3)}, sliding ${show(sliding * 1e3)} N mm`, hz = name => show(f.orders[name] * f.rpm / 60, 4);
+  const parts = relies ? `by SKF's model; films alone: ${films}` : skf === null ? films : `${films}; SKF's model ${show(skf * 1e3)} N mm`;
+  const angles = f.axial === 0 ? "" : `; contact angle ${ball.angle.map(angle => show(Math.abs(angle) * 180 / Math.PI)).join("° and ")}°`;
+  return [
+    ["Thinnest film", `${show(f.there.films[k][i].h_min * 1e6)} µm, lambda ${show(lambda)}`, `${RACES[i]} race, ball at ${degrees(f, k)}°${touching}`],
+    ["Heaviest ball", `${show(ball.force[0])} N, ${show(Math.max(...f.films.map(film => film.pressure)) * 1e-9)} GPa`,
+      `${pressed} of ${f.balls.length} balls are pressed by both rings${angles}`],
+    [`K and C at ${show(f.hz, 4)} Hz`, `${K[0]} N/µm, ${C[0]} N s/m`, `${IN_WORDS.along}; ${others}`],
+    ["Friction torque", `${show(torque * 1e3)} N mm, ${show(torque * f.rpm * Math.PI / 30)} W`, `${parts}; without seals`],
+    ["Defect frequencies", `BPFO ${hz("BPFO")} Hz, BPFI ${hz("BPFI")} Hz`,
+      `FTF ${hz("FTF")}, BSF ${hz("BSF")} Hz; films are known up to ${thousands(f.whole.highestSpeed)} rev/min`],
+  ];
 }
 
 function drawAll(f) {
   const x = { low: f.hzs[0], high: f.hzs.at(-1), label: "frequency of the vibration [Hz]" };
-  const ways = ["inner", "outer"], put = (id, label, unit, log, series, bands) => {
+  const put = (id, label, unit, log, series, bands) => {
     const values = [...series.flatMap(one => one.points.map(p => p[1])), ...bands.flatMap(one => one.points.flatMap(p => p.slice(1)))];
     const box = field(id), y = { ...range(values, log), label: unit };
     box.innerHTML = curves(box.clientWidth || 560, { x, y, series, bands, mark: f.hz, label });
@@ -133,61 +167,60 @@ function drawAll(f) {
     f.contacts.forEach((one, i) => {
       if (!one) return;
       const values = f.hzs.map(hz => [hz, ...one(hz)[letter].map(v => v * size)]);
-      series.push({ points: values, kind: ways[i] });
-      bands.push({ points: values.map(([hz, v, bar]) => [hz, v - bar, v + bar]), kind: ways[i] });
+      series.push({ points: values, kind: RACES[i] });
+      bands.push({ points: values.map(([hz, v, bar]) => [hz, v - bar, v + bar]), kind: RACES[i] });
     });
     const what = letter === "K" ? "Stiffness" : "Damping";
     const label = `${what} of the contacts of the most loaded ball over frequency, with error bars`;
     if (series.length) put(id, label, unit, log, series, bands);
     else field(id).innerHTML = "<p>Lighter than any contact of the atlas: the bodies are as good as rigid there.</p>";
   }
-  const line = (name, way, size) => f.over.map((row, i) => [f.hzs[i], row[way][name] * size]);
-  const both = (name, size) => ["along", "across"].map(way => ({ points: line(name, way, size), kind: way }));
-  const K = f.still.along.stiffness, level = c => f.hzs.map(hz => [hz, c * K]);
-  put("bearing_k", "Stiffness of the whole bearing over frequency, along and across the load", "N/µm", false, both("stiffness", 1e-6), []);
-  put("bearing_c", "Damping of the whole bearing over frequency, along and across the load, and as guessed", "N s/m", true,
-    [...both("damping", 1), { points: level(f.ratio), kind: "guess" }],
+  const curve = (letter, size) => f.ways.map(way => ({ points: f.over.map((row, i) => [f.hzs[i], entry(row, way)[letter] * size]), kind: way }));
+  const { K } = entry(f.still, "along"), level = c => f.hzs.map(hz => [hz, c * K]);
+  put("bearing_k", "Stiffness of the whole bearing over frequency, along and across the load and along the shaft", "N/µm", false, curve("K", 1e-6), []);
+  put("bearing_c", "Damping of the whole bearing over frequency, along and across the load and along the shaft, and as guessed", "N s/m", true,
+    [...curve("C", 1), { points: level(f.ratio), kind: "guess" }],
     [{ points: f.hzs.map(hz => [hz, USUAL[0] * K, USUAL[1] * K]), kind: "guess" }]);
-  const { ball_diameter, pitch_diameter } = f.whole, zone = field("zone");
-  const label = `Balls between the rings: ${f.state.balls.map((ball, k) => `${show(ball.force[0])} N at ${degrees(f, k)}°`).join(", ")}`;
-  zone.innerHTML = loadZone(zone.clientWidth || 340, f.state.balls, { ball: ball_diameter / 2, pitch: pitch_diameter / 2 }, label);
+  const { ball_diameter, pitch_diameter } = f.whole, zone = field("zone"), ahead = f.load > 0 || f.axial === 0;
+  const label = `Balls between the rings: ${f.balls.map((ball, k) => `${show(ball.force[0])} N at ${degrees(f, k)}°`).join(", ")}`;
+  zone.innerHTML = loadZone(zone.clientWidth || 340, f.balls, { ball: ball_diameter / 2, pitch: pitch_diameter / 2 }, label, ahead);
 }
 
 const degrees = (f, k) => show(360 * k / f.whole.balls, 4);
 
 function tables(f) {
-  field("headline").textContent = headline(f);
+  field("tiles").innerHTML = tiles(f).map(([name, value, more]) => `<div class="tile"><h2>${name}</h2><p class="value">${value.replace(/(\d) /g, "$1\u00a0").replace(/N s/, "N\u00a0s")}</p><p class="note">${more}</p></div>`).join("");
   field("outside").textContent = f.outside;
   field("outside").hidden = f.outside === "";
-  field("python").textContent = inPython();
-  field("films").innerHTML = table("Most loaded ball, right under the load", ["", "inner race", "outer race"], filmRows(f));
+  field("python").textContent = inPython(f);
+  field("films").innerHTML = table(`Heaviest ball, at ${degrees(f, f.heaviest)}°`, ["", "inner race", "outer race"], filmRows(f));
   field("at").innerHTML = table(`At ${show(f.hz, 4)} Hz`, ["", "stiffness [N/µm]", "damping [N s/m]"], frequencyRows(f));
   const defects = Object.entries(f.orders).map(([name, order]) => [`${name}, ${DEFECTS[name]}`, show(order * f.rpm / 60, 4), show(order, 5)]);
-  const under = f.axial > 0 ? `, under ${show(f.axial)} N of axial load, without which all else is computed` : "";
-  const at = f.angle > 0 ? ` at a contact angle of ${show(f.angle)}°${under}` : "";
-  field("defects").innerHTML = table(`Defect frequencies${f.slip === 0 ? "" : ` with ${show(100 * f.slip)} % slip of the cage`}${at}`, ["", "Hz", "per turn"], defects);
-  const balls = f.state.balls.map((ball, k) => [`${degrees(f, k)}°`, ...ball.force.map(one => show(one)),
-    ...f.films[k].map(film => show(film.h_min * 1e6)), show(Math.min(...f.films[k].map(film => film.h_min)) / f.rq)]);
-  field("balls_table").innerHTML = table("All balls, from the load on", ["ball", "inner [N]", "outer [N]", "film inner [µm]", "outer [µm]", "lambda"], balls);
+  field("defects").innerHTML = table(`Defect frequencies${f.slip === 0 ? "" : ` with ${show(100 * f.slip)} % slip of the cage`}`, ["", "Hz", "per turn"], defects);
+  const balls = f.balls.map((ball, k) => [`${degrees(f, k)}°`, ...ball.force.map(one => show(one)), ...ball.angle.map(one => show(one * 180 / Math.PI)),
+    ...f.there.films[k].map(film => show(film.h_min * 1e6)), show(Math.min(...f.there.films[k].map(film => film.h_min)) / f.rq)]);
+  const heads = ["ball", "inner [N]", "outer [N]", "angle inner [°]", "outer [°]", "film inner [µm]", "outer [µm]", "lambda"];
+  field("balls_table").innerHTML = table("All balls, by the angle from the radial load", heads, balls);
   const every = Math.ceil(FREQUENCIES / SHOWN);
   const rows = f.hzs.map((hz, i) => [i, hz]).filter(([i]) => i % every === 0).map(([i, hz]) => {
     const contacts = f.contacts.flatMap(one => (one ? [give(...one(hz).K, 1e-6), give(...one(hz).C)] : ["–", "–"]));
-    const { along, across } = f.over[i];
-    return [show(hz), ...contacts, show(along.stiffness * 1e-6), show(along.damping), show(across.stiffness * 1e-6), show(across.damping)];
+    return [show(hz), ...contacts, ...f.ways.flatMap(way => [show(entry(f.over[i], way).K * 1e-6), show(entry(f.over[i], way).C)])];
   });
-  const head = ["Hz", "K inner", "C inner", "K outer", "C outer", "K along", "C along", "K across", "C across"];
+  const head = ["Hz", "K inner", "C inner", "K outer", "C outer", ...f.ways.flatMap(way => [`K ${way}`, `C ${way}`])];
   field("frequencies_table").innerHTML = table("K [N/µm] and C [N s/m] over frequency", head, rows);
 }
 
 // The case as a call of the library.
-function inPython() {
-  const name = field("bearing").value, m = id => `${show(given(id), 8)}`, own = name === OWN;
+function inPython({ axial }) {
+  const name = field("bearing").value, own = name === OWN, m = id => `${show(given(id), 8)}`, angular = given("contact_angle") > 0;
   const oil = field("grade").value === OWN ? `Lubricant(eta0=${m("eta0")}, alpha=${m("alpha")})`
     : `Lubricant.iso_vg(${field("grade").value}, temperature=${m("temperature")})`;
-  const sizes = [...(own ? SIZES : []), "clearance"].filter(id => own || given(id) !== 0).map(id => `${id}=${m(id)}`);
+  const sizes = own ? SIZES.filter(id => id !== "contact_angle" || angular).map(id => `${id}=${m(id)}`) : [];
+  const chosen = field("clearance_class"), play = chosen.disabled || chosen.value === OWN ? m("clearance") : `"${chosen.value}"`;
+  if (!angular && play !== "0") sizes.push(`clearance=${play}`);
   const inside = [...(own ? [] : [`"${name}"`]), ...sizes, `rq_race=${m("rq")}`, `oil=${oil}`].join(", ");
-  const call = `.equilibrium((0, -${m("load")}), speed_rpm=${m("speed_rpm")})`;
-  return `BallBearing${own ? "" : ".catalogue"}(${inside})${call}`;
+  const load = [0, `-${m("load")}`, ...(axial === 0 ? [] : [show(axial, 8)])].join(", ");
+  return `BallBearing${own ? "" : ".catalogue"}(${inside}).equilibrium((${load}), speed_rpm=${m("speed_rpm")})`;
 }
 
 function refuse(error) {
@@ -207,14 +240,14 @@ function update() {
   for (const input of document.querySelectorAll("[aria-invalid]")) ["aria-invalid", "aria-describedby"].forEach(name => input.removeAttribute(name));
   fillIn();
   try {
-    found = compute();
+    current = compute();
     field("refusal").hidden = true;
-    field("results").hidden = false;
-    tables(found);
-    drawAll(found);
+    for (const name of ["tiles", "results"]) field(name).hidden = false;
+    tables(current);
+    drawAll(current);
   } catch (error) {
-    found = null;
-    field("results").hidden = true;
+    current = null;
+    for (const name of ["tiles", "outside", "results"]) field(name).hidden = true;
     refuse(error);
   }
 }
@@ -230,15 +263,25 @@ function toAddress() {
 }
 
 function fromAddress() {
-  const entries = new URLSearchParams(location.hash.slice(1));
+  const entries = new URLSearchParams(location.hash.slice(1)), said = [];
+  if (entries.has("clearance") && !entries.has("clearance_class")) entries.set("clearance_class", OWN);
   for (const name of FIELDS) field(name).value = entries.get(name) ?? field(name).dataset.first;
-  for (const name of ["bearing", "grade"]) if (!field(name).value) field(name).value = field(name).dataset.first;
+  for (const name of ["bearing", "clearance_class", "grade"]) {
+    if (field(name).value) continue;
+    field(name).value = field(name).dataset.first;
+    said.push(`${name} = ${entries.get(name)} is not in its list, and ${field(name).dataset.first} is shown.`);
+  }
+  const unknown = [...entries.keys()].filter(name => !FIELDS.includes(name));
+  if (unknown.length > 0) said.push(`${unknown.join(", ")}: no input of this page. Its inputs are ${FIELDS.join(", ")}.`);
+  field("address").textContent = said.length > 0 ? `In the address: ${said.join(" ")}` : "";
+  field("address").hidden = said.length === 0;
   update();
 }
 
 function begin() {
   const options = (name, values) => { field(name).innerHTML = values.map(([value, text]) => `<option value="${value}">${text}</option>`).join(""); };
   options("bearing", [...Object.keys(DATA.catalogue).map(name => [name, name]), [OWN, "own dimensions"]]);
+  options("clearance_class", [...DATA.classes.map(name => [name, name]), [OWN, "as given"]]);
   options("grade", [...Object.keys(DATA.oil.walther_slopes).map(grade => [grade, `ISO VG ${grade}`]), [OWN, "own viscosity"]]);
   for (const name of FIELDS) field(name).dataset.first = field(name).dataset.first ?? field(name).value;
   let waiting = 0;
@@ -252,7 +295,7 @@ function begin() {
     navigator.clipboard?.writeText(location.href).then(() => { field("copied").textContent = "Copied."; }, () => {});
   });
   let width = innerWidth;
-  addEventListener("resize", () => { if (innerWidth !== width && found) { width = innerWidth; drawAll(found); } });
+  addEventListener("resize", () => { if (innerWidth !== width && current) { width = innerWidth; drawAll(current); } });
   addEventListener("hashchange", fromAddress);
   fromAddress();
 }

@@ -66,14 +66,15 @@ function range(values, log) {
   return { low: 10 ** Math.floor(Math.log10(low)), high: 10 ** Math.ceil(Math.log10(high)), log };
 }
 
-// Balls between both rings, and the force of each as a bar outwards from the ring.
-function loadZone(width, balls, radii, label) {
+// Balls between both rings, and the force of each as a bar outwards from the ring; `arrow`: of the radial load.
+function loadZone(width, balls, radii, label, arrow) {
   const size = Math.min(width, 360), middle = size / 2, most = Math.max(...balls.map(ball => ball.force[0]));
   const ring = 0.23 * size, scale = ring / radii.pitch, longest = middle - ring - scale * radii.ball - 22, parts = [];
   const far = ring + scale * radii.ball;
   const at = (n, r) => `${(middle + n[0] * r).toFixed(1)},${(middle - n[1] * r).toFixed(1)}`;
   for (const r of [ring - scale * radii.ball, far]) parts.push(`<circle class="ring" cx="${middle}" cy="${middle}" r="${r}"/>`);
-  for (const { n, force } of balls) {
+  for (const { psi, force } of balls) {
+    const n = [Math.cos(psi), Math.sin(psi)];
     const [cx, cy] = at(n, ring).split(","), share = force[0] / most;
     parts.push(`<circle class="ball${share > 0.01 ? " loaded" : ""}" cx="${cx}" cy="${cy}" r="${scale * radii.ball * 0.94}"/>`);
     if (share < 0.01) continue;
@@ -82,7 +83,7 @@ function loadZone(width, balls, radii, label) {
     parts.push(`<path class="force" d="M${at(n, far + 3)}L${at(n, far + 3 + longest * share)}"/>`);
     parts.push(`<text x="${x}" y="${Number(y) + 4}" text-anchor="${anchor}">${show(force[0])}</text>`);
   }
-  parts.push(`<path class="load" d="M${middle},${middle - 0.12 * size}V${middle + 0.1 * size}m-6,-9l6,9l6,-9"/>`);
+  if (arrow) parts.push(`<path class="load" d="M${middle},${middle - 0.12 * size}V${middle + 0.1 * size}m-6,-9l6,9l6,-9"/>`);
   return `<svg class="zone" role="img" aria-label="${label}" viewBox="0 0 ${size} ${size}" style="max-width:${size}px">${parts.join("")}</svg>`;
 }
 

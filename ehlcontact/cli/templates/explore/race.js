@@ -1,19 +1,21 @@
-// One race, and its contact with a ball at a speed, over any load: reduced_models.bearing.race and .race_table, with
-// the film law of reduced_models.elements. Loads run as x = ln(F/N): approach and film follow from x outright.
+// One race and its contacts with balls: reduced_models.bearing.race, and nodes of its static curve over the load, with the
+// gains of its film memory, as `bearing.c` takes them (reduced_models.elements.film_curve).
 
-const { INSIDE, PER_DECADE, NEAR, DECADE, RIGID_SLOPE, DRY, LEAST_VISCOUS, SMALL_OMEGA } = DATA.rules;
+const { INSIDE, PER_DECADE, NEAR, DECADE, RIGID_SLOPE, DRY, LEAST_VISCOUS, STEEPEST } = DATA.rules;
 
 class Race {
-  constructor(name, bearing, atlas) {
-    const { ball_diameter: D, pitch_diameter: dm, oil } = bearing, gamma = D / dm;
+  // At a contact angle [rad]; `rolling` is the sum of both surface speeds over the speed of the shaft [m].
+  constructor(name, bearing, atlas, angle = bearing.contact_angle, rolling = null) {
+    const { ball_diameter: D, oil } = bearing, cone = bearing.pitch_diameter / Math.cos(Math.min(Math.abs(angle), STEEPEST)), gamma = D / cone;
     const conformity = bearing[`conformity_${name}`];
-    const along = name === "inner" ? 2 / D + 2 / (dm - D) : 2 / D - 2 / (dm + D);
+    const along = name === "inner" ? 2 / D + 2 / (cone - D) : 2 / D - 2 / (cone + D);
     const { youngs_modulus: E, poisson_ratio: nu } = atlas.steel;
     Object.assign(this, { name, atlas, oil, D, conformity, radiusX: 1 / along, radiusY: 1 / (2 / D - 1 / (conformity * D)) });
     this.eReduced = E / (1 - nu * nu);
     this.kappa = ellipseRatio(this.radiusX, this.radiusY);
-    this.rolling = 0.5 * dm * (1 - gamma * gamma); // u_sum over the speed of the shaft [m]
-    this.kn = this.hertz(1).approach ** -1.5; // N/m^1.5
+    this.rolling = rolling ?? 0.5 * bearing.pitch_diameter * (1 - gamma * gamma);
+    this.length = this.hertz(1).approach; // m, of the dry contact under 1 N
+    this.kn = this.length ** -1.5; // N/m^1.5
   }
 
   hertz(load) {
@@ -50,16 +52,22 @@ class Race {
     this.atlas.requireOil(this.oil);
   }
 
-  // Contact over all loads of the atlas at a speed.
-  contact(rpm) {
-    const [low, high] = this.loads(rpm), end = PER_DECADE * Math.log10(high) - NEAR;
-    const loads = [low];
+  // Static curve at a speed: rows ln F, ln h, slope and approach, in N and in the approach of the dry contact under 1 N; gains of
+  // all nodes but the first, which stands for rigid bodies.
+  curve(rpm) {
+    const [low, high] = this.loads(rpm), end = PER_DECADE * Math.log10(high) - NEAR, loads = [low];
     for (let j = Math.ceil(PER_DECADE * Math.log10(low) + NEAR); j < Math.ceil(end); j++) loads.push(10 ** (j / PER_DECADE));
     const nodes = [...loads, high].map(load => {
       const point = this.point(load, rpm), { values, gains } = this.atlas.gainsAt(point);
-      return { x: Math.log(load), y: Math.log((1 - values[0]) * point.length), gains: this.gains(gains, values[LOW]) };
+      return { x: Math.log(load), y: Math.log((1 - values[0]) * point.length / this.length), gains: this.gains(gains, values[LOW]) };
     });
-    return new Contact(this.kn, this.point(1, rpm), nodes, this.atlas.rates);
+    const x = nodes.map(node => node.x), y = nodes.map(node => node.y), slope = pchipSlopes(x, y), last = x.length - 1;
+    slope[last] = Math.min(slope[last], 0);
+    x.unshift(x[0] - DECADE);
+    y.unshift(y[0] - 0.5 * DECADE * (slope[0] + RIGID_SLOPE));
+    slope.unshift(RIGID_SLOPE);
+    const u = x.map((one, k) => Math.exp(2 / 3 * one) - Math.exp(y[k]));
+    return { nodes: x.length, curve: [...x, ...y, ...slope, ...u], gains: nodes.flatMap(node => node.gains) };
   }
 
   // Gains of one load from those over its low-frequency damping: none below 0, and passive.
@@ -100,52 +108,6 @@ function leastDissipation(rates, gains) {
     if (at(a) < at(b)) high = b; else low = a;
   }
   return Math.min(least, at(low));
-}
-
-class Contact {
-  // `nodes` over the load, x = ln F increasing: y = ln of the film [m], and gains. `point`: any at this speed.
-  constructor(kn, point, nodes, rates) {
-    Object.assign(this, { kn, rates });
-    this.gains = nodes.map(node => node.gains);
-    this.gainX = nodes.map(node => node.x);
-    this.transit = point.time / Math.sqrt(point.length); // own time over the root of g, at this speed [s/m^0.5]
-    const x = this.gainX, y = nodes.map(node => node.y), slope = pchipSlopes(x, y), last = x.length - 1;
-    slope[last] = Math.min(slope[last], 0);
-    this.x = [x[0] - DECADE, ...x];
-    this.y = [y[0] - 0.5 * DECADE * (slope[0] + RIGID_SLOPE), ...y];
-    this.slope = [RIGID_SLOPE, ...slope];
-  }
-
-  // Film [m] and its derivative by x.
-  film(x) {
-    const { x: X, y: Y, slope: S } = this, last = X.length - 1;
-    const end = x <= X[0] ? 0 : x >= X[last] ? last : -1;
-    if (end >= 0) {
-      const h = Math.exp(Y[end] + S[end] * (x - X[end]));
-      return [h, h * S[end]];
-    }
-    const k = interval(X, x), w = X[k + 1] - X[k], t = (x - X[k]) / w, d = Y[k + 1] - Y[k];
-    const a = w * S[k] - d, b = d - w * S[k + 1];
-    const h = Math.exp(Y[k] + t * d + t * (1 - t) * ((1 - t) * a + t * b));
-    return [h, h * (d + (1 - 2 * t) * ((1 - t) * a + t * b) + t * (1 - t) * (b - a)) / w];
-  }
-
-  // At rest under F = e^x: dry compression, approach [m] and its derivative by x.
-  at(x) {
-    const compression = Math.exp(2 / 3 * (x - Math.log(this.kn))), [h, slope] = this.film(x);
-    return { compression, approach: compression - h, byX: 2 / 3 * compression - slope };
-  }
-
-  // Impedance about rest under e^x (elements.small_motion): w [rad/s] => [Re Z, Im Z] [N/m].
-  impedance(x) {
-    const force = Math.exp(x), { compression, byX } = this.at(x), stiffness = force / byX;
-    const [k, t] = between(this.gainX, x), slope = 1.5 * force / compression, tau = this.transit * Math.sqrt(compression);
-    const gains = this.gains[k].map((gain, j) => gain + t * (this.gains[k + 1][j] - gain));
-    return w => {
-      const own = w * tau, [re, im] = memory(this.rates, gains, Math.max(own, SMALL_OMEGA));
-      return [stiffness - slope * own * im, slope * own * re];
-    };
-  }
 }
 
 // Slopes at the nodes of the monotone cubics of Fritsch and Butland (scipy's PchipInterpolator).
