@@ -40,7 +40,7 @@ _ADVICE = {
     Status.NONFINITE: "NaN or infinity appeared: use a finer grid, or check that M, L and kappa are meant.",
     Status.MAX_CYCLES: "The cycles ran out while still converging: raise max_cycles.",
     Status.OUT_OF_DOMAIN: "Pressure reaches the border of the computed region: give a wider domain, such as "
-    "Grid(domain=Domain.for_load(largest force to come)), --domain XA XB YMAX, or domain under [solver] of "
+    "Grid(domain=Domain.for_load(largest force to come)), --domain XA XB YMAX, or domain under [contact] of "
     "a study.",
     Status.UNRESOLVED: "The grid is too coarse for this film, which is zero or negative somewhere: raise n; in a "
     "simulation a step that is too long, or surfaces that touch, end so too: shorten the step, lower the load.",

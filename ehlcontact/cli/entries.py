@@ -18,6 +18,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, PydanticCustomError
 from pydantic_core.core_schema import no_info_after_validator_function
 
+from ehlcontact.checks import parts
 from ehlcontact.checks.admissible_range import INPUTS, Quantity
 from ehlcontact.lubricant.oil import DENSITIES, GRADES, INDICES, KINEMATIC, TEMPERATURES
 from ehlcontact.transient.motion import FASTEST, SLOWEST
@@ -42,7 +43,7 @@ class Physical:
 
     def _within(self, value: float) -> float:
         low, high = self.quantity.limits
-        if not low <= value <= high:
+        if not (low <= value <= high or (self.quantity.zero and value == 0.0)):
             raise PydanticCustomError("limits", "outside its limits")
         return value
 
@@ -110,6 +111,7 @@ Tilt = Annotated[
     meaning("tilt at which the inner ring is held"),
 ]
 Load = Annotated[Positive, Physical(INPUTS["load"]), meaning("radial load on the bearing")]
+LoadOrNone = Annotated[NotNegative, Physical(INPUTS["load"]._replace(zero=True))]
 Arrangement = Annotated[
     Literal["back-to-back", "face-to-face", "tandem"],
     meaning("two such bearings on one shaft, in this arrangement"),
@@ -122,12 +124,22 @@ Spring = Annotated[
     Physical(INPUTS["load"]),
     meaning("force of a spring on the outer ring of the second one, in its place"),
 ]
+RingSpring = Annotated[NotNegative, Physical(parts.PRELOAD)]
 Distance = Annotated[
     Positive,
     Physical(Quantity("mm", (1.0, 1e4), (2.0, 5e3), {"m": 1e3, "inches": 25.4})),
     meaning("distance of the planes of two bearings"),
 ]
 Speed = Annotated[Positive, Physical(INPUTS["speed_rpm"]), meaning("speed of the shaft")]
+
+# Shaft and discs.
+Length = Annotated[Positive, Physical(parts.SHAFT_LENGTH.in_unit("mm"))]
+Diameter = Annotated[Positive, Physical(parts.SHAFT_DIAMETER.in_unit("mm"))]
+Bore = Annotated[NotNegative, Physical(parts.BORE.in_unit("mm"))]
+Position = Annotated[NotNegative, Physical(parts.PLACE.in_unit("mm"))]
+Density = Annotated[Positive, Physical(parts.DENSITY), meaning("kg/m3")]
+Inertia = Annotated[NotNegative, Physical(parts.INERTIA)]
+Force = Annotated[Finite, Physical(parts.FORCE._replace(limits=(-1e8, 1e8)))]
 
 # A ball on a disc, whose materials are known by name: Young's modulus [Pa], Poisson's ratio.
 FLATS = {"steel": (2.06e11, 0.3), "glass": (7.0e10, 0.21)}
@@ -181,24 +193,53 @@ Unbalance = Annotated[
 
 
 def field_of(model: type[BaseModel], entry: str) -> FieldInfo | None:
-    """The declaration of an entry, ``section.key``, ``name`` or ``name.0`` of a list; None if there is none."""
-    name, _, key = entry.partition(".")
-    field = model.model_fields.get(name)
-    return field if field is None or not key or key.isdigit() else keys_of(field.annotation).get(key)
+    """The declaration of an entry, ``section.key`` or ``name.0`` of a list; None if there is none.
+
+    Numbers and names of tables that a file has several of are passed over, as in ``support.left.balls``.
+    """
+    fields, field, several = model.model_fields, None, False
+    for part in entry.split("."):
+        if part in fields:
+            field = fields[part]
+            fields, several = keys_of(field.annotation), is_several(field.annotation)
+        elif field is None or (fields and not several):
+            return None
+    return field
+
+
+def section_of(kind: Any) -> Any:
+    """The model of a section, also of one that may be left out or stand several times; None of what is none."""
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        return kind
+    found = (section_of(one) for one in get_args(kind))
+    return next((one for one in found if one is not None), None)
+
+
+def is_several(kind: Any) -> bool:
+    """Whether a file has several tables of that section, each written [[name]]."""
+    return get_origin(kind) is tuple and section_of(kind) is not None
 
 
 def keys_of(section: Any) -> dict[str, FieldInfo]:
     """Entries of a section; none of what is not one."""
-    return getattr(section, "model_fields", {})
+    return getattr(section_of(section), "model_fields", {})
 
 
 def rules_of(field: FieldInfo | None) -> Iterator[Any]:
     """Metadata of an entry, also of one that may be left out."""
     yield from getattr(field, "metadata", ())
-    for choice in get_args(getattr(field, "annotation", None)):
+    for choice in _parts(getattr(field, "annotation", None)):
         for rule in get_args(choice)[1:] if get_origin(choice) is Annotated else ():
             yield rule
             yield from getattr(rule, "metadata", ())
+
+
+def _parts(kind: Any) -> Iterator[Any]:
+    """Types that a type is made of, as of a list that may be left out."""
+    for part in get_args(kind):
+        yield part
+        if get_origin(part) not in (Annotated, Literal):
+            yield from _parts(part)
 
 
 def quantity_of(field: FieldInfo | None) -> Quantity | None:
@@ -216,7 +257,7 @@ def allowed_of(field: FieldInfo | None) -> str:
     """All that an entry may be; empty where it takes any number or text."""
     if (quantity := quantity_of(field)) is not None:
         ends = quantity.limits
-        return f"between {ends[0]:g} and {ends[1]:g} {quantity.unit}".rstrip()
+        return f"{'0, or ' if quantity.zero else ''}between {ends[0]:g} and {ends[1]:g} {quantity.unit}".rstrip()
     if words := next((rule.text for rule in rules_of(field) if isinstance(rule, Allowed)), ""):
         return words.rstrip()
     kind = getattr(field, "annotation", None)

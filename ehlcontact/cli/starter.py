@@ -1,60 +1,129 @@
 """The study file that ``ehlcontact init`` writes: every entry of the schema, explained, with its default.
 
 Meaning, range and default come from the schema. Values that were asked for, and grids that suit the film, are
-entries; all others are defaults, as comments.
+entries; all others are defaults, as comments; sections that the study does not have are comments as a whole.
 """
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
 
+from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from ehlcontact.cli.entries import allowed_of, keys_of, meaning_of
+from ehlcontact.cli.entries import allowed_of, is_several, keys_of, meaning_of, section_of
 from ehlcontact.cli.study.points.lists import points_of
-from ehlcontact.cli.study.schema import Study, catalogue_angle, catalogue_entries
-from ehlcontact.cli.study.whole_bearing import require_whole_bearing
+from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.toml import toml_value
 from ehlcontact.errors import InputError
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.solver.mesh_choice import Purpose, mesh_for
-from reduced_models.bearing.catalogue import catalogue_row
+from reduced_models.bearing.catalogue import BY_DIMENSIONS, catalogue_row
 
 WIDTH = 115  # characters of a line, as in the files of examples/
 COMMENT = 34  # of them before the comment
 # Entries of the file by the option that sets them.
 OPTIONS = {
-    "bearing.catalogue": "--bearing",
-    "bearing.radial_load": "--load",
-    "bearing.speed_rpm": "--speed-rpm",
+    "name": "--bearing",
+    "support.bearing": "--bearing",
+    "support.clearance": "--clearance",
+    "support.pair": "--pair",
+    "support.preload": "--preload",
+    "support.spring": "--preload",
+    "support.position_mm": "--positions",
+    "shaft.length_mm": "--shaft-length",
+    "shaft.diameter_mm": "--shaft-diameter",
+    "disc.mass": "--disc-mass",
+    "disc.diameter_mm": "--disc-diameter",
+    "disc.width_mm": "--disc-width",
+    "disc.unbalance": "--unbalance",
+    "disc.radial_load": "--load",
+    "disc.axial_load": "--axial",
+    "surface.rq_um": "--rq",
     "oil.iso_vg": "--oil",
     "oil.temperature": "--temp",
-    "whole_bearing.axial_load": "--axial",
-    "whole_bearing.layer_um": "--layer",
-    "whole_bearing.layer_ratio": "--layer-ratio",
-    "whole_bearing.thermal": "--thermal",
+    "operation.radial_load": "--load",
+    "operation.axial_load": "--axial",
+    "operation.speed_rpm": "--speed-rpm",
+    "operation.layer_um": "--layer",
+    "operation.layer_ratio": "--layer-ratio",
+    "operation.thermal": "--thermal",
 }
+OVERHANG = 1.2  # of a shaft whose length is not given, over the distance of its bearings
 HEAD = """\
-# A study of one bearing. What it will do, and about how long that takes; then the study itself:
+# {about} What the study will do, and about how long that takes; then the study itself:
 #   ehlcontact validate {name}
 #   ehlcontact run {name}
-# A line that begins with # and a name shows the default: take the # away to change it. `name = ?` has none."""
+# A line that begins with # and a name shows the default: take the # away to change it. `name = ?` has none.
+# A section whose lines begin with # and no space is left out: take that # away from its lines to have it."""
 
 
-def study_text(asked: Mapping[str, Any], name: str) -> str:
+def machine_of(
+    bearings: Sequence[str],
+    *,
+    span: float,
+    shaft_length: float | None = None,
+    shaft_diameter: float | None = None,
+    positions: tuple[float, float] | None = None,
+    pair: str | None = None,
+    preload: float | None = None,
+) -> dict[str, Any]:
+    """Entries of a shaft on two bearings, the second one pressed by a spring, or floating beside a pair.
+
+    Parameters
+    ----------
+    bearings : sequence of str
+        Two names of the catalogue, from left to right.
+    span : float
+        Distance of both [mm], where no `positions` are given.
+    shaft_length, shaft_diameter : float, optional
+        Of the shaft [mm]: by default 1.2 times the span, and as large as the larger bore.
+    positions : (float, float), optional
+        Of both from its left end [mm]; by default in the middle of the shaft.
+    pair : str, optional
+        Arrangement of two such bearings in place of the first.
+    preload : float, optional
+        Of the pair, or of the spring [N].
+    """
+    if positions is not None:
+        span = abs(positions[1] - positions[0])
+    length = shaft_length or (OVERHANG * span if positions is None else sum(positions))
+    left = 0.5 * (length - span)
+    places = positions or (left, left + span)
+    bores = [1e3 * bore for name in bearings if (bore := catalogue_row(name)[1].bore) is not None]
+    found: dict[str, Any] = {
+        "shaft.length_mm": float(length),
+        "shaft.diameter_mm": float(shaft_diameter or round(max(bores, default=0.1 * span), 6)),
+        "disc.0.position_mm": 0.5 * (places[0] + places[1]),
+    }
+    for k, (name, place) in enumerate(zip(bearings, places, strict=True)):
+        found[f"support.{k}.name"] = ("left", "right")[k]
+        found[f"support.{k}.position_mm"] = float(place)
+        found[f"support.{k}.bearing"] = name
+    if pair is not None:
+        found |= {"support.0.pair": pair, "support.0.preload": preload, "support.1.spring": 0.0}
+    elif preload is not None:
+        found["support.1.spring"] = preload
+    return {entry: value for entry, value in found.items() if value is not None}
+
+
+def study_text(asked: Mapping[str, Any], name: str, sections: Sequence[str]) -> str:
     """The file, which `load_study` takes as it is.
 
     Parameters
     ----------
     asked : mapping
-        Entries that the study is about, by ``section.key``; ``bearing.catalogue`` is among them.
+        Entries that the study is about, by ``section.key``, or ``section.number.key`` of one of several.
     name : str
         Name of the file, for its first lines.
+    sections : sequence of str
+        Sections that the study has, beside those of these entries.
 
     Raises
     ------
@@ -62,22 +131,16 @@ def study_text(asked: Mapping[str, Any], name: str) -> str:
         The entries are no study; it names the option that sets the entry.
     """
     entries = dict(asked)
-    whole = any(entry.startswith("whole_bearing.") for entry in asked)
     try:
-        first = _written(entries, name, None if whole else "")
-        studies = [point.study for point in points_of(tomllib.loads(first), Path())]
-        entries |= _fitting(studies)
-        try:
-            for study in studies:
-                require_whole_bearing(study)
-        except InputError as error:  # the rest of the study runs without
-            if whole:
-                raise
-            return _written(entries, name, str(error))
-        text = _written(entries, name)
+        studies = [point.study for point in points_of(tomllib.loads(_written(entries, name, sections)), Path())]
+        if studies[0].contact is not None:
+            entries |= _fitting(studies)
+        text = _written(entries, name, sections)
         points_of(tomllib.loads(text), Path())
     except InputError as error:
-        raise InputError(OPTIONS.get(error.field, error.field), error.value, error.allowed) from None
+        entry = re.sub(r"^(support|disc)\.[^.]+\.", r"\1.", error.field)
+        allowed = error.allowed.replace(BY_DIMENSIONS, "any other by its dimensions, in the file, balls = ...")
+        raise InputError(OPTIONS.get(entry, error.field), error.value, allowed) from None
     return text
 
 
@@ -91,11 +154,11 @@ def _fitting(studies: Sequence[Study]) -> dict[str, Any]:
     domain = own
     if (x_in, x_out, y_max) != own.as_tuple():
         domain = type(own)(*(_outward(end) for end in (x_in, x_out, y_max)))
-        found["solver.domain"] = domain.as_tuple()
+        found["contact.domain"] = domain.as_tuple()
     for key, purpose in (("n", Purpose.FILM), ("n_transient", Purpose.RUN)):
         n = max(mesh_for(study.point.moes, purpose, grid=Grid(domain=domain)).n for study in studies)
-        if n > getattr(studies[0].solver, key):
-            found[f"solver.{key}"] = n
+        if n > getattr(studies[0].contact, key):
+            found[f"contact.{key}"] = n
     return found
 
 
@@ -104,26 +167,57 @@ def _outward(end: float) -> float:
     return (int(abs(end) * 10.0) + 1) / 10.0 * (1.0 if end > 0.0 else -1.0)
 
 
-def _written(entries: Mapping[str, Any], name: str, no_whole: str | None = None) -> str:
-    """The text, with the section of the whole bearing as a comment where there is a reason why it is not run."""
-    shown = {f"bearing.{key}": value for key, value in catalogue_entries(entries["bearing.catalogue"]).items()}
-    angle = catalogue_angle(entries["bearing.catalogue"])[1]
-    shown |= {} if angle is None else {"whole_bearing.contact_angle_deg": angle}
-    lines = [HEAD.format(name=name), ""]
+def _written(entries: Mapping[str, Any], name: str, sections: Sequence[str]) -> str:
+    """The text of the file."""
+    names = [value for entry, value in sorted(entries.items()) if entry.endswith(".bearing")]
+    about = f"A {'bearing' if len(names) == 1 else 'machine'}: {', '.join(names)}."
+    lines = [HEAD.format(about=about, name=name), ""]
+    live = {entry.partition(".")[0] for entry in entries} | set(sections)
     for section, field in Study.model_fields.items():
-        model = field.annotation
-        if not keys_of(model):
-            lines.append(_line(section, field, entries, shown))
-            continue
-        lines += ["", *_comment(" ".join((model.__doc__ or "").split()))]
-        if section == "whole_bearing" and no_whole is not None:
-            lines += [*_comment(f"Left out here: {no_whole}"), f"# [{section}]"]
+        model = section_of(field.annotation)
+        if model is None:
+            lines.append(_line(section, field, entries, {}))
+        elif is_several(field.annotation):
+            count = len({entry.split(".")[1] for entry in entries if entry.startswith(f"{section}.")})
+            for k in range(max(count, 1)):
+                text = _section(f"[[{section}]]", model, f"{section}.{k}", entries, explained=k == 0)
+                lines += text if count else _left_out(text)
         else:
-            lines.append(f"[{section}]")
-        if section == "bearing":
-            lines += _comment(f"dimensions: {catalogue_row(entries['bearing.catalogue'])[1].source}")
-        lines += [_line(f"{section}.{key}", entry, entries, shown) for key, entry in keys_of(model).items()]
+            text = list(_section(f"[{section}]", model, section, entries))
+            lines += text if section in live else _left_out(text)
     return "\n".join(lines) + "\n"
+
+
+def _left_out(lines: Sequence[str]) -> list[str]:
+    """A section that the study does not have: its lines but those that are comments already begin with #."""
+    each = [part for line in lines for part in line.split("\n")]
+    return [line if not line or (line.startswith("# ") and " = " not in line) else f"#{line}" for line in each]
+
+
+def _section(
+    head: str, model: type[BaseModel], name: str, entries: Mapping[str, Any], *, explained: bool = True
+) -> list[str]:
+    """A section with its entries, and after them the sections in it."""
+    shown = {}
+    if f"{name}.bearing" in entries:
+        shown = {f"{name}.{key}": value for key, value in _dimensions(entries[f"{name}.bearing"]).items()}
+    comment = _comment(" ".join((model.__doc__ or "").split())) if explained else []
+    lines, inner = ["", *comment, head], []
+    if shown and explained:
+        lines += _comment(f"dimensions: {catalogue_row(entries[f'{name}.bearing'])[1].source}")
+    for key, entry in keys_of(model).items():
+        if (below := section_of(entry.annotation)) is not None:
+            inner += _section(f"[{name}.{key}]", below, f"{name}.{key}", entries)
+        elif explained or f"{name}.{key}" in entries:
+            lines.append(_line(f"{name}.{key}", entry, entries, shown))
+    return lines + inner
+
+
+def _dimensions(name: str) -> dict[str, Any]:
+    """Dimensions of a bearing of the catalogue, as comments show them."""
+    row = catalogue_row(name)[1]
+    lengths = {"ball_diameter_mm": row.ball_diameter, "pitch_diameter_mm": row.pitch_diameter}
+    return {"balls": row.balls, **{key: round(1e3 * value, 6) for key, value in lengths.items()}}
 
 
 def _line(name: str, entry: FieldInfo, entries: Mapping[str, Any], shown: Mapping[str, Any]) -> str:
@@ -135,7 +229,7 @@ def _line(name: str, entry: FieldInfo, entries: Mapping[str, Any], shown: Mappin
     what = "; ".join(part for part in (meaning_of(entry), allowed) if part)
     if name in entries and default is not None and name not in shown:
         what += (
-            f" (default {toml_value(default)}{', too small for this film' if name.startswith('solver.') else ''})"
+            f" (default {toml_value(default)}{', too small for this film' if name.startswith('contact.') else ''})"
         )
     written = f"{'' if name in entries else '# '}{key} = {'?' if value is None else toml_value(value)}"
     line = f"{written.ljust(COMMENT - 1)} # {what}"

@@ -57,10 +57,20 @@ def toml_value(value: Any) -> str:
 
 
 def toml_of(entries: Mapping[str, Any]) -> str:
-    """A file of entries, and of sections with their entries."""
-    own = {key: value for key, value in entries.items() if not isinstance(value, Mapping)}
-    lines = [f"{key} = {toml_value(value)}" for key, value in own.items()]
-    for name, section in entries.items():
-        if name not in own:
-            lines += ["", f"[{name}]", *(f"{key} = {toml_value(value)}" for key, value in section.items())]
-    return "\n".join(lines) + "\n"
+    """A file of entries, of sections with their entries and sections, and of tables that stand several times."""
+    return "\n".join(_lines(entries, "")) + "\n"
+
+
+def _lines(entries: Mapping[str, Any], above: str) -> list[str]:
+    tables = {name: value for name, value in entries.items() if isinstance(value, Mapping) or _is_several(value)}
+    lines = [f"{key} = {toml_value(value)}" for key, value in entries.items() if key not in tables]
+    for name, value in tables.items():
+        head = f"{above}{name}"
+        several = _is_several(value)
+        for one in value if several else (value,):
+            lines += ["", f"[[{head}]]" if several else f"[{head}]", *_lines(one, f"{head}.")]
+    return lines
+
+
+def _is_several(value: Any) -> bool:
+    return isinstance(value, tuple | list) and any(isinstance(one, Mapping) for one in value)

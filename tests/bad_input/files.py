@@ -9,6 +9,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 from argument_groups import grouped
+from tiny_study import SMALL
 
 from ehlcontact import Grid, HarmonicLoad, MoesPoint, save, simulate, solve_steady
 from reduced_models import SpringContact
@@ -16,7 +17,7 @@ from reduced_models.atlas.surface import shipped_file
 
 POINT = ("--M", "20", "--L", "5", "--kappa", "0.5")
 RUN = {"n": 32, "until": 0.2, "dt": 0.05}
-STUDY = (Path(__file__).parents[2] / "examples" / "small_study.toml").read_text()
+STUDY = SMALL
 DEEP = '{"a":' * 100_000 + "1" + "}" * 100_000
 
 COMMANDS = {  # what reads a kind of file: arguments for its name and for a folder of results

@@ -1,4 +1,4 @@
-"""The section [check] of a study: without it nothing is solved twice, and no output mentions it.
+"""half_step of a study: without it nothing is solved twice, and no output mentions it.
 
 Nor does a compiler that cannot be started cost more than the FMUs.
 """
@@ -21,13 +21,13 @@ HALF_STEP = ("rotor_half_step", "decay_half_step")
 
 @pytest.fixture(scope="module")
 def unchecked(finished, tmp_path_factory):
-    """The tiny study without its [check], and folder and stderr of its run, which finds all its stages in a copy.
+    """The tiny study without half the step, and folder and stderr of its run, which finds its stages in a copy.
 
     There is no C compiler.
     """
     root = tmp_path_factory.mktemp("unchecked")
     file, folder = root / "tiny.toml", root / "out"
-    file.write_text(finished[0].read_text().replace("[check]\nhalf_step = true\n", ""))
+    file.write_text(finished[0].read_text().replace("half_step = true\n", ""))
     shutil.copytree(finished[1], folder)
     for name in HALF_STEP:
         (folder / f"{name}.h5").unlink()

@@ -5,40 +5,49 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tiny_study import STUDY
+from tiny_study import ALONE
 
 from ehlcontact.cli.page import write_page
-from ehlcontact.cli.study.defect import defect_of
+from ehlcontact.cli.study.defect import defects_of
 from ehlcontact.cli.study.forecast import cautions
+from ehlcontact.cli.study.loads import ring_load
+from ehlcontact.cli.study.machine import bearing_of
 from ehlcontact.cli.study.schema import load_study
-from ehlcontact.cli.study.whole_bearing import ring_load, whole_bearing
 from reduced_models import Spall
 
-CLEARANCE = "clearance_um = -1.0"
-CASES = {
-    "outer": 'clearance_um = 8.0\nspall = "outer,0.2,0.01"\ncage_slip_percent = 0.5',
-    "inner": 'spall = "inner, 0.2, 0.01"\naxial_load = 30.0',
+LOAD = "radial_load = 20.0"
+FIRST = SimpleNamespace(first=True, index=1)  # of the sections of a page
+CASES = {  # entries of the defect, of the load and of the bearing
+    "outer": ('spall = "outer,0.2,0.01"\ncage_slip_percent = 0.5', "", "clearance = 8.0"),
+    "inner": ('spall = "inner, 0.2, 0.01"', "axial_load = 30.0", ""),
 }
 
 
-def study(folder, entries):
-    """The tiny study with these entries in place of its clearance."""
-    text = STUDY.replace(CLEARANCE, entries).replace("radial_load = 20.0", "radial_load = 300.0")  # fewer lines
+def study(folder, defect, load="", bearing="clearance = -1.0"):
+    """A bearing alone with these entries."""
+    text = ALONE.replace(LOAD, f"radial_load = 300.0\n{load}") + f"{bearing}\n"  # fewer lines
     path = folder / "study.toml"
-    path.write_text(text)
+    path.write_text(f"{text}[[defect]]\n{defect}\n" if defect else text)
     return load_study(path)
+
+
+def section(folder, found):
+    """The page of a section alone."""
+    beside = {"found": found, "d": found.defects[0], "loop": FIRST, "picture": lambda name, text: text}
+    return write_page(folder / "d.html", "defect.html.j2", {}, **beside)
 
 
 @pytest.fixture(scope="module", params=["outer", pytest.param("inner", marks=pytest.mark.slow)])
 def found(request, tmp_path_factory):
     """Study and defect, of a planar bearing and of one under axial load."""
-    asked = study(tmp_path_factory.mktemp("defect"), CASES[request.param])
-    return asked, defect_of(asked)
+    asked = study(tmp_path_factory.mktemp("defect"), *CASES[request.param])
+    (one,) = defects_of(asked)
+    return asked, one
 
 
 def test_lines_and_orders_are_those_of_the_library(found):
     asked, one = found
-    bearing, load = whole_bearing(asked, oil=True), ring_load(asked)
+    bearing, load = bearing_of(asked, 0), ring_load(asked, 0)
     pit = Spall(race=one.spall.race, angle=-np.pi / 2.0, length=0.2e-3, depth=0.01e-6)
     at = {"speed_rpm": 3000.0, "slip": 0.005 if one.spall.race == "outer" else 0.0}
     assert one.spall == pit and one.orders == bearing.orders_under(load, **at)
@@ -69,7 +78,7 @@ def test_film_takes_the_edges_off(found):
 @pytest.mark.long
 def test_bare_step_does_not_overshoot(tmp_path):
     """Its largest change is the height of the step; that of its series is 9 % of the jump above it."""
-    one = defect_of(study(tmp_path, 'clearance_um = 8.0\nspall = "outer,0.5,0.05"'))
+    (one,) = defects_of(study(tmp_path, 'spall = "outer,0.5,0.05"', bearing="clearance = 8.0"))
     step = one.force["none"]
     low, high = one.passage
     inside = step[(low <= one.turns) & (one.turns <= high) & (step < 0.5 * step.min())]
@@ -83,8 +92,16 @@ def test_page_and_picture(found, tmp_path):
     assert len(lines) == 8 and len({line.name for line in lines}) == 2
     low, high = one.passage
     assert 0.0 < high - low < 0.2 and low < one.turns[np.abs(one.force["film"]).argmax()] % 20.0
-    inside = SimpleNamespace(defect=one, study=asked)
-    page = write_page(tmp_path / "d.html", "defect.html.j2", {}, found=inside, picture=lambda name, text: text)
+    inside = SimpleNamespace(defects=(one,), study=asked)
+    page = write_page(
+        tmp_path / "d.html",
+        "defect.html.j2",
+        {},
+        found=inside,
+        d=inside.defects[0],
+        loop=FIRST,
+        picture=lambda name, text: text,
+    )
     text = re.sub(r"<[^>]*>|\s+", " ", page.read_text())
     assert "What a defect looks like" in text and f"multiples of {one.name}" in text
     assert f"{one.orders.bpfo_order:.5g}" in text and f"{one.highest['film']:.3g}" in text
@@ -96,39 +113,48 @@ def test_page_and_picture(found, tmp_path):
 @pytest.mark.slow
 def test_a_deep_spall_is_named(tmp_path):
     asked = study(tmp_path, 'spall = "outer,0.5,20"')
-    deep = defect_of(asked)
+    (deep,) = defects_of(asked)
     assert "not linear" in deep.reservation and "simulate_rotor" in deep.reservation
     assert deep.loses_load and deep.to_dict()["largest_force"] is None
-    inside = SimpleNamespace(defect=deep, study=asked)
-    page = write_page(tmp_path / "d.html", "defect.html.j2", {}, found=inside, picture=lambda name, text: text)
+    inside = SimpleNamespace(defects=(deep,), study=asked)
+    page = write_page(
+        tmp_path / "d.html",
+        "defect.html.j2",
+        {},
+        found=inside,
+        d=inside.defects[0],
+        loop=FIRST,
+        picture=lambda name, text: text,
+    )
     assert "forces are left out" in page.read_text() and "largest change" not in page.read_text()
-    assert defect_of(study(tmp_path, CLEARANCE)) is None
+    assert defects_of(study(tmp_path, "")) == ()
 
 
 @pytest.mark.parametrize(("spall", "warned"), [("inner,1.0,60", True), ("inner,1.0,0.5", False)])
 def test_validate_warns_of_a_spall_over_which_balls_lose_their_load(tmp_path, spall, warned):
-    found = cautions(study(tmp_path, f'{CLEARANCE}\naxial_load = 50.0\nspall = "{spall}"'))
+    found = cautions(study(tmp_path, f'spall = "{spall}"', "axial_load = 50.0"))
     assert any("lose their load" in text and "simulate_rotor" in text for text in found) == warned
 
 
 @pytest.mark.parametrize(
     ("entries", "words"),
     [
-        ('spall = "outer,0.5"', ("whole_bearing.spall = 'outer,0.5'", "race,length,depth")),
-        ('spall = "outer,500,1"', ("whole_bearing.spall = 'outer,500,1'", "length", "mm, the track")),
-        (
-            "cage_slip_percent = 1.0",
-            ("whole_bearing.cage_slip_percent = 1.0", "left out without whole_bearing.spall"),
-        ),
+        ('spall = "outer,0.5"', ("defect.spall = 'outer,0.5'", "race,length,depth")),
+        ('spall = "outer,500,1"', ("defect.spall = 'outer,500,1'", "length", "mm, the track")),
+        ("cage_slip_percent = 1.0", ("defect.spall = None", "given")),
         ('spall = "outer,1,1"\ncage_slip_percent = 100.0', ("cage_slip_percent = 100", "above -50 and below 100")),
-        ('spall = "cage,1,1"', ("whole_bearing.spall", "inner, outer")),
-        (
-            'spall = "outer,1,1"\naxial_load = 30.0\ntilt_x_mrad = 0.1',
-            ("left out beside whole_bearing.tilt_x_mrad",),
-        ),
+        ('spall = "cage,1,1"', ("defect.spall", "inner, outer")),
+        ('spall = "outer,1,1"\nsupport = "left"', ("defect.support = 'left'", "the name of a support: 1")),
     ],
 )
 def test_mistakes_are_one_line(refused, tmp_path, entries, words):
     path = tmp_path / "s.toml"
-    path.write_text(STUDY.replace(CLEARANCE, entries))
+    path.write_text(f"{ALONE}[[defect]]\n{entries}\n")
     refused(words, "run", path, "-o", tmp_path / "out")
+
+
+def test_a_tilted_ring_has_no_lines_of_a_spall(refused, tmp_path):
+    path = tmp_path / "s.toml"
+    tilted = ALONE.replace(LOAD, f"{LOAD}\naxial_load = 30.0\ntilt_x_mrad = 0.1")
+    path.write_text(f'{tilted}[[defect]]\nspall = "outer,1,1"\n')
+    refused(("defect.spall", "left out beside operation.tilt_x_mrad"), "run", path, "-o", tmp_path / "out")

@@ -13,6 +13,7 @@ from pathlib import Path
 import fmpy
 import pytest
 from programs import ROOT, command, environment, shell_script
+from tiny_study import SMALL
 
 from ehlcontact import save
 from ehlcontact.binaries import this_machine
@@ -196,7 +197,7 @@ def test_a_study_becomes_its_rotor(call, tmp_path):
     rest = rotor.on([Atlas().element(study.point)] * len(rotor.mounts)).equilibrium()
     starts = {v.name: v.start for v in fmpy.read_model_description(str(target)).modelVariables}
     assert float(starts["journal.y"]) == pytest.approx(rest[rotor.nodes["journal"]["y"]], rel=1e-12)
-    assert float(starts["speed"]) == pytest.approx(study.bearing.speed_rpm * pi / 30.0, rel=1e-15)
+    assert float(starts["speed"]) == pytest.approx(study.speed_rpm * pi / 30.0, rel=1e-15)
     assert float(starts["unbalance[1]"]) == study.rotor.unbalance
 
 
@@ -219,16 +220,16 @@ def test_a_rotor_on_an_element_of_ones_own(call, tmp_path):
 def test_rotors_that_cannot_be_exported(refused, tmp_path):
     target = tmp_path / "x.fmu"
     text = STUDY.read_text()
-    start, end = text.index("[rotor]"), text.index("[whole_bearing]")
+    start, end = text.index("[full_films]"), text.index("[in_time]")
     bare = tmp_path / "bare.toml"
     bare.write_text(text[:start] + text[end:])
-    refused(("bare.toml", "no table [rotor]"), "export", bare, "-o", target)
+    refused(("bare.toml", "no table [full_films]"), "export", bare, "-o", target)
     element = save(SpringContact.cubic(**CUBIC), tmp_path / "e.json")
     refused(("--contact", "left out"), "export", element, "-o", target, "--contact", element)
     refused(("nothing.json",), "export", STUDY, "-o", target, "--contact", tmp_path / "nothing.json")
     broken = tmp_path / "broken.toml"
-    broken.write_text(text.replace("disc_mass = 1.5", "disc_mass = -1.5"))
-    refused(("broken.toml", "rotor.disc_mass"), "export", broken, "-o", target)
+    broken.write_text(text.replace("mass = 1.5", "mass = -1.5"))
+    refused(("broken.toml", "disc.mass"), "export", broken, "-o", target)
     assert not target.exists()
 
 
@@ -279,7 +280,7 @@ def test_heat_and_a_layer_of_oil_in_fmus(call, tmp_path):
 @pytest.mark.long
 @pytest.mark.filterwarnings("default::reduced_models.elements.validity.OutsideValidityWarning")
 def test_a_layer_of_oil_in_the_fmu_of_a_rotor(call, tmp_path):
-    study = STUDY.read_text(encoding="utf-8").replace("[whole_bearing]", "[whole_bearing]\nlayer_ratio = 1.0")
+    study = STUDY.read_text(encoding="utf-8").replace("[operation]", "[operation]\nlayer_ratio = 1.0")
     (tmp_path / "s.toml").write_text(study, "utf-8")
     done = call(
         "export", tmp_path / "s.toml", "-o", tmp_path / "r.fmu", "--bearings", "inside", "--inertia", "0.001"
@@ -319,17 +320,15 @@ def test_a_study_becomes_a_shaft_and_a_system(call, refused, tmp_path):
     assert done.code == 0 and "model exchange" in done.out and "forces are inputs" in done.out, done
     about = {v.name: v for v in fmpy.read_model_description(str(shaft)).modelVariables}
     study = load_study(STUDY)
-    assert float(about["speed"].start) == pytest.approx(study.bearing.speed_rpm * pi / 30.0, rel=1e-15)
-    assert float(about["bearing[1].force_y"].start) == pytest.approx(study.bearing.radial_load, rel=1e-3)
+    assert float(about["speed"].start) == pytest.approx(study.speed_rpm * pi / 30.0, rel=1e-15)
+    assert float(about["bearing[1].force_y"].start) == pytest.approx(study.radial_load, rel=1e-3)
 
 
 def test_rotors_on_bearings_that_cannot_be_exported(refused, tmp_path):
     fmu, ssp = tmp_path / "x.fmu", tmp_path / "x.ssp"
-    text = STUDY.read_text(encoding="utf-8")
-    bare, axial = tmp_path / "bare.toml", tmp_path / "axial.toml"
+    bare = tmp_path / "bare.toml"
     inside, outside, wired = (("--bearings", way) for way in ("inside", "outside", "wired"))
-    bare.write_text(text[: text.index("[whole_bearing]")], "utf-8")
-    axial.write_text(text.replace("[whole_bearing]", "[whole_bearing]\naxial_load = 50.0"), "utf-8")
+    bare.write_text(SMALL, "utf-8")
     for words, arguments in (
         (("--bearings = 'away'", "inside, outside or wired"), (STUDY, "--bearings", "away", "-o", fmu)),
         (("--inertia", "> 0"), (STUDY, *wired, "--inertia", "0", "-o", ssp)),
@@ -342,9 +341,8 @@ def test_rotors_on_bearings_that_cannot_be_exported(refused, tmp_path):
         (("--top-rpm", "no part of the FMU"), (STUDY, *outside, "--top-rpm", "6000", "-o", fmu)),
         (("--lead", "left out"), (STUDY, *outside, "--lead", "1", "-o", fmu)),
         (("--contact", "left out"), (STUDY, *outside, "--contact", "e.json", "-o", fmu)),
-        (("--bearings", "[whole_bearing]"), (BEARING, *outside, "-o", fmu)),
-        (("bare.toml", "[whole_bearing]"), (bare, *outside, "-o", fmu)),
-        (("whole_bearing.axial_load", "planar"), (axial, *outside, "-o", fmu)),
+        (("--bearings", "[shaft]"), (BEARING, *outside, "-o", fmu)),
+        (("bare.toml", "[shaft]"), (bare, *outside, "-o", fmu)),
     ):
         refused(words, "export", *arguments)
     assert not fmu.exists() and not ssp.exists()

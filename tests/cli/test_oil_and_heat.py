@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tiny_study import STUDY
+from tiny_study import ALONE
 
 import reduced_models.bearing.oil_and_heat as module
 from ehlcontact import ConvergenceError, Grid, Lubricant, OilLayer, impedance
@@ -173,8 +173,8 @@ def test_mistakes_of_a_file(refused, tmp_path, changes, words):
 
 
 PLAIN, GRADE = "eta0 = 0.02\nalpha = 1e-8", "iso_vg = 68\ntemperature = 60.0"
-BY_GRADE = STUDY.replace(PLAIN, GRADE)
-ASKED = BY_GRADE.replace("[whole_bearing]", "[whole_bearing]\nthermal = true\nlayer_ratio = 1.0")
+BY_GRADE = ALONE.replace(PLAIN, GRADE)
+ASKED = BY_GRADE.replace("[operation]", "[operation]\nthermal = true\nlayer_ratio = 1.0")
 
 
 def study(folder, text):
@@ -205,13 +205,11 @@ def test_section_of_a_study(coarse, tmp_path):
     assert "computed with heat, with the layer, with both too" in beside(Findings)
     C = found.conditions[LAYER].damping[0, 1]
     assert C < 0.0
-    assert f"DAMPING BELOW ZERO: the whole bearing has with the layer {C:.3g} N s/m" in damping_below_zero(
-        Findings
-    )
+    assert f"DAMPING BELOW ZERO: the bearing has with the layer {C:.3g} N s/m" in damping_below_zero(Findings)
     Findings.oil_and_heat = replace(found, conditions={FLOODED: found.conditions[FLOODED]})
     assert damping_below_zero(Findings) == "" == beside(Findings) == without_films(Findings)
     Findings.oil_and_heat = replace(found, refused={LAYER: "thin"})
-    assert without_films(Findings) == "NO FILMS of the whole bearing with the layer (thin)."
+    assert without_films(Findings) == "NO FILMS of the bearing with the layer (thin)."
     around, band = (
         [line for panel in describe(found).panels for line in panel.lines]
         for describe in (conditions_films, conditions_coefficients)
@@ -233,17 +231,17 @@ def test_a_study_tells_why_there_is_no_answer(tmp_path, monkeypatch):
     assert "NOT COMPUTED" in (said := without_films(Findings)) and "no film" in said
     assert sentence(Findings) == "" and conditions(Findings) == {}
     results = {"fmu": {"passes": True}, "film_fmu": None, "oil_and_heat": Findings.oil_and_heat}
-    assert faults(results) == [f"oil supply and heat of the whole bearing: {Findings.oil_and_heat}"]
+    assert faults(results) == [f"oil supply and heat of the bearing: {Findings.oil_and_heat}"]
 
 
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("layer_ratio = 1.0", "layer_ratio = 0.001", ("whole_bearing.layer_ratio = 0.001", "between 0.02")),
-        ("layer_ratio = 1.0", "layer_um = 2e-7", ("whole_bearing.layer_um = 2e-07", "in m?")),
-        ("layer_ratio = 1.0", "layer_ratio = 1.0\nlayer_um = 0.2", ("whole_bearing.layer_um", "left out")),
-        (GRADE, PLAIN, ("whole_bearing.thermal", "by its grade")),
-        ("thermal = true", "thermal = 2", ("whole_bearing.thermal",)),
+        ("layer_ratio = 1.0", "layer_ratio = 0.001", ("operation.layer_ratio = 0.001", "between 0.02")),
+        ("layer_ratio = 1.0", "layer_um = 2e-7", ("operation.layer_um = 2e-07", "in m?")),
+        ("layer_ratio = 1.0", "layer_ratio = 1.0\nlayer_um = 0.2", ("operation.layer_um", "left out")),
+        (GRADE, PLAIN, ("operation.thermal", "by its grade")),
+        ("thermal = true", "thermal = 2", ("operation.thermal",)),
     ],
 )
 def test_mistakes_of_a_study(refused, tmp_path, old, new, words):
@@ -254,6 +252,6 @@ def test_mistakes_of_a_study(refused, tmp_path, old, new, words):
 def test_init_writes_them(call, refused, tmp_path):
     given = ("--layer-ratio", "0.8", "--thermal", "--load", "500")
     assert call("init", tmp_path / "s.toml", *given).code == 0
-    whole = load_study(tmp_path / "s.toml").whole_bearing
-    assert (whole.layer_ratio, whole.layer_um, whole.thermal) == (0.8, None, True)
+    asked = load_study(tmp_path / "s.toml").operation
+    assert (asked.layer_ratio, asked.layer_um, asked.thermal) == (0.8, None, True)
     refused(("--layer = -1",), "init", tmp_path / "t.toml", "--layer", "-1")

@@ -4,12 +4,12 @@ import html
 import shutil
 from dataclasses import replace
 from math import pi
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.optimize import curve_fit
+from tiny_study import SMALL
 
 from ehlcontact import read
 from ehlcontact.cli.study import headline
@@ -238,11 +238,11 @@ def test_what_is_not_settled_is_in_the_headline():
 
 def test_a_coarse_grid_is_in_the_headline(tmp_path):
     """A heavy load on the mesh of a light one converges, with a film far too thin."""
-    text = (Path(__file__).parents[2] / "examples" / "small_study.toml").read_text()
+    text = SMALL
     (tmp_path / "heavy.toml").write_text(text.replace("radial_load = 70.0", "radial_load = 3000.0"))
     assert "radial_load = 70.0" in text
     told = headline.mesh_warnings(SimpleNamespace(study=load_study(tmp_path / "heavy.toml")))
-    assert told.startswith("NOT AS SURE AS IT LOOKS: solver.n = 64: a mesh of ") and "too coarse" in told
+    assert told.startswith("NOT AS SURE AS IT LOOKS: contact.n = 64: a mesh of ") and "too coarse" in told
     (tmp_path / "light.toml").write_text(text)
     assert headline.mesh_warnings(SimpleNamespace(study=load_study(tmp_path / "light.toml"))) == ""
 
@@ -265,8 +265,8 @@ def test_a_contact_that_the_rotor_does_not_run_on(finished, found, monkeypatch):
         return real(study, element, halvings)
 
     monkeypatch.setattr(differences, "run_reduced", failing)
-    elements = found.reduction.rotor_elements
-    rotors = compare_rotors(found.study, found.reduction.impedance, elements, finished[1])
+    elements = found.contact.reduction.rotor_elements
+    rotors = compare_rotors(found.study, found.contact.reduction.impedance, elements, finished[1])
     assert rotors.failed == {"dry": "force imbalance 3 N"} and "dry" not in rotors.unbalance.reduced
     assert "dry Hertz contact (force imbalance 3 N)" in headline.failures(SimpleNamespace(rotors=rotors))
     assert rotors.decay.film_decides

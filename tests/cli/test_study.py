@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from rotor_twins import carried
+from tiny_study import SMALL
 
 from ehlcontact import Lubricant
 from ehlcontact.cli.study.rotor import build_rotor
@@ -12,7 +13,6 @@ from ehlcontact.cli.study.schema import load_study
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 GRADE = "iso_vg = 68\ntemperature = 50.0\nviscosity_index = 95"
-SMALL = (EXAMPLES / "small_study.toml").read_text()
 
 
 @pytest.fixture
@@ -44,8 +44,10 @@ def test_oil_by_its_grade(tmp_path):
 
 def test_fingerprint_is_of_what_a_stage_depends_on(study):
     """Names change nothing, nor does the way a frequency is given."""
-    named = study.model_copy(update={"bearing": study.bearing.model_copy(update={"name": "another"})})
-    assert study.fingerprint("solver") == named.fingerprint("solver") != study.fingerprint("solver", "free")
+    named = study.model_copy(update={"support": (study.support[0].model_copy(update={"name": "another"}),)})
+    assert study.fingerprint("grid") == named.fingerprint("grid") != study.fingerprint("grid", "free")
+    unchecked = study.model_copy(update={"full_films": study.full_films.model_copy(update={"half_step": False})})
+    assert study.fingerprint("full_films") == unchecked.fingerprint("full_films")
 
 
 def test_frequencies_of_the_motions_in_hertz(tmp_path, study):
@@ -67,16 +69,53 @@ def test_roughness_in_micrometres(tmp_path, study):
     file = tmp_path / "rough.toml"
     file.write_text(SMALL + "\n[surface]\nrq_ball_um = 0.02\nrq_race_um = 0.1\n")
     assert load_study(file).roughness == (pytest.approx(2e-8), pytest.approx(1e-7))
-    assert load_study(file).fingerprint("rotor") == load_study(EXAMPLES / "small_study.toml").fingerprint("rotor")
+    rough = load_study(file)
+    file.write_text(SMALL)
+    assert rough.fingerprint("full_films") == load_study(file).fingerprint("full_films")
+    file.write_text(SMALL + "\n[surface]\nrq_um = 0.1\n")
+    assert load_study(file).roughness == (0.0, pytest.approx(1e-7))
 
 
 @pytest.mark.parametrize("arrangement", ["vee", "vertical"])
 def test_every_contact_carries_the_load_of_the_operating_point(study, arrangement):
-    changed = study.model_copy(update={"rotor": study.rotor.model_copy(update={"arrangement": arrangement})})
+    films = study.full_films.model_copy(update={"arrangement": arrangement})
+    changed = study.model_copy(update={"full_films": films})
     assert carried(build_rotor(changed)) == pytest.approx(study.ball_load)
 
 
-def test_a_file_of_a_bearing_is_no_study(refused, tmp_path):
-    words = ("bearing.conformity_inner = 0.52", "left out", "is this a file for `ehlcontact bearing`?")
-    refused(words, "run", EXAMPLES / "bearing_6205.toml", "-o", tmp_path / "results")
-    refused(words, "validate", EXAMPLES / "bearing_6205.toml")
+OLD = """[bearing]
+catalogue = "6205"
+[rotor]
+disc_mass = 2.0
+[whole_bearing]
+clearance_um = 5.0
+[solver]
+n = 64
+[free]
+periods = 2.0
+[harmonic]
+periods = 2.0
+[check]
+half_step = true
+"""
+
+
+def test_sections_that_are_none_of_a_study(refused, tmp_path):
+    """Named, each with what stands in its place."""
+    file = tmp_path / "old.toml"
+    file.write_text(OLD)
+    words = ("old.toml: bearing, rotor, whole_bearing, solver, free, harmonic, check = ...: must be left out",)
+    words += ("[contact] for n, n_transient and domain in place of [solver]", "half_step in [full_films]")
+    for command in ("run", "validate"):
+        refused(words, command, file)
+    refused(("bearing = ...", "[[support]]"), "run", EXAMPLES / "bearing_6205.toml", "-o", tmp_path / "results")
+
+
+def test_the_machine_of_the_small_study_carries_the_bearing_alone(tmp_path):
+    """The same contact, and the same rotor on full films: of its discs and weight, or of a load."""
+    file = tmp_path / "alone.toml"
+    file.write_text(SMALL)
+    alone, machine = load_study(file), load_study(EXAMPLES / "small_study.toml")
+    assert machine.radial_load == alone.radial_load == 70.0 and machine.ball == alone.ball
+    parts = ("grid", "free", "harmonic", "rotor_band", "full_films")
+    assert machine.fingerprint(*parts) == alone.fingerprint(*parts)

@@ -5,6 +5,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from tiny_study import SMALL as ALONE
 
 from ehlcontact.cli.study.forecast import forecast
 from ehlcontact.cli.study.points.kept import Kept, stage_key
@@ -29,11 +30,11 @@ MEASURED = {
 
 @pytest.fixture
 def plan(call, tmp_path):
-    """The document for a study file, or for changes to the small one."""
+    """The document for a study file, or for changes to that of a bearing alone."""
 
     def run(file=SMALL, **changes):
         if changes:
-            text = file.read_text()
+            text = ALONE
             for old, new in changes.values():
                 assert old in text
                 text = text.replace(old, new, 1)
@@ -85,11 +86,11 @@ def test_nothing_is_solved(call, monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize("rpm", ["1500", "[1500, 2000]"])
-def test_layer_and_heat_of_the_whole_bearing_are_said(call, tmp_path, rpm):
+def test_layer_and_heat_of_the_bearing_are_said(call, tmp_path, rpm):
     file = tmp_path / "s.toml"
     file.write_text(
-        f'[bearing]\ncatalogue = "6205"\nradial_load = 200.0\nspeed_rpm = {rpm}\n[oil]\niso_vg = 68\n'
-        "temperature = 50.0\n[whole_bearing]\nlayer_um = 2.0\nthermal = true\n"
+        f'[[support]]\nbearing = "6205"\n[oil]\niso_vg = 68\ntemperature = 50.0\n[operation]\n'
+        f"radial_load = 200.0\nspeed_rpm = {rpm}\nlayer_um = 2.0\nthermal = true\n"
     )
     said = call("validate", file, "-o", tmp_path / "none").out
     assert "also with heat (thermal) and under a layer of oil, 2 µm on both surfaces together" in said
@@ -112,14 +113,14 @@ def test_grids_too_coarse_for_the_inlet_warn(plan):
     """The film that the example file itself warns of: n = 64 at 1000 N."""
     found = plan(load=("radial_load = 70.0", "radial_load = 1000.0"))
     texts = found["warnings"]
-    assert [text.split(" = ")[0] for text in texts] == ["solver.n", "solver.n_transient"]
+    assert [text.split(" = ")[0] for text in texts] == ["contact.n", "contact.n_transient"]
     wanted = mesh_for(load_study(EXAMPLES / "deep_groove_6205.toml").point.moes, Purpose.RUN).n
     assert all(f"= {wanted}" in text and "too coarse" in text for text in texts)
 
 
 def test_regions_and_numbers_beyond_the_range_warn(plan):
     light = plan(load=("radial_load = 70.0", "radial_load = 2.0"))["warnings"]
-    assert any(text.startswith("solver.domain = ") and "wants" in text for text in light)
+    assert any(text.startswith("contact.domain = ") and "wants" in text for text in light)
     thick = plan(eta0=("eta0 = 0.0367", "eta0 = 0.2"), load=("radial_load = 70.0", "radial_load = 1000.0"))[
         "warnings"
     ]

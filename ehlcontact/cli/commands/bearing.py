@@ -20,9 +20,9 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, STDOUT, complain, say, show_columns, show_table, write_to
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, in_unit
+from ehlcontact.cli.study.loads import bearings_of
 from ehlcontact.cli.study.oil_and_heat import columns, csv_text, skf_words
 from ehlcontact.cli.study.schema import oil_grade
-from ehlcontact.cli.study.whole_bearing import bearings_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_text
 from ehlcontact.results.drawing import draw as drawn

@@ -70,7 +70,7 @@ def export(
         typer.Option(
             "--bearings",
             metavar="inside|outside|wired",
-            help="Of a study with whole_bearing: its rotor on these bearings, which are inside its FMU, outside"
+            help="Of a study with [shaft]: its rotor on its bearings, which are inside its FMU, outside"
             " (their forces are inputs), or each an FMU, wired in a system archive (SSP).",
         ),
     ] = None,
@@ -108,7 +108,7 @@ def export(
     if fmi not in (2, 3):
         raise InputError("--fmi", fmi, "2 or 3")
     toml = file.suffix.lower() == ".toml"
-    bearing = toml and "operation" in read_toml(str(file), "file")  # which no study has
+    bearing = toml and "bearing" in read_toml(str(file), "file")  # which no study has
     study = toml and not bearing
     if contact is not None and (not study or bearings is not None):
         raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor on contacts")
@@ -194,7 +194,7 @@ def _check_bearings(output: Path, study: bool, bearings: str | None, **values: f
     if bearings not in WAYS:
         raise InputError("--bearings", bearings, "inside, outside or wired")
     if not study:
-        raise InputError("--bearings", "another file", "given with a study (.toml) that has [whole_bearing]")
+        raise InputError("--bearings", "another file", "given with a study (.toml) that has [shaft]")
     if output.suffix.lower() != WAYS[bearings]:
         allowed = f"a file name ending in {WAYS[bearings]}, for --bearings {bearings}"
         raise InputError("--output", str(output), allowed)
@@ -265,8 +265,8 @@ def _rotor_and_element(file: Path, contact: Path | None) -> tuple[Rotor, Any, st
     from reduced_models.elements.base import ContactElement
 
     study = load_study(file)
-    if "rotor" not in study.model_fields_set:
-        raise InputError("file", str(file), "a study with a rotor: it has no table [rotor]")
+    if study.full_films is None:
+        raise InputError("file", str(file), "a study with a rotor on contacts: it has no table [full_films]")
     rotor = build_rotor(study)
     if contact is None:
         with o.called(point=str(file)):
@@ -302,22 +302,23 @@ def _on_bearings(
 
 
 def _whole_rotor(file: Path) -> tuple[Rotor, float]:
-    """The rotor of a study between its whole bearings, and its speed [rev/min]."""
-    from ehlcontact.cli.study.rotor_on_bearings import whole_rotor
+    """The rotor of a study on its bearings, and its speed [rev/min]."""
+    from ehlcontact.cli.study.machine import bearing_of, rotor_of
     from ehlcontact.cli.study.schema import load_study
     from ehlcontact.cli.study.shared_entries import supply_and_heat
-    from ehlcontact.cli.study.whole_bearing import whole_bearing
 
     study = load_study(file)
-    if "whole_bearing" not in study.model_fields_set:
-        raise InputError("file", str(file), "a study with a table [whole_bearing], for --bearings")
-    if (axial := study.whole_bearing.axial_load) is not None:
-        allowed = "left out: --bearings has planar bearings; others in Python, by fmu.export"
-        raise InputError("whole_bearing.axial_load", axial, allowed)
-    whole = study.whole_bearing
-    supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant)
-    rotor = whole_rotor(study, replace(whole_bearing(study, oil=True), supply=supply, thermal=thermal))
-    return rotor, float(study.bearing.speed_rpm)
+    if study.shaft is None:
+        raise InputError("file", str(file), "a study with a table [shaft], for --bearings")
+    supply, thermal = supply_and_heat(study.operation, "operation", study.lubricant)
+    if supply is None and thermal is None:
+        return rotor_of(study), study.speed_rpm
+    with_them = []
+    for k, one in enumerate(study.support):
+        if one.pair is not None:
+            raise InputError("support.pair", one.pair, "left out with a layer of oil or heat, for an FMU")
+        with_them.append(replace(bearing_of(study, k), supply=supply, thermal=thermal))
+    return rotor_of(study, carriers=with_them), study.speed_rpm
 
 
 def _about(model: FmuModel | RotorSystem, system: bool) -> list[Row]:

@@ -68,11 +68,13 @@ def _require_room(study: Study, path: Path) -> None:
     """Raise `InputError` for a grid of the study that would not fit into memory."""
     from ehlcontact.solver.mesh import Mesh, Solve
 
+    if study.contact is None:
+        return
     for name, solve in (("n", Solve.CYCLES), ("n_transient", Solve.IMPEDANCE)):
         try:
-            Mesh(getattr(study.solver, name), study.domain, moes_point(study.point).kappa).require_memory(solve)
+            Mesh(getattr(study.contact, name), study.domain, moes_point(study.point).kappa).require_memory(solve)
         except InputError as error:
-            raise InputError(f"{path}: solver.{name}", error.value, error.allowed) from None
+            raise InputError(f"{path}: contact.{name}", error.value, error.allowed) from None
 
 
 def _compute(points: Sequence[Point], folder: Path, share: Share, log: Log) -> tuple[Scheduler, float]:

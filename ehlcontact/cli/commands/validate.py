@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import STDOUT, check_place, say, show_columns, show_table
-from ehlcontact.cli.rows import domain_text
+from ehlcontact.cli.rows import Row, domain_text
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.forecast import Forecast
@@ -45,8 +45,8 @@ def whole(points: Sequence[Point], found: Sequence[Forecast], folder: Path) -> d
         "title": points[0].study_title,
         "folder": str(folder),
         "points": [
-            {"name": point.name, "speed_rpm": point.study.bearing.speed_rpm}
-            | {"radial_load": point.study.bearing.radial_load}
+            {"name": point.name, "speed_rpm": point.study.speed_rpm}
+            | {"radial_load": point.study.operation.radial_load}
             | one.to_dict()
             for point, one in zip(points, found, strict=True)
         ],
@@ -62,18 +62,23 @@ def _show_points(document: Mapping[str, Any], json_to: str | None) -> None:
         return
     rows = []
     for one in document["points"]:
-        p, kept = one["operating_point"], sum(stage["kept"] for stage in one["stages"])
-        numbers = (numeral(p[key]) for key in ("M", "L", "kappa"))
-        pressure, film = numeral(p["p_hertz"] * 1e-9, 3), numeral(p["h_central_expected"] * 1e6, 2)
-        stages = f"{kept} of {len(one['stages'])}"
-        rows.append([one["name"], *numbers, pressure, film, stages, _time(one["seconds"])])
+        stages = f"{sum(stage['kept'] for stage in one['stages'])} of {len(one['stages'])}"
+        rows.append([one["name"], *_numbers(one["operating_point"]), stages, _time(one["seconds"])])
     heads = ("point", "M", "L", "kappa", "p_h [GPa]", "h_c by formula [µm]", "kept", "to do")
     show_columns(heads, rows, document["title"], named=True)
     for films in sorted({one["films"] for one in document["points"]} - {""}):
-        say(f"whole bearing: beside flooded isothermal films also {films}")
+        say(f"bearing: beside flooded isothermal films also {films}")
     for warning in document["warnings"]:
         say(f"warning: {warning}")
     _say_whole(document["seconds"], document["jobs"])
+
+
+def _numbers(p: Mapping[str, Any] | None) -> list[str]:
+    """Of the contact of a point; dashes of one without."""
+    if p is None:
+        return ["-"] * 5
+    numbers = (numeral(p[key]) for key in ("M", "L", "kappa"))
+    return [*numbers, numeral(p["p_hertz"] * 1e-9, 3), numeral(p["h_central_expected"] * 1e6, 2)]
 
 
 def _say_whole(seconds: float, jobs: int) -> None:
@@ -84,39 +89,39 @@ def _say_whole(seconds: float, jobs: int) -> None:
 def _show(found: Forecast, json_to: str | None) -> None:
     if json_to == STDOUT:
         return
-    p, domain = found.operating_point, found.study.domain
-    show_table(
-        found.study.title,
-        [
-            ("M, L, kappa", ", ".join(numeral(p[key]) for key in ("M", "L", "kappa")), "most loaded ball"),
-            ("load of that ball", f"{numeral(p['ball_load'])} N", f"u_sum {numeral(p['u_sum'])} m/s"),
-            ("Hertz pressure", f"{numeral(p['p_hertz'] * 1e-9, 3)} GPa", ""),
-            (
-                "ellipse",
-                f"{numeral(2e3 * p['a'], 3)} x {numeral(2e3 * p['b'], 3)} mm",
-                "length along rolling, width across",
-            ),
-            (
-                "dry approach",
-                f"{numeral(p['length'] * 1e6)} µm",
-                f"time unit 2a/u_sum {numeral(p['time'] * 1e6)} µs",
-            ),
-            ("central film", f"{numeral(p['h_central_expected'] * 1e6, 2)} µm", "by formula, incompressible"),
-            (
-                "rotor",
-                f"{numeral(found.study.bearing.speed_rpm)} rpm",
-                f"Ω = ω 2a/u_sum = {numeral(p['rotor_omega'], 3)}",
-            ),
-            ("region", domain_text(domain), ""),
-        ],
-        json_to,
-    )
-    _show_stages(found)
+    study = found.study
+    rows = [
+        (name, one.bearing or one.label, "" if one.position_mm is None else f"at {numeral(one.position_mm)} mm")
+        for name, one in zip(study.names, study.support, strict=True)
+    ]
+    show_table(study.title, [*rows, ("speed", f"{numeral(study.speed_rpm)} rpm", "")], json_to)
+    if found.operating_point is not None:
+        show_table("contact of the most loaded ball", _contact(found, found.operating_point), json_to)
+        _show_stages(found)
     if found.films:
-        say(f"whole bearing: beside flooded isothermal films also {found.films}")
+        say(f"bearing: beside flooded isothermal films also {found.films}")
     for warning in found.warnings:
         say(f"warning: {warning}")
     _say_whole(found.seconds, found.jobs)
+
+
+def _contact(found: Forecast, p: Mapping[str, Any]) -> list[Row]:
+    """The contact that films are computed of."""
+    width = "length along rolling, width across"
+    return [
+        ("M, L, kappa", ", ".join(numeral(p[key]) for key in ("M", "L", "kappa")), "most loaded ball"),
+        ("load of that ball", f"{numeral(p['ball_load'])} N", f"u_sum {numeral(p['u_sum'])} m/s"),
+        ("Hertz pressure", f"{numeral(p['p_hertz'] * 1e-9, 3)} GPa", ""),
+        ("ellipse", f"{numeral(2e3 * p['a'], 3)} x {numeral(2e3 * p['b'], 3)} mm", width),
+        (
+            "dry approach",
+            f"{numeral(p['length'] * 1e6)} µm",
+            f"time unit 2a/u_sum {numeral(p['time'] * 1e6)} µs",
+        ),
+        ("central film", f"{numeral(p['h_central_expected'] * 1e6, 2)} µm", "by formula, incompressible"),
+        ("shaft's Ω", numeral(p["rotor_omega"], 3), "ω 2a/u_sum"),
+        ("region", domain_text(found.study.domain), ""),
+    ]
 
 
 def _show_stages(found: Forecast) -> None:

@@ -1,10 +1,13 @@
-"""The study behind ``ehlcontact run``: a bearing and its oil in, elements, FMU, rotor and report out.
+"""The study behind ``ehlcontact run``: a machine and its oil in, answers, elements, FMUs and report out.
 
 =====================  ======================================================================================
 module                 responsibility
 =====================  ======================================================================================
 ``schema``             the study file: what may stand in it, and errors in one line
 ``schema_errors``      those errors, and guesses at what was meant
+``machine``            bearings, pairs and rotor made of its entries
+``loads``              loads on the supports, the most loaded ball, and what is no machine
+``answer``             state of the machine, K and C over frequency, and runs in time on models of its bearings
 ``forecast``           what a study will do, and its cost, without doing it
 ``stages``             the long computations, each a function of the study that leaves one file
 ``runner``             stages side by side, with progress, resume and Ctrl-C
@@ -12,10 +15,8 @@ module                 responsibility
 ``reduction``          fits and element files
 ``rotor``              the rotor on full films and on elements, turning with its unbalance and after a kick
 ``differences``        full films beside elements, and beside what there is without them
-``rotor_on_bearings``  the rotor on two whole bearings: planar in time, under an axial load linearised
-``whole_bearing``      the bearing that it takes, from the file
 ``oil_and_heat``       the study's bearing with these: table and CSV
-``defect``             a spall in the bearing: orders, and its force over time and as an envelope
+``defect``             a spall in a bearing: orders, and its force over time and as an envelope
 ``shared_entries``     pairs, moments and tilts, oil supply and heat: entries of studies and of bearing files
 ``headline``           what was found, in one paragraph
 ``results``            everything in numbers: ``results.json``

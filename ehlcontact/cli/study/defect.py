@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.cli.study.whole_bearing import ring_load, spall_in, whole_bearing
+from ehlcontact.cli.study.loads import defect_field, place_of, ring_load, spall_in
+from ehlcontact.cli.study.machine import bearing_of
 from ehlcontact.results.picture import BLUE, ORANGE, Line, Mark, Panel, Picture
 from reduced_models import Spall
 from reduced_models.bearing.excitation import BearingExcitation
+from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.bearing.height_tables import track_radius
 from reduced_models.bearing.kinematics import RPM_TO_HZ, DefectFrequencies, DefectOrders
 from reduced_models.signals import envelope_spectrum
@@ -42,9 +44,11 @@ NEAR = 0.05  # of the order of the spall, within which a line of the envelope is
 class StudyDefect:
     """Orders of a bearing under load, and what a spall does, by `FILTERS` of the contacts."""
 
+    support: str  # name of the support whose bearing it is in
     spall: Spall
     orders: DefectOrders
     speed_rpm: float
+    at_angles: bool  # the bearing carries axial load
     slip: float  # of the cage, a share of its speed with balls that roll
     lines: dict[str, BearingExcitation]
     turns: _Floats
@@ -140,6 +144,7 @@ class StudyDefect:
     def to_dict(self) -> dict[str, Any]:
         """Numbers of ``results.json``; forces in N."""
         return {
+            "support": self.support,
             "spall": asdict(self.spall),
             "orders": asdict(self.orders),
             "frequencies_hz": asdict(self.frequencies),
@@ -151,13 +156,16 @@ class StudyDefect:
         }
 
 
-def defect_of(study: Study) -> StudyDefect | None:
-    """What the spall of a study does to its bearing, whose ring is held; None where it has none."""
-    spall = spall_in(study)
-    if spall is None:
-        return None
-    bearing, load, speed = whole_bearing(study, oil=True), ring_load(study), study.bearing.speed_rpm
-    slip = 0.01 * (study.whole_bearing.cage_slip_percent or 0.0)
+def defects_of(study: Study) -> tuple[StudyDefect, ...]:
+    """What the spalls of a study do to their bearings, whose rings are held."""
+    return tuple(_defect_of(study, k) for k in range(len(study.defect)))
+
+
+def _defect_of(study: Study, k: int) -> StudyDefect:
+    spall, speed = spall_in(study, k), study.speed_rpm
+    place = place_of(study, study.defect[k], defect_field(study, k, "support"))
+    bearing, load = bearing_of(study, place), ring_load(study, place)
+    slip = 0.01 * (study.defect[k].cage_slip_percent or 0.0)
     lines = {
         name: bearing.excitation([spall], load, speed_rpm=speed, contact_filter=name, slip=slip)
         for name in FILTERS
@@ -176,7 +184,8 @@ def defect_of(study: Study) -> StudyDefect | None:
     reach = BESIDE * (rolled + 2.0 / highest)  # the shortest waves are half a semi-axis
     strongest = float(turns[np.abs(force[FILTERS[0]][turns <= FIRST]).argmax()])
     passage = strongest - reach, strongest + reach
-    return StudyDefect(spall, orders, speed, slip, lines, turns, force, envelopes, band, passage)
+    about = study.names[place], spall, orders, speed, load.size > len(PLANAR), slip
+    return StudyDefect(*about, lines, turns, force, envelopes, band, passage)
 
 
 def _without_ripple(lines: BearingExcitation) -> BearingExcitation:

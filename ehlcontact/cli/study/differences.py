@@ -32,7 +32,7 @@ Events = Mapping[str, tuple[ContactEvents, ...]]
 
 @dataclass(frozen=True)
 class HalfStep:
-    """The rotor under its unbalance once more with half the step: what [check] half_step finds."""
+    """The rotor under its unbalance once more with half the step: what half_step of [full_films] finds."""
 
     full: RotorResult
     half: Comparison  # full against the chosen element, both with half the step
@@ -91,7 +91,7 @@ class Decay:
     mode: RotorMode  # on the film, linearised: the one that is kicked
     runs: Mapping[str, RotorResult]
     decrements: Mapping[str, Decrement]
-    half_step: Mapping[str, Decrement]  # of the full film and of the chosen element; empty without [check]
+    half_step: Mapping[str, Decrement]  # of the full film and of the chosen element; empty without half_step
     events: Events
 
     def off(self, name: str) -> float:
@@ -172,7 +172,7 @@ def compare_rotors(
         decay=_decay(study, mode, ran, response, folder),
         linear=linear,
         kicked={name: one.nearest(mode) for name, one in linear.items()},
-        resonances=resonances(linear, study.rotor.unbalance / study.rotor.disc_mass),
+        resonances=resonances(linear, study.jeffcott.unbalance / study.jeffcott.disc_mass),
         failed=failed,
     )
 
@@ -197,7 +197,7 @@ def _unbalance(study: Study, ran: Mapping[str, _RunsOn], folder: Path) -> Unbala
     settled = settling(full)
     after: dict[str, Comparison] = {}
     if settled.settled_from is not None:
-        begin = settled.settled_from * 60.0 / study.bearing.speed_rpm
+        begin = settled.settled_from * 60.0 / study.speed_rpm
         after = {name: compare(full, run, discard=begin) for name, run in reduced.items()}
     return Unbalance(
         full=full,
@@ -207,8 +207,12 @@ def _unbalance(study: Study, ran: Mapping[str, _RunsOn], folder: Path) -> Unbala
         | {name: _events(one, one.turning, load) for name, one in ran.items()},
         whole={name: compare(full, run) for name, run in reduced.items()},
         settled=after,
-        check=_half_step(study, full, ran[ROTOR_BAND[0]], folder) if study.check.half_step else None,
+        check=_half_step(study, full, ran[ROTOR_BAND[0]], folder) if _checked(study) else None,
     )
+
+
+def _checked(study: Study) -> bool:
+    return study.full_films is not None and study.full_films.half_step
 
 
 def _half_step(study: Study, full: RotorResult, chosen: _RunsOn, folder: Path) -> HalfStep:
@@ -227,7 +231,7 @@ def _decay(study: Study, mode: RotorMode, ran: Mapping[str, _RunsOn], response: 
     full = store.read(folder / "decay.h5", RotorResult)
     runs = {FULL: full} | {name: one.decaying for name, one in ran.items()}
     half: dict[str, RotorResult] = {}
-    if study.check.half_step:
+    if _checked(study):
         half[FULL] = store.read(folder / "decay_half_step.h5", RotorResult)
         half[ROTOR_BAND[0]] = run_decay_reduced(study, ran[ROTOR_BAND[0]].element, mode, response, 1)
     return Decay(

@@ -11,12 +11,13 @@ import numpy as np
 import scipy
 
 from ehlcontact.checks.admissible_range import MEASURED
+from ehlcontact.cli.study.loads import defect_field, place_of, ring_load, spall_in
+from ehlcontact.cli.study.machine import bearing_of
 from ehlcontact.cli.study.points.kept import STORE, Kept, stage_key
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.shared_entries import supply_and_heat, supply_words
 from ehlcontact.cli.study.stages import Stage, stages_of
-from ehlcontact.cli.study.whole_bearing import ring_load, spall_in, whole_bearing
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.solver.mesh import Mesh
@@ -24,9 +25,9 @@ from ehlcontact.solver.mesh_choice import FINENESS, LARGEST_MESH, Purpose, mesh_
 
 CONV = 2.3e-3  # seconds of one when those studies were run
 REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
-# Convolutions of the rotor on whole bearings, with films and dry: its diagram, and each of its steps.
-WHOLE, WHOLE_STEP = 470.0, 0.016
-WHOLE_AT_ANGLES = 610.0  # of bearings with an axial load and of the rotor between them
+# Convolutions of the machine in time on models of its bearings: its diagram, and each of its steps.
+MODELS, MODEL_STEP = 470.0, 0.016
+MACHINE = 600.0  # of the state of the machine, a bearing
 CONDITION = 260.0  # of oil supply and heat, from tables; where contacts are solved some thousands
 REFERENCE_RUNS = 15  # convolutions timed, of which the fastest counts
 # What too coarse a mesh does, measured against finer grids: the 6205 at n = 64, and solver/mesh_choice.py.
@@ -71,7 +72,7 @@ class Forecast:
     conv: float  # seconds of one convolution here and now
     plans: tuple[Plan, ...]
     closed: bool  # results and report are there, of this study
-    films: str  # oil supply and heat of the whole bearing, in words; empty of flooded isothermal ones
+    films: str  # oil supply and heat of the bearing, in words; empty of flooded isothermal ones
     warnings: tuple[str, ...]
 
     @property
@@ -93,9 +94,12 @@ class Forecast:
         return 0.0 if self.closed else closing_cost(self.study) * self.conv
 
     @property
-    def operating_point(self) -> dict[str, Any]:
-        """Contact of the most loaded ball, and its units in SI."""
-        point, study = self.study.point, self.study
+    def operating_point(self) -> dict[str, Any] | None:
+        """Contact of the most loaded ball, and its units in SI; None of a study without [contact]."""
+        study = self.study
+        if study.contact is None:
+            return None
+        point = study.point
         m, s = point.moes, point.scales
         return {
             "M": m.M,
@@ -118,7 +122,7 @@ class Forecast:
         return {
             "title": self.study.title,
             "operating_point": self.operating_point,
-            "domain": self.study.domain.as_tuple(),
+            "domain": None if self.study.contact is None else self.study.domain.as_tuple(),
             "folder": str(self.folder),
             "stages": [plan.to_dict() for plan in self.plans],
             "films": self.films,
@@ -153,8 +157,8 @@ def forecast(study: Study, folder: Path, jobs: int, root: Path | None = None) ->
 
 
 def films_words(study: Study) -> str:
-    """Films of the whole bearing beside flooded isothermal ones, in words; empty where none are asked for."""
-    supply, thermal = supply_and_heat(study.whole_bearing, "whole_bearing", study.lubricant)
+    """Films of the bearing beside flooded isothermal ones, in words; empty where none are asked for."""
+    supply, thermal = supply_and_heat(study.operation, "operation", study.lubricant)
     conditions = (
         "" if thermal is None else "with heat (thermal)",
         "" if supply is None else f"under a layer of oil, {supply_words(supply)}",
@@ -170,18 +174,17 @@ def stage_cost(stage: Stage, study: Study) -> float:
 
 def closing_cost(study: Study) -> float:
     """Likewise of what is made of all stages: fits, FMUs, reduced rotors, rotors on whole bearings, report."""
-    whole = study.whole_bearing
-    asked = "whole_bearing" in study.model_fields_set
-    rest = REST + oil_and_heat_cost(study)
-    if asked and whole.axial_load is not None:
-        return rest + WHOLE_AT_ANGLES
-    return rest + (WHOLE + WHOLE_STEP * whole.revolutions * whole.steps_per_revolution if asked else 0.0)
+    rest = REST * (study.contact is not None) + MACHINE * len(study.support) + oil_and_heat_cost(study)
+    models = study.in_time
+    return rest + (
+        0.0 if models is None else MODELS + MODEL_STEP * models.revolutions * models.steps_per_revolution
+    )
 
 
 def oil_and_heat_cost(study: Study) -> float:
     """Likewise of the bearing with heat and with a layer of oil, where they are asked for."""
-    whole = study.whole_bearing
-    heat, layer = whole.thermal, whole.layer_um is not None or whole.layer_ratio is not None
+    asked = study.operation
+    heat, layer = asked.thermal, asked.layer_um is not None or asked.layer_ratio is not None
     return CONDITION * (1 + heat) * (1 + layer) if heat or layer else 0.0
 
 
@@ -197,7 +200,8 @@ def convolution_seconds() -> float:
 
 
 def _mesh(stage: Stage, study: Study) -> Mesh:
-    n = study.solver.n if stage.steps is None else study.solver.n_transient
+    assert study.contact is not None
+    n = study.contact.n if stage.steps is None else study.contact.n_transient
     return Mesh(n, study.domain, study.point.moes.kappa)
 
 
@@ -212,32 +216,35 @@ def _steps(stage: Stage, study: Study) -> tuple[int, int, float | None]:
 
 def cautions(study: Study) -> list[str]:
     """Warnings about grids and numbers that the study will run with, but not accurately."""
-    return [*_coarse(study), *_outside(study), *_deep_spall(study)]
+    contact = [] if study.contact is None else [*_coarse(study), *_outside(study)]
+    return [*contact, *_deep_spall(study)]
 
 
 def _deep_spall(study: Study) -> list[str]:
-    """Warning of a spall over which the most loaded ball loses its load, by the dry bearing at rest."""
-    spall = spall_in(study)
-    if spall is None:
-        return []
-    approach = whole_bearing(study, oil=False).equilibrium(ring_load(study)).approach
-    pressed = float(approach.sum(axis=-1).max())
-    if spall.depth < pressed:
-        return []
-    return [
-        f"whole_bearing.spall is {1e6 * spall.depth:.3g} um deep, the balls are pressed by"
-        f" {1e6 * pressed:.3g} um at most: "
-        "they lose their load over it, and the linear forces of the report mean nothing; its orders hold. "
-        "simulate_rotor computes the force (docs/defects.md)"
-    ]
+    """Warnings of spalls over which the most loaded ball loses its load, by the dry bearing at rest."""
+    found = []
+    for k in range(len(study.defect)):
+        spall = spall_in(study, k)
+        place = place_of(study, study.defect[k], defect_field(study, k, "support"))
+        approach = bearing_of(study, place, oil=False).equilibrium(ring_load(study, place)).approach
+        pressed = float(approach.sum(axis=-1).max())
+        if spall.depth >= pressed:
+            found.append(
+                f"{defect_field(study, k, 'spall')} is {1e6 * spall.depth:.3g} um deep, the balls are pressed by"
+                f" {1e6 * pressed:.3g} um at most: "
+                "they lose their load over it, and the linear forces of the report mean nothing; its orders hold. "
+                "simulate_rotor computes the force (docs/defects.md)"
+            )
+    return found
 
 
 def _coarse(study: Study) -> list[str]:
     """Warnings of grids too coarse for the inlet, and of a region too small."""
-    point, domain, found = study.point.moes, study.domain, []
+    point, domain, found, settings = study.point.moes, study.domain, [], study.contact
+    assert settings is not None
     for key, n, purpose, why in (
-        ("n", study.solver.n, Purpose.FILM, FILM_TOO_THIN),
-        ("n_transient", study.solver.n_transient, Purpose.RUN, DAMPING_OFF),
+        ("n", settings.n, Purpose.FILM, FILM_TOO_THIN),
+        ("n_transient", settings.n_transient, Purpose.RUN, DAMPING_OFF),
     ):
         size = Mesh(n, domain, point.kappa).size
         wanted = min(FINENESS[purpose].share * point.inlet_width, LARGEST_MESH)
@@ -247,13 +254,13 @@ def _coarse(study: Study) -> list[str]:
                 f"{key} = {better}" if better > n else "the library chooses none finer: it would take too long"
             )
             found.append(
-                f"solver.{key} = {n}: a mesh of {size:.2g} semi-axes is too coarse for the inlet of this film, "
+                f"contact.{key} = {n}: a mesh of {size:.2g} semi-axes is too coarse for the inlet of this film, "
                 f"{point.inlet_width:.2g} wide ({why}); {advice}"
             )
     wide = Domain.for_point(point, study.largest_load)
     if wide.x_in < domain.x_in or wide.y_max > domain.y_max or wide.x_out > domain.x_out:
         bounds = ", ".join(f"{x:.3g}" for x in wide.as_tuple())
-        found.append(f"solver.domain = {list(domain.as_tuple())}: this load wants [{bounds}] or more")
+        found.append(f"contact.domain = {list(domain.as_tuple())}: this load wants [{bounds}] or more")
     return found
 
 

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from math import hypot, pi
+from math import hypot
 from typing import Any
 
-import numpy as np
-
 from ehlcontact.cli.numerals import numeral, percent
-from ehlcontact.cli.study.differences import Events
+from ehlcontact.cli.study.answer import NAMES
+from ehlcontact.cli.study.differences import Events, RotorFindings
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
-from ehlcontact.cli.study.results import Findings
-from ehlcontact.cli.study.rotor_on_bearings import NAMES
+from ehlcontact.cli.study.results import ContactFindings, Findings
 from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN, OilAndHeat
 from reduced_models.bearing.set_result import SetState
 
@@ -34,7 +32,29 @@ def document(found: Findings) -> dict[str, Any]:
 
 def verdict(found: Findings) -> str:
     """The result in one line: whether the film decides the damping, the nearest element, film and assumptions."""
-    d, op, rough = found.rotors.decay, found.operating_point, found.study.roughness
+    contact, rotors = found.contact, found.rotors
+    if contact is None:
+        return _machine_verdict(found)
+    op, rough = contact.operating_point, found.study.roughness
+    ratio = "" if rough is None else f", {numeral(1e-6 * op['h_min_um'] / hypot(*rough), 3)} times the roughness"
+    film = f"Smallest film {numeral(op['h_min_um'], 3)} \N{MICRO SIGN}m{ratio}."
+    outside = ", ".join(one.name for one in contact.assumptions.out_of_range)
+    held = f"Does not hold: {outside}." if outside else "All assumptions that can be judged hold."
+    damped = "" if rotors is None else _damping_verdict(rotors)
+    return " ".join(filter(None, (damped, film, held, conditions(found))))
+
+
+def _machine_verdict(found: Findings) -> str:
+    """The machine or the bearing alone in one line: its first tiles."""
+    machine = found.machine
+    if isinstance(machine, str):
+        return f"NOT COMPUTED: {machine}."
+    return ". ".join(map(str, machine.tiles()[:3])) + "."
+
+
+def _damping_verdict(rotors: RotorFindings) -> str:
+    """Whether the film decides the damping of the rotor on full films, and the nearest element."""
+    d = rotors.decay
     own, nearest = d.decrements[FULL], d.nearest_without
     said = [f"Log decrement {numeral(own.decrement, 3)} at {numeral(own.hz)} Hz on the full film"]
     elements = {name: abs(d.off(name)) for name in (ROTOR_BAND[0], MEMORY) if name in d.decrements}
@@ -46,11 +66,7 @@ def verdict(found: Findings) -> str:
     decides = (
         "" if nearest is None else f"The film {'decides' if d.film_decides else 'does not decide'} the damping. "
     )
-    ratio = "" if rough is None else f", {numeral(1e-6 * op['h_min_um'] / hypot(*rough), 3)} times the roughness"
-    film = f"Smallest film {numeral(op['h_min_um'], 3)} \N{MICRO SIGN}m{ratio}."
-    outside = ", ".join(one.name for one in found.assumptions.out_of_range)
-    held = f"Does not hold: {outside}." if outside else "All assumptions that can be judged hold."
-    return " ".join(filter(None, (f"{decides}{', '.join(said)}. {film} {held}", conditions(found))))
+    return f"{decides}{', '.join(said)}."
 
 
 def conditions(found: Findings) -> str:
@@ -59,7 +75,7 @@ def conditions(found: Findings) -> str:
     if not isinstance(w, OilAndHeat):
         return ""
     keys = [key for key in w.conditions if key != FLOODED]
-    beside = "The single contact is flooded and isothermal; the whole bearing is computed"
+    beside = "The single contact is flooded and isothermal; the bearing is computed"
     return f"{beside} {', '.join(keys)} too." if keys else ""
 
 
@@ -70,44 +86,49 @@ def headline(found: Findings) -> str:
 
 def findings(found: Findings) -> list[str]:
     """Findings, a text per subject."""
-    return _sentences(found, contact, damper, decay, unbalance, whole, at_angles, oil_and_heat)
+    rotor = () if found.rotors is None else (decay, unbalance)
+    single = () if found.contact is None else _sentences(found.contact, contact, damper, *rotor)
+    return [*_sentences(found, machine), *single, *_sentences(found, whole, oil_and_heat)]
 
 
 def reservations(found: Findings) -> list[str]:
     """Reservations about the findings, a text per subject."""
-    return _sentences(
-        found,
-        without_films,
-        damping_below_zero,
-        unsettled,
-        step_check,
-        mesh_warnings,
-        contact_events,
-        failures,
-        broken_assumptions,
-    )
+    rotor = () if found.rotors is None else (unsettled, step_check)
+    after = () if found.rotors is None else (contact_events, failures)
+    single = () if found.contact is None else _sentences(found.contact, *after, broken_assumptions)
+    return [
+        *_sentences(found, without_films, damping_below_zero, *rotor, mesh_warnings),
+        *single,
+    ]
 
 
-def _sentences(found: Findings, *parts: Callable[[Findings], str]) -> list[str]:
+def _sentences(found: Any, *parts: Callable[[Any], str]) -> list[str]:
     return [text for text in (part(found) for part in parts) if text]
 
 
-def contact(found: Findings) -> str:
+def machine(found: Findings) -> str:
+    """The machine, or the bearing alone, in its tiles; why it is not computed."""
+    state = found.machine
+    return f"NOT COMPUTED: {state}." if isinstance(state, str) else ". ".join(map(str, state.tiles())) + "."
+
+
+def contact(found: ContactFindings) -> str:
     """Load, pressure and film."""
-    op, bearing = found.operating_point, found.study.bearing
+    op, settings, label = found.operating_point, found.study.contact, found.study.carrier.label
+    assert settings is not None
     central, smallest = (
         "" if op[name] is None else f" (\N{PLUS-MINUS SIGN} {numeral(100.0 * op[name], 2)} % of it)"
         for name in ("h_central_error", "h_min_error")
     )
     return (
-        f"The most loaded ball of this {bearing.name} presses {numeral(op['load'])} N on the {bearing.race} race "
+        f"The most loaded ball of this {label} presses {numeral(op['load'])} N on the {settings.race} race "
         f"(M = {op['M']:.0f}, L = {op['L']:.1f}, kappa = {op['kappa']:.3f}, {op['p_hertz'] * 1e-9:.2f} GPa) and "
         f"rolls on an oil film of {op['h_central_um']:.3f} \N{MICRO SIGN}m{central}, {op['h_min_um']:.3f} "
         f"\N{MICRO SIGN}m{smallest} at its thinnest."
     )
 
 
-def damper(found: Findings) -> str:
+def damper(found: ContactFindings) -> str:
     """Spring and damper at the rotor's frequency, from the impedance; the fit and its interval beside them."""
     own, fitted = found.at_rotor_speed, found.damper_of_fit
     low, high = fitted["interval"]
@@ -121,7 +142,7 @@ def damper(found: Findings) -> str:
     )
 
 
-def decay(found: Findings) -> str:
+def decay(found: Any) -> str:
     """Decrement on the full film, with elements, and without a film."""
     d = found.rotors.decay
     own = d.decrements[FULL]
@@ -148,7 +169,7 @@ def off(share: float) -> str:
     return f"{'+' if share >= 0.0 else '-'}{percent(abs(share), 2)} of it"
 
 
-def unbalance(found: Findings) -> str:
+def unbalance(found: Any) -> str:
     """Differences of elements and baselines from the full film under unbalance."""
     u = found.rotors.unbalance
     said = [
@@ -172,7 +193,7 @@ def whole(found: Findings) -> str:
     if slowest:
         said = (f"with {NAMES[name]} {numeral(m['decrement'], 3)} at {numeral(m['hz'])} Hz" for name, m in slowest)
         parts.append(
-            f"On two whole bearings{_flooded_words(found)} its slowest vertical vibration has a decrement of: "
+            f"On its bearings{_flooded_words(found)} the slowest vertical vibration has a decrement of: "
             f"{'; '.join(said)}."
         )
     heard = [(name, row["at_ball_passage"]) for name, row in rows.items() if row["at_ball_passage"] is not None]
@@ -182,41 +203,15 @@ def whole(found: Findings) -> str:
         parts.append(f"Balls that pass, at {hz} Hz, move the disc up and down by {', '.join(said)}.")
     if found.whole.failed:
         said = (f"{NAMES[name]} ({reason})" for name, reason in found.whole.failed.items())
-        parts.append(f"The rotor could not be run on whole bearings with: {'; '.join(said)}.")
+        parts.append(f"The rotor could not be run on its bearings with: {'; '.join(said)}.")
     if found.whole.said:
-        parts.append(f"NOTE, whole bearings: {'; '.join(found.whole.said)}.")
+        parts.append(f"NOTE, in time: {'; '.join(found.whole.said)}.")
     return " ".join(parts)
 
 
 def _flooded_words(found: Findings) -> str:
     """Of bearings of a rotor, where heat or a layer is asked for: they have neither."""
     return "" if found.oil_and_heat is None else ", flooded and isothermal,"
-
-
-def at_angles(found: Findings) -> str:
-    """The whole bearing under axial load, where there is one: contact angles, stiffness, slowest vibration."""
-    w = found.at_angles
-    if w is None:
-        return ""
-    angles = [
-        one.contact_angles[one.force[:, 0] > 0.0] for one in w.bearings.values() if one.contact_angles is not None
-    ]
-    carrying, carrier = np.concatenate(angles), "a whole bearing" if w.pair is None else f"a {w.pair.name}"
-    low, high = (numeral(one * 180.0 / pi) for one in (carrying.min(), carrying.max()))
-    stiff = numeral(float(w.at_speed.stiffness[0, 2, 2]) * 1e-6)
-    text = (
-        f"Under {numeral(float(w.state.load[2]))} N of axial load the balls of {carrier} run at contact "
-        f"angles of {low} to {high} degrees; it has {stiff} N/\N{MICRO SIGN}m along the shaft."
-    )
-    on = "between two of them" if w.pair is None else "on it and a floating bearing"
-    on += _flooded_words(found)
-    if not w.modes:
-        return f"{text} Vibrations of the rotor {on} were not found: {w.no_modes}."
-    first = w.modes[0]
-    return (
-        f"{text} The slowest vibration of the rotor {on} has {numeral(first.hz)} Hz and a "
-        f"decrement of {numeral(first.decrement, 3)}."
-    )
 
 
 def oil_and_heat(found: Findings) -> str:
@@ -241,9 +236,9 @@ def without_films(found: Findings) -> str:
     """Conditions of oil and heat that were asked for and have no films, and why."""
     w = found.oil_and_heat
     if isinstance(w, str):
-        return f"NOT COMPUTED: oil supply and heat of the whole bearing ({w})."
+        return f"NOT COMPUTED: oil supply and heat of the bearing ({w})."
     said = [] if w is None else [f"{key} ({reason})" for key, reason in w.refused.items()]
-    return f"NO FILMS of the whole bearing {'; '.join(said)}." if said else ""
+    return f"NO FILMS of the bearing {'; '.join(said)}." if said else ""
 
 
 def damping_below_zero(found: Findings) -> str:
@@ -260,10 +255,10 @@ def damping_below_zero(found: Findings) -> str:
     ]
     if not said:
         return ""
-    return f"DAMPING BELOW ZERO: the whole bearing has {'; '.join(said)}: there films add energy to vibrations."
+    return f"DAMPING BELOW ZERO: the bearing has {'; '.join(said)}: there films add energy to vibrations."
 
 
-def unsettled(found: Findings) -> str:
+def unsettled(found: Any) -> str:
     """Runs that had not settled at their end."""
     said = [
         f"{CONTACTS[name]} ({percent(s.last_change, 2)})"
@@ -277,7 +272,7 @@ def unsettled(found: Findings) -> str:
     )
 
 
-def step_check(found: Findings) -> str:
+def step_check(found: Any) -> str:
     """Changes by half the step above a hundredth."""
     u, d = found.rotors.unbalance.step_share, found.rotors.decay.step_share
     said = []
@@ -294,7 +289,7 @@ def mesh_warnings(found: Findings) -> str:
     return f"NOT AS SURE AS IT LOOKS: {'; '.join(said)}." if said else ""
 
 
-def contact_events(found: Findings) -> str:
+def contact_events(found: Any) -> str:
     """Contacts lost and regained, and time outside what elements stand for."""
     runs: Mapping[str, Events] = {
         "under unbalance": found.rotors.unbalance.events,
@@ -318,12 +313,12 @@ def contact_events(found: Findings) -> str:
     return f"NOTE: {'; '.join(said)}." if said else ""
 
 
-def failures(found: Findings) -> str:
+def failures(found: Any) -> str:
     """Contacts that the rotor could not be run on."""
     said = [f"{CONTACTS[name]} ({reason})" for name, reason in found.rotors.failed.items()]
     return f"The rotor could not be run on: {'; '.join(said)}." if said else ""
 
 
-def broken_assumptions(found: Findings) -> str:
+def broken_assumptions(found: ContactFindings) -> str:
     """Assumptions that do not hold."""
     return found.assumptions.headline

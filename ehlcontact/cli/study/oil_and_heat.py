@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.study.loads import ring_load
+from ehlcontact.cli.study.machine import carrier_of
 from ehlcontact.cli.study.shared_entries import supply_and_heat, tilt_of
-from ehlcontact.cli.study.whole_bearing import bearing_or_pair, ring_load
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.kinematics import RPM_TO_HZ
 from reduced_models.bearing.oil_and_heat import oil_and_heat
@@ -25,19 +26,19 @@ BAND, FREQUENCIES = (0.2, 50.0), 13  # over the frequency of the shaft: K and C 
 
 def run_oil_and_heat(study: Study) -> OilAndHeat | str | None:
     """The study's bearing with heat and with its layer, or why there is none; None where neither is asked for."""
-    whole = study.whole_bearing
-    supply, thermal = supply_and_heat(whole, "whole_bearing", study.lubricant)
+    asked = study.operation
+    supply, thermal = supply_and_heat(asked, "operation", study.lubricant)
     if supply is None and thermal is None:
         return None
-    speed = study.bearing.speed_rpm
+    speed = study.speed_rpm
     try:
         return oil_and_heat(
-            bearing_or_pair(study, oil=True),
-            ring_load(study),
+            carrier_of(study, study.at),
+            ring_load(study, study.at),
             speed_rpm=speed,
             supply=supply,
             thermal=thermal,
-            tilt=tilt_of(whole),
+            tilt=tilt_of(asked),
             band=speed * RPM_TO_HZ * np.geomspace(*BAND, FREQUENCIES),
         )
     except (ConvergenceError, InputError) as error:

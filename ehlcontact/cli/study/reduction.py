@@ -81,7 +81,7 @@ class Reduction:
         element = self.element_si(*ROTOR_BAND)
         if element is None:
             raise InputError(
-                "rotor_band fit", self.refused[ROTOR_BAND], "a cubic element; raise rotor.fit_amplitude"
+                "rotor_band fit", self.refused[ROTOR_BAND], "a cubic element; raise contact.rotor_band.amplitude"
             )
         return element
 
@@ -133,11 +133,12 @@ def _at_memory_frequencies(response: Response) -> Response:
 
 def contact_text(study: Study) -> str:
     """Bearing, race, load, speed and oil of the contact in one line."""
-    bearing, oil = study.bearing, study.oil
+    oil, contact = study.oil, study.contact
+    assert oil is not None and contact is not None
     viscosity = "" if oil.eta0 is None else f" of {numeral(oil.eta0)} Pa s"
     return (
-        f"{bearing.name}, {bearing.race} race, most loaded ball of {numeral(bearing.radial_load)} N at "
-        f"{numeral(bearing.speed_rpm)} rpm, {oil.label}{viscosity}"
+        f"{study.carrier.label}, {contact.race} race, most loaded ball of {numeral(study.radial_load)} N at "
+        f"{numeral(study.speed_rpm)} rpm, {oil.label}{viscosity}"
     )
 
 

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from ehlcontact.cli.page import write_page
+from ehlcontact.cli.study.answer import NAMES
+from ehlcontact.cli.study.differences import RotorFindings
 from ehlcontact.cli.study.headline import findings, reservations, verdict
 from ehlcontact.cli.study.oil_and_heat import columns, skf_words
+from ehlcontact.cli.study.points.folder import versions
 from ehlcontact.cli.study.reduction import (
     CONTACT_BAND,
     CONTACTS,
@@ -21,14 +25,15 @@ from ehlcontact.cli.study.reduction import (
     ROTOR_BAND,
     UNDAMPED,
 )
-from ehlcontact.cli.study.results import Findings
-from ehlcontact.cli.study.rotor_on_bearings import NAMES, BearingAtAngles
+from ehlcontact.cli.study.results import ContactFindings, Findings
 from ehlcontact.cli.study.shared_entries import supply_and_heat, supply_words
 from ehlcontact.cli.study.stages import STAGES
 from ehlcontact.film.over_time import film_wave
 from ehlcontact.film.pictures import coloured_fringes, instants
 from ehlcontact.results.contact_map import convergence, film_picture
 from ehlcontact.results.picture import Picture, Slides
+from reduced_models.bearing.coefficients import BearingCoefficients
+from reduced_models.bearing.kinematics import RPM_TO_HZ
 from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.bearing.picture import conditions_coefficients, conditions_films, over_frequency, state_picture
 from reduced_models.fitting.pictures import histories, impedance, loops
@@ -70,10 +75,9 @@ def write_report(found: Findings, path: Path) -> Path:
         found=found,
         story={"verdict": verdict(found), "findings": findings(found), "reservations": reservations(found)},
         files=files_beside(path.parent),
-        op=found.operating_point,
-        scales=found.study.point.scales,
         titles=TITLES,
-        ways=ways_of_coupling(found.fmus),
+        ways=ways_of_coupling(() if found.contact is None else found.contact.fmus),
+        versions=versions(),
         names=CONTACTS,
         meanings=MEANINGS,
         lost=LOST,
@@ -88,8 +92,8 @@ def conditions(found: Findings) -> dict[str, Any]:
     """Table and words of the bearing with heat and with a layer of oil; empty where it is not computed."""
     if not isinstance(found.oil_and_heat, OilAndHeat):
         return {}
-    whole, one = found.study.whole_bearing, found.oil_and_heat
-    supply, _ = supply_and_heat(whole, "whole_bearing", found.study.lubricant)
+    asked, one = found.study.operation, found.oil_and_heat
+    supply, _ = supply_and_heat(asked, "operation", found.study.lubricant)
     return {"conditions": columns(one), "skf": skf_words(one), "supply_words": supply_words(supply)}
 
 
@@ -117,14 +121,18 @@ def ways_of_coupling(fmus: Iterable[Mapping[str, Any]]) -> list[tuple[str, list[
 
 def drawings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
     """The pictures by name, each described where the page needs it."""
-    return _of_bearings(found) | _of_contact(found) | _of_rotor(found)
+    pictures = _of_bearings(found)
+    if found.contact is not None:
+        pictures |= _of_contact(found.contact)
+    return pictures | (_of_rotor(found.rotors) if found.rotors is not None else {})
 
 
-def _of_contact(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
+def _of_contact(found: ContactFindings) -> dict[str, Callable[[], Picture | Slides]]:
     reduction, steady, runs = found.reduction, found.steady, found.simulations
     cubic = {name: reduction.fits[name, "cubic"] for name in RECORDS if (name, "cubic") in reduction.fits}
     memory = None if isinstance(reduction.memory, str) else reduction.memory.element
-    frequencies = found.study.rotor_omega, found.at_kicked_mode["Omega"]
+    kicked = found.at_kicked_mode
+    frequencies = (found.study.rotor_omega, *(() if kicked is None else (kicked["Omega"],)))
     return {
         "film_maps": lambda: film_picture(steady)[0],
         "midplane": lambda: film_picture(steady)[1],
@@ -138,8 +146,7 @@ def _of_contact(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
     }
 
 
-def _of_rotor(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
-    rotors = found.rotors
+def _of_rotor(rotors: RotorFindings) -> dict[str, Callable[[], Picture | Slides]]:
     turning, how = {FULL: rotors.unbalance.full, **rotors.unbalance.reduced}, rotors.unbalance.settling[FULL]
     few = {name: turning[name] for name in DRAWN if name in turning}
     decays = rotors.decay.runs, rotors.decay.decrements
@@ -166,23 +173,17 @@ def _of_bearings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
             pictures["whole_speeds"] = lambda: rotor.speeds(whole)
         if not isinstance(diagram := whole.diagram, str):
             pictures["whole_campbell"] = diagram.picture
-    if found.at_angles is not None:
-        pictures |= pictures_at_angles(found.at_angles)
+    if not isinstance(machine := found.machine, str):
+        pictures["machine"] = machine.picture
+    for k, small in enumerate(found.over_frequency.values()):
+        pictures[f"frequency_{k + 1}"] = partial(_over_frequency, small)
     if isinstance(one := found.oil_and_heat, OilAndHeat):
         pictures["conditions_films"] = lambda: conditions_films(one)
         pictures["conditions_coefficients"] = lambda: conditions_coefficients(one)
-    if (defect := found.defect) is not None:
-        pictures["defect_signal"] = defect.picture
+    for k, defect in enumerate(found.defects):
+        pictures[f"defect_signal{k + 1 if k else ''}"] = defect.picture
     return pictures
 
 
-def pictures_at_angles(found: BearingAtAngles) -> dict[str, Callable[[], Picture | Slides]]:
-    """Those of a bearing at contact angles and of the rotor between two of them."""
-    shaft_hz = found.state.speed_rpm / 60.0
-    pictures: dict[str, Callable[[], Picture | Slides]] = {
-        f"angles_balls{k or ''}": state.picture for k, state in enumerate(found.bearings.values())
-    }
-    pictures["angles_coefficients"] = lambda: Picture(over_frequency(found.over_frequency, (), shaft_hz))
-    if not isinstance(found.diagram, str):
-        pictures["angles_campbell"] = found.diagram.picture
-    return pictures
+def _over_frequency(small: BearingCoefficients) -> Picture:
+    return Picture(over_frequency(small, (), small.speed_rpm * RPM_TO_HZ))

@@ -21,12 +21,13 @@ from ehlcontact.cli.study.reduction import (
     Reduction,
 )
 from ehlcontact.cli.study.rotor import stiffness_and_damping
-from ehlcontact.cli.study.rotor_on_bearings import BearingAtAngles
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
+from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.rotor.compare_bearing_models import BearingModels
+from reduced_models.rotor.machine_state import MachineState
 
 
 @dataclass(frozen=True)
@@ -34,29 +35,60 @@ class Findings:
     """Results of all stages and what was made of them."""
 
     study: Study
+    machine: MachineState | str  # or why there is none
+    over_frequency: Mapping[str, BearingCoefficients]  # K and C of the bearings, by the name of the support
+    whole: BearingModels | None  # where the machine is run in time on models of its bearings
+    oil_and_heat: OilAndHeat | str | None  # where there is a layer of oil or heat; or why there is none
+    defects: tuple[StudyDefect, ...]
+    contact: ContactFindings | None
+    rotors: RotorFindings | None  # on full films
+    seconds: Mapping[str, float]  # wall time by stage
+
+    def to_dict(self) -> dict[str, Any]:
+        """Numbers of ``results.json``."""
+        machine = self.machine
+        return {
+            "machine": None if isinstance(machine, str) else machine.to_dict(),
+            "no_machine": machine if isinstance(machine, str) else None,
+            "over_frequency": {
+                name: {"hz": one.hz, "stiffness": one.stiffness, "damping": one.damping}
+                for name, one in self.over_frequency.items()
+            },
+            "in_time": None if self.whole is None else self.whole.to_dict(),
+            "oil_and_heat": (
+                self.oil_and_heat.to_dict() if isinstance(self.oil_and_heat, OilAndHeat) else self.oil_and_heat
+            ),
+            "defects": [one.to_dict() for one in self.defects],
+            **({} if self.contact is None else self.contact.to_dict()),
+            **({} if self.rotors is None else {"rotor": self.rotors.to_dict()}),
+            "seconds": self.seconds,
+            "versions": versions(),
+        }
+
+
+@dataclass(frozen=True)
+class ContactFindings:
+    """The contact of the most loaded ball: film, motions, elements and FMUs; and the rotor on full films."""
+
+    study: Study
     steady: SteadyResult
     simulations: Mapping[str, SimulationResult]
     reduction: Reduction
-    rotors: RotorFindings
-    whole: BearingModels | None  # where the study has whole bearings
-    at_angles: BearingAtAngles | None  # where they carry an axial load
-    oil_and_heat: OilAndHeat | str | None  # where they have a layer of oil or heat; or why there is none
+    rotors: RotorFindings | None
     fmu: Mapping[str, Any]  # of the cubic of the rotor's band
     film_fmu: Mapping[str, Any] | None  # of the element with a film memory, where there is one
-    seconds: Mapping[str, float]  # wall time by stage
-    defect: StudyDefect | None = None  # where whole_bearing has a spall
 
     @property
     def operating_point(self) -> dict[str, Any]:
         """Numbers of the contact, SI unless the name has a unit; errors of films over the films, or None."""
         error = self.steady.error_estimate
-        moes, scales, oil = self.study.point.moes, self.study.point.scales, self.study.lubricant
+        moes, scales, oil = self.study.point.moes, self.study.point.scales, self.study.point.lubricant
         return {
             "M": moes.M,
             "L": moes.L,
             "kappa": moes.kappa,
             "load": scales.force,
-            "radial_load": self.study.bearing.radial_load,
+            "radial_load": self.study.radial_load,
             "u_sum": self.study.point.u_sum,
             "eta0": oil.eta0,
             "alpha": oil.alpha,
@@ -82,11 +114,12 @@ class Findings:
     @property
     def assumptions(self) -> Assumptions:
         """Assumptions and how far they hold; vibration is that of the journal on full contacts."""
-        runs = (self.rotors.unbalance.full, self.rotors.decay.runs[FULL])
-        velocity = np.concatenate([np.linalg.norm(run.journal_velocity, axis=1) for run in runs])
-        return assumptions(
-            self.study.point, film=self.steady, roughness=self.study.roughness, vibration=float(velocity.max())
-        )
+        known: dict[str, Any] = {"film": self.steady, "roughness": self.study.roughness}
+        if self.rotors is not None:
+            runs = (self.rotors.unbalance.full, self.rotors.decay.runs[FULL])
+            velocity = np.concatenate([np.linalg.norm(run.journal_velocity, axis=1) for run in runs])
+            known["vibration"] = float(velocity.max())
+        return assumptions(self.study.point, **known)
 
     @property
     def cycle_work(self) -> dict[str, float]:
@@ -103,11 +136,6 @@ class Findings:
             forces["memory"] = memory.element.drive(run.t, run.approach, run.rate)[last]
         unit = scales.force * scales.length
         return {name: float(np.trapezoid(force, u)) * unit for name, force in forces.items()}
-
-    @property
-    def versions(self) -> dict[str, str]:
-        """Software the numbers come from."""
-        return versions()
 
     @property
     def fits(self) -> list[dict[str, Any]]:
@@ -135,8 +163,10 @@ class Findings:
         return {"stiffness": K, "damping": C}
 
     @property
-    def at_kicked_mode(self) -> dict[str, float]:
-        """Likewise at the frequency of the mode that is kicked."""
+    def at_kicked_mode(self) -> dict[str, float] | None:
+        """Stiffness and damping at the frequency of the mode that is kicked, of a rotor on full films."""
+        if self.rotors is None:
+            return None
         omega = self.rotors.decay.mode.omega
         K, C = stiffness_and_damping(self.reduction.impedance, omega)
         return {"Omega": omega * self.study.point.scales.time, "stiffness": K, "damping": C}
@@ -158,16 +188,20 @@ class Findings:
         }
 
     @property
-    def spectrum_resolution(self) -> float:
-        """Distance of the lines of the spectrum [Hz]."""
-        u = self.rotors.unbalance
-        first = u.settling[FULL].settled_from
-        return self.study.rotor_hz / (1 if first is None else self.study.rotor.revolutions - first)
+    def spectrum_resolution(self) -> float | None:
+        """Distance of the lines of the spectrum of the rotor on full films [Hz]."""
+        films = self.study.full_films
+        if self.rotors is None or films is None:
+            return None
+        first = self.rotors.unbalance.settling[FULL].settled_from
+        return self.study.rotor_hz / (1 if first is None else films.revolutions - first)
 
     @property
     def warnings(self) -> list[str]:
         """Warnings of elements outside their validity box, each once per run, with the contacts concerned."""
         said: dict[str, list[str]] = {}
+        if self.rotors is None:
+            return []
         for when, events in (("unbalance", self.rotors.unbalance.events), ("kick", self.rotors.decay.events)):
             for name, contacts in events.items():
                 for number, one in enumerate(contacts):
@@ -183,7 +217,7 @@ class Findings:
         return {"X": float(film.x[i]) / s.a, "Y": float(film.y[j]) / s.b}
 
     def to_dict(self) -> dict[str, Any]:
-        """Numbers of ``results.json``."""
+        """Numbers of the contact in ``results.json``."""
         keys = ("static_approach", "steps", "seconds")
         return {
             "operating_point": self.operating_point,
@@ -211,13 +245,4 @@ class Findings:
             "rotor_loop": self.rotor_loop,
             "spectrum_resolution": self.spectrum_resolution,
             "warnings": self.warnings,
-            "rotor": self.rotors.to_dict(),
-            "whole_bearing": None if self.whole is None else self.whole.to_dict(),
-            "bearing_at_angles": None if self.at_angles is None else self.at_angles.to_dict(),
-            "oil_and_heat": (
-                self.oil_and_heat.to_dict() if isinstance(self.oil_and_heat, OilAndHeat) else self.oil_and_heat
-            ),
-            "defect": None if self.defect is None else self.defect.to_dict(),
-            "seconds": self.seconds,
-            "versions": self.versions,
         }

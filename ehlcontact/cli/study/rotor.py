@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.cli.study.schema import Study
+from ehlcontact.cli.study.schema import FullFilms, Study
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.response import impedance
 from ehlcontact.results import Response
@@ -38,7 +38,7 @@ BELOW = 0.5  # of the rotor's frequency: the lowest one of the impedance, but fo
 
 def build_rotor(study: Study, *, unbalance: bool = True) -> Rotor:
     """Rotor of the study, pressed down so that every contact carries the load of the operating point."""
-    r, ball = study.rotor, study.ball_load
+    r, ball = study.jeffcott, study.ball_load
     vee = r.arrangement == "vee"
     half_angle = radians(r.half_angle_deg)
     bearings = 2
@@ -51,7 +51,7 @@ def build_rotor(study: Study, *, unbalance: bool = True) -> Rotor:
         shaft_damping=r.shaft_damping,
         disc_damping=r.disc_damping,
         unbalance=r.unbalance if unbalance else 0.0,
-        speed_rpm=study.bearing.speed_rpm,
+        speed_rpm=study.speed_rpm,
         bearings=bearings,
         half_angle=half_angle if vee else None,
         load=(0.0, weight - needed),
@@ -115,16 +115,17 @@ def run_full(study: Study, halvings: int, callback: Callable[[int, int], None]) 
         study.point,
         _grid(study),
         local_contact(study.ball_load, approach, *stiffness_and_damping(response, omega)),
-        steps=study.rotor.steps_per_revolution * 2**halvings,
-        revolutions=study.rotor.revolutions,
+        steps=_films(study).steps_per_revolution * 2**halvings,
+        revolutions=_films(study).revolutions,
         callback=callback,
     )
 
 
 def run_reduced(study: Study, element: ContactElement, halvings: int) -> RotorResult:
     """The same with an SI element in every contact, settled where it can be, the same revolutions long."""
-    steps = study.rotor.steps_per_revolution * 2**halvings
-    return settled_run(build_rotor(study), element, steps=steps, revolutions=study.rotor.revolutions)
+    films = _films(study)
+    steps = films.steps_per_revolution * 2**halvings
+    return settled_run(build_rotor(study), element, steps=steps, revolutions=films.revolutions)
 
 
 def run_decay_full(study: Study, halvings: int, callback: Callable[[int, int], None]) -> RotorResult:
@@ -153,16 +154,22 @@ def run_decay_reduced(
 
 def _grid(study: Study) -> Grid:
     """Of every film in motion."""
-    return Grid(n=study.solver.n_transient, domain=study.domain)
+    assert study.contact is not None
+    return Grid(n=study.contact.n_transient, domain=study.domain)
+
+
+def _films(study: Study) -> FullFilms:
+    assert study.full_films is not None  # of a stage that is wanted
+    return study.full_films
 
 
 def _decay_settings(study: Study, halvings: int) -> dict[str, Any]:
-    steps = study.rotor.decay_steps_per_period * 2**halvings
-    return {"periods": study.rotor.decay_periods, "steps_per_period": steps}
+    steps = _films(study).decay_steps_per_period * 2**halvings
+    return {"periods": _films(study).decay_periods, "steps_per_period": steps}
 
 
 def _kick(study: Study, rotor: Rotor, mode: RotorMode, response: Response) -> NDArray[np.float64]:
     """Velocities of the mode, as fast as the entry `kick` of the study has it."""
     stiffness = float(abs(film_impedance(response)(np.array([mode.omega]))[0]))
-    load, load_share = study.ball_load, study.rotor.kick
+    load, load_share = study.ball_load, _films(study).kick
     return initial_velocity(rotor, mode, stiffness=stiffness, load=load, load_share=load_share)

@@ -11,7 +11,7 @@ from math import ceil
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ehlcontact.cli.study.schema import Study
+from ehlcontact.cli.study.schema import Contact, Study
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.jit import compilation_told
 from ehlcontact.process.worker import report
@@ -53,8 +53,8 @@ class Stage:
     Attributes
     ----------
     name, title : str
-    sections : tuple of str
-        Sections of the study that, with bearing and oil, decide whether an earlier result still holds.
+    parts : tuple of str
+        Parts of `Study.fingerprint` that, with the contact, decide whether an earlier result holds.
     cost : float
         Of one step of one contact, or of a steady solve, in convolutions ("conv", docs/solver_development.md) per
         thousand nodes: geometric mean of the two studies in examples/, whose own costs are up to a factor 1.5 on
@@ -64,21 +64,25 @@ class Stage:
         `Steps` of a study; None of a steady film.
     compute : callable
         Study and progress to a result.
-    checks : bool
-        Whether it is only done for [check] half_step.
+    full_films, checks : bool
+        Whether it is only done for [full_films], or for half_step in it.
     """
 
     name: str
     title: str
-    sections: tuple[str, ...]
+    parts: tuple[str, ...]
     cost: float
     steps: Callable[[Study], Steps] | None
     compute: Callable[[Study, Update], Any]
+    full_films: bool = False
     checks: bool = False
 
     def wanted(self, study: Study) -> bool:
         """Whether the study includes this computation."""
-        return study.check.half_step or not self.checks
+        if study.contact is None:
+            return False
+        films = study.full_films
+        return not self.full_films or (films is not None and (films.half_step or not self.checks))
 
     def file(self, folder: Path) -> Path:
         """Where the converged result stands."""
@@ -94,7 +98,7 @@ def _steady(study: Study, update: Update) -> Any:
 
     return solve_steady(
         study.point,
-        grid=Grid(n=study.solver.n, domain=study.domain),
+        grid=Grid(n=_contact(study).n, domain=study.domain),
         throw=False,
         callback=lambda cycle, residual: update(cycle, MAX_CYCLES),
     )
@@ -112,15 +116,24 @@ def _simulate(
     return simulate(
         study.point,
         motion,
-        grid=Grid(n=study.solver.n_transient, domain=study.domain),
+        grid=Grid(n=_contact(study).n_transient, domain=study.domain),
         time=TimeSteps(periods=steps.periods, steps_per_period=steps.per_period),
         keep=KeepSettings(snapshots=[T * study.point.scales.time for T in snapshots]),
         run=RunSettings(throw=False, callback=update),
     )
 
 
+def _contact(study: Study) -> Contact:
+    assert study.contact is not None  # of a stage that is wanted
+    return study.contact
+
+
+def _steps(motion: FreeVibration | HarmonicLoad, settings: Any) -> Steps:
+    return Steps(motion.period, settings.periods, settings.steps_per_period)
+
+
 def _free_steps(study: Study) -> Steps:
-    return Steps(study.free_motion.period, study.free.periods, study.free.steps_per_period)
+    return _steps(study.free_motion, _contact(study).free)
 
 
 def _free(study: Study, update: Update) -> Any:
@@ -128,7 +141,7 @@ def _free(study: Study, update: Update) -> Any:
 
 
 def _harmonic_steps(study: Study) -> Steps:
-    return Steps(study.harmonic_motion.period, study.harmonic.periods, study.harmonic.steps_per_period)
+    return _steps(study.harmonic_motion, _contact(study).harmonic)
 
 
 def _harmonic(study: Study, update: Update) -> Any:
@@ -146,7 +159,7 @@ def frame_times(period: float, periods: float, steps: int) -> list[float]:
 
 
 def _band_steps(study: Study) -> Steps:
-    return Steps(study.rotor_motion.period, study.rotor.fit_periods, study.rotor.fit_steps_per_period)
+    return _steps(study.rotor_motion, _contact(study).rotor_band)
 
 
 def _rotor_band(study: Study, update: Update) -> Any:
@@ -154,8 +167,10 @@ def _rotor_band(study: Study, update: Update) -> Any:
 
 
 def _rotor_steps(halvings: int, study: Study) -> Steps:
-    per_turn = study.rotor.steps_per_revolution * 2**halvings
-    return Steps(study.rotor_motion.period, study.rotor.revolutions, per_turn, on_rotor=True)
+    films = study.full_films
+    assert films is not None
+    per_turn = films.steps_per_revolution * 2**halvings
+    return Steps(study.rotor_motion.period, films.revolutions, per_turn, on_rotor=True)
 
 
 def _rotor(halvings: int, study: Study, update: Update) -> Any:
@@ -165,7 +180,9 @@ def _rotor(halvings: int, study: Study, update: Update) -> Any:
 
 
 def _decay_steps(halvings: int, study: Study) -> Steps:
-    return Steps(None, study.rotor.decay_periods, study.rotor.decay_steps_per_period * 2**halvings, on_rotor=True)
+    films = study.full_films
+    assert films is not None
+    return Steps(None, films.decay_periods, films.decay_steps_per_period * 2**halvings, on_rotor=True)
 
 
 def _decay(halvings: int, study: Study, update: Update) -> Any:
@@ -175,8 +192,10 @@ def _decay(halvings: int, study: Study, update: Update) -> Any:
 
 
 def _on_rotor(name: str, title: str, cost: float, steps: Any, compute: Any, halvings: int) -> Stage:
-    sections, checks = ("solver", "rotor"), halvings > 0
-    return Stage(name, title, sections, cost, partial(steps, halvings), partial(compute, halvings), checks)
+    parts = "grid", "full_films"
+    return Stage(
+        name, title, parts, cost, partial(steps, halvings), partial(compute, halvings), True, halvings > 0
+    )
 
 
 STAGES = (  # the longest first
@@ -184,10 +203,10 @@ STAGES = (  # the longest first
     _on_rotor("decay_half_step", "decay again, half the step", 0.70, _decay_steps, _decay, 1),
     _on_rotor("rotor_full", "rotor on full contacts", 1.90, _rotor_steps, _rotor, 0),
     _on_rotor("decay", "decay after a kick", 1.67, _decay_steps, _decay, 0),
-    Stage("steady", "steady film", ("solver",), 3.5, None, _steady),
-    Stage("free", "free vibration", ("solver", "free"), 0.59, _free_steps, _free),
-    Stage("harmonic", "harmonic load, contact band", ("solver", "harmonic"), 0.91, _harmonic_steps, _harmonic),
-    Stage("rotor_band", "harmonic load, rotor band", ("solver", "rotor"), 1.03, _band_steps, _rotor_band),
+    Stage("steady", "steady film", ("grid",), 3.5, None, _steady),
+    Stage("free", "free vibration", ("grid", "free"), 0.59, _free_steps, _free),
+    Stage("harmonic", "harmonic load, contact band", ("grid", "harmonic"), 0.91, _harmonic_steps, _harmonic),
+    Stage("rotor_band", "harmonic load, rotor band", ("grid", "rotor_band"), 1.03, _band_steps, _rotor_band),
 )
 
 

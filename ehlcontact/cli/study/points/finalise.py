@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from ehlcontact.assumptions import assumptions
 from ehlcontact.cli.output import one_line, write_json
-from ehlcontact.cli.study.defect import defect_of
+from ehlcontact.cli.study.answer import answer_of, over_frequency, run_models
+from ehlcontact.cli.study.defect import defects_of
 from ehlcontact.cli.study.differences import compare_rotors
+from ehlcontact.cli.study.forecast import films_words
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
 from ehlcontact.cli.study.reduction import RECORDS, contact_text, reduce_records, save_elements
-from ehlcontact.cli.study.results import Findings
+from ehlcontact.cli.study.results import ContactFindings, Findings
 from ehlcontact.cli.study.rotor import film_response
-from ehlcontact.cli.study.rotor_on_bearings import run_at_angles, run_whole
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Answer, reporting
 from ehlcontact.content_store import checksum
@@ -29,7 +31,7 @@ from ehlcontact.transient.result import SimulationResult
 from reduced_models.elements.validity import frequency_text
 
 RESULTS, REPORT = "results.json", "report.html"
-TITLE = "elements, FMUs, rotors, report"
+TITLE = "machine, elements, FMUs, report"
 
 
 def finalise_point(key: str, study: Study, folder: Path, seconds: Mapping[str, float]) -> Answer:
@@ -78,7 +80,35 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
 
     `seconds` are the wall times of the stages.
     """
+    times = dict(seconds)
+    contact = rotors = None
+    if study.contact is not None:
+        with _timed(times, "elements, FMUs, reduced rotors"):
+            contact = _contact(study, folder)
+            rotors = contact.rotors
+    with _timed(times, "machine"):
+        machine = answer_of(study)
+        small = over_frequency(study, machine)
+    with _timed(times, "machine in time on models", study.in_time is not None):
+        whole = run_models(study, folder)
+    with _timed(times, "oil supply and heat", bool(films_words(study))):
+        conditions = run_oil_and_heat(study)
+    with _timed(times, "defects", bool(study.defect)):
+        defects = defects_of(study)
+    return Findings(study, machine, small, whole, conditions, defects, contact, rotors, times)
+
+
+@contextmanager
+def _timed(times: dict[str, float], name: str, noted: bool = True) -> Iterator[None]:
+    """Note the wall time of a block."""
     started = time.perf_counter()
+    yield
+    if noted:
+        times[name] = time.perf_counter() - started
+
+
+def _contact(study: Study, folder: Path) -> ContactFindings:
+    """Elements, FMUs and reduced rotors of what the stages left."""
     steady = read(folder / "steady.h5", SteadyResult)
     simulations = {name: read(folder / f"{name}.h5", SimulationResult) for name in RECORDS}
     assumed = assumptions(study.point, film=steady, roughness=study.roughness).short()
@@ -89,19 +119,10 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
     exported = export_fmu(reduction.chosen, folder / "contact.fmu")
     film = reduction.memory_si
     exported_film = None if film is None else export_fmu(film, folder / "contact_film.fmu")
-    rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
-    times = {**seconds, "elements, FMUs, reduced rotors": time.perf_counter() - started}
-    started = time.perf_counter()
-    whole, at_angles = run_whole(study, folder), run_at_angles(study)
-    if whole is not None or at_angles is not None:
-        times["rotor on whole bearings"] = time.perf_counter() - started
-    started = time.perf_counter()
-    conditions = run_oil_and_heat(study)
-    if conditions is not None:
-        times["oil supply and heat"] = time.perf_counter() - started
-    bearings = whole, at_angles, conditions
-    rest = reduction, rotors, *bearings, exported, exported_film, times
-    return Findings(study, steady, simulations, *rest, defect=defect_of(study))
+    rotors = None
+    if study.full_films is not None:
+        rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
+    return ContactFindings(study, steady, simulations, reduction, rotors, exported, exported_film)
 
 
 def export_fmu(element: Any, path: Path) -> dict[str, Any]:
@@ -142,6 +163,8 @@ def read_results(folder: Path) -> dict[str, Any]:
 def products(results: Mapping[str, Any]) -> dict[str, str]:
     """Files of the finalisation, relative to the folder, by their meaning."""
     made = {"results": RESULTS, "report": REPORT}
+    if "fits" not in results:  # no contact
+        return made
     for row in results["fits"]:
         if "refused" not in row:
             name = f"{row['record']}_{row['model']}"
@@ -162,8 +185,8 @@ def faults(results: Mapping[str, Any]) -> list[str]:
 
 def _without_films(found: Mapping[str, Any] | str | None) -> list[str]:
     if found is None or isinstance(found, str):
-        return [] if found is None else [f"oil supply and heat of the whole bearing: {found}"]
-    return [f"no films of the whole bearing {key}: {reason}" for key, reason in found["refused"].items()]
+        return [] if found is None else [f"oil supply and heat of the bearing: {found}"]
+    return [f"no films of the bearing {key}: {reason}" for key, reason in found["refused"].items()]
 
 
 def _broken_fmus(results: Mapping[str, Any]) -> list[str]:
@@ -175,4 +198,4 @@ def _broken_fmus(results: Mapping[str, Any]) -> list[str]:
 
 
 def _fmus(results: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    return [entry for entry in (results["fmu"], results["film_fmu"]) if entry is not None]
+    return [entry for entry in (results.get("fmu"), results.get("film_fmu")) if entry is not None]

@@ -22,13 +22,13 @@ Entry = dict[str, Any]  # status, message and seconds of a task, and what else i
 
 def stage_key(stage: Stage, study: Study) -> str:
     """Key of a stage: the hash of its inputs."""
-    return key_of([stage.name, study.fingerprint(*stage.sections)])
+    return key_of([stage.name, study.fingerprint(*stage.parts)])
 
 
 def final_key(study: Study) -> str:
     """Key of results and report: the hash of the whole study, names and all, and of its stages."""
     stages = [stage_key(stage, study) for stage in stages_of(study)]
-    return key_of([FINALISE, study.model_dump(mode="json", exclude_none=True), study.fingerprint(), stages])
+    return key_of([FINALISE, study.model_dump(mode="json", exclude_none=True), stages])
 
 
 class Kept:

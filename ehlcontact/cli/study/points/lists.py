@@ -15,7 +15,7 @@ from ehlcontact.cli.toml import read_toml, toml_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import read_text, write_text
 
-LISTS = [name.removeprefix("bearing.") for name in SEVERAL]
+LISTS = [name.removeprefix("operation.") for name in SEVERAL]
 MOST = 100  # points: at some minutes each what a night has room for
 SAME = 1e-6  # share by which two numbers of a list differ at least: they name folders and rows of tables
 TITLE = Study.model_fields["title"].default
@@ -78,7 +78,7 @@ def points_of(document: Mapping[str, Any], folder: Path) -> tuple[Point, ...]:
         try:
             study = study_of(one)
         except InputError as error:
-            where = f", at {_said(one)}" if several and not error.field.startswith("bearing.") else ""
+            where = f", at {_said(one)}" if several and not error.field.startswith("operation.") else ""
             raise InputError(error.field, error.value, error.allowed + where) from None
         name = point_name(study)
         title = str(document.get("title", TITLE)) if several else study.title
@@ -94,20 +94,21 @@ def expanded(document: Mapping[str, Any]) -> list[dict[str, Any]]:
     InputError
         A list that is none of several numbers.
     """
-    bearing = document.get("bearing")
-    if not isinstance(bearing, Mapping) or not any(isinstance(bearing.get(key), list) for key in LISTS):
+    operation = document.get("operation")
+    if not isinstance(operation, Mapping) or not any(isinstance(operation.get(key), list) for key in LISTS):
         return [dict(document)]
     values = [
-        _values(key, bearing[key]) if isinstance(bearing.get(key), list) else [bearing.get(key)] for key in LISTS
+        _values(key, operation[key]) if isinstance(operation.get(key), list) else [operation.get(key)]
+        for key in LISTS
     ]
     count = len(values[0]) * len(values[1])
     if count > MOST:
         allowed = f"at most {MOST} points: speeds times loads"
-        raise InputError("bearing.speed_rpm, bearing.radial_load", f"{len(values[0])} x {len(values[1])}", allowed)
+        raise InputError(", ".join(SEVERAL), f"{len(values[0])} x {len(values[1])}", allowed)
     found = []
     for pair in product(*values):
         own = {key: value for key, value in zip(LISTS, pair, strict=True) if value is not None}
-        one = dict(document) | {"bearing": dict(bearing) | own}
+        one = dict(document) | {"operation": dict(operation) | own}
         if count > 1 and isinstance(document.get("title", ""), str):
             one["title"] = f"{document.get('title', TITLE)}, {_said(one)}"
         found.append(one)
@@ -116,7 +117,7 @@ def expanded(document: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 def _values(key: str, given: list[Any]) -> list[Any]:
     """The numbers of a list, each once."""
-    field = f"bearing.{key}"
+    field = f"operation.{key}"
     if not given:
         raise InputError(field, given, f"a number, or a list of 1 to {MOST} numbers, as [1000, 3000]")
     for value in given:
@@ -138,14 +139,14 @@ def require_apart(field: str, given: Sequence[Any]) -> None:
 
 def _said(document: Mapping[str, Any]) -> str:
     """Speed and load of a document of one point, in words."""
-    speed, load = (document["bearing"].get(key) for key in LISTS)
-    return f"{speed} rpm, {load} N"
+    speed, load = (document["operation"].get(key) for key in LISTS)
+    return f"{speed} rpm" if load is None else f"{speed} rpm, {load} N"
 
 
 def point_name(study: Study) -> str:
     """Name of a point and of its folder, different for different points."""
-    speed, load = (_short(getattr(study.bearing, key)) for key in LISTS)
-    return f"{speed}rpm_{load}N"
+    speed, load = (getattr(study.operation, key) for key in LISTS)
+    return f"{_short(speed)}rpm" + ("" if load is None else f"_{_short(load)}N")
 
 
 def _short(value: float) -> str:

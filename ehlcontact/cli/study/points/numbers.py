@@ -23,7 +23,7 @@ class Number(NamedTuple):
 
 NUMBERS = {
     "speed_rpm": Number("rev/min", head="speed [rpm]", figures=6),
-    "radial_load": Number("N", head="load [N]", figures=6),
+    "radial_load": Number("N", "on the bearing that the study is about", head="load [N]", figures=6),
     "ball_load": Number("N"),
     "M": Number("-"),
     "L": Number("-"),
@@ -62,18 +62,21 @@ MEANINGS = {name: one.meaning for name, one in NUMBERS.items() if one.meaning}
 def numbers_of(point: Point, results: Mapping[str, Any] | None) -> dict[str, float | None]:
     """Numbers by `UNITS`; those that follow from the study alone do not depend on stages."""
     study, rough = point.study, point.study.roughness
-    m, s = study.point.moes, study.point.scales
     found: dict[str, float | None] = dict.fromkeys(UNITS)
-    found |= {"speed_rpm": study.bearing.speed_rpm, "radial_load": study.bearing.radial_load}
-    found |= {"ball_load": study.ball_load, "M": m.M, "L": m.L, "kappa": m.kappa}
-    found |= {"p_hertz": s.pressure, "u_sum": study.point.u_sum}
-    if results is not None:
+    found |= {"speed_rpm": study.speed_rpm, "radial_load": study.operation.radial_load}
+    if study.contact is not None:
+        found["radial_load"] = study.radial_load
+        m, s = study.point.moes, study.point.scales
+        found |= {"ball_load": study.ball_load, "M": m.M, "L": m.L, "kappa": m.kappa}
+        found |= {"p_hertz": s.pressure, "u_sum": study.point.u_sum}
+    if results is not None and "operating_point" in results:
         at, moved = results["operating_point"], results["at_rotor_speed"]
-        decayed = results["rotor"]["decay"]["decrements"]["full"]
         h_central, h_min = (1e-6 * at[name] for name in ("h_central_um", "h_min_um"))
         found |= {"h_central": h_central, "h_min": h_min}
         found |= {name: at[name] for name in ("h_central_error", "h_min_error")}
         found |= {"lambda": None if rough is None else h_min / hypot(*rough)}
         found |= {name: moved[name] for name in ("stiffness", "damping")}
+    if results is not None and "rotor" in results:
+        decayed = results["rotor"]["decay"]["decrements"]["full"]
         found |= {"decay_hz": decayed["hz"], "decrement": decayed["decrement"]}
     return found

@@ -126,8 +126,8 @@ def summary(rows: Sequence[Row], title: str, run: Mapping[str, Any]) -> dict[str
     return {
         "format": FORMAT,
         "title": title,
-        "bearing": first.bearing.name,
-        "oil": first.oil.label,
+        "bearing": ", ".join(one.label for one in first.support),
+        "oil": None if first.oil is None else first.oil.label,
         "status": "converged" if converged == len(rows) else "not converged",
         "converged": converged,
         "units": UNITS,

@@ -1,0 +1,346 @@
+"""Bearings, pairs and rotor of a study, made of its entries; what is none is refused by the entry of the file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from math import radians
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ehlcontact.cli.study.shared_entries import pair_of
+from ehlcontact.errors import InputError
+from reduced_models import BallBearing, BearingSet, Disc, LinearBearing, Rotor, Shaft, Support, rotor_on_bearings
+from reduced_models.bearing.catalogue import BY_DIMENSIONS, USUAL_CONFORMITY, catalogue_row
+from reduced_models.bearing.grooves import LARGEST_PLAY
+
+if TYPE_CHECKING:
+    from ehlcontact.cli.study.schema import Study
+
+ENTRIES = {  # of a support, where the library calls them otherwise
+    "name": "bearing",
+    "contact_angle": "contact_angle_deg",
+    "arrangement": "pair",
+    "spring": "pair_spring",
+    "distance": "distance_mm",
+    "offset": "offset_um",
+    "position": "position_mm",
+}
+SIZES = {  # of lengths of entries, over those of the library
+    "clearance": 1e6, "offset": 1e6, "cutoff_gap": 1e6, "position": 1e3, "distance": 1e3, "ball_diameter": 1e3,
+    "pitch_diameter": 1e3, "length": 1e3, "diameter": 1e3, "width": 1e3, "bore": 1e3,
+}  # fmt: skip
+OF_A_PAIR = ("preload", "pair_spring", "distance_mm")
+NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
+SAME = 1e-6  # of the shaft, within which two places are one
+
+
+class Sizes(NamedTuple):
+    """Dimensions of a bearing [m] and conformities of its inner and outer race."""
+
+    balls: int
+    ball_diameter: float
+    pitch_diameter: float
+    conformity: tuple[float, float]
+
+
+def support_field(study: Study, k: int, key: str) -> str:
+    """Name of an entry of a support: with the name of the support where there are several."""
+    return f"support.{key}" if len(study.support) == 1 else f"support.{study.names[k]}.{key}"
+
+
+@contextmanager
+def called(prefix: str, names: Mapping[str, str] = ENTRIES) -> Iterator[None]:
+    """Let an `InputError` of a part name the entry of the file, with its value in the unit of the entry."""
+    try:
+        yield
+    except InputError as error:
+        field, value = error.field, error.value
+        if field.startswith(("support.", "disc.", "operation.", "oil", "surface", "shaft.")):
+            raise
+        size = SIZES.get(field)
+        allowed = error.allowed
+        if isinstance(value, list) and len(value) == 1:
+            value = value[0]
+        if size is not None and isinstance(value, float):
+            value, unit = round(size * value, 9), "um" if size == 1e6 else "mm"
+            allowed = f"{allowed} (given in {unit})"
+        raise InputError(f"{prefix}{names.get(field, field)}", value, allowed) from None
+
+
+def dimensions_of(study: Study, k: int) -> Sizes:
+    """Dimensions of the bearing at a support, by its name or as they are given.
+
+    Raises
+    ------
+    InputError
+        No such name, dimensions beside a name that are not its own, or neither.
+    """
+    one, at = study.support[k], f"{support_field(study, k, '')}"
+    usual = USUAL_CONFORMITY
+    if one.bearing is not None:
+        try:
+            _, row = catalogue_row(one.bearing)
+        except InputError as error:
+            allowed = error.allowed.replace(BY_DIMENSIONS, "any other by its dimensions, balls = ...")
+            raise InputError(f"{at}bearing", error.value, allowed) from None
+        usual = row.conformity
+        found = row.balls, row.ball_diameter, row.pitch_diameter
+        for key, size, own in zip(NEEDED, (1, 1e3, 1e3), found, strict=True):
+            known = round(size * own, 6)  # 7.94, not 7.940000000000001
+            if getattr(one, key) not in (None, known):
+                allowed = f"left out: bearing = {one.bearing!r} has {known:g}"
+                raise InputError(f"{at}{key}", getattr(one, key), allowed)
+    else:
+        for key in NEEDED:
+            if getattr(one, key) is None:
+                allowed = 'given, or bearing = "6205" in place of all dimensions'
+                raise InputError(f"{at}{key}", None, allowed)
+        assert one.balls is not None and one.ball_diameter_mm is not None and one.pitch_diameter_mm is not None
+        found = one.balls, one.ball_diameter_mm * 1e-3, one.pitch_diameter_mm * 1e-3
+        if not one.pitch_diameter_mm > one.ball_diameter_mm:
+            allowed = f"above {at}ball_diameter_mm = {one.ball_diameter_mm:g}"
+            raise InputError(f"{at}pitch_diameter_mm", one.pitch_diameter_mm, allowed)
+    for name in ("conformity_inner", "conformity_outer"):
+        if one.conformity is not None and getattr(one, name) is not None:
+            raise InputError(f"{at}{name}", getattr(one, name), f"left out where {at}conformity is given")
+    both = one.conformity or usual
+    return Sizes(*found, (one.conformity_inner or both, one.conformity_outer or both))
+
+
+def bearing_of(study: Study, k: int, *, oil: bool = True) -> BallBearing:
+    """The bearing at a support, with all its balls, in oil or dry; of a pair one of both.
+
+    Raises
+    ------
+    InputError
+        Balls that overlap, a clearance that is none, a race that the atlas does not have.
+    """
+    one, rough, sizes = study.support[k], study.roughness, dimensions_of(study, k)
+    given: dict[str, Any] = {
+        "conformity_inner": sizes.conformity[0],
+        "conformity_outer": sizes.conformity[1],
+        "race_control": one.race_control or "outer",
+        "oil": study.lubricant if oil else None,
+        "rq_ball": rough[0] if rough else None,
+        "rq_race": rough[1] if rough else None,
+        "youngs_modulus": one.youngs_modulus,
+        "poisson_ratio": one.poisson_ratio,
+    }
+    for name in ("loss_factor", "ball_inertia"):
+        if (value := getattr(one, name)) is not None:
+            given[name] = value
+    if one.cutoff_gap_um is not None:
+        given["cutoff_gap"] = one.cutoff_gap_um * 1e-6
+    if one.contact_angle_deg is not None:
+        given["contact_angle"] = radians(one.contact_angle_deg)
+    if one.clearance is not None:
+        given["clearance"] = one.clearance if isinstance(one.clearance, str) else one.clearance * 1e-6
+    at = support_field(study, k, "")
+    try:
+        with called(at):
+            if one.bearing is not None:
+                return BallBearing.catalogue(one.bearing, **given)
+            if isinstance(one.clearance, str):
+                allowed = "a number [um]: classes are of bearings by their names, bearing = ..."
+                raise InputError("clearance", one.clearance, allowed)
+            return BallBearing(
+                name=one.label,
+                balls=sizes.balls,
+                ball_diameter=sizes.ball_diameter,
+                pitch_diameter=sizes.pitch_diameter,
+                **given,
+            )
+    except InputError as error:
+        if error.field == f"{at}clearance" and isinstance(one.clearance, float) and "left" not in error.allowed:
+            most = 1e6 * LARGEST_PLAY * sizes.ball_diameter
+            raise InputError(error.field, one.clearance, f"between {-most:.3g} and {most:.3g} um") from None
+        if error.field.startswith(f"{at}conformity_") and one.conformity is not None:
+            raise InputError(f"{at}conformity", error.value, error.allowed) from None
+        raise
+
+
+def carrier_of(study: Study, k: int, *, oil: bool = True) -> BallBearing | BearingSet:
+    """What stands at a support: the bearing, or the pair.
+
+    Raises
+    ------
+    InputError
+        As `bearing_of`; bearings that are no pair.
+    """
+    bearing, one, at = bearing_of(study, k, oil=oil), study.support[k], support_field(study, k, "")
+    if one.pair is None:
+        for name in OF_A_PAIR:
+            if getattr(one, name) is not None:
+                raise InputError(f"{at}{name}", getattr(one, name), f"left out without {at}pair")
+        return bearing
+    more = {"preload": one.preload, "spring": one.pair_spring, "distance_mm": one.distance_mm}
+    with called(at):
+        return pair_of(bearing, one.pair, **more)
+
+
+def rotor_of(
+    study: Study, *, oil: bool = True, carriers: Sequence[BallBearing | BearingSet | LinearBearing] = ()
+) -> Rotor:
+    """The rotor of the machine on its bearings, or on others.
+
+    Raises
+    ------
+    InputError
+        Parts that are none, at places where nothing can stand, or that contradict each other.
+    """
+    shaft, places = shaft_of(study), places_of(study)
+    carriers = carriers or [carrier_of(study, k, oil=oil) for k in range(len(study.support))]
+    axial = _is_axial(study, carriers)
+    middle = 0.5 * (min(places) + max(places))
+    supports = []
+    for k, (one, carrier) in enumerate(zip(study.support, carriers, strict=True)):
+        given: dict[str, Any] = {}
+        if one.housing_stiffness is not None or one.housing_mass is not None:
+            given = {name: getattr(one, name) for name in ("housing_stiffness", "housing_mass", "housing_damping")}
+        if isinstance(carrier, BallBearing) and axial:
+            given["facing"] = one.facing or ("+z" if places[k] > middle else "-z")
+            given["offset"] = 1e-6 * (one.offset_um or 0.0)
+            given["preload"] = one.spring
+        with called(support_field(study, k, ""), ENTRIES | {"preload": "spring"}):
+            supports.append(Support(position=places[k], bearing=carrier, journal_mass=one.journal_mass, **given))
+    discs = [disc_of(study, k) for k in range(len(study.disc))]
+    return rotor_on_bearings(shaft, discs=discs, supports=supports)
+
+
+def shaft_of(study: Study) -> Shaft:
+    """The shaft of the machine.
+
+    Raises
+    ------
+    InputError
+        Neither a diameter nor a stiffness, or both; what a `Shaft` refuses.
+    """
+    given = study.shaft
+    assert given is not None
+    length = 1e-3 * given.length_mm
+    if given.stiffness is not None:
+        for name in ("diameter_mm", "bore_mm", "density", "youngs_modulus", "damping_time"):
+            if name in given.model_fields_set:
+                allowed = "left out where shaft.stiffness is given: such a shaft has no mass"
+                raise InputError(f"shaft.{name}", getattr(given, name), allowed)
+        with called("shaft."):
+            return Shaft.jeffcott(given.stiffness, length, damping=given.damping)
+    if given.diameter_mm is None:
+        raise InputError("shaft.diameter_mm", None, "given, or shaft.stiffness of one without mass")
+    if "damping" in given.model_fields_set:
+        allowed = "left out where shaft.diameter_mm is given: such a shaft has a damping_time"
+        raise InputError("shaft.damping", given.damping, allowed)
+    with called("shaft.", {"length": "length_mm", "diameter": "diameter_mm", "bore": "bore_mm"}):
+        return Shaft(
+            length=length,
+            diameter=1e-3 * given.diameter_mm,
+            bore=1e-3 * given.bore_mm,
+            density=given.density,
+            youngs_modulus=given.youngs_modulus,
+            damping_time=given.damping_time,
+        )
+
+
+def disc_of(study: Study, k: int) -> Disc:
+    """A disc of the machine.
+
+    Raises
+    ------
+    InputError
+        Neither a size nor a mass, or both; a place beyond the shaft; what a `Disc` refuses.
+    """
+    one, at = study.disc[k], "disc." if len(study.disc) == 1 else f"disc.{k + 1}."
+    load = (0.0, -one.radial_load, one.axial_load) if one.axial_load else (0.0, -one.radial_load)
+    more: dict[str, Any] = {"unbalance": one.unbalance, "damping": one.damping, "load": load}
+    place, end = 1e-3 * one.position_mm, 1e3 * shaft_of(study).end
+    if one.position_mm > end * (1.0 + SAME):
+        allowed = f"on the shaft: between 0 and {end:g} mm, its length"
+        raise InputError(f"{at}position_mm", one.position_mm, allowed)
+    if one.mass is not None:
+        for name in ("diameter_mm", "width_mm", "bore_mm", "density"):
+            if getattr(one, name) is not None:
+                raise InputError(f"{at}{name}", getattr(one, name), f"left out where {at}mass is given")
+        turns: dict[str, Any] = {
+            name: getattr(one, name) or 0.0 for name in ("diametral_inertia", "polar_inertia")
+        }
+        with called(at):
+            return Disc(position=place, mass=one.mass, **turns, **more)
+    for name in ("diametral_inertia", "polar_inertia"):
+        if getattr(one, name) is not None:
+            raise InputError(f"{at}{name}", getattr(one, name), f"left out without {at}mass")
+    for name in ("diameter_mm", "width_mm"):
+        if getattr(one, name) is None:
+            raise InputError(f"{at}{name}", None, f"given, or {at}mass in place of its size")
+    assert one.diameter_mm is not None and one.width_mm is not None
+    bore = float(shaft_of(study).diameter[0]) if one.bore_mm is None else 1e-3 * one.bore_mm
+    density: dict[str, Any] = {} if one.density is None else {"density": one.density}
+    names = {"diameter": "diameter_mm", "width": "width_mm", "bore": "bore_mm"}
+    with called(at, names):
+        return Disc.cylinder(
+            position=place,
+            diameter=1e-3 * one.diameter_mm,
+            width=1e-3 * one.width_mm,
+            bore=bore,
+            **density,
+            **more,
+        )
+
+
+def places_of(study: Study) -> list[float]:
+    """Positions of the supports [m].
+
+    Raises
+    ------
+    InputError
+        One that is missing, beyond the shaft, or where another is; a spring on a bearing that cannot slide.
+    """
+    places: list[float] = []
+    assert study.shaft is not None
+    end, names = study.shaft.length_mm, study.names
+    for k, one in enumerate(study.support):
+        at = support_field(study, k, "")
+        if one.position_mm is None:
+            raise InputError(f"{at}position_mm", None, "given, with [shaft]")
+        if one.position_mm > end * (1.0 + SAME):
+            raise InputError(
+                f"{at}position_mm", one.position_mm, f"on the shaft: between 0 and {end:g} mm, its length"
+            )
+        for other, place in zip(names, places, strict=False):
+            if abs(one.position_mm - 1e3 * place) <= SAME * end:
+                allowed = f"another place than that of support {other}: two bearings at one place are a pair = ..."
+                raise InputError(f"{at}position_mm", one.position_mm, allowed)
+        _require_slides(one, at)
+        places.append(1e-3 * one.position_mm)
+    if study.shaft.stiffness is not None and (min(places) > SAME * end or max(places) < (1.0 - SAME) * 1e-3 * end):
+        allowed = "its whole length between the supports: a shaft given by its stiffness ends in its bearings"
+        raise InputError("shaft.length_mm", end, allowed)
+    springs = [one.spring for one in study.support if one.pair is None]
+    if len(springs) == len(study.support) and None not in springs:
+        k = len(springs) - 1
+        allowed = "left out at one support at least: nothing holds a shaft whose outer rings all slide"
+        raise InputError(support_field(study, k, "spring"), springs[k], allowed)
+    return places
+
+
+def _require_slides(one: Any, at: str) -> None:
+    """Raise `InputError` for a spring on a bearing whose outer ring cannot slide."""
+    if one.spring is None:
+        return
+    for name, why in (
+        ("pair", "the pair is fixed along the shaft, or has a pair_spring of its own"),
+        ("housing_stiffness", "its housing stands on springs, in which its ring is fixed"),
+        ("offset_um", "it is pressed by an offset, for which its ring is fixed"),
+    ):
+        if getattr(one, name) is not None:
+            allowed = f"left out where {at}{name} is given: this bearing cannot slide ({why})"
+            raise InputError(f"{at}spring", one.spring, allowed)
+
+
+def _is_axial(study: Study, carriers: Sequence[Any]) -> bool:
+    """Whether the machine moves along its shaft: springs, offsets, facings, angles, pairs or axial loads."""
+    for one, carrier in zip(study.support, carriers, strict=True):
+        if isinstance(carrier, BearingSet) or getattr(carrier, "contact_angle", None) is not None:
+            return True
+        if one.spring is not None or one.offset_um or one.facing is not None:
+            return True
+    return any(disc.axial_load for disc in study.disc)

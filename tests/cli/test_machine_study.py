@@ -1,0 +1,247 @@
+"""A study of a machine, or of a bearing under axial load: numbers of the library, and what is no machine."""
+
+import json
+from dataclasses import replace
+from math import cos, pi, radians
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from tiny_study import ALONE, CONTACT, OIL
+
+from ehlcontact import OilLayer
+from ehlcontact.cli.study.answer import answer_of, over_frequency
+from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
+from ehlcontact.cli.study.machine import bearing_of, carrier_of, rotor_of
+from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
+from ehlcontact.cli.study.schema import load_study
+from reduced_models import BallBearing, BearingSet, Disc, Shaft, Support, linearise, rotor_on_bearings
+from reduced_models.bearing.oil_and_heat import LAYER
+from reduced_models.rotor.machine_state import machine_state, single_bearing_state
+
+ANGULAR = f"""[operation]
+radial_load = 200.0
+axial_load = 400.0
+speed_rpm = 6000.0
+{OIL}[[support]]
+bearing = "7205"
+"""
+PAIR = ANGULAR.replace("400.0", "100.0") + 'pair = "back-to-back"\npreload = 200.0\ndistance_mm = 40.0\n'
+MOTOR = """[operation]
+speed_rpm = 15000.0
+[oil]
+iso_vg = 32
+temperature = 80.0
+[surface]
+rq_um = 0.1
+[shaft]
+length_mm = 360.0
+diameter_mm = 35.0
+[[disc]]
+position_mm = 180.0
+diameter_mm = 110.0
+width_mm = 120.0
+unbalance = 1e-5
+[[support]]
+name = "drive end"
+position_mm = 30.0
+bearing = "6306"
+clearance = "CN"
+[[support]]
+name = "fan end"
+position_mm = 330.0
+bearing = "6206"
+clearance = "CN"
+spring = 200.0
+"""
+
+
+@pytest.fixture
+def study(tmp_path):
+    """``study(text, old=new, ...)``: the file of a text with other entries."""
+
+    def write(text, *changes):
+        for old, new in changes:
+            assert old in text, old
+            text = text.replace(old, new)
+        path = tmp_path / "s.toml"
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def test_the_contact_is_that_of_the_heaviest_ball_at_its_angle(study):
+    one = load_study(study(ANGULAR + CONTACT))
+    state = BallBearing.catalogue("7205").equilibrium((0.0, -200.0, 400.0), speed_rpm=6000.0)
+    load, angle = state.force[:, 0].max(), state.contact_angles[state.force[:, 0].argmax(), 0]
+    assert one.ball == (load, angle) and one.ball_load == one.point.load == load
+    D, dm = 7.938e-3, 38.5e-3
+    gamma = D * cos(angle) / dm
+    assert one.point.geometry.radius_x == pytest.approx(0.5 * D * (1.0 - gamma), rel=1e-4)
+    # both surfaces roll at omega dm (1 - gamma^2)/4 as seen from the contact
+    assert one.point.u_sum == pytest.approx(200.0 * pi * dm * (1.0 - gamma**2) / 2.0, rel=1e-4)
+    other = load_study(study(ANGULAR + CONTACT, ("400.0", "500.0")))
+    assert one.fingerprint("grid") != other.fingerprint("grid")
+
+
+def test_other_angle_than_that_of_the_name(study):
+    one = load_study(study(f"{ANGULAR}contact_angle_deg = 15.0\n"))
+    assert bearing_of(one, 0).contact_angle == pytest.approx(radians(15.0))
+
+
+def test_a_bearing_alone_is_that_of_the_library(study):
+    one = load_study(study(ANGULAR))
+    bearing, load = carrier_of(one, 0), (0.0, -200.0, 400.0)
+    found = answer_of(one)
+    assert found.to_dict() == single_bearing_state(bearing, load, 6000.0).to_dict()
+    assert json.loads(json.dumps(found.to_dict(), default=lambda array: array.tolist()))["modes"] == []
+    (small,) = over_frequency(one, found).values()
+    ends = bearing.coefficients(load, speed_rpm=6000.0, hz=(10.0, 10000.0))
+    np.testing.assert_allclose(small.stiffness[[0, -1], 2, 2], ends.stiffness[:, 2, 2], rtol=1e-12)
+    asked = load_study(study(ANGULAR, ("speed_rpm", "hz = [123.0]\nspeed_rpm")))
+    assert next(iter(over_frequency(asked, found).values())).hz.tolist() == [123.0]
+
+
+def test_a_pair_carries_the_load(study):
+    one = load_study(study(PAIR + CONTACT))
+    pair = BearingSet.pair(bearing_of(one, 0), preload=200.0, distance=0.04)
+    support = answer_of(one).supports[0]
+    state = pair.equilibrium((0.0, -200.0, 100.0), speed_rpm=6000.0)
+    np.testing.assert_array_equal(support.state.axial_forces, state.axial_forces)
+    dry = BearingSet.pair(bearing_of(one, 0, oil=False), preload=200.0, distance=0.04)
+    heaviest = dry.equilibrium((0.0, -200.0, 100.0), speed_rpm=6000.0).bearings[0]
+    assert one.ball_load == heaviest.force[:, 0].max()
+
+
+@pytest.mark.long
+def test_a_pair_with_a_layer_of_oil(study):
+    """What the study has of it is that of the set; its words are of a pair."""
+    one = load_study(study(PAIR, ("speed_rpm", "layer_ratio = 0.8\nspeed_rpm"), ("distance_mm = 40.0\n", "")))
+    found = run_oil_and_heat(one)
+    pair = BearingSet.pair(bearing_of(one, 0), preload=200.0)
+    starved = replace(pair, bearings=[replace(k, supply=OilLayer(over_flooded=0.8)) for k in pair.bearings])
+    load = (0.0, -200.0, 100.0)
+    small = starved.coefficients(load, speed_rpm=6000.0, hz=found.hz)
+    state = starved.equilibrium(load, speed_rpm=6000.0).bearings[0]
+    layer = found.conditions[LAYER]
+    np.testing.assert_array_equal(layer.damping, np.einsum("kii->ki", small.signed_damping)[:, :3])
+    np.testing.assert_array_equal(layer.h_central, state.h_central)
+    assert "isothermal, the pair has" in conditions_sentence(SimpleNamespace(oil_and_heat=found))
+
+
+@pytest.fixture(scope="module")
+def motor(tmp_path_factory):
+    path = tmp_path_factory.mktemp("motor") / "motor.toml"
+    path.write_text(MOTOR)
+    one = load_study(path)
+    return one, answer_of(one)
+
+
+def test_a_motor_of_unequal_bearings(motor):
+    """The numbers of `machine_state` for the rotor that ten lines of Python make of the same parts."""
+    one, found = motor
+    given = {"clearance": "CN", "oil": one.lubricant, "rq_ball": 0.0, "rq_race": 1e-7}
+    left, right = (BallBearing.catalogue(name, **given) for name in ("6306", "6206"))
+    rotor = rotor_on_bearings(
+        Shaft(length=0.36, diameter=0.035),
+        discs=[Disc.cylinder(position=0.18, diameter=0.11, width=0.12, bore=0.035, unbalance=1e-5)],
+        supports=[
+            Support(position=0.03, bearing=left, facing="-z"),
+            Support(position=0.33, bearing=right, facing="+z", preload=200.0),
+        ],
+    )
+    own = machine_state(rotor, 15000.0, names=("drive end", "fan end"), positions=(0.03, 0.33))
+    assert found.to_dict() == own.to_dict()
+    assert [round(1e6 * support.h_min, 3) for support in found.supports] == [0.369, 0.322]
+    assert sorted(round(mode.hz) for mode in found.modes[:3]) == [161, 266, 267]
+
+
+def test_the_film_of_a_bearing_of_a_machine(study, motor):
+    """That of the heaviest ball without films, at the axial load of the spring."""
+    path = study(f'{MOTOR}[contact]\nsupport = "fan end"\n')
+    one = load_study(path)
+    assert one.carrier.bearing == "6206" and 80.0 < one.ball_load < 100.0
+    loads = linearise(rotor_of(one, oil=False), 15000.0).loads
+    state = bearing_of(one, 1, oil=False).equilibrium(loads[1], speed_rpm=15000.0)
+    assert one.ball_load == pytest.approx(state.force[:, 0].max(), rel=1e-9)
+    assert one.radial_load == pytest.approx(abs(loads[1][1]), rel=1e-9)
+
+
+def test_a_pair_in_a_machine(study):
+    spindle = MOTOR.replace(
+        'bearing = "6306"\nclearance = "CN"', 'bearing = "7206"\npair = "back-to-back"\npreload = 300.0'
+    )
+    one = load_study(study(spindle, ("spring = 200.0", "spring = 0.0")))
+    assert [mount.facing for mount in rotor_of(one).mounts] == ["+z", "-z", "+z"]
+    load = [float(value) for value in linearise(rotor_of(one), 15000.0).loads[2]]
+    assert load[2] == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "words"),
+    [
+        (MOTOR, "position_mm = 330.0", "position_mm = 30.0", ("fan end.position_mm = 30.0", "place are a pair")),
+        (MOTOR, "position_mm = 330.0", "position_mm = 430.0", ("fan end.position_mm = 430", "0 and 360 mm")),
+        (MOTOR, "position_mm = 330.0\n", "", ("support.fan end.position_mm = None", "given, with [shaft]")),
+        (MOTOR, "position_mm = 180.0", "position_mm = 361.0", ("disc.position_mm = 361.0", "0 and 360 mm")),
+        (MOTOR, "spring = 200.0", "spring = 200.0\noffset_um = 3.0", ("fan end.spring = 200.0", "cannot slide")),
+        (
+            MOTOR,
+            "spring = 200.0",
+            "spring = 200.0\nhousing_stiffness = 1e8\nhousing_mass = 1.0",
+            ("fan end.spring = 200.0", "cannot slide"),
+        ),
+        (
+            MOTOR,
+            'bearing = "6306"',
+            'bearing = "6306"\nspring = 100.0',
+            ("support.fan end.spring = 200.0", "left out at one support"),
+        ),
+        (MOTOR, "speed_rpm", "radial_load = 9.0\nspeed_rpm", ("operation.radial_load = 9.0", "disc.radial_load")),
+        (MOTOR, 'name = "fan end"', 'name = "drive end"', ("support.name = 'drive end'", "once")),
+        (MOTOR, "diameter_mm = 35.0", "bore_mm = 20.0", ("shaft.diameter_mm = None", "given")),
+        (MOTOR, "diameter_mm = 35.0", "diameter_mm = 35.0\nbore_mm = 40.0", ("shaft.bore_mm = 40.0", "below")),
+        (MOTOR, "diameter_mm = 35.0", "diameter_mm = 35.0\nstiffness = 1e8", ("shaft.diameter_mm = 35", "left")),
+        (MOTOR, "width_mm = 120.0", "mass = 3.0", ("disc.diameter_mm = 110.0", "left out where disc.mass")),
+        (MOTOR, "width_mm = 120.0", "", ("disc.width_mm = None", "given")),
+        (MOTOR, 'bearing = "6206"', 'bearing = "6260"', ("support.fan end.bearing = '6260'", "nearest")),
+        (MOTOR, 'bearing = "6206"', 'bearing = "6206"\nballs = 7', ("support.fan end.balls = 7", "'6206' has 9")),
+        (MOTOR, "[oil]", '[contact]\nsupport = "left"\n[oil]', ("contact.support = 'left'", "drive end, fan end")),
+        (MOTOR, "[oil]", "[full_films]\n[oil]", ("contact = None", "given, with [full_films]")),
+        (MOTOR, "[shaft]\nlength_mm = 360.0\ndiameter_mm = 35.0\n", "", ("shaft = None", "given")),
+        (MOTOR, "width_mm", "axial_load = 1e6\nwidth_mm", ("support.drive end = ", "contact angles stay below")),
+        (ANGULAR, "axial_load = 400.0\n", "", ("operation.axial_load = None", "7205 A is an angular contact")),
+        (ANGULAR, "400.0", "1e6", ("operation.radial_load, operation.axial_load = (200.0, 1000000.0)",)),
+        (ANGULAR, "[[support]]", "[[support]]\nfacing = '-z'", ("support.facing = '-z'", "without [shaft]")),
+        (ANGULAR, "[[support]]", "[[support]]\npreload = 9.0", ("support.preload = 9.0", "without support.pair")),
+        (ANGULAR, "[[support]]", "[[support]]\ncontact_angle_deg = 0.44", ("angle_deg", "in rad? then 25")),
+        (ANGULAR, "[[support]]", "[[support]]\nrace_control = 'both'", ("support.race_control", "harris")),
+        (ANGULAR, "[[support]]", "[[support]]\nclearance = 30.0", ("support.clearance = 30", "beside a contact")),
+        (ANGULAR, "axial_load", "moment_x = 1.0\ntilt_y_mrad = 0.1\naxial_load", ("tilt_y_mrad = 0.1", "moments")),
+        (ANGULAR, "axial_load", "tilt_x_mrad = 200.0\naxial_load", ("tilt_x_mrad = 200", "-100 and 100 mrad")),
+        (PAIR, '"back-to-back"', '"tandem"', ("support.preload = 200", "do not press each")),
+        (ALONE, "conformity = 0.52", "race_control = 'inner'", ("support.race_control", "no contact angles")),
+        (ALONE, "radial_load = 20.0\n", "", ("operation.radial_load = None", "N")),
+    ],
+)  # fmt: skip
+def test_mistakes(refused, study, tmp_path, text, old, new, words):
+    for command in ("validate", "run"):
+        refused(words, command, study(text, (old, new)), "-o", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.long
+def test_moments_and_tilts(study):
+    held = load_study(study(ANGULAR, ("axial_load", "tilt_x_mrad = 0.1\naxial_load")))
+    state = answer_of(held).supports[0].state
+    assert state.displacement[3] == pytest.approx(1e-4)
+    free = load_study(study(ANGULAR, ("axial_load", "moment_x = 0.2\naxial_load")))
+    np.testing.assert_allclose(answer_of(free).supports[0].state.load, [0.0, -200.0, 400.0, 0.2, 0.0], atol=1e-8)
+
+
+def test_init_of_an_angular_contact_bearing(call, refused, tmp_path):
+    path = tmp_path / "s.toml"
+    refused(("--axial = None", "7205 A is an angular contact bearing"), "init", path, "--bearing", "7205")
+    assert call("init", path, "--bearing", "7205", "--axial", "400").code == 0
+    assert load_study(path).ball[1] == pytest.approx(radians(30.0), abs=0.1)
