@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 
 from ehlcontact.conditions import FLOODED, Conditions
-from ehlcontact.errors import ConvergenceError
-from ehlcontact.point import Point, scales_of
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.point import MoesPoint, Point
 from ehlcontact.results import SteadyResult
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.effects import viscosity_of
+from ehlcontact.solver.effects import Effect, effects_of
 from ehlcontact.solver.error_grids import settled_on_half
 from ehlcontact.solver.followed_viscosity import FollowedViscosity
 from ehlcontact.solver.grid import Grid
@@ -21,8 +22,8 @@ from ehlcontact.solver.multigrid import Multigrid
 from ehlcontact.status import Status
 from ehlcontact.steady import solve_steady
 
+COARSE_CYCLES = 3  # of a coarser film, after those at the viscosity of the finer one
 LEAST_INTERVALS = 12  # of the coarser grids that tell the error
-COARSE_CYCLES = 3  # of a coarser film with heat, after those at the viscosity of the finer one
 
 
 def film_to_linearise(
@@ -54,27 +55,36 @@ def held(film: SteadyResult, deflection: str = "fft", threads: int = 1) -> Multi
     multigrid.finest.P[...] = own.p.T
     multigrid.u = own.approach
     multigrid.finest.update(multigrid.u)
-    if (viscosity := viscosity_on(film, multigrid)) is not None:
-        viscosity.set_viscosity()
+    for effect in effects_on(film, multigrid):
+        if isinstance(effect, FollowedViscosity):
+            effect.set_viscosity()
     return multigrid
 
 
-def viscosity_on(film: SteadyResult, multigrid: Multigrid) -> FollowedViscosity | None:
-    """Viscosity of a steady film on levels that hold it, or its coarser image; None where it follows nothing.
+def effects_on(film: SteadyResult, multigrid: Multigrid) -> list[Effect]:
+    """Effects of a steady film on levels that hold it, or its coarser image, which has a state of its own.
 
-    A coarser image is solved with temperatures of its own.
+    Raises
+    ------
+    InputError
+        A film in Moes units with heat or shear thinning, whose data are in SI.
     """
-    warm, level = film.temperature, multigrid.finest
-    conditions = Conditions(heat=None if warm is None else warm.inputs, sliding=film.sliding)
-    viscosity = viscosity_of(conditions, film.point.moes, scales_of(film.point), multigrid)
-    if viscosity is None:
-        return None
-    if level.P.shape != film.p.T.shape:
-        viscosity.settle(Balance.of_load(), COARSE_CYCLES)
-    elif warm is not None and viscosity.heat is not None:
-        viscosity.heat.walls[...] = warm.surfaces.transpose(0, 2, 1)
-        viscosity.heat.rise[...] = warm.mean.T - viscosity.heat.walls.mean(axis=0)
-    return viscosity
+    conditions = film.conditions
+    if isinstance(film.point, MoesPoint) and (conditions.heat is not None or conditions.sliding is not None):
+        allowed = "as it was solved, in SI: heat and shear thinning have to do with metres, seconds and pascals"
+        raise InputError("film", "dimensionless", allowed)
+    effects = effects_of(conditions, film.point, multigrid)
+    results: dict[str, dict[str, Any]] = {}
+    if (warm := film.temperature) is not None:
+        results["heat"] = {"mean": warm.mean, "surfaces": warm.surfaces}
+    if (rough := film.dimensionless.asperities) is not None:
+        results["asperities"] = {"pressure": rough.pressure}
+    for effect in effects:
+        if multigrid.finest.P.shape == film.p.T.shape:
+            effect.hold(results)
+        else:
+            effect.settle(Balance.of_load(), COARSE_CYCLES)
+    return effects
 
 
 def coarser_films(solved: Multigrid) -> Iterator[Multigrid]:
@@ -97,12 +107,12 @@ def coarser_contacts(film: SteadyResult, solved: Multigrid) -> Iterator[Linearis
     """Derivatives at the `coarser_films`, as far as they have temperatures."""
     for multigrid in coarser_films(solved):
         with np.errstate(over="ignore", invalid="ignore"):  # of a coarse film that runs away
-            viscosity = viscosity_on(film, multigrid)
+            effects = effects_on(film, multigrid)
         if not np.isfinite(multigrid.finest.fields.flow.heat).all():
             return
-        yield LinearisedContact(multigrid, viscosity)
+        yield LinearisedContact(multigrid, effects)
 
 
 def linearised(film: SteadyResult, multigrid: Multigrid) -> LinearisedContact:
     """Derivatives of a contact at a steady film on levels that hold it, or its coarser image."""
-    return LinearisedContact(multigrid, viscosity_on(film, multigrid))
+    return LinearisedContact(multigrid, effects_on(film, multigrid))

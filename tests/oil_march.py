@@ -30,6 +30,5 @@ def march(film, U, dT, layer=None, surface=None):
         if layer is not None:
             entered, left = (float(lines @ level.carried[:, i]) * level.speed for i in (0, -2))
             loss = max(loss, abs(entered - left - change / dT) / (layer * lines.sum()))
-        if film.heat is not None:
-            energy = max(energy, film.heat.balance())
+        energy = max([energy, *(effect.columns().get("heat_balance", 0.0) for effect in film.effects)])
     return loss, energy

@@ -383,8 +383,8 @@ class Heating(Options):
         typer.Option("--thermal", help="Let the film heat up and its viscosity follow; with --oil and --temp."),
     ] = False
 
-    def chosen(self, contact: Contact, sliding: Sliding | None = None) -> Heat | None:
-        """Data of the heating, or None for an isothermal film; in pure rolling without `sliding`.
+    def chosen(self, contact: Contact, sliding: Sliding) -> Heat | None:
+        """Data of the heating, or None for an isothermal film.
 
         Raises
         ------
@@ -401,8 +401,6 @@ class Heating(Options):
                 "given with --oil and --temp: an oil by its grade has the change of viscosity with temperature"
             )
             raise InputError("--thermal", True, allowed)
-        if sliding is None:
-            return Heat()
         law = sliding.law
         if not isinstance(law, Eyring):
             allowed = "left out with --thermal: Eyring's stress heats the film (--eyring-mpa)"
@@ -446,8 +444,11 @@ class Sliding(Options):
             raise InputError("--eyring-mpa", self.eyring, "left out with --limiting-shear: one traction law")
         return LimitingShear(require_between("--limiting-shear", self.limiting_shear, 1e-3, 0.5))
 
-    def check(self, contact: Contact, *, heated: bool) -> None:
-        """Raise `InputError` for sliding that has no traction, or no heat, before anything is solved."""
+    def check(self, contact: Contact, *, heated: bool, traction: bool = True) -> None:
+        """Raise `InputError` for sliding that has no traction, or no heat, before anything is solved.
+
+        Without `traction` only what sliding makes of the film is an answer of the command.
+        """
         if self.slide_roll is None:
             for name, value in (("--eyring-mpa", self.eyring), ("--limiting-shear", self.limiting_shear)):
                 if value is not None:
@@ -463,6 +464,9 @@ class Sliding(Options):
             allowed = "left out: a point of --M --L --kappa has no pascals, which a traction law needs"
             raise InputError("--slide-roll", self.slide_roll, allowed)
         self.law  # noqa: B018  # which checks its numbers
+        if not (traction or heated or self.thinning):
+            allowed = "given with --thermal or --thinning: else it changes nothing of this film"
+            raise InputError("--slide-roll", self.slide_roll, allowed)
 
     def thinned(self) -> ShearThinning | None:
         """Sliding that thins the film, or None; raises `InputError` with a limiting shear stress."""

@@ -73,6 +73,13 @@ def outside_rows(found: Assumptions) -> list[Row]:
     return [(f"NOT {one.name}", "", one.verdict) for one in found.out_of_range]
 
 
+def thinning_rows(result: Any) -> list[Row]:
+    """Film that sliding leaves."""
+    if result.thinned_share is None:
+        return []
+    return [("film by sliding", f"{result.thinned_share:.4g}", "of the Newtonian film")]
+
+
 def heat_rows(result: Any) -> list[Row]:
     """Loss of film by heat, beside published formulas, and temperatures."""
     found = result.temperature

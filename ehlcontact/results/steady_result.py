@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions.judge import judged
+from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
@@ -142,6 +143,17 @@ class SteadyResult(PointTable, Origin):
     def require_complete(self, **sizes: int) -> None:
         """Raise `ValueError` unless all arrays have the shapes of each other and of the grid."""
         QuantityTable.require_complete(self, x=self.n + 1, change=max(self.residuals.size, 1) - 1)
+
+    @property
+    def conditions(self) -> Conditions:
+        """Conditions that it was solved under, with the data of the oil."""
+        heat, rough = self.temperature, self.asperities
+        return Conditions(
+            supply=self.supply,
+            heat=None if heat is None else heat.inputs,
+            sliding=self.sliding,
+            asperities=None if rough is None else rough.inputs,
+        )
 
     @property
     def pressure_error(self) -> Annotated[float, PRESSURE]:

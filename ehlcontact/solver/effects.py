@@ -1,22 +1,50 @@
 """Effects: what conditions make of a film, any of them beside the others.
 
 What surfaces carry to a contact is known before a film is solved: it is part of the levels. Heat, shear thinning
-and asperities follow from the film itself. They start from the film without them, and follow after every cycle.
+and asperities follow from the film itself. They start from the film without them and follow after every cycle;
+vibrations have their derivatives.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
+from numpy.typing import NDArray
+
 from ehlcontact.conditions import Conditions
-from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
+from ehlcontact.point import Point, moes_point, scales_of
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.film_heat import FilmHeat
 from ehlcontact.solver.film_thinning import FilmThinning
 from ehlcontact.solver.followed_viscosity import FollowedViscosity, ViscositySource
+from ehlcontact.solver.linear import LinearFilm
+from ehlcontact.solver.linear_heat import ViscosityChange
 from ehlcontact.solver.mixed_film import AsperityPressure
 from ehlcontact.solver.multigrid import Multigrid
+
+Array = NDArray[Any]
+
+
+class LinearEffect(Protocol):
+    """Part of an effect in vibrations about the film at rest; one of a list at most has unknowns of its own."""
+
+    @property
+    def fields(self) -> int:
+        """Unknowns at every node beside the pressure."""
+
+    @property
+    def beside(self) -> tuple[Any, Any] | None:
+        """Derivatives of the Reynolds operator to pressure and film beside those of the level, sparse."""
+
+    def system(self, film: LinearFilm, omega: float) -> Any:
+        """Equations of a vibration of one frequency, with its unknowns after those of `film`."""
+
+    def of_speed(self) -> ViscosityChange:
+        """What a relative change of the speed makes of the viscosity at given pressure and film."""
+
+    def of_unknowns(self, system: Any, fields: Array, dP: Array, dH: Array) -> ViscosityChange:
+        """What its unknowns, and pressure and film beyond the slopes of the level, make of the viscosity."""
 
 
 class Effect(Protocol):
@@ -35,6 +63,21 @@ class Effect(Protocol):
 
     def follow(self, change: float) -> float:
         """Follow the film after a cycle with this largest change of P; returns that of a pressure of its own."""
+
+    def linear(self, still: bool = False) -> LinearEffect:
+        """Its part in vibrations about the present film; with a state that stands `still`, if asked for.
+
+        Raises
+        ------
+        InputError
+            An effect without one.
+        """
+
+    def hold(self, results: Mapping[str, Mapping[str, Any]]) -> None:
+        """Take over its state from results of the film that the levels hold, as of `result`."""
+
+    def settle(self, balance: Balance, cycles: int) -> None:
+        """Come to the state of its own of a film that is near, in so many cycles."""
 
     def result(self, before: float) -> dict[str, dict[str, Any]]:
         """Fields and numbers of results, by condition; the central film without effects was `before`."""
@@ -67,29 +110,27 @@ class CyclesWithEffects:
         return max([change, *(effect.follow(change) for effect in self.effects)])
 
 
-def viscosity_of(
-    conditions: Conditions, moes: MoesPoint, scales: Scales | None, multigrid: Multigrid
-) -> FollowedViscosity | None:
-    """Viscosity that follows heat and sliding, with the data of the oil; None where it follows neither."""
-    sources: dict[str, ViscositySource] = {}
-    if scales is None:  # both are in SI
-        return None
-    heat, sliding = None, conditions.sliding
-    if conditions.heat is not None:
-        law = None if sliding is None else sliding.law
-        heat = sources["heat"] = FilmHeat(multigrid.finest, conditions.heat.numbers(moes, scales, law))
-    if sliding is not None:
-        newton = sliding.log_newton(moes.eta0, scales)
-        sources["sliding"] = FilmThinning(multigrid, sliding.law, newton, heat)
-    return FollowedViscosity(multigrid, sources) if sources else None
-
-
 def effects_of(conditions: Conditions, point: Point, multigrid: Multigrid) -> list[Effect]:
     """Effects of conditions with the data of the oil, in the order in which they follow."""
     effects: list[Effect] = []
-    viscosity = viscosity_of(conditions, moes_point(point), scales_of(point), multigrid)
-    if viscosity is not None:
-        effects.append(viscosity)
+    sources = _sources_of(conditions, point, multigrid)
+    if sources:
+        effects.append(FollowedViscosity(multigrid, sources))
     if conditions.asperities is not None:
         effects.append(AsperityPressure(multigrid, conditions.asperities.numbers(point)))
     return effects
+
+
+def _sources_of(conditions: Conditions, point: Point, multigrid: Multigrid) -> list[ViscositySource]:
+    """What changes the viscosity, with the data of the oil, in the order in which it follows."""
+    moes, scales, heat, sliding = moes_point(point), scales_of(point), conditions.heat, conditions.sliding
+    sources: list[ViscositySource] = []
+    if scales is None:  # both are in SI
+        return sources
+    warm = None
+    if heat is not None:
+        warm = FilmHeat(multigrid.finest, heat.numbers(moes, scales, None if sliding is None else sliding.law))
+        sources.append(warm)
+    if sliding is not None:
+        sources.append(FilmThinning(multigrid, sliding.law, sliding.log_newton(moes.eta0, scales), warm))
+    return sources

@@ -64,6 +64,8 @@ class FilmHeat:
         Temperatures of both surfaces, the faster one first.
     """
 
+    condition = "heat"
+
     def __init__(self, level: Level, numbers: HeatNumbers) -> None:
         self.level, self.numbers = level, numbers
         self.rise, self.walls = np.zeros(level.P.shape), np.zeros((2, *level.P.shape))

@@ -34,7 +34,7 @@ class FilmThinning:
         Temperatures of the film, at whose mean the oil is sheared.
     """
 
-    changes_film = True
+    condition, changes_film = "sliding", True
 
     def __init__(
         self, multigrid: Multigrid, law: TractionLaw, log_newton: float, heat: FilmHeat | None = None

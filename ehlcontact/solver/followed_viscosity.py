@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import inf
 from typing import Any, Protocol
 
@@ -32,6 +32,10 @@ class ViscositySource(Protocol):
     """What changes the viscosity of a film: `FilmHeat`, or `FilmThinning`."""
 
     @property
+    def condition(self) -> str:
+        """Name of its condition, as of `Conditions`."""
+
+    @property
     def changes_film(self) -> bool:
         """Whether the viscosity is another one."""
 
@@ -55,15 +59,15 @@ class FollowedViscosity:
     Parameters
     ----------
     multigrid : Multigrid
-    sources : mapping
-        What changes the viscosity, by the name of its condition, in the order in which they follow.
+    sources : sequence
+        What changes the viscosity, in the order in which it follows.
     """
 
     slow = True  # what falls slowly is not the cycles' part
 
-    def __init__(self, multigrid: Multigrid, sources: Mapping[str, ViscositySource]) -> None:
+    def __init__(self, multigrid: Multigrid, sources: Sequence[ViscositySource]) -> None:
         self.multigrid, self.sources = multigrid, sources
-        self.heat = next((one for one in sources.values() if isinstance(one, FilmHeat)), None)
+        self.heat = next((one for one in sources if isinstance(one, FilmHeat)), None)
         self._rough = inf  # what sliding thins follows any film
         if self.heat is not None:
             self._rough = FRONT_ROUGH if multigrid.finest.inflow.size else ROUGH
@@ -73,11 +77,11 @@ class FollowedViscosity:
     @property
     def changes_film(self) -> bool:
         """Whether the viscosity is another one."""
-        return any(source.changes_film for source in self.sources.values())
+        return any(source.changes_film for source in self.sources)
 
     def solve(self, rounds: int) -> Array:
         """What ``Flow.heat`` becomes at the present film."""
-        return sum_of(source.solve(rounds) for source in self.sources.values())
+        return sum_of(source.solve(rounds) for source in self.sources)
 
     def start(self, balance: Balance, advance: Callable[[Balance], float]) -> None:
         """Full multigrid with what the isothermal film, which is on the levels, would heat, less some of it.
@@ -93,6 +97,13 @@ class FollowedViscosity:
                 break
         if starved or self._rough == inf:
             self.follow()
+
+    def hold(self, results: Mapping[str, Mapping[str, Any]]) -> None:
+        """Take over the temperatures of a result."""
+        if self.heat is not None:
+            warm = results["heat"]
+            self.heat.walls[...] = warm["surfaces"].transpose(0, 2, 1)
+            self.heat.rise[...] = warm["mean"].T - self.heat.walls.mean(axis=0)
 
     def settle(self, balance: Balance, cycles: int) -> None:
         """So many cycles from a film that is near; viscosity and temperatures belong together at last."""
@@ -110,7 +121,7 @@ class FollowedViscosity:
         """Viscosity of the present temperatures on all levels, with what the flow heats beside the surfaces."""
         mg = self.multigrid
         for _ in range(MOST_ROUNDS):
-            heating = sum_of(source.hold() for source in self.sources.values())
+            heating = sum_of(source.hold() for source in self.sources)
             settled = np.abs(heating - mg.finest.fields.flow.heat).max() <= SETTLED
             mg.set_heat(heating)
             mg.finest.update(mg.u)
@@ -125,13 +136,13 @@ class FollowedViscosity:
 
     def linear(self, still: bool = False) -> LinearViscosity:
         """Its part in vibrations about the present film; with temperatures that stand `still`, if asked for."""
-        thinning = next((one for one in self.sources.values() if isinstance(one, FilmThinning)), None)
+        thinning = next((one for one in self.sources if isinstance(one, FilmThinning)), None)
         heat = None if still else self.heat
         return LinearViscosity(self.multigrid.finest, heat, None if thinning is None else thinning.linear())
 
     def result(self, before: float) -> dict[str, dict[str, Any]]:
         """Fields and numbers of results by condition; the central film without any of them was `before`."""
-        return {name: source.result(before) for name, source in self.sources.items()}
+        return {source.condition: source.result(before) for source in self.sources}
 
     def _renew(self) -> None:
         """Viscosity of the present temperatures; residuals with it."""

@@ -299,6 +299,14 @@ class LinearHeat:
         return lost + n.convection * carried
 
 
+class ViscosityChange(NamedTuple):
+    """Change of the viscosity of the pressure-driven flow; of nodes (ny + 1, nx + 1)."""
+
+    log_eps: Any = 0.0  # of ln(eps)
+    ratio: Any = 0.0  # of ln of that along over that across
+    flow: Any = 0.0  # of the Reynolds operator by `ratio`, flat
+
+
 class LinearViscosity:
     """Part of a viscosity that follows heat and sliding in vibrations about the present film of a level.
 
@@ -323,6 +331,21 @@ class LinearViscosity:
         if self.heat is None:
             return film
         return HeatedSystem(film, LinearHeat(self.heat, omega, self.thinning), self.by_aside)
+
+    def of_speed(self) -> ViscosityChange:
+        """As of `effects.LinearEffect`: sliding thins more."""
+        if self.thinning is None:
+            return ViscosityChange()
+        ratio = self.thinning.aside
+        return ViscosityChange(-self.thinning.along, ratio, self.by_aside @ ratio.ravel())
+
+    def of_unknowns(self, system: Any, fields: Array, dP: Array, dH: Array) -> ViscosityChange:
+        """As of `effects.LinearEffect`."""
+        log_eps: Any = -system.heat.above * fields[0] if len(fields) else 0.0
+        ratio: Any = fields[1] if len(fields) > 1 else 0.0
+        if self.thinning is not None:
+            ratio = ratio + self.thinning.aside_by_pressure * dP + self.thinning.aside_by_film * dH
+        return ViscosityChange(log_eps, ratio)
 
 
 class HeatedSystem:

@@ -6,7 +6,7 @@ small least-squares problem, whose residual is the error measure: the frequency 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +14,8 @@ import scipy
 from numpy.typing import NDArray
 
 from ehlcontact.solver.balance import Balance
-from ehlcontact.solver.followed_viscosity import FollowedViscosity
+from ehlcontact.solver.effects import Effect
+from ehlcontact.solver.followed_viscosity import sum_of
 from ehlcontact.solver.linear import LinearFilm, NearCorrection, Preconditioner, solve_linear
 from ehlcontact.solver.linear_heat import Forcing, HeatedPreconditioner, HeatedSystem, viscous
 from ehlcontact.solver.multigrid import Multigrid
@@ -49,20 +50,19 @@ class LinearisedContact:
     ----------
     multigrid : Multigrid
         It holds the steady state: P, film and flow of its finest level, approach.
-    viscosity : FollowedViscosity, optional
-        That of its finest level, which follows the vibration; by default what changes it stands still.
+    effects : sequence of Effect
+        Those that follow the vibration; by default what they change stands still.
     still : bool
         Let the temperatures stand still.
     """
 
-    def __init__(
-        self, multigrid: Multigrid, viscosity: FollowedViscosity | None = None, still: bool = False
-    ) -> None:
-        self._multigrid, self._follows = multigrid, viscosity
+    def __init__(self, multigrid: Multigrid, effects: Sequence[Effect] = (), still: bool = False) -> None:
+        self._multigrid, self._effects = multigrid, effects
         level = self.level = multigrid.finest
-        self._viscosity = None if viscosity is None else viscosity.linear(still)
-        self._fields = 0 if self._viscosity is None else self._viscosity.fields
-        self._beside = None if self._viscosity is None else self._viscosity.beside
+        self._parts = [effect.linear(still) for effect in effects]
+        self._fields = sum(part.fields for part in self._parts)
+        beside = [part.beside for part in self._parts if part.beside is not None]
+        self._beside = (sum_of(one[0] for one in beside), sum_of(one[1] for one in beside)) if beside else None
         self._free = level.P > 0.0
         self.nodes = np.flatnonzero(self._free)
         self.weights = level.force_weights.ravel()[self.nodes]
@@ -74,7 +74,7 @@ class LinearisedContact:
 
     def still(self) -> LinearisedContact:
         """The same with temperatures that stand still."""
-        return LinearisedContact(self._multigrid, self._follows, still=True)
+        return LinearisedContact(self._multigrid, self._effects, still=True)
 
     def products(self, dP: Array) -> tuple[Array, Array]:
         """J dP and B dP."""
@@ -112,8 +112,10 @@ class LinearisedContact:
 
     def _equations(self, omega: float) -> Any:
         """The same, with temperatures that follow where there is heat."""
-        film = self.system(omega)
-        return film if self._viscosity is None else self._viscosity.system(film, omega)
+        system: Any = self.system(omega)
+        for part in self._parts:
+            system = part.system(system, omega)
+        return system
 
     def change(self, omega: float, system: Any, b: NDArray[Any], rtol: float) -> Complex:
         """Solution of ``system(x) = b`` to ``|b - system(x)| <= rtol |b|``, system that of omega."""
@@ -207,16 +209,14 @@ class LinearisedContact:
         return Forcing(film.by_film @ height.ravel() + source.ravel(), height)
 
     def _by_speed(self, film: LinearFilm) -> Forcing:
-        level, thinning = self.level, None if self._viscosity is None else self._viscosity.thinning
-        log_eps = np.full(level.P.shape, -1.0)
-        if not level.inflow.size and thinning is None:
+        level, log_eps = self.level, np.full(self.level.P.shape, -1.0)
+        if not level.inflow.size and not self._parts:
             flow = -level.transport(level.fields.flow.mass, np.zeros_like(level.P)).ravel()
-            return Forcing(flow, log_eps=log_eps, speed=1.0)
-        change = viscous(level, log_eps).ravel()
-        ratio: Any = 0.0
-        if thinning is not None and self._viscosity is not None:
-            log_eps, ratio = log_eps - thinning.along, thinning.aside
-            change = viscous(level, log_eps).ravel() + self._viscosity.by_aside @ thinning.aside.ravel()
+            return Forcing(flow)
+        changes = [part.of_speed() for part in self._parts]
+        log_eps = sum((one.log_eps for one in changes), start=log_eps)
+        change = sum((one.flow for one in changes), start=viscous(level, log_eps).ravel())
+        ratio = sum(one.ratio for one in changes)
         flow = film.with_supply(change, log_eps.ravel())
         return Forcing(flow, log_eps=log_eps, ratio=ratio, speed=1.0)
 
@@ -247,18 +247,15 @@ class LinearisedContact:
 
     def _layer_behind(self, system: Any, x: Complex, layer: float = 0.0) -> Complex:
         """Change of the layer behind on each line by all unknowns, and by that of the layer ahead."""
-        film: LinearFilm = system
-        heating: Any = 0.0
-        ratio: Any = 0.0
-        if isinstance(system, HeatedSystem):
+        film, others = system, np.zeros(0)
+        if self._fields:
             film, (x, others) = system.film, system.split(x)
-            fields = others.reshape(-1, *self.level.P.shape)
-            heating, ratio = -system.heat.above * fields[0], fields[1] if len(fields) > 1 else 0.0
         dP: Any = x[:-1].reshape(self.level.P.shape)
         dH = film.deflect(dP).reshape(dP.shape) - x[-1]
-        if self._viscosity is not None and (thinning := self._viscosity.thinning) is not None:
-            ratio = ratio + thinning.aside_by_pressure * dP + thinning.aside_by_film * dH
-        return layer_behind(self.level, film.c_t, dP, dH, heating, ratio, layer)
+        fields = others.reshape(-1, *dP.shape)
+        changes = [part.of_unknowns(system, fields, dP, dH) for part in self._parts]
+        log_eps, ratio = (sum(one[k] for one in changes) for k in (0, 1))
+        return layer_behind(self.level, film.c_t, dP, dH, log_eps, ratio, layer)
 
     def _respond_one_by_one(self, omega: Array, tolerance: float) -> Forces:
         """`respond` with a supply or heat: what comes later is not linear in Omega, and no space serves."""

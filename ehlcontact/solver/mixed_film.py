@@ -7,13 +7,14 @@ cycle, with under-relaxation where it carries much of the load.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.asperities import AsperityNumbers, greenwood_tripp
+from ehlcontact.errors import InputError
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.multigrid import Multigrid
 
@@ -46,7 +47,7 @@ class AsperityPressure:
 
     def follow(self, change: float = 0.0) -> float:
         """Update the asperities' pressure from the present gap, with relaxation, and then the film."""
-        mg, level = self.multigrid, self.multigrid.finest
+        level = self.multigrid.finest
         own = self.numbers.unit * greenwood_tripp(level.H / self.numbers.rq) - self.pressure
         more = float(np.vdot(level.force_weights, own))
         given_way = self._last - more  # change of the residual load: Aitken's factor
@@ -56,10 +57,30 @@ class AsperityPressure:
             self._step = min(self._step, FIRST_SHARE / abs(more))
         self._last = more
         self.pressure += self._step * own
+        self._press()
+        return self._step * float(np.abs(own).max())
+
+    def _press(self) -> None:
+        """Deflection and load of the present pressure, and the film."""
+        level = self.multigrid.finest
         level.asperity_load = float(np.vdot(level.force_weights, self.pressure))
         level.film_shift = level.deflection(self.pressure).copy()
-        level.update(mg.u)
-        return self._step * float(np.abs(own).max())
+        level.update(self.multigrid.u)
+
+    def linear(self, still: bool = False) -> Any:
+        """Refused: their pressure over a vibration is not known here."""
+        raise InputError("asperities", "given", "left out of vibrations: their pressure is not linearised")
+
+    def hold(self, results: Mapping[str, Mapping[str, Any]]) -> None:
+        """Take over the pressure of a result."""
+        self.pressure[...] = results["asperities"]["pressure"].T
+        self._press()
+
+    def settle(self, balance: Balance, cycles: int) -> None:
+        """As of `effects.Effect`."""
+        self.follow()
+        for _ in range(cycles):
+            self.follow(self.multigrid.cycle(balance))
 
     def result(self, before: float) -> dict[str, dict[str, Any]]:
         """Fields and numbers of an `AsperityContact`; the central film between smooth surfaces was `before`."""

@@ -10,6 +10,7 @@ module           responsibility
 ``features``     surface features: `Dent`, `TransverseRidge`, `Waviness`
 ``roughness``    `Roughness`: rough surfaces, synthetic or measured
 ``heat_over_time`` temperatures of the film in time, and what oil and surfaces store
+``effects_over_time`` effects of conditions over time, each with a state between steps
 ``carried_oil``  `CarriedOil`: oil on the surfaces beyond both ends of the region
 ``transient_film`` `TransientFilm`: one implicit step of the film
 ``record``       record of a run: an entry per step, whole fields at given times

@@ -19,6 +19,7 @@ import numpy as np
 
 from ehlcontact.conditions import KEYWORDS
 from ehlcontact.errors import InputError
+from ehlcontact.heat import Heat
 from ehlcontact.point import MoesPoint
 from ehlcontact.quantities import quantities_of
 from ehlcontact.results.film_temperature import FilmTemperature
@@ -38,7 +39,7 @@ from ehlcontact.version import __version__
 SAME = 1e-12  # of a time or a step: they differ by rounding only
 
 
-@stored("checkpoint of `simulate`", 3)
+@stored("checkpoint of `simulate`", 4)
 @dataclass(frozen=True, slots=True, eq=False)
 class Checkpoint:
     """Content of the file: the run up to its last accepted state, and that state."""
@@ -135,15 +136,21 @@ class Checkpoint:
         sizes = {"t": steps, "x": level.nx + 1, "y": level.ny + 1, "snapshot_t": columns["snapshot_t"].size}
         shapes: list[tuple[np.ndarray, tuple[int, ...]]] = [
             *((array, tuple(sizes[dim] for dim in declared[name].dims)) for name, array in columns.items()),
-            *((array, shape) for array, shape in _of_heat(film.heat, field)),
+            *((array, shape) for state in film.effects for array, shape in _of_heat(state, field)),
             *((array, field) for array in (film.P, film.mass, film.mass_before, *(P for _, P in film.past))),
+            *((array, field) for array in (film.heating, film.aside) if array is not None),
         ]
         sound = steps > 0 and all(array.shape == shape and np.isfinite(array).all() for array, shape in shapes)
         if film.factors is not None:
             unknowns = film.factors.free.size + 1
             sound &= film.factors.lu[0].shape == (unknowns, unknowns)
             sound &= film.factors.lu[1].shape == (unknowns,)
-        sound &= (film.heat is None) == (conditions.heat is None)
+        following = [one for one in (conditions.heat, conditions.sliding) if one is not None]
+        sound &= [isinstance(one, HeatState) for one in film.effects] == [
+            isinstance(one, Heat) for one in following
+        ]
+        sound &= (film.heating is not None) == bool(following)
+        sound &= (film.aside is not None) == (conditions.sliding is not None)
         controlled = (self.control is not None) == (self.inputs.steps.local_error is not None)
         return sound and controlled and all(isfinite(x) for x in (self.scale, self.static_approach, film.u))
 
@@ -216,7 +223,7 @@ def _of_heat(heat: HeatState | None, field: tuple[int, ...]) -> list[tuple[np.nd
     """Arrays of a state of temperatures, with the shapes that they should have."""
     if heat is None:
         return []
-    fields = (heat.rise, heat.heating, *heat.stored, *heat.of_rise, *heat.pressure)
+    fields = (heat.rise, *heat.stored, *heat.of_rise, *heat.pressure)
     pairs = (heat.walls, *(given for _, _, given in heat.given))
     return [*((array, field) for array in fields), *((array, (2, *field)) for array in pairs)]
 

@@ -36,7 +36,6 @@ class HeatState:
 
     rise: Array
     walls: Array
-    heating: Array  # of the viscosity
     stored: tuple[Array, Array]  # in the oil, now and a step before
     of_rise: tuple[Array, Array]  # the part of it by which the oil is warmer than the surfaces
     pressure: tuple[Array, Array]  # likewise
@@ -46,7 +45,7 @@ class HeatState:
 
     def turned(self) -> HeatState:
         """The same, seen from the other side."""
-        fields = {name: getattr(self, name)[..., ::-1].copy() for name in ("rise", "walls", "heating")}
+        fields = {name: getattr(self, name)[..., ::-1].copy() for name in ("rise", "walls")}
         pairs = {name: tuple(one[:, ::-1].copy() for one in getattr(self, name)) for name in PAIRS}
         given = tuple((T, way, heat[..., ::-1].copy()) for T, way, heat in self.given)
         changed: dict[str, Any] = fields | pairs
@@ -70,7 +69,7 @@ class HeatOverTime(FilmHeat):
         self, multigrid: Multigrid, inputs: Heat, scales: Scales, law: Eyring | Carreau | None = None
     ) -> None:
         super().__init__(multigrid.finest, inputs.numbers(multigrid.point, scales, law))
-        self._multigrid, self._inputs = multigrid, inputs
+        self._inputs = inputs
         self._load = inputs.load(multigrid.point, scales)
         self._at_unit_speed = self.numbers
         # What is known of the differences in time of heat, of its part by which oil is warmer, and of pressure
@@ -87,7 +86,6 @@ class HeatOverTime(FilmHeat):
         self.rise[...] = 0.0
         self.walls[...] = 0.0
         self._step = None
-        self._multigrid.set_heat(np.zeros_like(self.rise))
 
     def set_speed(self, speed: float) -> None:
         """Let the surfaces move at `speed` > 0, over that of the operating point; they slide in proportion."""
@@ -131,14 +129,18 @@ class HeatOverTime(FilmHeat):
                 _add_behind(weights[j, at] * past[j][2][k], int(at) - nx, before)
             self._before.append(before)
 
-    def start(self, turned: bool) -> None:
-        """Take what was found of a steady film as the state; `turned` as of `begin`."""
+    def start(self, turned: bool, cold: float) -> FilmTemperature:
+        """Take what was found of a steady film as the state; `turned` as of `begin`.
+
+        Returns its temperatures; the central film would be `cold` without heat.
+        """
         self.solve()
         found = self._state((0.0, 0.0), ())
         longest = self._longest  # over this way, and before, the film has been the same
         way = longest if turned else -longest
         steady = (-longest / self.level.speed, way, found.given[0][2])
         self.state, self._begun = replace(found, given=(*found.given, steady)), True
+        return FilmTemperature(inputs=self._inputs, thermal_load=self._load, **self.described(cold))
 
     def end(self, keeps: bool) -> None:
         """Take what was found as the state at the end of the step.
@@ -162,7 +164,6 @@ class HeatOverTime(FilmHeat):
         return HeatState(
             rise=self.rise.copy(),
             walls=self.walls.copy(),
-            heating=level.fields.flow.heat.copy(),
             stored=(stored, stored),
             of_rise=(of_rise, of_rise),
             pressure=(pressure, pressure),
@@ -188,19 +189,21 @@ class HeatOverTime(FilmHeat):
         rise = np.where(t.wet, self.rise, np.where(behind, self.behind(self.rise, t.share), 0.0))
         return oil * (rise + self.walls.mean(axis=0)) + (full - oil) * rise, full * rise
 
-    def at_rest(self, cold: float) -> FilmTemperature:
-        """Temperatures of a steady film whose central film would be `cold` without heat."""
-        return FilmTemperature(inputs=self._inputs, thermal_load=self._load, **self.described(cold))
-
-    def numbers_of_record(self) -> tuple[float, float, float]:
+    def columns(self) -> dict[str, float]:
         """Warmest oil and surface [K above the inlet], and the balance of energy over the heat made."""
-        return float(self.mean.max()), float(self.walls.max()), self.balance()
+        warmest = {"warmest_oil": float(self.mean.max()), "warmest_surface": float(self.walls.max())}
+        return warmest | {"heat_balance": self.balance()}
 
-    def restore(self, state: HeatState) -> None:
+    @property
+    def saved(self) -> HeatState:
+        """State between steps."""
+        return self.state
+
+    def restore(self, state: HeatState | None) -> None:
         """Return to a saved state."""
+        assert state is not None
         self.state = state
         self.rise[...], self.walls[...] = state.rise, state.walls
-        self._multigrid.set_heat(state.heating)
 
     def terms(self) -> Terms:
         """As of a steady film, with what oil stores, and the heat of compression in time."""

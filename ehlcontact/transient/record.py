@@ -103,8 +103,8 @@ class Entry:
         behind = level.leaving()
         if behind.size:
             row["layer_behind"] = behind
-        if film.heat is not None:
-            row |= zip(OF_HEAT, film.heat.numbers_of_record(), strict=True)
+        for effect in film.effects:
+            row |= effect.columns()
         return cls(motion, step, row)
 
     @classmethod

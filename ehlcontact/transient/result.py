@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
 from ehlcontact.point import Point
@@ -24,6 +25,7 @@ from ehlcontact.quantities import (
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.steady_result import film_bars, grid_doubt
 from ehlcontact.results.table import Display, PointTable, QuantityTable
+from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.status import Status
 from ehlcontact.store import stored
@@ -61,7 +63,7 @@ class Instants(SmoothColumns, PointTable):
         return [f"{self.t.size} times, t {t}", f"approach {u}, force {f}"]
 
 
-@stored("result of simulate", 2)
+@stored("result of simulate", 3)
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SimulationResult(Columns, PointTable, Origin):
     """History of a transient contact, in the units of its point; entry 0 is the initial state at t = 0.
@@ -112,6 +114,8 @@ class SimulationResult(Columns, PointTable, Origin):
         Oil on both surfaces ahead of the contact [m; dry approach].
     layer_behind : ndarray or None, shape (steps + 1, ny + 1)
         Oil on both surfaces where they leave the computed region [m; dry approach].
+    sliding : ShearThinning or None
+        As given to `simulate`; None of a Newtonian film.
     temperature : FilmTemperature or None
         Of the film at t = 0; None of an isothermal film, and with it the following three.
     warmest_oil, warmest_surface : ndarray or None, shape (steps + 1,)
@@ -135,6 +139,7 @@ class SimulationResult(Columns, PointTable, Origin):
     film_error: ErrorEstimate | None = None
     supply: OilLayer | None = None
     layer: Annotated[Array | None, LENGTH.over("y", listed=False)] = None
+    sliding: ShearThinning | None = None
     temperature: FilmTemperature | None = None
 
     DISPLAY: ClassVar[Display] = Display(
@@ -144,6 +149,12 @@ class SimulationResult(Columns, PointTable, Origin):
     def require_complete(self, **sizes: int) -> None:
         """Raise `ValueError` unless all arrays have the shapes of each other and of the grid."""
         QuantityTable.require_complete(self, x=self.n + 1, t=max(self.t.size, 1))
+
+    @property
+    def conditions(self) -> Conditions:
+        """Conditions that it ran under, with the data of the oil."""
+        heat = None if self.temperature is None else self.temperature.inputs
+        return Conditions(supply=self.supply, heat=heat, sliding=self.sliding)
 
     @property
     def static_load(self) -> Annotated[float, FORCE.in_si_only()]:
@@ -263,7 +274,9 @@ class SimulationResult(Columns, PointTable, Origin):
             f"approach {films}, force {span(self.force, 1.0, 'N' if self._in_si() else '')}",
             f"film at least {size * self.h_min.min():.4g} {unit}",
         ]
-        lines[-1] += "".join(f", {text}" for text in (self._oil_words, self._heat_words) if text)
+        lines[-1] += "".join(
+            f", {text}" for text in (self._oil_words, self._sliding_words, self._heat_words) if text
+        )
         if self.film_error is not None:
             central, least = film_bars(self.film_error)
             lines[-1] += f"; at the start {central} in the centre, {least} at least"
@@ -276,6 +289,11 @@ class SimulationResult(Columns, PointTable, Origin):
             return ""
         size, unit = film_unit(self.point)
         return f"under a layer of {size * self.layer[0]:.4g} {unit}"
+
+    @property
+    def _sliding_words(self) -> str:
+        """Sliding that thins the film, in words; empty of a Newtonian one."""
+        return "" if self.sliding is None else f"thinned by sliding ({self.sliding.slide_roll:.3g})"
 
     @property
     def _heat_words(self) -> str:
@@ -299,6 +317,7 @@ class SimulationResult(Columns, PointTable, Origin):
                 "motion": self.motion.to_dict(),
             }
             | ({} if self.supply is None else {"supply": self.supply.to_dict()})
+            | ({} if self.sliding is None else {"sliding": self.sliding.to_dict()})
             | ({} if self.temperature is None else {"temperature": self.temperature.to_dict()})
             | self.origin_dict()
         )

@@ -266,6 +266,7 @@ def _result(run: Run, inputs: RunInputs, status: Status, seconds: float) -> Simu
         seconds=seconds,
         supply=supply,
         layer=None if supply is None else level.inflow.copy(),
+        sliding=inputs.conditions.sliding,
         temperature=run.film.temperature,
     )
 

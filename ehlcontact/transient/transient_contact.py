@@ -212,6 +212,8 @@ class TransientContact(Summary):
         require_instance("state", state, ContactState, "what save_state made")
         if state.P.shape != self._film.level.P.shape:
             raise InputError("state", f"of {state.P.shape} nodes", f"one of this grid, {self._film.level.P.shape}")
+        if [type(one) for one in state.effects] != [type(effect.saved) for effect in self._film.effects]:
+            raise InputError("state", "of other conditions", "one of this contact, with its heat and sliding")
         self._film.restore_state(state)
         self._T = state.T
 

@@ -10,23 +10,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate
-from math import log, nan, prod
+from math import nan, prod
 from typing import Any, TypeVar
 
 import numpy as np
 
-from ehlcontact.conditions import Conditions
+from ehlcontact.conditions import FLOODED, Conditions
 from ehlcontact.errors import ConvergenceError
-from ehlcontact.heat import Heat
 from ehlcontact.point import MoesPoint, Scales
 from ehlcontact.results.film_temperature import FilmTemperature
-from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.coarse_newton import Factors
 from ehlcontact.solver.effects import CyclesWithEffects
 from ehlcontact.solver.error_estimate import ErrorEstimate
 from ehlcontact.solver.error_grids import estimate_error
-from ehlcontact.solver.film_thinning import FilmThinning
 from ehlcontact.solver.followed_viscosity import FollowedViscosity
 from ehlcontact.solver.iterate import IterationHistory, StoppingCriteria, iterate
 from ehlcontact.solver.level import Array, Level
@@ -34,8 +31,9 @@ from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.multigrid import Multigrid, Supply
 from ehlcontact.status import Status
 from ehlcontact.transient.carried_oil import CarriedOil
+from ehlcontact.transient.effects_over_time import effects_over_time
 from ehlcontact.transient.features import SurfaceStep
-from ehlcontact.transient.heat_over_time import HeatOverTime, HeatState
+from ehlcontact.transient.heat_over_time import HeatState
 
 Quantity = TypeVar("Quantity", float, Array)
 
@@ -62,10 +60,10 @@ class FilmState:
     factors: Factors | None  # of the coarsest grid; immutable, so the reference is enough
     past_u: tuple[float, ...]  # approach at the same times as the pressures of `past`
     turned: bool = False  # the surfaces roll back: fields are those seen from the other side
-    heat: HeatState | None = None
+    effects: tuple[HeatState | None, ...] = ()  # states of the effects
     speed: float = 1.0  # at the end of the step that led here
     beyond: CarriedOil | None = None  # where oil runs short and surfaces turn back
-    heating: Array | None = None  # of the viscosity that sliding thins, as of `Flow.heat`
+    heating: Array | None = None  # of a viscosity that follows effects, as of `Flow.heat`
     aside: Array | None = None  # ln of that along over that across
 
 
@@ -95,10 +93,16 @@ class TransientFilm:
         As there.
     supply : callable, optional
         Layer of oil that enters at the lines Y, in dry approaches; by default the inlet is flooded.
-    heat : (Heat, Scales), optional
-        Let the film heat up; by default it has the temperature of the inlet.
-    sliding : (ShearThinning, Scales), optional
-        Let sliding thin it; by default it is Newtonian.
+    conditions : Conditions
+        With effects that follow from the film, and the data of the oil; the supply is an argument of its own.
+    scales : Scales, optional
+        Of the point, which effects take.
+
+    Attributes
+    ----------
+    effects : list of EffectOverTime
+    temperature : FilmTemperature or None
+        Of the film at rest, with heat.
     """
 
     def __init__(
@@ -109,18 +113,12 @@ class TransientFilm:
         deflection: str = "fft",
         threads: int = 1,
         supply: Supply | None = None,
-        heat: tuple[Heat, Scales] | None = None,
-        sliding: tuple[ShearThinning, Scales] | None = None,
+        conditions: Conditions = FLOODED,
+        scales: Scales | None = None,
     ) -> None:
         self.multigrid = Multigrid(point, mesh, deflection=deflection, threads=threads, supply=supply)
-        law = None if sliding is None else sliding[0].law
-        self.heat = None if heat is None else HeatOverTime(self.multigrid, *heat, law)
-        self.thinning: FilmThinning | None = None
-        self._log_newton = 0.0  # as of `FilmThinning`, at the speed of the operating point
-        if sliding is not None:
-            self._log_newton = sliding[0].log_newton(point.eta0, sliding[1])
-            self.thinning = FilmThinning(self.multigrid, sliding[0].law, self._log_newton, self.heat)
-        self.temperature: FilmTemperature | None = None  # of the film at rest
+        self.effects = effects_over_time(conditions, self.multigrid, scales)
+        self.temperature: FilmTemperature | None = None
         self.tol = tol
         self.scale = 1.0
         self._past: tuple[tuple[float, Array], ...] = ()
@@ -152,10 +150,7 @@ class TransientFilm:
             The flooded film, which the supply is given over, was not solved.
         """
         supply = conditions.supply
-        following: dict[str, Any] = {}
-        if scales is not None:
-            given = {"heat": conditions.heat, "sliding": conditions.sliding}
-            following = {name: (one, scales) for name, one in given.items() if one is not None}
+        following: dict[str, Any] = {"conditions": conditions, "scales": scales}
         if supply is None:
             return cls(point, mesh, tol, deflection, threads, **following)
         flooded = nan
@@ -204,19 +199,15 @@ class TransientFilm:
             self.level.film_shift = _turned(self.level.film_shift)
             self.level.update_film(self.u)
             self.multigrid.newton.factors = None
-            if self.heat is not None:
-                self.heat.turn()
-            elif self.thinning is not None:
+            if self.effects:
                 self.multigrid.set_heat(self.level.fields.flow.heat[:, ::-1].copy())
-            if self.multigrid.aside is not None:
-                self.multigrid.set_aside(self.multigrid.aside[:, ::-1].copy())
+            for effect in self.effects:
+                effect.turn()
         self._next_speed = speed
         for level in self.multigrid.levels:
             level.set_speed(abs(speed))
-        if self.heat is not None:
-            self.heat.set_speed(self.level.speed)
-        if self.thinning is not None:
-            self.thinning.log_newton = self._log_newton + log(self.level.speed)
+        for effect in self.effects:
+            effect.set_speed(self.level.speed)
 
     def start_steady(self, balance: Balance, u: float | None = None, surface: Array | float = 0.0) -> Step:
         """Solve the steady film over a resting `surface` and make it the state for all T <= 0."""
@@ -226,11 +217,10 @@ class TransientFilm:
         mg.set_time_coefficient(0.0)
         if u is not None:
             mg.u = u
-        if self.heat is not None:
-            self.heat.rest()
-        if self.thinning is not None:
+        if self.effects:
             mg.set_heat(np.zeros_like(self.level.P))
-            mg.set_aside(np.zeros_like(self.level.P))
+        for effect in self.effects:
+            effect.rest()
         mg.full_multigrid(balance)
         self.level.film_shift = surface
         self.level.excess[...] = 0.0
@@ -244,9 +234,8 @@ class TransientFilm:
             cycles.start(balance)
             self.level.film_shift = surface
             step = self._solve(balance, 2 * STEP_CYCLES, cycles.step)
-            if self.heat is not None:
-                self.heat.start(self.turned)
-                self.temperature = self.heat.at_rest(cold)
+            for effect in self.effects:
+                self.temperature = effect.start(self.turned, cold) or self.temperature
         self._mass = self.level.oil.copy()
         self._mass_before = self._mass
         self.forget_past()
@@ -314,9 +303,9 @@ class TransientFilm:
             else:
                 source = level.density() * (level.transport(surface.height, known) - surface.rate)
                 level.rhs -= source
-        if self.heat is not None:
+        for effect in self.effects:
             moved = 0.5 * dT * (self._speed + self._next_speed)
-            self.heat.begin(dT, partial(_known, dT, ratio), moved, self.turned, source)
+            effect.begin(dT, partial(_known, dT, ratio), moved, self.turned, source)
         cycles = self._following()
         if cycles is None:
             step = self._solve(balance, STEP_CYCLES)
@@ -324,8 +313,8 @@ class TransientFilm:
             level.update(mg.u)
             cycles.follow()
             step = self._solve(balance, STEP_CYCLES, cycles.step)
-        if self.heat is not None:
-            self.heat.end(self.keeps_oil)
+        for effect in self.effects:
+            effect.end(self.keeps_oil)
         self._past = ((dT, P_now), *self._past)[:PAST]
         self._past_u = (u_now, *self._past_u)[:PAST]
         self._mass_before, self._mass = self._mass, level.oil.copy()
@@ -336,13 +325,10 @@ class TransientFilm:
 
     def _following(self) -> CyclesWithEffects | None:
         """Cycles after which the viscosity follows what changes it; None where nothing does."""
-        given = {"heat": self.heat, "sliding": self.thinning}
-        sources: dict[str, Any] = {name: source for name, source in given.items() if source is not None}
-        if not sources:
+        if not self.effects:
             return None
-        return CyclesWithEffects(
-            self.multigrid, [FollowedViscosity(self.multigrid, sources)], self.multigrid.cycle
-        )
+        viscosity = FollowedViscosity(self.multigrid, self.effects)
+        return CyclesWithEffects(self.multigrid, [viscosity], self.multigrid.cycle)
 
     def _solve(self, balance: Balance, most: int, advance: Callable[[Balance], float] | None = None) -> Step:
         """Cycle until the residual, the balance and the last changes of u and force are below tolerance."""
@@ -372,10 +358,10 @@ class TransientFilm:
             factors=self.multigrid.newton.factors,
             past_u=self._past_u,
             turned=self.turned,
-            heat=None if self.heat is None else self.heat.state,
+            effects=tuple(effect.saved for effect in self.effects),
             speed=self._speed,
             beyond=self._beyond,
-            heating=None if self.thinning is None else self.level.fields.flow.heat.copy(),
+            heating=self.level.fields.flow.heat.copy() if self.effects else None,
             aside=self.multigrid.aside,
         )
 
@@ -388,10 +374,11 @@ class TransientFilm:
         self._speed, self._beyond = state.speed, state.beyond
         self.level.film_shift = state.surface
         self.multigrid.newton.factors = state.factors
-        if self.heat is not None and state.heat is not None:
-            self.heat.restore(state.heat)
-        if state.heating is not None and state.aside is not None:
+        for effect, saved in zip(self.effects, state.effects, strict=True):
+            effect.restore(saved)
+        if state.heating is not None:
             self.multigrid.set_heat(state.heating)
+        if state.aside is not None:
             self.multigrid.set_aside(state.aside)
         self.level.update_film(state.u)
 

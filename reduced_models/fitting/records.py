@@ -54,6 +54,8 @@ class ContactRecord(PointTable):
     motion : mapping, optional
         Description of the motion. ``Omega`` of a harmonic load is in u_sum/(2a) where there is a point, else in
         the units of the record.
+    conditions : mapping, optional
+        Supply, heat and sliding of the film, by their keywords in `ehlcontact.simulate`, as dictionaries.
     mass : float, optional
         Of bodies with inertia [kg; 1/Omega_n^2 of eq. 5].
     static_load : float, optional
@@ -79,6 +81,7 @@ class ContactRecord(PointTable):
     n: int | None = None
     domain: tuple[float, ...] | None = None
     motion: Mapping[str, Any] | None = None
+    conditions: Mapping[str, Any] | None = None
     mass: Annotated[float | None, MASS] = None
     static_load: Annotated[float | None, FORCE] = None
     units: str = ""
@@ -90,8 +93,9 @@ class ContactRecord(PointTable):
 
     def _summary_lines(self) -> list[str]:
         kind = "" if self.motion is None else f", {self.motion.get('kind', 'a motion')}"
+        under = f", with {', '.join(self.conditions)}" if self.conditions else ""
         return [
-            f"{self.units}{kind}, {self.t.size} samples up to t = {self.t[-1]:.4g}",
+            f"{self.units}{kind}{under}, {self.t.size} samples up to t = {self.t[-1]:.4g}",
             *([] if self.point is None else [contact_text(self.point)]),
             f"approach {span(self.approach)}, force {span(self.force)}",
         ]
@@ -143,7 +147,7 @@ class ContactRecord(PointTable):
                 status,
                 "'converged' (in Python, accept_unconverged=True takes it all the same)",
             )
-        domain = simulation.domain
+        domain, conditions = simulation.domain, getattr(simulation, "conditions", None)
         if not isinstance(domain, tuple | list):
             domain = (domain.x_in, domain.x_out, domain.y_max)
         return cls(
@@ -157,6 +161,7 @@ class ContactRecord(PointTable):
             n=int(simulation.n),
             domain=tuple(float(value) for value in domain),
             motion=dict(simulation.motion.to_dict()),
+            conditions=None if conditions is None else {k: v.to_dict() for k, v in conditions.keywords.items()},
             mass=simulation.mass,
         )
 

@@ -6,15 +6,26 @@ from math import pi
 
 import pytest
 
-from ehlcontact import Grid, Lubricant, OperatingPoint, assumptions, impedance, read, solve_steady
+from ehlcontact import (
+    Grid,
+    Lubricant,
+    OperatingPoint,
+    ShearThinning,
+    assumptions,
+    impedance,
+    read,
+    solve_steady,
+)
 from ehlcontact.cli.contact import Contact
 from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import most_loaded_ball
+from ehlcontact.lubricant import Eyring
 from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.transient.result import SimulationResult
 from fmu.contact_spec import contact_spec
 from reduced_models import Atlas, BallBearing
+from reduced_models.fitting.records import ContactRecord
 
 GIVEN = {"--bearing": "6205", "--oil": "ISO VG 68", "--temp": "60", "--speed-rpm": "3000", "--load": "100"}
 COARSE = ("--n", "32")
@@ -366,4 +377,34 @@ def test_traction(call, refused):
     bad(("--slide-roll = 1.5", "between 0 and 1"), "--slide-roll", "1.5", "--thinning", "--thermal")
     dimensionless = ("--M", "20", "--L", "10", "--kappa", "1", "--slide-roll", "0.1")
     refused(("--slide-roll = 0.1", "no pascals"), "steady", *dimensionless)
+    for command in (("impedance", "--hz", "50"), ("simulate", "--harmonic", "1")):
+        refused(
+            ("--slide-roll = 0.1", "given with --thermal or --thinning"),
+            *command,
+            *options(),
+            "--slide-roll",
+            "0.1",
+        )
+        refused(("--thinning = True", "with --slide-roll"), *command, *options(), "--thinning")
     refused(("--traction: no option of `impedance`", "has --slide-roll"), "impedance", *options(), "--traction")
+
+
+@pytest.mark.long
+def test_vibrations_and_runs_are_thinned_by_sliding(call, tmp_path):
+    thin = ("--slide-roll", "0.5", "--thinning")
+    rolling, sliding = (
+        json.loads(call("impedance", *options(), *COARSE, *given, "--hz", "10", "--json", "-").out)
+        for given in ((), thin)
+    )
+    under = ShearThinning(0.5, Eyring(5e6))
+    expected = impedance(ball(), hz=10.0, grid=Grid(n=32), sliding=under)
+    assert sliding["damping"] == expected.damping.tolist() != rolling["damping"]
+    assert sliding["film"]["sliding"] == under.to_dict()
+    assert re.search(r"film by sliding +0\.9\d+", call("impedance", *options(), *COARSE, *thin, "--hz", "10").out)
+    kept = tmp_path / "run.h5"
+    shown = call("simulate", *options(), *COARSE, *thin, "--free", "5", "--until", "1e-5", "--save", str(kept)).out
+    assert re.search(r"slide-to-roll ratio +0\.5 +thins the film by the law of\s+Eyring", shown)
+    run = read(kept)
+    assert run.sliding == under and run.conditions.sliding == under and "thinned by sliding (0.5)" in repr(run)
+    record = ContactRecord.from_result(run)
+    assert record.conditions == {"sliding": under.to_dict()} and "with sliding" in repr(record)

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from ehlcontact import (
+    Asperities,
     Domain,
     Grid,
     Heat,
+    InputError,
     KeepSettings,
     Lubricant,
     OilLayer,
@@ -248,3 +250,26 @@ def test_slow_changes_of_the_layer_are_those_of_steady_films(name):
     step = 1e-4 * BALL.scales.length
     difference(by_approach, 2.0 * step, ((layer, u + step), (layer, u - step)))
     assert 0.4 < by_layer.passed_share[0] < 1.0
+
+
+def test_a_film_in_moes_units_has_no_effects_in_si():
+    """Heat and thinning need the units of their oil: such a film is no isothermal one."""
+    film = solve_steady(BALL, grid=Grid(32), thermal=True)
+    with pytest.raises(InputError, match=r"^film = 'dimensionless': must be as it was solved, in SI"):
+        held(film.dimensionless)
+
+
+def test_asperities_are_held_and_have_no_vibrations():
+    film = solve_steady(BALL, grid=Grid(64), asperities=Asperities(0.3e-6))
+    solved = held(film)
+    assert film.asperities.load_share > 5e-3
+    assert solved.finest.force() == pytest.approx(film.dimensionless.force, rel=1e-12)
+    np.testing.assert_allclose(solved.finest.H, film.dimensionless.h.T, rtol=1e-9)
+    with pytest.raises(InputError, match=r"^asperities = 'given': must be left out of vibrations"):
+        linearised(film, solved)
+
+
+def test_a_state_of_other_conditions_is_refused():
+    cold, warm = (TransientContact(BALL, grid=Grid(32), thermal=heat) for heat in (None, True))
+    with pytest.raises(InputError, match=r"^state = 'of other conditions'"):
+        cold.restore_state(warm.save_state())

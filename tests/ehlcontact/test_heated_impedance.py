@@ -24,7 +24,7 @@ from ehlcontact import (
     save,
     solve_steady,
 )
-from ehlcontact.linearised_film import held, viscosity_on
+from ehlcontact.linearised_film import effects_on, held
 from ehlcontact.response import NEAR_ZERO, slow_part
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.effects import CyclesWithEffects
@@ -57,7 +57,7 @@ def response(given, omega, follows=True, r=None):
     """K and C of the film with heat, its temperatures following or standing still."""
     film = film_of(given, r)
     solved = held(film)
-    contact = LinearisedContact(solved, viscosity_on(film, solved) if follows else None)
+    contact = LinearisedContact(solved, effects_on(film, solved) if follows else ())
     Z = contact.respond(np.array([omega]), 1e-5)[0][0]
     return Z.real, Z.imag / omega
 
@@ -72,7 +72,7 @@ class Neighbours:
             at = film.approach + side * STEP * POINT.scales.length
             near = solve_steady(POINT, **region_of(film), thermal=given, approach=at, tol=1e-8)
             solved = held(near)
-            heats.append((near, viscosity_on(near, solved).heat))
+            heats.append((near, effects_on(near, solved)[0].heat))
         self.stiffness = self.slope(heats, lambda near, heat: near.dimensionless.force)
         self.pressure = self.slope(heats, lambda near, heat: heat.level.P)
         self.mass = self.slope(heats, lambda near, heat: heat.level.oil)
@@ -122,12 +122,12 @@ def force_on_a_ramp(given, near, rate, r=None):
     """Force at the approach of the film while the approach grows at a rate."""
     film = film_of(given, r)
     solved = held(film)
-    steady, balance = viscosity_on(film, solved).heat, Balance.of_approach(film.dimensionless.approach)
+    steady, balance = effects_on(film, solved)[0].heat, Balance.of_approach(film.dimensionless.approach)
     heat = Ramp(solved.finest, steady.numbers)
     heat.rise[...], heat.walls[...], heat.rate, heat.near = steady.rise, steady.walls, rate, near
     solved.finest.rhs[...] = rate * near.mass
     solved.finest.update(solved.u)
-    cycles = CyclesWithEffects(solved, [FollowedViscosity(solved, {"heat": heat})], solved.cycle)
+    cycles = CyclesWithEffects(solved, [FollowedViscosity(solved, [heat])], solved.cycle)
     for _ in range(15):
         cycles.step(balance)
     return solved.finest.force()
@@ -186,7 +186,7 @@ def test_temperatures_linearised_are_differences_of_temperatures(given):
     """At rest, for any change of pressure, film and viscosity."""
     film, step = film_of(given), 1e-5
     solved = held(film)
-    heat = viscosity_on(film, solved).heat
+    heat = effects_on(film, solved)[0].heat
     level = heat.level
     state = level.P, level.H, level.fields.flow.heat
     bump = np.exp(-4.0 * ((level.X + 0.8) ** 2 + level.Y[:, None] ** 2)) * (level.P > 0.0)

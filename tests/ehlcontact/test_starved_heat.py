@@ -8,7 +8,7 @@ import pytest
 from balls import FAST as POINT
 
 from ehlcontact import Domain, Grid, Heat, OilLayer, solve_steady
-from ehlcontact.linearised_film import held, viscosity_on
+from ehlcontact.linearised_film import effects_on, held
 from ehlcontact.solver.film_heat import divergence
 
 GRID = Grid(64, Domain(-6.0, 1.5, 3.0))
@@ -52,7 +52,7 @@ def test_oil_and_energy_are_balanced(r, given):
     lines = np.append(0.5, np.ones(film.y.size - 1))
     assert lines @ film.layer_behind == pytest.approx(lines @ film.layer, rel=2e-7)
     solved = held(film)
-    terms = viscosity_on(film, solved).heat.terms()
+    terms = effects_on(film, solved)[0].heat.terms()
     left = divergence(terms.along, terms.across)[terms.wet]
     assert np.abs(left).max() < 1e-5 * np.abs(terms.along).max()
 

@@ -6,11 +6,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Frequencies, Heating, Supply
+from ehlcontact.cli.contact import Contact, Frequencies, Heating, Sliding, Supply
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import complain
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row, heat_rows, in_unit, outside_rows, run_rows
+from ehlcontact.cli.rows import Row, heat_rows, in_unit, outside_rows, run_rows, thinning_rows
 from ehlcontact.point import OperatingPoint
 
 if TYPE_CHECKING:
@@ -19,12 +19,20 @@ if TYPE_CHECKING:
 
 @o.grouped
 def impedance(
-    contact: Contact, supply: Supply, heating: Heating, grid: o.Grid, frequencies: Frequencies, out: o.Output
+    contact: Contact,
+    supply: Supply,
+    heating: Heating,
+    sliding: Sliding,
+    grid: o.Grid,
+    frequencies: Frequencies,
+    out: o.Output,
 ) -> None:
     """Linearise the steady film: stiffness K and damping C over frequency."""
     from ehlcontact.response import impedance as solve
 
-    chosen = grid.chosen() | {"supply": supply.chosen(contact), "thermal": heating.chosen(contact)}
+    chosen = grid.chosen() | {"supply": supply.chosen(contact)}
+    sliding.check(contact, heated=heating.thermal, traction=False)
+    chosen |= {"sliding": sliding.thinned(), "thermal": heating.chosen(contact, sliding)}
     point = contact.solvable()
     at = frequencies.named(contact)
     out.check()
@@ -36,7 +44,14 @@ def impedance(
     si = isinstance(result.point, OperatingPoint)
     scale = "small vibrations about rest" if si else "static load 1, dry approach 1, time unit 2a/u_sum"
     run = run_rows(replace(film, seconds=result.seconds))
-    rows = [*contact.rows(point), *outside_rows(found), *_rows(result, si), *heat_rows(film), *run]
+    rows = [
+        *contact.rows(point),
+        *outside_rows(found),
+        *_rows(result, si),
+        *thinning_rows(film),
+        *heat_rows(film),
+        *run,
+    ]
     content = {**result.to_dict(), **contact.about(point), "outside_assumptions": found.headline}
     out.deliver(content, (f"impedance: force over approach, {scale}", rows))
     for warning in filter(None, (result.negative_damping, result.reservation)):

@@ -13,7 +13,7 @@ import typer
 from ehlcontact.assumptions import assumptions
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import NO_TIME, Contact, Heating, Supply, Surfaces
+from ehlcontact.cli.contact import NO_TIME, Contact, Heating, Sliding, Supply, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
@@ -205,6 +205,7 @@ def simulate(
     surfaces: Surfaces,
     supply: Supply,
     heating: Heating,
+    sliding: Sliding,
     motion: MotionOptions,
     time: TimeOptions,
     grid: o.Grid,
@@ -218,7 +219,8 @@ def simulate(
     arguments = (point, motion.chosen(point))
     surfaces.check(contact)
     chosen, steps, layer = grid.chosen(), time.chosen(), supply.chosen(contact)
-    heat = heating.chosen(contact)
+    sliding.check(contact, heated=heating.thermal, traction=False)
+    thinned, heat = sliding.thinned(), heating.chosen(contact, sliding)
     out.check(restart.other, beside={"--checkpoint": (restart.checkpoint, o.HDF5)})
     failure, unkept = "", None
     with progress("transient film") as update, o.called(dt="--dt", local_error="--local-error"):
@@ -228,6 +230,7 @@ def simulate(
                 grid=chosen["grid"],
                 supply=layer,
                 thermal=heat,
+                sliding=thinned,
                 time=steps,
                 keep=KeepSettings(checkpoint=restart.checkpoint, restart=restart.restart),
                 run=RunSettings(threads=chosen["threads"], callback=update),
@@ -291,6 +294,7 @@ def _rows(result: SimulationResult) -> list[Row]:
         *(_in_si(result) if isinstance(result.point, OperatingPoint) else []),
         *quantity_rows(result, {"static_approach": "", "approach": "", "force": "", "h_min": ""}),
         *_supply_rows(result),
+        *_sliding_rows(result),
         *_heat_rows(result),
         ("steps", f"{result.steps}", steps),
         *_grid_error(result),
@@ -307,6 +311,14 @@ def _supply_rows(result: SimulationResult) -> list[Row]:
     behind = size * result.layer_behind[:, 0]
     leaves = f"{numeral(behind.min())} to {numeral(behind.max())} {unit} leave in the middle"
     return [("layer of oil", f"{numeral(size * result.layer[0])} {unit}", leaves)]
+
+
+def _sliding_rows(result: SimulationResult) -> list[Row]:
+    """Sliding that thins the film."""
+    if result.sliding is None:
+        return []
+    law = f"thins the film by the law of {type(result.sliding.law).__name__}"
+    return [("slide-to-roll ratio", numeral(result.sliding.slide_roll), law)]
 
 
 def _heat_rows(result: SimulationResult) -> list[Row]:

@@ -16,7 +16,7 @@ from ehlcontact.cli.contact import Contact, Heating, Mixed, Sliding, Supply, Sur
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row, heat_rows, outside_rows, quantity_rows, run_rows, share_text
+from ehlcontact.cli.rows import Row, heat_rows, outside_rows, quantity_rows, run_rows, share_text, thinning_rows
 from ehlcontact.point import OperatingPoint
 from ehlcontact.results.contact_map import VIEW
 from ehlcontact.solver.domain import Domain
@@ -142,7 +142,7 @@ def _rows(result: SteadyResult) -> list[Row]:
         ("load balance", f"{result.load_residual:.1e}", "over the load"),
         ("cycles", f"{result.cycles}", ""),
         *_supply_rows(result),
-        *_thinning_rows(result),
+        *thinning_rows(result),
         *heat_rows(result),
         *_asperity_rows(result),
         *run_rows(result),
@@ -166,13 +166,6 @@ def _asperity_rows(result: SteadyResult) -> list[Row]:
         return []
     film = f"their central film is {found.film_share:.4g} of that between smooth surfaces"
     return [("load on asperities", f"{100.0 * found.load_share:.3g} %", film)]
-
-
-def _thinning_rows(result: SteadyResult) -> list[Row]:
-    """Film that sliding leaves."""
-    if result.thinned_share is None:
-        return []
-    return [("film by sliding", f"{result.thinned_share:.4g}", "of the Newtonian film")]
 
 
 def _traction_rows(found: Traction | None) -> list[Row]:

@@ -23,6 +23,7 @@ from ehlcontact import (
     simulate,
     solve_steady,
 )
+from ehlcontact.conditions import Conditions
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.transient.heat_over_time import passage
 from ehlcontact.transient.transient_film import TransientFilm
@@ -74,8 +75,8 @@ def test_small_vibrations_under_a_layer_have_the_impedance_of_both(r, given):
 def marched(U, grid, dT, thermal=ROLLING, layer=None):
     """Film after steps at these speeds; largest losses of oil and of energy in a step."""
     supply = None if layer is None else lambda Y: np.full(Y.shape, layer)
-    mesh, heat = Mesh(grid.n, grid.domain, POINT.moes.kappa), (thermal.at(POINT), POINT.scales)
-    film = TransientFilm(POINT.moes, mesh, 3e-8, supply=supply, heat=heat)
+    mesh, heat = Mesh(grid.n, grid.domain, POINT.moes.kappa), Conditions.of(thermal=thermal).at(POINT)
+    film = TransientFilm(POINT.moes, mesh, 3e-8, supply=supply, conditions=heat, scales=POINT.scales)
     return film, *march(film, U, dT, layer)
 
 
