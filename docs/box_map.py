@@ -1,4 +1,4 @@
-"""The picture of `docs/solver.md`: where the solver was tried, what came out and what it cost.
+"""The picture of `docs/notes/solver.md`: where the solver was tried, what came out and what it cost.
 
 Run ``python tests/benchmarks/box.py --json box.json`` first, then ``python docs/box_map.py box.json``.
 """

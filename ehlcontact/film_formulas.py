@@ -165,6 +165,6 @@ def film_of_layer(ratio: Any, sharpness: Any) -> Any:
 def layer_sharpness(kappa: float) -> float:
     """Exponent g of `film_of_layer`, ``2.9 kappa^-0.63``: within 10 % of those of four points solved here.
 
-    Those are in docs/oil_supply.md, with kappa from 0.11 to 1.
+    Those are in docs/notes/oil_supply.md, with kappa from 0.11 to 1.
     """
     return float(2.9 * kappa**-0.63)

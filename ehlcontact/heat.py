@@ -1,6 +1,6 @@
 """`Heat`: what the heating of a film needs of oil and surfaces, as an input.
 
-How the solver uses it: `ehlcontact.solver.film_heat`; equations and sources: docs/heat.md.
+How the solver uses it: `ehlcontact.solver.film_heat`; equations and sources: docs/notes/heat.md.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """`ShearThinning`: shear thinning of a film by sliding, as an input.
 
-How the solver uses it: `ehlcontact.solver.film_thinning`; equations and sources: docs/traction.md.
+How the solver uses it: `ehlcontact.solver.film_thinning`; equations and sources: docs/notes/traction.md.
 """
 
 from __future__ import annotations

@@ -67,7 +67,7 @@ def export(
     `shaft.x`, ..., is an output.
 
     Reference inputs and results of the model are inside, for `verify_references`. The same model, name, library
-    version and compiler give the same bytes. ``docs/coupling.md`` has all variables.
+    version and compiler give the same bytes. ``docs/notes/coupling.md`` has all variables.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def export(
         on what the force is given to: 1.5 for a mass that holds the force over its step while master and FMU step
         in parallel, which is what most co-simulation tools do, 1 if it advances by symplectic Euler; 0.5 and 0 for
         the same where the FMU is given the motion of the end of the step (serial masters). A wrong value costs the
-        damping C as much as stiffness times step times the difference: ``docs/coupling.md``.
+        damping C as much as stiffness times step times the difference: ``docs/notes/coupling.md``.
     model_name : str, optional
         Name of the model; the kind of the model, as CubicContact, by default.
     fmi : int

@@ -12,7 +12,7 @@ from fmu.contact_variables import Element
 
 SHARE_OF_TRANSIT = 0.05  # default step, over the transit time 2a/u_sum of the film
 FAST_STEP = 0.1  # step times angular frequency of the fastest motion for which steps are advised
-ADDED_DAMPING = 2.4  # extrapolated motion adds this times K h (w h)^4 to the damping, at most: docs/coupling.md
+ADDED_DAMPING = 2.4  # extrapolated motion adds at most this times K h (w h)^4 to the damping: docs/coupling.md
 ALLOWED_DAMPING = 0.05  # of a contact, that such steps may add
 
 

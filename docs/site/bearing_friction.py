@@ -1,4 +1,4 @@
-"""Numbers and the picture of the bearing in docs/traction.md.
+"""Numbers and the picture of the bearing in docs/notes/traction.md.
 
 python docs/site/bearing_friction.py   # a minute
 """

@@ -1,4 +1,4 @@
-"""Numbers and the picture of docs/heat.md.
+"""Numbers and the picture of docs/notes/heat.md.
 
 python docs/site/heat.py   # some minutes
 """

@@ -1,4 +1,4 @@
-"""Picture of docs/heat.md: film and temperatures while a contact stops, stands and rolls back.
+"""Picture of docs/notes/heat.md: film and temperatures while a contact stops, stands and rolls back.
 
 python docs/site/heat_at_speeds.py   # a minute
 """

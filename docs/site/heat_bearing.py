@@ -1,4 +1,4 @@
-"""Numbers and the picture of ball bearings with heat in docs/heat.md.
+"""Numbers and the picture of ball bearings with heat in docs/notes/heat.md.
 
 python docs/site/heat_bearing.py   # a minute
 """

@@ -1,4 +1,4 @@
-"""Numbers and the picture of stiffness and damping with heat in docs/heat.md.
+"""Numbers and the picture of stiffness and damping with heat in docs/notes/heat.md.
 
 python docs/site/heat_impedance.py   # minutes
 """

@@ -1,4 +1,4 @@
-"""Picture of docs/heat.md: film and temperatures while the load doubles, with heat and without.
+"""Picture of docs/notes/heat.md: film and temperatures while the load doubles, with heat and without.
 
 python docs/site/heat_over_time.py   # half a minute
 """

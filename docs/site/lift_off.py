@@ -1,4 +1,4 @@
-"""Table and picture of lift-off and return in docs/elements.md.
+"""Table and picture of lift-off and return in docs/notes/elements.md.
 
 python docs/site/lift_off.py   # half an hour: runs of the full film, and tables from solves in their regions
 

@@ -1,4 +1,4 @@
-"""Picture of a bearing with heat and with a layer of oil in docs/bearings.md.
+"""Picture of a bearing with heat and with a layer of oil in docs/notes/bearings.md.
 
 python docs/site/oil_and_heat.py   # half a minute
 """

@@ -1,4 +1,4 @@
-"""Numbers and pictures of docs/oil_supply.md.
+"""Numbers and pictures of docs/notes/oil_supply.md.
 
 python docs/site/oil_supply.py   # some minutes
 """

@@ -1,4 +1,4 @@
-"""Table and picture of the element over speed in docs/elements.md.
+"""Table and picture of the element over speed in docs/notes/elements.md.
 
 python docs/site/speed_elements.py   # five minutes: 21 runs of the full film
 """

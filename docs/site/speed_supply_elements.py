@@ -1,4 +1,4 @@
-"""Errors of the element over speed under a layer of oil in docs/elements.md.
+"""Errors of the element over speed under a layer of oil in docs/notes/elements.md.
 
 python docs/site/speed_supply_elements.py   # a minute: 6 runs of the full film
 """

@@ -1,4 +1,4 @@
-"""Oil supply and heat together: the joint film beside products of separate factors (docs/heat.md).
+"""Oil supply and heat together: the joint film beside products of separate factors (docs/notes/heat.md).
 
 python docs/site/starved_heat.py   # some minutes
 """

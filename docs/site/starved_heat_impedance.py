@@ -1,4 +1,4 @@
-"""K and C of contacts with heat under a layer of oil, solved, beside products of both effects (docs/heat.md).
+"""K and C of contacts with heat under a layer of oil, solved, beside products of both (docs/notes/heat.md).
 
 python docs/site/starved_heat_impedance.py
 """

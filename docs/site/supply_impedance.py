@@ -1,4 +1,4 @@
-"""Picture of stiffness and damping over the supply of oil in docs/oil_supply.md.
+"""Picture of stiffness and damping over the supply of oil in docs/notes/oil_supply.md.
 
 python docs/site/supply_impedance.py   # a minute or two
 """

@@ -1,4 +1,4 @@
-"""Numbers and the picture of docs/traction.md.
+"""Numbers and the picture of docs/notes/traction.md.
 
 python docs/site/traction.py   # a minute
 """
@@ -48,7 +48,7 @@ def power_mean(log_values, weights, q):
 
 
 def exponent(y):
-    """Exponent of the mean that stands for a contact whose mean stress is y times Eyring's (docs/traction.md)."""
+    """Exponent of the mean for a contact whose mean stress is y times Eyring's (docs/notes/traction.md)."""
     return (1.0 + (y / 1.36) ** 1.33) ** -1.36
 
 

@@ -1,7 +1,7 @@
 """The page of validation: this library beside what others published, from numbers that were measured and kept.
 
     python tests/golden/regenerate.py validation   # solve everything anew: two minutes
-    python docs/site/validation.py                 # docs/validation.md from it
+    python docs/site/validation.py                 # docs/notes/validation.md from it
 
 What others published stands in the tests, which hold the library to it; here it is only read from there.
 """
@@ -20,7 +20,7 @@ from types import ModuleType
 from typing import Any, NamedTuple
 
 ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "docs" / "validation.md"
+PAGE = ROOT / "docs" / "notes" / "validation.md"
 GOLDEN = ROOT / "tests" / "golden" / "golden.json"
 FILMS = "tests/ehlcontact/test_literature.py"
 BEARINGS = "tests/reduced_models/bearing/test_literature.py"
@@ -353,6 +353,10 @@ def golden(values: dict[str, Any]) -> str:
 
 
 HEAD = """\
+---
+orphan: true
+---
+
 # Validation
 
 <!-- made by docs/site/validation.py: change that -->
@@ -361,15 +365,15 @@ This page compares results of this library (commit {version}) with published res
 `python tests/golden/regenerate.py validation` repeats all solves, `python docs/site/validation.py` rewrites this
 page. The tests named below compare every version with these numbers, within the tolerances given there:
 `pytest -m literature`. Grid convergence, range and cost of the solver are in [the solver](solver.md); bearings
-compared with computed films are in [ball bearings](bearings.md).
+compared with computed films are in [ball bearings](bearings.md). [Validation](../validation.md) is the summary.
 """
 TAIL = """\
 ## Regression values of this library
 
 These solutions are converged far below the discretisation error of their grid. Every run of the tests compares
 new solutions with them (`tests/golden/test_golden.py`, films within 1e-6). A change of a value is noted under
-*Numerics* in [changes](guide/changelog.md). Values are dimensionless; `python tests/golden/regenerate.py` writes
-them.
+*Numerics* in [changes](../guide/changelog.md). Values are dimensionless; `python tests/golden/regenerate.py`
+writes them.
 """
 
 

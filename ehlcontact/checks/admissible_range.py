@@ -143,7 +143,7 @@ class Limits(NamedTuple):
     log_viscosity: float  # ln(eta/eta0) at the Hertz pressure, at most
 
 
-MEASURED = Limits((5.0, 30000.0), (0.0, 25.0), (0.08, 5.0), 3.5e9, 80.0)  # docs/solver.md
+MEASURED = Limits((5.0, 30000.0), (0.0, 25.0), (0.08, 5.0), 3.5e9, 80.0)  # docs/notes/solver.md
 SMALLEST_L = (
     1e-6  # of one that is not 0: formulas of its powers overflow at 1e-50, the Hertz pressure is 20 Pa here
 )

@@ -1,6 +1,6 @@
 """Traction laws: shear stress of an oil over the stress that it would have as a Newtonian liquid.
 
-Equation numbers are those of docs/traction.md. A new law is entered here: a class with `of`, and its place in
+Equation numbers are those of docs/notes/traction.md. A new law is entered here: a class with `of`, its place in
 `LAWS`.
 """
 

@@ -4,7 +4,7 @@ With d the difference between the finest grid and the one of half its intervals,
 difference before to d, an error that falls regularly is d/(r - 1). It does not always fall regularly: on a grid
 that hardly resolves the inlet errors fall faster than they will later, some parts fall at first order, and where
 parts cancel d is small by chance. So r is bounded, and the estimate is at least a share of the difference before.
-Bounds and share were measured: docs/solver_development.md, "Accuracy and error estimates".
+Bounds and share were measured: docs/notes/solver_development.md, "Accuracy and error estimates".
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def response_error(omega: Floats, found: Sequence[Complex]) -> tuple[Floats, Flo
     The film carried through the contact turns in phase with frequency, and so does its error: a difference that is
     small in one of the two and large in the other counts in both. Towards rest, where both are even in frequency,
     that share of the other vanishes. `NOISE` is added, because the edge of the pressure moves by whole nodes from
-    mesh to mesh. Measured: docs/solver_development.md, "Accuracy and error estimates".
+    mesh to mesh. Measured: docs/notes/solver_development.md, "Accuracy and error estimates".
 
     Parameters
     ----------

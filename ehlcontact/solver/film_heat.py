@@ -1,4 +1,4 @@
-"""Heat of a film: temperatures of oil and surfaces from pressure and film; equation numbers of docs/heat.md.
+"""Heat of a film: temperatures of oil and surfaces from pressure and film; equation numbers of docs/notes/heat.md.
 
 The mean temperature follows from the heat of pressure-driven flow, sliding and compression, what the oil carries,
 and what goes into both surfaces, which are half-spaces that move through the heat. All terms are per area of a

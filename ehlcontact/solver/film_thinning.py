@@ -1,6 +1,6 @@
 """Shear thinning by sliding: effective viscosities of the pressure-driven flow, along and across.
 
-Equation numbers are those of docs/traction.md. Nearly all of the stress comes from sliding, and the
+Equation numbers are those of docs/notes/traction.md. Nearly all of the stress comes from sliding, and the
 pressure-driven flow is a small perturbation of it: its viscosity along the sliding is the slope of the law, across
 it the ratio of stress to shear rate.
 """

@@ -1,6 +1,6 @@
 """Linearised fronts of full film where oil runs short: changes of the flow and of the energy equation there.
 
-The balances are those of `kernels.supply` and of `FilmHeat`; docs/heat.md has the equations.
+The balances are those of `kernels.supply` and of `FilmHeat`; docs/notes/heat.md has the equations.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ become
 
 and G is the response of the linearised energy equation: oil and surfaces store heat, the oil is compressed in time
 too, and heat given to a surface upstream arrives later, by the distance over its speed (eqs. 10, 11 of
-docs/heat.md). Vectors hold dP, du and dg of all nodes.
+docs/notes/heat.md). Vectors hold dP, du and dg of all nodes.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Heat of a film over time: storage in oil and surfaces, and its transport; eqs. 10 and 11 of docs/heat.md.
+"""Heat of a film over time: storage in oil and surfaces, and its transport; eqs. 10 and 11 of docs/notes/heat.md.
 
 Differences in time are those of the film. The heat given to the surfaces is stored for the time that they take
 through the computed region, or for all time where they turn back, and is linear between the steps: all of this is

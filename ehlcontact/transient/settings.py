@@ -52,7 +52,7 @@ class TimeSteps:
         Control the step: the estimated local error of each step, in approach (dry approaches), force (static
         loads) and mean film, stays below this. Corners of the motion, snapshots and `until` are met exactly. The
         errors of the steps add up over a run, to about ``local_error**(2/3)`` where bodies have inertia
-        (docs/solver.md): for approach and force within g give ``local_error = g**1.5``.
+        (docs/notes/solver.md): for approach and force within g give ``local_error = g**1.5``.
     tol : float, optional
         Residual at which a step counts as solved, relative to the central film at rest; force and approach then
         change by less than tol/30 in the last cycle. The default is 0.003, proportionally less (1e-6 at least)

@@ -12,7 +12,7 @@ Gustafsson (ACM Trans. Math. Softw. 17 (1991) 533).
 Tolerance. Where bodies are under a load, film, force and approach are found together by relaxation, until force
 and approach change by less than a share of `tol` in a cycle: with `DEFAULT_TOL` by 1e-4 of the static load. That
 is much of a small motion: with twenty steps a period of a load that swings by 0.01 of the static one C came out
-5 % too small (docs/solver.md). So the default is in proportion to the motion.
+5 % too small (docs/notes/solver.md). So the default is in proportion to the motion.
 """
 
 from __future__ import annotations

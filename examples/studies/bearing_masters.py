@@ -1,6 +1,6 @@
 """Damping of a rotor on the FMUs of two bearings: masters, the lead that fits and the longest step.
 
-Run ``python examples/studies/bearing_masters.py``: a minute. It prints the table of docs/coupling.md and draws
+Run ``python examples/studies/bearing_masters.py``: a minute. Prints the table of docs/notes/coupling.md and draws
 `bearing_masters.png`.
 
 A rigid rotor of 10 kg on two 6305 at 3000 rev/min is struck across; it vibrates at 650 Hz. Masters and masses are

@@ -1,6 +1,6 @@
 """Damping of a mass on the FMU of a contact: masters, masses, the lead that fits and the longest step.
 
-Run ``python examples/studies/masters.py``: a minute. It prints the table of docs/coupling.md and draws
+Run ``python examples/studies/masters.py``: a minute. It prints the table of docs/notes/coupling.md and draws
 `masters.png`.
 
 A ball of a 6305 carries 1 kN; the mass on it is 5 kg, so that it vibrates at 860 Hz. A master steps mass and FMU

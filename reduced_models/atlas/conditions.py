@@ -2,7 +2,7 @@
 
 Each condition changes answers by its own table: by factors, and for C by differences, because C may be zero. With
 both, the joint film is T S(r/T): T the share that heat leaves, S the curve over supply, r the layer over the
-flooded isothermal film. K and C are changed alike; docs/heat.md has them beside solved ones.
+flooded isothermal film. K and C are changed alike; docs/notes/heat.md has them beside solved ones.
 """
 
 from __future__ import annotations

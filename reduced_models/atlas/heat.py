@@ -48,7 +48,7 @@ _Floats = NDArray[np.float64]
 # Frequencies of films; what heat changes follows them within 0.01 of the damping at low frequency, and 0.4 % of K.
 HEAT_OMEGAS = tuple(OMEGAS[k] for k in (0, 3, 6, 8, 10, 13, 16, 19, 22, 25, 28, 33, 41))
 # Stands for 0: on few grids oil far ahead of the contact has a slow temperature of a rate of
-# 2e-3, which adds to C at lower frequencies (docs/heat.md).
+# 2e-3, which adds to C at lower frequencies (docs/notes/heat.md).
 SLOWEST = 0.02
 GRADES = (15, 22, 32, 46, 68, 100, 150)
 BALL = (0.005, 0.026)  # m
@@ -67,7 +67,7 @@ DEAR_SPARSE = 4  # one contact of so many on the finest grid is solved: they tak
 NUMBERS = ("film_share", "h_central", "h_min", "moment")  # then K and C over frequency
 KNOWN = ("M", "L", "kappa", "thermal_load", "slope")  # coordinates of a contact
 REFERENCE = 0.05  # Omega of the low-frequency damping
-# Errors beside those of the interpolation, in the unit of changes (docs/heat.md): of the curves over Omega; of the
+# Errors beside those of interpolation, in units of changes (docs/notes/heat.md): of the curves over Omega; of the
 # meshes, of K and of all else but C, and of C; of data other than those of the table, per unit of their logarithm.
 CURVE = 0.01
 MESH_ERROR, MESH_ERROR_DAMPING = 0.03, 0.15
@@ -98,7 +98,7 @@ def intervals_of(point: OperatingPoint) -> int | None:
     """Intervals along X that the inlet needs on the default region; None where more than a batch affords.
 
     The mesh is at most a quarter of the width of the inlet: what heat changes is then within 3 % of that on finer
-    grids (docs/heat.md).
+    grids (docs/notes/heat.md).
     """
     region = Domain.for_point(point.moes)
     inlets = (region.x_out - region.x_in) / point.moes.inlet_width

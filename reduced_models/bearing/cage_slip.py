@@ -1,6 +1,6 @@
 """Cage slip by the balance of tractions at the balls, rolling resistance of their films and a drag.
 
-Equation numbers are those of docs/traction.md.
+Equation numbers are those of docs/notes/traction.md.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Oil that comes back: layers that follow the passes of the balls before, while the feed is held.
 
 Contacts under a layer that stands still have damping below zero at low frequencies: oil that is on its way to a
-contact is left ahead of it while it closes (docs/oil_supply.md). But what a contact leaves less is missing at the
+contact is left ahead of it while it closes (docs/oil_supply.md). What a contact leaves less is missing at the
 next ones. With the motion exp(s t), the approach u of a contact and the change m of the layer on its way to it
 
     m_a = H (m - s D u),  H = 1/(1 + s T)          what arrives: the oil ahead of a contact is one store

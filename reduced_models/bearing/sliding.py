@@ -1,6 +1,6 @@
 """`bearing_friction`: sliding in the contacts of a bearing by differential slip and spin, with a traction law.
 
-Equation numbers are those of docs/traction.md. A groove is curved across rolling, so only two lines of a contact
+Equation numbers: docs/notes/traction.md. A groove is curved across rolling, so only two lines of a contact
 roll without slip (Heathcote, Proc. Inst. Automobile Engineers 15 (1921) 569). Pressure is that of Hertz, the film
 that of its centre, and the temperature that of the inlet.
 """
@@ -34,7 +34,7 @@ from reduced_models.bearing.race import RACES, Race
 _Floats = NDArray[np.float64]
 
 LINES, PLACES = 480, 16  # of the quadrature: across rolling, where the slip changes its sign, and along
-USUAL_LAW = LimitingShear(0.07)  # mineral oil in bearings: docs/traction.md
+USUAL_LAW = LimitingShear(0.07)  # mineral oil in bearings: docs/notes/traction.md
 WIDEST = 1.0  # slide-to-roll ratio within which that of a free contact lies
 TABLE = np.linspace(0.0, 1.0, 801)  # pressures over Hertz's between which ln(eta) is linear
 SLOWEST = 1e-300  # slip over the rolling speed whose logarithm is a number

@@ -355,7 +355,7 @@ class FilmContact(ContactElement):
         """RMS error of the force over its standard deviation, by kind of motion; of wide elements only.
 
         Estimated from full solves at three points, by the film under the reference load; typical, not bounds.
-        The error grows with the rate of the motion, and those are at one rate each (docs/elements.md).
+        The error grows with the rate of the motion, and those are at one rate each (docs/notes/elements.md).
         """
         if self.kind != "wide":
             return {}

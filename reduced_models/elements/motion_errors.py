@@ -15,10 +15,10 @@ rates in dry approaches per time:
 | repeated lift-off | twice to u_1 - 1.3 and back, raised cosines of 1.5 | 2.7 |
 
 The last two are not among the stored solves. Errors are those of these motions, so typical ones, not bounds:
-the error grows with the rate of the motion (unloading at twice the rate: 3 to 9 times; docs/elements.md).
+the error grows with the rate of the motion (unloading at twice the rate: 3 to 9 times; docs/notes/elements.md).
 
-An error is the rms error of the force over the standard deviation of the force. With thick films both returns are
-dominated by the static force of parted surfaces, which depends on how far the inlet is flooded (docs/elements.md).
+An error is the rms error of the force over the standard deviation of the force. With thick films that of
+both returns is the static force of parted surfaces, which depends on the flooded inlet (docs/notes/elements.md).
 """
 
 from __future__ import annotations

@@ -100,7 +100,7 @@ def smoothing_factor(flow: float, apart: float, along: int = relax.ALONG) -> flo
 
 
 def main() -> None:
-    """Print the table of docs/solver_development.md."""
+    """Print the table of docs/notes/solver_development.md."""
     print("| eps/hx^2 | " + " | ".join(f"{apart:g}" for apart in APART) + " |")
     print("|---" * (len(APART) + 1) + "|")
     for flow in FLOWS:

@@ -1,4 +1,4 @@
-"""The tables of docs/solver_development.md, remade from the JSON files of the benchmarks.
+"""The tables of docs/notes/solver_development.md, remade from the JSON files of the benchmarks.
 
     python tests/benchmarks/page.py run.json cycles.json box-7.json box-11.json
 
@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from row_file import Row
 
-PAGE = Path(__file__).parents[2] / "docs" / "solver_development.md"
+PAGE = Path(__file__).parents[2] / "docs" / "notes" / "solver_development.md"
 
 Rows = dict[str, Row]
 

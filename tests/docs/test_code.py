@@ -21,7 +21,7 @@ from ehlcontact.cli.study.schema import load_study
 from reduced_models import Atlas, BearingMount, ContactRecord, OutsideValidityWarning, Rotor, fit, simulate_rotor
 
 START = "docs/guide/start.md"
-LONG = ["docs/oil_supply.md", "docs/signals.md", "docs/traction.md"]
+LONG = ["docs/notes/oil_supply.md", "docs/signals.md", "docs/traction.md"]
 TUTORIALS = {name for name in PAGES if "tutorials" in name}
 
 

@@ -130,7 +130,7 @@ def test_heated_isothermal_film():
 
 
 def test_one_curve():
-    """Films that the exponents of docs/traction.md were not fitted to fall on asinh within 5 %."""
+    """Films that the exponents of docs/notes/traction.md were not fitted to fall on asinh within 5 %."""
     points = (
         OperatingPoint.ball_bearing(
             Lubricant.iso_vg(100, temperature=40.0),

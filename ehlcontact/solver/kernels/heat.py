@@ -1,4 +1,4 @@
-"""Energy equation of a film, upwind over the nodes under pressure, and of its surfaces (docs/heat.md)."""
+"""Energy equation of a film, upwind over the nodes under pressure, and of its surfaces (docs/notes/heat.md)."""
 
 from ehlcontact.jit import jit_loop
 

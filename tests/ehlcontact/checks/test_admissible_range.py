@@ -136,7 +136,7 @@ def test_formulas_take_points_outside():
 
 
 def test_the_measured_box_passes():
-    """All corners of docs/solver.md whose Hertz pressure is within, and those of the atlas with its margin."""
+    """Corners of docs/notes/solver.md whose Hertz pressure is within, and those of the atlas with its margin."""
     for M in (*MEASURED.M, 0.95, 33000.0):
         for L in (*MEASURED.L, 0.002, 31.0):
             for kappa in (*MEASURED.kappa, 0.0432, 1.06):

@@ -105,7 +105,7 @@ static Vibration vibration(const Bearing *b)
     return v;
 }
 
-/* A motion from rest. Where the races share friction by their forces there may be no rest (docs/bearings.md): then another motion. Returns how many
+/* A motion from rest. Where the races share friction by their forces there may be no rest (docs/notes/bearings.md): then another motion. Returns how many
  * bearings have none without that reason. */
 static int begin_motion(const Bearing *b, double state[], double work[], double omega, Vibration *vibrates)
 {

@@ -174,5 +174,5 @@ def test_bearings_between_machines(name, bearing, tmp_path, tmp_path_factory):
     here = outputs_on(OWN, spec, tmp_path / "here", *on_this_machine(), knowns, outputs)
     there = outputs_on(PLATFORMS[name], spec, tmp_path / "there", how[0], knowns, outputs, *how[1:])
     gaps = {axis: np.abs(there[axis] - here[axis]).max() / np.abs(here[axis]).max() for axis in outputs}
-    print(name, bearing, max(gaps.values()), max(gaps, key=gaps.get))  # the figures of docs/coupling.md
+    print(name, bearing, max(gaps.values()), max(gaps, key=gaps.get))  # the figures of docs/notes/coupling.md
     assert max(gaps.values()) <= 1e-10

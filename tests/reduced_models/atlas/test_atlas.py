@@ -33,7 +33,10 @@ from reduced_models.elements.film_response import DRY, LEAST_VISCOUS
 
 CASE = MoesPoint(200.0, 10.0, 0.5)
 LIMITS = {"approach": 0.003, "tangent": 0.01, "film": 0.02, "damping": 0.05}  # relative errors, from M = 10 on
-LIGHT_LIMITS = LIMITS | {"tangent": 0.05, "damping": 0.12}  # below it, told by the error bars: docs/solver.md
+LIGHT_LIMITS = LIMITS | {
+    "tangent": 0.05,
+    "damping": 0.12,
+}  # below it, told by the error bars: docs/notes/solver.md
 AT = {"wide": {}, "memory": {}, "cubic": {"Omega": 2.0 * math.pi}}
 BEARING = MoesPoint(2900.0, 19.0, 0.11)
 SHIPPED = shipped_file("film")

@@ -1,4 +1,4 @@
-"""Heat in the atlas: contacts left out of the table, the 6305 of docs/heat.md, limits, and what it refuses."""
+"""Heat in the atlas: contacts left out of the table, the 6305 of docs/notes/heat.md, limits, what it refuses."""
 
 from dataclasses import replace
 
@@ -81,7 +81,7 @@ def test_what_heat_changes_is_found_to_a_small_part(held_out):
 
 
 def test_6305_at_10000_rpm(shipped):
-    """Solved with n = 128 in docs/heat.md: film .827 -> .624 um, C 92.8 -> 57.2 N s/m, K 143.1."""
+    """Solved with n = 128 in docs/notes/heat.md: film .827 -> .624 um, C 92.8 -> 57.2 N s/m, K 143.1."""
     point = ball("6305", 10_000.0, 2000.0)
     cold, warm = shipped.at(point), shipped.at(point, thermal=Heat())
     assert warm.h_central / cold.h_central == pytest.approx(0.624 / 0.827, abs=0.015)

@@ -131,7 +131,7 @@ def test_light_and_free_films(film, oil):
 
 
 def test_fast_films_resist_more_than_the_model_of_measured_bearings():
-    """Figures of docs/bearings.md."""
+    """Figures of docs/notes/bearings.md."""
     bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0))
     states = [bearing.equilibrium((0.0, -500.0), speed_rpm=speed) for speed in (1000.0, 5000.0, 10_000.0)]
     over = [state.friction_torque / state.skf_torque for state in states]

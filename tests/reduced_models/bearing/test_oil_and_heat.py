@@ -221,7 +221,7 @@ def test_limits_of_much_oil_and_of_an_oil_that_heat_does_not_change(coarse):
         for name in ("h_central", "h_min", "stiffness", "rolling"):
             a, b = (getattr(found.conditions[key], name) for key in (one, other))
             np.testing.assert_allclose(a, b, rtol=1e-4)
-        # C is that of contacts under a layer, of elements without one: 2.7 % apart here (docs/bearings.md)
+        # C is that of contacts under a layer, of elements without one: 2.7 % apart here (docs/notes/bearings.md)
         a, b = (found.conditions[key].damping for key in (one, other))
         np.testing.assert_allclose(a, b, rtol=0.03)
     cold = find(thermal=Heat(temperature_slope=0.0))

@@ -119,7 +119,7 @@ def test_a_ring_that_closes_as_much_as_it_opens_keeps_its_layer():
 
 
 def test_one_store_has_the_damping_of_the_contact(at_r):
-    """Solves of the most loaded inner contact at r = 1: C = -.2325/(1 + (39.5 Omega)^2) (docs/oil_supply.md)."""
+    """Solves of the inner contact at r = 1: C = -.2325/(1 + (39.5 Omega)^2) (docs/notes/oil_supply.md)."""
     race = at_r[1.0].race("inner")
     starved = replace(race, conditions=replace(race.conditions, supply=OilLayer(over_flooded=1.0)))
     flooded = replace(race, conditions=replace(race.conditions, supply=None))

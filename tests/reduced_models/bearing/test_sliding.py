@@ -22,7 +22,7 @@ from reduced_models.bearing.sliding import (
 OIL = Lubricant.iso_vg(68, temperature=60.0)
 POINT = OperatingPoint.ball_bearing(OIL, **OF_6205, speed_rpm=3000.0, load=300.0)
 ACROSS = radius_across(0.52, 7.94e-3)
-LAW = LimitingShear(0.07)  # the one traction parameter of docs/traction.md
+LAW = LimitingShear(0.07)  # the one traction parameter of docs/notes/traction.md
 STIFF = LimitingShear(0.001)  # reaches its limit at once: Coulomb's friction
 
 
@@ -106,7 +106,7 @@ def test_sliding_part_beside_skf(bearing, rpm, load):
 @pytest.mark.literature
 @pytest.mark.slow
 def test_sum_beside_skf(bearing):
-    """1000 to 10 000 rev/min, 100 to 2000 N: 11 of 16 within 20 %, all from .66 to 1.52 (docs/traction.md)."""
+    """1000 to 10 000 rev/min, 100 to 2000 N: 11 of 16 within 20 %, all .66 to 1.52 (docs/notes/traction.md)."""
     ratios = []
     for rpm in (1000.0, 3000.0, 6000.0, 10_000.0):
         for load in (100.0, 500.0, 1000.0, 2000.0):

@@ -230,7 +230,7 @@ def test_bad_speeds_are_named(atlas, over):
 
 @pytest.mark.slow
 def test_against_the_full_film():
-    """The table of docs/elements.md at two of its points; momentary static films are off by 10 to 160 %."""
+    """The table of docs/notes/elements.md at two of its points; momentary static films are off by 10 to 160 %."""
     page = script("docs/site/speed_elements.py")
     most = {
         "run-up": 0.08,
