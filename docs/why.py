@@ -51,7 +51,7 @@ def elements(study: Study) -> dict[str, ContactElement]:
     """What the rotor runs on in place of the film."""
     point, scales = study.point, study.point.scales
     motion, stiffness = study.harmonic_motion, 1.5 * scales.stiffness
-    record = simulate(point, motion, grid=Grid(n=study.solver.n_transient, domain=study.domain))
+    record = simulate(point, motion, grid=Grid(n=study.contact.n_transient, domain=study.domain))
     return {
         MEMORY: Atlas().element(point, "memory"),
         CUBIC: fit(ContactRecord.from_result(record), model="cubic").element,
@@ -65,7 +65,7 @@ def respond(study: Study) -> tuple[Resonances, Response, dict[str, ContactElemen
     film, contacts = film_response(study), elements(study)
     rotors = linear_rotors(study, film, contacts)
     rotors[FULL] = rotors.pop("full")
-    return resonances(rotors, study.rotor.unbalance / study.rotor.disc_mass), film, contacts
+    return resonances(rotors, study.jeffcott.unbalance / study.jeffcott.disc_mass), film, contacts
 
 
 def main() -> None:

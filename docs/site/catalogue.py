@@ -15,9 +15,9 @@ from reduced_models.bearing.clearance import CLASSES, LIMITS, SMALLEST_BORE
 PAGE = Path(__file__).parents[1] / "guide" / "catalogue.md"
 HEAD = """# Bearings by name
 
-`BallBearing.catalogue("6205", oil=oil, clearance="CN")`, `ehlcontact bearing 7205 --axial 200`,
-`--bearing 6205` and `catalogue = "6205"` take their dimensions from these tables. Spaces, hyphens, capitals and
-the maker do not matter, and suffixes are read: SKF 6205-2RS/C3 is a 6205 with clearance class C3 unless another
+`BallBearing.catalogue("6205", oil=oil, clearance="CN")`, `ehlcontact bearing 7205 --axial 200`, `--bearing 6205`
+and `bearing = "6205"` of a study take their dimensions from these tables. Spaces, hyphens, capitals and the
+maker do not matter, and suffixes are read: SKF 6205-2RS/C3 is a 6205 with clearance class C3 unless another
 clearance is given. Roller bearings (NU205, 22228, 30205) are not in the library. FTF, BPFO, BPFI and BSF are the
 [defect frequencies](glossary.md#bearings-and-rotors) per turn of the shaft, at the contact angle of the table.
 Under an axial load they are those of `BallBearing.equilibrium(load).orders`.
@@ -31,8 +31,8 @@ ANGULAR = """
 ## Angular contact
 
 A name without its letter, as 7205, is the bearing of 30 degrees (A). B has 40 degrees, C 15 degrees; of GMN's
-spindle bearings C has 15 degrees and E 25. These bearings carry axial load in one direction, +z. Commands and
-studies of a single contact (`--bearing`, `[bearing]`) take deep-groove bearings only.
+spindle bearings C has 15 degrees and E 25. These bearings carry axial load in one direction, +z. Commands
+of a single contact take deep-groove bearings only.
 
 """
 RULE = """

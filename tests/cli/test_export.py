@@ -198,7 +198,7 @@ def test_a_study_becomes_its_rotor(call, tmp_path):
     starts = {v.name: v.start for v in fmpy.read_model_description(str(target)).modelVariables}
     assert float(starts["journal.y"]) == pytest.approx(rest[rotor.nodes["journal"]["y"]], rel=1e-12)
     assert float(starts["speed"]) == pytest.approx(study.speed_rpm * pi / 30.0, rel=1e-15)
-    assert float(starts["unbalance[1]"]) == study.rotor.unbalance
+    assert float(starts["unbalance[1]"]) == study.jeffcott.unbalance
 
 
 @pytest.mark.long

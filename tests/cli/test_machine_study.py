@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from math import cos, pi, radians
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -19,6 +20,7 @@ from reduced_models import BallBearing, BearingSet, Disc, Shaft, Support, linear
 from reduced_models.bearing.oil_and_heat import LAYER
 from reduced_models.rotor.machine_state import machine_state, single_bearing_state
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 ANGULAR = f"""[operation]
 radial_load = 200.0
 axial_load = 400.0
@@ -245,3 +247,36 @@ def test_init_of_an_angular_contact_bearing(call, refused, tmp_path):
     refused(("--axial = None", "7205 A is an angular contact bearing"), "init", path, "--bearing", "7205")
     assert call("init", path, "--bearing", "7205", "--axial", "400").code == 0
     assert load_study(path).ball[1] == pytest.approx(radians(30.0), abs=0.1)
+
+
+def test_the_motor_of_the_examples_is_what_init_writes(call, tmp_path):
+    """Its comment has the options: the same shaft, disc and bearings, named left and right."""
+    example = EXAMPLES / "motor.toml"
+    lines = [line.lstrip("# ").rstrip("\\ ") for line in example.read_text().splitlines() if "--" in line]
+    _, _, name, *options = " ".join(lines).split()
+    assert name == "motor.toml" and call("init", tmp_path / name, *options).code == 0
+    own, made = (load_study(path).model_dump() for path in (example, tmp_path / name))
+    for document in (own, made):
+        document.pop("title")
+        for support in document["support"]:
+            support.pop("name")
+    assert made == own
+
+
+@pytest.mark.long
+def test_a_run_of_a_machine(call, tmp_path):
+    """The motor from its example alone: the numbers that a designer asks for, in the results."""
+    assert call("run", EXAMPLES / "motor.toml", "-o", tmp_path / "out").code == 0
+    found = json.loads((tmp_path / "out" / "results.json").read_text())
+    machine = found["machine"]
+    films = {support["name"]: support["h_min"] for support in machine["supports"]}
+    assert films["drive end"] == pytest.approx(0.369e-6, rel=2e-3, abs=0.0)
+    assert films["fan end"] == pytest.approx(0.3216e-6, rel=2e-3, abs=0.0)
+    hz = [mode["hz"] for mode in machine["modes"]]
+    assert hz[:5] == pytest.approx([161.2, 266.1, 266.6, 778.2, 961.4], rel=1e-3)
+    speeds = [one["speed_rpm"] for one in machine["critical_speeds"]]
+    assert speeds == pytest.approx([10363.0, 15926.0, 15958.0], rel=1e-3)
+    assert machine["largest_response"]["size"] == pytest.approx(195e-6, rel=0.01, abs=0.0)
+    assert machine["largest_response"]["speed_rpm"] == pytest.approx(16000.0)
+    assert found["in_time"] is None and "fits" not in found and set(found["over_frequency"]) == set(films)
+    assert (tmp_path / "out" / "report.html").stat().st_size > 10_000

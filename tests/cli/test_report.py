@@ -80,7 +80,7 @@ def derived(folder, results):
     yield from (peak["amplitude"] / way["full"]["amplitude"] - 1.0 for way in peaks for peak in way.values())
     yield from (*steps, *(step / point["time_unit"] for step in steps))
     decay = results["rotor"]["decay"]
-    yield decay["half_step"]["full"]["decrement"] / decay["decrements"]["full"]["decrement"] - 1.0
+    yield abs(decay["half_step"]["full"]["decrement"] / decay["decrements"]["full"]["decrement"] - 1.0)
     yield 1993.0  # year of a source
 
 

@@ -4,6 +4,7 @@ from math import log10, pi
 from pathlib import Path
 
 import pytest
+from programs import script
 from rotor_twins import carried
 from tiny_study import SMALL
 
@@ -119,3 +120,9 @@ def test_the_machine_of_the_small_study_carries_the_bearing_alone(tmp_path):
     assert machine.radial_load == alone.radial_load == 70.0 and machine.ball == alone.ball
     parts = ("grid", "free", "harmonic", "rotor_band", "full_films")
     assert machine.fingerprint(*parts) == alone.fingerprint(*parts)
+
+
+def test_the_reference_page_is_made_from_the_schema():
+    """`python docs/site/study.py` makes it."""
+    page = script("docs/site/study.py")
+    assert page.PAGE.read_text(encoding="utf-8") == page.text()

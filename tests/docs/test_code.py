@@ -146,7 +146,7 @@ def test_the_film_has_the_damping_of_the_cubic(contact):
     fitted = fit(ContactRecord.from_result(record), model="cubic").element
     assert pytest.approx(float(film.damping[0]), rel=0.03) == fitted.C1
     study = load_study(ROOT / "examples" / "deep_groove_6205.toml")
-    assert record.n == study.solver.n_transient and cautions(study) == []
+    assert record.n == study.contact.n_transient and cautions(study) == []
 
 
 @pytest.mark.filterwarnings("ignore::UserWarning")  # what ROSS brings says at import, where ROSS is
