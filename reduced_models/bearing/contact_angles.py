@@ -30,6 +30,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 CONTROLS = ("outer", "inner", "shared", "harris")
+FOLLOWING = CONTROLS.index("inner"), CONTROLS.index("shared")  # the axis follows the forces at both races
 
 
 class Grooves(NamedTuple):

@@ -139,6 +139,7 @@ AT_REST = _numbers(
     orbit=(),
     rotation=(),
     axis=(),
+    share=(),
 )
 ORIGIN = _numbers(place=(2,), moved=(2,), across=())  # see `BallOrigin` of ``bearing.h``
 # Each number has its derivative with it

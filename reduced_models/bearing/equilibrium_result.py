@@ -18,10 +18,17 @@ from ehlcontact.summary import note_line
 from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words, place_words
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, DefectOrders
 from reduced_models.bearing.picture import state_picture
+from reduced_models.bearing.race import RACES
 
 _Floats = NDArray[np.float64]
 
-OF_ANGLES = "contact_angles", "spin_to_roll", "orbit", "ball_rotation"  # those that a planar one does not have
+OF_ANGLES = (
+    "contact_angles",
+    "spin_to_roll",
+    "gyroscopic_friction",
+    "orbit",
+    "ball_rotation",
+)  # those that a planar one does not have
 OF_FILMS = (
     "h_central",
     "h_min",
@@ -29,6 +36,7 @@ OF_FILMS = (
     "asperity_share",
     "moment",
 )  # arrays that a dry bearing does not have
+MOST_FRICTION = 0.05  # over the force of a contact: what oils in rolling contacts transmit
 NOTICED = 1e-3  # load share of asperities, from which a summary says so
 
 
@@ -83,6 +91,9 @@ class BearingState(QuantityTable):
     spin_to_roll : ndarray, shape (balls, 2), or None
         Angular speed of both surfaces against each other about their normal over that of rolling. Its friction is
         not in the forces.
+    gyroscopic_friction : ndarray, shape (balls, 2), or None
+        Friction across every contact that holds the gyroscopic moment of its ball, over the force of the contact.
+        Whether a film transmits it is not checked; above 0.05 `friction_note` says so.
     orbit, ball_rotation : ndarray, shape (balls,), or None
         Angular speed of every ball about the shaft, and about its own axis as seen from the cage, over the speed
         of the shaft. Balls of a bearing under combined load have different ones.
@@ -109,6 +120,7 @@ class BearingState(QuantityTable):
     reservation: str = ""
     contact_angles: Annotated[_Floats | None, RADIAN.over("ball race")] = None
     spin_to_roll: Annotated[_Floats | None, NUMBER.over("ball race")] = None
+    gyroscopic_friction: Annotated[_Floats | None, NUMBER.over("ball race")] = None
     orbit: Annotated[_Floats | None, NUMBER.over("ball")] = None
     ball_rotation: Annotated[_Floats | None, NUMBER.over("ball")] = None
 
@@ -162,7 +174,11 @@ class BearingState(QuantityTable):
         lines[-1] += "" if torque is None else f"; films resist rolling with {1e3 * torque:.4g} N mm"
         if self.friction_torque is not None:
             lines[2] += f"; friction {1e3 * self.friction_torque:.4g} N mm, its sliding part by SKF"
-        return [*lines, *filter(None, [self.reservation]), *note_line(self.outside_assumptions)]
+        return [
+            *lines,
+            *filter(None, [self.reservation, self.friction_note]),
+            *note_line(self.outside_assumptions),
+        ]
 
     @property
     def loaded(self) -> int:
@@ -180,6 +196,27 @@ class BearingState(QuantityTable):
         if self.spin_to_roll is None:
             return None
         return float(np.abs(self.spin_to_roll[self.force[:, 0] > 0.0]).max(initial=0.0))
+
+    @property
+    def largest_gyroscopic_friction(self) -> float | None:
+        """Largest friction over force of the balls that carry, at either race; None in a planar bearing."""
+        if self.gyroscopic_friction is None:
+            return None
+        return float(np.abs(self.gyroscopic_friction[self.force[:, 0] > 0.0]).max(initial=0.0))
+
+    @property
+    def friction_note(self) -> str:
+        """Friction of balls that carry above what films may transmit, in words; else empty."""
+        if self.gyroscopic_friction is None:
+            return ""
+        needed = (np.abs(self.gyroscopic_friction) * (self.force[:, :1] > 0.0)).max(axis=0)
+        race = int(needed.argmax())
+        if needed[race] <= MOST_FRICTION:
+            return ""
+        return (
+            f"the {RACES[race]} race must hold the gyroscopic moment of a ball by friction of {needed[race]:.2g}"
+            f" of the contact force: above {MOST_FRICTION:g} the ball may slip"
+        )
 
     @property
     def orders(self) -> DefectOrders | None:
@@ -230,5 +267,6 @@ class BearingState(QuantityTable):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
-        notes = {"outside_assumptions": self.outside_assumptions, "reservation": self.reservation}
+        names = "outside_assumptions", "reservation", "friction_note"
+        notes = {name: getattr(self, name) for name in names}
         return {"name": self.name, **super().to_dict(), **notes}

@@ -11,7 +11,12 @@ Both contacts are nearly on one line, along which films are far stiffer than G. 
 across the outer contact: elimination of the place along it leaves what acts across without a small difference.
 
 G has what follows the place of the ball without memory: the direction of both forces (Q/l), inertia of its orbit
-and spin, film over entrainment speed. m is the mass of a ball where it has inertia towards the rings. The states
+and spin, film over entrainment speed. Where the axis of a ball follows the forces at both races ("inner" and
+"shared" race control), G has the direction of the forces alone: friction that follows the place without delay is
+not the gradient of a potential, and takes energy from the shaft, with which undamaged bearings in flooded films
+would vibrate by themselves; how fast an axis follows is not known.
+
+m is the mass of a ball where it has inertia towards the rings. The states
 behind Z, as matrices of first order: `ball_states`.
 
 Rings and fits may lose more (`reduced_models.bearing.loss`). Balls stand still while the ring vibrates: what
@@ -30,6 +35,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.coefficients import stiffness_and_damping
+from reduced_models.bearing.contact_angles import FOLLOWING, Grooves
 from reduced_models.bearing.loss import Loss, response
 from reduced_models.bearing.race_table import RaceForceTable
 from reduced_models.bearing.ring import RingEquilibrium
@@ -60,6 +66,8 @@ class LinearBalls:
             for name in ("balls", "angles", "geometric", "maps")
         )
         films = [_about(law, balls.omega, j, records) for j, law in enumerate((balls.inner, balls.outer))]
+        if balls.grooves.control in FOLLOWING and balls.omega > 0.0:
+            geometric = _of_directions(balls.grooves, records)
         turned = angles.T - angles[:, 1]
         normals = np.stack([np.cos(turned), np.sin(turned)], axis=1)
         frame, outward = np.zeros((len(records), 5, 5)), _outward(angles[:, 1])
@@ -185,6 +193,21 @@ class LinearBalls:
     def coefficients(self, omega: _Floats) -> tuple[_Floats, _Floats]:
         """Stiffness [N/m] and damping [N s/m], shape (k, n, n), at angular frequencies [rad/s], shape (k,)."""
         return stiffness_and_damping(self.impedance, omega)
+
+
+def _of_directions(grooves: Grooves, balls: NDArray[np.void]) -> _Floats:
+    """Derivatives of forces that turn with their contacts, as `geometric` of `RingEquilibrium`."""
+    found = np.zeros((len(balls), 5, 4))
+    for j, free in enumerate((grooves.inner, grooves.outer)):
+        across = _outward(balls["angle"][:, j])[:, 1]
+        turned = balls["load"][:, j] / (free + balls["approach"][:, j])
+        rows = turned[:, None, None] * across[:, :, None] * across[:, None, :]
+        found[:, :2, :2] -= rows
+        if j == 0:  # the outer groove stands still
+            found[:, 2:4, :2] -= rows
+            found[:, :2, 2:] += rows
+            found[:, 2:4, 2:] += rows
+    return found
 
 
 def _outward(angle: _Floats) -> _Floats:

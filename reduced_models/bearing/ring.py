@@ -205,6 +205,14 @@ class RingEquilibrium:
         """Speed of every ball about its own axis, seen from the cage, over that of the shaft, shape (balls,)."""
         return self.balls["rotation"]
 
+    def gyroscopic_friction(self, grooves: Grooves, omega: float) -> _Floats:
+        """Friction across both contacts that holds the gyroscopic moment, over their forces, shape (balls, 2)."""
+        balls = self.balls
+        spin = balls["rotation"] * np.sin(balls["axis"])
+        friction = 0.2 * grooves.gyroscopic * grooves.mass * grooves.ball * balls["orbit"] * spin * omega**2
+        both = np.column_stack([balls["share"] * friction, (1.0 - balls["share"]) * friction])
+        return np.divide(both, balls["load"], out=np.zeros_like(both), where=balls["load"] > 0.0)
+
     @property
     def spin_to_roll(self) -> _Floats:
         """Relative angular speed of both surfaces about their normal over that of rolling, with its sign."""

@@ -93,9 +93,11 @@ def linear_balls(bearing: BallBearing, speed: float, places: Sequence[RingEquili
 
 def state_of(bearing: BallBearing, at: RingEquilibrium, speed: float, angle: float) -> BearingState:
     """State of the bearing with its ring where balls are in equilibrium, the first ball at `angle`."""
+    balls = bearing.tables.balls(speed)
     rolling: dict[str, Any] = {
         "contact_angles": at.angles,
         "spin_to_roll": at.spin_to_roll,
+        "gyroscopic_friction": at.gyroscopic_friction(balls.grooves, balls.omega),
         "orbit": at.orbit,
         "ball_rotation": at.ball_rotation,
     }

@@ -82,7 +82,7 @@ class SetState(QuantityTable):
             f"axial forces of bearings facing {', '.join(self.facings)}: {forces} N",
             f"shaft displaced by {place_words(self.displacement)}, axial stiffness {axial:.4g} N/µm",
             f"most loaded ball {most.force[most.heaviest, 0]:.4g} N in bearing {k}; {film}",
-            *filter(None, [self.reservation]),
+            *filter(None, [self.reservation, self.friction_note]),
             *note_line(self.outside_assumptions),
         ]
 
@@ -97,6 +97,12 @@ class SetState(QuantityTable):
             return ""
         named = f"bearing {lost[0]} has" if len(lost) == 1 else f"bearings {', '.join(lost)} have"
         return f"{named} no preload left: only films and centrifugal force press the balls"
+
+    @property
+    def friction_note(self) -> str:
+        """Friction of the first bearing whose balls may slip, in words; empty where none may."""
+        notes = ((k, bearing.friction_note) for k, bearing in enumerate(self.bearings))
+        return next((f"bearing {k}: {note}" for k, note in notes if note), "")
 
     @property
     def outside_assumptions(self) -> str:

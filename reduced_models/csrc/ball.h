@@ -103,7 +103,7 @@ IN_PLACE Rolling roll_along(const Search *s, const Dual b[2], const Dual c[2])
 
 /* A ball at a place: its springs, its rolling, and what acts on it beside its contacts, all as in `Rolling` and `BallForces`. */
 typedef struct {
-    double l[2], cosine[2], sine[2], orbit, axis, rotation, speed_sum[2], factor[2], sum[2], ring[2], moment;
+    double l[2], cosine[2], sine[2], orbit, axis, share, rotation, speed_sum[2], factor[2], sum[2], ring[2], moment;
 } Turning;
 
 /* Factors of films that vary, and the rotation of the ball about its own axis, at an end of a step alone. */
@@ -124,6 +124,7 @@ IN_PLACE void turn(const Search *s, const double b[2], int end, Turning *t)
     }
     t->orbit = at.orbit.x;
     t->axis = at.axis.x;
+    t->share = at.share.x;
     t->rotation = end ? own_rotation(s->bearing, &at) : 0.0;
     t->moment = f.moment.x;
 }

@@ -125,6 +125,7 @@ void bearing_describe(const Bearing *b, const double state[], double work[], Bal
         at->orbit = p.at.orbit;
         at->rotation = p.at.rotation;
         at->axis = atan(p.at.axis);
+        at->share = p.at.share;
         renew_slopes(&s, s.ball->place, force, by_film, slopes);
         memcpy(geometric + k * 20, slopes, sizeof slopes);
     }

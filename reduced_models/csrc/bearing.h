@@ -188,7 +188,7 @@ const char *bearing_rest_at(const Bearing *b, double state[], double work[], dou
  * no film had let go [m], slopes of the forces by the approaches [N/m], films over those of the tables, sums of both surface speeds over the speed of the shaft [m]; its speed about the shaft, and seen from the cage
  * that about its own axis, both over that of the shaft; the angle of this axis from that of the shaft. */
 typedef struct {
-    double angle[2], load[2], approach[2], compression[2], slope[2], factor[2], speed_sum[2], orbit, rotation, axis;
+    double angle[2], load[2], approach[2], compression[2], slope[2], factor[2], speed_sum[2], orbit, rotation, axis, share;
 } BallAtRest;
 
 /* All balls where they were pressed last, at rest. `geometric`, [balls][5][4], gets slopes of the forces on a ball (r, z), of that of the

@@ -156,8 +156,9 @@ class MachineState(Summary):
             for mode in self.modes
             if mode.decrement < 0.0
         ]
+        undamped = [f"{mode.hz:.4g} Hz: {mode.reservation}" for mode in self.modes if mode.reservation]
         own = (text for support in self.supports for text in support.reservations)
-        return (*self.failed, *growing, *own)
+        return (*self.failed, *growing, *undamped, *own)
 
     @property
     def concerns(self) -> tuple[str, ...]:

@@ -40,6 +40,8 @@ NEW = 1e-3  # least singular value of the shapes that have one eigenvalue: below
 CANDIDATES = 6  # that are tried for a mode
 ALONG = 0.5  # share of the motion of a mode from which it is along the shaft
 OVERDAMPED = 0.01  # imaginary over real part, below which what dies away is no vibration: e^-600 in a period
+# Least damping ratio of a mode that films damp, and least share of the strain energy of a mode of the supports
+UNDAMPED, OF_SUPPORTS = 1e-5, 0.5
 NO_OSCILLATION = 1e-7  # of the fastest mode: below, a frequency is the rounding of none
 
 
@@ -80,7 +82,18 @@ class RotorMode(Summary, ByNode):
                 if "shaft z" in self.names
                 else ""
             ),
+            *filter(None, [self.reservation]),
         ]
+
+    @property
+    def reservation(self) -> str:
+        """Why a vibration of the supports is hardly damped, in words; empty where it is damped, or grows."""
+        if self.support_share < OF_SUPPORTS or not 0.0 <= self.damping_ratio < UNDAMPED:
+            return ""
+        return (
+            f"damping ratio {self.damping_ratio:.1g}: films damp no motion across their contacts, as about the"
+            " pressure centre under axial load, and dry contacts none; rings and fits would (loss_factor)"
+        )
 
     @property
     def omega(self) -> float:
@@ -123,9 +136,9 @@ class RotorMode(Summary, ByNode):
         whole = sum(square for _, square in squares.values())
         return sum(square for name, square in squares.values() if name == "z") / whole if whole > 0.0 else 0.0
 
-    def to_dict(self) -> dict[str, float]:
-        """Frequency, decrement and shares, ready for JSON."""
-        names = "hz", "decrement", "vertical_share", "support_share"
+    def to_dict(self) -> dict[str, float | str]:
+        """Frequency, decrement, shares and reservation, ready for JSON."""
+        names = "hz", "decrement", "vertical_share", "support_share", "reservation"
         return {name: getattr(self, name) for name in names}
 
     def node(self, name: str) -> _Complex:

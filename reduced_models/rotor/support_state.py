@@ -221,7 +221,7 @@ class SupportState(Summary):
         broken = () if self.assumptions is None else self.assumptions.out_of_range
         said = [f"{one.name}: {one.verdict.split(';')[0]}" for one in broken]
         said += [self.state.reservation if isinstance(self.state, SetState) else ""]
-        said.append(self.coefficients.beyond_data)
+        said += [self.state.friction_note, self.coefficients.beyond_data]
         said += [self.coefficients.damping_left_out, self.coefficients.held_feed]
         return tuple(f"{self.label}: {text}" for text in said if text)
 

@@ -99,14 +99,13 @@ def test_block_of_the_rotor_is_the_rotor():
     ("make", "changes"),
     [
         (pair, {}),
-        (single, {"race_control": "shared"}),
         (single, {"loss_factor": 0.05}),
         (single, {"cutoff_gap": 2e-6, "balls": 8}),
         (single, {"ball_inertia": True}),
         (single, {"oil": None, "ball_inertia": True}),
         (single, {"oil": None}),
     ],
-    ids=["pair", "shared", "loss", "cutoff gap", "inertia", "dry balls with inertia", "dry"],
+    ids=["pair", "loss", "cutoff gap", "inertia", "dry balls with inertia", "dry"],
 )
 def test_the_state_space_is_that_of_differences(make, changes):
     """Rates of rotor, balls and films of the nonlinear block by every state and input, of 1e-4 um, N."""
