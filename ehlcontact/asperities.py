@@ -94,12 +94,12 @@ class Asperities:
         shape = self.summits**2 * sqrt(self.rq_over_radius)
         return 8.0 * sqrt(2.0) * pi / 15.0 * shape * require_positive("e_reduced", e_reduced)
 
-    @takes(gap=parts.FILM, e_reduced=parts.PRESSURE)
+    @takes(gap=parts.FILM, e_reduced=parts.MODULUS)
     def pressure(self, gap: ArrayLike, e_reduced: float) -> Any:
         """Mean pressure [Pa] of the asperities at a gap [m] between the mean planes."""
         return self.unit(e_reduced) * greenwood_tripp(np.asarray(gap) / self.rq)
 
-    @takes(gap=parts.FILM, e_reduced=parts.PRESSURE)
+    @takes(gap=parts.FILM, e_reduced=parts.MODULUS)
     def stiffness(self, gap: ArrayLike, e_reduced: float) -> Any:
         """Increase of the pressure over decrease of the gap [Pa/m]."""
         return 2.5 * self.unit(e_reduced) / self.rq * greenwood_tripp(np.asarray(gap) / self.rq, 1.5)
@@ -123,7 +123,7 @@ class Asperities:
             return NO_CONTACT * self.rq
         return self.rq * float(scipy.optimize.brentq(lambda x: np.log(greenwood_tripp(x) / wanted), PRESSED, last))
 
-    @takes(h_central=parts.FILM, mean_pressure=parts.PRESSURE, e_reduced=parts.PRESSURE)
+    @takes(h_central=parts.FILM, mean_pressure=parts.PRESSURE, e_reduced=parts.MODULUS)
     def load_share(self, h_central: ArrayLike, mean_pressure: ArrayLike, e_reduced: float) -> Any:
         """Share of the load by the central film [m] and the load over the Hertz ellipse [Pa], without a solve.
 

@@ -11,7 +11,7 @@ from math import nan
 from typing import Any
 
 from ehlcontact.asperities import Asperities
-from ehlcontact.checks import require_instance
+from ehlcontact.checks import require_instance, shown
 from ehlcontact.errors import InputError
 from ehlcontact.heat import LARGEST_HEATED, STANDING, Heat
 from ehlcontact.point import OperatingPoint, Point, moes_point, scales_of
@@ -115,7 +115,7 @@ class Conditions:
         """
         if self.sliding is not None and not isinstance(point, OperatingPoint):
             allowed = "left out at a dimensionless point: stresses of an oil are in pascals"
-            raise InputError("sliding", type(self.sliding).__name__, allowed)
+            raise InputError("sliding", shown(self.sliding), allowed)
         if self.supply is not None:
             self.supply.unit(moes_point(point), scales_of(point), nan)
         if self.asperities is not None:

@@ -18,7 +18,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field, replace
 from math import inf, pi, sqrt
 
-from ehlcontact.checks import require_finite, require_nonnegative, require_positive
+from ehlcontact.checks import require_finite, require_nonnegative, require_positive, shown
 from ehlcontact.checks.admissible_range import INPUTS, Given, require_admissible
 from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import fields_take, takes
@@ -431,7 +431,7 @@ def moes_point(point: Point) -> MoesPoint:
         return point
     if isinstance(point, OperatingPoint):
         return point.moes
-    raise InputError("point", type(point).__name__, "a MoesPoint or an OperatingPoint")
+    raise InputError("point", shown(point), "a MoesPoint or an OperatingPoint")
 
 
 def require_solvable(point: Point, largest_load: float = 1.0, given: Given | None = None) -> MoesPoint:

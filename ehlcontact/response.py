@@ -42,9 +42,8 @@ from typing import Any, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_numbers, require_positive
+from ehlcontact.checks import as_numbers, require_positive, shown
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, is_given
-from ehlcontact.checks.kinds import shown
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError

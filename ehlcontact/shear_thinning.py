@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from math import log
 from typing import Any
 
-from ehlcontact.checks import require_between
+from ehlcontact.checks import require_between, shown
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.traction_laws import LARGEST_SLIDE_ROLL, Eyring, TractionLaw, require_law
 from ehlcontact.point import Scales
@@ -42,7 +42,7 @@ class ShearThinning:
         require_law(self.law)
         if not self.law.thins:
             allowed = "Eyring or Carreau: a limiting stress leaves no viscosity along the sliding"
-            raise InputError("law", type(self.law).__name__, allowed)
+            raise InputError("law", shown(self.law), allowed)
 
     def log_newton(self, eta0: float, scales: Scales) -> float:
         """Logarithm of Newton's stress [Pa] at ambient viscosity in a film of one dry approach, or -inf."""

@@ -33,11 +33,13 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks.kinds import FILE, shown
+from ehlcontact.checks import shown
+from ehlcontact.checks.kinds import FILE
 from ehlcontact.errors import InputError
 from ehlcontact.files import is_file, parse_json, read_text, write_bytes
 from ehlcontact.version import __version__
 
+WRITTEN = "JSON or HDF5 as `save` writes it"
 HEADER = "header"  # its key in JSON, its attribute in HDF5
 SIGNATURE = b"\x89HDF\r\n\x1a\n"  # first bytes of an HDF5 file
 # Layout of HDF5 itself: the first with checksums on all its structure; read by HDF5 1.10 (2016) and newer.
@@ -105,7 +107,7 @@ def content_of(record: Any) -> bytes:
     """Content of the file of a result, an element or a bearing; raises `InputError` for anything else."""
     entry = _classes.get(type(record).__name__)
     if entry is None or type(record) is not entry.cls:
-        raise InputError("object to save", type(record).__name__, _wanted(object))
+        raise InputError("object to save", shown(record), _wanted(object))
     header = {"class": type(record).__name__, "format": entry.number, "version": __version__}
     if hasattr(record, "from_dict"):
         document = {HEADER: header, **record.to_dict()}
@@ -146,8 +148,10 @@ def read(path: str | os.PathLike[str], kind: type[T] = object, field: str = "fil
         header, content = reader(path)
     except OSError as error:
         raise InputError(field, name, f"a readable {wanted} ({error.strerror or 'damaged'})") from None
+    except UnicodeDecodeError:  # neither HDF5 nor text
+        raise InputError(field, name, f"a complete file of a {wanted}, {WRITTEN}{_other_kind(path)}") from None
     except (TypeError, ValueError) as error:  # no path; no JSON
-        raise InputError(field, name, f"a complete file of a {wanted} ({error})") from None
+        raise InputError(field, name, f"a complete file of a {wanted}, {WRITTEN} ({error})") from None
     except Exception:  # whatever h5py and numpy raise on what is damaged
         raise InputError(field, name, f"a complete file of a {wanted}") from None
     entry, wrong = _entry(header, kind)
@@ -163,6 +167,13 @@ def read(path: str | os.PathLike[str], kind: type[T] = object, field: str = "fil
         reason = f" ({error})" if type(error) is ValueError else ""
         raise InputError(field, name, f"a complete file of a {wanted}{reason}") from None
     return cast(T, record)
+
+
+def _other_kind(path: str | os.PathLike[str]) -> str:
+    """What a file that `save` did not write looks like, in words; else empty."""
+    with open(path, "rb") as file:
+        archive = file.read(4) == b"PK\x03\x04"
+    return "; this one is a zip archive, as FMUs are, which fmu.verify takes" if archive else ""
 
 
 def _wanted(kind: type[Any]) -> str:

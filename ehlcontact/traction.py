@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ehlcontact.checks import shown
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
@@ -54,12 +55,12 @@ def traction_curve(
     ratios = slide_rolls(slide_roll)
     if not isinstance(point, OperatingPoint):
         allowed = "an OperatingPoint: a traction law has stresses in Pa, and a dimensionless point has no units"
-        raise InputError("point", type(point).__name__, allowed)
+        raise InputError("point", shown(point), allowed)
     given = Conditions.of(thermal=thermal).heat
     if given is None:
         return solve_steady(point, **options).traction(ratios, law)
     if not isinstance(law, Eyring):
-        raise InputError("law", type(law).__name__, "Eyring with thermal: his stress heats the film")
+        raise InputError("law", shown(law), "Eyring with thermal: his stress heats the film")
     heats = [replace(given, slide_roll=ratio, eyring_stress=law.stress) for ratio in ratios.tolist()]
     return _together(
         [solve_steady(point, thermal=heat, **options).traction(heat.slide_roll, law) for heat in heats]

@@ -9,6 +9,7 @@ from typing import Any, TypedDict, Unpack
 
 import numpy as np
 
+from ehlcontact.checks import shown
 from ehlcontact.errors import InputError
 from fmu.bearing.model import BearingModel
 from fmu.bearing.references import bearing_references, bearing_trials
@@ -125,4 +126,4 @@ def _require_taken(model: object, given: dict[str, Any]) -> None:
                 raise InputError(name, given[name], f"left out for {words}")
             return
     allowed = "a contact element (linear, cubic, ..., wide), BallBearing, BearingSet or Rotor"
-    raise InputError("model", type(model).__name__, allowed)
+    raise InputError("model", shown(model), allowed)

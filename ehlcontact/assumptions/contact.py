@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import Protocol
 
+from ehlcontact.checks import shown
 from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import hamrock_dowson_minimum
 from ehlcontact.hertz import elliptic_integrals, radius_ratio
@@ -56,7 +57,7 @@ class Contact:
         bare = cls(moes, scales_of(point), moes.expected_film, None)
         if film is not None:
             if not all(hasattr(film, name) for name in ("h_central", "h_min")):
-                raise InputError("film", type(film).__name__, "a steady film, or an answer of the atlas")
+                raise InputError("film", shown(film), "a steady film, or an answer of the atlas")
             origin = getattr(film, "film_origin", UNKNOWN)
             own = getattr(film, "point", None)
             if own is not None and own.moes != moes:

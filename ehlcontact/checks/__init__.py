@@ -28,6 +28,7 @@ from ehlcontact.checks.inputs import (
     require_no_others,
     require_nonnegative,
     require_positive,
+    shown,
 )
 
 __all__ = [
@@ -45,6 +46,7 @@ __all__ = [
     "require_no_others",
     "require_nonnegative",
     "require_positive",
+    "shown",
 ]
 
 

@@ -166,6 +166,8 @@ def require_admissible(cases: Mapping[str, Mapping[str, float]], given: Given) -
     for name, (value, quantity) in given.items():
         quantity.require(name, value)
     slips = [f"{name} = {value:g} {guess}" for name, (value, q) in given.items() if (guess := q.slip(value))]
+    if "radius_x" in given and "" in cases and (kappa := cases[""]["kappa"]) > LIMITS.kappa[1]:
+        slips = [f"radius_x is that along rolling; are both exchanged? then kappa = {1.0 / kappa:.4g}"]
     for when, numbers in cases.items():
         pressure = numbers["p_hertz"] * 1e-9
         here = ", ".join(f"{name} = {numbers[name]:.4g}" for name in ("M", "L", "kappa"))

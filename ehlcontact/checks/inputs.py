@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping, Sequence
 from decimal import Decimal
 from numbers import Integral, Real
 from types import UnionType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +17,15 @@ from ehlcontact.errors import InputError
 Array = NDArray[np.float64]
 
 MASKED, TEXT = type(np.ma.masked), (str, bytes, bytearray)
+
+
+def shown(value: Any) -> Any:
+    """What a message shows of a value of another kind: short ones, of others the class."""
+    if value is None or isinstance(value, bool | int | float | str | bytes):
+        return value
+    if isinstance(value, Sequence | Mapping) and not value:
+        return value
+    return type(value).__name__
 
 
 def is_quantity(value: object) -> bool:
@@ -112,7 +122,7 @@ def require_names(entries: Collection[str], known: Collection[str], before: str 
 def require_instance(field: str, value: object, kinds: type | UnionType, allowed: str) -> None:
     """Raise `InputError` unless `value` is an instance of `kinds`; `allowed` names them."""
     if not isinstance(value, kinds):
-        raise InputError(field, type(value).__name__, allowed)
+        raise InputError(field, shown(value), allowed)
 
 
 def as_column(
@@ -189,7 +199,7 @@ def as_numbers(field: str, values: ArrayLike, allowed: str = "numbers") -> Array
             return np.array(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         pass
-    raise InputError(field, type(values).__name__, allowed)
+    raise InputError(field, shown(values), allowed)
 
 
 def _all_numbers(values: object) -> bool:

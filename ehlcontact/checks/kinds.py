@@ -6,12 +6,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any
 
-from ehlcontact.checks.inputs import TEXT, require_integer
+from ehlcontact.checks.inputs import TEXT, require_integer, shown
 from ehlcontact.errors import InputError
 
 LONGEST_NAME = 255  # bytes of a name in a folder, on every usual file system
@@ -139,12 +139,3 @@ FILE, FOLDER, NAME = PathName("a file"), PathName("a folder"), Text()
 PROGRESS = Callback("libraries compiled, libraries in all")
 STEPS = Count(3, 10_000_000)  # of a table of a function
 DONE = Callback("done, of")  # progress of a task in many parts
-
-
-def shown(value: Any) -> Any:
-    """What a message shows of a value of another kind: short ones, of others the class."""
-    if value is None or isinstance(value, bool | int | float | str | bytes):
-        return value
-    if isinstance(value, Sequence | Mapping) and not value:
-        return value
-    return type(value).__name__

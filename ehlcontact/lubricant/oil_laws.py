@@ -98,6 +98,7 @@ class Lubricant:
                 object.__setattr__(self, name, require_nonnegative(name, getattr(self, name)))
         if self.temperature is not None:
             object.__setattr__(self, "temperature", require_finite("temperature", self.temperature))
+        INPUTS["alpha"]._replace(zero=True).require("alpha", self.alpha)
         if self.eta0 > INPUTS["eta0"].limits[1]:
             INPUTS["eta0"].require("eta0", self.eta0)
         if self.viscosity == "roelands" and math.log(self.eta0) + ROELANDS_LOG <= 0.0:

@@ -19,6 +19,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.checks import shown
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint, Scales
 from ehlcontact.solver.balance import Balance
@@ -47,7 +48,7 @@ def scales_at(point: object, dimensionless: str) -> Scales:
     """Return the SI units of a point, or raise `InputError`; `dimensionless` is the call for a `MoesPoint`."""
     if not isinstance(point, OperatingPoint):
         allowed = f"an OperatingPoint; a dimensionless one takes {dimensionless}"
-        raise InputError("point", type(point).__name__, allowed)
+        raise InputError("point", shown(point), allowed)
     return point.scales
 
 

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.checks.inputs import require_number
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
@@ -245,7 +246,18 @@ class SimulationResult(Columns, PointTable, Origin):
         )
 
     def dissipated(self, start: float = 0.0, end: float = np.inf) -> float:
-        """Work ``integral of force d(approach)`` over t in [start, end]: what the film took up [J; f0 delta_H]."""
+        """Work ``integral of force d(approach)`` over t in [start, end]: what the film took up [J; f0 delta_H].
+
+        Raises
+        ------
+        InputError
+            Ends that are no numbers, or in reverse order.
+        """
+        start, end = (require_number(name, t, "a time") for name, t in (("start", start), ("end", end)))
+        if not end >= self.t[0]:
+            raise InputError("end", end, f"at least {self.t[0]:g}, where the run starts")
+        if not start <= end:
+            raise InputError("start", start, f"at most end = {end:g}")
         keep = (self.t >= start) & (self.t <= end)
         return float(np.trapezoid(self.force[keep], self.approach[keep]))
 

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive
+from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive, shown
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
@@ -250,7 +250,7 @@ def _table(heights: ArrayLike) -> Array:
     try:
         table = np.array(heights, dtype=float)
     except (TypeError, ValueError):
-        raise InputError("heights", type(heights).__name__, "a table of numbers, rows along rolling") from None
+        raise InputError("heights", shown(heights), "a table of numbers, rows along rolling") from None
     if table.ndim != 2 or min(table.shape) < FEWEST_SAMPLES:
         allowed = f"of two dimensions with at least {FEWEST_SAMPLES} samples each"
         raise InputError("heights", f"of shape {table.shape}", allowed)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, require_instance, require_nonnegative, require_positive
+from ehlcontact.checks import as_column, require_instance, require_nonnegative, require_positive, shown
 from ehlcontact.errors import ConvergenceError, InputError
 from fmu.bearing.model import BearingModel
 from fmu.contact_variables import Element
@@ -221,7 +221,7 @@ class RotorModel:
         try:
             q, v = self.start
         except (TypeError, ValueError):
-            raise InputError("start", type(self.start).__name__, "displacements and velocities") from None
+            raise InputError("start", shown(self.start), "displacements and velocities") from None
         return as_column("displacements", q, size=size), as_column("velocities", v, size=size)
 
     def _rest(self) -> _Floats:
@@ -361,7 +361,7 @@ def _with_elements(rotor: Rotor, outside: str | Iterable[str]) -> Rotor:
 def _element(name: str, contact: Any) -> Element:
     """A contact element in SI that the FMU can hold."""
     if not isinstance(contact, Element):
-        raise InputError(name, type(contact).__name__, "a contact element (linear, cubic, ..., wide)")
+        raise InputError(name, shown(contact), "a contact element (linear, cubic, ..., wide)")
     if contact.units != "SI":
         raise InputError(f"{name}.units", contact.units, "SI: an element of an OperatingPoint")
     return contact.copy()

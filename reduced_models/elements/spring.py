@@ -11,7 +11,7 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_float, as_numbers, require_finite, require_nonnegative, require_positive
+from ehlcontact.checks import as_float, as_numbers, require_finite, require_nonnegative, require_positive, shown
 from ehlcontact.checks.frequency import Frequency
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
@@ -373,7 +373,9 @@ class SpringContact(ContactElement):
         return None
 
     def restore_state(self, state: object) -> None:
-        """Nothing to restore."""
+        """Nothing to restore; raises `InputError` for a state of a contact that has one."""
+        if state is not None:
+            raise InputError("state", shown(state), "None: this contact has no memory")
 
     def _follow(self, approach: float, rate: float, stacklevel: int) -> None:
         """Take a state as the next one of a motion; warn where its frequency is outside the band twice on end."""

@@ -11,7 +11,7 @@ import scipy
 from numpy.typing import NDArray
 
 from ehlcontact import Domain, Grid, impedance
-from ehlcontact.checks.kinds import shown
+from ehlcontact.checks import shown
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint
 from ehlcontact.process.blas import one_blas_thread

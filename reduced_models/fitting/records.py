@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
+from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive, shown
 from ehlcontact.checks.frequency import fields_by_name
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint, Point, moes_point
@@ -139,7 +139,7 @@ class ContactRecord(PointTable):
         """
         if not all(hasattr(simulation, name) for name in ("t", *_HISTORIES[1:], "status", "motion", "mass")):
             allowed = "a SimulationResult, as of ehlcontact.simulate"
-            raise InputError("simulation", type(simulation).__name__, allowed)
+            raise InputError("simulation", shown(simulation), allowed)
         status = str(simulation.status)
         if status != Status.CONVERGED and not accept_unconverged:
             raise InputError(
@@ -291,7 +291,7 @@ def as_records(records: object) -> tuple[ContactRecord, ...]:
         return (records,)
     if not isinstance(records, Iterable):
         allowed = "a ContactRecord or a sequence of them; ContactRecord.from_result(result) makes one"
-        raise InputError("records", type(records).__name__, allowed)
+        raise InputError("records", shown(records), allowed)
     taken = tuple(records)
     for i, record in enumerate(taken):
         require_instance(

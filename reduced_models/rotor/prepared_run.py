@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column
+from ehlcontact.checks import as_column, shown
 from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import BallMotion, motion_of
@@ -161,7 +161,7 @@ class PreparedRun:
         try:
             d, v = start
         except (TypeError, ValueError):
-            raise InputError("start", type(start).__name__, "'static', or displacements and velocities") from None
+            raise InputError("start", shown(start), "'static', or displacements and velocities") from None
         return np.array(as_column("displacements", d, size=size)), np.array(as_column("velocities", v, size=size))
 
     def _require_short_steps(self) -> None:

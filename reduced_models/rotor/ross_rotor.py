@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_flag, require_instance, require_integer
+from ehlcontact.checks import as_column, require_flag, require_instance, require_integer, shown
 from ehlcontact.checks.frequency import is_given, one, radians_per_second
 from ehlcontact.errors import InputError
 from reduced_models.bearing.ball_bearing import BallBearing
@@ -441,7 +441,7 @@ def _add_couplings(rotor: Any, node: int, linked: int | None, K: _Floats, C: _Fl
 def _nodes(ross: Any, rotor: Any, supports: Mapping[int, Support], replace: bool) -> dict[int, int | None]:
     """Nodes of the bearings, and what those that they replace were linked to."""
     if type(rotor) is not ross.Rotor:
-        raise InputError("rotor", type(rotor).__name__, "a ross.Rotor, one shaft")
+        raise InputError("rotor", shown(rotor), "a ross.Rotor, one shaft")
     linked_nodes: dict[int, int | None] = {}
     for node in supports:
         _require_node(rotor, "bearings", node)

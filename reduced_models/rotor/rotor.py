@@ -26,8 +26,9 @@ from ehlcontact.checks import (
     parts,
     require_finite,
     require_integer,
+    shown,
 )
-from ehlcontact.checks.kinds import NAME, Object, Objects, shown
+from ehlcontact.checks.kinds import NAME, Object, Objects
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, counted
@@ -271,7 +272,7 @@ class Rotor(Summary):
             Not one contact per mount.
         """
         if not isinstance(contacts, list | tuple):
-            raise InputError("contacts", type(contacts).__name__, "a list of contacts, one per mount")
+            raise InputError("contacts", shown(contacts), "a list of contacts, one per mount")
         if len(contacts) != len(self.contacts):
             raise InputError("contacts", len(contacts), f"one per mount, {len(self.contacts)}")
         others = iter(contacts)

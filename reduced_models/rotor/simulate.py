@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import TransientContact
-from ehlcontact.checks import parts, require_instance, require_integer, require_positive
+from ehlcontact.checks import parts, require_instance, require_integer, require_positive, shown
 from ehlcontact.checks.kinds import Callback, Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
@@ -175,9 +175,7 @@ def _check_contacts(rotor: Rotor) -> None:
     contacts = [mount.contact for mount in rotor.contacts]
     for i, contact in enumerate(contacts):
         if not isinstance(contact, Contact):
-            raise InputError(
-                f"contacts[{i}]", type(contact).__name__, "a Contact (advance, save and restore state)"
-            )
+            raise InputError(f"contacts[{i}]", shown(contact), "a Contact (advance, save and restore state)")
         if getattr(contact, "units", "SI") != "SI":
             units = getattr(contact, "units", "")
             raise InputError(f"contacts[{i}].units", units, "SI: a film or an element of an OperatingPoint")

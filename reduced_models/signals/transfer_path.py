@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, as_numbers, parts, require_positive
+from ehlcontact.checks import as_column, as_numbers, parts, require_positive, shown
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, counted, span
@@ -219,7 +219,7 @@ class SystemPath(TransferPath):
 
         if not isinstance(self.system, LTI) or not self.system.issiso() or not self.system.isctime():
             allowed = "a system of python-control in continuous time, one input and one output"
-            raise InputError("system", type(self.system).__name__, allowed)
+            raise InputError("system", shown(self.system), allowed)
         poles = np.asarray(self.system.poles())
         wrong = poles[poles.real >= -IMAGINARY * np.abs(poles)]
         if wrong.size:

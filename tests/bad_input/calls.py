@@ -3,6 +3,8 @@
 import copy
 from functools import cache
 from pathlib import Path
+from tempfile import mkdtemp
+from zipfile import ZipFile
 
 import numpy as np
 from balls import OF_6205
@@ -58,6 +60,15 @@ def point():
 def full_contact():
     """Solved, and compiled, before anything bad is asked of it."""
     return TransientContact(point(), grid=Grid(n=32))
+
+
+@cache
+def archive():
+    """An archive with numbers, as an FMU is."""
+    path = Path(mkdtemp()) / "x.fmu"
+    with ZipFile(path, "w") as file:
+        file.writestr("model.bin", bytes(range(256)))
+    return path
 
 
 def record(**changes):
@@ -259,6 +270,14 @@ CALLS = {
     # files
     "load a folder": (lambda: read(Path(__file__).parent), ("file", "a readable result, element or bearing")),
     "load a script": (lambda: read(__file__), ("file", "a complete file of a result")),
+    "load an archive": (
+        lambda: read(archive()),
+        ("file", "JSON or HDF5 as `save` writes it; this one is a zip archive, as FMUs are"),
+    ),
+    "radii exchanged": (
+        lambda: solve_steady(OperatingPoint(Geometry(0.1032, 0.00316), OIL, load=486.0, u_sum=5.88)),
+        ("kappa = 9.345", "radius_x is that along rolling; are both exchanged? then kappa = 0.107"),
+    ),
     "load a number": (lambda: read(5), ("file", "the name of a file")),
     "save a number": (lambda: save(5, "none.h5"), ("object to save", "result, element or bearing")),
     "load an element of Python": (

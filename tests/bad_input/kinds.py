@@ -167,8 +167,18 @@ def written(**changes):
 
 
 def exported(**changes):
-    spring = rm.SpringContact.cubic(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0)
-    return fmu.export(**({"model": spring, "path": "x.fmu"} | changes))
+    return fmu.export(**({"model": cubic(), "path": "x.fmu"} | changes))
+
+
+def cubic():
+    return rm.SpringContact.cubic(K1=1.0, K2=0.1, K3=0.1, C1=0.01, low=0.7, high=1.0)
+
+
+@cache
+def ended():
+    """A short run of a film."""
+    steps = ehl.TimeSteps(until=0.2, dt=0.1, tol=1e-2)
+    return ehl.simulate(ehl.MoesPoint(20, 5, 1), ehl.FreeVibration(Omega_n=5.0), grid=ehl.Grid(n=16), time=steps)
 
 
 def asperities(name):
@@ -257,7 +267,8 @@ ARGUMENTS = [
         {"speed_rpm": (1e12, True, "x"), "feed": (True, "x"), "load": (TEXT, 5.0, "ab"), "bearing": ("6205",
             None)}),
     (lambda **k: Lubricant(**k),
-        {"temperature": (323.0, 1e4, True, "x", nan), "temperature_slope": (True, "x"), "eta0": (40.0, True)}),
+        {"temperature": (323.0, 1e4, True, "x", nan), "temperature_slope": (True, "x"), "eta0": (40.0, True),
+         "alpha": (18.0, 0.018, 1e-11, True, "x")}),
     (lambda **k: ehl.Heat(**k), {"temperature": (323.0, True, "x"), "conductivity": (True, "x")}),
     (lambda **k: rm.Unbalance(**({"x": 0, "y": 1, "amount": 1e-4} | k)),
         {"amount": (1e9, True, "x", nan), "phase": (90.0, True, "x")}),
@@ -314,10 +325,13 @@ ARGUMENTS = [
     (lambda **k: ehl.SpeedHistory.from_function(**({"speed": lambda T: 1.0, "until": 1.0} | k)),
         {"speed": NO_CALL, "steps": (0, 1.5, "x", True)}),
     (lambda **k: ehl.SpeedHistory([0.0, 1.0, 2.0, 3.0], [1.0] * 4).way(**k), {"T": (nan, True, "x", None)}),
+    (lambda **k: ended().dissipated(**k), {"start": (nan, True, "x", None, [0.0]), "end": (nan, "x", None)}),
+    (lambda **k: cubic().restore_state(**k), {"state": (5, "x", np.zeros(3))}),
     (lambda **k: ehl.Domain.for_load(**k), {"largest_load": (nan, True, "x", None, -1.0, inf)}),
     (lambda **k: ehl.Domain.for_point(**k), {"point": (5, None, "x", (200, 10, 0.5))}),
     *((asperities(name), {field: (nan, True, "x",
-        None) for field in ARGUMENTS_OF[name]}) for name in ARGUMENTS_OF),
+        None, *((206.0,) if field == "e_reduced" else ()))
+        for field in ARGUMENTS_OF[name]}) for name in ARGUMENTS_OF),
     (lambda **k: ehl.OperatingPoint.ball_on_flat(**({"lubricant": Lubricant(), "ball_diameter": 0.019,
         "entrainment_speed": 1.0, "load": 30.0} | k)), {"lubricant": ("x", None, 5), "load": (True, "x")}),
     (lambda **k: ehl.OperatingPoint.ball_bearing(**({"lubricant": Lubricant(), **OUT} | k)),

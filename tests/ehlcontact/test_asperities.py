@@ -195,7 +195,7 @@ def test_a_film_thinner_than_the_model_says_so():
         ("rq_over_radius = 0.0", lambda: Asperities(1e-7, rq_over_radius=0.0)),
         ("m4 = -1.0", lambda: Asperities.from_moments(1e-14, 1e-3, -1.0)),
         ("pressure = 1000000000000.0", lambda: Asperities(1e-7).gap(1e12, MODULUS)),
-        ("asperities = 'float'", lambda: solve_steady(ball(), asperities=1e-7)),
+        ("asperities = 1e-07", lambda: solve_steady(ball(), asperities=1e-7)),
         (
             "asperities = 'given': must be left out with heat of sliding",
             lambda: solve_steady(ball(), asperities=Asperities(1e-7), thermal=Heat(slide_roll=0.1)),

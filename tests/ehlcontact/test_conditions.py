@@ -60,10 +60,10 @@ def test_layer_in_metres_is_refused_at_a_dimensionless_point():
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"supply": 0.3e-6}, r"supply = 'float': must be an OilLayer\(h, ...\)"),
-        ({"thermal": 1.0}, r"thermal = 'float': must be True or a Heat"),
-        ({"sliding": 0.1}, r"sliding = 'float': must be a ShearThinning"),
-        ({"asperities": 1e-7}, r"asperities = 'float': must be Asperities\(rq, ...\)"),
+        ({"supply": 0.3e-6}, r"supply = 3e-07: must be an OilLayer\(h, ...\)"),
+        ({"thermal": 1.0}, r"thermal = 1.0: must be True or a Heat"),
+        ({"sliding": 0.1}, r"sliding = 0.1: must be a ShearThinning"),
+        ({"asperities": 1e-7}, r"asperities = 1e-07: must be Asperities\(rq, ...\)"),
     ],
 )
 def test_other_objects_are_refused(given, message):

@@ -369,7 +369,7 @@ def test_what_is_missing():
         solve_steady(bare, thermal=Heat(temperature_slope=0.04))
     with pytest.raises(InputError, match="left out at a dimensionless point"):
         solve_steady(MoesPoint(200, 10, 0.5), thermal=Heat())
-    with pytest.raises(InputError, match="thermal = 'str': must be True or a Heat"):
+    with pytest.raises(InputError, match="thermal = 'hot': must be True or a Heat"):
         solve_steady(POINT, thermal="hot")
     with pytest.raises(InputError, match=r"temperature = 20\.0: must be left out: .* viscosity at 50 C"):
         solve_steady(POINT, thermal=Heat(temperature=20))

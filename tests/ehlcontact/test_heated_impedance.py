@@ -285,5 +285,5 @@ def test_thin_films_that_slide_on_glass_vibrate_to_tolerance(speed, slide):
 def test_what_is_refused():
     with pytest.raises(InputError, match="left out at a dimensionless point"):
         impedance(MoesPoint(200, 10, 0.5), Omega=0.0, thermal=Heat())
-    with pytest.raises(InputError, match="thermal = 'str': must be True or a Heat"):
+    with pytest.raises(InputError, match="thermal = 'hot': must be True or a Heat"):
         impedance(POINT, Omega=0.0, thermal="hot")

@@ -176,7 +176,7 @@ test_bad_input = refusals(
         r"slide_roll\[0\] = nan: must be a finite number",
     ),
     (lambda: isothermal_film().traction([], Eyring()), "length of slide_roll = 0"),
-    (lambda: isothermal_film().traction(0.1, 5e6), "law = 'float': must be a traction law"),
+    (lambda: isothermal_film().traction(0.1, 5e6), "law = 5000000.0: must be a traction law"),
     (lambda: Eyring(5.0), r"stress = 5.0: .*in MPa\? then 5e\+06 Pa"),
     (lambda: Eyring(0.0), "stress = 0.0: must be between"),
     (lambda: Eyring(math.inf), "stress = inf: must be between"),
@@ -187,7 +187,7 @@ test_bad_input = refusals(
     (lambda: LimitingShear(math.nan), "coefficient = nan: must be between"),
     (lambda: TractionLaw.from_dict({"law": "Ree"}), "law = 'Ree': must be one of Eyring, Carreau"),
     (lambda: traction_curve(MoesPoint(20.0, 10.0, 1.0), 0.1, Eyring()), "point = 'MoesPoint'.*no units"),
-    (lambda: traction_curve(POINT, 0.1, Eyring(), thermal="hot"), "thermal = 'str': must be True or a Heat"),
+    (lambda: traction_curve(POINT, 0.1, Eyring(), thermal="hot"), "thermal = 'hot': must be True or a Heat"),
 )
 
 

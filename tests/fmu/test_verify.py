@@ -197,7 +197,7 @@ def test_fmu_of_another_kind(fmus, elements):
         (
             JEFFCOTT.on(["cubic"]),
             {"outside": "all"},
-            r"^contacts\[0\] = 'str': must be a contact element",
+            r"^contacts\[0\] = 'cubic': must be a contact element",
         ),
         (
             JEFFCOTT,
@@ -220,7 +220,7 @@ def test_fmu_of_another_kind(fmus, elements):
         (
             "cubic",
             {},
-            r"^model = 'str': must be a contact element .*, BallBearing, BearingSet or Rotor",
+            r"^model = 'cubic': must be a contact element .*, BallBearing, BearingSet or Rotor",
         ),
     ],
 )

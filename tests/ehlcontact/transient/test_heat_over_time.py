@@ -149,5 +149,5 @@ def test_what_heat_does_not_go_with():
     motion = FreeVibration(Omega_n=5.0, rate=0.1)
     with pytest.raises(InputError, match="left out at a dimensionless point"):
         simulate(MoesPoint(200, 10, 0.5), motion, thermal=Heat())
-    with pytest.raises(InputError, match="thermal = 'str': must be True or a Heat"):
+    with pytest.raises(InputError, match="thermal = 'hot': must be True or a Heat"):
         TransientContact(POINT, thermal="hot")

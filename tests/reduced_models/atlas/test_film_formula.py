@@ -75,5 +75,5 @@ def test_elements_of_the_atlas_are_judged_by_its_film():
 
 
 def test_what_is_no_film_is_named():
-    with pytest.raises(InputError, match=r"^film = 'float': must be a steady film"):
+    with pytest.raises(InputError, match=r"^film = 1e-07: must be a steady film"):
         assumptions(disc(10.0), film=1e-7)

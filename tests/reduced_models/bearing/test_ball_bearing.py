@@ -44,7 +44,7 @@ def test_catalogue_and_dimensions_are_the_same():
         ("pitch_diameter = 0.005: must be above ball_diameter", {"pitch_diameter": 5e-3}),
         ("clearance = 0.01: must be between -0.000397 and 0.000397 m", {"clearance": 0.01}),
         ("clearance = nan: must be a finite number", {"clearance": float("nan")}),
-        ("oil = 'int': must be a Lubricant", {"oil": 68}),
+        ("oil = 68: must be a Lubricant", {"oil": 68}),
         ("rq_ball = -1.0: must be a finite number >= 0", {"rq_ball": -1.0}),
         ("cutoff_gap = 0.0: must be between 1e-09 and 0.01 m", {"cutoff_gap": 0.0}),
         ("youngs_modulus = 206.0: .*GPa", {"youngs_modulus": 206.0}),
@@ -164,7 +164,7 @@ def test_files_that_are_none(tmp_path, oil):
         ({"blls": 9}, "blls = 'an unknown name': must be left out"),
         ({"balls": 90}, "balls = 90"),
         ({"oil": {"eta0": 0.04, "colour": 1}}, "oil.colour = .*: must be left out; known are eta0"),
-        ({"oil": 5}, "oil = 'int'"),
+        ({"oil": 5}, "oil = 5"),
     ):
         path.write_text(json.dumps(document | changes))
         refused(match, lambda: read(path, BallBearing))

@@ -227,7 +227,7 @@ test_bad_input_is_one_line = refusals(
         lambda: DRY.excitation([BallDiameter(ball=1, excess=1e-7)], (0, 0, 300.0), contact_filter="wet"),
         "contact_filter = 'wet'",
     ),
-    (lambda: DRY.excitation(["spall"], (0, 0, 300.0)), "features = 'str'"),
+    (lambda: DRY.excitation(["spall"], (0, 0, 300.0)), "features = 'spall'"),
 )
 
 

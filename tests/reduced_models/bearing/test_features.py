@@ -380,7 +380,7 @@ test_bad_input_is_one_line = refusals(
         "amplitude = 0.005: must be at most 7.94e-05 m",
     ),
     (lambda: replace(DRY, features=[Indentation(**SPALL, rim=1e-3)]), "rim = 0.001: must be at most"),
-    (lambda: replace(DRY, features=["spall"]), "features = 'str'"),
+    (lambda: replace(DRY, features=["spall"]), "features = 'spall'"),
     (
         lambda: replace(DRY, features=[RaceWaviness(race="inner", waves=5000, amplitude=1e-9)]),
         "waves = 5000: must be at most 4096",

@@ -140,8 +140,8 @@ def test_oil_that_is_given_by_its_viscosity():
     ("words", "changes"),
     [
         ("thermal = 'Heat': must be left out of a dry bearing", {"thermal": True}),
-        ("thermal = 'str': must be True or a Heat", {"thermal": "hot", "oil": OIL}),
-        ("thermal = 'int': must be True or a Heat", {"thermal": 1, "oil": OIL}),
+        ("thermal = 'hot': must be True or a Heat", {"thermal": "hot", "oil": OIL}),
+        ("thermal = 1: must be True or a Heat", {"thermal": 1, "oil": OIL}),
         ("slide_roll = 0.1: must be 0", {"thermal": Heat(slide_roll=0.1), "oil": OIL}),
         (
             "temperature_slope = None: must be given in Heat .*typical",

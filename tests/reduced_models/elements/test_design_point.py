@@ -118,7 +118,7 @@ def test_operating_point_of_a_mount_is_checked(shipped):
     with pytest.warns(OutsideValidityWarning, match=r"eta0 = 0\.02") as told:
         vee.on([wide.copy(), shipped.element(POINT.moes, "wide").to_si(POINT.scales)]).check_contacts()
     assert len(told) == 2
-    with pytest.raises(InputError, match=r"^point = 'str'"):
+    with pytest.raises(InputError, match=r"^point = '6205'"):
         ContactMount(0.0, point="6205")
 
 

@@ -1,11 +1,13 @@
 """Records: what they accept, what they refuse by name, and their windows."""
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from ehlcontact import Geometry, Lubricant, MoesPoint, OperatingPoint
+from ehlcontact.checks import shown
 from ehlcontact.errors import InputError
 from reduced_models import ContactRecord, SpringContact
 
@@ -92,7 +94,9 @@ def test_from_result_takes_what_the_fit_will_need(domain):
 
 @pytest.mark.parametrize("other", [None, 3.0, "run.h5", SpringContact.linear(1.15, 0.0124, low=0.75, high=1.0)])
 def test_from_result_names_what_is_no_simulation(other):
-    with pytest.raises(InputError, match=rf"^simulation = '{type(other).__name__}': must be a SimulationResult"):
+    with pytest.raises(
+        InputError, match=rf"^simulation = {re.escape(repr(shown(other)))}: must be a SimulationResult"
+    ):
         ContactRecord.from_result(other)
 
 

@@ -258,7 +258,7 @@ def test_run_up_and_coast_down_of_an_overhung_rotor(film):
         ),
         (r"phase = 90.0: .*radians", lambda b: Disc(position=0.1, mass=1.0, phase=90.0)),
         (r"bore = 0.3: must be below", lambda b: Disc.cylinder(position=0.1, diameter=0.2, width=0.1, bore=0.3)),
-        (r"bearing = 'str'", lambda b: Support(position=0.0, bearing="6205")),
+        (r"bearing = '6205'", lambda b: Support(position=0.0, bearing="6205")),
         (r"cage_angle = 90.0: .*radians", lambda b: Support(position=0.0, bearing=b, cage_angle=90.0)),
         (r"housing_stiffness = None: must be given", lambda b: Support(position=0.0, bearing=b, housing_mass=1.0)),
         (r"housing_mass = None: must be given", lambda b: Support(position=0.0, bearing=b, housing_stiffness=1e7)),

@@ -91,7 +91,8 @@ def test_coupled_ball_balances_on_its_film(smooth, known, race):
     rotor = block(smooth)
     start = rotor.equilibrium(RPM) + np.array([0.0, 1e-6]), np.zeros(2)
     run = simulate_full_films(rotor, [spec], speed_rpm=RPM, dt=1e-5, until=1.2e-3, start=start)
-    film, scales = run.films[0], known.point.scales
+    film = run.films[0]
+    scales = film.operating_point.scales
     assert film.t[0] == pytest.approx(1e-4)
     assert film.t[-1] == pytest.approx(1e-3)
     u = (film.approach + film.offset) / scales.length
@@ -188,7 +189,7 @@ def test_films_that_no_run_can_have(smooth, known):
         simulate_full_films(block(replace(smooth, oil=None)), film, **options)
     with pytest.raises(InputError, match=r"films = .*at least one"):
         simulate_full_films(block(smooth), [], **options)
-    with pytest.raises(InputError, match="films = 'int': must be a FullFilm"):
+    with pytest.raises(InputError, match="films = 3: must be a FullFilm"):
         simulate_full_films(block(smooth), 3, **options)
     with pytest.raises(InputError, match="one without heat: full films are isothermal"):
         simulate_full_films(block(replace(smooth, thermal=True)), [film], **options)

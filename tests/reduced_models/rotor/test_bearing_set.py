@@ -423,7 +423,7 @@ def test_bad_input():
     refused("preload = -5.0: must be 0, or between 1e-06 and 1e[+]08 N", lambda: pair(SPINDLE, preload=-5.0))
     refused("preload = 1000000.0: must be one whose contact angles stay", lambda: pair(SPINDLE, preload=1e6))
     refused(r"offset.* = .*in µm\? then", lambda: pair(SPINDLE, offset=10.0))
-    refused("bearing = 'str': must be a BallBearing", lambda: pair("7205"))
+    refused("bearing = '7205': must be a BallBearing", lambda: pair("7205"))
     same = {"bearings": [SPINDLE] * 2, "positions": (0.0, 0.02)}
     one_way = BearingSet(**same, facings=("+z", "+z"))
     refused(r"preload = 100.0: .*all bearings face \+z", lambda: one_way.preloaded(100.0))

@@ -180,7 +180,7 @@ def test_bad_signals(film, block, given, match):
 def test_bad_speeds(film, block):
     with pytest.raises(InputError, match=r"speed_rpm = 30000.0: must be at most"):
         rotor_to_control(block(film), 3e4)
-    with pytest.raises(InputError, match=r"rotor = 'int': must be a Rotor"):
+    with pytest.raises(InputError, match=r"rotor = 3: must be a Rotor"):
         rotor_to_control(3, RPM)
 
 

@@ -208,7 +208,7 @@ def test_what_is_no_rotor(dry, match, changes):
         ("until = 1000000000.0: must be at most", {"until": 1e9}),
         ("rho_inf = 2.0", {"rho_inf": 2.0}),
         ("start = 'rest'", {"start": "rest"}),
-        ("start = 'int'", {"start": 5}),
+        ("start = 5", {"start": 5}),
         ("length of displacements = 3", {"start": (np.zeros(3), np.zeros(2))}),
         ("speed_rpm = 90000.0: must be at most", {"speed_rpm": 9e4, "dt": 1e-6}),
         ("speed_rpm = 0.0: must be > 0 for a bearing with oil", {"speed_rpm": 0.0}),

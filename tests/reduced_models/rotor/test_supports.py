@@ -102,7 +102,7 @@ def test_refused(block, film):
         (lambda: simulate_rotor(block(film), dt=1e-5, until=1e-3), "speed_rpm = None: must be given"),
         (lambda: rotor.on([]), "contacts = 0: must be one per mount, 1"),
         (lambda: rotor.on(contact), "contacts = 'SpringContact': must be a list of contacts"),
-        (lambda: simulate_rotor(rotor, dt=1e-5, until=1e-3), r"contacts\[0\] = 'NoneType': must be a Contact"),
+        (lambda: simulate_rotor(rotor, dt=1e-5, until=1e-3), r"contacts\[0\] = None: must be a Contact"),
         (lambda: replace(rotor, stiffness=2.0 * rotor.stiffness), "stiffness = 'another matrix': must be the sum"),
         (lambda: linearise(block(film)), "speed_rpm = None: must be given"),
         (lambda: linearise(rotor.on([object()])), "contacts"),
