@@ -52,6 +52,10 @@ def curve_nodes(loads: ArrayLike, approach: ArrayLike) -> dict[str, _Floats]:
         slope = np.full(2, (y[1] - y[0]) / (x[1] - x[0]))
     else:
         slope = scipy.interpolate.PchipInterpolator(x, y).derivative()(x)
+    if (
+        y[1] > y[0]
+    ):  # a film that grows with a light load, as under a layer: PCHIP's end may be three times as steep
+        slope[0] = min(slope[0], (y[1] - y[0]) / (x[1] - x[0]))
     slope[-1] = min(slope[-1], 0.0)
     below = x[0] - DECADE, y[0] - 0.5 * DECADE * (slope[0] + RIGID_SLOPE)
     return {

@@ -41,6 +41,18 @@ def test_at_a_constant_speed_it_is_the_element_of_that(atlas, name, speed):
         assert (np.abs(ours.imag - theirs.imag) / flooded).max() < (0.02 if name == "heat" else 0.07)
 
 
+@pytest.mark.parametrize("r", [1.5, 0.7])
+def test_films_that_grow_with_a_light_load(atlas, r):
+    """Under a layer that is thick at low speeds: from .01 to .03 of the load the film grows, and then thins."""
+    point = MoesPoint(200, 10, 0.5)
+    layer = OilLayer(H=r * 1.2 * atlas.at(point).h_central)
+    over = atlas.element_over_speed(point, supply=layer)
+    for speed in np.geomspace(over.speeds[0], 1.0, 5):
+        over.set_speed(speed)
+        u = [over.approach_at(load) for load in np.geomspace(0.01, 0.07, 50)]
+        assert (np.diff(u) > 0.0).all()
+
+
 def test_speeds_end_where_the_tables_do(atlas):
     warm, starved = (atlas.element_over_speed(BALL, **CONDITIONS[name]) for name in ("heat", "layer"))
     cold = atlas.element_over_speed(BALL)
