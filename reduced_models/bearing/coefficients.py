@@ -46,6 +46,8 @@ class BearingCoefficients(Response):
     ----------
     to, omega, value, slope, error_bars, point, film, residual, impedance, wavelength, wave_speed, units, seconds
         As of `ehlcontact.results.Response`: ``stiffness`` and ``damping`` have the shape (k, n, n) [N/m], [N s/m].
+    layer_behind : None
+        Of a response of one contact.
     load : ndarray, shape (n,)
         Force on the ring [N], [N m].
     speed_rpm : float
