@@ -13,7 +13,7 @@ MARGIN = 0.15  # of the speed, least separation of a critical speed
 BACKWARD = -0.5  # whirl below which an unbalance hardly excites a mode
 HALF = 50.0  # %, of the strain energy
 FULL_FILM = 3.0  # lambda from which films keep the surfaces apart
-BRIEF = 2  # parts of a note in a line
+BRIEF, SHORT = 2, 44  # parts of a note in a line, and characters of each
 LINEAR = 1.0  # displacement by unbalance over the approach of the balls, up to which it is small
 
 
@@ -32,8 +32,9 @@ class Tile(NamedTuple):
 
     @property
     def brief(self) -> str:
-        """The tile with the first parts of its note, for a line of a terminal."""
-        return str(self._replace(note=", ".join(self.note.split("; ")[:BRIEF])))
+        """The tile with the first parts of its note, short ones, for a line of a terminal."""
+        parts = [part for part in self.note.split("; ")[:BRIEF] if len(part) <= SHORT]
+        return str(self._replace(note=", ".join(parts)))
 
 
 def digits(value: float, count: int = 3) -> str:

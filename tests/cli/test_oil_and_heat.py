@@ -13,7 +13,6 @@ from tiny_study import ALONE
 import reduced_models.bearing.oil_and_heat as module
 from ehlcontact import ConvergenceError, Grid, Lubricant, OilLayer, impedance
 from ehlcontact.cli.study.forecast import CONDITION, closing_cost
-from ehlcontact.cli.study.headline import conditions as beside
 from ehlcontact.cli.study.headline import damping_below_zero, without_films
 from ehlcontact.cli.study.headline import oil_and_heat as sentence
 from ehlcontact.cli.study.oil_and_heat import FREQUENCIES, run_oil_and_heat
@@ -202,14 +201,13 @@ def test_section_of_a_study(coarse, tmp_path):
     assert told["conditions"][0][1:] == list(found.conditions) and "r = 1 over" in told["supply_words"]
     words = sentence(Findings)
     assert words.count("% of the film") == 3 and f"{found.conditions[FLOODED].damping[0, 1]:.3g} N s/m" in words
-    assert "computed with heat, with the layer, with both too" in beside(Findings)
     C = found.conditions[LAYER].damping[0, 1]
     assert C < 0.0
-    assert f"DAMPING BELOW ZERO: the bearing has with the layer {C:.3g} N s/m" in damping_below_zero(Findings)
+    assert f"damping below zero: the bearing has with the layer {C:.3g} N s/m" in damping_below_zero(Findings)
     Findings.oil_and_heat = replace(found, conditions={FLOODED: found.conditions[FLOODED]})
-    assert damping_below_zero(Findings) == "" == beside(Findings) == without_films(Findings)
+    assert damping_below_zero(Findings) == "" == without_films(Findings)
     Findings.oil_and_heat = replace(found, refused={LAYER: "thin"})
-    assert without_films(Findings) == "NO FILMS of the bearing with the layer (thin)."
+    assert without_films(Findings) == "no films of the bearing with the layer (thin)."
     around, band = (
         [line for panel in describe(found).panels for line in panel.lines]
         for describe in (conditions_films, conditions_coefficients)
@@ -228,7 +226,7 @@ def test_a_study_tells_why_there_is_no_answer(tmp_path, monkeypatch):
     class Findings:
         oil_and_heat = run_oil_and_heat(load_study(study(tmp_path, ASKED)))
 
-    assert "NOT COMPUTED" in (said := without_films(Findings)) and "no film" in said
+    assert "not computed" in (said := without_films(Findings)) and "no film" in said
     assert sentence(Findings) == "" and conditions(Findings) == {}
     results = {"fmu": {"passes": True}, "film_fmu": None, "oil_and_heat": Findings.oil_and_heat}
     assert faults(results) == [f"oil supply and heat of the bearing: {Findings.oil_and_heat}"]

@@ -70,7 +70,7 @@ def films(made):
     return {name: read(made[1] / f"{name}.h5") for name in ("steady", *RECORDS)}
 
 
-def derived(folder, results):
+def derived(study, folder, results):
     """Numbers of the page that are quotients of numbers in the results."""
     point, fits = results["operating_point"], [row for row in results["fits"] if "tangent" in row]
     stiffness = point["load"] / point["dry_approach"]
@@ -81,7 +81,16 @@ def derived(folder, results):
     yield from (*steps, *(step / point["time_unit"] for step in steps))
     decay = results["rotor"]["decay"]
     yield abs(decay["half_step"]["full"]["decrement"] / decay["decrements"]["full"]["decrement"] - 1.0)
-    yield 1993.0  # year of a source
+    lengths = (value for row in fits for value in (row["root"], row["valid"]["low"], row["valid"]["high"]))
+    yield from (point["dry_approach"] * length for length in lengths)
+    unit = stiffness * point["time_unit"]
+    yield from (unit * end for row in fits for end in row["intervals"]["C1"])
+    eccentricity = study["disc"][0]["unbalance"] / study["disc"][0]["mass"]
+    yield from (eccentricity * peak["amplitude"] for way in peaks for peak in way.values())
+    ways = results["in_time"]["resonance"].values()
+    yield from (eccentricity * peak["amplitude"] for way in ways for peak in way.values())
+    yield from (360.0 / 9.0 * k - 160.0 for k in range(9))  # degrees, places of the balls
+    yield from (1.25e-5, 1993.0)  # usual damper over stiffness, and the year of its source
 
 
 def load_times(path):
@@ -111,8 +120,9 @@ def under(value, key, inside=False):
 
 def test_every_number_of_the_page_is_one_of_the_results(made, results):
     """Rows of a contact, a bearing or a record show numbers of that one."""
-    more = [*derived(made[1], results)]
-    everything = [*numbers_of(results), *numbers_of(tomllib.loads(made[0].read_text())), *more]
+    study = tomllib.loads(made[0].read_text())
+    more = [*derived(study, made[1], results)]
+    everything = [*numbers_of(results), *numbers_of(study), *more]
     met, wrong = set(), []
     for block in blocks_of((made[1] / "report.html").read_text()):
         label = block.split(" | ")[0].removeprefix("unbalance: ").removeprefix("kick: ").split(" = ")[0]

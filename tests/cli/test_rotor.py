@@ -161,16 +161,16 @@ def test_damper_of_the_headline_is_the_impedances(finished, results):
     )
 
 
-def test_numbers_of_the_headline(results):
-    """The numbers of the paragraph are those of the results."""
-    answer, decay = results["answer"], results["rotor"]["decay"]
+def test_numbers_of_the_sentences(finished, results):
+    """The numbers of the page's paragraphs are those of the results."""
+    answer, decay = html.unescape((finished[1] / "report.html").read_text()), results["rotor"]["decay"]
     for name in ("full", "rotor_band", "undamped", "dry"):
         assert f"{decay['decrements'][name]['decrement']:.3g}" in answer
     assert f"damper of {results['at_rotor_speed']['damping']:.3g} N s/m" in answer
     low, high = results["damper_of_fit"]["interval"]
     sure = f"95 %: {low:.3g} to {high:.3g}" if low > 0.0 else "not determined by the fit"
     assert f"N s/m ({sure})" in answer
-    assert "The film decides it" in answer and "NOT SETTLED" not in answer and "loses contact" not in answer
+    assert "The film decides it" in answer and "Not settled" not in answer and "loses contact" not in answer
 
 
 def test_a_damper_that_the_fit_does_not_determine_says_so():
@@ -193,10 +193,31 @@ def test_warnings_are_shown(finished, results):
 
     outside = results["rotor"]["decay"]["events"]["rotor_band"][0]["outside_omega"]
     assert outside == 1.0
-    assert (
-        "after the kick the cubic of the rotor's band is outside its frequency for 100 % of the time"
-        in results["answer"]
-    )
+    said = "after the kick the cubic of the rotor's band is outside its frequency for 100 % of the time"
+    assert page.index('id="reduced"') < page.index(said)  # a note of that section, no alarm of the page
+
+
+def test_a_run_ends_with_the_tiles(results):
+    """Operating line, a line for every tile and what does not hold: no more than a screen."""
+    first, *lines = results["answer"].splitlines()
+    assert first == results["operating_line"]
+    tiles = results["machine"]["tiles"]
+    assert [line.split(" (")[0] for line in lines[: len(tiles)]] == [
+        f"{tile['name']} {tile['value']} {tile['unit']}".rstrip() for tile in tiles
+    ]
+    rest = [line.split(":")[0] for line in lines[len(tiles) :]]
+    assert set(rest) <= {"critical", "does not hold"} and len(results["answer"].split()) < 160
+
+
+def test_verdict_says_what_stands_for_the_film(results):
+    """By the nearest element's decrement, and by that without the film."""
+    decay = results["rotor"]["decay"]
+    full = decay["decrements"]["full"]["decrement"]
+    off = {name: abs(one["decrement"] / full - 1.0) for name, one in decay["decrements"].items()}
+    best = min(("rotor_band", "memory"), key=lambda name: off[name])
+    assert f"decrement is {100.0 * off[best]:.2g} % off" in results["verdict"]
+    assert ("stands for the full film" in results["verdict"]) is (off[best] <= headline.STANDS_FOR)
+    assert results["verdict"].endswith("the film decides the damping.")
 
 
 def fake(**changes):
@@ -228,12 +249,12 @@ def test_lift_off_is_in_the_headline():
     )
     outside = replace(bounced, lost_share=0.0, outside_load=0.25)
     told = headline.contact_events(fake(decay={"events": {"rotor_band": (outside,)}}))
-    assert told == "NOTE: after the kick the cubic of the rotor's band is outside its load for 25 % of the time."
+    assert told == "Note: after the kick the cubic of the rotor's band is outside its load for 25 % of the time."
 
 
 def test_what_is_not_settled_is_in_the_headline():
     told = headline.unsettled(fake(unbalance={"settling": {"full": Settling((0.2, 0.07), 0.01)}}))
-    assert told.startswith("NOT SETTLED") and "full film (7 %)" in told
+    assert told.startswith("Not settled") and "full film (7 %)" in told
 
 
 def test_a_coarse_grid_is_in_the_headline(tmp_path):
@@ -242,7 +263,7 @@ def test_a_coarse_grid_is_in_the_headline(tmp_path):
     (tmp_path / "heavy.toml").write_text(text.replace("radial_load = 70.0", "radial_load = 3000.0"))
     assert "radial_load = 70.0" in text
     told = headline.mesh_warnings(SimpleNamespace(study=load_study(tmp_path / "heavy.toml")))
-    assert told.startswith("NOT AS SURE AS IT LOOKS: contact.n = 64: a mesh of ") and "too coarse" in told
+    assert told.startswith("Less sure than it looks: contact.n = 64: a mesh of ") and "too coarse" in told
     (tmp_path / "light.toml").write_text(text)
     assert headline.mesh_warnings(SimpleNamespace(study=load_study(tmp_path / "light.toml"))) == ""
 

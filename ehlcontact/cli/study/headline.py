@@ -1,10 +1,14 @@
-"""Findings of a study in sentences made from its numbers; a sentence without content is empty."""
+"""What a study says in words: operating line, tiles, what is critical, what does not hold; a verdict per section.
+
+A sentence without content is empty. The page, ``results.json`` and the last lines of a run say the same.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from math import hypot
 from typing import Any
+
+import numpy as np
 
 from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.study.answer import NAMES
@@ -14,9 +18,13 @@ from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, ME
 from ehlcontact.cli.study.results import ContactFindings, Findings
 from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN, OilAndHeat
 from reduced_models.bearing.set_result import SetState
+from reduced_models.rotor.machine_tiles import MARGIN
 
 # Change by half the step, over the standard deviation of a signal or the decrement, that has a sentence.
 LARGE_CHANGE = 0.01
+STANDS_FOR = 0.05  # of the decrement on full films, within which an element stands for the film
+AXIAL = 2  # of the components of a load
+NEGLIGIBLE = 1e-6  # of the largest component of a load, below which another one is none
 
 
 def document(found: Findings) -> dict[str, Any]:
@@ -24,108 +32,147 @@ def document(found: Findings) -> dict[str, Any]:
     said = {
         "status": "converged",
         "title": found.study.title,
-        "verdict": verdict(found),
+        "operating_line": operating_line(found),
+        "verdict": "" if found.rotors is None else verdict(found.rotors),
         "answer": headline(found),
     }
     return said | found.to_dict()
 
 
-def verdict(found: Findings) -> str:
-    """The result in one line: whether the film decides the damping, the nearest element, film and assumptions."""
-    contact, rotors = found.contact, found.rotors
-    if contact is None:
-        return _machine_verdict(found)
-    op, rough = contact.operating_point, found.study.roughness
-    ratio = "" if rough is None else f", {numeral(1e-6 * op['h_min_um'] / hypot(*rough), 3)} times the roughness"
-    film = f"Smallest film {numeral(op['h_min_um'], 3)} \N{MICRO SIGN}m{ratio}."
-    outside = ", ".join(one.name for one in contact.assumptions.out_of_range)
-    held = f"Does not hold: {outside}." if outside else "All assumptions that can be judged hold."
-    damped = "" if rotors is None else _damping_verdict(rotors)
-    return " ".join(filter(None, (damped, film, held, conditions(found))))
-
-
-def _machine_verdict(found: Findings) -> str:
-    """The machine or the bearing alone in one line: its first tiles."""
+def headline(found: Findings) -> str:
+    """The answer in lines: operating line, tiles, what is critical, what does not hold."""
     machine = found.machine
     if isinstance(machine, str):
-        return f"NOT COMPUTED: {machine}."
-    return ". ".join(map(str, machine.tiles()[:3])) + "."
+        return "\n".join(filter(None, (operating_line(found), f"not computed: {machine}", *limits(found))))
+    tiles = (tile.brief for tile in machine.tiles())
+    critical = (f"critical: {text}" for text in machine.concerns)
+    broken = limits(found)
+    holds = f"does not hold: {'; '.join(broken)}" if broken else ""
+    return "\n".join(filter(None, (operating_line(found), *tiles, *critical, holds)))
 
 
-def _damping_verdict(rotors: RotorFindings) -> str:
-    """Whether the film decides the damping of the rotor on full films, and the nearest element."""
+def operating_line(found: Findings) -> str:
+    """Machine, speed, loads and oil in one sentence."""
+    study, machine = found.study, found.machine
+    oil = "dry" if study.oil is None else f"in {study.oil.label}"
+    speed = f"at {numeral(study.speed_rpm, 6)} rev/min"
+    if isinstance(machine, str):
+        return f"{study.title or 'Machine'} {speed}, {oil}."
+    parts = [(support.label or "ball bearing", load_words(support.state.load)) for support in machine.supports]
+    if study.shaft is None:
+        (name, load), *_ = parts
+        return f"{name[0].upper()}{name[1:]} under {load} {speed}, {oil}."
+    on = [f"{name} ({load})" for name, load in parts]
+    stands = " and ".join(filter(None, (", ".join(on[:-1]), on[-1])))
+    return f"Shaft on {stands} {speed}, {oil}."
+
+
+def load_words(load: Any) -> str:
+    """Radial and axial part of a load in words."""
+    radial, axial = float(np.hypot(*load[:2])), float(load[AXIAL]) if len(load) > AXIAL else 0.0
+    parts = f"{numeral(radial, 3)} N radially", f"{numeral(axial, 3)} N axially"
+    sizes = radial, abs(axial)
+    said = [text for text, size in zip(parts, sizes, strict=True) if size > NEGLIGIBLE * max(sizes)]
+    return " and ".join(said) or "no load"
+
+
+def limits(found: Findings) -> list[str]:
+    """What does not hold, with its number, one text for all supports of which it is said."""
+    machine = found.machine
+    rest = [text for text in (without_films(found), damping_below_zero(found)) if text]
+    if isinstance(machine, str):
+        broken = "" if found.contact is None else found.contact.assumptions.headline
+        return [*filter(None, [broken]), *rest]
+    said: dict[str, dict[str, list[str]]] = {}  # supports by assumption and by what is said of it
+    labels, several = {support.label for support in machine.supports}, len(machine.supports) > 1
+    for text in machine.reservations:
+        label, _, own = text.partition(": ") if text.partition(": ")[0] in labels else ("", "", text)
+        what, _, detail = own.partition(": ") if label else (text, "", "")
+        said.setdefault(what, {}).setdefault(detail, []).append(label if several else "")
+    lines = []
+    for what, details in said.items():
+        each = [": ".join(filter(None, (", ".join(filter(None, of)), detail))) for detail, of in details.items()]
+        inside = "; ".join(filter(None, each))
+        lines.append(f"{what} ({inside})" if inside else what)
+    return [*lines, *rest]
+
+
+def calm(found: Findings) -> str:
+    """That nothing is critical, with the numbers that show it; empty where something is."""
+    machine = found.machine
+    if isinstance(machine, str) or machine.concerns:
+        return ""
+    ratio, nearest = machine.worst_support.lambda_ratio, machine.nearest_critical
+    said = [] if ratio is None else [f"lambda {numeral(ratio, 3)}"]
+    if machine.diagram is not None:
+        margin = "no critical speed below" if nearest is None else "no critical speed within"
+        size = (
+            f"{numeral(float(machine.diagram.speed_rpm[-1]), 5)} rev/min" if nearest is None else percent(MARGIN)
+        )
+        said.append(f"{margin} {size}{'' if nearest is None else ' of the speed'}")
+    return ", ".join(said)
+
+
+def verdict(rotors: RotorFindings) -> str:
+    """Whether elements stand for the full film, and whether the film decides the damping, in two sentences."""
     d = rotors.decay
-    own, nearest = d.decrements[FULL], d.nearest_without
-    said = [f"Log decrement {numeral(own.decrement, 3)} at {numeral(own.hz)} Hz on the full film"]
     elements = {name: abs(d.off(name)) for name in (ROTOR_BAND[0], MEMORY) if name in d.decrements}
+    nearest, said = d.nearest_without, []
     if elements:
         best = min(elements, key=lambda name: elements[name])
-        said.append(f"{percent(elements[best], 2)} off with the {CONTACTS[best]}")
+        error, own = percent(elements[best], 2), f"the {CONTACTS[best]}"
+        if elements[best] <= STANDS_FOR:
+            said.append(f"{own[0].upper()}{own[1:]} stands for the full film: its decrement is {error} off.")
+        else:
+            said.append(f"No element stands for the full film: with {own} the decrement is {error} off.")
     if nearest is not None:
-        said.append(f"at least {percent(nearest, 2)} off without a film or its damping")
-    decides = (
-        "" if nearest is None else f"The film {'decides' if d.film_decides else 'does not decide'} the damping. "
-    )
-    return f"{decides}{', '.join(said)}."
+        decides = "decides" if d.film_decides else "does not decide"
+        without = f"Without a film, or without its damping, it is off by {percent(nearest, 2)} or more"
+        said.append(f"{without}: the film {decides} the damping.")
+    return " ".join(said)
 
 
-def conditions(found: Findings) -> str:
-    """What the whole bearing is computed with beside flooded isothermal films; else empty."""
-    w = found.oil_and_heat
-    if not isinstance(w, OilAndHeat):
-        return ""
-    keys = [key for key in w.conditions if key != FLOODED]
-    beside = "The single contact is flooded and isothermal; the bearing is computed"
-    return f"{beside} {', '.join(keys)} too." if keys else ""
-
-
-def headline(found: Findings) -> str:
-    """All in one paragraph."""
-    return " ".join((*findings(found), *reservations(found)))
-
-
-def findings(found: Findings) -> list[str]:
-    """Findings, a text per subject."""
-    rotor = () if found.rotors is None else (decay, unbalance)
-    single = () if found.contact is None else _sentences(found.contact, contact, damper, *rotor)
-    return [*_sentences(found, machine), *single, *_sentences(found, whole, oil_and_heat)]
-
-
-def reservations(found: Findings) -> list[str]:
-    """Reservations about the findings, a text per subject."""
-    rotor = () if found.rotors is None else (unsettled, step_check)
-    after = () if found.rotors is None else (contact_events, failures)
-    single = () if found.contact is None else _sentences(found.contact, *after, broken_assumptions)
-    return [
-        *_sentences(found, without_films, damping_below_zero, *rotor, mesh_warnings),
-        *single,
-    ]
+def in_sections(found: Findings) -> dict[str, list[str]]:
+    """Sentences with which sections of the page begin, and notes about them, by section."""
+    contact_texts = [] if found.contact is None else _sentences(found.contact, contact, damper)
+    rotor = () if found.rotors is None else _sentences(found, decay, unbalance)
+    notes = () if found.rotors is None else _sentences(found, unsettled, step_check, contact_events, failures)
+    return {
+        "contact": contact_texts,
+        "contact_notes": _sentences(found, mesh_warnings),
+        "rotor": list(rotor),
+        "rotor_notes": list(notes),
+        "in_time": _sentences(found, whole),
+        "oil_and_heat": _sentences(found, oil_and_heat),
+    }
 
 
 def _sentences(found: Any, *parts: Callable[[Any], str]) -> list[str]:
     return [text for text in (part(found) for part in parts) if text]
 
 
-def machine(found: Findings) -> str:
-    """The machine, or the bearing alone, in its tiles; why it is not computed."""
-    state = found.machine
-    return f"NOT COMPUTED: {state}." if isinstance(state, str) else ". ".join(map(str, state.tiles())) + "."
-
-
 def contact(found: ContactFindings) -> str:
     """Load, pressure and film."""
-    op, settings, label = found.operating_point, found.study.contact, found.study.carrier.label
+    op, settings = found.operating_point, found.study.contact
     assert settings is not None
-    central, smallest = (
-        "" if op[name] is None else f" (\N{PLUS-MINUS SIGN} {numeral(100.0 * op[name], 2)} % of it)"
-        for name in ("h_central_error", "h_min_error")
-    )
+    central, smallest = (uncertainty(found, name) for name in ("h_central_error", "h_min_error"))
+    numbers = f"M = {op['M']:.0f}, L = {op['L']:.1f}, kappa = {op['kappa']:.3f}, {op['p_hertz'] * 1e-9:.2f} GPa"
+    thick, thin = (f"{op[name]:.3f} \N{MICRO SIGN}m" for name in ("h_central_um", "h_min_um"))
     return (
-        f"The most loaded ball of this {label} presses {numeral(op['load'])} N on the {settings.race} race "
-        f"(M = {op['M']:.0f}, L = {op['L']:.1f}, kappa = {op['kappa']:.3f}, {op['p_hertz'] * 1e-9:.2f} GPa) and "
-        f"rolls on an oil film of {op['h_central_um']:.3f} \N{MICRO SIGN}m{central}, {op['h_min_um']:.3f} "
-        f"\N{MICRO SIGN}m{smallest} at its thinnest."
+        f"The most loaded ball of {found.study.carrier.label} presses {numeral(op['load'])} N on the "
+        f"{settings.race} race ({numbers}) and rolls on an oil film of {thick}{central}, {thin}{smallest} "
+        "at its thinnest."
     )
+
+
+def uncertainty(found: ContactFindings, name: str) -> str:
+    """Error of a film by the grid, and its scatter by that of the oil, in words; empty where neither is known."""
+    op = found.operating_point
+    parts = {"grid": op[name], "oil": op["h_oil_scatter"]}
+    said = (
+        f"\N{PLUS-MINUS SIGN} {percent(error, 2)} {cause}" for cause, error in parts.items() if error is not None
+    )
+    return f" ({', '.join(said)})" if any(error is not None for error in parts.values()) else ""
 
 
 def damper(found: ContactFindings) -> str:
@@ -205,7 +252,7 @@ def whole(found: Findings) -> str:
         said = (f"{NAMES[name]} ({reason})" for name, reason in found.whole.failed.items())
         parts.append(f"The rotor could not be run on its bearings with: {'; '.join(said)}.")
     if found.whole.said:
-        parts.append(f"NOTE, in time: {'; '.join(found.whole.said)}.")
+        parts.append(f"Warnings of the runs: {'; '.join(found.whole.said)}.")
     return " ".join(parts)
 
 
@@ -236,9 +283,9 @@ def without_films(found: Findings) -> str:
     """Conditions of oil and heat that were asked for and have no films, and why."""
     w = found.oil_and_heat
     if isinstance(w, str):
-        return f"NOT COMPUTED: oil supply and heat of the bearing ({w})."
+        return f"not computed: oil supply and heat of the bearing ({w})."
     said = [] if w is None else [f"{key} ({reason})" for key, reason in w.refused.items()]
-    return f"NO FILMS of the bearing {'; '.join(said)}." if said else ""
+    return f"no films of the bearing {'; '.join(said)}." if said else ""
 
 
 def damping_below_zero(found: Findings) -> str:
@@ -255,7 +302,7 @@ def damping_below_zero(found: Findings) -> str:
     ]
     if not said:
         return ""
-    return f"DAMPING BELOW ZERO: the bearing has {'; '.join(said)}: there films add energy to vibrations."
+    return f"damping below zero: the bearing has {'; '.join(said)}: there films add energy to vibrations."
 
 
 def unsettled(found: Any) -> str:
@@ -268,7 +315,7 @@ def unsettled(found: Any) -> str:
     if not said:
         return ""
     return (
-        f"NOT SETTLED (change in the last revolution over the standard deviation of a signal): {', '.join(said)}."
+        f"Not settled (change in the last revolution over the standard deviation of a signal): {', '.join(said)}."
     )
 
 
@@ -280,13 +327,13 @@ def step_check(found: Any) -> str:
         said.append(f"the run with unbalance by {percent(u, 2)} of the standard deviation of a signal")
     if d is not None and d > LARGE_CHANGE:
         said.append(f"the decrement by {percent(d, 2)} of it")
-    return f"THE STEP IS LONG: half of it changes {' and '.join(said)}, on the full film." if said else ""
+    return f"The step is long: half of it changes {' and '.join(said)}, on the full film." if said else ""
 
 
 def mesh_warnings(found: Findings) -> str:
     """Warnings of `validate`: a mesh too coarse for this film, numbers beyond the measured range."""
     said = cautions(found.study)
-    return f"NOT AS SURE AS IT LOOKS: {'; '.join(said)}." if said else ""
+    return f"Less sure than it looks: {'; '.join(said)}." if said else ""
 
 
 def contact_events(found: Any) -> str:
@@ -310,15 +357,10 @@ def contact_events(found: Any) -> str:
                     what = "frequency" if quantity == "omega" else quantity
                     share = percent(max(shares), 2)
                     said.append(f"{when} the {CONTACTS[name]} is outside its {what} for {share} of the time")
-    return f"NOTE: {'; '.join(said)}." if said else ""
+    return f"Note: {'; '.join(said)}." if said else ""
 
 
 def failures(found: Any) -> str:
     """Contacts that the rotor could not be run on."""
     said = [f"{CONTACTS[name]} ({reason})" for name, reason in found.rotors.failed.items()]
     return f"The rotor could not be run on: {'; '.join(said)}." if said else ""
-
-
-def broken_assumptions(found: ContactFindings) -> str:
-    """Assumptions that do not hold."""
-    return found.assumptions.headline

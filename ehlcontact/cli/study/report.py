@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
+from math import degrees
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from ehlcontact.cli.page import write_page
 from ehlcontact.cli.study.answer import NAMES
 from ehlcontact.cli.study.differences import RotorFindings
-from ehlcontact.cli.study.headline import findings, reservations, verdict
+from ehlcontact.cli.study.headline import calm, in_sections, limits, operating_line, verdict
+from ehlcontact.cli.study.machine import disc_of
 from ehlcontact.cli.study.oil_and_heat import columns, skf_words
 from ehlcontact.cli.study.points.folder import versions
 from ehlcontact.cli.study.reduction import (
@@ -33,14 +37,17 @@ from ehlcontact.film.pictures import coloured_fringes, instants
 from ehlcontact.results.contact_map import convergence, film_picture
 from ehlcontact.results.picture import Picture, Slides
 from reduced_models.bearing.coefficients import BearingCoefficients
+from reduced_models.bearing.equilibrium_result import BearingState
+from reduced_models.bearing.freedoms import FIVE
 from reduced_models.bearing.kinematics import RPM_TO_HZ
 from reduced_models.bearing.oil_and_heat import OilAndHeat
-from reduced_models.bearing.picture import conditions_coefficients, conditions_films, over_frequency, state_picture
+from reduced_models.bearing.picture import conditions_coefficients, conditions_films, from_load, over_frequency
 from reduced_models.fitting.pictures import histories, impedance, loops
 from reduced_models.rotor import model_pictures as rotor
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
 from reduced_models.rotor.events import LOST
 from reduced_models.rotor.settling import MOST_REVOLUTIONS
+from reduced_models.rotor.support_state import SupportState
 
 # Files of a study, and what to say of them; STAGE is what computed one.
 FILES = {
@@ -62,6 +69,7 @@ MEANINGS = {
     UNDAMPED: "cubic spring without the damping of the film",
     DRY: "spring of the steel alone, without a film",
 }
+ALIKE = 1e-6  # relative difference of two bearings that are shown once
 STAGE_TITLES = {stage.name: stage.title for stage in STAGES}
 TITLES = RECORDS | {MEMORY: "all bands, with film memory"}
 
@@ -73,7 +81,11 @@ def write_report(found: Findings, path: Path) -> Path:
         "report.html.j2",
         drawings(found),
         found=found,
-        story={"verdict": verdict(found), "findings": findings(found), "reservations": reservations(found)},
+        operating_line=operating_line(found),
+        limits=limits(found),
+        calm=calm(found),
+        verdict="" if found.rotors is None else verdict(found.rotors),
+        story=in_sections(found),
         files=files_beside(path.parent),
         titles=TITLES,
         ways=ways_of_coupling(() if found.contact is None else found.contact.fmus),
@@ -84,8 +96,73 @@ def write_report(found: Findings, path: Path) -> Path:
         most_revolutions=MOST_REVOLUTIONS,
         bearings=NAMES,
         usual_damping=USUAL_DAMPING,
+        **of_machine(found),
         **conditions(found),
     )
+
+
+def of_machine(found: Findings) -> dict[str, Any]:
+    """What the section of the machine needs beside its state."""
+    five = not isinstance(found.machine, str) and any(
+        len(one.stiffness) == len(FIVE) for one in found.machine.supports
+    )
+    axes = [(1, "y"), (0, "x"), *([(2, "z")] if five else [])]
+    shown = {"bearings": shown_bearings(found), "coefficients": shown_coefficients(found)}
+    more = {"five": five, "axes": axes, "degree": degrees(1.0), "balls": balls, "passages": passages}
+    return more | {"shown": shown, "eccentricity": eccentricity_of(found)}
+
+
+def shown_bearings(found: Findings) -> list[tuple[str, BearingState]]:
+    """Names and state of every bearing whose balls carry other loads than those of the ones before."""
+    if isinstance(found.machine, str):
+        return []
+    rows = []
+    for support in found.machine.supports:
+        for j, (_, state) in enumerate(support.bearings):
+            number = f", bearing {j + 1}" if len(support.bearings) > 1 else ""
+            rows.append((f"{support.label or 'the bearing'}{number}", state))
+    return _once(rows, lambda state: state.force)
+
+
+def shown_coefficients(found: Findings) -> list[tuple[str, BearingCoefficients]]:
+    """Names, and K and C over frequency, of every support that has others than the ones before."""
+    return _once(list(found.over_frequency.items()), lambda one: one.stiffness)
+
+
+def _once(rows: list[tuple[str, Any]], values: Callable[[Any], Any]) -> list[tuple[str, Any]]:
+    """Rows without repetition, their names joined where the values are alike."""
+    kept: list[tuple[str, Any]] = []
+    for name, one in rows:
+        for k, (names, other) in enumerate(kept):
+            if values(other).shape == values(one).shape and np.allclose(values(other), values(one), rtol=ALIKE):
+                kept[k] = f"{names} and {name}", other
+                break
+        else:
+            kept.append((name, one))
+    return kept
+
+
+def eccentricity_of(found: Findings) -> float:
+    """Of the unbalance of the first disc [m]; 0 without one."""
+    if found.study.shaft is None or not found.study.disc:
+        return 0.0
+    disc = disc_of(found.study, 0)
+    return disc.unbalance / disc.mass if disc.mass > 0.0 else 0.0
+
+
+def balls(state: BearingState) -> list[tuple[Any, ...]]:
+    """Of every ball: place from the load [degrees], forces [N]; contact angles [degrees], films [m] or None."""
+    none = [None] * len(state.angles)
+    angles = none if state.contact_angles is None else np.degrees(state.contact_angles).tolist()
+    films = none if state.h_min is None else state.h_min.tolist()
+    return list(zip(from_load(state).tolist(), state.force.tolist(), angles, films, strict=True))
+
+
+def passages(support: SupportState) -> list[float]:
+    """Frequencies at which balls pass outer and inner race [Hz], at the contact angles of the load."""
+    bearing, state = support.bearings[0]
+    found = (state.orders or bearing.orders).at(support.state.speed_rpm)
+    return [found.bpfo, found.bpfi]
 
 
 def conditions(found: Findings) -> dict[str, Any]:
@@ -124,7 +201,9 @@ def drawings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
     pictures = _of_bearings(found)
     if found.contact is not None:
         pictures |= _of_contact(found.contact)
-    return pictures | (_of_rotor(found.rotors) if found.rotors is not None else {})
+    if found.rotors is not None:
+        pictures |= _of_rotor(found.rotors, found.study.jeffcott.unbalance / found.study.jeffcott.disc_mass)
+    return pictures
 
 
 def _of_contact(found: ContactFindings) -> dict[str, Callable[[], Picture | Slides]]:
@@ -146,7 +225,7 @@ def _of_contact(found: ContactFindings) -> dict[str, Callable[[], Picture | Slid
     }
 
 
-def _of_rotor(rotors: RotorFindings) -> dict[str, Callable[[], Picture | Slides]]:
+def _of_rotor(rotors: RotorFindings, eccentricity: float) -> dict[str, Callable[[], Picture | Slides]]:
     turning, how = {FULL: rotors.unbalance.full, **rotors.unbalance.reduced}, rotors.unbalance.settling[FULL]
     few = {name: turning[name] for name in DRAWN if name in turning}
     decays = rotors.decay.runs, rotors.decay.decrements
@@ -155,7 +234,7 @@ def _of_rotor(rotors: RotorFindings) -> dict[str, Callable[[], Picture | Slides]
         "response": lambda: rotor.time_response(turning, FULL, DRAWN[:2], how, LOOKS, CONTACTS),
         "spectrum": lambda: rotor.settled_spectra(few, how, LOOKS, CONTACTS),
         "decay": lambda: rotor.decay(*decays, DRAWN, LOOKS, CONTACTS),
-        "bode": lambda: rotor.bode(rotors.resonances, LOOKS, CONTACTS),
+        "bode": lambda: rotor.bode(rotors.resonances, LOOKS, CONTACTS, eccentricity),
     }
 
 
@@ -163,19 +242,20 @@ def _of_bearings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
     pictures: dict[str, Callable[[], Picture | Slides]] = {}
     if (whole := found.whole) is not None:
         pictures |= {
-            "whole_balls": lambda: state_picture(whole.state),
             "whole_orbits": lambda: rotor.orbits(whole, NAMES),
             "whole_spectra": lambda: rotor.spectra(whole, NAMES),
             "whole_coefficients": lambda: rotor.coefficients(whole, NAMES),
-            "whole_response": lambda: rotor.response(whole, NAMES),
+            "whole_response": lambda: rotor.response(whole, NAMES, eccentricity_of(found)),
         }
         if whole.over_speed:
             pictures["whole_speeds"] = lambda: rotor.speeds(whole)
-        if not isinstance(diagram := whole.diagram, str):
-            pictures["whole_campbell"] = diagram.picture
     if not isinstance(machine := found.machine, str):
         pictures["machine"] = machine.picture
-    for k, small in enumerate(found.over_frequency.values()):
+        for k, (_, state) in enumerate(shown_bearings(found)):
+            pictures[f"balls_{k + 1}"] = state.picture
+        if machine.modes and machine.response is not None:
+            pictures["response_to_unbalance"] = machine.response.picture
+    for k, (_, small) in enumerate(shown_coefficients(found)):
         pictures[f"frequency_{k + 1}"] = partial(_over_frequency, small)
     if isinstance(one := found.oil_and_heat, OilAndHeat):
         pictures["conditions_films"] = lambda: conditions_films(one)

@@ -22,6 +22,7 @@ from ehlcontact.cli.study.reduction import (
 )
 from ehlcontact.cli.study.rotor import stiffness_and_damping
 from ehlcontact.cli.study.schema import Study
+from ehlcontact.film_formulas import film_scatter
 from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
 from reduced_models.bearing.coefficients import BearingCoefficients
@@ -103,8 +104,17 @@ class ContactFindings:
             "approach_error": None if error is None else error.approach,
             "h_central_error": None if error is None else error.h_central,
             "h_min_error": None if error is None else error.h_min,
+            "h_oil_scatter": self.oil_scatter,
             "rotor_omega": self.study.rotor_omega,
         }
+
+    @property
+    def oil_scatter(self) -> float | None:
+        """Relative scatter of the film by that of the oil; None where the oil has none."""
+        oil, moes = self.study.point.lubricant, self.study.point.moes
+        if not (oil.eta0_scatter or oil.alpha_scatter):
+            return None
+        return film_scatter(moes.M, moes.L, moes.kappa, oil.eta0_scatter or 0.0, oil.alpha_scatter or 0.0)
 
     @property
     def fmus(self) -> list[Mapping[str, Any]]:
