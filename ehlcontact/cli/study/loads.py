@@ -76,7 +76,7 @@ def _angular(one: Any) -> str | None:
 
 
 def ring_load(study: Study, k: int) -> _Floats:
-    """Load on a support [N], [N m], of a bearing alone or of the machine at rest without films.
+    """Load on a support [N], [N m], of a bearing alone or of the machine at rest at its speed.
 
     Under a shaft that of a pair is a force along x, y and z, without the moments that the pair holds.
     """
@@ -92,13 +92,13 @@ def ring_load(study: Study, k: int) -> _Floats:
 
 
 def _pressed(study: Study, k: int) -> list[tuple[BallBearing, _Floats]]:
-    """The bearings at a support and the load on each, of the dry machine at its speed."""
-    rotor = rotor_of(study, oil=False)
+    """The bearings at a support and the load on each, of the machine at rest at its speed."""
+    rotor = rotor_of(study)
     with loaded(study):
         loads = list(linearise(rotor, study.speed_rpm).loads)
     first = 0
     for place in range(len(study.support)):
-        carrier = carrier_of(study, place, oil=False)
+        carrier = carrier_of(study, place)
         bearings = list(carrier.bearings) if isinstance(carrier, BearingSet) else [carrier]
         if place == k:
             return list(zip(bearings, loads[first : first + len(bearings)], strict=True))
@@ -107,7 +107,10 @@ def _pressed(study: Study, k: int) -> list[tuple[BallBearing, _Floats]]:
 
 
 def heaviest_ball(study: Study) -> tuple[float, float]:
-    """Load [N] and contact angle [rad] of the ball that presses most on the race of the study, without films."""
+    """Load [N] and contact angle [rad] of the ball that presses most on the race of the study.
+
+    Of a bearing alone it is without films, of a machine that at which the machine rests.
+    """
     race = int(study.contact is not None and study.contact.race == "outer")
     k = study.at
     load = ring_load(study, k)

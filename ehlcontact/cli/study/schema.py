@@ -441,7 +441,7 @@ class Study(Section):
 
     @cached_property
     def ball(self) -> tuple[float, float]:
-        """Load [N] and contact angle [rad] of the most loaded ball at the race of [contact], without films."""
+        """Load [N] and contact angle [rad] of the most loaded ball at the race of [contact]."""
         from ehlcontact.cli.study.loads import heaviest_ball
 
         return heaviest_ball(self)
