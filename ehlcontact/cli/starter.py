@@ -47,6 +47,8 @@ OPTIONS = {
     "disc.axial_load": "--axial",
     "surface.rq_um": "--rq",
     "oil.iso_vg": "--oil",
+    "oil.nu40": "--nu40",
+    "oil.nu100": "--nu100",
     "oil.temperature": "--temp",
     "operation.radial_load": "--load",
     "operation.axial_load": "--axial",

@@ -124,6 +124,12 @@ def test_a_motor(study):
     assert other.contact is not None and [one.position_mm for one in other.support] == [50.0, 350.0]
 
 
+def test_an_oil_by_its_data_sheet(study, refused, tmp_path):
+    found = load_study(study("--nu40", "67", "--nu100", "9.1", "--temp", "60"))
+    assert (found.oil.nu40, found.oil.nu100, found.oil.iso_vg) == (67.0, 9.1, None)
+    refused(("--nu100 = None", "given"), "init", tmp_path / "s.toml", "--nu40", "67")
+
+
 def test_a_spindle(study):
     """A pair, preloaded, and a bearing that floats."""
     options = ("--bearing", "7205", "--bearing", "6204", "--positions", "40", "240", "--shaft-length", "300")

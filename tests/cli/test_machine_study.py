@@ -281,3 +281,13 @@ def test_a_run_of_a_machine(call, tmp_path):
     assert machine["largest_response"]["speed_rpm"] == pytest.approx(16000.0)
     assert found["in_time"] is None and "fits" not in found and set(found["over_frequency"]) == set(films)
     assert (tmp_path / "out" / "report.html").stat().st_size > 10_000
+
+
+@pytest.mark.long
+def test_a_run_of_a_spindle(call, tmp_path):
+    """A pair is two bearings of the answer, in its results and in the picture over frequency."""
+    assert call("run", EXAMPLES / "spindle.toml", "-o", tmp_path / "out").code == 0
+    found = json.loads((tmp_path / "out" / "results.json").read_text())
+    names = [support["name"] for support in found["machine"]["supports"]]
+    assert names == ["nose 1", "nose 2", "end"] == list(found["over_frequency"])
+    assert found["no_machine"] is None and found["machine"]["modes"][0]["hz"] > 100.0

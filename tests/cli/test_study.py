@@ -1,5 +1,6 @@
 """The study file: the examples, errors in one line, and the numbers that follow from a bearing."""
 
+import json
 from math import log10, pi
 from pathlib import Path
 
@@ -126,3 +127,9 @@ def test_the_reference_page_is_made_from_the_schema():
     """`python docs/site/study.py` makes it."""
     page = script("docs/site/study.py")
     assert page.PAGE.read_text(encoding="utf-8") == page.text()
+
+
+@pytest.mark.parametrize("name", ["deep_groove_6205", "motor", "small_study", "spindle"])
+def test_every_example_is_a_study(call, tmp_path, name):
+    found = call("validate", EXAMPLES / f"{name}.toml", "-o", tmp_path / "out", "--json", "-")
+    assert found.code == 0 and json.loads(found.out)["warnings"] == []

@@ -43,6 +43,8 @@ class Wish(o.Options):
         e.meaning("name of a ball bearing in the catalogue, as 6205; two of them, left and right, are a machine"),
     ] = Field(["6205"])
     oil: Annotated[str, OIL_NAME] = "ISO VG 68"
+    nu40: Annotated[e.Nu40 | None, typer.Option("--nu40"), e.meaning("mm2/s at 40 C, in place of --oil")] = None
+    nu100: Annotated[e.Nu100 | None, typer.Option("--nu100"), e.meaning("mm2/s at 100 C, with --nu40")] = None
     temp: Annotated[e.Temperature, typer.Option("--temp")] = 50.0
     speed_rpm: Annotated[
         list[e.Speed], typer.Option("--speed-rpm"), e.meaning(f"speed of the shaft; {SEVERAL}")
@@ -120,11 +122,13 @@ def init(
     out.check(beside={"FILE.toml": (file, (".toml",))})
     check_new("FILE.toml", file, force)
     bearings, grade = [name.strip().upper() for name in wish.bearing], oil_grade(wish.oil, "--oil")
-    entries = _entries(wish, bearings) | {"oil.iso_vg": grade, "oil.temperature": wish.temp}
+    sheet = {f"oil.{key}": value for key in ("nu40", "nu100") if (value := getattr(wish, key)) is not None}
+    entries = _entries(wish, bearings) | (sheet or {"oil.iso_vg": grade}) | {"oil.temperature": wish.temp}
     machine = len(bearings) == MOST_BEARINGS
     text = study_text(entries, file.name, ("contact",) if wish.contact or not machine else ())
     write_text(file, text, "FILE.toml")
-    about = f"{' and '.join(bearings)} in ISO VG {grade} at {numeral(wish.temp)} °C"
+    oil = "an oil of that data sheet" if sheet else f"ISO VG {grade}"
+    about = f"{' and '.join(bearings)} in {oil} at {numeral(wish.temp)} °C"
     speeds = ", ".join(map(numeral, wish.speed_rpm))
     loads = f"{', '.join(map(numeral, wish.load or [LOAD]))} N at " if not machine else ""
     told = partial(
@@ -134,7 +138,7 @@ def init(
         out.json_to,
     )
     numbers = {key: entries.get(f"operation.{key}") for key in ("speed_rpm", "radial_load")}
-    known = {"bearing": bearings if machine else bearings[0], "oil": f"ISO VG {grade}", "temperature": wish.temp}
+    known = {"bearing": bearings if machine else bearings[0], "oil": oil, "temperature": wish.temp}
     out.deliver({"study": str(file), **known, **numbers}, told)
 
 
