@@ -131,6 +131,7 @@ Distance = Annotated[
     meaning("distance of the planes of two bearings"),
 ]
 Speed = Annotated[Positive, Physical(INPUTS["speed_rpm"]), meaning("speed of the shaft")]
+SpeedOrRest = Annotated[NotNegative, Physical(INPUTS["speed_rpm"]._replace(zero=True))]
 
 # Shaft and discs.
 Length = Annotated[Positive, Physical(parts.SHAFT_LENGTH.in_unit("mm"))]

@@ -10,14 +10,25 @@ from contextlib import contextmanager
 from copy import copy
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
+from typing import (
+    Annotated,
+    Any,
+    ClassVar,
+    Literal,
+    NamedTuple,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 import typer
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError, create_model
 from typer.models import ParameterInfo
 
 from ehlcontact.checks.machine import require_threads
-from ehlcontact.cli.entries import Intervals, Section, allowed_of, meaning_of
+from ehlcontact.cli.entries import Intervals, Section, allowed_of, field_of, meaning, meaning_of
 from ehlcontact.cli.output import check_apart, check_json, deliver, save_to, show_table, write_json, write_to
 from ehlcontact.cli.rows import Row
 from ehlcontact.cli.study.schema_errors import first_error
@@ -40,6 +51,9 @@ class Options(Section):
         """Values that are given, by option as "--speed-rpm"; of some fields, or of all."""
         found = {name: getattr(self, name) for name in names or type(self).model_fields}
         return {option_of(type(self), name): value for name, value in found.items() if value not in (None, [])}
+
+
+Group = TypeVar("Group", bound=Options)
 
 
 def grouped(command: Callable[..., None]) -> Callable[..., None]:
@@ -66,6 +80,34 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
     ungrouped.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
     ungrouped.__annotations__ = {parameter.name: parameter.annotation for parameter in shown}
     return ungrouped
+
+
+def with_entries(
+    model: type[BaseModel], options: Mapping[str, tuple[str, str]]
+) -> Callable[[type[Group]], type[Group]]:
+    """Let a group have options of entries of a file: types, ranges and meanings are those of its schema.
+
+    Parameters
+    ----------
+    model : type
+        Schema of the file.
+    options : mapping
+        Option, or several names of it as "--load --radial": its entry as "operation.load", and panel in the help.
+    """
+    fields: dict[str, Any] = {}
+    for names, (entry, panel) in options.items():
+        field = field_of(model, entry)
+        assert field is not None
+        shown = typer.Option(*names.split(), rich_help_panel=panel)
+        own = Annotated[field.annotation, shown, *field.metadata, meaning(meaning_of(field))]  # type: ignore[name-defined]
+        fields[names.split()[0].removeprefix("--").replace("-", "_")] = (own, None)
+
+    def decorate(group: type[Group]) -> type[Group]:
+        made = create_model(group.__name__, __base__=group, __module__=group.__module__, **fields)
+        made.__doc__ = group.__doc__
+        return made
+
+    return decorate
 
 
 def group_of(group: type[Options], values: Mapping[str, Any]) -> Options:

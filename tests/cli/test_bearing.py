@@ -12,11 +12,12 @@ from ehlcontact.lubricant import LimitingShear
 from reduced_models import BallBearing, Spall
 from reduced_models.bearing.measured_order import angle_from_order, clearance_from_order
 from reduced_models.bearing.sliding import bearing_friction
+from reduced_models.rotor.machine_state import single_bearing_state
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "bearing_6205.toml"
 OIL = ("--oil", "68", "--temp", "50")
 
-NAME = 'catalogue = "6205"'
+NAME = 'bearing = "6205"'
 SIZES = "balls = {}\nball_diameter_mm = {}\npitch_diameter_mm = 39"
 
 
@@ -55,6 +56,31 @@ def test_json_is_what_the_library_has(call):
             np.testing.assert_array_equal(found["states"][k][name], getattr(state, name))
         assert found["frequencies_hz"][k]["bpfo"] == bearing.frequencies(speed).bpfo
     assert found["orders"]["bpfi_order"] == pytest.approx(5.4152, abs=1e-4)
+
+
+def test_the_answer_begins_with_the_tiles_of_the_library(call):
+    """Those of a machine of one support; at rest there are none."""
+    speeds = ("--speed-rpm", "3000", "--speed-rpm", "6000")
+    given = ("bearing", "6205", *OIL, "--rq", "0.1", "--load", "1000", *speeds)
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0), rq_race=0.1e-6)
+    lines, found = call(*given).out.splitlines(), json.loads(call(*given, "--json", "-").out)["tiles"]
+    for k, speed in enumerate((3000.0, 6000.0)):
+        tiles = single_bearing_state(bearing, (0.0, -1000.0), speed).tiles()
+        assert found[k] == [tile._asdict() for tile in tiles] and len(tiles) >= 5
+        first = next(n for n, line in enumerate(lines) if line.startswith(f"at {speed:.0f} rpm")) + 1
+        assert lines[first].startswith("smallest film") and tiles[0].value in lines[first]
+    still = call("bearing", "6205", "--load", "1000", "--speed-rpm", "0", "--json", "-")
+    assert json.loads(still.out)["tiles"] == [None]
+
+
+def test_a_study_is_a_file_of_its_bearing(call, refused, file):
+    """One speed or several, one load."""
+    alone = json.loads(call("bearing", file({"[1000, 3000, 6000]": "3000"}), "--json", "-").out)
+    assert alone["speed_rpm"] == [3000.0]
+    several = file({"radial_load = 1000.0": "radial_load = [500.0, 1000.0]"})
+    refused(("operation.radial_load = [500.0, 1000.0]", "one load here"), "bearing", several)
+    last_week = file({"[[support]]": "[bearing]", NAME: 'catalogue = "6205"'})
+    refused(("bearing", "[[support]] for the bearing"), "bearing", last_week)
 
 
 @pytest.mark.parametrize(("given", "shown"), [("CN", "12.5 µm"), ("c3", "20.5 µm"), ("-2.5", "-2.5 µm")])
@@ -133,7 +159,7 @@ def test_a_file_and_options_that_stand_in_for_its_entries(call, file):
     hot = json.loads(call("bearing", EXAMPLE, "--temp", "80", "--load", "500", "--json", "-").out)
     assert hot["load"] == 500.0 and hot["bearing"]["oil"]["eta0"] < 0.5 * alone["bearing"]["oil"]["eta0"]
     sizes = 'balls = 9\nball_diameter_mm = 7.94004\npitch_diameter_mm = 39.0398\nname = "mine"'
-    own = json.loads(call("bearing", file({'catalogue = "6205"': sizes}), "--json", "-").out)
+    own = json.loads(call("bearing", file({'bearing = "6205"': sizes}), "--json", "-").out)
     np.testing.assert_allclose(
         own["coefficients"][0]["stiffness"], alone["coefficients"][0]["stiffness"], rtol=1e-6, atol=1.0
     )
@@ -168,7 +194,7 @@ def test_curves_pass_through_the_points():
     job = load_job("6205", {"--load": 500.0, "--speed-rpm": [1000.0, 4000.0], "--oil": 68, "--temp": 50.0})
     at = tuple(job.bearing.coefficients((0, -500), speed_rpm=s, rpm=s) for s in job.speeds)
     states = tuple(job.bearing.equilibrium((0, -500), speed_rpm=s) for s in job.speeds)
-    lines = over_speed_picture(states[1], at, curve(BearingReport(job, states, at))).panels[3].lines
+    lines = over_speed_picture(states[1], at, curve(BearingReport(job, (None, None), states, at))).panels[3].lines
     for curve_of, points in (lines[:2], lines[2:4]):
         np.testing.assert_allclose(np.array(curve_of.y)[[0, -1]], points.y, rtol=1e-9)
     np.testing.assert_allclose(lines[0].y[0], at[0].damping[0, 1, 1])
@@ -177,18 +203,17 @@ def test_curves_pass_through_the_points():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [  # of the text of the example
-        ({NAME: SIZES.format(20, 7.94)}, ("bearing.balls = 20", "at most 15", "overlap")),
-        ({NAME: SIZES.format(9, 0.0079)}, ("bearing.ball_diameter_mm", "in m? then 7.9 mm")),
-        ({NAME: ""}, ("bearing.balls = None", "bearing.catalogue")),
-        ({NAME: 'catalogue = "620"'}, ("bearing.catalogue = '620'", "nearest", "6205")),
-        ({"inner = 0.52": "inner = 0.5"}, ("bearing.conformity_inner = 0.5", "between 0.501")),
-        ({"inner = 0.52": "inner = 0.502"}, ("bearing.conformity_inner = 0.502", "outside the atlas")),
-        ({"clearance_um": "clearance"}, ("bearing.clearance = 0.0", "clearance_um?")),
-        ({"clearance_um = 0.0": "loss_factor = 0.3"}, ("bearing.loss_factor = 0.3", "at most 0.2")),
-        ({"e_um = 0.0": "e_um = -500"}, ("bearing.clearance_um = -500", "between -0.000397", "given in um")),
-        ({"[1000, 3000, 6000]": "3000"}, ("operation.speed_rpm = 3000", "a list of numbers")),
-        ({"[1000, 3000, 6000]": "[3000, 3000]"}, ("operation.speed_rpm = 3000.0", "once in its list")),
-        ({"[1000, 3000, 6000]": "[]"}, ("operation.speed_rpm", "at least 1")),
+        ({NAME: SIZES.format(20, 7.94)}, ("support.balls = 20", "at most 15", "overlap")),
+        ({NAME: SIZES.format(9, 0.0079)}, ("support.ball_diameter_mm", "in m? then 7.9 mm")),
+        ({NAME: ""}, ("support.balls = None", 'bearing = "6205"')),
+        ({NAME: 'bearing = "620"'}, ("support.bearing = '620'", "nearest", "6205")),
+        ({"inner = 0.52": "inner = 0.5"}, ("support.conformity_inner = 0.5", "between 0.501")),
+        ({"inner = 0.52": "inner = 0.502"}, ("support.conformity_inner = 0.502", "outside the atlas")),
+        ({"clearance = 0": "clearances = 0"}, ("support.clearances = 0.0", "clearance?")),
+        ({"clearance = 0.0": "loss_factor = 0.3"}, ("support.loss_factor = 0.3", "at most 0.2")),
+        ({"e = 0.0": "e = -500.0"}, ("support.clearance = -500", "between -397 and 397 um")),
+        ({"[1000, 3000, 6000]": "[3000, 3000]"}, ("operation.speed_rpm = 3000", "once in its list")),
+        ({"[1000, 3000, 6000]": "[]"}, ("operation.speed_rpm", "a list of 1 to 100 numbers")),
         ({"[1000, 3000, 6000]": "[0]"}, ("operation.speed_rpm = 0.0", "no film")),
         ({"[1000, 3000, 6000]": "[30000]"}, ("operation.speed_rpm = 30000.0", "at most 2")),
         ({"radial_load = 1000.0 ": ""}, ("operation.radial_load = None", "or --load")),
@@ -196,7 +221,7 @@ def test_curves_pass_through_the_points():
         ({"radial_load = 1000.0": "radial_load = true"}, ("operation.radial_load = True", "a number")),
         ({"radial_load = 1000.0": "radial_load = 1e7"}, ("operation.radial_load = 10000000.0", "the atlas")),
         ({"iso_vg = 68": "iso_vg = 68\neta0 = 0.03"}, ("oil.iso_vg = 68", "by its grade")),
-        ({"rq_ball_um = 0.02": "rq_um = 0.1"}, ("surface.rq_race_um", "left out where rq_um")),
+        ({"rq_ball_um = 0.02": "rq_um = 0.1"}, ("surface.rq_race_um", "left out where surface.rq_um")),
         ({"[operation]": "[operation"}, ("file", "complete TOML")),
     ],
 )  # fmt: skip
@@ -217,9 +242,9 @@ def test_a_load_beyond_all_balls_says_the_largest(refused, film):
     refused(words, "bearing", "6205", "--axial", "100", "--load", "1e6", *film)
 
 
-def test_a_study_is_no_file_of_a_bearing(refused):
+def test_a_machine_is_no_bearing(refused):
     study = EXAMPLE.with_name("small_study.toml")
-    refused(("bearing.conformity = 0.52", "is this a file for `ehlcontact run`?"), "bearing", study)
+    refused(("shaft", "`ehlcontact run` is for a machine"), "bearing", study)
 
 
 def test_nothing_takes_the_place_of_the_file(refused, file):
@@ -324,9 +349,9 @@ def test_a_deep_groove_bearing_with_clearance_and_axial_load(call):
 def test_a_file_with_axial_load(call, file):
     changes = {
         "radial_load = 1000.0": "radial_load = 100.0\naxial_load = 200.0\nhz = [50]",
-        NAME: 'catalogue = "7205"',
+        NAME: 'bearing = "7205"',
     }
-    changes["clearance_um = 0.0"] = 'contact_angle_deg = 25.0\nrace_control = "inner"'
+    changes["clearance = 0.0"] = 'contact_angle_deg = 25.0\nrace_control = "inner"'
     found = json.loads(call("bearing", file(changes), "--speed-rpm", "6000", "--json", "-").out)
     assert found["bearing"]["contact_angle"] == pytest.approx(np.radians(25.0))
     assert found["bearing"]["race_control"] == "inner" and found["axial_load"] == 200.0
@@ -347,14 +372,14 @@ def test_a_figure_of_an_axial_load(call, tmp_path):
             {"radial_load": "tilt_x_mrad = 1e4\nradial_load"},
             ("operation.tilt_x_mrad", "between -100 and 100 mrad"),
         ),
-        ({"clearance_um = 0.0": "contact_angle_deg = 0.44"}, ("contact_angle_deg = 0.44", "in rad? then 25.2")),
-        ({"clearance_um = 0.0": 'race_control = "both"'}, ("race_control = 'both'", "outer")),
+        ({"clearance = 0.0": "contact_angle_deg = 0.44"}, ("contact_angle_deg = 0.44", "in rad? then 25.2")),
+        ({"clearance = 0.0": 'race_control = "both"'}, ("race_control = 'both'", "outer")),
     ],
 )
 def test_mistakes_in_a_file_of_an_angular_contact_bearing(refused, file, changes, words):
-    own = {NAME: 'catalogue = "7205"'}
+    own = {NAME: 'bearing = "7205"'}
     if "radial_load" in changes:
-        own["clearance_um = 0.0"] = ""
+        own["clearance = 0.0"] = ""
     refused(("b.toml", *words), "bearing", file(own | changes))
 
 

@@ -256,9 +256,9 @@ def test_a_bearing_file_becomes_the_fmu_of_its_bearing(call, refused, tmp_path):
     tilted.write_text(text.replace("radial_load", "tilt_x_mrad = 1.0\naxial_load = 100.0\nradial_load"), "utf-8")
     refused(("operation.tilt_x_mrad", "1.0", "left out"), "export", tilted, "-o", tmp_path / "x.fmu")
     paired = tmp_path / "paired.toml"
-    text = text.replace('"6205"', '"7205"').replace("clearance_um", "# ")
-    paired.write_text(f'{text}\n[pair]\narrangement = "back-to-back"\npreload = 100.0\n', "utf-8")
-    refused(("pair.arrangement", "the FMU is that of one bearing"), "export", paired, "-o", tmp_path / "x.fmu")
+    text = text.replace('"6205"', '"7205"').replace("clearance = ", 'pair = "back-to-back"\npreload = 100.0\n# ')
+    paired.write_text(text, "utf-8")
+    refused(("support.pair", "the FMU is that of one bearing"), "export", paired, "-o", tmp_path / "x.fmu")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["6205.fmu", "paired.toml", "tilted.toml"]
 
 

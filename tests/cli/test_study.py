@@ -110,7 +110,6 @@ def test_sections_that_are_none_of_a_study(refused, tmp_path):
     words += ("[contact] for n, n_transient and domain in place of [solver]", "half_step in [full_films]")
     for command in ("run", "validate"):
         refused(words, command, file)
-    refused(("bearing = ...", "[[support]]"), "run", EXAMPLES / "bearing_6205.toml", "-o", tmp_path / "results")
 
 
 def test_the_machine_of_the_small_study_carries_the_bearing_alone(tmp_path):

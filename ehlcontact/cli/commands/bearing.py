@@ -20,9 +20,10 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, STDOUT, complain, say, show_columns, show_table, write_to
 from ehlcontact.cli.progress import progress
 from ehlcontact.cli.rows import Row, in_unit
+from ehlcontact.cli.study.bearing import OPTIONS, load_job
 from ehlcontact.cli.study.loads import bearings_of
 from ehlcontact.cli.study.oil_and_heat import columns, csv_text, skf_words
-from ehlcontact.cli.study.schema import oil_grade
+from ehlcontact.cli.study.schema import Study, oil_grade
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_text
 from ehlcontact.results.drawing import draw as drawn
@@ -31,7 +32,7 @@ from reduced_models.bearing.freedoms import DECIMALS, FIVE, PLANAR
 from reduced_models.bearing.kinematics import LEAST_SLIP, RPM_TO_HZ
 from reduced_models.bearing.oil_and_heat import HEAT
 from reduced_models.bearing.picture import over_speed_picture
-from reduced_models.bearing.sliding import USUAL_LAW, friction_at
+from reduced_models.bearing.sliding import USUAL_LAW
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     from reduced_models.bearing.oil_and_heat import OilAndHeat
     from reduced_models.bearing.set_result import SetState
     from reduced_models.bearing.sliding import BearingFriction
+    from reduced_models.rotor.machine_state import MachineState
 
 CURVE = 15  # speeds of the curves of a figure
 BESIDE = (0.5, 2.0)  # over a single speed: where its curves begin and end
@@ -54,10 +56,6 @@ DEFECTS = {  # names of the defect frequencies, and what they are of
     "BPFI": "balls on the inner race",
     "BSF": "spin of a ball",
 }
-_oil, _bearing, _load, _pair, _films = (
-    partial(typer.Option, rich_help_panel=panel)
-    for panel in ("Oil", "Bearing", "Load", "Pair", "Oil supply and heat, beside flooded isothermal films")
-)
 AXIAL = FIVE.index("z")  # up to it directions have forces, beyond it tilts have moments
 PASSAGE = "means over a ball passage"
 FAST = 5000.0  # rpm, above which flooded films resist rolling more than measured bearings do: docs/bearings.md
@@ -134,6 +132,7 @@ class BearingReport:
     """A bearing, or a pair, at speeds: rest with a ball under the load; K and C at frequencies of vibrations."""
 
     job: BearingJob
+    answers: tuple[MachineState | None, ...]  # at each speed; None at rest
     states: tuple[BearingState | SetState, ...]
     coefficients: tuple[BearingCoefficients, ...]
     friction: tuple[tuple[BearingFriction, ...], ...] = ()  # at each speed, of each bearing in oil
@@ -189,6 +188,7 @@ class BearingReport:
             "highest_speed_rpm": bearing.highest_speed,
             "orders": asdict(bearing.orders),
             "speed_rpm": list(job.speeds),
+            "tiles": [None if one is None else [tile._asdict() for tile in one.tiles()] for one in self.answers],
             "coefficients": [
                 {
                     "speed_rpm": c.speed_rpm,
@@ -214,35 +214,21 @@ def _friction_entries(found: BearingFriction) -> dict[str, Any]:
 
 
 OWN = ("spall", "slip", "measured_order", "solve")  # options that are no entries of a file
+_LOAD, _PAIR, _OIL, _BEARING = "Load", "Pair", "Oil", "Bearing"
+_FILMS = "Oil supply and heat, beside flooded isothermal films"
+# Others are given otherwise than in a file: speeds one by one, a grade by its name, a number or a class.
+ENTRY_OPTIONS = {
+    "--load --radial": _LOAD, "--axial": _LOAD, "--moment-x": _LOAD, "--moment-y": _LOAD, "--tilt-x": _LOAD,
+    "--tilt-y": _LOAD, "--pair": _PAIR, "--preload": _PAIR, "--spring": _PAIR, "--distance-mm": _PAIR,
+    "--nu40": _OIL, "--nu100": _OIL, "--temp": _OIL, "--contact-angle": _BEARING, "--race-control": _BEARING,
+    "--rq": _BEARING, "--layer": _FILMS, "--layer-ratio": _FILMS,
+}  # fmt: skip
 
 
+@o.with_entries(Study, {names: (OPTIONS[names.split()[0]], panel) for names, panel in ENTRY_OPTIONS.items()})
 class BearingOptions(o.Options):
     """What the bearing carries and runs in: in place of entries of its file, or beside its name."""
 
-    load: Annotated[
-        e.NotNegative | None,
-        _load("--load", "--radial"),
-        e.meaning("radial load, N; a NAME needs it, --axial or --pair"),
-    ] = None
-    axial: Annotated[
-        e.AxialLoad | None,
-        _load("--axial"),
-        e.meaning("axial load, +z: with it balls have contact angles; tilts are held"),
-    ] = None
-    moment_x: Annotated[
-        e.Moment | None,
-        _load("--moment-x"),
-        e.meaning("moment about x (horizontal): with it, or --moment-y, the inner ring tilts freely"),
-    ] = None
-    moment_y: Annotated[e.Moment | None, _load("--moment-y"), e.meaning("moment about y (upwards)")] = None
-    tilt_x: Annotated[
-        e.Tilt | None, _load("--tilt-x"), e.meaning("misalignment: tilt about x at which the inner ring is held")
-    ] = None
-    tilt_y: Annotated[e.Tilt | None, _load("--tilt-y"), e.meaning("the same about y")] = None
-    pair: Annotated[e.Arrangement | None, _pair("--pair")] = None
-    preload: Annotated[e.Preload | None, _pair("--preload")] = None
-    spring: Annotated[e.Spring | None, _pair("--spring")] = None
-    distance_mm: Annotated[e.Distance | None, _pair("--distance-mm", show_default="side by side")] = None
     speed_rpm: Annotated[
         list[float] | None,
         typer.Option("--speed-rpm"),
@@ -255,65 +241,58 @@ class BearingOptions(o.Options):
     ] = None
     oil: Annotated[
         str | None,
-        _oil(
+        typer.Option(
             "--oil",
             metavar="GRADE",
+            rich_help_panel=_OIL,
             help='ISO grade of a mineral oil, as "ISO VG 68"; without an oil the bearing is dry.',
         ),
     ] = None
-    nu40: Annotated[e.Nu40 | None, _oil("--nu40")] = None
-    nu100: Annotated[e.Nu100 | None, _oil("--nu100")] = None
-    temp: Annotated[e.Temperature | None, _oil("--temp")] = None
     clearance: Annotated[
         str | None,
-        _bearing(
+        typer.Option(
             "--clearance",
             metavar="UM|CLASS",
+            rich_help_panel=_BEARING,
             help="Radial internal clearance, um, below 0 a preload; or C2, CN, C3, C4: the middle of that class.",
         ),
     ] = None
-    contact_angle: Annotated[
-        e.ContactAngle | None,
-        _bearing("--contact-angle"),
-        e.meaning("free contact angle, degrees, in place of that of NAME and of a clearance"),
-    ] = None
-    race_control: Annotated[
-        e.RaceControl | None,
-        _bearing("--race-control"),
-        e.meaning("what holds the gyroscopic moment of the balls; outer where left out"),
-    ] = None
     spall: Annotated[
         str | None,
-        _bearing(
+        typer.Option(
             "--spall",
             metavar="RACE,LENGTH,DEPTH",
+            rich_help_panel=_BEARING,
             help="Lines of force of a spall: inner or outer, mm along the track, um, as outer,0.5,3.",
         ),
     ] = None
     slip: Annotated[
         float,
-        _load("--slip", metavar="PERCENT"),
+        typer.Option("--slip", metavar="PERCENT", rich_help_panel=_LOAD),
         e.meaning("slip of the cage, % of its speed with balls that roll, for the defect frequencies"),
     ] = 0.0
     measured_order: Annotated[
         str | None,
-        _bearing(
+        typer.Option(
             "--measured-order",
             metavar="NAME,ORDER,ERROR",
+            rich_help_panel=_BEARING,
             help="Contact angle, and with --axial the clearance, of a measured order, as bpfi,5.4021,0.0005.",
         ),
     ] = None
-    rq: Annotated[e.Roughness | None, _bearing("--rq"), e.meaning("roughness of ball and race together")] = None
-    layer: Annotated[e.OilThickness | None, _films("--layer", help=None)] = None
-    layer_ratio: Annotated[e.BearingLayerRatio | None, _films("--layer-ratio", help=None)] = None
     thermal: Annotated[
         bool | None,
-        _films("--thermal", help="Films that heat up, beside isothermal ones; with --oil and --temp."),
+        typer.Option(
+            "--thermal",
+            rich_help_panel=_FILMS,
+            help="Films that heat up, beside isothermal ones; with --oil and --temp.",
+        ),
     ] = None
     solve: Annotated[
         bool,
-        _films(
+        typer.Option(
             "--solve",
+            rich_help_panel=_FILMS,
             help="Solve the contacts of the most loaded ball, a minute, and correct the tables by them. Where "
             "tables do not have the bearing, this is done anyway: K is then without the change of preload by "
             "thinner films.",
@@ -365,8 +344,6 @@ def bearing(
 
     Each answer names the assumptions of films that do not hold in it.
     """
-    from ehlcontact.cli.study.bearing import load_job
-
     out.check(Path(source))
     spall = None if options.spall is None else defect.spall_of(options.spall)
     order = None if options.measured_order is None else measured.measured_order_of(options.measured_order)
@@ -434,19 +411,16 @@ def _slip_of(percent: float) -> float:
 
 
 def _computed(job: BearingJob) -> BearingReport:
-    states = tuple(map(job.state, job.speeds))
-    friction = tuple(_friction(job, state) for state in states)
-    return BearingReport(job, states, tuple(map(job.coefficients, job.speeds)), friction)
-
-
-def _friction(job: BearingJob, state: BearingState | SetState) -> tuple[BearingFriction, ...]:
-    """Moments of friction of each bearing; none of dry ones."""
-    if job.bearing.oil is None:
-        return ()
-    heat = job.bearing.oil.temperature_slope is not None
-    bearings = (job.bearing,) if job.pair is None else job.pair.bearings
-    pairs = zip(bearings, bearings_of(state).values(), strict=True)
-    return tuple(friction_at(bearing, one, USUAL_LAW, heat=heat) for bearing, one in pairs)
+    answers = tuple(job.answer(speed) if speed > 0.0 else None for speed in job.speeds)
+    supports = [None if one is None else one.supports[0] for one in answers]
+    rows = list(zip(job.speeds, supports, strict=True))
+    return BearingReport(
+        job,
+        answers,
+        tuple(job.state(speed) if one is None else one.state for speed, one in rows),
+        tuple(job.coefficients(speed) if one is None or job.hz else one.coefficients for speed, one in rows),
+        tuple(() if one is None else one.friction for one in supports),
+    )
 
 
 def curve(report: BearingReport) -> list[BearingCoefficients]:
@@ -476,7 +450,13 @@ def _show(report: BearingReport, json_to: str | None) -> None:
         sliding = _sliding(report.friction[k])
         rows = _at_speed(bearing, state, found, sliding) if job.planar else _at_angles(job, state, found, sliding)
         rows += _defects(bearing, state, report.slip)
-        show_table(f"at {numeral(state.speed_rpm)} rpm", rows, json_to)
+        answer = report.answers[k]
+        tiles = (
+            []
+            if answer is None
+            else [(tile.name, f"{tile.value} {tile.unit}", tile.note) for tile in answer.tiles()]
+        )
+        show_table(f"at {numeral(state.speed_rpm)} rpm", tiles + rows, json_to)
         if report.oil_and_heat:
             _show_conditions(report.oil_and_heat[k])
         for title, one in bearings_of(state).items():

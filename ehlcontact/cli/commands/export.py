@@ -108,7 +108,7 @@ def export(
     if fmi not in (2, 3):
         raise InputError("--fmi", fmi, "2 or 3")
     toml = file.suffix.lower() == ".toml"
-    bearing = toml and "bearing" in read_toml(str(file), "file")  # which no study has
+    bearing = toml and not set(read_toml(str(file), "file")) & {"shaft", "contact", "full_films"}
     study = toml and not bearing
     if contact is not None and (not study or bearings is not None):
         raise InputError("--contact", str(contact), "left out, but for a study (.toml) with a rotor on contacts")
@@ -225,14 +225,14 @@ def _element_of(file: Path, keywords: dict[str, Any]) -> FmuModel:
 
 
 def _bearing_of(file: Path, keywords: dict[str, Any]) -> FmuModel:
-    """The bearing of a bearing file, from its lowest to its highest speed, at rest under its load."""
+    """The bearing of a study without a shaft, from its lowest to its highest speed, at rest under its load."""
     from ehlcontact.cli.study.bearing import load_job
     from fmu.models import fmu_model
 
     job = load_job(str(file), {})
     if job.pair is not None:
         allowed = "left out: the FMU is that of one bearing; a rotor with pairs is an FMU by fmu.export"
-        raise InputError(f"{file}: pair.arrangement", job.pair.name, allowed)
+        raise InputError(f"{file}: support.pair", job.pair.name, allowed)
     if job.tilt is not None:
         allowed = "left out: tilts are inputs of the FMU"
         raise InputError("operation.tilt_x_mrad", 1e3 * job.tilt[0], allowed)

@@ -17,10 +17,10 @@ module                 responsibility
 ``differences``        full films beside elements, and beside what there is without them
 ``oil_and_heat``       the study's bearing with these: table and CSV
 ``defect``             a spall in a bearing: orders, and its force over time and as an envelope
-``shared_entries``     pairs, moments and tilts, oil supply and heat: entries of studies and of bearing files
+``shared_entries``     pairs, moments and tilts, oil supply and heat: entries in terms of the library
 ``headline``           what was found, in one paragraph
 ``results``            everything in numbers: ``results.json``
 ``report``             ``report.html``
-``bearing``            the file of ``ehlcontact bearing``, and what its options change of it
+``bearing``            the bearing of a study for ``ehlcontact bearing``, and what its options change of it
 =====================  ======================================================================================
 """

@@ -63,8 +63,10 @@ def load_alone(study: Study) -> tuple[float, ...]:
     if one.race_control is not None:
         allowed = "left out without operation.axial_load: a planar bearing has no contact angles"
         raise InputError("support.race_control", one.race_control, allowed)
-    if not radial:
-        raise InputError("operation.radial_load", asked.radial_load, RADIAL)
+    if asked.radial_load is None:
+        raise InputError("operation.radial_load", None, "given, or an axial load")
+    if not radial and study.contact is not None:
+        raise InputError("operation.radial_load", radial, RADIAL)
     return 0.0, -radial
 
 

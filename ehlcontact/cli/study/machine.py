@@ -21,6 +21,7 @@ ENTRIES = {  # of a support, where the library calls them otherwise
     "contact_angle": "contact_angle_deg",
     "arrangement": "pair",
     "spring": "pair_spring",
+    "preload and spring": "pair_spring",
     "distance": "distance_mm",
     "offset": "offset_um",
     "position": "position_mm",
@@ -55,7 +56,7 @@ def called(prefix: str, names: Mapping[str, str] = ENTRIES) -> Iterator[None]:
         yield
     except InputError as error:
         field, value = error.field, error.value
-        if field.startswith(("support.", "disc.", "operation.", "oil", "surface", "shaft.")):
+        if field.startswith(("support", "disc.", "operation.", "oil", "surface", "shaft.")):
             raise
         size = SIZES.get(field)
         allowed = error.allowed

@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
+from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
 from ehlcontact.cli.numerals import numeral
@@ -47,10 +48,8 @@ class Operation(Section):
     Lists, as [1500.0, 3000.0], make a study of several points: every speed with every radial load.
     """
 
-    speed_rpm: Annotated[e.Speed, e.meaning("speed of the shaft, or a list")]
-    radial_load: Annotated[e.LoadOrNone | None, e.meaning("radial load on the bearing, downwards, or a list")] = (
-        None
-    )
+    speed_rpm: Annotated[e.SpeedOrRest, e.meaning("speed of the shaft, or a list")]
+    radial_load: Annotated[e.LoadOrNone | None, e.meaning("radial load on the bearing, downwards")] = None
     axial_load: Annotated[
         e.AxialLoad | None,
         e.meaning(
@@ -176,7 +175,9 @@ def oil_grade(text: str, field: str) -> int:
 class Surface(Section):
     """Roughness, for the lambda ratio alone: films are solved between smooth surfaces."""
 
-    rq_um: Annotated[e.Roughness | None, e.meaning("Rq of ball and race together, in place of both below")] = None
+    rq_um: Annotated[e.Roughness | None, e.meaning("Rq of ball and race together, in place of that of each")] = (
+        None
+    )
     rq_ball_um: Annotated[e.Roughness | None, e.meaning("Rq of the balls; with rq_race_um or not at all")] = None
     rq_race_um: Annotated[e.Roughness | None, e.meaning("Rq of the races")] = None
 
@@ -638,8 +639,8 @@ def load_study(path: Path) -> Study:
         raise InputError(f"{path}: {error.field}", error.value, error.allowed) from None
 
 
-def study_of(document: dict[str, Any]) -> Study:
-    """The study of a document, checked.
+def study_of(document: dict[str, Any], *, at_rest: bool = False) -> Study:
+    """The study of a document, checked; `at_rest`: its speed may be 0.
 
     Raises
     ------
@@ -651,6 +652,8 @@ def study_of(document: dict[str, Any]) -> Study:
         study = Study.model_validate(document)
     except ValidationError as error:
         raise first_error(error, Study, document) from None
+    if not at_rest:
+        INPUTS["speed_rpm"].require("operation.speed_rpm", study.speed_rpm)
     from ehlcontact.cli.study.loads import require_machine
     from ehlcontact.cli.study.machine import support_field
 

@@ -125,16 +125,6 @@ def _named(loc: tuple[int | str, ...], study: type[BaseModel], document: Mapping
     return ".".join(parts) or "study"
 
 
-def in_other_kind(
-    error: InputError, document: Mapping[str, Any], sections: tuple[str, ...], command: str
-) -> InputError:
-    """The error, with the command for the other kind of file where the file has sections of that kind."""
-    if not any(name in document for name in sections):
-        return error
-    allowed = f"{error.allowed}; or is this a file for `ehlcontact {command}`?"
-    return InputError(error.field, error.value, allowed)
-
-
 def _known_instead(study: type[BaseModel], loc: tuple[int | str, ...]) -> str:
     """The key that an unknown one resembles, the section it belongs to, or all keys of its own."""
     sections = _sections(study)

@@ -1,4 +1,4 @@
-"""Entries that studies and bearing files share: pairs, moments and tilts of a ring, oil supply and heat."""
+"""Entries of a study in terms of the library: pairs, moments and tilts of a ring, oil supply and heat."""
 
 from __future__ import annotations
 

@@ -69,14 +69,14 @@ def load_points(path: Path, folder: Path) -> tuple[Point, ...]:
         raise InputError(f"{path}: {error.field}", error.value, error.allowed) from None
 
 
-def points_of(document: Mapping[str, Any], folder: Path) -> tuple[Point, ...]:
-    """The points of a document, as `load_points` without the name of the file."""
+def points_of(document: Mapping[str, Any], folder: Path, *, at_rest: bool = False) -> tuple[Point, ...]:
+    """The points of a document, as `load_points` without the name of the file; `at_rest`: speeds may be 0."""
     documents = expanded(document)
     several = len(documents) > 1
     points = []
     for one in documents:
         try:
-            study = study_of(one)
+            study = study_of(one, at_rest=at_rest)
         except InputError as error:
             where = f", at {_said(one)}" if several and not error.field.startswith("operation.") else ""
             raise InputError(error.field, error.value, error.allowed + where) from None
