@@ -35,7 +35,7 @@ from reduced_models.rotor.campbell import Campbell, CriticalSpeed, campbell
 from reduced_models.rotor.equilibrium import StaticRotor
 from reduced_models.rotor.linearise import LinearRotor, linearise
 from reduced_models.rotor.machine_tiles import Tile, machine_concerns, machine_tiles
-from reduced_models.rotor.modes import RotorMode
+from reduced_models.rotor.modes import ALONG, RotorMode
 from reduced_models.rotor.picture import campbell_picture
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.support_state import SupportState, states_of, support_of, support_state
@@ -114,10 +114,18 @@ class MachineState(Summary):
         """By which share of the speed a critical speed lies above it; below 0 it lies below."""
         return critical.speed_rpm / self.speed_rpm - 1.0
 
+    def is_axial(self, critical: CriticalSpeed) -> bool:
+        """Whether its mode moves along the shaft, so that an unbalance hardly excites it."""
+        if self.diagram is None:
+            return False
+        share = self.diagram.axial_share[:, critical.mode]
+        return float(np.interp(critical.speed_rpm, self.diagram.speed_rpm, share)) > ALONG
+
     @property
     def nearest_critical(self) -> CriticalSpeed | None:
-        """The critical speed nearest to the speed."""
-        return min(self.critical_speeds, key=lambda one: abs(self.margin(one)), default=None)
+        """The critical speed nearest to the speed, of a mode across the shaft where there is one."""
+        across = [one for one in self.critical_speeds if not self.is_axial(one)]
+        return min(across or self.critical_speeds, key=lambda one: abs(self.margin(one)), default=None)
 
     @property
     def largest_response(self) -> LargestResponse | None:
@@ -195,6 +203,7 @@ class MachineState(Summary):
             ],
             "critical_speeds": [
                 {"speed_rpm": one.speed_rpm, "hz": one.hz, "margin": self.margin(one), "decrement": one.decrement}
+                | {"axial": self.is_axial(one)}
                 for one in self.critical_speeds
             ],
             "largest_response": None if largest is None else largest._asdict(),

@@ -142,7 +142,8 @@ def _critical(machine: Any) -> Tile | None:
         rpm = machine.diagram.speed_rpm
         return Tile("critical speed", "none", "", f"from {rpm[0]:.5g} to {rpm[-1]:.5g} rev/min")
     speeds = ", ".join(digits(one.speed_rpm, 5) for one in machine.critical_speeds)
-    note = _note(_side(machine, own), f"all: {speeds} rev/min" if len(machine.critical_speeds) > 1 else "")
+    axial = "along the shaft, not by unbalance" if machine.is_axial(own) else ""
+    note = _note(_side(machine, own), axial, f"all: {speeds} rev/min" if len(machine.critical_speeds) > 1 else "")
     critical = bool(_near_critical(machine))
     return Tile("nearest critical speed", digits(own.speed_rpm, 5), "rev/min", note, critical)
 
@@ -185,7 +186,8 @@ def _highest(machine: Any) -> Tile | None:
 
 def _near_critical(machine: Any) -> str:
     """Nearest critical speed within `MARGIN` that an unbalance excites, and what moves it."""
-    near = [one for one in machine.critical_speeds if abs(machine.margin(one)) < MARGIN and one.whirl > BACKWARD]
+    excited = (one for one in machine.critical_speeds if one.whirl > BACKWARD and not machine.is_axial(one))
+    near = [one for one in excited if abs(machine.margin(one)) < MARGIN]
     if not near or not machine.modes:
         return ""
     own = machine.nearest_critical

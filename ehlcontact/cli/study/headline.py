@@ -105,11 +105,9 @@ def calm(found: Findings) -> str:
     ratio, nearest = machine.worst_support.lambda_ratio, machine.nearest_critical
     said = [] if ratio is None else [f"lambda {numeral(ratio, 3)}"]
     if machine.diagram is not None:
-        margin = "no critical speed below" if nearest is None else "no critical speed within"
-        size = (
-            f"{numeral(float(machine.diagram.speed_rpm[-1]), 5)} rev/min" if nearest is None else percent(MARGIN)
-        )
-        said.append(f"{margin} {size}{'' if nearest is None else ' of the speed'}")
+        end = f"below {numeral(float(machine.diagram.speed_rpm[-1]), 5)} rev/min"
+        within = end if nearest is None else f"that unbalance excites within {percent(MARGIN)} of the speed"
+        said.append(f"no critical speed {within}")
     return ", ".join(said)
 
 

@@ -105,6 +105,13 @@ class TestMotor:
         marked = [tile.name for tile in machine.tiles() if tile.critical]
         assert marked == ["nearest critical speed"]
 
+    def test_modes_along_the_shaft_are_no_concern_of_unbalance(self, machine: MachineState) -> None:
+        axial, backward, forward = machine.critical_speeds
+        assert [machine.is_axial(one) for one in (axial, backward, forward)] == [True, False, False]
+        near = replace(machine, speed_rpm=axial.speed_rpm * 1.02, response=None)
+        assert near.concerns == ()
+        assert near.nearest_critical == backward
+
     def test_films_are_as_sure_as_atlas_and_oil(self, machine: MachineState) -> None:
         support = machine.worst_support
         answer = support.bearing.race("inner").answer(support.ball_load, RPM)
