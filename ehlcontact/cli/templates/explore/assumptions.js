@@ -35,10 +35,21 @@ function assumptions({ race, point }) {
   ];
 }
 
+// The ball with the largest force at a race.
+const heaviest = (loaded, i) => loaded.balls.reduce((best, ball, k) => (ball.force[i] > loaded.balls[best].force[i] ? k : best), 0);
+
+// Loads below those of the atlas at the most loaded contacts, in words: reduced_models.bearing.race.beyond_data.
+function beyondData(loaded) {
+  const said = RACES.flatMap((name, i) => {
+    const k = heaviest(loaded, i), { race } = loaded.films[k][i], force = loaded.balls[k].force[i], [lightest] = race.loads(loaded.rpm);
+    return force < lightest ? [`${g(force, 3)} N on the ${name} race, the atlas begins at ${g(lightest, 3)} N`] : [];
+  });
+  return said.length ? `Beyond the data: no ball carries more than ${said.join(" and ")}.` : "";
+}
+
 // What does not hold at the most loaded contacts of both races, the worse of them; empty where all does.
 function outsideAssumptions(loaded) {
-  const heaviest = i => loaded.balls.reduce((best, ball, k) => (ball.force[i] > loaded.balls[best].force[i] ? k : best), 0);
-  const [inner, outer] = RACES.map((_, i) => assumptions(loaded.films[heaviest(i)][i]));
+  const [inner, outer] = RACES.map((_, i) => assumptions(loaded.films[heaviest(loaded, i)][i]));
   const worst = inner.map((one, k) => (outer[k][1] > one[1] ? outer[k] : one)).filter(one => one[1] > 0);
   return worst.length ? `Outside what is assumed: ${worst.map(([name, , text]) => `${name} (${text})`).join("; ")}.` : "";
 }

@@ -77,7 +77,7 @@ function compute() {
   const hz = field("hz").value.trim() === "" ? rpm / 60 : positive("hz", ">= 0");
   if (hz > highest) throw new InputError("hz", hz, `at most ${g(highest, 4)}: there the atlas ends for the film's memory`);
   const low = Math.min(1, rpm / 600), hzs = Array.from({ length: FREQUENCIES }, (_, i) => low * (highest / low) ** (i / (FREQUENCIES - 1)));
-  const balls = there.balls, torque = there.torque, outside = outsideAssumptions(there), orders = whole.withSlip(there.orders, slip);
+  const balls = there.balls, torque = there.torque, outside = `${outsideAssumptions(there)} ${beyondData(there)}`.trim(), orders = whole.withSlip(there.orders, slip);
   const rows = there.coefficients([0, hz, ...hzs].map(one => 2 * Math.PI * one));
   const contacts = films.map(film => film.answer && contact(film)), ways = Object.keys(WAYS).filter(way => WAYS[way] < rows[0].stiffness.length);
   const worst = balls.flatMap((_, k) => RACES.map((_, i) => [k, i]))
@@ -130,9 +130,6 @@ function frequencyRows({ contacts, hz, at, still, ratio, ways }) {
   return rows;
 }
 
-// A whole number in groups of three digits, not above the value.
-const thousands = value => String(Math.floor(value)).replace(/\B(?=(\d{3})+$)/g, "\u202f");
-
 // What is asked first: rows of name, value, and what belongs to it.
 function tiles(f) {
   const [k, i] = f.worst, lambda = f.there.films[k][i].h_min / f.rq, { smooth, mixed } = DATA.lambda, ball = f.balls[f.heaviest];
@@ -145,13 +142,13 @@ function tiles(f) {
   const parts = relies ? `by SKF's model; films alone: ${films}` : skf === null ? films : `${films}; SKF's model ${show(skf * 1e3)} N mm`;
   const angles = f.axial === 0 ? "" : `; contact angle ${ball.angle.map(angle => show(Math.abs(angle) * 180 / Math.PI)).join("° and ")}°`;
   return [
-    ["Thinnest film", `${show(f.there.films[k][i].h_min * 1e6)} µm, lambda ${show(lambda)}`, `${RACES[i]} race, ball at ${degrees(f, k)}°${touching}`],
-    ["Heaviest ball", `${show(ball.force[0])} N, ${show(Math.max(...f.films.map(film => film.pressure)) * 1e-9)} GPa`,
+    ["Smallest film", `${show(f.there.films[k][i].h_min * 1e6)} µm, lambda ${show(lambda)}`, `${RACES[i]} race, ball at ${degrees(f, k)}°${touching}`],
+    ["Largest ball load", `${show(ball.force[0])} N, ${show(Math.max(...f.films.map(film => film.pressure)) * 1e-9)} GPa`,
       `${pressed} of ${f.balls.length} balls are pressed by both rings${angles}`],
     [`K and C at ${show(f.hz, 4)} Hz`, `${K[0]} N/µm, ${C[0]} N s/m`, `${IN_WORDS.along}; ${others}`],
     ["Friction torque", `${show(torque * 1e3)} N mm, ${show(torque * f.rpm * Math.PI / 30)} W`, `${parts}; without seals`],
     ["Defect frequencies", `BPFO ${hz("BPFO")} Hz, BPFI ${hz("BPFI")} Hz`,
-      `FTF ${hz("FTF")}, BSF ${hz("BSF")} Hz; films are known up to ${thousands(f.whole.highestSpeed)} rev/min`],
+      `FTF ${hz("FTF")}, BSF ${hz("BSF")} Hz`],
   ];
 }
 
