@@ -1,6 +1,7 @@
 """Load over deflection of one ball on one race, and gains of its film memory, as tables in SI; a row per speed.
 
-The force at the end of a time step is computed from them in ``race_contact.c``. The law is that of
+Cells between nodes are those of ``race_table.c``; the force at the end of a time step is computed from all in
+``race_contact.c``. The law is that of
 `reduced_models.elements.film_law` without its reference load, in N and m:
 
     F = k_n (g(u) + m)_+^(3/2),    g = (F_s/k_n)^(2/3) = u + h_s
@@ -16,7 +17,9 @@ carries all of F up to a gap of h/2, and nothing beyond h.
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Sequence
+from ctypes import c_double, c_int, c_void_p
 from itertools import pairwise
 from math import ceil, inf, log, sqrt
 from typing import NamedTuple
@@ -25,11 +28,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.errors import InputError
-from ehlcontact.jit import jit_exact
 from ehlcontact.point import Scales
+from reduced_models import core
 from reduced_models.elements.film_contact import FilmContact
 from reduced_models.elements.film_filters import DIRECT
-from reduced_models.elements.film_law import LEAST_MADE, FilmLaw, films, static
+from reduced_models.elements.film_law import LEAST_MADE, films
 
 _Floats = NDArray[np.float64]
 
@@ -55,6 +58,18 @@ class RaceForceTable(NamedTuple):
     inlet_rate: float
     fast_rate: float
     cutoff_gap: float  # gap [m] beyond which a film carries nothing; inf: no such gap
+
+
+class FilmLawStructure(ctypes.Structure):
+    """`FilmLaw` of ``film_law.h``."""
+
+    _fields_ = [
+        ("nodes", c_int), ("rows", c_int), ("lags", c_int),
+        ("x", c_void_p), ("y", c_void_p), ("slope", c_void_p), ("u", c_void_p),
+        ("gain_x", c_void_p), ("gains", c_void_p),
+        ("lag_rate", c_double), ("inlet_rate", c_double), ("fast_rate", c_double),
+        ("inlet_saturation", c_double), ("rim", c_double),
+    ]  # fmt: skip
 
 
 def tabulate_dry_race(kn: float) -> RaceForceTable:
@@ -137,22 +152,10 @@ def _rows(element: FilmContact, x: _Floats) -> tuple[_Floats, _Floats, _Floats]:
     """Approaches, cells and gains of one speed at the nodes `x`."""
     law, length = element.law, scales_of(element).length
     own = x - log(scales_of(element).force)
-    u = np.exp(2.0 / 3.0 * own) - _film(element, x) / length
-    share = np.arange(CELLS + 1) / CELLS
-    places = u[:-1, None] + share * np.diff(u)[:, None]
-    places[:, -1] = u[1:]
-    g, slope = np.empty((2, *places.shape))
-    _fill(law, own, places, g, slope)
-    rise, width = np.diff(g, axis=1), np.diff(u)[:, None] / CELLS
-    start, end = slope[:, :-1] * width, slope[:, 1:] * width
-    cells = np.stack([g[:, :-1], start, 3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise], axis=-1)
-    gains = element.gains_at(own).T
-    return u * length, cells * length, gains
-
-
-@jit_exact
-def _fill(law: FilmLaw, x, u, g, slope):
-    """Curve g and its slope at the approaches `u` of every interval, whose ends belong to ln F = x."""
-    for k in range(u.shape[0]):
-        for j in range(u.shape[1]):
-            _, g[k, j], slope[k, j] = static(u[k, j], law)
+    curve = [np.ascontiguousarray(part, np.float64) for part in (law.x, law.y, law.slope, law.u)]
+    structure = FilmLawStructure(curve[0].size, 0, 0, *(part.ctypes.data for part in curve))
+    u, cells = np.empty(own.size), np.empty((own.size - 1, CELLS, 4))
+    core.library().race_cells(
+        ctypes.byref(structure), c_int(own.size), *(c_void_p(part.ctypes.data) for part in (own, u, cells))
+    )
+    return u * length, cells * length, element.gains_at(own).T

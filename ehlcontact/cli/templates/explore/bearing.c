@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "bearing_support.h"
-#include "film_law.h"
+#include "race_table.h"
 #include "rotor.h"
 
 #define EXPORT __attribute__((visibility("default")))
@@ -27,7 +27,7 @@ typedef struct {
     const Support *supports[1];
     Rotor rotor;
     int first;
-    double settings[4], omega, mass, gyroscopic;
+    double settings[4], omega, gyroscopic;
     int control;
     double eye[AXES * AXES], still[AXES], ones[AXES], load[AXES];
     double *state, *work, *bearing_work;
@@ -37,14 +37,9 @@ typedef struct {
     double *geometric;
 } Explored;
 
-EXPORT double *numbers(int count)
+EXPORT double *numbers(size_t count)
 {
-    return (double *)calloc((size_t)count, sizeof(double));
-}
-
-EXPORT void forget(void *numbers)
-{
-    free(numbers);
+    return (double *)calloc(count, sizeof(double));
 }
 
 /* `grooves` has the numbers of `Grooves` in their order. */
@@ -55,7 +50,6 @@ EXPORT Explored *bearing_new(int balls, int directions, int control, double omeg
     int i;
     memcpy(&b->grooves, grooves, sizeof b->grooves);
     e->omega = omega;
-    e->mass = b->grooves.mass;
     e->gyroscopic = b->grooves.gyroscopic;
     e->control = control;
     b->directions = directions;
@@ -96,26 +90,6 @@ static int table_nodes(const FilmLaw *law, double length, double x[])
     return n;
 }
 
-/* Cubics of g between the approaches of two nodes, at equal distances, as `Race` has them. */
-static void table_cells(const FilmLaw *law, double from, double to, double length, double cells[])
-{
-    Rest here, next;
-    double start, end, rise;
-    int j;
-    film_static(law, from, NULL, &here);
-    for (j = 0; j < CELLS; j++, here = next) {
-        double *cell = &cells[4 * j];
-        film_static(law, j + 1 < CELLS ? from + (to - from) * (j + 1) / CELLS : to, NULL, &next);
-        start = here.g_u * (to - from) / CELLS;
-        end = next.g_u * (to - from) / CELLS;
-        rise = next.g - here.g;
-        cell[0] = here.g * length;
-        cell[1] = start * length;
-        cell[2] = (3.0 * rise - 2.0 * start - end) * length;
-        cell[3] = (start + end - 2.0 * rise) * length;
-    }
-}
-
 /* Gains at the nodes of a table, in straight lines over ln F and level beyond, and what a unit of the inlet's state lets into the chain. */
 static void table_gains(const FilmLaw *law, const double gains[], int nodes, const double x[], double rows[], double made[])
 {
@@ -145,17 +119,15 @@ EXPORT void bearing_race(Explored *e, int race, const double law[], int nodes, c
     const FilmLaw of = {nodes, 0, lags, curve, curve + nodes, curve + 2 * nodes, curve + 3 * nodes, NULL, NULL, 1.0, 1.0, 1.0, 0.0, 0.0};
     double *x = numbers(MOST_NODES), *u = numbers(MOST_NODES), *cells, *rows, *made;
     int n = table_nodes(&of, length, x), k;
-    cells = numbers((n - 1) * CELLS * 4);
-    for (k = 0; k < n; k++) {
-        u[k] = exp(2.0 / 3.0 * x[k]) - film_under(&of, x[k]);
-    }
-    for (k = 0; k + 1 < n; k++) {
-        table_cells(&of, u[k], u[k + 1], length, &cells[k * CELLS * 4]);
-    }
+    cells = numbers((size_t)(n - 1) * CELLS * 4);
+    race_cells(&of, n, x, u, cells);
     for (k = 0; k < n; k++) {
         u[k] *= length;
     }
-    table_gains(&of, gains, n, x, rows = numbers(n * (DIRECT + lags)), made = numbers(n));
+    for (k = 0; k < (n - 1) * CELLS * 4; k++) {
+        cells[k] *= length;
+    }
+    table_gains(&of, gains, n, x, rows = numbers((size_t)(n * (DIRECT + lags))), made = numbers((size_t)n));
     r->kn = law[0];
     r->log_kn = log(law[0]);
     r->contact_length_factor = law[1];
@@ -187,7 +159,7 @@ static void make_rotor(Explored *e)
     r->supports = 1;
     r->load = 1.0;
     r->L = e->load;
-    r->K = r->M = r->C = numbers(n * n);
+    r->K = r->M = r->C = numbers((size_t)(n * n));
     r->B = r->ties = e->eye;
     r->shift = e->still;
     r->count = e->ones;
@@ -195,11 +167,11 @@ static void make_rotor(Explored *e)
     r->floor = least_load;
     r->support = e->supports;
     r->first = &e->first;
-    e->state = numbers((int)rotor_size(r));
-    e->work = numbers((int)rotor_work(r) + (int)supports_work(r));
-    e->bearing_work = numbers((int)bearing_work_size(&e->bearing));
-    e->balls = (BallAtRest *)(void *)numbers(e->bearing.balls * (int)OF_BALL);
-    e->geometric = numbers(20 * e->bearing.balls);
+    e->state = numbers(rotor_size(r));
+    e->work = numbers(rotor_work(r) + supports_work(r));
+    e->bearing_work = numbers(bearing_work_size(&e->bearing));
+    e->balls = (BallAtRest *)(void *)numbers((size_t)e->bearing.balls * OF_BALL);
+    e->geometric = numbers((size_t)(20 * e->bearing.balls));
     e->settings[3] = 1.0;
 }
 
