@@ -227,9 +227,15 @@ EXPORT const double *bearing_ring(const Explored *e)
     return e->ring; /* then the force on the balls and its slopes */
 }
 
+/* Numbers of `BallAtRest`, ball by ball, and how many each has. */
 EXPORT const double *bearing_of_balls(const Explored *e)
 {
-    return (const double *)(const void *)e->balls; /* numbers of `BallAtRest`, ball by ball */
+    return (const double *)(const void *)e->balls;
+}
+
+EXPORT int bearing_per_ball(void)
+{
+    return OF_BALL;
 }
 
 /* ---- small vibrations: reduced_models.bearing.linear_balls and elements.film_response ---- */

@@ -3,6 +3,7 @@
 
 const { LARGEST_PLAY, LEAST_SLIP, POSITIONS, SEATED, CARRIES, TRACTION } = DATA.rules;
 const LARGEST_ANGLE = Math.PI / 4, RACES = ["inner", "outer"], AXES = ["x", "y", "z"];
+// Of `BallAtRest` of csrc/bearing.h, in its order; what is behind them the page does not need.
 const OF_BALL = ["angle", "force", "approach", "compression", "slope", "factor", "rolling"]; // [inner, outer] each; then:
 const OF_ROLLING = ["orbit", "rotation", "axis"];
 
@@ -116,7 +117,7 @@ class Loaded {
       this.bearing.requireBearableByAll(load, this.rpm);
       throw new Error(reason);
     }
-    const ring = core.read(core.c.bearing_ring(this.ring), 6 + n * n), width = 2 * OF_BALL.length + OF_ROLLING.length;
+    const ring = core.read(core.c.bearing_ring(this.ring), 6 + n * n), width = core.c.bearing_per_ball();
     const all = core.read(core.c.bearing_of_balls(this.ring), width * balls);
     const ball = row => Object.fromEntries([...OF_BALL.map((name, j) => [name, row.slice(2 * j, 2 * j + 2)]),
       ...OF_ROLLING.map((name, j) => [name, row[2 * OF_BALL.length + j]])]);
