@@ -282,7 +282,7 @@ BORDERS = {
     "beyond kappa": [(200.0, 10.0, 0.0449), (200.0, 10.0, 1.001)],
     "pressed too hard": [(30000.0, 30.0, 0.5)],
 }
-OILS = [{"alpha": 9.9e-9}, {"alpha": 22.0}, {"eta0": 1.01}, {"eta0": 4.9}, {"alpha": 4e-8, "eta0": 0.002}]
+OILS = [{"alpha": 9.9e-9}, {"alpha": 5e-8}, {"eta0": 1.01}, {"eta0": 4.9}, {"alpha": 4e-8, "eta0": 0.002}]
 
 
 def test_the_borders_of_the_atlas_are_those_of_python(ask):
