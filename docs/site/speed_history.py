@@ -1,4 +1,4 @@
-"""Numbers and pictures of docs/speed.md.
+"""Numbers and pictures of docs/notes/speed.md.
 
 python docs/site/speed_history.py   # three minutes
 """

@@ -1,7 +1,7 @@
 """Assumptions of every solve, each with the number that shows whether it holds.
 
 Isothermal, Newtonian, smooth, fully flooded, at constant speed, rolling in one direction, elastic bodies.
-Convergence of a film does not show whether any of these holds. Formulas, sources, scatter: docs/assumptions.md.
+A converged film does not show whether any of these holds. Formulas, sources, scatter: docs/notes/assumptions.md.
 
 =========== ====================================================================
 module      responsibility

@@ -4,7 +4,7 @@ Walther's line through both viscosities gives any other (ASTM D341), and thermal
 (ASTM D1250). Data sheets print both. A grade is the one at 40 C (ISO 3448), and the viscosity index gives the one
 at 100 C (ASTM D2270).
 None of this says how viscosity rises with pressure: that is a correlation over measured oils, and its scatter is
-the largest uncertainty of all. Formulas, sources and checks: docs/assumptions.md.
+the largest uncertainty of all. Formulas, sources and checks: docs/notes/assumptions.md.
 """
 
 from __future__ import annotations

@@ -21,7 +21,7 @@ def by_formula(M, L, kappa, G=4500.0):
 
 
 def test_scatter_of_the_formula():
-    """docs/assumptions.md: nine of ten within -12 and +59 %, three times as high in heavily loaded circles."""
+    """docs/notes/assumptions.md: nine of ten within -12 and +59 %, thrice as high in heavily loaded circles."""
     ratios, circles = [], []
     for x, y, z in qmc.Sobol(3, seed=2).random(1024):
         M, L, kappa = 10.0 * 3000.0**x, 2.0 + 23.0 * y, 0.05 * 20.0**z
