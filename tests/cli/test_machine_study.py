@@ -15,6 +15,9 @@ from ehlcontact.cli.study.answer import answer_of, over_frequency
 from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
 from ehlcontact.cli.study.machine import bearing_of, carrier_of, rotor_of
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
+from ehlcontact.cli.study.points.lists import Point
+from ehlcontact.cli.study.points.numbers import numbers_of
+from ehlcontact.cli.study.points.summary import Row, cells, columns_of
 from ehlcontact.cli.study.schema import load_study
 from reduced_models import BallBearing, BearingSet, Disc, Shaft, Support, linearise, rotor_on_bearings
 from reduced_models.bearing.oil_and_heat import LAYER
@@ -157,6 +160,21 @@ def test_a_motor_of_unequal_bearings(motor):
     assert found.to_dict() == own.to_dict()
     assert [round(1e6 * support.h_min, 3) for support in found.supports] == [0.369, 0.322]
     assert sorted(round(mode.hz) for mode in found.modes[:3]) == [161, 266, 267]
+
+
+def test_numbers_of_a_point_of_a_machine(motor, tmp_path):
+    """Those of the worst bearing and of the machine, in a table of the columns that have numbers."""
+    one, answer = motor
+    point = Point(one, "15000rpm", tmp_path)
+    numbers = numbers_of(point, {"machine": answer.to_dict()})
+    assert numbers["h_min"] == min(support.h_min for support in answer.supports) and numbers["M"] is None
+    assert numbers["ball_load"] == max(support.ball_load for support in answer.supports)
+    assert numbers["torque"] == pytest.approx(sum(support.torque for support in answer.supports), rel=1e-12)
+    assert numbers["critical_rpm"] == pytest.approx(answer.nearest_critical.speed_rpm, rel=1e-12)
+    row = Row(point, "converged", (), (), numbers, {}, {}, None, ())
+    heads = [column.head for column in columns_of([row], narrow=True).values()]
+    assert heads[:3] == ["speed [rpm]", "ball [N]", "mode [Hz]"] and "h_c [µm]" not in heads
+    assert cells(row, columns_of([row]))[0] == "15000"
 
 
 def test_the_film_of_a_bearing_of_a_machine(study, motor):

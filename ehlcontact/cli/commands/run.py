@@ -144,7 +144,8 @@ def _show(rows: Sequence[Row], json_to: str | None) -> None:
     """A row per point, unless JSON goes to stdout."""
     if json_to == STDOUT:
         return
-    from ehlcontact.cli.study.points.summary import NARROW, cells
+    from ehlcontact.cli.study.points.summary import cells, columns_of
 
-    heads, lines = [one.head for one in NARROW.values()], [[*cells(row, NARROW), row.status] for row in rows]
+    columns = columns_of(rows, narrow=True)
+    heads, lines = [one.head for one in columns.values()], [[*cells(row, columns), row.status] for row in rows]
     show_columns([*heads, "status"], lines, rows[0].point.study_title, padding=(0, 1, 0, 0))

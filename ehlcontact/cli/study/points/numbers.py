@@ -10,7 +10,7 @@ from ehlcontact.cli.study.points.lists import Point
 
 
 class Number(NamedTuple):
-    """A number of a point; those of the contact are of its most loaded ball."""
+    """A number of a point; those of a contact are of [contact], else of the worst bearing of the machine."""
 
     unit: str
     meaning: str = ""  # where the name does not say it
@@ -24,7 +24,29 @@ class Number(NamedTuple):
 NUMBERS = {
     "speed_rpm": Number("rev/min", head="speed [rpm]", figures=6),
     "radial_load": Number("N", "on the bearing that the study is about", head="load [N]", figures=6),
-    "ball_load": Number("N"),
+    "ball_load": Number("N", head="ball [N]", narrow=False),
+    "mode_hz": Number(
+        "Hz", "lowest mode of the machine", head="mode [Hz]", figures=4, narrow=False, label="lowest mode [Hz]"
+    ),
+    "critical_rpm": Number(
+        "rev/min", "critical speed nearest to the speed", head="critical [rpm]", figures=5, narrow=False
+    ),
+    "response": Number(
+        "m",
+        "largest response to unbalance, at the speed",
+        head="response [µm]",
+        factor=1e6,
+        narrow=False,
+        label="response to unbalance [µm]",
+    ),
+    "torque": Number(
+        "N m",
+        "friction of all bearings",
+        head="torque [N mm]",
+        factor=1e3,
+        narrow=False,
+        label="friction torque [N mm]",
+    ),
     "M": Number("-"),
     "L": Number("-"),
     "kappa": Number("-"),
@@ -64,6 +86,8 @@ def numbers_of(point: Point, results: Mapping[str, Any] | None) -> dict[str, flo
     study, rough = point.study, point.study.roughness
     found: dict[str, float | None] = dict.fromkeys(UNITS)
     found |= {"speed_rpm": study.speed_rpm, "radial_load": study.operation.radial_load}
+    if results is not None and (machine := results.get("machine")) is not None:
+        found |= _of_machine(machine)
     if study.contact is not None:
         found["radial_load"] = study.radial_load
         m, s = study.point.moes, study.point.scales
@@ -79,4 +103,26 @@ def numbers_of(point: Point, results: Mapping[str, Any] | None) -> dict[str, flo
     if results is not None and "rotor" in results:
         decayed = results["rotor"]["decay"]["decrements"]["full"]
         found |= {"decay_hz": decayed["hz"], "decrement": decayed["decrement"]}
+    return found
+
+
+def _of_machine(machine: Mapping[str, Any]) -> dict[str, float | None]:
+    """Of the machine: its thinnest film, its most loaded ball, modes, critical speeds, response and friction."""
+    supports = machine["supports"]
+    films = [one for one in supports if one["h_min"] is not None]
+    heaviest = max(supports, key=lambda one: float(one["ball_load"]))
+    found: dict[str, float | None] = {name: heaviest[name] for name in ("ball_load", "p_hertz")}
+    if films:
+        thinnest = min(films, key=lambda one: float(one["h_min"]))
+        found |= {"h_min": thinnest["h_min"], "lambda": thinnest["lambda_ratio"]}
+    if machine["modes"]:
+        found["mode_hz"] = min(float(mode["hz"]) for mode in machine["modes"])
+    if machine["critical_speeds"]:
+        nearest = min(machine["critical_speeds"], key=lambda one: abs(float(one["margin"])))
+        found["critical_rpm"] = nearest["speed_rpm"]
+    if machine["response_at_speed"] is not None:
+        found["response"] = machine["response_at_speed"]["size"]
+    torques = [one["torque"] for one in supports]
+    if torques and None not in torques:
+        found["torque"] = sum(torques)
     return found

@@ -11,6 +11,7 @@ import csv
 import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +33,6 @@ from ehlcontact.status import Status
 FORMAT = 1  # of the summary
 SUMMARY, TABLE, PICTURE = "summary.json", "summary.csv", "summary.png"
 COLUMNS = {name: one for name, one in NUMBERS.items() if one.head}  # of the table for people
-NARROW = {name: one for name, one in COLUMNS.items() if one.narrow}
 
 
 @dataclass(frozen=True)
@@ -184,7 +184,15 @@ def table(rows: Sequence[Row]) -> str:
     return stream.getvalue()
 
 
-def cells(row: Row, columns: Mapping[str, Number] = COLUMNS) -> list[str]:
+def columns_of(rows: Sequence[Row], *, narrow: bool = False) -> dict[str, Number]:
+    """Columns of a table for people, of numbers that some point has; `narrow` ones where there is a contact."""
+    known = {name: one for name, one in COLUMNS.items() if any(row.numbers[name] is not None for row in rows)}
+    if not narrow or "h_central" not in known:  # a machine alone has few
+        return known
+    return {name: one for name, one in known.items() if one.narrow}
+
+
+def cells(row: Row, columns: Mapping[str, Number]) -> list[str]:
     """Numbers of a point in words; a dash where there is none."""
     return [
         numeral(None if (value := row.numbers[name]) is None else one.factor * value, one.figures)
@@ -211,6 +219,6 @@ def write_overview(rows: Sequence[Row], document: Mapping[str, Any], folder: Pat
         picture=picture,
         summary=document,
         rows=rows,
-        heads=[one.head for one in COLUMNS.values()],
-        cells=cells,
+        heads=[one.head for one in columns_of(rows).values()],
+        cells=partial(cells, columns=columns_of(rows)),
     )
