@@ -135,6 +135,11 @@ class BearingFriction(Summary):
             lines.append(f"SKF: {1e3 * self.skf_rolling:.4g} and {1e3 * self.skf_sliding:.4g} N mm")
         return lines
 
+    def to_dict(self) -> dict[str, Any]:
+        """Moments of the bearing and the traction law, ready for JSON."""
+        names = "rolling", "inlet_heat", "sliding", "skf_rolling", "skf_sliding"
+        return {name: getattr(self, name) for name in names} | {"law": str(self.law)}
+
     @property
     def total(self) -> float:
         """Rolling and sliding together."""

@@ -421,7 +421,7 @@ def test_orders_with_slip_and_from_a_measured_order(call):
     orders = bearing.orders_under(5.0, axial=20.0, speed_rpm=1800.0, slip=0.005)
     assert found["orders_under_load"][0] == pytest.approx(asdict(orders)) and found["cage_slip"] == 0.005
     assert f"{orders.bpfo_order:.5g} per turn" in printed and "0.5 %" in printed
-    order = {"bpfi": 5.4021, "error": 5e-4, "slip": 0.005}
+    order = {"bpfi_order": 5.4021, "error": 5e-4, "slip": 0.005}
     angle, back = angle_from_order(bearing, **order), found["measured_order"]
     assert list(back["contact_angle"].values()) == pytest.approx(list(angle))
     clearance = clearance_from_order(bearing, [10.0, 20.0, 40.0], **order, radial=5.0, speed_rpm=1800.0)

@@ -202,15 +202,9 @@ class BearingReport:
                 for k, hz in enumerate(c.hz)
             ],
             "frequencies_hz": _single(hertz) if job.pair is None else hertz,
-            "friction": [[_friction_entries(one) for one in row] for row in self.friction],
+            "friction": [[one.to_dict() for one in row] for row in self.friction],
             "states": [state.to_dict() for state in self.states],
         }
-
-
-def _friction_entries(found: BearingFriction) -> dict[str, Any]:
-    """Moments for JSON."""
-    names = "rolling", "inlet_heat", "sliding", "skf_rolling", "skf_sliding"
-    return {name: getattr(found, name) for name in names} | {"law": str(found.law)}
 
 
 OWN = ("spall", "slip", "measured_order", "solve")  # options that are no entries of a file
@@ -323,7 +317,8 @@ class BearingOutput(o.FigureOutput):
 @o.grouped
 def bearing(
     source: Annotated[
-        str, typer.Argument(metavar="NAME|FILE.toml", help="As 6205 or 7205; or a file with dimensions.")
+        str,
+        typer.Argument(metavar="NAME|FILE.toml", help="As 6205, 7205 or 6205-2RS/C3; or a study of one support."),
     ],
     options: BearingOptions,
     out: BearingOutput,
