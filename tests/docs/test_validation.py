@@ -1,8 +1,10 @@
 """The page of validation is what its script makes of the stored numbers, which `tests/golden` compares."""
 
 import json
+import re
 
 import pytest
+from page_blocks import ROOT
 from programs import script
 
 
@@ -59,3 +61,37 @@ def test_every_difference_from_the_paper_has_a_reason(data):
         assert data[section] and all(row["reason"] for row in data[section])
     unexplained = [(r["case"], r["quantity"]) for r in data["table 1"] if r["reason"] == "not explained"]
     assert ("Table 1, case 3", "C1") in unexplained and len(unexplained) == 4
+
+
+def test_the_page_for_users_has_the_largest_differences(data):
+    """Each number of its table is the largest difference of the rows that it stands for, rounded."""
+    text = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+    told = {
+        cells[1]: re.findall(r"[\d.]+(?= %)", cells[2])
+        for cells in re.findall(r"^\| (.*) \| (.*) \| (.*) \|$", text, re.M)
+    }
+
+    def largest(sections, quantity, case=""):
+        rows = [r for name in sections for r in data[name] if case in r["case"] and quantity in r["quantity"]]
+        return 100.0 * max(abs(r["ours"] / r["theirs"] - 1.0) for r in rows)
+
+    cubics, harris = ("table 3", "table 5", "table 6"), ("deflection", "load of ball")
+    dry = [r for r in data["bearings"] if "Harris" not in r["case"]]
+    expected = {
+        "central film, Barus oil": [largest(["solvers"], "central film")],
+        "smallest film": [largest(["solvers"], "smallest film"), largest(["solvers"], "smallest film", "n = 256")],
+        "approach": [largest(["formulas"], "approach")],
+        "central film, incompressible": [largest(["formulas"], "central film")],
+        "cubics: approach at the load, tangent, C1": [
+            largest(cubics, name) for name in ("approach", "tangent", "C1")
+        ],
+        "deflection, stiffness": [
+            100.0 * max(abs(r["ours"] / r["theirs"] - 1.0) for r in dry if name in r["quantity"])
+            for name in ("deflection", "stiffness")
+        ],
+        "deflection and ball loads of a 209": [max(largest(["bearings"], name, "Harris") for name in harris)],
+    }
+    for what, values in expected.items():
+        rounded = [f"{x:.{len(said.partition('.')[2])}f}" for x, said in zip(values, told[what], strict=True)]
+        assert told[what] == rounded, what
+    assert max(r["ours"] for r in data["fmus"]) == pytest.approx(2.4e-14, rel=0.02)
