@@ -48,19 +48,21 @@ def main() -> None:
 
     panel = axes[1, 0]
     found = json.loads((RESULTS / "results.json").read_text(encoding="utf-8"))
-    film, rotor = found["memory"]["impedance"], found["operating_point"]["rotor_omega"]
+    film = found["memory"]["impedance"]
+    rotor = found["operating_point"]["rotor_omega"] / found["operating_point"]["time_unit"]  # rad/s
     memory = read(RESULTS / "elements" / "memory.json", FilmContact)
     omega = np.geomspace(0.5 * rotor, film["omega"][-1], 300)
-    panel.loglog(film["omega"][1:], film["damping"][1:], "o", markersize=4, label="full film")
-    panel.plot(omega, memory.impedance(Omega=omega).damping, label="film memory, one element")
+    hz = 0.5 / np.pi
+    panel.loglog(hz * np.array(film["omega"][1:]), film["damping"][1:], "o", markersize=4, label="full film")
+    panel.plot(hz * omega, memory.impedance(omega=omega).damping, label="film memory, one element")
     cubics = [row for row in found["fits"] if row["model"] == "cubic" and "refused" not in row]
-    at = [np.mean(row["valid"]["omega"]) for row in cubics]
+    at = [hz * np.mean(row["valid"]["omega"]) for row in cubics]
     panel.plot(
         at, [row["parameters"]["C1"] for row in cubics], "s", color="tab:red", label="cubics, one band each"
     )
-    panel.axvline(rotor, color="grey", linestyle=":")
-    panel.annotate(" rotor", (rotor, 0.3), xycoords=("data", "axes fraction"), color="grey")
-    panel.set(xlabel="frequency [u_sum/2a]", ylabel="damping [-]")
+    panel.axvline(hz * rotor, color="grey", linestyle=":")
+    panel.annotate(" rotor", (hz * rotor, 0.3), xycoords=("data", "axes fraction"), color="grey")
+    panel.set(xlabel="frequency [Hz]", ylabel="damping [N s/m]")
     panel.set_title("damping of the contact and of its elements", loc="left")
     panel.legend(frameon=False, fontsize=8)
 

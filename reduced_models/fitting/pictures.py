@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ehlcontact.point import MoesPoint, OperatingPoint
+from ehlcontact.point import OperatingPoint
 from ehlcontact.quantities import DAMPING, FREQUENCY, HERTZ, STIFFNESS
 from ehlcontact.results.picture import (
     BLUE,
@@ -39,8 +39,8 @@ def histories(run: Any, fitted: FitResult | None) -> Picture:
     if fitted is None:
         forces.append(Line(t, run.axis("load")[0], "load", GREY, ":"))
     else:
-        own, window = _own_element(run, fitted)
-        element = np.asarray(own.force(run.approach, run.rate))
+        window = fitted.window[0]
+        element = np.asarray(fitted.element.force(run.approach, run.rate))
         forces.append(Line(t, element, "cubic element", RED, "--"))
         until = float(window[0])
         bands = [(Band(float(t[0]), until, text),) for text in ("", "not fitted", "")]
@@ -83,7 +83,7 @@ def loops(runs: Mapping[str, Any], fits: Mapping[str, FitResult], titles: Mappin
 
 def _fitted_loop(run: Any, found: FitResult) -> tuple[list[Line], list[Line], tuple[Band, ...]]:
     """The part of a loop that was fitted, with the element; both less the element's static law; its validity."""
-    element, window = _own_element(run, found)
+    element, window = found.element, found.window[0]
     part = (run.t >= window[0]) & (run.t <= window[1])
     u, rate = run.approach[part], run.rate[part]
     model, spring = (np.asarray(f) for f in (element.force(u, rate), element.spring(u)))
@@ -100,54 +100,40 @@ def _fitted_loop(run: Any, found: FitResult) -> tuple[list[Line], list[Line], tu
     return [law, *pairs[0]], pairs[1], (Band(float(low), float(high), "valid", PALE_BLUE),)
 
 
-def _own_element(run: Any, found: FitResult) -> tuple[Any, tuple[float, float]]:
-    """Element of a fit, which is dimensionless, and its window, in the units of a run."""
-    s, (start, end) = run.point.scales, found.window[0]
-    element = found.element if isinstance(run.point, MoesPoint) else found.element.to_si(s)
-    return element, (start * s.time, end * s.time)
-
-
-def impedance(
-    response: Any, memory: Any, cubics: Sequence[FitResult], frequencies: tuple[float, float]
-) -> Picture:
+def impedance(response: Any, memory: Any, cubics: Sequence[FitResult], frequencies: tuple[float, ...]) -> Picture:
     """K and C of the film, of the film-memory element where there is one, and of cubics at their frequency.
 
     Parameters
     ----------
     response : Response
-        Of the film, to approach.
+        Of the film, to approach; all that follows is in its units.
     memory : element or None
-        Dimensionless.
     cubics : sequence of FitResult
         Those with a tangent are shown.
-    frequencies : (float, float)
-        Of the rotor's speed and of its vertical mode, dimensionless.
+    frequencies : (float,) or (float, float)
+        Angular frequencies of the rotor's speed and, where there is one, of its vertical mode.
     """
     film = response[response.omega > 0.0]
     found = [cubic for cubic in cubics if cubic.tangent is not None]
     at = [float(np.mean(cubic.valid["omega"])) for cubic in found]
-    Omega = film.dimensionless.omega
-    w = np.geomspace(min(0.5 * frequencies[0], float(Omega[0])), float(Omega[-1]), SMOOTH)
-    Z = None if memory is None else memory.impedance(Omega=w)
+    si = isinstance(film.point, OperatingPoint)
+    w = np.geomspace(min(0.5 * frequencies[0], float(film.omega[0])), float(film.omega[-1]), SMOOTH)
+    Z = None if memory is None else memory.impedance(**{"omega" if si else "Omega": w})
     known = {
         "stiffness": [cubic.tangent for cubic in found],
         "damping": [cubic.parameters["C1"] for cubic in found],
     }
-    quantities = {"stiffness": STIFFNESS, "damping": DAMPING}
-    si = isinstance(film.point, OperatingPoint)
-    scales = film.point.scales
-    hertz = scales.hertz if si else 1.0
+    unit = 0.5 / np.pi if si else 1.0  # of the frequency in the picture
 
     def lines(name: str) -> Iterator[Line]:
-        unit, bars = quantities[name].size(scales), film.error_bars[name]
-        yield Line(hertz * Omega, getattr(film, name), "film", BLUE, "", "o", bars=bars)
+        yield Line(unit * film.omega, getattr(film, name), "film", BLUE, "", "o", bars=film.error_bars[name])
         if Z is not None:
-            yield Line(hertz * w, unit * getattr(Z, name), "film memory, one element", GREEN)
+            yield Line(unit * w, getattr(Z, name), "film memory, one element", GREEN)
         if found:
-            squares = unit * np.array(known[name], dtype=float)
-            yield Line(hertz * np.array(at), squares, "cubic element of each record", RED, "", "s")
+            squares = np.array(known[name], dtype=float)
+            yield Line(unit * np.array(at), squares, "cubic element of each record", RED, "", "s")
 
-    marks = [Mark(hertz * omega, name) for omega, name in zip(frequencies, ("speed", "mode"), strict=True)]
+    marks = [Mark(unit * omega, name) for omega, name in zip(frequencies, ("speed", "mode"), strict=False)]
     frequency = ("frequency", HERTZ.unit) if si else ("angular frequency", FREQUENCY.moes)
     units = (STIFFNESS.unit, DAMPING.unit) if si else (STIFFNESS.moes, DAMPING.moes)
     return Picture(stiffness_and_damping(lines, frequency, units, marks=marks))

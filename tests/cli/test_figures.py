@@ -80,20 +80,19 @@ def test_loops_show_the_element_that_was_fitted():
     unit = IN_SI.scales.time
     steps = TimeSteps(until=4.0 * unit, dt=0.05 * unit)
     run = simulate(IN_SI, HarmonicLoad(Omega=3.0), grid=Grid(n=32), time=steps)
-    found = fit(ContactRecord.from_result(run.dimensionless), "cubic", (2.0, 4.0))
+    found = fit(ContactRecord.from_result(run), "cubic", (2.0 * unit, 4.0 * unit))
     picture = loops({"harmonic": run}, {"harmonic": found}, {"harmonic": "a title"})
     assert picture.panels[0].title == "a title"
-    run, s = run.dimensionless, IN_SI.scales
-    k, inside = found.parameters, run.t >= 2.0 * (1.0 - 1e-12)
+    k, inside = found.parameters, run.t >= 2.0 * unit * (1.0 - 1e-12)
     u, damper = run.approach[inside], k["C1"] * run.rate[inside]
     spring = k["K1"] * u + k["K2"] * u**2 + k["K3"] * u**3
     element, film = named(picture, "cubic element"), named(picture, "film")
-    np.testing.assert_allclose(element.x, u * s.length * 1e6)
-    np.testing.assert_allclose(element.y, (spring + damper) * s.force)
-    np.testing.assert_allclose(film.y, run.force[inside] * s.force)
+    np.testing.assert_allclose(element.x, u * 1e6)
+    np.testing.assert_allclose(element.y, spring + damper)
+    np.testing.assert_allclose(film.y, run.force[inside])
     element, film = named(picture, "cubic element", 1), named(picture, "film", 1)
-    np.testing.assert_allclose(film.y, (run.force[inside] - spring) * s.force, atol=1e-12)
-    np.testing.assert_allclose(element.y, damper * s.force, atol=1e-12)
+    np.testing.assert_allclose(film.y, run.force[inside] - spring, atol=1e-12 * IN_SI.load)
+    np.testing.assert_allclose(element.y, damper, atol=1e-12 * IN_SI.load)
 
 
 def test_spectrum_shows_amplitudes():

@@ -99,10 +99,10 @@ def test_lines_are_those_of_the_files(finished, figures, results):
     close(line(figures["free"], "film")["y"], free.approach * 1e6)
     close(line(figures["free"], "centre")["y"], free.h_central * 1e6)
     of = results["memory"]["impedance"]
-    moving, s = np.array(of["omega"]) > 0.0, read(finished[1] / "free.h5").point.scales
-    hz = np.array(of["omega"])[moving] / (2.0 * np.pi * s.time)
+    moving = np.array(of["omega"]) > 0.0
+    hz = np.array(of["omega"])[moving] / (2.0 * np.pi)
     assert line(figures["impedance"], "film")["x"] == pytest.approx(hz, rel=1e-4)
-    close(line(figures["impedance"], "film")["y"], np.array(of["stiffness"])[moving] * s.stiffness * 1e-6)
+    close(line(figures["impedance"], "film")["y"], np.array(of["stiffness"])[moving] * 1e-6)
     inner = [ball["force"][0] for ball in results["in_time"]["balls"]]
     close(line(figures["balls_1"], "inner race")["r"], inner)
     residuals = line(figures["convergence"], "residual of Reynolds, over the dry start's")["y"]

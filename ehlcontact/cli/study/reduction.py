@@ -51,7 +51,7 @@ DRAWN = (FULL, ROTOR_BAND[0], DRY)  # where all would be too many
 
 @dataclass(frozen=True)
 class Reduction:
-    """Fits by (record, model), and why some pairs have none; and the one element for all records."""
+    """Fits in SI by (record, model), and why some pairs have none; and the one element for all records."""
 
     fits: Mapping[tuple[str, str], FitResult]
     refused: Mapping[tuple[str, str], str]
@@ -59,15 +59,15 @@ class Reduction:
     impedance: Response
     scales: Scales
 
-    def element_si(self, record: str, model: str) -> Any:
-        """The element in SI units, None where the fit was refused."""
+    def element(self, record: str, model: str) -> Any:
+        """The element, None where the fit was refused."""
         found = self.fits.get((record, model))
-        return None if found is None else found.element.to_si(self.scales)
+        return None if found is None else found.element
 
     @property
-    def memory_si(self) -> Any:
-        """The film-memory element in SI units, None where the fit was refused."""
-        return None if isinstance(self.memory, str) else self.memory.element.to_si(self.scales)
+    def memory_element(self) -> Any:
+        """The film-memory element, None where the fit was refused."""
+        return None if isinstance(self.memory, str) else self.memory.element
 
     @property
     def chosen(self) -> SpringContact:
@@ -78,7 +78,7 @@ class Reduction:
         InputError
             It could not be fitted.
         """
-        element = self.element_si(*ROTOR_BAND)
+        element = self.element(*ROTOR_BAND)
         if element is None:
             raise InputError(
                 "rotor_band fit", self.refused[ROTOR_BAND], "a cubic element; raise contact.rotor_band.amplitude"
@@ -88,7 +88,7 @@ class Reduction:
     @property
     def rotor_elements(self) -> dict[str, Any]:
         """SI elements that the rotor runs on: the chosen one, two others where they were fitted, and baselines."""
-        others = {MEMORY: self.memory_si, CONTACT_BAND[0]: self.element_si(*CONTACT_BAND)}
+        others = {MEMORY: self.memory_element, CONTACT_BAND[0]: self.element(*CONTACT_BAND)}
         fitted = {ROTOR_BAND[0]: self.chosen} | {
             name: found for name, found in others.items() if found is not None
         }
@@ -111,7 +111,7 @@ def reduce_records(
     records = []
     for record, simulation in simulations.items():
         window = _window(simulation)
-        records.append(ContactRecord.from_result(simulation.dimensionless))
+        records.append(ContactRecord.from_result(simulation))
         for model in MODELS:
             try:
                 fits[record, model] = _with_source(fit(records[-1], model, window), known)
@@ -127,8 +127,8 @@ def reduce_records(
 
 def _at_memory_frequencies(response: Response) -> Response:
     """At the frequencies that a film memory is fitted at: more at the slow end would outweigh the others."""
-    whole = response.dimensionless
-    return whole[np.isclose(whole.omega[:, None], OMEGAS, rtol=1e-9, atol=0.0).any(axis=1)]  # but for rounding
+    Omega = response.dimensionless.omega
+    return response[np.isclose(Omega[:, None], OMEGAS, rtol=1e-9, atol=0.0).any(axis=1)]  # but for rounding
 
 
 def contact_text(study: Study) -> str:
@@ -156,23 +156,20 @@ def _window(simulation: SimulationResult) -> tuple[float, float] | None:
     same rule but for two things: this window is a hair longer, so that rounding of the times never drops its
     first sample (as it does from the 6205's record in the contact's band), and at least a period.
     """
-    motion = simulation.motion
-    if not isinstance(motion, HarmonicLoad):
+    if not isinstance(simulation.motion, HarmonicLoad):
         return None
-    end = float(simulation.dimensionless.t[-1])
-    periods = max(1, int(end / motion.period * 2.0 / 3.0 + 1e-9))
-    return max(0.0, end - periods * motion.period - 1e-9 * end), end
+    end, period = float(simulation.t[-1]), simulation.motion.period * simulation.point.scales.time
+    periods = max(1, int(end / period * 2.0 / 3.0 + 1e-9))
+    return max(0.0, end - periods * period - 1e-9 * end), end
 
 
 def save_elements(reduction: Reduction, folder: Path) -> list[Path]:
-    """Write every element as JSON, dimensionless and SI."""
+    """Write every element as JSON, in SI."""
     target = folder / "elements"
     target.mkdir(exist_ok=True)
     files = []
     for (record, model), found in reduction.fits.items():
         files.append(save(found.element, target / f"{record}_{model}.json"))
-        files.append(save(reduction.element_si(record, model), target / f"{record}_{model}_si.json"))
     if not isinstance(reduction.memory, str):
         files.append(save(reduction.memory.element, target / f"{MEMORY}.json"))
-        files.append(save(reduction.memory_si, target / f"{MEMORY}_si.json"))
     return files

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
-from math import degrees
+from math import degrees, pi
 from pathlib import Path
 from typing import Any
 
@@ -55,8 +55,7 @@ FILES = {
     "study.toml": "the study itself; the same command with it resumes, or makes this page again",
     "contact.fmu": "FMU of the cubic element fitted in the rotor's band",
     "contact_film.fmu": "FMU of the element with a film memory",
-    "elements/*_si.json": "an element in SI units, for ehlcontact export and for ehlcontact.read",
-    "elements/*.json": "the same, dimensionless",
+    "elements/*.json": "an element in SI units, for ehlcontact export and for ehlcontact.read",
     "on_bearings_*.h5": "motion of the rotor on whole bearings",
     "*.h5": "STAGE: fields or histories",
     "store": "what was computed, by its inputs: a run resumes from it, and nothing else needs it",
@@ -209,9 +208,8 @@ def drawings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
 def _of_contact(found: ContactFindings) -> dict[str, Callable[[], Picture | Slides]]:
     reduction, steady, runs = found.reduction, found.steady, found.simulations
     cubic = {name: reduction.fits[name, "cubic"] for name in RECORDS if (name, "cubic") in reduction.fits}
-    memory = None if isinstance(reduction.memory, str) else reduction.memory.element
-    kicked = found.at_kicked_mode
-    frequencies = (found.study.rotor_omega, *(() if kicked is None else (kicked["Omega"],)))
+    memory, kicked = reduction.memory_element, found.at_kicked_mode
+    frequencies = (2.0 * pi * found.study.rotor_hz, *(() if kicked is None else (kicked["omega"],)))
     return {
         "film_maps": lambda: film_picture(steady)[0],
         "midplane": lambda: film_picture(steady)[1],

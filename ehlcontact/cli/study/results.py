@@ -134,8 +134,9 @@ class ContactFindings:
     @property
     def cycle_work(self) -> dict[str, float]:
         """Work taken up in the last cycle of the rotor-band record [J]: by the film, and by the elements."""
-        run, scales = self.simulations["rotor_band"].dimensionless, self.study.point.scales
-        last = run.t >= run.t[-1] - self.study.rotor_motion.period * (1.0 + 1e-9)
+        run = self.simulations["rotor_band"]
+        period = self.study.rotor_motion.period * run.point.scales.time
+        last = run.t >= run.t[-1] - period * (1.0 + 1e-9)
         u, rate = run.approach[last], run.rate[last]
         forces = {"full": run.force[last]}
         for (record, model), found in self.reduction.fits.items():
@@ -144,16 +145,14 @@ class ContactFindings:
         memory = self.reduction.memory
         if not isinstance(memory, str):
             forces["memory"] = memory.element.drive(run.t, run.approach, run.rate)[last]
-        unit = scales.force * scales.length
-        return {name: float(np.trapezoid(force, u)) * unit for name, force in forces.items()}
+        return {name: float(np.trapezoid(force, u)) for name, force in forces.items()}
 
     @property
     def fits(self) -> list[dict[str, Any]]:
-        """One row per record and model, refused ones with the reason."""
+        """One row per record and model, in SI; refused ones with the reason."""
         rows: list[dict[str, Any]] = []
-        for (record, model), found in self.reduction.fits.items():
-            si = self.reduction.element_si(record, model)
-            rows.append({"record": record, "si": si.parameters, **found.to_dict()})
+        for (record, _), found in self.reduction.fits.items():
+            rows.append({"record": record, **found.to_dict()})
         for (record, model), reason in self.reduction.refused.items():
             rows.append({"record": record, "model": model, "refused": reason})
         return sorted(rows, key=lambda row: (list(RECORDS).index(row["record"]), row["model"]))
@@ -163,8 +162,8 @@ class ContactFindings:
         """The film-memory element and the impedance it was fitted to, or why there is none."""
         found, response = self.reduction.memory, self.reduction.impedance
         if isinstance(found, str):
-            return {"refused": found, "impedance": response.dimensionless.to_dict()}
-        return found.to_dict() | {"impedance": response.dimensionless.to_dict()}
+            return {"refused": found, "impedance": response.to_dict()}
+        return found.to_dict() | {"impedance": response.to_dict()}
 
     @property
     def at_rotor_speed(self) -> dict[str, float]:
@@ -179,22 +178,24 @@ class ContactFindings:
             return None
         omega = self.rotors.decay.mode.omega
         K, C = stiffness_and_damping(self.reduction.impedance, omega)
-        return {"Omega": omega * self.study.point.scales.time, "stiffness": K, "damping": C}
+        return {"omega": omega, "stiffness": K, "damping": C}
 
     @property
     def damper_of_fit(self) -> dict[str, Any]:
         """The chosen element's damper and its 95 % interval [N s/m]."""
-        found, unit = self.reduction.fits[ROTOR_BAND], self.study.point.scales.damping
-        return {"damping": self.reduction.chosen.C1, "interval": [unit * end for end in found.intervals["C1"]]}
+        interval = self.reduction.fits[ROTOR_BAND].intervals["C1"]
+        return {"damping": self.reduction.chosen.C1, "interval": list(interval)}
 
     @property
     def rotor_loop(self) -> dict[str, float]:
         """Over the load, in the rotor's band: largest force of the cubic's damper, and the cubic's rms misfit."""
-        found, run = self.reduction.fits[ROTOR_BAND], self.simulations[ROTOR_BAND[0]].dimensionless
-        fitted = (run.t >= found.window[0][0]) & (run.t <= found.window[0][1])
+        found, run = self.reduction.fits[ROTOR_BAND], self.simulations[ROTOR_BAND[0]]
+        start, end = found.window[0]
+        fitted = (run.t >= start * (1.0 - 1e-12)) & (run.t <= end * (1.0 + 1e-12))  # but for rounding
+        load = run.static_load
         return {
-            "damper": found.parameters["C1"] * float(np.abs(run.rate[fitted]).max()),
-            "misfit": found.rms * float(np.std(run.force[fitted])),
+            "damper": found.parameters["C1"] * float(np.abs(run.rate[fitted]).max()) / load,
+            "misfit": found.rms * float(np.std(run.force[fitted])) / load,
         }
 
     @property

@@ -117,7 +117,7 @@ def _contact(study: Study, folder: Path) -> ContactFindings:
     reduction = reduce_records(simulations, response, study.point.scales, known)
     save_elements(reduction, folder)
     exported = export_fmu(reduction.chosen, folder / "contact.fmu")
-    film = reduction.memory_si
+    film = reduction.memory_element
     exported_film = None if film is None else export_fmu(film, folder / "contact_film.fmu")
     rotors = None
     if study.full_films is not None:
@@ -169,9 +169,8 @@ def products(results: Mapping[str, Any]) -> dict[str, str]:
         if "refused" not in row:
             name = f"{row['record']}_{row['model']}"
             made[f"element {name}"] = f"elements/{name}.json"
-            made[f"element {name}, SI"] = f"elements/{name}_si.json"
     if "refused" not in results["memory"]:
-        made |= {"element memory": "elements/memory.json", "element memory, SI": "elements/memory_si.json"}
+        made["element memory"] = "elements/memory.json"
     for entry in _fmus(results):
         if entry["passes"]:
             made[f"FMU {Path(entry['file']).stem}"] = entry["file"]
