@@ -94,7 +94,7 @@ def _ball_load(machine: Any) -> Tile:
 
     def words(one: Any) -> str:
         angles = one.contact_angles
-        at = "" if angles is None else f" at {digits(degrees(angles[0]))}°"
+        at = "" if angles is None else f" at {digits(round(degrees(angles[0]), 1))}°"
         return f"{digits(1e-9 * one.p_hertz)} GPa{at}"
 
     others = _others(machine, own, lambda one: f"{digits(one.ball_load)} N, {words(one)}")
