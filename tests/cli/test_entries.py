@@ -10,7 +10,6 @@ from ehlcontact.cli.options import Grid
 from ehlcontact.cli.study.schema import Study
 
 SAME = {  # entry: option of a point
-    "operation.speed_rpm": "speed_rpm",
     "contact.race": "race",
     "oil.eta0": "eta0",
     "oil.alpha": "alpha",
@@ -41,6 +40,7 @@ def test_an_option_is_declared_as_its_entry(entry, option):
         ("full_films.nothing", ""),
         ("support.left.ball_diameter_mm", "between 0.1 and 500 mm"),
         ("operation.radial_load", "0, or between 1e-06 and 1e+08 N"),
+        ("operation.speed_rpm", "0, or between 0.001 and 1e+06 rev/min"),
     ],
 )
 def test_range_in_words(entry, words):
@@ -57,7 +57,7 @@ def test_every_option_has_a_meaning(group):
 @pytest.mark.parametrize(
     ("entry", "old", "option"),
     [
-        ("speed_rpm = -3", "speed_rpm = 3000.0", ("--speed-rpm", "-3")),
+        ("alpha = 20", "alpha = 2.0e-8", ("--alpha", "20")),
         ("eta0 = 36.7", "eta0 = 0.0367", ("--eta0", "36.7")),
     ],
 )

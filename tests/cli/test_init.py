@@ -9,7 +9,8 @@ import pytest
 from ehlcontact.cli.entries import keys_of, meaning_of, section_of
 from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.machine import bearing_of
-from ehlcontact.cli.study.schema import FullFilms, Study, load_study, study_of
+from ehlcontact.cli.study.schema import Study, load_study, study_of
+from ehlcontact.cli.study.sections import FullFilms
 from ehlcontact.lubricant.oil import GRADES
 from reduced_models import BallBearing
 from reduced_models.bearing.catalogue import DEEP_GROOVE

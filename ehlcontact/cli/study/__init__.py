@@ -4,6 +4,7 @@
 module                 responsibility
 =====================  ======================================================================================
 ``schema``             the study file: what may stand in it, and errors in one line
+``sections``           its sections, but for the oil
 ``schema_errors``      those errors, and guesses at what was meant
 ``machine``            bearings, pairs and rotor made of its entries
 ``loads``              loads on the supports, the most loaded ball, and what is no machine

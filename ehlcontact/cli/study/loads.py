@@ -26,7 +26,8 @@ from reduced_models.bearing.set_result import SetState
 from reduced_models.rotor.prepared_run import LEAST_STEPS
 
 if TYPE_CHECKING:
-    from ehlcontact.cli.study.schema import Defect, Study
+    from ehlcontact.cli.study.schema import Study
+    from ehlcontact.cli.study.sections import Defect
 
 _Floats = NDArray[np.float64]
 

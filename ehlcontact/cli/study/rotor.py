@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.cli.study.schema import FullFilms, Study
+from ehlcontact.cli.study.schema import Study
+from ehlcontact.cli.study.sections import FullFilms
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.response import impedance
 from ehlcontact.results import Response

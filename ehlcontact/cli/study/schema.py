@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 from math import cos, hypot, pi
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import Field, ValidationError
 
@@ -16,6 +16,17 @@ from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.study.schema_errors import first_error, inputs_of, names_of, require_sections
+from ehlcontact.cli.study.sections import (
+    Contact,
+    Defect,
+    Disc,
+    FullFilms,
+    InTime,
+    Operation,
+    Shaft,
+    Support,
+    Surface,
+)
 from ehlcontact.cli.toml import read_toml
 from ehlcontact.content_store import key_of
 from ehlcontact.errors import InputError
@@ -40,38 +51,6 @@ LOADS = ("radial_load", "axial_load", "moment_x", "moment_y", "tilt_x_mrad", "ti
 BALL_PARTS = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # dimensions of a bearing without a name
 LOAD_DIGITS = 10  # of a load: an equilibrium is found to some 1e-14 of it, and fits would answer to the rest
 OF_JEFFCOTT = ("disc_mass", "journal_mass", "shaft_stiffness", "shaft_damping", "disc_damping", "unbalance")
-
-
-class Operation(Section):
-    """Speed and loads. Loads are for a bearing alone: with [shaft] the discs and their weight are the load.
-
-    Lists, as [1500.0, 3000.0], make a study of several points: every speed with every radial load.
-    """
-
-    speed_rpm: Annotated[e.SpeedOrRest, e.meaning("speed of the shaft, or a list")]
-    radial_load: Annotated[e.LoadOrNone | None, e.meaning("radial load on the bearing, downwards")] = None
-    axial_load: Annotated[
-        e.AxialLoad | None,
-        e.meaning(
-            "axial load on the bearing: with it balls have contact angles; angular contact bearings need it"
-        ),
-    ] = None
-    moment_x: Annotated[
-        e.Moment | None,
-        e.meaning("moment about x (horizontal): with it, or moment_y, the inner ring tilts freely"),
-    ] = None
-    moment_y: Annotated[e.Moment | None, e.meaning("moment about y (upwards)")] = None
-    tilt_x_mrad: Annotated[
-        e.Tilt | None, e.meaning("misalignment: tilt about x at which the inner ring is held")
-    ] = None
-    tilt_y_mrad: Annotated[e.Tilt | None, e.meaning("tilt about y at which the inner ring is held")] = None
-    hz: Annotated[
-        tuple[e.NotNegative, ...] | None,
-        Field(strict=False, min_length=1, description="frequencies of K and C, Hz; those about the shaft's"),
-    ] = None
-    layer_um: e.OilThickness | None = None
-    layer_ratio: e.BearingLayerRatio | None = None
-    thermal: Annotated[bool, e.meaning("films that heat up, beside isothermal ones")] = False
 
 
 class Oil(Section):
@@ -170,225 +149,6 @@ def oil_grade(text: str, field: str) -> int:
         *most, last = map(str, GRADES)
         raise InputError(field, text, f"ISO VG {', '.join(most)} or {last}; any other oil by its eta0 and alpha")
     return int(found[1])
-
-
-class Surface(Section):
-    """Roughness, for the lambda ratio alone: films are solved between smooth surfaces."""
-
-    rq_um: Annotated[e.Roughness | None, e.meaning("Rq of ball and race together, in place of that of each")] = (
-        None
-    )
-    rq_ball_um: Annotated[e.Roughness | None, e.meaning("Rq of the balls; with rq_race_um or not at all")] = None
-    rq_race_um: Annotated[e.Roughness | None, e.meaning("Rq of the races")] = None
-
-
-class Shaft(Section):
-    """The shaft of a machine, on two supports or more: round, or without mass, by its stiffness."""
-
-    length_mm: Annotated[e.Length, e.meaning("its length; positions are distances from its left end")]
-    diameter_mm: Annotated[e.Diameter | None, e.meaning("its diameter")] = None
-    bore_mm: Annotated[e.Bore, e.meaning("diameter of a bore through it")] = 0.0
-    density: e.Density = 7800.0
-    youngs_modulus: Annotated[e.YoungsModulus, e.meaning("Young's modulus of the shaft")] = 2.06e11
-    stiffness: Annotated[
-        e.Stiffness | None,
-        e.meaning("of a shaft without mass, in the middle between supports at its ends; in place of diameter_mm"),
-    ] = None
-    damping: Annotated[e.NotNegative, e.meaning("N s/m, of the shaft itself, with stiffness")] = 0.0
-    damping_time: Annotated[
-        e.NotNegative, e.meaning("s, of a round shaft: its damping over its stiffness, in the fixed frame")
-    ] = 0.0
-
-
-class Disc(Section):
-    """A rigid disc on the shaft: a cylinder by its size, or by its mass."""
-
-    position_mm: Annotated[e.Position, e.meaning("of its middle, from the left end of the shaft")]
-    diameter_mm: Annotated[e.Diameter | None, e.meaning("its diameter; with width_mm")] = None
-    width_mm: Annotated[e.Diameter | None, e.meaning("its width along the shaft")] = None
-    bore_mm: Annotated[
-        e.Bore | None, e.meaning("of its bore, which the shaft fills; the diameter of the shaft if left out")
-    ] = None
-    density: e.Density | None = None
-    mass: Annotated[e.Mass | None, e.meaning("its mass, in place of its size")] = None
-    diametral_inertia: Annotated[e.Inertia | None, e.meaning("kg m2, about a diameter, with mass")] = None
-    polar_inertia: Annotated[e.Inertia | None, e.meaning("kg m2, about the shaft, with mass")] = None
-    unbalance: Annotated[e.NotNegative, e.meaning("kg m, mass times eccentricity")] = 0.0
-    radial_load: Annotated[e.Force, e.meaning("N, beside its weight, downwards")] = 0.0
-    axial_load: Annotated[e.Force, e.meaning("N, along the shaft, to the right")] = 0.0
-    damping: Annotated[e.NotNegative, e.meaning("N s/m, of the air about it")] = 0.0
-
-
-class Support(Section):
-    """A bearing, or a pair of them, under the shaft: by its name in the catalogue, or by its dimensions."""
-
-    name: Annotated[e.Text | None, e.meaning("of this support; left, right of two")] = None
-    position_mm: Annotated[e.Position | None, e.meaning("from the left end of the shaft; with [shaft]")] = None
-    bearing: Annotated[
-        e.Catalogue | None, e.meaning("name in the catalogue, in place of the dimensions below")
-    ] = None
-    balls: e.Balls | None = None
-    ball_diameter_mm: e.BallDiameter | None = None
-    pitch_diameter_mm: e.PitchDiameter | None = None
-    conformity: Annotated[
-        e.Conformity | None, e.meaning("groove radius over ball diameter, of both races; 0.52 if left out")
-    ] = None
-    conformity_inner: Annotated[e.Conformity | None, e.meaning("of the inner race, in its place")] = None
-    conformity_outer: Annotated[e.Conformity | None, e.meaning("of the outer race, in its place")] = None
-    contact_angle_deg: Annotated[
-        e.ContactAngle | None,
-        e.meaning("free contact angle of an angular contact bearing; that of its name if left out"),
-    ] = None
-    clearance: Annotated[
-        e.Clearance | str | None,
-        e.meaning('radial internal clearance, um, below 0 a preload; or a class, as "CN"; 0 if left out'),
-    ] = None
-    facing: Annotated[
-        Literal["+z", "-z"] | None,
-        e.meaning("direction in which the shaft presses the inner ring; +z is to the right"),
-    ] = None
-    spring: Annotated[
-        e.RingSpring | None,
-        e.meaning("N, of a spring that presses its outer ring, which slides, against facing; 0: it floats"),
-    ] = None
-    offset_um: Annotated[e.Finite | None, e.meaning("um, of a ground ring or spacer that presses it")] = None
-    pair: e.Arrangement | None = None
-    preload: e.Preload | None = None
-    pair_spring: Annotated[
-        e.Spring | None,
-        e.meaning("force of a spring on the outer ring of the second of the pair, in place of preload"),
-    ] = None
-    distance_mm: Annotated[
-        e.Distance | None, e.meaning("distance of the planes of the pair; side by side where left out")
-    ] = None
-    journal_mass: Annotated[
-        e.NotNegative,
-        e.meaning("kg, beside that of the shaft: inner ring, sleeve; a share of a shaft without mass"),
-    ] = 0.0
-    housing_stiffness: Annotated[
-        e.Stiffness | None, e.meaning("between housing and ground, with housing_mass")
-    ] = None
-    housing_mass: Annotated[e.Mass | None, e.meaning("of what moves with the outer ring")] = None
-    housing_damping: Annotated[e.NotNegative, e.meaning("N s/m, between housing and ground")] = 0.0
-    race_control: Annotated[
-        e.RaceControl | None, e.meaning("what holds the gyroscopic moment of the balls; outer where left out")
-    ] = None
-    loss_factor: Annotated[e.NotNegative | None, e.meaning("of rings and fits, measured")] = None
-    ball_inertia: Annotated[bool | None, e.meaning("balls vibrate between the rings; from some kHz on")] = None
-    cutoff_gap_um: Annotated[
-        e.Positive | None, e.meaning("um, beyond which the film of an unloaded ball is gone")
-    ] = None
-    youngs_modulus: e.YoungsModulus = 2.06e11
-    poisson_ratio: e.PoissonRatio = 0.3
-
-    @property
-    def label(self) -> str:
-        """Its own name, or that of its bearing."""
-        return self.name or self.bearing or "ball bearing"
-
-
-class Free(Section):
-    """Free vibration of a mass on the contact, which a cubic element is fitted to."""
-
-    Omega_n: Annotated[
-        e.Frequency | None, e.meaning("of mass and dry contact, in u_sum/(2a); 2.56 where neither is given")
-    ] = None
-    hz: Annotated[e.Positive | None, e.meaning("Hz, in its place: the frequency of small dry vibrations")] = None
-    periods: e.Periods = 2.5
-    steps_per_period: e.Steps = 80
-
-
-class Harmonic(Section):
-    """Harmonic load in the band of the contact's own vibrations, which another element is fitted to."""
-
-    Omega: Annotated[e.Frequency | None, e.meaning("frequency, in u_sum/(2a); pi where neither is given")] = None
-    hz: Annotated[e.Positive | None, e.meaning("frequency in Hz, in its place")] = None
-    amplitude: Annotated[e.Share, e.meaning("over the static load")] = 0.1
-    periods: e.Periods = 3.0
-    steps_per_period: e.Steps = 80
-
-
-class RotorBand(Section):
-    """Harmonic load at the speed of the shaft, which the element of the FMU is fitted to."""
-
-    amplitude: Annotated[e.Share, e.meaning("over the static load")] = 0.25
-    periods: e.Periods = 2.0
-    steps_per_period: e.Steps = 40
-
-
-class Contact(Section):
-    """The film of the most loaded ball of a bearing, in full: its motions, and elements fitted to them."""
-
-    support: Annotated[e.Text | None, e.meaning("name of the support; the first one if left out")] = None
-    race: e.Race = "inner"
-    n: Annotated[e.Intervals, e.meaning("intervals along rolling, steady film")] = 128
-    n_transient: Annotated[e.Intervals, e.meaning("intervals along rolling, every film in motion")] = 128
-    domain: Annotated[
-        tuple[e.Finite, e.Finite, e.Finite],
-        Field(
-            strict=False,
-            description="inlet, outlet and half width in semi-axes of the contact; damping depends on it a little",
-        ),
-    ] = (-4.5, 1.5, 3.0)
-    free: Free = Free()
-    harmonic: Harmonic = Harmonic()
-    rotor_band: RotorBand = RotorBand()
-
-
-class FullFilms(Section):
-    """Jeffcott rotor on computed films and on elements: it turns with its unbalance, and decays after a kick.
-
-    Mass, stiffness and unbalance are those of the machine where its shaft has a stiffness and one disc.
-    """
-
-    arrangement: Annotated[
-        Literal["vee", "vertical"], e.meaning("balls that carry each journal: two at an angle, or one below")
-    ] = "vee"
-    half_angle_deg: Annotated[e.Finite, Field(gt=0.0, lt=90.0, description="degrees, of a vee")] = 20.0
-    disc_mass: Annotated[e.Mass, e.meaning("mass of the disc")] = 2.0
-    journal_mass: Annotated[e.Mass, e.meaning("mass of both journals together")] = 0.3
-    shaft_stiffness: Annotated[e.Stiffness, e.meaning("of the shaft between the bearings at the disc")] = 2e8
-    shaft_damping: Annotated[e.NotNegative, e.meaning("N s/m, of the shaft itself")] = 60.0
-    disc_damping: Annotated[e.NotNegative, e.meaning("N s/m, of the air about the disc")] = 1.0
-    unbalance: Annotated[e.Unbalance, e.meaning("mass times eccentricity")] = 4e-5
-    revolutions: Annotated[
-        e.Whole,
-        Field(ge=2, le=100, description="revolutions computed on full films, from near the settled motion on"),
-    ] = 3
-    steps_per_revolution: e.Steps = 60
-    kick: Annotated[e.Share, e.meaning("amplitude of the contacts' load after the kick, over that at rest")] = 0.05
-    decay_periods: Annotated[
-        e.Finite, Field(ge=4.0, le=100.0, description="periods of the vibration after the kick")
-    ] = 8.0
-    decay_steps_per_period: e.Steps = 40
-    half_step: Annotated[
-        bool, e.meaning("everything on full films again with half the step; the study takes about twice as long")
-    ] = False
-
-
-class InTime(Section):
-    """The machine in time on models of its bearings: films with memory, dry, constant K and C.
-
-    Its two bearings are alike and planar: no axial load, spring, pair or housing.
-    """
-
-    revolutions: Annotated[
-        e.Whole, Field(ge=10, le=1000, description="revolutions computed; the second half of them is shown")
-    ] = 30
-    steps_per_revolution: Annotated[e.Whole, Field(ge=200, le=10000, description="time steps in each of them")] = (
-        500
-    )
-
-
-class Defect(Section):
-    """A spall in a bearing: its orders, and its force over time and as an envelope."""
-
-    support: Annotated[e.Text | None, e.meaning("name of the support; the first one if left out")] = None
-    spall: Annotated[e.Text, e.meaning("race, mm along the track, um deep, as outer,0.5,0.3")]
-    cage_slip_percent: Annotated[
-        e.CageSlip | None,
-        e.meaning("slip of the cage in orders and lines of the spall, of its speed with balls that roll"),
-    ] = None
 
 
 class Study(Section):

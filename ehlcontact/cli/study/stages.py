@@ -11,7 +11,8 @@ from math import ceil
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ehlcontact.cli.study.schema import Contact, Study
+from ehlcontact.cli.study.schema import Study
+from ehlcontact.cli.study.sections import Contact
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.jit import compilation_told
 from ehlcontact.process.worker import report
