@@ -91,6 +91,12 @@ def compile_for(kernel: Any, arguments: Sequence[Any]) -> None:
     kernel.compile(tuple(kernel.typeof_pyval(given) for given in arguments))
 
 
+def is_kept(kernel: Any) -> bool:
+    """Whether a kernel, one with `inner` too, is found compiled; always where NUMBA_DISABLE_JIT is set."""
+    kernel = getattr(kernel, "_kernel", kernel)
+    return not hasattr(kernel, "py_func") or bool(kernel._cache.is_kept)
+
+
 def plain(kernel: Any) -> Any:
     """The Python function of a kernel; the kernel itself where NUMBA_DISABLE_JIT is set."""
     return getattr(kernel, "py_func", kernel)

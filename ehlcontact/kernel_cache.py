@@ -3,6 +3,10 @@
 Numba runs what it finds in a file. One that a full disk or a power cut left empty, cut or of zeros would end every
 later start in a traceback or a segmentation fault. So each has a checksum before its content, and what does not
 agree with it is compiled anew. Where no folder can be written to, kernels are compiled in every process.
+
+Processes that need a kernel at one time compile it once: the first leaves a file beside the index, and the others
+wait for what it keeps. Two that saved types of one kernel together would each write an index without the other's,
+whose kernel every later run would compile again.
 """
 
 from __future__ import annotations
@@ -10,8 +14,10 @@ from __future__ import annotations
 import os
 import pickle
 import re
+import socket
 import sys
 import tempfile
+import time
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -36,6 +42,7 @@ from ehlcontact.files import remove_leftovers, temporary_for
 _PACKAGES = "ehlcontact", "reduced_models", "fmu"
 _IMPORT = re.compile(r"^(?:from|import) ([\w.]+)", re.MULTILINE)
 DIGEST = sha256().digest_size  # bytes before the content of a file
+PATIENCE, TICK = 120.0, 0.05  # s: of a process that waits for another's kernel, and between its looks
 SUFFIX = "checked"  # of names: files that numba keeps of other decorators have no checksum
 
 
@@ -74,9 +81,29 @@ class KernelCache(FunctionCache):
         self._cache_file: Any = _Files(self._cache_path, f"{self._impl.filename_base}.{SUFFIX}", stamp)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Compiled kernel for a signature; None where there is none that is sound, and of these sources."""
-        # compared before anything else is read
+        """Compiled kernel for a signature; None where there is none that is sound, and of these sources.
+
+        A kernel that another process compiles meanwhile is awaited; None leaves its file to this process.
+        """
+        deadline = time.monotonic() + PATIENCE
+        while True:
+            found = self._loaded(sig, target_context)
+            if found is not None or self._claimed() or time.monotonic() > deadline:
+                return found
+            time.sleep(TICK)
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether a kernel of these sources is there, for whatever types."""
+        self._renew()
+        return bool(self._cache_file._load_index())
+
+    def _renew(self) -> None:
+        """Have the version of the index be that of the sources: compared before anything else is read."""
         self._cache_file._version = f"{numba.__version__} {sources(self._py_func.__module__)}"
+
+    def _loaded(self, sig: Any, target_context: Any) -> Any:
+        self._renew()
         try:
             found = super().load_overload(sig, target_context)
         except Exception:  # with a checksum that agrees: of another version of what numba stands on, say
@@ -93,6 +120,47 @@ class KernelCache(FunctionCache):
             super().save_overload(sig, data)
         except OSError as error:
             warn_not_kept(f"{self._cache_path}: {error.strerror or error}")
+        finally:
+            with suppress(OSError):
+                self._claim.unlink()
+
+    @property
+    def _claim(self) -> Path:
+        """File that a process leaves while it compiles the kernel."""
+        return Path(f"{self._cache_file._index_path}.claim")
+
+    def _claimed(self) -> bool:
+        """Whether this process may compile the kernel: no other one that lives is at it."""
+        own = f"{socket.gethostname()} {os.getpid()}"
+        try:
+            with self._claim.open("x", encoding="utf-8") as stream:
+                stream.write(own)
+        except FileExistsError:
+            return not self._is_alive(own)
+        except OSError:  # nothing can be kept there
+            return True
+        return True
+
+    def _is_alive(self, own: str) -> bool:
+        """Whether the process that claims the kernel is another one that runs, as far as this machine can tell."""
+        try:
+            claim, age = self._claim.read_text("utf-8"), time.time() - self._claim.stat().st_mtime
+        except FileNotFoundError:  # it has just ended
+            return True
+        except OSError:
+            return False
+        host, _, number = claim.partition(" ")
+        if claim == own or age > PATIENCE:
+            return False
+        if host != own.partition(" ")[0] or not number.isdigit():
+            return True
+        try:
+            os.kill(int(number), 0)
+        except ProcessLookupError:
+            return False
+        except OSError:
+            return True
+        return True
 
 
 class _Files(IndexDataCacheFile):

@@ -41,6 +41,7 @@ def whole(points: Sequence[Point], found: Sequence[Forecast], folder: Path) -> d
     for point, one in zip(points, found, strict=True):
         for text in one.warnings:
             warnings.setdefault(text, []).append(point.name)
+    compiling = max(one.compiling for one in found)  # once for all
     return {
         "title": points[0].study_title,
         "folder": str(folder),
@@ -51,7 +52,8 @@ def whole(points: Sequence[Point], found: Sequence[Forecast], folder: Path) -> d
             for point, one in zip(points, found, strict=True)
         ],
         "jobs": found[0].jobs,
-        "seconds": sum(one.work for one in found) / found[0].jobs,
+        "compiling_seconds": compiling,
+        "seconds": sum(one.work for one in found) / found[0].jobs + compiling,
         "warnings": [f"{', '.join(names)}: {text}" for text, names in warnings.items()],
     }
 
@@ -70,7 +72,7 @@ def _show_points(document: Mapping[str, Any], json_to: str | None) -> None:
         say(f"bearing: beside flooded isothermal films also {films}")
     for warning in document["warnings"]:
         say(f"warning: {warning}")
-    _say_whole(document["seconds"], document["jobs"])
+    _say_whole(document["seconds"], document["jobs"], document["compiling_seconds"])
 
 
 def _numbers(p: Mapping[str, Any] | None) -> list[str]:
@@ -81,9 +83,10 @@ def _numbers(p: Mapping[str, Any] | None) -> list[str]:
     return [*numbers, numeral(p["p_hertz"] * 1e-9, 3), numeral(p["h_central_expected"] * 1e6, 2)]
 
 
-def _say_whole(seconds: float, jobs: int) -> None:
-    idle = "on cores with nothing else to do, where an earlier run has compiled the solver"
-    say(f"whole study: about {_time(seconds)}, {jobs} side by side; good to a factor of two {idle}")
+def _say_whole(seconds: float, jobs: int, compiling: float) -> None:
+    once = f", {_time(compiling)} of it to compile the solver, which later runs need not" if compiling else ""
+    idle = "good to a factor of two on cores with nothing else to do"
+    say(f"whole study: about {_time(seconds)}, {jobs} side by side{once}; {idle}")
 
 
 def _show(found: Forecast, json_to: str | None) -> None:
@@ -102,7 +105,7 @@ def _show(found: Forecast, json_to: str | None) -> None:
         say(f"bearing: beside flooded isothermal films also {found.films}")
     for warning in found.warnings:
         say(f"warning: {warning}")
-    _say_whole(found.seconds, found.jobs)
+    _say_whole(found.seconds, found.jobs, found.compiling)
 
 
 def _contact(found: Forecast, p: Mapping[str, Any]) -> list[Row]:

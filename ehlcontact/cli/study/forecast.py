@@ -18,10 +18,13 @@ from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.shared_entries import supply_and_heat, supply_words
 from ehlcontact.cli.study.stages import Stage, stages_of
+from ehlcontact.jit import is_kept
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
+from ehlcontact.solver.kernels.relax import relax_lines
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import FINENESS, LARGEST_MESH, Purpose, mesh_for
+from reduced_models.elements.film_law import static_forces
 
 CONV = 2.3e-3  # seconds of one when those studies were run
 REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
@@ -29,6 +32,8 @@ REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either
 MODELS, MODEL_STEP = 470.0, 0.016
 MACHINE = 600.0  # of the state of the machine, a bearing
 CONDITION = 260.0  # of oil supply and heat, from tables; where contacts are solved some thousands
+# Compilation of the solver of films, and of elements and bearings, by a kernel that is compiled with each.
+COMPILED = ((relax_lines, 20_000.0), (static_forces, 2_000.0))
 REFERENCE_RUNS = 15  # convolutions timed, of which the fastest counts
 # What too coarse a mesh does, measured against finer grids: the 6205 at n = 64, and solver/mesh_choice.py.
 FILM_TOO_THIN = "it comes out a fifth too thin, or negative"
@@ -71,6 +76,7 @@ class Forecast:
     jobs: int
     conv: float  # seconds of one convolution here and now
     plans: tuple[Plan, ...]
+    compiling: float  # seconds of kernels that are not kept compiled
     closed: bool  # results and report are there, of this study
     films: str  # oil supply and heat of the bearing, in words; empty of flooded isothermal ones
     warnings: tuple[str, ...]
@@ -82,11 +88,11 @@ class Forecast:
         for plan in self.plans:
             if not plan.kept:
                 loads[int(np.argmin(loads))] += plan.seconds
-        return max(loads) + self._closing
+        return max(loads) + self.compiling + self._closing
 
     @property
     def work(self) -> float:
-        """Seconds of one processor: what points of one study share among them."""
+        """Seconds of one processor: what points of one study share among them, without `compiling`."""
         return sum(plan.seconds for plan in self.plans if not plan.kept) + self._closing
 
     @property
@@ -127,6 +133,7 @@ class Forecast:
             "stages": [plan.to_dict() for plan in self.plans],
             "films": self.films,
             "jobs": self.jobs,
+            "compiling_seconds": self.compiling,
             "seconds": self.seconds,
             "warnings": list(self.warnings),
         }
@@ -153,7 +160,9 @@ def forecast(study: Study, folder: Path, jobs: int, root: Path | None = None) ->
         kept = store is not None and store.get(stage_key(stage, study)) is not None
         plans.append(Plan(stage, _mesh(stage, study), *_steps(stage, study), estimate, kept))
     closed = store is not None and all(p.kept for p in plans) and store.final(study, folder) is not None
-    return Forecast(study, folder, jobs, conv, tuple(plans), closed, films_words(study), tuple(cautions(study)))
+    compiling = conv * compiling_cost(any(not plan.kept for plan in plans), not closed)
+    about = films_words(study), tuple(cautions(study))
+    return Forecast(study, folder, jobs, conv, tuple(plans), compiling, closed, *about)
 
 
 def films_words(study: Study) -> str:
@@ -179,6 +188,15 @@ def closing_cost(study: Study) -> float:
     return rest + (
         0.0 if models is None else MODELS + MODEL_STEP * models.revolutions * models.steps_per_revolution
     )
+
+
+def compiling_cost(films: bool, rest: bool) -> float:
+    """Likewise of the compilation of kernels that are not kept: of stages that solve films, and of what follows.
+
+    Processes side by side compile each kernel once, and wait for each other.
+    """
+    wanted = films, rest
+    return sum(cost for one, (kernel, cost) in zip(wanted, COMPILED, strict=True) if one and not is_kept(kernel))
 
 
 def oil_and_heat_cost(study: Study) -> float:
