@@ -90,6 +90,16 @@ def test_page_and_picture(found, tmp_path):
     asked, one = found
     lines = [line for panel in one.picture().panels for line in panel.lines]
     assert len(lines) == 8 and len({line.name for line in lines}) == 2
+    over_time, passage, envelope, _ = one.picture().panels
+    assert over_time.x == passage.x == ("time", "s") and over_time.lines[0].x[-1] == pytest.approx(0.03, rel=1e-3)
+    assert envelope.x_ends == (0.0, 1000.0) and envelope.y[1] == "N" and one.envelope["film"].unit == "N"
+    assert envelope.marks[0].text == one.name and envelope.marks[0].at == pytest.approx(
+        50.0 * one.order, rel=1e-12
+    )
+    assert [round(mark.at / envelope.marks[0].at) for mark in envelope.marks] == list(
+        range(1, len(envelope.marks) + 1)
+    )
+    assert one.to_dict()["frequencies_hz"]["bpfo"] == pytest.approx(50.0 * one.orders.bpfo_order, rel=1e-12)
     low, high = one.passage
     assert 0.0 < high - low < 0.2 and low < one.turns[np.abs(one.force["film"]).argmax()] % 20.0
     inside = SimpleNamespace(defects=(one,), study=asked)

@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from ehlcontact.cli.study.loads import defect_field, place_of, ring_load, spall_in
 from ehlcontact.cli.study.machine import bearing_of
-from ehlcontact.results.picture import BLUE, ORANGE, Line, Mark, Panel, Picture
+from ehlcontact.results.picture import BLUE, ORANGE, Line, Panel, Picture
 from reduced_models import Spall
 from reduced_models.bearing.excitation import BearingExcitation
 from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.bearing.height_tables import track_radius
 from reduced_models.bearing.kinematics import RPM_TO_HZ, DefectFrequencies, DefectOrders
 from reduced_models.signals import envelope_spectrum
-from reduced_models.signals.spectra import EnvelopeSpectrum
+from reduced_models.signals.spectra import HIGHEST_SHOWN, EnvelopeSpectrum, multiples, shown_to
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
@@ -28,7 +28,6 @@ _Floats = NDArray[np.float64]
 # Names, colours and widths by filter: bare heights first, the film is drawn over them
 LOOKS = {"none": ("bare step under the ball", ORANGE, 0.8), "film": ("filtered by contact and film", BLUE, 1.2)}
 SHOWN_TURNS = 1.5  # of the shaft, in the picture
-MULTIPLES = 6  # of the order of the spall, in the spectrum
 DEEPEST = 3e-4  # of the largest line, the smallest that is shown
 FILTERS = ("film", "none")  # of the contacts, side by side
 TURNS = 16  # of the shaft, of a signal
@@ -58,24 +57,24 @@ class StudyDefect:
     passage: tuple[float, float]  # turns between which a ball meets the spall, contact length beside it included
 
     def picture(self) -> Picture:
-        """Force over the turns, one passage of it, the spectrum of its envelope, and lines of the force."""
-        hertz = self.hz
+        """Force over time, one passage of it, the spectrum of its envelope, and lines of the force."""
+        turn = 1.0 / (self.speed_rpm * RPM_TO_HZ)
         change = ("change of the force", "N")
-        spans = (0.0, SHOWN_TURNS), self.passage
-        over_turns = [
+        spans, titles = ((0.0, SHOWN_TURNS), self.passage), (f"{SHOWN_TURNS:g} turns of the shaft", "one passage")
+        over_time = [
             Panel(
                 [
-                    Line(self.turns[shown], self.force[name][shown], text, colour, width=width)
+                    Line(turn * self.turns[shown], self.force[name][shown], text, colour, width=width)
                     for name, (text, colour, width) in LOOKS.items()
                 ],
-                "turns of the shaft",
+                ("time", "s"),
                 change,
                 title=title,
             )
-            for (low, high), title in zip(spans, ("over turns of the shaft", "one passage"), strict=True)
+            for (low, high), title in zip(spans, titles, strict=True)
             if (shown := (low <= self.turns) & (self.turns <= high)).any()
         ]
-        last = (MULTIPLES + 0.5) * hertz
+        last = shown_to([self.hz], HIGHEST_SHOWN, float(self.envelope[FILTERS[0]].hz[-1]))
         envelope, lines = [], []
         for name, (text, colour, width) in LOOKS.items():
             own, whole = self.lines[name], self.envelope[name]
@@ -83,10 +82,10 @@ class StudyDefect:
             envelope.append(Line(whole.hz[within], whole.amplitude[within], text, colour, width=width))
             lines.append(Line(1e-3 * own.hz[above], own.amplitude[above, 1], text, colour, "", "o"))
         top = max(float(line.y.max(initial=0.0)) for line in lines)
-        multiples = [Mark(j * hertz, f"{j}x" if j > 1 else self.name) for j in range(1, MULTIPLES + 1)]
+        marks = multiples(self.name, self.hz, last)
         amplitude = ("amplitude of the envelope", "N")
         below = [
-            Panel(envelope, ("frequency", "Hz"), amplitude, title="envelope", x_ends=(0.0, last), marks=multiples),
+            Panel(envelope, ("frequency", "Hz"), amplitude, title="envelope", x_ends=(0.0, last), marks=marks),
             Panel(
                 lines,
                 ("frequency", "kHz"),
@@ -96,7 +95,7 @@ class StudyDefect:
                 y_ends=(DEEPEST * top, 2.0 * top) if top > 0.0 else None,
             ),
         ]
-        return Picture([*over_turns, *below], heights=(280.0,))
+        return Picture([*over_time, *below], heights=(280.0,))
 
     @property
     def name(self) -> str:
@@ -176,7 +175,7 @@ def _defect_of(study: Study, k: int) -> StudyDefect:
     rate = per_turn * speed * RPM_TO_HZ
     force = {name: _vibration(one, turns) for name, one in lines.items()}
     band = LOW * highest * speed * RPM_TO_HZ, HIGH * highest * speed * RPM_TO_HZ
-    envelopes = {name: envelope_spectrum(one, rate, band) for name, one in force.items()}
+    envelopes = {name: envelope_spectrum(one, rate, band, unit="N") for name, one in force.items()}
     force["none"] = _vibration(_without_ripple(lines["none"]), turns)
     orders = bearing.orders_under(load, speed_rpm=speed, slip=slip)
     met = orders.bpfi_order if spall.race == "inner" else orders.bpfo_order
