@@ -230,7 +230,7 @@ class NearCorrection:
         shape = system.free.shape
         shares = np.array([1.0, *(len(CROSS) - 1) * (-SHARE,)])
         self._distribution = stencil_matrix(CROSS, shares[:, None, None], shape)[inside][:, inside]
-        near = np.array([response(dj, di, (SHARE,) * (len(CROSS) - 1), fine.near) for dj, di in SQUARE])
+        near = np.array([plain(response)(dj, di, (SHARE,) * (len(CROSS) - 1), fine.near) for dj, di in SQUARE])
         film = stencil_matrix(SQUARE, near[:, None, None], shape)[:, inside]
         matrix = system.by_pressure[inside][:, inside] @ self._distribution + system.by_film[inside] @ film
         self._lu = scipy.sparse.linalg.splu(matrix.tocsc(), **SPARSE_LU)

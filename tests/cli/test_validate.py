@@ -76,6 +76,23 @@ def test_estimates_are_good_to_a_factor_of_two(monkeypatch, tmp_path, name):
     assert found.seconds > max(plan.seconds for plan in found.plans)
 
 
+def test_compilation_is_foreseen(call, monkeypatch, tmp_path):
+    """Once for all stages and points, where kernels of these sources are not kept."""
+    monkeypatch.setattr("ehlcontact.cli.study.forecast.convolution_seconds", lambda: 2.3e-3)
+    study, wait = load_study(SMALL), []
+    for kept in (True, False):
+        monkeypatch.setattr("ehlcontact.cli.study.forecast.is_kept", lambda kernel, kept=kept: kept)
+        found = forecast(study, tmp_path, 2)
+        wait.append(found.seconds)
+        assert (found.compiling == 0.0) == kept and found.to_dict()["compiling_seconds"] == found.compiling
+    assert wait[1] - wait[0] == pytest.approx(found.compiling, rel=1e-12) and found.compiling > 20.0
+    said = call("validate", SMALL, "-o", tmp_path / "none").out
+    assert "compiling, once" in said and "machine, elements, FMUs, report" in said
+    assert "of it to compile the solver, which later runs need not" in said
+    monkeypatch.setattr("ehlcontact.cli.study.forecast.is_kept", lambda kernel: True)
+    assert "compil" not in call("validate", SMALL, "-o", tmp_path / "none").out
+
+
 def test_nothing_is_solved(call, monkeypatch, tmp_path):
     for name in ("ehlcontact.steady.solve_steady", "ehlcontact.transient.simulate.simulate"):
         monkeypatch.setattr(name, None)

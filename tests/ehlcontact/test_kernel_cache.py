@@ -9,6 +9,7 @@ import warnings
 from pathlib import Path
 
 import numba
+import numpy as np
 import pytest
 from programs import environment
 
@@ -162,3 +163,46 @@ def test_a_read_only_library_without_a_home(tmp_path):
         said = [line for line in done.stderr.splitlines() if line.startswith("ehlcontact: ")]  # beside progress
         assert done.returncode == 0 and "Traceback" not in done.stderr and len(said) == lines, done.stderr
         assert all("compiled code is not kept" in line for line in said)
+
+
+def test_a_kernel_is_compiled_by_one_process_at_a_time(twice, monkeypatch):
+    """The other one waits for what it keeps; a claim of a process that has ended, or of this one, is none."""
+    kernel = twice()
+    cache = kernel._cache
+    assert not cache.is_kept and cache._claimed() and cache._claim.is_file()
+    own = cache._claim.read_text("utf-8")
+    assert cache._claimed()  # its own, of a compilation that was interrupted
+    other = f"{own.partition(' ')[0]} {os.getppid()}"
+    cache._claim.write_text(other, "utf-8")
+    assert not cache._claimed()
+    looks = []
+
+    def kept_meanwhile(seconds):
+        looks.append(seconds)
+        cache._claim.unlink()  # as that process does when it has kept its kernel
+
+    monkeypatch.setattr(kernel_cache.time, "sleep", kept_meanwhile)
+    assert kernel(2.0) == 4.0 and looks == [kernel_cache.TICK]
+    assert cache.is_kept and not cache._claim.exists()
+    again = twice()
+    assert again._cache.is_kept and again(2.0) == 4.0 and sum(again.stats.cache_hits.values()) == 1
+    ended = subprocess.run([sys.executable, "-c", "import os; print(os.getpid())"], capture_output=True, text=True)
+    cache._claim.write_text(f"{own.partition(' ')[0]} {ended.stdout.strip()}", "utf-8")
+    assert cache._claimed()
+    cache._claim.write_text("elsewhere 1", "utf-8")
+    assert not cache._claimed()  # of another machine: awaited, for `PATIENCE` seconds
+    os.utime(cache._claim, (0.0, 0.0))
+    assert cache._claimed()
+    cache._claim.unlink()
+
+
+def test_no_part_of_kernels_is_called_by_the_library(monkeypatch):
+    """Each process would compile an entry of it, which is never kept: every run would say that it compiles."""
+    from ehlcontact import Grid, MoesPoint, impedance, jit
+
+    def refuse(kernel, *_):
+        raise AssertionError(f"{kernel.py_func} is called from Python")
+
+    monkeypatch.setattr(jit._Inner, "__call__", refuse)
+    found = impedance(MoesPoint(20, 10, 1), Omega=[0.5], grid=Grid(32))
+    assert np.isfinite(found.value).all()

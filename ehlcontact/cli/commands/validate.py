@@ -128,13 +128,19 @@ def _contact(found: Forecast, p: Mapping[str, Any]) -> list[Row]:
 
 
 def _show_stages(found: Forecast) -> None:
-    """One row per stage."""
+    """One row per stage, from the compilation of kernels to the report."""
+    from ehlcontact.cli.study.points.finalise import TITLE
+
     rows = []
     for plan in found.plans:
         nodes = f"{plan.mesh.nodes:.0f}" + (f" x {plan.contacts}" if plan.contacts > 1 else "")
         cost = "kept" if plan.kept else _time(plan.seconds)
         step = "" if plan.step is None else numeral(plan.step, 3)
         rows.append([plan.stage.title, str(plan.mesh.n), nodes, str(plan.steps or ""), step, cost])
+    blank = [""] * 4
+    if found.compiling:
+        rows.insert(0, ["compiling, once", *blank, _time(found.compiling)])
+    rows.append([TITLE, *blank, "kept" if found.closed else _time(found.closing)])
     show_columns(("stage", "n", "nodes", "steps", "step in T", "wall time"), rows, named=True)
 
 

@@ -88,15 +88,16 @@ class Forecast:
         for plan in self.plans:
             if not plan.kept:
                 loads[int(np.argmin(loads))] += plan.seconds
-        return max(loads) + self.compiling + self._closing
+        return max(loads) + self.compiling + self.closing
 
     @property
     def work(self) -> float:
         """Seconds of one processor: what points of one study share among them, without `compiling`."""
-        return sum(plan.seconds for plan in self.plans if not plan.kept) + self._closing
+        return sum(plan.seconds for plan in self.plans if not plan.kept) + self.closing
 
     @property
-    def _closing(self) -> float:
+    def closing(self) -> float:
+        """Seconds of what is made of all stages."""
         return 0.0 if self.closed else closing_cost(self.study) * self.conv
 
     @property
@@ -134,6 +135,7 @@ class Forecast:
             "films": self.films,
             "jobs": self.jobs,
             "compiling_seconds": self.compiling,
+            "closing_seconds": self.closing,
             "seconds": self.seconds,
             "warnings": list(self.warnings),
         }
