@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numba.core import event
 
-from ehlcontact.jit import compile_for, plain
+from ehlcontact.jit import compile_for, is_kept, plain
 from ehlcontact.point import MoesPoint
 from ehlcontact.process.beside import start_beside
 from ehlcontact.process.threads import Kernel, Team
@@ -44,6 +44,11 @@ class _FirstKernel(event.Listener):
 
     def on_end(self, event: Any) -> None:
         pass
+
+
+def solver_is_kept() -> bool:
+    """Whether the kernels of a film are found compiled, by the one that takes longest."""
+    return is_kept(relax.relax_lines)
 
 
 def compile_some() -> None:

@@ -81,7 +81,8 @@ def test_compilation_is_foreseen(call, monkeypatch, tmp_path):
     monkeypatch.setattr("ehlcontact.cli.study.forecast.convolution_seconds", lambda: 2.3e-3)
     study, wait = load_study(SMALL), []
     for kept in (True, False):
-        monkeypatch.setattr("ehlcontact.cli.study.forecast.is_kept", lambda kernel, kept=kept: kept)
+        for name in ("is_kept", "solver_is_kept"):
+            monkeypatch.setattr(f"ehlcontact.cli.study.forecast.{name}", lambda *_, kept=kept: kept)
         found = forecast(study, tmp_path, 2)
         wait.append(found.seconds)
         assert (found.compiling == 0.0) == kept and found.to_dict()["compiling_seconds"] == found.compiling
@@ -89,7 +90,8 @@ def test_compilation_is_foreseen(call, monkeypatch, tmp_path):
     said = call("validate", SMALL, "-o", tmp_path / "none").out
     assert "compiling, once" in said and "machine, elements, FMUs, report" in said
     assert "of it to compile the solver, which later runs need not" in said
-    monkeypatch.setattr("ehlcontact.cli.study.forecast.is_kept", lambda kernel: True)
+    for name in ("is_kept", "solver_is_kept"):
+        monkeypatch.setattr(f"ehlcontact.cli.study.forecast.{name}", lambda *_: True)
     assert "compil" not in call("validate", SMALL, "-o", tmp_path / "none").out
 
 

@@ -19,9 +19,9 @@ from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.shared_entries import supply_and_heat, supply_words
 from ehlcontact.cli.study.stages import Stage, stages_of
 from ehlcontact.jit import is_kept
+from ehlcontact.solver.compiled_beside import solver_is_kept
 from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
-from ehlcontact.solver.kernels.relax import relax_lines
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import FINENESS, LARGEST_MESH, Purpose, mesh_for
 from reduced_models.elements.film_law import static_forces
@@ -32,8 +32,7 @@ REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either
 MODELS, MODEL_STEP = 470.0, 0.016
 MACHINE = 600.0  # of the state of the machine, a bearing
 CONDITION = 260.0  # of oil supply and heat, from tables; where contacts are solved some thousands
-# Compilation of the solver of films, and of elements and bearings, by a kernel that is compiled with each.
-COMPILED = ((relax_lines, 20_000.0), (static_forces, 2_000.0))
+COMPILED_FILMS, COMPILED_ELEMENTS = 20_000.0, 2_000.0  # convolutions of compiling the solver, and elements
 REFERENCE_RUNS = 15  # convolutions timed, of which the fastest counts
 # What too coarse a mesh does, measured against finer grids: the 6205 at n = 64, and solver/mesh_choice.py.
 FILM_TOO_THIN = "it comes out a fifth too thin, or negative"
@@ -197,8 +196,8 @@ def compiling_cost(films: bool, rest: bool) -> float:
 
     Processes side by side compile each kernel once, and wait for each other.
     """
-    wanted = films, rest
-    return sum(cost for one, (kernel, cost) in zip(wanted, COMPILED, strict=True) if one and not is_kept(kernel))
+    cost = COMPILED_FILMS if films and not solver_is_kept() else 0.0
+    return cost + (COMPILED_ELEMENTS if rest and not is_kept(static_forces) else 0.0)
 
 
 def oil_and_heat_cost(study: Study) -> float:
