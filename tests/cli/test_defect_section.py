@@ -16,7 +16,6 @@ from ehlcontact.cli.study.schema import load_study
 from reduced_models import Spall
 
 LOAD = "radial_load = 20.0"
-FIRST = SimpleNamespace(first=True, index=1)  # of the sections of a page
 CASES = {  # entries of the defect, of the load and of the bearing
     "outer": ('spall = "outer,0.2,0.01"\ncage_slip_percent = 0.5', "", "clearance = 8.0"),
     "inner": ('spall = "inner, 0.2, 0.01"', "axial_load = 30.0", ""),
@@ -33,7 +32,7 @@ def study(folder, defect, load="", bearing="clearance = -1.0"):
 
 def section(folder, found):
     """The page of a section alone."""
-    beside = {"found": found, "d": found.defects[0], "loop": FIRST, "picture": lambda name, text: text}
+    beside = {"found": found, "d": found.defects[0], "number": "", "picture": lambda name, text: text}
     return write_page(folder / "d.html", "defect.html.j2", {}, **beside)
 
 
@@ -109,7 +108,7 @@ def test_page_and_picture(found, tmp_path):
         {},
         found=inside,
         d=inside.defects[0],
-        loop=FIRST,
+        number="",
         picture=lambda name, text: text,
     )
     text = re.sub(r"<[^>]*>|\s+", " ", page.read_text())
@@ -133,7 +132,7 @@ def test_a_deep_spall_is_named(tmp_path):
         {},
         found=inside,
         d=inside.defects[0],
-        loop=FIRST,
+        number="",
         picture=lambda name, text: text,
     )
     assert "forces are left out" in page.read_text() and "largest change" not in page.read_text()
