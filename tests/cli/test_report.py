@@ -77,6 +77,7 @@ def derived(study, folder, results):
     steps = [float(np.diff(load_times(folder / f"{name}.h5"))[0]) for name in ("rotor_full", "decay")]
     yield from (peak["amplitude"] / way["full"]["amplitude"] - 1.0 for way in peaks for peak in way.values())
     yield from (*steps, *(step / point["time_unit"] for step in steps))
+    yield point["load"] * (point["time_unit"] / 2.56) ** 2 / point["dry_approach"]  # mass of the free vibration
     decay = results["rotor"]["decay"]
     yield abs(decay["half_step"]["full"]["decrement"] / decay["decrements"]["full"]["decrement"] - 1.0)
     eccentricity = study["disc"][0]["unbalance"] / study["disc"][0]["mass"]
