@@ -52,6 +52,7 @@ ROUNDING = 1e-9  # of a multiple of the speed
 # Frequencies that the picture shows: multiples of that of the shaft at the highest speed, and room above a mode
 SHOWN, SEEN = 2.0, 1.08
 LARGE = re.compile(r"\d\.\d+e\+\d+")  # a number with exponent in a message
+BACKWARD = -0.5  # whirl below which an unbalance hardly excites a mode
 SPEED_DIGITS = 1e-3  # of the highest speed that the data cover, to which it is looked for
 
 
@@ -121,11 +122,15 @@ class MachineState(Summary):
         share = self.diagram.axial_share[:, critical.mode]
         return float(np.interp(critical.speed_rpm, self.diagram.speed_rpm, share)) > ALONG
 
+    def is_excited(self, critical: CriticalSpeed) -> bool:
+        """Whether an unbalance excites its mode: neither along the shaft nor against the rotation."""
+        return critical.whirl > BACKWARD and not self.is_axial(critical)
+
     @property
     def nearest_critical(self) -> CriticalSpeed | None:
-        """The critical speed nearest to the speed, of a mode across the shaft where there is one."""
-        across = [one for one in self.critical_speeds if not self.is_axial(one)]
-        return min(across or self.critical_speeds, key=lambda one: abs(self.margin(one)), default=None)
+        """The critical speed nearest to the speed, of a mode that an unbalance excites where there is one."""
+        excited = [one for one in self.critical_speeds if self.is_excited(one)]
+        return min(excited or self.critical_speeds, key=lambda one: abs(self.margin(one)), default=None)
 
     @property
     def largest_response(self) -> LargestResponse | None:
@@ -203,7 +208,7 @@ class MachineState(Summary):
             ],
             "critical_speeds": [
                 {"speed_rpm": one.speed_rpm, "hz": one.hz, "margin": self.margin(one), "decrement": one.decrement}
-                | {"axial": self.is_axial(one)}
+                | {"axial": self.is_axial(one), "excited": self.is_excited(one)}
                 for one in self.critical_speeds
             ],
             "largest_response": None if largest is None else largest._asdict(),

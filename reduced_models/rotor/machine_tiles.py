@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from math import degrees, inf
+from math import degrees, inf, tau
 from typing import Any, NamedTuple
 
 from reduced_models.rotor.modes import ALONG
+from reduced_models.rotor.picture import STRAIGHT
 from reduced_models.rotor.support_state import RELY_ON_SKF
 
 AXIS = {"x": 0, "y": 1, "z": 2}
 MARGIN = 0.15  # of the speed, least separation of a critical speed
-BACKWARD = -0.5  # whirl below which an unbalance hardly excites a mode
+PEAK = 0.02  # of the speed of a largest response, within which a critical speed is that of its peak
 HALF = 50.0  # %, of the strain energy
 FULL_FILM = 3.0  # lambda from which films keep the surfaces apart
 BRIEF, SHORT = 2, 44  # parts of a note in a line, and characters of each
+HEAVIER = 0.01  # share of a ball load, above which the centrifugal force of the ball is named
 LINEAR = 1.0  # displacement by unbalance over the approach of the balls, up to which it is small
 
 
@@ -97,8 +99,17 @@ def _ball_load(machine: Any) -> Tile:
         at = "" if angles is None else f" at {digits(round(degrees(angles[0]), 1))}°"
         return f"{digits(1e-9 * one.p_hertz)} GPa{at}"
 
+    def outer(one: Any) -> str:
+        heavier = one.outer_load > one.ball_load * (1.0 + HEAVIER)
+        return (
+            f"at the inner race; {digits(one.outer_load)} N at the outer race, with centrifugal force"
+            if heavier
+            else ""
+        )
+
     others = _others(machine, own, lambda one: f"{digits(one.ball_load)} N, {words(one)}")
-    return Tile("largest ball load", digits(own.ball_load), "N", _note(words(own), _of(machine, own), *others))
+    note = _note(words(own), _of(machine, own), outer(own), *others)
+    return Tile("largest ball load", digits(own.ball_load), "N", note)
 
 
 def _coefficients(machine: Any) -> Tile:
@@ -121,7 +132,8 @@ def _coefficients(machine: Any) -> Tile:
     own = min(machine.supports, key=lambda one: float(one.stiffness[1, 1]))
     K, C = along(own, "y")
     note = _note(f"damping {C} N s/m", axial(own), _of(machine, own), *_others(machine, own, words))
-    return Tile(f"stiffness of a bearing at {digits(machine.hz, 4)} Hz", K, "N/µm", note)
+    which = "stiffness of the softest bearing" if len(machine.supports) > 1 else "stiffness"
+    return Tile(f"{which} at {digits(machine.hz, 4)} Hz", K, "N/µm", note)
 
 
 def _mode(machine: Any) -> Tile | None:
@@ -130,7 +142,8 @@ def _mode(machine: Any) -> Tile | None:
     lowest, *others = machine.modes
     way = "along the shaft" if lowest.axial_share > ALONG else "across the shaft"
     across = [f"{digits(one.hz, 4)} Hz ({digits(one.damping_ratio, 2)})" for one in others]
-    note = _note(f"damping ratio {digits(lowest.damping_ratio, 2)}", way, ", ".join(across))
+    higher = f"higher modes (damping ratio): {', '.join(across)}" if across else ""
+    note = _note(f"damping ratio {digits(lowest.damping_ratio, 2)}", way, higher)
     return Tile("lowest mode", digits(lowest.hz, 4), "Hz", note)
 
 
@@ -141,11 +154,20 @@ def _critical(machine: Any) -> Tile | None:
     if own is None:
         rpm = machine.diagram.speed_rpm
         return Tile("critical speed", "none", "", f"from {rpm[0]:.5g} to {rpm[-1]:.5g} rev/min")
-    speeds = ", ".join(digits(one.speed_rpm, 5) for one in machine.critical_speeds)
-    axial = "along the shaft, not by unbalance" if machine.is_axial(own) else ""
-    note = _note(_side(machine, own), axial, f"all: {speeds} rev/min" if len(machine.critical_speeds) > 1 else "")
+    speeds = ", ".join(f"{digits(one.speed_rpm, 5)} {_way(machine, one)}" for one in machine.critical_speeds)
+    way = _way(machine, own) + ("" if machine.is_excited(own) else ": unbalance hardly excites it")
+    note = _note(_side(machine, own), way, f"all: {speeds}" if len(machine.critical_speeds) > 1 else "")
     critical = bool(_near_critical(machine))
     return Tile("nearest critical speed", digits(own.speed_rpm, 5), "rev/min", note, critical)
+
+
+def _way(machine: Any, critical: Any) -> str:
+    """Along the shaft, forward, backward, or in a plane: how the mode of a critical speed moves."""
+    if machine.is_axial(critical):
+        return "along the shaft"
+    if abs(critical.whirl) < STRAIGHT:
+        return "in a plane"
+    return "forward" if critical.whirl > 0.0 else "backward"
 
 
 def _side(machine: Any, critical: Any) -> str:
@@ -159,9 +181,19 @@ def _response(machine: Any) -> Tile | None:
         return None
     most, own = machine.largest_response, machine.response_at_speed
     here = f"{digits(1e6 * own.size)} µm at {digits(own.speed_rpm, 5)} rev/min"
-    note = _note(f"{most.node} at {digits(most.speed_rpm, 5)} rev/min", here)
+    peak = [one for one in machine.critical_speeds if abs(one.speed_rpm / most.speed_rpm - 1.0) < PEAK]
+    ratio = max((one.decrement / tau for one in peak if machine.is_excited(one)), default=None)
+    damped = "" if ratio is None else f"next to a critical speed of damping ratio {digits(ratio, 2)}"
+    node = _node(machine, most.node)
+    note = _note(f"{node} at {digits(most.speed_rpm, 5)} rev/min", here, damped)
     critical = bool(_large_response(machine))
     return Tile("largest response to unbalance", digits(1e6 * most.size), "µm", note, critical)
+
+
+def _node(machine: Any, name: str) -> str:
+    """Name of a node; that of a bearing by the label of its support."""
+    named = {f"bearing {number}": support.label for number, support in enumerate(machine.supports)}
+    return named.get(name) or name
 
 
 def _friction(machine: Any) -> Tile | None:
@@ -171,7 +203,8 @@ def _friction(machine: Any) -> Tile | None:
         return None
     by = "SKF's model" if all(one.relies_on_skf for one in supports) else "films and sliding"
     each = ", ".join(f"{one.label} {digits(one.torque)}" for one in supports) if len(supports) > 1 else ""
-    films = "films alone " + ", ".join(digits(one.film_torque) for one in supports) + " N m"
+    cold = ", ".join(digits(one.film_torque) for one in supports)
+    films = f"rolling of isothermal films {cold} N m"
     more = not all(one.relies_on_skf for one in supports) and machine.speed_rpm > RELY_ON_SKF
     doubt = "flooded films resist more than measured bearings do at this speed" if more else ""
     loss = f"{digits(sum(one.loss for one in supports))} W by {by}"
@@ -181,16 +214,19 @@ def _friction(machine: Any) -> Tile | None:
 def _highest(machine: Any) -> Tile | None:
     if machine.highest_speed == inf:
         return None
-    return Tile("highest speed that the data cover", digits(machine.highest_speed), "rev/min", machine.ends)
+    return Tile(
+        "data reach up to",
+        digits(machine.highest_speed),
+        "rev/min",
+        _note("no limit of the machine", machine.ends),
+    )
 
 
 def _near_critical(machine: Any) -> str:
     """Nearest critical speed within `MARGIN` that an unbalance excites, and what moves it."""
-    excited = (one for one in machine.critical_speeds if one.whirl > BACKWARD and not machine.is_axial(one))
-    near = [one for one in excited if abs(machine.margin(one)) < MARGIN]
-    if not near or not machine.modes:
-        return ""
     own = machine.nearest_critical
+    if own is None or not machine.modes or not machine.is_excited(own) or abs(machine.margin(own)) >= MARGIN:
+        return ""
     share = 100.0 * min(machine.modes, key=lambda one: abs(one.hz - own.hz)).support_share
     bends = f"{digits(100.0 - share, 2)} % of its strain energy is in the shaft, {digits(share, 2)} % in bearings"
     moves = "a stiffer or shorter shaft moves it" if share < HALF else "more preload or stiffer bearings move it"

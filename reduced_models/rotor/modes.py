@@ -91,8 +91,8 @@ class RotorMode(Summary, ByNode):
         if self.support_share < OF_SUPPORTS or not 0.0 <= self.damping_ratio < UNDAMPED:
             return ""
         return (
-            f"damping ratio {self.damping_ratio:.1g}: films damp no motion across their contacts, as about the"
-            " pressure centre under axial load, and dry contacts none; rings and fits would (loss_factor)"
+            f"damping ratio {self.damping_ratio:.1g}, for films do not damp motion along the surfaces of their"
+            " contacts and dry contacts damp nothing; loss_factor of the bearing is the damping of rings and fits"
         )
 
     @property

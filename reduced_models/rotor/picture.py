@@ -169,12 +169,12 @@ def campbell_picture(campbell: Any) -> Picture:
 
 
 def mode_name(campbell: Any, k: int) -> str:
-    """Axial, forward, backward or straight: mode `k` of the diagram at the highest speed."""
+    """Axial, forward, backward or in a plane: mode `k` of the diagram at the highest speed."""
     whirl = float(campbell.whirl[-1, k])
     if campbell.axial_share[-1, k] > ALONG:
         return "axial"
     if abs(whirl) < STRAIGHT:
-        return "straight"
+        return "in a plane"
     return "forward" if whirl > 0.0 else "backward"
 
 

@@ -30,6 +30,7 @@ from reduced_models.rotor.bearing_set import BearingSet
 
 _Floats = NDArray[np.float64]
 
+OUTER = RACES.index("outer")
 RELY_ON_SKF = 5000.0  # rev/min above which flooded films resist more than measured bearings do: docs/bearings.md
 
 
@@ -152,6 +153,11 @@ class SupportState(Summary):
         """Of the most loaded ball at the inner race [N]; centrifugal force adds to it at the outer one."""
         k, ball, race = self.heaviest_ball
         return float(self.bearings[k][1].force[ball, race])
+
+    @property
+    def outer_load(self) -> float:
+        """Of the ball that presses most on the outer race [N]."""
+        return max(float(state.force[:, OUTER].max()) for _, state in self.bearings)
 
     @property
     def p_hertz(self) -> float:
