@@ -14,13 +14,12 @@ import sys
 import tempfile
 import threading
 import time
-import warnings
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
 
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.errors import ConvergenceError, InputError, warn_user
 from ehlcontact.process.beside import COMPILE_BESIDE, child_environment
 
 T = TypeVar("T")
@@ -252,7 +251,7 @@ def _await_worker(client: Any, scheduler: str, waiting: Callable[[], object]) ->
                 if client.nthreads():
                     return
                 text = f"no worker is connected to {scheduler}: nothing begins until one is"
-                warnings.warn(text, RuntimeWarning, stacklevel=4)
+                warn_user(text, RuntimeWarning)
                 warned = True
             time.sleep(TICK)
     finally:

@@ -18,7 +18,6 @@ import socket
 import sys
 import tempfile
 import time
-import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
@@ -37,6 +36,7 @@ from numba.core.caching import (
 from numba.core.sigutils import normalize_signature
 from numba.misc.appdirs import AppDirs
 
+from ehlcontact.errors import warn_user
 from ehlcontact.files import remove_leftovers, temporary_for
 
 _PACKAGES = "ehlcontact", "reduced_models", "fmu"
@@ -261,7 +261,7 @@ _given: set[str] = set()  # warnings that this process has given, of whatever nu
 def _warn(text: str, reason: str) -> None:
     if text not in _given:
         _given.add(text)
-        warnings.warn(f"{text} ({reason})", RuntimeWarning, stacklevel=3)
+        warn_user(f"{text} ({reason})", RuntimeWarning)
 
 
 def _warn_damaged(folder: str) -> None:

@@ -165,7 +165,7 @@ def export(
         model_name=model_name,
     )
     if isinstance(made.source, RotorModel):
-        made.source.rotor.check_contacts(made.source.speed, stacklevel=4)
+        made.source.rotor.check_contacts(made.source.speed)
     return export_model(made, path, fmi=fmi, platforms=platforms, overwrite=overwrite, progress=progress)[0]
 
 

@@ -6,7 +6,6 @@ import os
 import platform
 import re
 import tempfile
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
@@ -19,6 +18,7 @@ from ehlcontact.binaries.compiler import Compiler, compilers
 from ehlcontact.binaries.headers import Library, read_library, universal
 from ehlcontact.binaries.platforms import WEB, WEB_FLAGS, Platform, this_machine
 from ehlcontact.binaries.process import BuildError, run
+from ehlcontact.errors import warn_user
 
 # Binaries shall run on Linux from here on; what a newer system's compiler makes may need that system.
 OLDEST_GLIBC = (2, 17)
@@ -271,9 +271,8 @@ def _warn_of_first_build(platforms: Sequence[Platform], work: Work) -> None:
         if mark is not None and mark.exists():
             continue
         if cache.recall(_key(work, one, compiler)) is None:
-            warnings.warn(
-                "the first library for Windows takes about 2 minutes: its C library is compiled too, and kept",
-                stacklevel=2,
+            warn_user(
+                "the first library for Windows takes about 2 minutes: its C library is compiled too, and kept"
             )
 
 

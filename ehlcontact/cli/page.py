@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping
 from html import escape
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from ehlcontact.cli.numerals import numeral, percent
+from ehlcontact.errors import warn_user
 from ehlcontact.files import write_text
 from ehlcontact.results.picture import Panel, Picture, Slides
 
@@ -57,7 +57,7 @@ def _drawn(name: str, describe: Callable[[], Picture | Slides]) -> Any:
         return figure_of(describe())
     except Exception as error:
         reason = f"the figure {name!r} could not be drawn: {type(error).__name__}: {error}"
-        warnings.warn(reason, stacklevel=2)
+        warn_user(reason)
         return figure_of(Picture([Panel([], "", "", title=escape(shorten(reason, 100)))]))
 
 

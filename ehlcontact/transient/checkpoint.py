@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import time
-import warnings
 from dataclasses import dataclass, fields
 from math import inf, isfinite
 from pathlib import Path
@@ -18,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.conditions import KEYWORDS
-from ehlcontact.errors import InputError
+from ehlcontact.errors import InputError, warn_user
 from ehlcontact.heat import Heat
 from ehlcontact.point import MoesPoint
 from ehlcontact.quantities import quantities_of
@@ -192,7 +191,7 @@ class Keeper:
             if first:
                 raise
             if not self._failed:
-                warnings.warn(f"{error}; the run goes on, the last checkpoint stays", RuntimeWarning, stacklevel=2)
+                warn_user(f"{error}; the run goes on, the last checkpoint stays", RuntimeWarning)
             self._failed = True
 
     def write(self, run: Run) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import chain
@@ -16,7 +15,7 @@ from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.checks.quantity import takes
 from ehlcontact.conditions import Conditions
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.errors import ConvergenceError, InputError, warn_user
 from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
 from ehlcontact.process.blas import one_blas_thread
@@ -212,11 +211,10 @@ def simulate(
 def _warn_of_shape(surface: Surface | None, kappa: float) -> None:
     """Say where a feature that is to be round in metres is made for another contact."""
     if isinstance(surface, Dent | Roughness) and abs(surface.kappa - kappa) > LARGEST_MISMATCH * kappa:
-        warnings.warn(
+        warn_user(
             f"kappa = {surface.kappa:.4g} of the surface is not that of the contact, {kappa:.4g}: what it takes "
             f"for round is {surface.kappa / kappa:.3g} times as long across as along, in metres",
             RuntimeWarning,
-            stacklevel=5,
         )
 
 
@@ -226,7 +224,7 @@ def _warn_of_steps(point: Point, motion: Motion, speed: SpeedHistory | None, ste
         return
     T = np.linspace(0.0, steps.until, round(steps.until / steps.dT) + 1)
     if note := passed_over_note((motion, speed), T, point):
-        warnings.warn(note, RuntimeWarning, stacklevel=5)
+        warn_user(note, RuntimeWarning)
 
 
 def _first_inside(

@@ -77,7 +77,7 @@ class BearingModel:
         self.motion()
         if self.bearing.supply is not None:
             name = self.bearing.name or "ball bearing"
-            warn_of_damping_left_out(self.bearing, name, self.damping_left_out, stacklevel=3)
+            warn_of_damping_left_out(self.bearing, name, self.damping_left_out)
 
     @cached_property
     def speeds(self) -> _Floats:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import warnings
 from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import asdict, replace
@@ -18,7 +17,7 @@ from ehlcontact.assumptions import assumptions
 from ehlcontact.checks import as_column, as_numbers, require_choice, require_positive
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
 from ehlcontact.conditions import Conditions
-from ehlcontact.errors import InputError
+from ehlcontact.errors import InputError, warn_user
 from ehlcontact.heat import Heat
 from ehlcontact.point import MoesPoint, Point, Scales, moes_point, scales_of
 from ehlcontact.supply import OilLayer
@@ -348,7 +347,7 @@ class Atlas:
         if damper < 0.0:
             size = f"{damper:.3g}" if scales is None else f"{damper * scales.damping:.3g} N s/m"
             message = f"under this layer the solver finds damping below zero at this frequency ({size})"
-            warnings.warn(f"{message}; the cubic element leaves it out, its C1 is 0", OutsideValidityWarning, 4)
+            warn_user(f"{message}; the cubic element leaves it out, its C1 is 0", OutsideValidityWarning)
         approach, source = float(rows.values[0, 0]), self._whence(point, conditions)
         cubic = cubic_element(approach, tangent, damper, band, source)
         return cubic if scales is None else cubic.to_si(scales)

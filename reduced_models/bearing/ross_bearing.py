@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, require_integer
 from ehlcontact.checks.frequency import is_given, radians_per_second
-from ehlcontact.errors import InputError
+from ehlcontact.errors import InputError, warn_user
 from reduced_models.bearing.freedoms import PLANAR, bearing_load
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.solved_balls import warn_of_damping_left_out
@@ -100,7 +100,7 @@ class TableRange:
         ]
         if beyond and not self._warned:
             self._warned = True
-            warnings.warn(f"{self._name}: {self._words(beyond[0])}", OutsideValidityWarning, stacklevel=4)
+            warn_user(f"{self._name}: {self._words(beyond[0])}", OutsideValidityWarning)
         return {name: place for name, place in places.items() if place is not None} | inside
 
     def _words(self, axis: str) -> str:
@@ -167,9 +167,7 @@ def bearing_element(
         omega = rpm * RPM_TO_RAD_S if whirl is None else whirl
         rows.append(there.coefficients(downward(load), speed_rpm=rpm, omega=omega))
     for row in reversed(rows):  # the faster, the higher these frequencies
-        warn_of_damping_left_out(
-            getattr(bearing, "bearings", (bearing,))[0], own, row.damping_left_out, stacklevel=5
-        )
+        warn_of_damping_left_out(getattr(bearing, "bearings", (bearing,))[0], own, row.damping_left_out)
     K, C = (np.array([getattr(row, name) for row in rows]) for name in ("stiffness", "damping"))
     rotation = "speed" if has_whirl_axis(ross) else "frequency"
     axes = {rotation: speeds * RPM_TO_RAD_S} if speeds.size > 1 else {}

@@ -6,7 +6,6 @@ has the impedance of each contact; that of the bearing follows as in `reduced_mo
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -14,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.errors import warn_user
 from reduced_models.atlas.answer import AtlasAnswer
 from reduced_models.atlas.atlas import NEGATIVE
 from reduced_models.atlas.frequency_curve import FrequencyCurve
@@ -163,11 +163,11 @@ def damping_left_out(bearing: Any, speed_rpm: float, force: _Floats) -> str:
     )
 
 
-def warn_of_damping_left_out(bearing: Any, name: str, words: str, stacklevel: int) -> None:
+def warn_of_damping_left_out(bearing: Any, name: str, words: str) -> None:
     """Warn, once per bearing, of what `damping_left_out` says; `name` is that of the bearing."""
     if words and not bearing.tables.warned:
         bearing.tables.warned = True
-        warnings.warn(f"{name}: {words}", OutsideValidityWarning, stacklevel=stacklevel + 1)
+        warn_user(f"{name}: {words}", OutsideValidityWarning)
 
 
 def _below_zero(race: Race, speed_rpm: float, load: float) -> tuple[float, float]:

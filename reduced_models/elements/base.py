@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
@@ -28,7 +27,7 @@ from ehlcontact.checks.frequency import (
     one,
     radians_per_second,
 )
-from ehlcontact.errors import InputError
+from ehlcontact.errors import InputError, warn_user
 from ehlcontact.point import Point, Scales
 from ehlcontact.results.response import Response
 from reduced_models.elements.design_point import DesignPoint, known_scale, require_own_scales
@@ -319,7 +318,6 @@ class ContactElement(ElementSummary, _Common, ABC):
         rate: ArrayLike = (),
         *,
         force: ArrayLike = (),
-        stacklevel: int = 2,
         **frequency: Unpack[Frequency],
     ) -> None:
         """Warn, once per element, where a motion leaves the validity box by more than `Validity.excess` overlooks.
@@ -343,9 +341,9 @@ class ContactElement(ElementSummary, _Common, ABC):
             left = ", ".join(word for words in new.values() for word in words)
             advice = "".join(f"; {self._beyond[reason]}" for reason in new if reason in self._beyond)
             message = f"{self._summary_name()} used outside its validity box: {left}{advice}"
-            warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel + 1)
+            warn_user(message, OutsideValidityWarning)
 
-    def check(self, point: Point | None = None, *, stacklevel: int = 2, **frequency: Unpack[Frequency]) -> None:
+    def check(self, point: Point | None = None, **frequency: Unpack[Frequency]) -> None:
         """Warn, once per element, if it is to stand for another contact, or to move outside its band.
 
         Parameters
@@ -363,20 +361,20 @@ class ContactElement(ElementSummary, _Common, ABC):
                 self._note({"point"})
                 words = ", ".join(others)
                 message = f"{self._summary_name()} used for another contact than it was made for: {words}"
-                warnings.warn(message, OutsideValidityWarning, stacklevel=stacklevel)
+                warn_user(message, OutsideValidityWarning)
             load, unit = self.design_point.load_of(point), self._known("force") if self.units == "SI" else 1.0
             if load is not None and unit is not None and not others:
                 force = [load * unit]
-        self.warn_outside(force=force, stacklevel=stacklevel, **frequency)
+        self.warn_outside(force=force, **frequency)
 
     def _watch(self, approach: float, rate: float, force: float) -> None:
         """Warn of a single state outside the box, and of a motion outside the band."""
         low, high, fastest, least, most = self._reach
         if not (low <= approach <= high and -fastest <= rate <= fastest and least <= force <= most):
-            self.warn_outside(approach, rate, force=force, stacklevel=3)
-        self._follow(approach, rate, stacklevel=4)
+            self.warn_outside(approach, rate, force=force)
+        self._follow(approach, rate)
 
-    def _follow(self, approach: float, rate: float, stacklevel: int) -> None:
+    def _follow(self, approach: float, rate: float) -> None:
         """Take a state as the next one of a motion, for its frequency; nothing where the element is for all."""
 
     def _note(self, reasons: set[str]) -> None:

@@ -250,7 +250,7 @@ class SpringContact(ContactElement):
         if not (low <= approach <= high and -fastest <= rate <= fastest and least <= force <= most):
             self.warn_outside(approach, rate, force=force)
         if self._cycles is not None:
-            self._follow(approach, rate, stacklevel=3)
+            self._follow(approach, rate)
         return force
 
     @overload
@@ -377,7 +377,7 @@ class SpringContact(ContactElement):
         if state is not None:
             raise InputError("state", shown(state), "None: this contact has no memory")
 
-    def _follow(self, approach: float, rate: float, stacklevel: int) -> None:
+    def _follow(self, approach: float, rate: float) -> None:
         """Take a state as the next one of a motion; warn where its frequency is outside the band twice on end."""
         cycles = self._cycles
         if cycles is None:
@@ -389,7 +389,7 @@ class SpringContact(ContactElement):
             outside = bool(self.validity.excess(omega=omega))
             if outside and cycles.outside:
                 frequency: Frequency = {"omega": omega} if self.units == "SI" else {"Omega": omega}
-                self.warn_outside(stacklevel=stacklevel, **frequency)
+                self.warn_outside(**frequency)
             cycles.outside = outside
 
     def _note(self, reasons: set[str]) -> None:

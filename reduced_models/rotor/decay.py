@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from math import pi
 
@@ -11,7 +10,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, require_positive
-from ehlcontact.errors import InputError
+from ehlcontact.errors import InputError, warn_user
 
 _Floats = NDArray[np.float64]
 
@@ -111,7 +110,7 @@ def log_decrement(t: ArrayLike, signal: ArrayLike, *, omega: float) -> Decrement
     cosine, sine, _ = np.linalg.lstsq(basis(found.x), scaled, rcond=None)[0]
     if np.isclose(np.abs(found.x), SEARCH, rtol=1e-3).any():
         where = f"within {SEARCH[1]:.0%} of omega = {guess:.5g} rad/s, with a decrement up to {SEARCH[0]:g}"
-        warnings.warn(f"no decay found {where}: is that the signal's angular frequency?", stacklevel=2)
+        warn_user(f"no decay found {where}: is that the signal's angular frequency?")
     w = guess * (1.0 + float(found.x[1]))
     half = _half_width(found, since.size)
     delta = float(found.x[0])

@@ -392,7 +392,7 @@ def linearise(
     ]
     names, words = rotor.ball_bearing_names, tuple("" if signed_damping else one for _, _, one in parts)
     for mount, name, left_out in zip(bearings, names, words, strict=True):
-        warn_of_damping_left_out(mount.ball_bearing, name, left_out, stacklevel=3)
+        warn_of_damping_left_out(mount.ball_bearing, name, left_out)
     return LinearRotor(
         rotor,
         speed,

@@ -396,7 +396,7 @@ class Rotor(Summary):
         q[free] = np.linalg.solve(bent, (self.load - stiffness @ q)[free])
         return q
 
-    def check_contacts(self, speed_rpm: float | None = None, *, stacklevel: int = 2) -> None:
+    def check_contacts(self, speed_rpm: float | None = None) -> None:
         """Let elements warn, once each, whose band does not hold a speed, or that were made for other contacts.
 
         The points of the mounts count. `simulate_rotor` and `fmu.export` call it.
@@ -405,15 +405,13 @@ class Rotor(Summary):
         ----------
         speed_rpm : float, optional
             By default that of the rotor.
-        stacklevel : int
-            Of the warnings.
         """
         speed = self.speed_rpm if speed_rpm is None else speed_rpm
         for mount in self.contacts:
             check = getattr(mount.contact, "check", None)
             if check is not None:
                 omega = speed * RPM_TO_RAD_S if speed else None
-                check(mount.point, stacklevel=stacklevel + 1, omega=omega)
+                check(mount.point, omega=omega)
 
     @property
     def _contact_rows(self) -> _Floats:

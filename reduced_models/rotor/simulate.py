@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from math import ceil
 from typing import Any
@@ -14,7 +13,7 @@ from ehlcontact import TransientContact
 from ehlcontact.checks import parts, require_instance, require_integer, require_positive, shown
 from ehlcontact.checks.kinds import Callback, Object
 from ehlcontact.checks.quantity import takes
-from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.errors import ConvergenceError, InputError, warn_user
 from ehlcontact.status import Status
 from reduced_models.bearing.height_tables import LEAST_STEPS, shortest_meeting
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -119,7 +118,7 @@ def simulate_rotor(
     if speed_rpm is None:
         raise InputError("speed_rpm", None, "given: that of the shaft")
     _check_contacts(rotor)
-    rotor.check_contacts(0.0 if isinstance(speed_rpm, SpeedProfile) else speed_rpm, stacklevel=4)
+    rotor.check_contacts(0.0 if isinstance(speed_rpm, SpeedProfile) else speed_rpm)
     run = PreparedRun(rotor, speed_rpm, dt, steps, start, rho_inf)
     if run.balls and not rotor.contacts:
         integrator: Integrator = CompiledSteps(run, COMPILED_TOLERANCE if tolerance is None else tolerance)
@@ -250,7 +249,7 @@ def _warn_of_overload(run: PreparedRun) -> None:
             most = np.inf if bearing.oil is None else bearing.race(name).loads(slowest)[1]
             if load > most:
                 message = f"a ball of {which} carried {load:.4g} N on the {name} race (atlas up to {most:.4g} N)"
-                warnings.warn(message, OutsideValidityWarning, stacklevel=4)
+                warn_user(message, OutsideValidityWarning)
 
 
 def _warn_of_damping(run: PreparedRun) -> None:
@@ -258,7 +257,7 @@ def _warn_of_damping(run: PreparedRun) -> None:
     fastest = float(law_speeds(run.omega / RPM_TO_RAD_S)[-1])
     for mount, name, balls in zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, run.balls, strict=True):
         words = damping_left_out(mount.ball_bearing, fastest, balls.largest)
-        warn_of_damping_left_out(mount.ball_bearing, name, words, stacklevel=5)
+        warn_of_damping_left_out(mount.ball_bearing, name, words)
 
 
 def _warn_of_contacts(rotor: Rotor, result: RotorResult) -> None:
@@ -268,4 +267,4 @@ def _warn_of_contacts(rotor: Rotor, result: RotorResult) -> None:
         warn = getattr(contact, "warn_outside", None)
         if warn is not None:
             u, v, f = result.approach[:, i], result.rate[:, i], result.force[:, i]
-            warn(u, v, force=f, omega=frequency_of(u, v), stacklevel=5)
+            warn(u, v, force=f, omega=frequency_of(u, v))

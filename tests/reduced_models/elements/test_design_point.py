@@ -1,5 +1,6 @@
 """Speed, oil, load and band that an element was made for: one warning where it is used for others."""
 
+import linecache
 import math
 from dataclasses import asdict, replace
 
@@ -8,7 +9,13 @@ import pytest
 from balls import OF_6205
 
 from ehlcontact import InputError, Lubricant, OperatingPoint, read, save
-from reduced_models import ContactMount, OutsideValidityWarning, jeffcott_rotor, simulate_rotor
+from reduced_models import (
+    ContactMount,
+    OutsideValidityWarning,
+    jeffcott_rotor,
+    simulate_oscillator,
+    simulate_rotor,
+)
 from reduced_models.atlas.atlas_elements import damper_band
 from reduced_models.atlas.frequency_curve import FrequencyCurve
 from reduced_models.elements.design_point import DesignPoint
@@ -108,6 +115,21 @@ def test_speed_of_a_rotor_is_checked_before_the_run(shipped):
     for model, at in (("cubic", {"rpm": 3000}), ("memory", {}), ("wide", {})):
         rotor(speed_rpm=1000.0).on([shipped.element(POINT, model, **at)]).check_contacts()
     rotor(speed_rpm=0.0).on([fast]).check_contacts()
+
+
+def test_a_warning_is_at_the_line_of_the_call(shipped):
+    cubic, wide = shipped.element(POINT, "cubic", hz=25e3), shipped.element(POINT, "wide")
+    far = 6.0 * cubic.approach_at(486.0)
+    calls = {
+        "simulate_rotor": lambda: simulate_rotor(rotor().on([cubic.copy()]), dt=1e-4, until=2e-4),
+        "check_contacts": lambda: rotor(point=FASTER).on([wide.copy()]).check_contacts(),
+        "simulate_oscillator": lambda: simulate_oscillator(cubic.copy(), [0.0, 1e-5], mass=1.0, u0=far),
+    }
+    for name, call in calls.items():
+        with pytest.warns(OutsideValidityWarning) as told:
+            call()
+        assert {one.filename for one in told} == {__file__}
+        assert all(name in linecache.getline(__file__, one.lineno) for one in told)
 
 
 def test_operating_point_of_a_mount_is_checked(shipped):
