@@ -1,5 +1,7 @@
 """Cache of compiled libraries in the user's cache folder; without such a folder everything is compiled anew.
 
+A folder that became read-only after it was filled is read.
+
 Entries are those of a `ContentStore`: several processes may write at once, and a damaged entry is ignored. The
 least recently used entries are removed beyond a size.
 """
@@ -15,6 +17,7 @@ from pathlib import Path
 
 from ehlcontact.content_store import ContentStore
 from ehlcontact.errors import InputError
+from ehlcontact.kernel_cache import warn_not_kept
 
 CACHE_VARIABLE = "EHLCONTACT_CACHE"
 ZIG_VARIABLE = "ZIG_GLOBAL_CACHE_DIR"
@@ -44,9 +47,9 @@ def key_of(parts: Iterable[bytes]) -> str:
 
 
 def recall(key: str) -> bytes | None:
-    """Content of the entry with this key; None if missing or damaged."""
-    folder = cache_folder()
-    if folder is None:
+    """Content of the entry with this key, in a folder that may be read-only; None if missing or damaged."""
+    folder = _named(CACHE_VARIABLE, "ehlcontact")
+    if folder is None or not folder.is_dir():
         return None
     name = f"{key}{SUFFIX}"
     with suppress(OSError):
@@ -55,12 +58,16 @@ def recall(key: str) -> bytes | None:
 
 
 def remember(key: str, content: bytes) -> None:
-    """Store an entry, where the folder can be written."""
+    """Store an entry; a warning where there is no folder for it, or no room."""
     folder = cache_folder()
     if folder is None:
+        warn_not_kept("no folder of caches can be written to")
         return
-    with suppress(InputError, OSError):  # a full disk, say: only time is lost
+    try:
         ContentStore(folder, CACHE_VARIABLE).put(f"{key}{SUFFIX}", content)
+    except InputError as error:  # a full disk, say: only time is lost
+        warn_not_kept(str(error))
+    with suppress(OSError):
         _shrink(folder)
 
 
@@ -81,13 +88,22 @@ def _shrink(folder: Path) -> None:
 
 def _folder(variable: str, name: str) -> Path | None:
     """Folder that an environment variable names, else `name` in the user's cache; None if it cannot be written."""
+    folder = _named(variable, name)
+    try:
+        if folder is not None:
+            folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError):  # a file in the way, read-only, no path at all
+        return None
+    return folder if folder is not None and os.access(folder, os.W_OK | os.X_OK) else None
+
+
+def _named(variable: str, name: str) -> Path | None:
+    """Path of that folder, which need not exist; None without a home."""
     chosen = os.environ.get(variable, "").strip()
     try:
-        folder = Path(chosen).absolute() if chosen else _caches() / name
-        folder.mkdir(parents=True, exist_ok=True)
-    except (OSError, ValueError, RuntimeError):  # a file in the way, read-only, no path at all; no home
+        return Path(chosen).absolute() if chosen else _caches() / name
+    except (OSError, RuntimeError):
         return None
-    return folder if os.access(folder, os.W_OK | os.X_OK) else None
 
 
 def _caches() -> Path:

@@ -1,10 +1,11 @@
 """The C core: compiled once, loaded, and named where it cannot be."""
 
 import ctypes
+import os
+import sys
 
 import pytest
 
-from ehlcontact import kernel_cache
 from ehlcontact.binaries import BuildError
 from reduced_models import core
 
@@ -53,29 +54,34 @@ def test_a_library_that_the_system_refuses_is_named(afresh, monkeypatch):
         core.library()
 
 
-def test_no_temporary_folder(afresh, monkeypatch):
-    """Nothing to load the library from, and nothing to compile it in."""
+@pytest.fixture
+def no_temporary_folder(afresh, monkeypatch):
+    core.library()  # so that it is kept
+    core._loaded.cache_clear()
 
     def none(*_, **__):
         raise FileNotFoundError(2, "No usable temporary directory found in ['/none']")
 
     monkeypatch.setattr("tempfile.mkdtemp", none)
+    monkeypatch.setattr("tempfile.gettempdir", none)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no files in memory")
+def test_without_a_temporary_folder_it_is_loaded_from_memory(no_temporary_folder):
+    """A kept library, of a container whose folders are all read-only."""
+    open_files = os.listdir("/proc/self/fd")
+    assert core.library().bearing_press is not None
+    assert len(os.listdir("/proc/self/fd")) == len(open_files)
+
+
+def test_no_temporary_folder(no_temporary_folder, monkeypatch):
+    """Nothing to load the library from, and nothing to compile it in."""
+    monkeypatch.setattr(sys, "platform", "another")
     with pytest.raises(BuildError, match=r"^the C core cannot be loaded .*No usable temporary .*TMPDIR names"):
         core.library()
-    monkeypatch.setattr("tempfile.gettempdir", none)
     monkeypatch.setattr("ehlcontact.binaries.cache.recall", lambda key: None)
     with pytest.raises(BuildError, match=r"^no room to compile in \S+ \(No usable temporary directory found"):
         core.library()
-
-
-@pytest.mark.filterwarnings("always")
-def test_without_a_cache_there_is_a_warning(afresh, monkeypatch):
-    kept = core.build_library({"x.c": b"int x(void) { return 1; }"}, ["x.c"], core.NAME, core.EXPORTED)
-    monkeypatch.setattr(core, "build_library", lambda *_: kept)
-    monkeypatch.setenv("EHLCONTACT_CACHE", "/dev/null/none")
-    monkeypatch.setattr(kernel_cache, "_given", set())
-    with pytest.warns(RuntimeWarning, match=r"compiled code is not kept.*EHLCONTACT_CACHE"):
-        assert core.library().x() == 1
 
 
 def test_the_command_line_says_so_in_one_line(monkeypatch, capsys):

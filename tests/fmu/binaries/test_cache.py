@@ -3,11 +3,13 @@
 import os
 import subprocess
 import sys
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
+from ehlcontact import kernel_cache
 from ehlcontact.binaries import build_binaries, cache, libraries, this_machine
 
 OWN = this_machine()
@@ -91,6 +93,7 @@ def test_a_damaged_entry_is_not_believed(kept, compiled):
     assert len(compiled) == 1 + len(damaged)
 
 
+@pytest.mark.filterwarnings("always")
 @pytest.mark.parametrize("where", ["a file", "below a file", "nowhere", "/proc/ehlcontact"])
 def test_without_a_cache_everything_works(compiled, monkeypatch, tmp_path, where):
     (tmp_path / "file").write_text("kept")
@@ -103,8 +106,25 @@ def test_without_a_cache_everything_works(compiled, monkeypatch, tmp_path, where
         path = {"a file": tmp_path / "file", "below a file": tmp_path / "file" / "x"}.get(where, where)
         monkeypatch.setenv("EHLCONTACT_CACHE", str(path))
     assert cache.cache_folder() is None
-    assert build() == build() == b"library" and len(compiled) == 2
+    monkeypatch.setattr(kernel_cache, "_given", set())
+    with pytest.warns(RuntimeWarning, match=r"compiled code is not kept.*no folder of caches.*EHLC") as given:
+        assert build() == build() == b"library" and len(compiled) == 2
+    assert len(given) == 1
     assert (tmp_path / "file").read_text() == "kept"
+
+
+@pytest.mark.filterwarnings("always")
+def test_a_cache_that_became_read_only_is_read(kept, compiled, monkeypatch):
+    """As in an image that was filled when it was made; what is not in it is compiled anew, with one warning."""
+    build()
+    monkeypatch.setattr(os, "access", lambda path, mode: not mode & os.W_OK)
+    monkeypatch.setattr(kernel_cache, "_given", set())
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert build() == b"library" and len(compiled) == 1
+    with pytest.warns(RuntimeWarning, match="compiled code is not kept") as given:
+        assert build(identifier="y") == build(identifier="y") == b"library"
+    assert len(given) == 1 and len(compiled) == 3 and len(list(kept.iterdir())) == 1
 
 
 def no_home():
@@ -160,9 +180,13 @@ def test_several_processes_export_at_once(kept, tmp_path):
     assert {path.suffix for path in kept.iterdir()} == {".library"}
 
 
-def test_a_full_disk_costs_time_only(kept, compiled, monkeypatch):
+@pytest.mark.filterwarnings("always")
+def test_a_full_disk_costs_time_and_a_warning(kept, compiled, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "write_bytes", full)
-    assert build() == b"library" and list(kept.iterdir()) == []
+    monkeypatch.setattr(kernel_cache, "_given", set())
+    with pytest.warns(RuntimeWarning, match="compiled code is not kept.*No space left on device") as given:
+        assert build() == build() == b"library" and list(kept.iterdir()) == []
+    assert len(given) == 1
