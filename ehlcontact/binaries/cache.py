@@ -49,12 +49,15 @@ def key_of(parts: Iterable[bytes]) -> str:
 def recall(key: str) -> bytes | None:
     """Content of the entry with this key, in a folder that may be read-only; None if missing or damaged."""
     folder = _named(CACHE_VARIABLE, "ehlcontact")
-    if folder is None or not folder.is_dir():
+    if folder is None:
         return None
     name = f"{key}{SUFFIX}"
     with suppress(OSError):
         os.utime(folder / name)  # used now
-    return ContentStore(folder, CACHE_VARIABLE).get(name)
+    try:
+        return ContentStore(folder, CACHE_VARIABLE).get(name)
+    except InputError:  # there is no folder, or it is somebody else's
+        return None
 
 
 def remember(key: str, content: bytes) -> None:

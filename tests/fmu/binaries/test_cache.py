@@ -94,7 +94,7 @@ def test_a_damaged_entry_is_not_believed(kept, compiled):
 
 
 @pytest.mark.filterwarnings("always")
-@pytest.mark.parametrize("where", ["a file", "below a file", "nowhere", "/proc/ehlcontact"])
+@pytest.mark.parametrize("where", ["a file", "below a file", "nowhere", "/proc/ehlcontact", "/" + "x" * 300])
 def test_without_a_cache_everything_works(compiled, monkeypatch, tmp_path, where):
     (tmp_path / "file").write_text("kept")
     if where == "nowhere":
