@@ -28,9 +28,10 @@ LARGEST_TEXT = 2**28  # bytes of a JSON or TOML file: a hundred times the larges
 DEEPEST = 50  # levels of nested JSON: ours have six, and Python writes and compares some hundred at most
 LONGEST_INTEGER = 300  # digits: what is longer is no float any more
 STALE = 5.0  # seconds without a write after which no process of another machine is writing a file any more
-# A file that is being written: whose place it will take, machine and process that write, and a number of its own.
+# A file that is being written: whose place it will take, machine and process that write, when that process was
+# started, and a number of its own.
 _TEMPORARY = re.compile(
-    r"\.(?P<target>[0-9a-f]{8})(?P<machine>[0-9a-f]{8})(?P<process>[0-9a-f]{8})[0-9a-f]{8}\.tmp"
+    r"\.(?P<target>[0-9a-f]{8})(?P<machine>[0-9a-f]{8})(?P<process>[0-9a-f]{8})(?P<start>[0-9a-f]{8})[0-9a-f]{8}\.tmp"
 )
 _LONE_SURROGATE = re.compile("[\ud800-\udfff]")
 
@@ -83,7 +84,8 @@ def replacing(path: str | os.PathLike[str], field: str = "path") -> Iterator[Pat
 
 def temporary_for(target: Path) -> Path:
     """Name beside a file for what takes its place; short, so that a long one fits."""
-    own = f"{_short_hash(target.name)}{_machine()}{os.getpid():08x}{uuid.uuid4().hex[:8]}"
+    process = os.getpid()
+    own = f"{_short_hash(target.name)}{_machine()}{process:08x}{_start(process):08x}{uuid.uuid4().hex[:8]}"
     return target.with_name(f".{own}.tmp")
 
 
@@ -94,12 +96,16 @@ def remove_leftovers(folder: Path, target: Path | None = None) -> None:
         if parts is None or (target is not None and parts["target"] != _short_hash(target.name)):
             continue
         with suppress(OSError):
-            if _is_abandoned(path, parts["machine"], int(parts["process"], 16)):
+            if _is_abandoned(path, parts["machine"], int(parts["process"], 16), int(parts["start"], 16)):
                 path.unlink()
 
 
-def _is_abandoned(path: Path, machine: str, process: int) -> bool:
-    """Whether the process that wrote a file is gone; of another machine's, whether nothing was written lately."""
+def _is_abandoned(path: Path, machine: str, process: int, start: int) -> bool:
+    """Whether the process that wrote a file is gone; of another machine's, whether nothing was written lately.
+
+    Another process may have its number: after a restart of the machine, or in a container, where the same command
+    has the same number at every start.
+    """
     if machine != _machine() or os.name != "posix":
         return time.time() - path.stat().st_mtime > STALE
     try:
@@ -108,7 +114,16 @@ def _is_abandoned(path: Path, machine: str, process: int) -> bool:
         return True
     except OSError:  # of another user
         pass
-    return False
+    return _start(process) not in (start, 0)
+
+
+def _start(process: int) -> int:
+    """When a process was started, in ticks since the start of the machine, modulo 2^32; 0 where no file has it."""
+    try:
+        fields = Path(f"/proc/{process}/stat").read_text("utf-8", "replace").rpartition(")")[2].split()
+        return int(fields[19]) & 0xFFFFFFFF
+    except (OSError, LookupError, ValueError):
+        return 0
 
 
 @cache
@@ -168,7 +183,7 @@ def require_writable(field: str, path: Path, suffixes: tuple[str, ...] = ()) -> 
 def require_writable_folder(field: str, folder: Path, named: str | None = None) -> None:
     """Make sure that files can be made in an existing folder."""
     try:
-        with tempfile.NamedTemporaryFile(dir=folder):
+        with tempfile.TemporaryFile(dir=folder):
             return
     except OSError as error:
         allowed = f"in a folder that can be written to ({error.strerror})"

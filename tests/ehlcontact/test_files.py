@@ -145,7 +145,7 @@ def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
     )
     here = files.temporary_for(tmp_path / "y.txt").name
     gone = tmp_path / f"{here[:17]}{int(ended.stdout):08x}{here[25:]}"
-    elsewhere = tmp_path / f".{'0' * 32}.tmp", tmp_path / f".{'1' * 32}.tmp"
+    elsewhere = tmp_path / f".{'0' * 40}.tmp", tmp_path / f".{'1' * 40}.tmp"
     for path in (gone, *elsewhere, *mine):
         path.write_text("some")
         if path not in (gone, elsewhere[0]):
@@ -156,6 +156,18 @@ def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
         temporary.write_text("new")
     assert names(tmp_path) == sorted(["x.txt", *(path.name for path in (elsewhere[0], *mine))])
     files.remove_leftovers(tmp_path / "nowhere")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="no file has the start of a process")
+def test_what_a_killed_process_of_the_same_number_left_is_removed(tmp_path):
+    """As after the restart of a container, in which a command has the same number every time."""
+    here = files.temporary_for(tmp_path / "x.txt")
+    start = int(here.name[25:33], 16)
+    earlier = here.with_name(f"{here.name[:25]}{start - 1:08x}{here.name[33:]}")
+    for path in (here, earlier):
+        path.touch()
+    files.remove_leftovers(tmp_path)
+    assert names(tmp_path) == [here.name]
 
 
 KILLED = """
