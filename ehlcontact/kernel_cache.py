@@ -255,6 +255,7 @@ def _is_writable(folder: str) -> bool:
     return True
 
 
+NOT_KEPT = "compiled code is not kept, and compiled anew at every start"
 _given: set[str] = set()  # warnings that this process has given, of whatever number of kernels
 
 
@@ -271,4 +272,10 @@ def _warn_damaged(folder: str) -> None:
 def warn_not_kept(reason: str) -> None:
     """Warn, once, that compiled code cannot be kept, with the reason of the system."""
     folders = "NUMBA_CACHE_DIR and EHLCONTACT_CACHE name other folders"
-    _warn("compiled code is not kept, and compiled anew at every start", f"{reason}; {folders}")
+    _warn(NOT_KEPT, f"{reason}; {folders}")
+
+
+def is_keeping() -> bool:
+    """Whether what this process compiles can be kept, as far as it has tried."""
+    chosen: str = config.CACHE_DIR  # type: ignore[attr-defined]
+    return NOT_KEPT not in _given and _is_writable(_folder(os.path.dirname(os.path.abspath(__file__)), chosen))

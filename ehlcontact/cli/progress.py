@@ -22,7 +22,14 @@ SHARE = 0.1  # of the work after which there is a line,
 SILENCE = 60.0  # and seconds after which there is one all the same
 TICK = 0.5  # seconds between looks at the clock
 JOBS = 2  # done, from which the time left is estimated: the first may compile, and may be of another size
-COMPILING = "compiling, which later runs need not"
+COMPILING, ONCE = "compiling", ", which later runs need not"
+
+
+def compiling_note() -> str:
+    """What is shown while kernels are compiled."""
+    from ehlcontact.kernel_cache import is_keeping
+
+    return f"{COMPILING}{ONCE}" if is_keeping() else COMPILING
 
 
 class Bars:
@@ -43,7 +50,7 @@ class Bars:
 
     def compiling(self, task: Any) -> None:
         """Show that kernels are compiled for a task, until its next update."""
-        self._bars.update(task, note=COMPILING)
+        self._bars.update(task, note=compiling_note())
 
     def end(self, task: Any, line: str = "") -> None:
         """Remove a task, and print a last line."""
@@ -88,7 +95,7 @@ class Task:
         """Line to be written now."""
         self.last_line, self.lines = now, self.lines + 1
         if self.share is None or self.compiling:
-            parts = [f"{duration(now - self.begun)} so far", COMPILING if self.compiling else self.note]
+            parts = [f"{duration(now - self.begun)} so far", compiling_note() if self.compiling else self.note]
             return f"{self.description}: {', '.join(filter(None, parts))}"
         self.last_share = self.share
         left = self._left(now)

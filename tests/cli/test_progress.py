@@ -7,8 +7,9 @@ import pytest
 from numba import njit
 from rich.console import Console
 
+from ehlcontact import kernel_cache
 from ehlcontact.cli import progress
-from ehlcontact.cli.progress import COMPILING, Bars, Lines, duration
+from ehlcontact.cli.progress import COMPILING, ONCE, Bars, Lines, duration
 
 WRITE_DUE = Lines.write_due  # before the fixture of this folder takes it away
 
@@ -135,7 +136,13 @@ def test_the_thread_writes_and_ends(monkeypatch):
     assert said[0].startswith("film: ") and not thread.is_alive()
 
 
-def test_compilation_is_shown_until_the_next_progress(clock, capsys):
+@pytest.fixture
+def kept(monkeypatch):
+    """Compiled code can be kept."""
+    monkeypatch.setattr(kernel_cache, "is_keeping", lambda: True)
+
+
+def test_compilation_is_shown_until_the_next_progress(kept, clock, capsys):
     lines = Lines()
     task = lines.add("film")
     lines.compiling(task)
@@ -148,10 +155,10 @@ def test_compilation_is_shown_until_the_next_progress(clock, capsys):
         lines.compiling(task)
     clock(lines, 60.0)
     assert capsys.readouterr().err.splitlines() == [
-        f"film: 10 s so far, {COMPILING}",
+        f"film: 10 s so far, {COMPILING}{ONCE}",
         "film: 30 %",
         "film: 50 %, about 15 s left",
-        f"film: 2 min so far, {COMPILING}",
+        f"film: 2 min so far, {COMPILING}{ONCE}",
     ]
 
 
@@ -166,10 +173,14 @@ def test_only_the_first_compilation_is_shown(monkeypatch):
     assert told == ["film"]
 
 
-def test_bars_show_it_at_once():
+def test_bars_show_it_at_once(kept, monkeypatch):
+    """Later runs compile again where nothing can be kept."""
     bars = Bars(Console(file=io.StringIO()))
     task = bars.add("film")
     (shown,) = bars._bars.tasks
+    bars.compiling(task)
+    assert shown.fields["note"] == COMPILING + ONCE
+    monkeypatch.setattr(kernel_cache, "is_keeping", lambda: False)
     bars.compiling(task)
     assert shown.fields["note"] == COMPILING
     bars.update(task, 1, 4, "cycle 1")

@@ -123,6 +123,7 @@ def test_without_a_place_kernels_are_compiled_in_memory(twice, no_place, tmp_pat
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         kernel = twice()
+    assert not kernel_cache.is_keeping()
     with pytest.warns(RuntimeWarning, match="compiled code is not kept") as given:
         assert kernel(2.0) == 4.0 and kernel(3) == 6
     assert len(given) == 1 and "Read-only file system" in str(given[0].message)
@@ -131,7 +132,7 @@ def test_without_a_place_kernels_are_compiled_in_memory(twice, no_place, tmp_pat
 
 @pytest.mark.filterwarnings("always")
 def test_what_a_read_only_place_holds_is_used(twice, request):
-    assert twice()(2.0) == 4.0
+    assert twice()(2.0) == 4.0 and kernel_cache.is_keeping()
     request.getfixturevalue("no_place")
     if numba.config.CACHE_DIR:
         pytest.skip("NUMBA_CACHE_DIR is the first place")
