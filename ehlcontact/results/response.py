@@ -91,6 +91,8 @@ class Response(PointTable):
         Of the numbers, where no point says them.
     seconds : float
         Wall time of the solve.
+    beyond_data : str
+        Loads and frequencies outside those of the data, in words, part of ``reservation``; empty where none.
     """
 
     to: str = APPROACH
@@ -107,6 +109,7 @@ class Response(PointTable):
     wave_speed: float = 1.0
     units: str = "SI"
     seconds: float = 0.0
+    beyond_data: str = ""
 
     DISPLAY: ClassVar[Display] = Display(rows="omega", logs="x")
 
@@ -182,7 +185,7 @@ class Response(PointTable):
 
     @property
     def reservation(self) -> str:
-        """What the response leaves open, in words: a coarse mesh, a large error; else empty."""
+        """What the response leaves open, in words: a coarse mesh, a large error, `beyond_data`; else empty."""
         found = []
         if self.film is not None and self.to == APPROACH:
             moes = self.film.point.moes
@@ -190,7 +193,7 @@ class Response(PointTable):
             if mesh.size > COARSE * needed:
                 apart = f"nodes are {mesh.size:.2g} semi-axes apart, damping needs {needed:.2g}"
                 found.append(f"the grid is too coarse: {apart}")
-        return "; ".join([*found, *filter(None, [self._doubt(coarse=bool(found))])])
+        return "; ".join([*found, *filter(None, [self._doubt(coarse=bool(found)), self.beyond_data])])
 
     def _doubt(self, coarse: bool) -> str:
         """The largest error over its quantity, in words, where it is doubtful."""
@@ -271,6 +274,8 @@ class Response(PointTable):
         """Quantities and origin, ready for JSON."""
         missing = [name for name in ("residual", "wavelength") if getattr(self, name) is None]
         found = {"to": self.to} | {k: v for k, v in PointTable.to_dict(self).items() if k not in missing}
+        if self.beyond_data:
+            found |= {"reservation": self.reservation}
         if self.film is not None:
             found |= {"reservation": self.reservation, "outside_assumptions": self.outside_assumptions}
             found |= {"seconds": self.seconds, "film": self.film.to_dict()}

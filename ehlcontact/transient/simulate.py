@@ -107,7 +107,8 @@ def simulate(
     keep : KeepSettings
         Snapshots of whole fields, checkpoints, restart.
     run : RunSettings
-        Threads, callback, whether a failure is raised.
+        ``RunSettings(threads=, throw=, callback=)``: threads as in `solve_steady`; whether a failure is raised; a
+        function that is called after every step.
 
     Returns
     -------

@@ -44,7 +44,8 @@ class BearingCoefficients(Response):
 
     Attributes
     ----------
-    to, omega, value, slope, error_bars, point, film, residual, impedance, wavelength, wave_speed, units, seconds
+    to, omega, value, slope, error_bars, point, film, residual, impedance, wavelength, wave_speed, units, seconds,
+    beyond_data
         As of `ehlcontact.results.Response`: ``stiffness`` and ``damping`` have the shape (k, n, n) [N/m], [N s/m].
     layer_behind : None
         Of a response of one contact.
@@ -66,8 +67,6 @@ class BearingCoefficients(Response):
     damping_left_out : str
         Below which frequency contacts under an oil supply have damping below zero, which `damping` leaves out, in
         words; empty where there is none.
-    beyond_data : str
-        Loads and frequencies outside those of the atlas, in words, part of ``reservation``; empty where none.
     held_feed : str
         That a feed of oil is held, in words: under the layer of an `OilBalance`, `stiffness` and `signed_damping`
         include that layers follow the passes of the balls before (`reduced_models.bearing.oil_feedback`). Empty
@@ -83,12 +82,6 @@ class BearingCoefficients(Response):
     signed_damping: Annotated[_Floats | None, DAMPING.over("omega axis by")] = None
     damping_left_out: str = ""
     held_feed: str = ""
-    beyond_data: str = ""
-
-    @property
-    def reservation(self) -> str:
-        """What the response leaves open, in words: loads and frequencies beyond the atlas; else empty."""
-        return "; ".join(filter(None, [super().reservation, self.beyond_data]))
 
     @property
     def outside_assumptions(self) -> str:

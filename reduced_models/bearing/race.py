@@ -310,6 +310,34 @@ def beyond_data(
     return "; ".join(said)
 
 
+def beyond_loads(bearing: Any, name: str, speed_rpm: float, largest: _Floats) -> tuple[list[str], list[str]]:
+    """Where balls of a `BallBearing` carried more, and where all carried less, than the atlas has, in words.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+    name : str
+        Of the bearing.
+    speed_rpm : float
+        Of the shaft [rev/min].
+    largest : ndarray, shape (2,)
+        Largest force on a ball at the inner and the outer race [N].
+    """
+    heavy: list[str] = []
+    light: list[str] = []
+    if bearing.oil is None:
+        return heavy, light
+    for race, load in zip(RACES, largest.tolist(), strict=True):
+        least, most = bearing.race(race).loads(speed_rpm)
+        if load > most:
+            heavy.append(f"a ball of {name} carried {load:.4g} N on the {race} race (atlas up to {most:.4g} N)")
+        elif load < least:
+            light.append(
+                f"no ball of {name} carried more than {load:.3g} N on the {race} race (atlas from {least:.3g} N)"
+            )
+    return heavy, light
+
+
 def _heaviest_contacts(bearing: Any, places: Sequence[RingEquilibrium]) -> Iterator[tuple[Race, float]]:
     """The most loaded contact with each race at its angle, and its force [N]."""
     for column, name in enumerate(RACES):

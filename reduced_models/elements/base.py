@@ -33,7 +33,15 @@ from ehlcontact.results.response import Response
 from reduced_models.elements.design_point import DesignPoint, known_scale, require_own_scales
 from reduced_models.elements.element_summary import ElementSummary
 from reduced_models.elements.film_response import StateSpace
-from reduced_models.elements.validity import UNITS, Band, OutsideValidityWarning, Validity, numbers
+from reduced_models.elements.validity import (
+    MARGIN,
+    UNITS,
+    Band,
+    OutsideValidityWarning,
+    Validity,
+    numbers,
+    text_of,
+)
 
 TINY_OMEGA = 1e-4  # stands for 0, where damping is the slope of Z: Omega, or rad/s
 UNWATCHED = (-math.inf, math.inf, math.inf, -math.inf, math.inf)  # a reach that nothing leaves
@@ -259,7 +267,7 @@ class ContactElement(ElementSummary, _Common, ABC):
         Returns
         -------
         Response
-            In the units of the element.
+            In the units of the element; its `reservation` names a load or a frequency outside the validity box.
 
         Raises
         ------
@@ -268,7 +276,20 @@ class ContactElement(ElementSummary, _Common, ABC):
         """
         w = self._frequencies(Omega=Omega, omega=omega, hz=hz, rpm=rpm)
         moving = np.maximum(w, TINY_OMEGA)
-        return Response.to_approach(w, self._response(moving, load), moving, units=self.units)
+        Z = self._response(moving, load)
+        return Response.to_approach(w, Z, moving, units=self.units, beyond_data=self._beyond_box(w, load))
+
+    def _beyond_box(self, w: NDArray[np.float64], load: float | None) -> str:
+        """What of small motions about rest under a load is outside the validity box, in words; else empty."""
+        outside, band = self.validity.excess(omega=float(w.max()), units=self.units), self.load_range
+        if (
+            load is not None
+            and band is not None
+            and not band[0] / (1.0 + MARGIN) <= load <= band[1] * (1.0 + MARGIN)
+        ):
+            unit = " N" if self.units == "SI" else ""
+            outside = [f"load {load:.4g}{unit} (fitted {text_of(band)}{unit})", *outside]
+        return f"outside the validity box of the element: {', '.join(outside)}" if outside else ""
 
     @abstractmethod
     def _response(self, w: NDArray[np.float64], load: float | None = None) -> NDArray[np.complex128]:

@@ -26,6 +26,7 @@ from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import LinearBalls
+from reduced_models.bearing.race import beyond_loads
 from reduced_models.bearing.ring import RingEquilibrium, equilibrium_at, ring_equilibrium
 from reduced_models.bearing.ring_statics import cage_angles, linear_balls, static_ring
 from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out, with_solved_contacts
@@ -105,6 +106,8 @@ class LinearRotor(Summary):
         Contacts under an oil supply have the impedance of the solved ones, with damping below zero, in place of
         their elements. It is known over real frequencies: K + s C with K and C at the frequency of a mode stands
         for Z(s), to first order in the damping.
+    reservation : str
+        Loads of balls outside those of the atlas, in words; empty where there are none.
     """
 
     rotor: Rotor
@@ -116,13 +119,14 @@ class LinearRotor(Summary):
     balls: tuple[LinearBalls, ...]
     damping_left_out: tuple[str, ...] = ()
     signed_damping: bool = False
+    reservation: str = ""
 
     def _summary_lines(self) -> list[str]:
         named = zip(self.rotor.ball_bearing_names, self.damping_left_out, strict=False)
         left_out = [f"{name}: {words}" for name, words in named if words]
         of = ", with the signed damping of solved contacts" if self.signed_damping else ""
         about = f"about static equilibrium at {self.speed_rpm:.5g} rev/min{of}"
-        return [about, *self.rotor._summary_lines(), *left_out]
+        return [about, *self.rotor._summary_lines(), *left_out, *filter(None, [self.reservation])]
 
     @cached_property
     def matrices(self) -> Matrices:
@@ -390,7 +394,12 @@ def linearise(
         _linear_bearing(mount, rolling, r[columns], passage, signed_damping)
         for columns, mount in zip(rotor.ball_columns, bearings, strict=True)
     ]
-    names, words = rotor.ball_bearing_names, tuple("" if signed_damping else one for _, _, one in parts)
+    names, words = rotor.ball_bearing_names, tuple("" if signed_damping else one for _, _, one, _ in parts)
+    beyond = (
+        beyond_loads(mount.ball_bearing, name, rolling, largest)
+        for mount, name, (*_, largest) in zip(bearings, names, parts, strict=True)
+    )
+    reservation = "; ".join(text for both in beyond for texts in both for text in texts)
     for mount, name, left_out in zip(bearings, names, words, strict=True):
         warn_of_damping_left_out(mount.ball_bearing, name, left_out)
     return LinearRotor(
@@ -398,11 +407,12 @@ def linearise(
         speed,
         passage,
         rest,
-        np.array([load for load, _, _ in parts]) if parts else np.zeros((0, 2)),
+        np.array([load for load, *_ in parts]) if parts else np.zeros((0, 2)),
         tuple(_linear_contact(mount, float(u) + mount.offset) for mount, u in zip(mounted, r, strict=False)),
-        tuple(balls for _, balls, _ in parts),
+        tuple(balls for _, balls, *_ in parts),
         words,
         signed_damping,
+        reservation,
     )
 
 
@@ -433,8 +443,8 @@ def _linear_contact(mount: ContactMount, approach: float) -> LinearElement | Con
 
 def _linear_bearing(
     mount: BearingMount, speed: float, ring: _Floats, passage: bool, signed: bool
-) -> tuple[_Floats, LinearBalls, str]:
-    """Static force on the inner ring, linear bearing about it, and the damping left out, in words."""
+) -> tuple[_Floats, LinearBalls, str, _Floats]:
+    """Static force on the inner ring, linear bearing about it, damping left out in words, largest ball forces."""
     bearing, rpm, ring = mount.ball_bearing, mount.ball_bearing.speed(speed), ring + mount.shift
     held = equilibrium_at(static_ring(bearing, rpm, mount.cage_angle, ring.size), ring)
     force, loaded = held.load, np.linalg.norm(held.load) >= UNLOADED * held.force.max()
@@ -445,7 +455,8 @@ def _linear_bearing(
             ring_equilibrium(static, force, first=ring) if loaded else equilibrium_at(static, ring)
             for static in rings
         ]
-    return force, *linear_bearing(bearing, rpm, places, signed)
+    largest = np.max([place.force.max(axis=0) for place in places], axis=0)
+    return force, *linear_bearing(bearing, rpm, places, signed), largest
 
 
 def linear_bearing(

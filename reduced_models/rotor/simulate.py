@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import chain
 from math import ceil
 from typing import Any
 
@@ -17,7 +18,7 @@ from ehlcontact.errors import ConvergenceError, InputError, warn_user
 from ehlcontact.status import Status
 from reduced_models.bearing.height_tables import LEAST_STEPS, shortest_meeting
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.race import RACES
+from reduced_models.bearing.race import beyond_loads
 from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out
 from reduced_models.elements.validity import OutsideValidityWarning, frequency_of
 from reduced_models.rotor.contact_protocol import Contact
@@ -98,7 +99,7 @@ def simulate_rotor(
     -------
     RotorResult
         With status "interrupted" and what was computed, after Ctrl-C. Its `reservation` names features of
-        bearings for which the steps are too long.
+        bearings for which the steps are too long, and balls with loads outside the atlas.
 
     Raises
     ------
@@ -164,7 +165,8 @@ def integrate(
         result = _result(run, integrator.made, Status.FAILED)
         raise ConvergenceError(f"rotor at t = {run.t[integrator.reached]:.6g} s: {error}", result) from error
     result = _result(run, integrator.made, status)
-    _warn_of_overload(run)
+    for message in _beyond_loads(run)[0]:
+        warn_user(message, OutsideValidityWarning)
     _warn_of_damping(run)
     _warn_of_contacts(run.rotor, result)
     return result
@@ -198,7 +200,7 @@ def _result(run: PreparedRun, made: int, status: Status) -> RotorResult:
         iterations=histories.evaluations[kept],
         largest_load=largest,
         status=status,
-        reservation=_long_steps(run, largest),
+        reservation="; ".join(filter(None, [_long_steps(run, largest), *chain(*_beyond_loads(run))])),
         columns=columns,
         names=names,
         places=places,
@@ -240,16 +242,15 @@ def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, 
     return tuple(names), motions, rates, forces
 
 
-def _warn_of_overload(run: PreparedRun) -> None:
-    """Warn of balls that carried more than the atlas has."""
+def _beyond_loads(run: PreparedRun) -> tuple[list[str], list[str]]:
+    """Where balls carried more, and where all carried less, than the atlas has, in words."""
     slowest = float(law_speeds(run.omega / RPM_TO_RAD_S)[0])
-    for mount, which, balls in zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, run.balls, strict=True):
-        for name, load in zip(RACES, balls.largest.tolist(), strict=True):
-            bearing = mount.ball_bearing
-            most = np.inf if bearing.oil is None else bearing.race(name).loads(slowest)[1]
-            if load > most:
-                message = f"a ball of {which} carried {load:.4g} N on the {name} race (atlas up to {most:.4g} N)"
-                warn_user(message, OutsideValidityWarning)
+    heavy: list[str] = []
+    light: list[str] = []
+    for mount, name, balls in zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, run.balls, strict=True):
+        more, less = beyond_loads(mount.ball_bearing, name, slowest, balls.largest)
+        heavy, light = heavy + more, light + less
+    return heavy, light
 
 
 def _warn_of_damping(run: PreparedRun) -> None:

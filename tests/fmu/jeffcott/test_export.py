@@ -23,7 +23,7 @@ SCALES = Scales(force=850.0, length=1.31e-5, time=2.1e-5, a=1.1e-4, b=9e-4, pres
     [
         (lambda e: [e["cubic_si"]], ("contacts", "1", "one per mount, 2")),
         (lambda e: [e["cubic_si"], e["cubic"]], ("contacts[1].units", "dimensionless", "OperatingPoint")),
-        (lambda e: [e["cubic_si"], 3.0], ("contacts[1]", "float", "contact element")),
+        (lambda e: [e["cubic_si"], 3.0], ("contacts[1]", "3.0", "contact element")),
         (lambda e: e["cubic_si"], ("contacts", "SpringContact", "list")),
     ],
 )

@@ -296,6 +296,14 @@ def test_leaving_the_box_warns_once(element, call, words):
         call(replace(element))
 
 
+def test_an_impedance_outside_the_box_has_a_reservation(element):
+    assert element.impedance(load=1.0, Omega=4.0).reservation == ""
+    light, fast = element.impedance(load=0.5, Omega=4.0), element.impedance(Omega=13.0)
+    head = "outside the validity box of the element: "
+    assert light.reservation == f"{head}load 0.5 (fitted 0.8 to 1.2)" and light.to_dict()["reservation"]
+    assert fast.reservation == f"{head}Omega 13 (fitted Omega 3 to 6)" and fast.reservation in str(fast)
+
+
 def test_no_warning_within_the_margin_or_for_evaluations(element):
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -1,5 +1,7 @@
 """Rotors on ball bearings over time: against scipy, eigenvalues, energy, themselves with other steps."""
 
+import re
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -18,6 +20,7 @@ from reduced_models import (
     SpeedProfile,
     Unbalance,
     jeffcott_rotor,
+    linearise,
     simulate_rotor,
 )
 from reduced_models.rotor.result import RotorResult
@@ -169,7 +172,20 @@ def test_balls_beyond_the_atlas_warn(film):
     with pytest.warns(
         OutsideValidityWarning, match=r"a ball of bearing 0 carried .* N on the inner race \(atlas up"
     ):
-        simulate_rotor(block(film, load=(0.0, -9000.0)), **fast)
+        heavy = simulate_rotor(block(film, load=(0.0, -9000.0)), **fast)
+    words = r"^a ball of bearing 0 carried \S+ N on the inner race \(atlas up to \S+ N\)"
+    assert quiet.reservation == "" and re.match(words, heavy.reservation)
+    still = linearise(block(film, load=(0.0, -9000.0)), RPM)
+    assert re.match(words, still.reservation) and still.reservation in str(still)
+    assert linearise(block(film), RPM).reservation == ""
+
+
+def test_balls_with_no_load_that_the_atlas_has_are_named(film):
+    loose = replace(film, clearance=1e-4)
+    run = simulate_rotor(block(loose, load=(0.0, -1e-3)), speed_rpm=RPM, dt=DT, until=2e-4)
+    assert re.match(
+        r"^no ball of bearing 0 carried more than \S+ N on the inner race \(atlas from ", run.reservation
+    )
 
 
 def test_a_ring_that_leaves_its_bearing(dry):
