@@ -12,8 +12,8 @@ method `at` of each makes it for an `OperatingPoint` from SI: seconds, newton, m
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from math import inf
+from dataclasses import astuple, dataclass, field
+from math import inf, isclose
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import shown
 from ehlcontact.errors import InputError
-from ehlcontact.point import OperatingPoint, Scales
+from ehlcontact.point import OperatingPoint, Point, Scales
 from ehlcontact.solver.balance import Balance
 
 Array = NDArray[np.float64]
@@ -30,6 +30,8 @@ Array = NDArray[np.float64]
 # within T = 2 the shorter one leaves 0.2 % of the smallest film open, 0.25 leaves 2 %, 0.5 leaves 7 % and 1 leaves
 # 13 % ((200, 10, 0.5), n = 64).
 LONGEST_SMOOTH, LONGEST_ABRUPT = 0.5, 0.1
+
+SAME_POINT = 1e-9  # of a unit: points that differ by less, as by rounding, are one
 
 _KINDS: dict[str, type[Motion]] = {}
 
@@ -52,6 +54,35 @@ def scales_at(point: object, dimensionless: str) -> Scales:
     return point.scales
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class OverTime:
+    """What changes over dimensionless time; one that `at` made from SI knows at which point.
+
+    Attributes
+    ----------
+    made_at : OperatingPoint or None
+        Whose seconds, metres and newton it was given in. Not part of what it is: neither compared nor stored.
+    """
+
+    made_at: OperatingPoint | None = field(default=None, repr=False, compare=False)
+
+    def require_point(self, name: str, point: Point) -> None:
+        """Raise `InputError`, with its `name`, at a point where it would not be what SI units said of it.
+
+        The Moes point of the point where it was made is no other one.
+        """
+        own = self.made_at
+        if own is None:
+            return
+        if isinstance(point, OperatingPoint):
+            theirs, ours = astuple(own.scales), astuple(point.scales)
+        else:
+            theirs, ours = ((one.M, one.L, one.kappa) for one in (own.moes, point))
+        if not all(isclose(a, b, rel_tol=SAME_POINT) for a, b in zip(theirs, ours, strict=True)):
+            allowed = f"made with {type(self).__name__}.at(point, ...) of the point of this run"
+            raise InputError(name, "made at another operating point", allowed)
+
+
 class Start(NamedTuple):
     """What holds the contact still until T = 0, in place of the static load."""
 
@@ -59,7 +90,7 @@ class Start(NamedTuple):
     u: float  # guess
 
 
-class Motion(ABC):
+class Motion(OverTime, ABC):
     """Motion of a contact: equation that closes a step, state of the bodies, end and default step of a run."""
 
     __slots__ = ()

@@ -107,7 +107,7 @@ class FreeVibration(UnderLoad):
             Omega_n = one("frequency", dimensionless(scales.time, omega=omega, hz=hz)) / SMALL_VIBRATION
         at_start = None if rate is None else require_finite("rate", rate) / scales.rate
         displaced = require_finite("offset", offset) / scales.length
-        return cls(Omega_n=Omega_n, offset=displaced, rate=at_start, start=start)
+        return cls(Omega_n=Omega_n, offset=displaced, rate=at_start, start=start, made_at=point)
 
     @property
     def period(self) -> float:
@@ -206,7 +206,8 @@ class HarmonicLoad(UnderLoad):
         """
         scales = scales_at(point, "HarmonicLoad(Omega)")
         Omega = one("frequency", dimensionless(scales.time, omega=omega, hz=hz, rpm=rpm))
-        return cls(Omega=Omega, amplitude=amplitude, Omega_n=None if mass is None else point.Omega_n(mass))
+        Omega_n = None if mass is None else point.Omega_n(mass)
+        return cls(Omega=Omega, amplitude=amplitude, Omega_n=Omega_n, made_at=point)
 
     @property
     def period(self) -> float:
@@ -287,7 +288,8 @@ class RampLoad(UnderLoad):
         """
         scales = scales_at(point, "RampLoad(ratio, duration, Omega_n)")
         ratio = require_positive("load", load) / scales.force
-        return cls(ratio, require_positive("duration", duration) / scales.time, Omega_n=point.Omega_n(mass))
+        within = require_positive("duration", duration) / scales.time
+        return cls(ratio, within, Omega_n=point.Omega_n(mass), made_at=point)
 
     def load(self, T: float) -> float:
         """Applied load."""

@@ -145,7 +145,7 @@ class PrescribedLoad(Tabulated, UnderLoad):
         scales = scales_at(point, "PrescribedLoad(T, values)")
         times, values = as_table(t, load, ("t", "load"))
         Omega_n = None if mass is None else point.Omega_n(mass)
-        return cls(times / scales.time, values / scales.force, Omega_n=Omega_n)
+        return cls(times / scales.time, values / scales.force, Omega_n=Omega_n, made_at=point)
 
     @classmethod
     @takes(load=Callback("T"), steps=STEPS)
@@ -227,7 +227,7 @@ class PrescribedApproach(Tabulated):
         """
         scales = scales_at(point, "PrescribedApproach(T, values)")
         times, values = as_table(t, approach, ("t", "approach"))
-        return cls(times / scales.time, values / scales.length)
+        return cls(times / scales.time, values / scales.length, made_at=point)
 
     def approach(self, T: float) -> float:
         """Prescribed approach."""

@@ -118,9 +118,9 @@ def simulate(
     Raises
     ------
     InputError
-        An argument outside its range; a grid that would not fit into memory; a checkpoint that cannot be written,
-        or is not one of this run. Only the first checkpoint ends the run; of the last, ``error.result`` holds the
-        run all the same.
+        An argument outside its range; a motion or speed that ``at`` made for another point; a grid that would not
+        fit into memory; a checkpoint that cannot be written, or is not one of this run. Only the first checkpoint
+        ends the run; of the last, ``error.result`` holds the run all the same.
     ConvergenceError
         A step did not converge, or did not meet the local error however short (status ``step_too_small``);
         ``error.result`` holds the history so far.
@@ -128,11 +128,12 @@ def simulate(
     started = perf_counter()
     require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
     moes = require_solvable(point, motion.largest_load)
+    motion.require_point("motion", point)
     require_grid(grid)
     require_groups(time, keep, run)
     conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
     require_surface(surface)
-    require_speed(speed, grid)
+    require_speed(speed, grid, point)
     reverses = speed is not None and speed.reverses
     wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load, reverses=reverses)
     mesh = next(wider)

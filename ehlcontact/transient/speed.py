@@ -23,9 +23,9 @@ from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.checks.kinds import STEPS, Callback
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from ehlcontact.point import OperatingPoint
+from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.solver.grid import Grid
-from ehlcontact.transient.bodies import Array, scales_at
+from ehlcontact.transient.bodies import Array, OverTime, scales_at
 from ehlcontact.transient.features import Surface
 from ehlcontact.transient.prescribed import as_table, corners_of
 
@@ -34,7 +34,7 @@ LARGEST_CHANGE = 1e6  # of U over T: a speed that jumps
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class SpeedHistory:
+class SpeedHistory(OverTime):
     """Speed of both surfaces over time, straight between its rows, constant after the last.
 
     All of it is dimensionless; `at` takes a table in seconds and m/s at an `OperatingPoint`.
@@ -80,7 +80,7 @@ class SpeedHistory:
         """
         scales = scales_at(point, "SpeedHistory(T, values)")
         times, speeds = as_table(t, u_sum, ("t", "u_sum"))
-        return cls(times / scales.time, speeds / point.u_sum)
+        return cls(times / scales.time, speeds / point.u_sum, made_at=point)
 
     @classmethod
     @takes(speed=Callback("T"), steps=STEPS)
@@ -140,11 +140,12 @@ def surface_at(surface: Surface | None, speed: SpeedHistory | None) -> Surface |
     return lambda X, Y, T: surface(X, Y, speed.way(T))
 
 
-def require_speed(speed: SpeedHistory | None, grid: Grid) -> None:
-    """Raise `InputError` unless a run can be made with this speed and this grid."""
+def require_speed(speed: SpeedHistory | None, grid: Grid, point: Point) -> None:
+    """Raise `InputError` unless a run can be made with this speed and this grid at this point."""
     if speed is None:
         return
     require_instance("speed", speed, SpeedHistory, "a SpeedHistory(T, values)")
+    speed.require_point("speed", point)
     if speed(0.0) == 0.0:
         allowed = "a speed other than 0: at standstill no film is steady; begin rolling, then stop"
         raise InputError("speed.values[0]", 0.0, allowed)

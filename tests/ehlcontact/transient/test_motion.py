@@ -1,5 +1,7 @@
 """Loads, defaults, bad input and the stored form of every motion."""
 
+import pickle
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -16,6 +18,8 @@ from ehlcontact import (
     PrescribedApproach,
     PrescribedLoad,
     RampLoad,
+    SpeedHistory,
+    simulate,
 )
 from ehlcontact.transient.bodies import Motion
 
@@ -91,6 +95,37 @@ def test_tables_and_ramps_in_si():
     assert driven.approach(2e-4 / s.time) == pytest.approx(0.97)
     ramp = RampLoad.at(SI, load=75.0, duration=1e-4, mass=mass)
     assert (ramp.ratio, ramp.duration * s.time) == pytest.approx((1.5, 1e-4))
+
+
+IN_SI = {
+    "motion": [
+        FreeVibration.at(SI, mass=0.2),
+        HarmonicLoad.at(SI, hz=1000.0),
+        RampLoad.at(SI, load=75.0, duration=1e-4, mass=0.2),
+        PrescribedLoad.at(SI, [0.0, 1e-4, 2e-4, 4e-4], [50.0, 60.0, 55.0, 50.0]),
+        PrescribedApproach.at(SI, [0.0, 1e-4, 2e-4, 4e-4], [SI.scales.length] * 4),
+    ],
+    "speed": [SpeedHistory.at(SI, [0.0, 1e-4, 2e-4, 4e-4], [2.0, 3.0, 2.0, 2.0])],
+}
+
+
+@pytest.mark.parametrize(("name", "made"), [(n, one) for n, every in IN_SI.items() for one in every])
+def test_what_was_made_at_a_point_is_refused_at_another(name, made):
+    other = replace(SI, load=60.0)
+    arguments = {"motion": HarmonicLoad(Omega=pi), name: made}
+    for point in (other, other.moes):
+        with pytest.raises(InputError, match=rf"^{name} = 'made at another .*{type(made).__name__}\.at\(point"):
+            simulate(point, **arguments)
+    for point in (SI, replace(SI), SI.moes):
+        made.require_point(name, point)
+    assert pickle.loads(pickle.dumps(made)).made_at == SI
+    assert type(made).from_dict(made.to_dict()).made_at is None
+
+
+def test_the_point_where_a_motion_was_made_is_no_part_of_it():
+    made = HarmonicLoad.at(SI, hz=1000.0)
+    plain = HarmonicLoad(Omega=made.Omega)
+    assert (made, hash(made), repr(made), made.to_dict()) == (plain, hash(plain), repr(plain), plain.to_dict())
 
 
 @pytest.mark.parametrize(
