@@ -88,7 +88,7 @@ class Response(PointTable):
     wave_speed : float
         Speed of the waves over the mean speed of both surfaces.
     units : {"SI", "dimensionless"}
-        Of the numbers, where no point says them.
+        Of the numbers: those of the point; where none is known, as given.
     seconds : float
         Wall time of the solve.
     beyond_data : str
@@ -114,6 +114,8 @@ class Response(PointTable):
     DISPLAY: ClassVar[Display] = Display(rows="omega", logs="x")
 
     def __post_init__(self) -> None:
+        if self.point is not None:
+            object.__setattr__(self, "units", "SI" if self._in_si() else "dimensionless")
         freeze(self)
 
     @classmethod

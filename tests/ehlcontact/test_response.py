@@ -6,7 +6,19 @@ import numpy as np
 import pytest
 from balls import OF_6205
 
-from ehlcontact import Grid, InputError, Lubricant, MoesPoint, OilLayer, OperatingPoint, Waves, impedance, response
+from ehlcontact import (
+    Grid,
+    InputError,
+    Lubricant,
+    MoesPoint,
+    OilLayer,
+    OperatingPoint,
+    Waves,
+    impedance,
+    read,
+    response,
+    save,
+)
 from ehlcontact.results import Response
 from reduced_models import Atlas, BallBearing
 
@@ -77,6 +89,18 @@ def test_a_response_to_the_layer_is_in_the_units_of_the_point():
     assert len(found.panels()) == 2
     with pytest.raises(InputError, match=r"^passed_share = 'speed': must be asked of a response to layer"):
         _ = response(POINT, to="speed", Omega=1.0, grid=Grid(n=32)).passed_share
+
+
+def test_units_are_those_of_the_point(tmp_path):
+    point = OperatingPoint.ball_bearing(
+        Lubricant.iso_vg(68, temperature=60.0), **OF_6205, load=49.0, speed_rpm=3e3
+    )
+    si = known([1.0, 2.0], [3.0, 2.0], point=point)
+    moes = known([1.0, 2.0], [3.0, 2.0], point=POINT)
+    assert (si.units, si.dimensionless.units) == ("SI", "dimensionless")
+    assert moes.units == read(save(moes, tmp_path / "moes.h5")).units == "dimensionless"
+    assert si.dimensionless.in_units_of(point).units == read(save(si, tmp_path / "si.h5")).units == "SI"
+    assert known([1.0], [3.0]).units == "SI" and known([1.0], [3.0], units="dimensionless").units != "SI"
 
 
 def test_plain_names_are_the_response():
