@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive, shown
+from ehlcontact.checks.admissible_range import Quantity
 from ehlcontact.checks.frequency import fields_by_name
 from ehlcontact.errors import InputError
-from ehlcontact.point import OperatingPoint, Point, moes_point
+from ehlcontact.point import OperatingPoint, Point, Scales, moes_point
 from ehlcontact.quantities import ACCELERATION, FORCE, LENGTH, MASS, RATE, TIME, scaled
 from ehlcontact.results.table import Display, PointTable
 from ehlcontact.status import Status
@@ -26,6 +27,8 @@ FEWEST_SAMPLES = 4
 # Largest distance of approach and integrated rate, as a share of the motion: 8 samples per period of a true rate
 # stay below it, a wrong sign, unit or delay does not.
 RATE_MISMATCH = 0.1
+FAR = 100.0  # static loads or dry approaches: a history whose largest value is beyond is in another unit
+OTHER_LENGTHS = {"mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 _MASS = "mass: 1/Omega_n^2 of a dimensionless record"
 _REQUIRED = ("t", "approach", "rate", "force")
 _HISTORIES = (*_REQUIRED, "load", "acceleration")
@@ -68,7 +71,8 @@ class ContactRecord(PointTable):
     ------
     InputError
         A history that is not one-dimensional, too short, not finite or of another length than t; t not
-        strictly increasing; units of another point. The message names the field.
+        strictly increasing; units of another point; at an `OperatingPoint` approaches or forces in another unit
+        than m and N, as their size says. The message names the field.
     """
 
     t: Annotated[_Floats, TIME.over("t")]
@@ -113,6 +117,8 @@ class ContactRecord(PointTable):
             values = getattr(self, name)
             if name in _REQUIRED or values is not None:
                 object.__setattr__(self, name, as_column(name, values, size=self.t.size))
+        if isinstance(self.point, OperatingPoint):
+            self._require_units_of(self.point.scales)
         if self.static_load is None and self.point is not None:
             object.__setattr__(self, "static_load", self.point.scales.force)
         elif self.static_load is None and self.units == "dimensionless":
@@ -120,6 +126,14 @@ class ContactRecord(PointTable):
         for name in ("mass", "static_load"):
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, require_positive(name, getattr(self, name)))
+
+    def _require_units_of(self, scales: Scales) -> None:
+        """Raise `InputError`, with a guess, for histories that are hardly in metres and newton."""
+        unit, force = scales.length, scales.force
+        length = Quantity("m", (0.0, FAR * unit), (0.1 * unit, 10.0 * unit), OTHER_LENGTHS)
+        length.require("largest approach", float(np.abs(self.approach).max()))
+        load = Quantity("N", (force / FAR, FAR * force), (0.1 * force, 10.0 * force), {"kN": 1e3}, zero=True)
+        load.require("largest force", float(np.abs(self.force).max()))
 
     @classmethod
     def from_result(cls, simulation: Any, *, accept_unconverged: bool = False) -> Self:

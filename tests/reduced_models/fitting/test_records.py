@@ -106,11 +106,33 @@ def test_from_result_refuses_an_unconverged_run_by_default():
     assert len(ContactRecord.from_result(simulation("diverged"), accept_unconverged=True)) == 31
 
 
+@pytest.mark.parametrize(
+    ("name", "factor", "guess"),
+    [
+        ("approach", 1e6, "in um?"),
+        ("approach", -1e3, "in mm?"),
+        ("approach", 1e9, "in nm?"),
+        ("force", 1e-3, "in kN?"),
+        ("force", 1e4, "between"),
+    ],
+)
+def test_histories_in_another_unit_than_the_point_are_refused(name, factor, guess):
+    s, level = BALL.scales, np.linspace(0.9, 1.1, 31)
+    given = {"t": level, "approach": s.length * level, "rate": 0.0 * level, "force": s.force * level}
+    assert ContactRecord(**given, point=BALL).units == "SI"
+    given[name] = factor * given[name]
+    with pytest.raises(InputError, match=rf"^largest {name} = .*{re.escape(guess)}"):
+        ContactRecord(**given, point=BALL)
+    assert ContactRecord(**given, units="SI").units == "SI"  # without a point nothing says how large it is
+
+
 def test_a_record_has_the_units_of_its_point():
     """Those of the point by default, and into Moes units and back."""
     s = BALL.scales
     motion = {"kind": "harmonic", "Omega": 9.0}
-    record = ContactRecord(**plain(t=np.linspace(0.0, 3.0 * s.time, 31)), point=BALL, mass=2.0, motion=motion)
+    T = np.linspace(0.0, 3.0, 31)
+    given = plain(t=s.time * T, approach=s.length * np.sin(T), rate=s.rate * np.cos(T), force=s.force * np.sin(T))
+    record = ContactRecord(**given, point=BALL, mass=2.0, motion=motion)
     assert record.units == "SI" and record.static_load == 50.0
     moes = record.dimensionless
     assert moes.units == "dimensionless" and moes.point == BALL.moes and moes.static_load == 1.0
