@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import wraps
-from inspect import signature
+from inspect import Parameter, signature
 from math import inf, pi
 from typing import ParamSpec, TypedDict, TypeVar
 
@@ -34,6 +34,7 @@ Result = TypeVar("Result")
 _RADIANS = {"omega": 1.0, "hz": 2.0 * pi, "rpm": pi / 30.0}  # rad/s in one of each
 _UNITS = {"Omega": "", "omega": "rad/s", "hz": "Hz", "rpm": "rev/min"}
 _IN_SI = "omega (rad/s), hz or rpm"
+_LOOSE = {"frequency", "frequencies", "freq", "freqs", "f"}  # names without a unit
 _KEYWORDS = f"Omega (dimensionless), {_IN_SI}"
 
 
@@ -142,6 +143,9 @@ def by_name(
 
     def decorate(call: Callable[P, Result]) -> Callable[P, Result]:
         parameters = signature(call).parameters
+        of_frequency = parameters.get("frequency")
+        open_ended = of_frequency is not None and of_frequency.kind is Parameter.VAR_KEYWORD
+        loose = _LOOSE if open_ended else _LOOSE - set(parameters)
         in_si = "hz" in parameters and "Omega" not in parameters
         named = how or f"named with its unit: {_IN_SI if in_si else _KEYWORDS}"
         if in_si:
@@ -153,6 +157,11 @@ def by_name(
                 raise InputError("frequency", args[positional], named)
             for name in mistaken.keys() & kwargs.keys():
                 raise InputError(name, kwargs[name], f"given as {mistaken[name]}")
+            for name in loose & kwargs.keys():
+                raise InputError(name, kwargs[name], named)
+            unknown = kwargs.keys() - parameters.keys() - _UNITS.keys() if open_ended else set[str]()
+            for name in unknown:
+                raise TypeError(f"{call.__name__}() got an unexpected keyword argument {name!r}")
             return call(*args, **kwargs)
 
         return checked

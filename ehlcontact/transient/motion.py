@@ -16,6 +16,7 @@ from ehlcontact.transient.bodies import LONGEST_ABRUPT, Start, UnderLoad, scales
 
 SMALL_VIBRATION = 1.5**0.5  # dry angular frequency over Omega_n
 STEPS_PER_PERIOD = 80
+FARTHEST = 2.0  # dry approaches, from which a free vibration may begin
 # Of bodies and loads, in 1/T: below, nothing moves while a bearing turns a thousand times; above, it is hundreds
 # of times faster than any body on a film. A frequency beyond was given in other units, or with another mass.
 SLOWEST, FASTEST = 1e-6, 1e3
@@ -62,8 +63,8 @@ class FreeVibration(UnderLoad):
 
     def __post_init__(self) -> None:
         _require_frequency("Omega_n", self.Omega_n)
-        if abs(require_finite("offset", self.offset)) > 2.0:
-            raise InputError("offset", self.offset, "between -2 and 2 dry approaches")
+        if abs(require_finite("offset", self.offset)) > FARTHEST:
+            raise InputError("offset", self.offset, f"between -{FARTHEST:g} and {FARTHEST:g} dry approaches")
         sign = 1.0 if self.start is None else STARTS[require_choice("start", self.start, tuple(STARTS))]
         if self.rate is None:
             rate = 0.1 * sign * SMALL_VIBRATION * self.Omega_n if self.offset == 0.0 else 0.0
@@ -107,6 +108,9 @@ class FreeVibration(UnderLoad):
             Omega_n = one("frequency", dimensionless(scales.time, omega=omega, hz=hz)) / SMALL_VIBRATION
         at_start = None if rate is None else require_finite("rate", rate) / scales.rate
         displaced = require_finite("offset", offset) / scales.length
+        if abs(displaced) > FARTHEST:
+            allowed = f"at most {FARTHEST * scales.length:.3g} m, {FARTHEST:g} dry approaches, on either side"
+            raise InputError("offset", offset, allowed)
         return cls(Omega_n=Omega_n, offset=displaced, rate=at_start, start=start, made_at=point)
 
     @property

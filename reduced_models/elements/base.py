@@ -324,6 +324,7 @@ class ContactElement(ElementSummary, _Common, ABC):
         states = {"states": self._state_names} if self.state_count else {}
         return {"inputs": ["u", "v"], "outputs": ["F"], "name": name, **states}
 
+    @by_name(None)
     def is_valid(
         self, approach: ArrayLike, rate: ArrayLike = 0.0, **frequency: Unpack[Frequency]
     ) -> bool | NDArray[np.bool_]:
@@ -333,6 +334,7 @@ class ContactElement(ElementSummary, _Common, ABC):
         """
         return self.validity.covers(approach, rate, self._frequency(frequency))
 
+    @by_name(None)
     def warn_outside(
         self,
         approach: ArrayLike = (),
@@ -364,6 +366,7 @@ class ContactElement(ElementSummary, _Common, ABC):
             message = f"{self._summary_name()} used outside its validity box: {left}{advice}"
             warn_user(message, OutsideValidityWarning)
 
+    @by_name(None)
     def check(self, point: Point | None = None, **frequency: Unpack[Frequency]) -> None:
         """Warn, once per element, if it is to stand for another contact, or to move outside its band.
 

@@ -71,7 +71,7 @@ class Target:
         order = np.argsort(response.omega)
         Omega = response.omega[order]
         if Omega.size < FEWEST_OMEGAS:
-            raise InputError("Omega", Omega.size, f"at least {FEWEST_OMEGAS} frequencies")
+            raise InputError("frequencies of the impedance", Omega.size, f"at least {FEWEST_OMEGAS} frequencies")
         if Omega[0] > LOWEST_OMEGA:
             raise InputError("lowest Omega", float(Omega[0]), f"at most {LOWEST_OMEGA}")
         film = response.film

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point
+from ehlcontact.summary import contact_text
 from reduced_models.fitting.records import ContactRecord, as_records
 
 _Floats = NDArray[np.float64]
@@ -113,9 +114,9 @@ def _require_one_contact(records: Sequence[ContactRecord]) -> None:
     first = records[0]
     for i, record in enumerate(records):
         for name in ("units", "point", "static_load"):
-            if getattr(record, name) != getattr(first, name):
-                raise InputError(
-                    f"records[{i}].{name}",
-                    getattr(record, name),
-                    f"as in records[0]: {getattr(first, name)!r}",
-                )
+            own, theirs = getattr(record, name), getattr(first, name)
+            if own == theirs:
+                continue
+            if None not in (own, theirs) and name == "point":
+                own, theirs = contact_text(own), contact_text(theirs)
+            raise InputError(f"records[{i}].{name}", own, f"as in records[0]: {theirs!r}")

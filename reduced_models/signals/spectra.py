@@ -11,7 +11,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_finite, require_integer, require_positive
+from ehlcontact.checks import as_column, require_finite, require_integer, require_positive, shown
 from ehlcontact.checks.kinds import NAME
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
@@ -107,8 +107,10 @@ class EnvelopeSpectrum(_Lines):
         Raises
         ------
         InputError
-            A frequency that is not positive.
+            Marks without names; a frequency that is not positive.
         """
+        if marks is not None and not isinstance(marks, Mapping):
+            raise InputError("marks", shown(marks), 'frequencies [Hz] by name, as {"BPFO": 153.0}')
         given = {name: require_positive(name, hz) for name, hz in (marks or {}).items()}
         end = shown_to(list(given.values()), require_positive("highest", highest), float(self.hz[-1]))
         lines = [mark for name, hz in given.items() for mark in multiples(name, hz, end)]

@@ -16,14 +16,17 @@ from ehlcontact import (
     PrescribedLoad,
     RampLoad,
     impedance,
+    response,
 )
 from ehlcontact.checks.frequency import dimensionless, radians_per_second
 from ehlcontact.lubricant import Lubricant
 from ehlcontact.point import OperatingPoint
+from reduced_models import SpringContact
 
 TIME = 2e-5
 POINT = MoesPoint(200, 10, 0.5)
 BEARING = OperatingPoint.ball_bearing(Lubricant(0.037, 2e-8), **OF_6205, speed_rpm=3000, load=20)
+LINEAR = SpringContact.linear(K1=1.0, C1=0.1, low=0.5, high=1.5)
 
 
 @pytest.mark.parametrize(
@@ -103,7 +106,22 @@ test_every_call_asks_for_a_name = refusals(
     (lambda: FreeVibration.at(BEARING, mass=0.1, hz=3.0), "^mass = 0.1: must be given, or omega"),
     (lambda: HarmonicLoad.at(BEARING, amplitude=0.2), "^frequency = None"),
     (lambda: HarmonicLoad.at(BEARING, hz=[50, 60]), "^frequency = .*a single frequency"),
+    (lambda: impedance(BEARING, freq=50), r"^freq = 50: must be named with its unit: Omega \("),
+    (lambda: response(BEARING, frequency=50), r"^frequency = 50: must be named with its unit: Omega \("),
+    (lambda: LINEAR.check(frequency=50), r"^frequency = 50: must be named with its unit: Omega \("),
+    (lambda: LINEAR.is_valid(1.0, 0.0, f=50), r"^f = 50: must be named with its unit: Omega \("),
+    (
+        lambda: FreeVibration.at(BEARING, mass=0.1, offset=0.05),
+        f"^offset = 0.05: must be at most {2 * BEARING.scales.length:.3g} m, 2 dry approaches",
+    ),
 )
+
+
+def test_a_name_that_a_call_does_not_know_is_said_of_that_call():
+    with pytest.raises(TypeError, match=r"^impedance\(\) got an unexpected keyword argument 'asperities'$"):
+        impedance(BEARING, hz=50.0, asperities=None)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match=r"^check\(\) got an unexpected keyword argument 'speed'$"):
+        LINEAR.check(speed=1.0)  # type: ignore[call-arg]
 
 
 def test_motions_of_a_point_in_si():

@@ -76,7 +76,7 @@ def test_impedance_is_solved_at_the_point_of_the_record(coarse):
 
 def test_bad_data_for_the_fit(coarse):
     response, records = coarse
-    with pytest.raises(InputError, match="at least 8 frequencies"):
+    with pytest.raises(InputError, match=r"^frequencies of the impedance = \d: must be at least 8 frequencies"):
         fit_memory(impedance(POINT, Omega=[0.0, 1.0], grid=Grid(n=32)))
     with pytest.raises(InputError, match="lowest Omega"):
         fit_memory(response[9:])

@@ -62,6 +62,8 @@ def test_picture_of_an_envelope_has_unit_and_marks():
     assert "0.4 N at 107 Hz" in repr(found) and envelope_spectrum(signal, RATE, BAND).unit == "m/s2"
     with pytest.raises(InputError, match="BPFO = 0"):
         found.plot(marks={"BPFO": 0.0})
+    with pytest.raises(InputError, match=r"^marks = 'list': must be frequencies \[Hz\] by name"):
+        found.plot(marks=[153.0])
 
 
 def test_velocity_of_a_tone_and_of_noise():
