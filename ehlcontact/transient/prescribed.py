@@ -21,6 +21,8 @@ from ehlcontact.transient.bodies import LONGEST_ABRUPT, Array, Motion, MotionSta
 
 CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a corner; 1/20 period of a sine is 0.31
 MISSED = 0.5  # of the range of a table, by which a row is beyond the values at both ends of a step
+# Largest approach and load of a table, from which they hardly are dry approaches and static loads
+FLATTEST, HEAVIEST = 1e-3, 20.0
 FEWEST_ROWS = 4  # of a cubic spline; the same for straight tables
 Table = tuple[Array, Array]  # times and values, shape (k,) each
 
@@ -74,6 +76,19 @@ def passed_over_note(inputs: Iterable[object], T: Array, point: Point) -> str:
             f"its table ends at {last}; take a smaller dt{hint}"
         )
     return ""
+
+
+def unit_hint(motion: object, point: Point) -> str:
+    """How to give a table in SI, where one at an `OperatingPoint` was hardly meant without; else empty."""
+    if not isinstance(motion, Tabulated) or motion.made_at is not None or not isinstance(point, OperatingPoint):
+        return ""
+    largest = float(np.abs(motion._table[1]).max())
+    if isinstance(motion, PrescribedApproach):
+        wrong, unit, si = 0.0 < largest < FLATTEST, "dry approaches", "metres"
+    else:
+        wrong, unit, si = largest > HEAVIEST, "static loads", "newton"
+    name = type(motion).__name__
+    return f"{name}(T, values) is in {unit}, {name}.at(point, ...) in seconds and {si}" if wrong else ""
 
 
 class Tabulated(Motion):

@@ -29,7 +29,7 @@ from ehlcontact.supply import OilLayer
 from ehlcontact.transient.bodies import Motion
 from ehlcontact.transient.checkpoint import Checkpoint, CheckpointError, Keeper, require_replaceable
 from ehlcontact.transient.features import Dent, Surface, require_surface, surface_height
-from ehlcontact.transient.prescribed import passed_over_note
+from ehlcontact.transient.prescribed import passed_over_note, unit_hint
 from ehlcontact.transient.record import History
 from ehlcontact.transient.result import SimulationResult
 from ehlcontact.transient.roughness import Roughness
@@ -127,7 +127,13 @@ def simulate(
     """
     started = perf_counter()
     require_instance("motion", motion, Motion, "a motion such as FreeVibration or HarmonicLoad")
-    moes = require_solvable(point, motion.largest_load)
+    hint = unit_hint(motion, point)
+    try:
+        moes = require_solvable(point, motion.largest_load)
+    except InputError as outside:
+        if not hint:
+            raise
+        raise InputError(outside.field, outside.value, f"{outside.allowed}; {hint}") from None
     motion.require_point("motion", point)
     require_grid(grid)
     require_groups(time, keep, run)
@@ -143,6 +149,8 @@ def simulate(
     unit = point.scales.time
     steps = StepPlan.of(motion, time, unit, default_fixed_step(motion, surface, spacing, speed))
     _warn_of_steps(point, motion, speed, steps)
+    if hint:
+        warn_user(f"the motion hardly fits this contact: {hint}", RuntimeWarning)
     inputs = RunInputs(
         moes, mesh, motion, steps, snapshot_times(keep, steps, unit), grid.deflection, speed, conditions
     )

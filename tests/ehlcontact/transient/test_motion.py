@@ -22,6 +22,7 @@ from ehlcontact import (
     simulate,
 )
 from ehlcontact.transient.bodies import Motion
+from ehlcontact.transient.prescribed import unit_hint
 
 NAN, INF = float("nan"), float("inf")
 T = np.linspace(0.0, 2.0, 9)
@@ -126,6 +127,28 @@ def test_the_point_where_a_motion_was_made_is_no_part_of_it():
     made = HarmonicLoad.at(SI, hz=1000.0)
     plain = HarmonicLoad(Omega=made.Omega)
     assert (made, hash(made), repr(made), made.to_dict()) == (plain, hash(plain), repr(plain), plain.to_dict())
+
+
+SECONDS = [0.0, 1e-4, 2e-4, 3e-4]
+MEANT = r"{0}\(T, values\) is in .*, {0}\.at\(point, \.\.\.\) in seconds and "
+
+
+@pytest.mark.filterwarnings("error")
+def test_tables_that_were_meant_in_si_name_what_takes_them():
+    with pytest.raises(InputError, match="^M under the largest load = .*; " + MEANT.format("PrescribedLoad")):
+        simulate(SI, PrescribedLoad(SECONDS, [50.0, 5000.0, 50.0, 50.0]))
+    for motion in (PrescribedLoad(SECONDS, [50.0] * 4), PrescribedApproach(SECONDS, [6.8e-6] * 4)):
+        with pytest.raises(
+            RuntimeWarning, match="^the motion hardly fits .*" + MEANT.format(type(motion).__name__)
+        ):
+            simulate(SI, motion)
+        assert not unit_hint(motion, SI.moes)
+    for motion in (
+        PrescribedApproach(SECONDS, [0.9, 1.0, 1.1, 1.0]),
+        PrescribedLoad(SECONDS, [1.0, 2.0, 1.0, 1.0]),
+        PrescribedLoad.at(SI, SECONDS, [50.0, 1500.0, 50.0, 50.0]),
+    ):
+        assert not unit_hint(motion, SI)
 
 
 @pytest.mark.parametrize(
