@@ -19,9 +19,8 @@ from fmu.contact_variables import Element
 from fmu.rotor.parameters import parameters_of
 from fmu.steps import default_step, round_down
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.motion import motion_of
+from reduced_models.bearing.motion import LEAST_STEPS, motion_of
 from reduced_models.rotor.linear_bearing import LinearBearing
-from reduced_models.rotor.prepared_run import LEAST_STEPS
 from reduced_models.rotor.rotor import Parameter, Rotor
 from reduced_models.rotor.supports import (
     BearingMount,

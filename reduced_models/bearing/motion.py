@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, as_rows, require_instance, require_positive
-from ehlcontact.errors import ConvergenceError
+from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.core_bearing import CoreBearing, pointer
@@ -22,6 +22,8 @@ from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
 
 _Floats = NDArray[np.float64]
+
+LEAST_STEPS = 16  # per turn of the shaft and per ball passage
 
 
 class BallMotion:
@@ -166,7 +168,8 @@ class BearingMotion:
     Raises
     ------
     InputError
-        A speed that the bearing does not take, a step that is not > 0, other directions.
+        A speed that the bearing does not take; a step that is not > 0, or longer than a 16th of the ball passage
+        or of a turn of the shaft; other directions.
     """
 
     def __init__(
@@ -182,6 +185,7 @@ class BearingMotion:
         speed = bearing.speed(speed_rpm)
         self._motion, self._size = motion_of(bearing, [speed], moving), len(moving)
         self.dt, self._omega = require_positive("dt", dt), speed * RPM_TO_RAD_S
+        require_short_steps(bearing, speed, self.dt)
         self._put(angle_of(cage_angle), np.zeros(self._size))
 
     @property
@@ -244,6 +248,15 @@ class BearingMotion:
         force = _finite(self._motion.rest(self._omega, angle, q), q)
         self._motion.begin(self._omega, self.dt)
         return force
+
+
+def require_short_steps(bearing: BallBearing, speed_rpm: float, dt: float) -> None:
+    """Raise `InputError` for steps [s] in which balls or shaft go too far for their motion to be seen."""
+    passage, turn = bearing.frequencies(speed_rpm).bpfo, speed_rpm / 60.0
+    for what, hz in (("ball passage", passage), ("turn of the shaft", turn)):
+        if dt * hz * LEAST_STEPS > 1.0:
+            most = 1.0 / (hz * LEAST_STEPS)
+            raise InputError("dt", dt, f"at most {most:.3g} s, a {LEAST_STEPS}th of the {what}")
 
 
 def motion_of(bearing: BallBearing, speeds_rpm: list[float], directions: tuple[str, ...]) -> BallMotion:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ehlcontact.checks import as_column, shown
 from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.motion import BallMotion, motion_of
+from reduced_models.bearing.motion import BallMotion, motion_of, require_short_steps
 from reduced_models.rotor.contact_steps import ContactSteps
 from reduced_models.rotor.core_rotor import rotor_gain
 from reduced_models.rotor.rotor import Rotor
@@ -24,7 +24,6 @@ LONGEST_BLOCK = 4096  # steps between two looks at Ctrl-C
 SPEED_PER_BLOCK = 2e-3  # change of the speed, over the highest, at which gyroscopic forces are renewed
 FARTHEST = 0.05  # of a ball diameter, that a ring may go from the middle: no clearance is as large
 DISPLACEMENTS = 3  # of the motions of a ring; tilts follow
-LEAST_STEPS = 16  # per turn of the shaft and per ball passage, on ball bearings
 
 
 class Histories(NamedTuple):
@@ -167,8 +166,4 @@ class PreparedRun:
     def _require_short_steps(self) -> None:
         fastest = float(self.omega.max())
         for mount in self.rotor.ball_bearings:
-            passage = mount.ball_bearing.frequencies(fastest / RPM_TO_RAD_S).bpfo
-            for what, hz in (("ball passage", passage), ("turn of the shaft", fastest / (2.0 * np.pi))):
-                if self.dt * hz * LEAST_STEPS > 1.0:
-                    most = 1.0 / (hz * LEAST_STEPS)
-                    raise InputError("dt", self.dt, f"at most {most:.3g} s, a {LEAST_STEPS}th of the {what}")
+            require_short_steps(mount.ball_bearing, fastest / RPM_TO_RAD_S, self.dt)

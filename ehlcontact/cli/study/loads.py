@@ -22,8 +22,8 @@ from reduced_models import BallBearing, BearingSet, Spall, linearise
 from reduced_models.bearing.catalogue import catalogue_row
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import PLANAR
+from reduced_models.bearing.motion import LEAST_STEPS
 from reduced_models.bearing.set_result import SetState
-from reduced_models.rotor.prepared_run import LEAST_STEPS
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study

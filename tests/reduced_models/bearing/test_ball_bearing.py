@@ -89,6 +89,17 @@ def test_speeds(film, dry):
     refused("speed_rpm = 30000.0: must be at most", lambda: BearingMotion(film, 30000.0, 1e-5))
 
 
+def test_steps_that_are_too_long_for_the_balls_are_refused(dry):
+    passage = 1.0 / dry.frequencies(3000.0).bpfo
+    for dt in (1e-2, passage / 15.9):
+        refused(
+            "dt = .*: must be at most .* s, a 16th of the ball passage",
+            lambda dt=dt: BearingMotion(dry, 3000.0, dt),
+        )
+    assert BearingMotion(dry, 3000.0, passage / 16.1).dt == passage / 16.1
+    assert BearingMotion(dry, 0.0, 1e-2).dt == 1e-2  # of a shaft that stands
+
+
 def test_motions_that_are_no_numbers(dry):
     motion = BearingMotion(dry, 3000.0, 1e-5)
     refused(r"q\[0\] = nan", lambda: motion.forces((float("nan"), 0.0), (0.0, 0.0)))
