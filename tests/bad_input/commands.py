@@ -254,7 +254,7 @@ COMMANDS = [
     (("fit", FILM), ("file = 'film.h5'", "result of simulate; its header names the class 'SteadyResult'")),
     (("fit", RECORD, RECORD), ("file = 'record.h5'", "given once")),
     (("fit", RECORD, f"./{RECORD}"), ("given once", "record.h5")),
-    (("fit", RECORD, OTHER), ("other.h5", "as in record.h5", "M=20")),
+    (("fit", RECORD, OTHER), ("other.h5", "as in record.h5", "M 20")),
     (("fit", "r.h5", "--model", "quartic"), ("--model", "quartic", "linear")),
     (("fit", "r.h5", "--model", "memory", "--window", "1", "2"), ("--window", "memory")),
     (("fit", RECORD, "--model", "Cubic"), ("--model = 'Cubic'", "linear, cubic")),
