@@ -215,10 +215,10 @@ def _highest(machine: Any) -> Tile | None:
     if machine.highest_speed == inf:
         return None
     return Tile(
-        "data reach up to",
+        "films are known up to",
         digits(machine.highest_speed),
         "rev/min",
-        _note("no limit of the machine", machine.ends),
+        machine.ends,
     )
 
 

@@ -47,7 +47,7 @@ def headline(found: Findings) -> str:
     tiles = (tile.brief for tile in machine.tiles())
     critical = (f"critical: {text}" for text in machine.concerns)
     broken = limits(found)
-    holds = f"does not hold, and is not in these numbers: {'; '.join(broken)}" if broken else ""
+    holds = f"does not hold: {'; '.join(broken)}" if broken else ""
     return "\n".join(filter(None, (operating_line(found), *tiles, *critical, holds)))
 
 

@@ -1,5 +1,6 @@
 """Rolling resistance of a bearing: by the balance of every ball, by the power lost, and as others have it."""
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -149,4 +150,4 @@ def test_dry_bearings_and_files(film, dry, tmp_path):
     assert "films resist rolling by 23.4 N mm" in state.plot().get_suptitle()
     assert "resist" not in bare.plot().get_suptitle()
     with pytest.raises(InputError, match="shape of moment"):
-        BearingState(**(state.to_dict() | {"moment": [1.0, 2.0]}))
+        replace(state, moment=np.array([1.0, 2.0]))

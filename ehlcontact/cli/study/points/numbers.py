@@ -29,7 +29,11 @@ NUMBERS = {
         "Hz", "lowest mode of the machine", head="mode [Hz]", figures=4, narrow=False, label="lowest mode [Hz]"
     ),
     "critical_rpm": Number(
-        "rev/min", "critical speed nearest to the speed", head="critical [rpm]", figures=5, narrow=False
+        "rev/min",
+        "critical speed nearest to the speed, of a mode that unbalance excites",
+        head="critical [rpm]",
+        figures=5,
+        narrow=False,
     ),
     "response": Number(
         "m",
@@ -118,7 +122,8 @@ def _of_machine(machine: Mapping[str, Any]) -> dict[str, float | None]:
     if machine["modes"]:
         found["mode_hz"] = min(float(mode["hz"]) for mode in machine["modes"])
     if machine["critical_speeds"]:
-        nearest = min(machine["critical_speeds"], key=lambda one: abs(float(one["margin"])))
+        excited = [one for one in machine["critical_speeds"] if one["excited"]]
+        nearest = min(excited or machine["critical_speeds"], key=lambda one: abs(float(one["margin"])))
         found["critical_rpm"] = nearest["speed_rpm"]
     if machine["response_at_speed"] is not None:
         found["response"] = machine["response_at_speed"]["size"]
