@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf
+from math import inf, tau
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -48,6 +48,7 @@ MODES = 6  # of the machine, the slowest
 # Speeds of the response: multiples of the operating speed over PARTS, up to UP_TO times the speed; of the diagram
 # every second one, between which frequencies are straight within 1e-4
 PARTS, UP_TO, EVERY = 15, 2.0, 2
+ABOUT_A_PEAK = -1.0, -0.5, 0.0, 0.5, 1.0  # damping ratios beside a critical speed
 ROUNDING = 1e-9  # of a multiple of the speed
 # Frequencies that the picture shows: multiples of that of the shaft at the highest speed, and room above a mode
 SHOWN, SEEN = 2.0, 1.08
@@ -78,6 +79,8 @@ class MachineState(Summary):
         Modes over the speed.
     response : UnbalanceResponse or None
         Over the speeds of the diagram; None without an unbalance.
+    peaks : UnbalanceResponse or None
+        Over speeds about the critical ones that an unbalance excites: peaks are narrower than steps of `response`.
     highest_speed : float
         Up to which the data cover this machine [rev/min]: films of the most loaded contacts are in the atlas, and
         its balls stay between the races; infinite where all bearings are dry.
@@ -92,6 +95,7 @@ class MachineState(Summary):
     modes: tuple[RotorMode, ...] = ()
     diagram: Campbell | None = None
     response: UnbalanceResponse | None = None
+    peaks: UnbalanceResponse | None = None
     highest_speed: float = inf
     ends: str = ""
     failed: tuple[str, ...] = ()
@@ -134,11 +138,13 @@ class MachineState(Summary):
 
     @property
     def largest_response(self) -> LargestResponse | None:
-        """Largest orbit at the speeds of `response`, which peaks between them exceed."""
-        if self.response is None:
-            return None
-        k, node = np.unravel_index(int(np.argmax(self.response.major)), self.response.major.shape)
-        return self._orbit(int(k), int(node))
+        """Largest orbit at the speeds of `response`, which `largest_peak` exceeds."""
+        return _largest(self.response)
+
+    @property
+    def largest_peak(self) -> LargestResponse | None:
+        """Largest orbit at a critical speed, if vibrations stayed small enough for a linear answer."""
+        return _largest(self.peaks)
 
     @property
     def response_at_speed(self) -> LargestResponse | None:
@@ -146,12 +152,7 @@ class MachineState(Summary):
         if self.response is None:
             return None
         k = int(np.argmin(np.abs(self.response.speed_rpm - self.speed_rpm)))
-        return self._orbit(k, int(np.argmax(self.response.major[k])))
-
-    def _orbit(self, k: int, node: int) -> LargestResponse:
-        assert self.response is not None
-        size, name = float(self.response.major[k, node]), self.response.names[node]
-        return LargestResponse(size, name or f"node {node}", float(self.response.speed_rpm[k]))
+        return _orbit(self.response, k, int(np.argmax(self.response.major[k])))
 
     @property
     def worst_support(self) -> SupportState:
@@ -198,7 +199,7 @@ class MachineState(Summary):
 
     def to_dict(self) -> dict[str, Any]:
         """All numbers, SI, ready for JSON."""
-        largest, own = self.largest_response, self.response_at_speed
+        largest, peak, own = self.largest_response, self.largest_peak, self.response_at_speed
         return {
             "speed_rpm": self.speed_rpm,
             "supports": [support.to_dict() for support in self.supports],
@@ -212,6 +213,7 @@ class MachineState(Summary):
                 for one in self.critical_speeds
             ],
             "largest_response": None if largest is None else largest._asdict(),
+            "largest_peak": None if peak is None else peak._asdict(),
             "response_at_speed": None if own is None else own._asdict(),
             "highest_speed": None if self.highest_speed == inf else self.highest_speed,
             "ends": self.ends,
@@ -219,6 +221,19 @@ class MachineState(Summary):
             "reservations": list(self.reservations),
             "tiles": [tile._asdict() for tile in self.tiles()],
         }
+
+
+def _orbit(response: UnbalanceResponse, k: int, node: int) -> LargestResponse:
+    """Of a node at the speed of number `k`."""
+    name = response.names[node] or f"node {node}"
+    return LargestResponse(float(response.major[k, node]), name, float(response.speed_rpm[k]))
+
+
+def _largest(response: UnbalanceResponse | None) -> LargestResponse | None:
+    if response is None:
+        return None
+    k, node = np.unravel_index(int(np.argmax(response.major)), response.major.shape)
+    return _orbit(response, int(k), int(node))
 
 
 def single_bearing_state(
@@ -301,7 +316,7 @@ def machine_state(
     response = None
     if rotor.unbalances:
         response = _tried(lambda: unbalance_response(rotor, speeds), "response to unbalance", failed)
-    return MachineState(
+    machine = MachineState(
         speed_rpm=speed,
         supports=supports,
         modes=modes,
@@ -309,8 +324,22 @@ def machine_state(
         response=response,
         highest_speed=highest,
         ends=ends,
-        failed=tuple(failed),
     )
+    peaks = (
+        None if response is None else _tried(lambda: _peaks(rotor, machine), "peaks at critical speeds", failed)
+    )
+    return replace(machine, peaks=peaks, failed=tuple(failed))
+
+
+def _peaks(rotor: Rotor, machine: MachineState) -> UnbalanceResponse | None:
+    """Response about the critical speeds that an unbalance excites, in steps of half the width of their peaks."""
+    speeds = [
+        critical.speed_rpm * (1.0 + critical.decrement / tau * step)
+        for critical in machine.critical_speeds
+        if machine.is_excited(critical) and critical.decrement > 0.0
+        for step in ABOUT_A_PEAK
+    ]
+    return unbalance_response(rotor, sorted(speeds)) if speeds else None
 
 
 def _tried(compute: Callable[[], Any], what: str, failed: list[str]) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import degrees, inf, tau
+from math import degrees, inf
 from typing import Any, NamedTuple
 
 from reduced_models.rotor.modes import ALONG
@@ -11,7 +11,6 @@ from reduced_models.rotor.support_state import RELY_ON_SKF
 
 AXIS = {"x": 0, "y": 1, "z": 2}
 MARGIN = 0.15  # of the speed, least separation of a critical speed
-PEAK = 0.02  # of the speed of a largest response, within which a critical speed is that of its peak
 HALF = 50.0  # %, of the strain energy
 FULL_FILM = 3.0  # lambda from which films keep the surfaces apart
 BRIEF, SHORT = 2, 44  # parts of a note in a line, and characters of each
@@ -177,17 +176,25 @@ def _side(machine: Any, critical: Any) -> str:
 
 
 def _response(machine: Any) -> Tile | None:
+    """At the speed; and where it is largest, at steps of the speed and at critical speeds between them."""
     if machine.largest_response is None:
         return None
-    most, own = machine.largest_response, machine.response_at_speed
-    here = f"{digits(1e6 * own.size)} µm at {digits(own.speed_rpm, 5)} rev/min"
-    peak = [one for one in machine.critical_speeds if abs(one.speed_rpm / most.speed_rpm - 1.0) < PEAK]
-    ratio = max((one.decrement / tau for one in peak if machine.is_excited(one)), default=None)
-    damped = "" if ratio is None else f"next to a critical speed of damping ratio {digits(ratio, 2)}"
-    node = _node(machine, most.node)
-    note = _note(f"{node} at {digits(most.speed_rpm, 5)} rev/min", here, damped)
+    most, own, peak = machine.largest_response, machine.response_at_speed, machine.largest_peak
+    beside = "" if most == own else _orbit(most)
+    narrow = "" if peak is None or peak.size < most.size else f"linear peak {_orbit(peak)}"
     critical = bool(_large_response(machine))
-    return Tile("largest response to unbalance", digits(1e6 * most.size), "µm", note, critical)
+    note = _note(_node(machine, own.node), narrow, beside)
+    return Tile(
+        f"response to unbalance at {digits(own.speed_rpm, 5)} rev/min",
+        digits(1e6 * own.size),
+        "µm",
+        note,
+        critical,
+    )
+
+
+def _orbit(response: Any) -> str:
+    return f"{digits(1e6 * response.size)} µm at {digits(response.speed_rpm, 5)} rev/min"
 
 
 def _node(machine: Any, name: str) -> str:

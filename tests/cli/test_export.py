@@ -227,7 +227,7 @@ def test_rotors_that_cannot_be_exported(refused, tmp_path):
     start, end = text.index("[full_films]"), text.index("[in_time]")
     bare = tmp_path / "bare.toml"
     bare.write_text(text[:start] + text[end:])
-    refused(("bare.toml", "no table [full_films]"), "export", bare, "-o", target)
+    refused(("bare.toml", "a study with [full_films]"), "export", bare, "-o", target)
     element = save(SpringContact.cubic(**CUBIC), tmp_path / "e.json")
     refused(("--contact", "left out"), "export", element, "-o", target, "--contact", element)
     refused(("nothing.json",), "export", STUDY, "-o", target, "--contact", tmp_path / "nothing.json")

@@ -266,7 +266,11 @@ def _rotor_and_element(file: Path, contact: Path | None) -> tuple[Rotor, Any, st
 
     study = load_study(file)
     if study.full_films is None:
-        raise InputError("file", str(file), "a study with a rotor on contacts: it has no table [full_films]")
+        raise InputError(
+            "file",
+            str(file),
+            "a study with [full_films], whose rotor stands on contacts; a machine by --bearings inside",
+        )
     rotor = build_rotor(study)
     if contact is None:
         with o.called(point=str(file)):

@@ -236,7 +236,19 @@ def _steps(stage: Stage, study: Study) -> tuple[int, int, float | None]:
 def cautions(study: Study) -> list[str]:
     """Warnings about grids and numbers that the study will run with, but not accurately."""
     contact = [] if study.contact is None else [*_coarse(study), *_outside(study)]
-    return [*contact, *_deep_spall(study)]
+    return [*contact, *discs_without_inertia(study), *_deep_spall(study)]
+
+
+def discs_without_inertia(study: Study) -> list[str]:
+    """Warnings of discs that are points by their entries, which a rotor core is not."""
+    if study.shaft is None or study.shaft.stiffness is not None:
+        return []
+    names = ["disc" if len(study.disc) == 1 else f"disc.{k + 1}" for k in range(len(study.disc))]
+    return [
+        f"{name} has a mass and no diametral_inertia: a point; modes that tilt it are higher than those of a disc"
+        for name, disc in zip(names, study.disc, strict=True)
+        if disc.mass is not None and not disc.diametral_inertia
+    ]
 
 
 def _deep_spall(study: Study) -> list[str]:

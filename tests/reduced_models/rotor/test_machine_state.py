@@ -17,6 +17,7 @@ from reduced_models import (
     jeffcott_rotor,
     machine_state,
     rotor_on_bearings,
+    unbalance_response,
 )
 from reduced_models.rotor.machine_state import MachineState, single_bearing_state
 from reduced_models.rotor.support_state import support_state
@@ -70,13 +71,15 @@ class TestMotor:
         assert hz[1:5] == pytest.approx([266.1, 266.6, 778.2, 961.4], rel=2e-4)
         speeds = [one.speed_rpm for one in machine.critical_speeds]
         assert speeds == pytest.approx([10363.0, 15926.0, 15958.0], rel=5e-4)
-        assert machine.nearest_critical.speed_rpm == speeds[1]
-        assert machine.margin(machine.nearest_critical) == pytest.approx(0.0616, rel=5e-3)
+        assert machine.nearest_critical.speed_rpm == speeds[2]  # forward; the other one is backward
+        assert machine.margin(machine.nearest_critical) == pytest.approx(0.0638, rel=5e-3)
         most = machine.largest_response
         assert most.node == "disc"
         assert most.speed_rpm == pytest.approx(16000.0, rel=1e-12)
         assert most.size == pytest.approx(194.8e-6, rel=1e-3, abs=0.0)
         assert machine.response_at_speed.size == pytest.approx(7.956e-6, rel=1e-3, abs=0.0)
+        fine = unbalance_response(motor(), speeds[2] + np.linspace(-1.5, 1.5, 31))  # rev/min about the peak
+        assert machine.largest_peak.size == pytest.approx(fine.major.max(), rel=0.05, abs=0.0)
 
     def test_data_end_where_balls_are_too_heavy(self, machine: MachineState) -> None:
         assert 1.9e5 < machine.highest_speed < 1.95e5
@@ -92,7 +95,9 @@ class TestMotor:
         assert tiles["nearest critical speed"].value == "15957"  # that which whirls forward
         said = "6.4 % above the speed; forward; all: 10367 along the shaft, 15924 backward"
         assert said in tiles["nearest critical speed"].note
-        assert tiles["largest response to unbalance"].value == "195"
+        response = tiles["response to unbalance at 15000 rev/min"]
+        assert response.value == "7.96" and response.note.startswith("disc; linear peak ")
+        assert "at 15957 rev/min; 195 µm at 16000 rev/min" in response.note
         assert [text.split(":")[0] for text in machine.reservations] == ["left 6306", "right 6206"]
         assert all(": isothermal: " in text and "%" in text for text in machine.reservations)
         assert tiles["stiffness of the softest bearing at 250 Hz"].note.startswith("damping 32.7 N s/m")
