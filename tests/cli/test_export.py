@@ -319,6 +319,7 @@ def test_a_study_becomes_a_shaft_and_a_system(call, refused, tmp_path):
             "SystemStructure.ssd",
             "resources/rotor.fmu",
             "resources/bearing_1.fmu",
+            "resources/bearing_2.fmu",
         }
     done = call("export", STUDY, "--bearings", "outside", "-o", shaft)
     assert done.code == 0 and "model exchange" in done.out and "forces are inputs" in done.out, done
