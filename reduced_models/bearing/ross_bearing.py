@@ -151,6 +151,11 @@ def bearing_element(
 ) -> Any:
     """Element of ROSS with the coefficients of a `BallBearing` or a `BearingSet`: see their method `to_ross`."""
     ross = import_ross()
+    known = set(signature(ross.BearingElement).parameters)
+    for name, value in options.items():
+        if name not in known:  # ROSS would swallow it
+            allowed = "an option of ross.BearingElement; an axial load is the third number of load"
+            raise InputError(name, value, allowed)
     n = require_integer("node", node, "a node of the rotor, a whole number >= 0", 0)
     speeds = as_column("speeds_rpm", np.atleast_1d(np.asarray(speeds_rpm, float)), increasing=True)
     whirl = WHIRL if has_whirl_axis(ross) else None  # None: the frequency of the shaft at each speed

@@ -98,6 +98,13 @@ def test_a_table_is_over_the_speed_of_the_shaft_in_radians_per_second(program, f
     assert fast.C(0.0)[1, 1] < 0.8 * found[2].damping[0, 1, 1]
 
 
+def test_an_option_that_ross_would_swallow_is_refused(program, film):
+    with pytest.raises(
+        InputError, match=r"axial = 200\.0: must be an option of ross\.BearingElement; an axial load"
+    ):
+        film.to_ross(5, speeds_rpm=RPM, load=500.0, axial=200.0)
+
+
 def test_beyond_its_ends_a_table_holds_their_values(program, film):
     """ROSS alone extrapolates: to C = -983 N s/m at 10 000 rev/min, in version 2.3."""
     ends = np.array([1000.0, 4000.0]) * np.pi / 30.0
