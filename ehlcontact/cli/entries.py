@@ -43,7 +43,8 @@ class Physical:
 
     def _within(self, value: float) -> float:
         low, high = self.quantity.limits
-        if not (low <= value <= high or (self.quantity.zero and value == 0.0)):
+        size = abs(value) if self.quantity.signed else value
+        if not (low <= size <= high or (self.quantity.zero and value == 0.0)):
             raise PydanticCustomError("limits", "outside its limits")
         return value
 
@@ -56,6 +57,12 @@ class Allowed(NamedTuple):
 
 def _between(ends: tuple[float, float], unit: str) -> Allowed:
     return Allowed(f"between {ends[0]:g} and {ends[1]:g} {unit}")
+
+
+def _from(least: float, quantity: Quantity) -> Quantity:
+    """A length of a machine in mm, from `least` on."""
+    found = quantity.in_unit("mm")
+    return found._replace(limits=(least, found.limits[1]))
 
 
 def meaning(text: str) -> Any:
@@ -88,7 +95,11 @@ Conformity = Annotated[Finite, Physical(INPUTS["conformity"]), meaning("groove r
 Race = Annotated[Literal["inner", "outer"], meaning("race of the contact")]
 YoungsModulus = Annotated[Positive, Physical(INPUTS["e1"]), meaning("Young's modulus of balls and rings")]
 PoissonRatio = Annotated[Finite, Field(ge=0.0, le=0.5, description="Poisson's ratio of balls and rings")]
-Clearance = Annotated[Finite, meaning("radial internal clearance, um; below 0 the bearing is preloaded")]
+Clearance = Annotated[
+    Finite,
+    Physical(Quantity("um", (0.01, 1e5), (0.1, 2e3), {"m": 1e6, "mm": 1e3}, zero=True, signed=True)),
+    meaning("radial internal clearance; below 0 the bearing is preloaded"),
+]
 ContactAngle = Annotated[
     Positive,
     Physical(Quantity("degrees", (1.0, 45.0), (5.0, 45.0), {"rad": 180.0 / pi})),
@@ -133,11 +144,12 @@ Distance = Annotated[
 Speed = Annotated[Positive, Physical(INPUTS["speed_rpm"]), meaning("speed of the shaft")]
 SpeedOrRest = Annotated[NotNegative, Physical(INPUTS["speed_rpm"]._replace(zero=True))]
 
-# Shaft and discs.
-Length = Annotated[Positive, Physical(parts.SHAFT_LENGTH.in_unit("mm"))]
-Diameter = Annotated[Positive, Physical(parts.SHAFT_DIAMETER.in_unit("mm"))]
-Bore = Annotated[NotNegative, Physical(parts.BORE.in_unit("mm"))]
-Position = Annotated[NotNegative, Physical(parts.PLACE.in_unit("mm"))]
+# Shaft and discs, in mm. What is smaller than any on ball bearings, whose bores begin at .5 mm, is a length in m.
+Length = Annotated[Positive, Physical(_from(2.0, parts.SHAFT_LENGTH))]
+Diameter = Annotated[Positive, Physical(_from(0.5, parts.SHAFT_DIAMETER))]
+Width = Annotated[Positive, Physical(_from(0.1, parts.SHAFT_DIAMETER))]
+Bore = Annotated[NotNegative, Physical(_from(0.1, parts.BORE))]
+Position = Annotated[NotNegative, Physical(_from(0.5, parts.PLACE._replace(zero=True, signed=False)))]
 Density = Annotated[Positive, Physical(parts.DENSITY), meaning("kg/m3")]
 Inertia = Annotated[NotNegative, Physical(parts.INERTIA)]
 Force = Annotated[Finite, Physical(parts.FORCE._replace(limits=(-1e8, 1e8)))]
@@ -258,7 +270,9 @@ def allowed_of(field: FieldInfo | None) -> str:
     """All that an entry may be; empty where it takes any number or text."""
     if (quantity := quantity_of(field)) is not None:
         ends = quantity.limits
-        return f"{'0, or ' if quantity.zero else ''}between {ends[0]:g} and {ends[1]:g} {quantity.unit}".rstrip()
+        sign = ", or as much below 0" if quantity.signed else ""
+        zero = "0, or " if quantity.zero else ""
+        return f"{zero}between {ends[0]:g} and {ends[1]:g} {quantity.unit}".rstrip() + sign
     if words := next((rule.text for rule in rules_of(field) if isinstance(rule, Allowed)), ""):
         return words.rstrip()
     kind = getattr(field, "annotation", None)

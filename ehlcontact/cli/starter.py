@@ -235,7 +235,7 @@ def _line(name: str, entry: FieldInfo, entries: Mapping[str, Any], shown: Mappin
         )
     written = f"{'' if name in entries else '# '}{key} = {'?' if value is None else toml_value(value)}"
     line = f"{written.ljust(COMMENT - 1)} # {what}"
-    if len(line) <= WIDTH:
+    if len(line) < WIDTH:  # with the # of a section that is left out
         return line
     return "\n".join([*_comment(f"{key}: {what}"), written])
 

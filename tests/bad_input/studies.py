@@ -53,6 +53,7 @@ SLIPS = {
         ("poisson_ratio = 30", "support.poisson_ratio = 30", "between 0 and 0.5"),
         ("youngs_modulus = 206", "support.youngs_modulus", "in GPa? then 2.06e+11 Pa"),
         ("youngs_modulus = 206e3", "support.youngs_modulus", "in MPa? then 2.06e+11 Pa"),
+        ("clearance = 12.5e-6", "support.clearance = 1.25e-05", "in m? then 12.5 um"),
         ('name = "a\\u0007"', "support.name", "without control characters"),
         ('bearing = "6025"', "support.bearing = '6025'", "6205", "nearest", "by its dimensions"),
         ("bearing = 6205", "support.bearing = 6205", "text in quotes"),

@@ -150,6 +150,17 @@ def test_a_spindle(study):
         ((*MOTOR, "--load", "5", "--load", "6"), ("--load", "once")),
         (("--span", "300"), ("--span = 300", "with two bearings")),
         (("--preload", "200"), ("--preload = 200", "without support.pair")),
+        ((*MOTOR[:4], "--positions", "30", "30"), ("--positions = (30.0, 30.0)", "two places", "--pair")),
+        (
+            (*MOTOR, "--shaft-diameter", "120", "--disc-diameter", "110", "--disc-width", "20"),
+            ("--disc-diameter = 110", "above 120 mm, the diameter of the shaft"),
+        ),
+        (
+            (*MOTOR, "--shaft-diameter", "0.035"),
+            ("--shaft-diameter = 0.035", "in m? then 35 mm"),
+        ),
+        ((*MOTOR, "--preload", "2e5"), ("--preload = 200000", "a ball carries at most")),
+        (("--oil", "VG 30"), ("--oil = 'VG 30'", "--nu40 and --nu100")),
         (("--clearance", "C9"), ("--clearance = 'C9'", "C2")),
     ],
 )

@@ -98,9 +98,7 @@ class Wish(o.Options):
     disc_diameter: Annotated[
         e.Diameter | None, _machine("--disc-diameter"), e.meaning("its diameter, in place of its mass")
     ] = None
-    disc_width: Annotated[e.Diameter | None, _machine("--disc-width"), e.meaning("its width along the shaft")] = (
-        None
-    )
+    disc_width: Annotated[e.Width | None, _machine("--disc-width"), e.meaning("its width along the shaft")] = None
     unbalance: Annotated[
         e.Unbalance | None, _machine("--unbalance"), e.meaning("mass times eccentricity of that disc")
     ] = None
@@ -121,7 +119,10 @@ def init(
 
     out.check(beside={"FILE.toml": (file, (".toml",))})
     check_new("FILE.toml", file, force)
-    bearings, grade = [name.strip().upper() for name in wish.bearing], oil_grade(wish.oil, "--oil")
+    bearings, grade = (
+        [name.strip().upper() for name in wish.bearing],
+        oil_grade(wish.oil, "--oil", "its --nu40 and --nu100"),
+    )
     sheet = {f"oil.{key}": value for key in ("nu40", "nu100") if (value := getattr(wish, key)) is not None}
     entries = _entries(wish, bearings) | (sheet or {"oil.iso_vg": grade}) | {"oil.temperature": wish.temp}
     machine = len(bearings) == MOST_BEARINGS
@@ -185,6 +186,9 @@ def _machine_entries(wish: Wish, bearings: list[str], machine_of: Any) -> dict[s
         raise InputError("--span", None, "given, with two bearings: their distance [mm]; or --positions")
     if wish.span is not None and wish.positions is not None:
         raise InputError("--span", wish.span, "left out where --positions are given")
+    if wish.positions is not None and wish.positions[0] == wish.positions[1]:
+        allowed = "two places: two bearings at one place are a pair, --pair"
+        raise InputError("--positions", wish.positions, allowed)
     if wish.load is not None and len(wish.load) > 1:
         raise InputError("--load", tuple(wish.load), "given once, of a machine")
     given = {

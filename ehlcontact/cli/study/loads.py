@@ -5,7 +5,7 @@ Everything here is refused by the entry of the file before anything long is comp
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from math import ceil, hypot
 from typing import TYPE_CHECKING, Any
@@ -166,13 +166,24 @@ def loaded(study: Study) -> Iterator[None]:
             raise InputError(field, value, allowed) from None
         if error.field.startswith(OF_BEARING):
             place = places_of_bearings(study)[int(error.field.removeprefix(OF_BEARING))]
-            raise InputError(f"support.{study.names[place]}", error.value, allowed) from None
+            raise InputError(*_carried(study, place, error.value), allowed) from None
         if error.field in ("speed_rpm", "tilt"):
             name = "speed_rpm" if error.field == "speed_rpm" else "tilt_x_mrad"
             raise InputError(f"operation.{name}", getattr(asked, name), allowed) from None
         raise
     except ConvergenceError as error:
         raise InputError(field, value, f"with a balance of all balls ({error})") from None
+
+
+def _carried(study: Study, k: int, load: Sequence[float] | _Floats) -> tuple[str, Any]:
+    """Entry and value that load a support most: the spring or preload of its axial load, else the load itself."""
+    axial = abs(load[2]) if len(load) > len(PLANAR) else 0.0
+    for place, one in enumerate(study.support):
+        for key in ("spring", "preload", "pair_spring"):
+            force = getattr(one, key) or 0.0
+            if 0.0 < axial < 2.0 * force and force < 2.0 * axial:
+                return support_field(study, place, key), force
+    return f"support.{study.names[k]}", f"{hypot(*load[:3]):.4g} N"
 
 
 def require_machine(study: Study) -> None:
@@ -194,7 +205,7 @@ def _require_films(study: Study) -> None:
     """Raise `InputError` for a machine without a place of rest, or with loads beyond what films are known for."""
     with loaded(study):
         loads = iter(linearise(rotor_of(study), study.speed_rpm).loads)
-    for k, name in enumerate(study.names):
+    for k in range(len(study.names)):
         carrier = carrier_of(study, k)
         for bearing in carrier.bearings if isinstance(carrier, BearingSet) else (carrier,):
             load = next(loads)
@@ -202,7 +213,7 @@ def _require_films(study: Study) -> None:
                 bearing.equilibrium(load, speed_rpm=study.speed_rpm)
             except (InputError, ConvergenceError) as error:
                 allowed = getattr(error, "allowed", f"loaded so that its balls are in balance ({error})")
-                raise InputError(f"support.{name}", f"{hypot(*load[:3]):.4g} N", allowed) from None
+                raise InputError(*_carried(study, k, load), allowed) from None
 
 
 def _require_in_time(study: Study) -> None:

@@ -172,7 +172,9 @@ def carrier_of(study: Study, k: int, *, oil: bool = True) -> BallBearing | Beari
     if one.pair is None:
         for name in OF_A_PAIR:
             if getattr(one, name) is not None:
-                raise InputError(f"{at}{name}", getattr(one, name), f"left out without {at}pair")
+                ring = f"; the force of a spring on the outer ring of a bearing is {at}spring"
+                hint = "" if study.shaft is None or name == "distance_mm" else ring
+                raise InputError(f"{at}{name}", getattr(one, name), f"left out without {at}pair{hint}")
         return bearing
     more = {"preload": one.preload, "spring": one.pair_spring, "distance_mm": one.distance_mm}
     with called(at):
@@ -274,6 +276,11 @@ def disc_of(study: Study, k: int) -> Disc:
             raise InputError(f"{at}{name}", None, f"given, or {at}mass in place of its size")
     assert one.diameter_mm is not None and one.width_mm is not None
     bore = float(shaft_of(study).diameter[0]) if one.bore_mm is None else 1e-3 * one.bore_mm
+    if 1e-3 * one.diameter_mm <= bore:
+        if one.bore_mm is not None:
+            raise InputError(f"{at}bore_mm", one.bore_mm, f"below {at}diameter_mm = {one.diameter_mm:g}")
+        allowed = f"above {1e3 * bore:g} mm, the diameter of the shaft, which fills its bore"
+        raise InputError(f"{at}diameter_mm", one.diameter_mm, allowed)
     density: dict[str, Any] = {} if one.density is None else {"density": one.density}
     names = {"diameter": "diameter_mm", "width": "width_mm", "bore": "bore_mm"}
     with called(at, names):
@@ -293,10 +300,14 @@ def places_of(study: Study) -> list[float]:
     Raises
     ------
     InputError
-        One that is missing, beyond the shaft, or where another is; a spring on a bearing that cannot slide.
+        One that is missing, beyond the shaft, or where another is; a spring on a bearing that cannot slide; one
+        bearing alone.
     """
     places: list[float] = []
     assert study.shaft is not None
+    if len(study.support) == 1 and study.support[0].pair is None:
+        allowed = 'at least 2 under a shaft, or one that is a pair: pair = "back-to-back"'
+        raise InputError("number of [[support]]", 1, allowed)
     end, names = study.shaft.length_mm, study.names
     for k, one in enumerate(study.support):
         at = support_field(study, k, "")

@@ -136,8 +136,10 @@ def _of_grade(iso_vg: int, **more: Any) -> Lubricant:
     return Lubricant.iso_vg(iso_vg, **more)
 
 
-def oil_grade(text: str, field: str) -> int:
+def oil_grade(text: str, field: str, others: str = "its eta0 and alpha") -> int:
     """The grade in the name of an oil, 68 of "ISO VG 68"; `field` is what it was given as, for the message.
+
+    `others` are what any other oil is given by.
 
     Raises
     ------
@@ -147,7 +149,7 @@ def oil_grade(text: str, field: str) -> int:
     found = _GRADE.fullmatch(text.strip())
     if found is None or int(found[1]) not in GRADES:
         *most, last = map(str, GRADES)
-        raise InputError(field, text, f"ISO VG {', '.join(most)} or {last}; any other oil by its eta0 and alpha")
+        raise InputError(field, text, f"ISO VG {', '.join(most)} or {last}; any other oil by {others}")
     return int(found[1])
 
 

@@ -68,7 +68,7 @@ def inputs_of(sections: Mapping[str, BaseModel | None]) -> Given:
     for name, section in sections.items():
         for key, field in keys_of(type(section)).items():
             quantity, value = quantity_of(field), getattr(section, key)
-            if quantity is not None and value is not None:
+            if quantity is not None and isinstance(value, float | int):  # a clearance may be a class
                 found[f"{name}.{key}"] = value, quantity
     return found
 
@@ -84,7 +84,7 @@ def first_error(
     first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
     value = first["input"]
     # of an entry of several types, pydantic names the type that was tried
-    loc = tuple(part for part in first["loc"] if part not in ("float", "str"))
+    loc = tuple(part for part in first["loc"] if not str(part).startswith(("float", "str", "function-")))
     field = _named(loc, study, document)
     if first["type"] == "extra_forbidden":
         allowed = "left out; " + _known_instead(study, loc)

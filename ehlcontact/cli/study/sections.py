@@ -75,7 +75,7 @@ class Disc(Section):
 
     position_mm: Annotated[e.Position, e.meaning("of its middle, from the left end of the shaft")]
     diameter_mm: Annotated[e.Diameter | None, e.meaning("its diameter; with width_mm")] = None
-    width_mm: Annotated[e.Diameter | None, e.meaning("its width along the shaft")] = None
+    width_mm: Annotated[e.Width | None, e.meaning("its width along the shaft")] = None
     bore_mm: Annotated[
         e.Bore | None, e.meaning("of its bore, which the shaft fills; the diameter of the shaft if left out")
     ] = None
@@ -111,7 +111,7 @@ class Support(Section):
     ] = None
     clearance: Annotated[
         e.Clearance | str | None,
-        e.meaning('radial internal clearance, um, below 0 a preload; or a class, as "CN"; 0 if left out'),
+        e.meaning('radial internal clearance, below 0 a preload; or a class, as "CN"; 0 if left out'),
     ] = None
     facing: Annotated[
         Literal["+z", "-z"] | None,
