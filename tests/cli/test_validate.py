@@ -1,6 +1,7 @@
 """``ehlcontact validate``: what a study will do, without doing it."""
 
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -12,9 +13,10 @@ from ehlcontact.cli.study.points.kept import Kept, stage_key
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import STAGES, stage_named
 from ehlcontact.solver.mesh_choice import Purpose, mesh_for
+from reduced_models.elements.film_law import film_drive
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-SMALL = EXAMPLES / "small_study.toml"
+SMALL, SPINDLE = EXAMPLES / "small_study.toml", EXAMPLES / "spindle.toml"
 # Seconds of processor of the stages of both examples; one convolution took 2.3 ms then.
 MEASURED = {
     "small_study": {
@@ -93,6 +95,18 @@ def test_compilation_is_foreseen(call, monkeypatch, tmp_path):
     for name in ("is_kept", "solver_is_kept"):
         monkeypatch.setattr(f"ehlcontact.cli.study.forecast.{name}", lambda *_: True)
     assert "compil" not in call("validate", SMALL, "-o", tmp_path / "none").out
+
+
+def test_a_machine_needs_no_kernels_of_elements(call, monkeypatch, tmp_path):
+    """Without [contact] what is not kept of fits is not compiled either, and points have no numbers of a film."""
+    monkeypatch.setattr("ehlcontact.cli.study.forecast.is_kept", lambda kernel: kernel is not film_drive)
+    assert forecast(load_study(SPINDLE), tmp_path, 2).compiling == 0.0
+    assert forecast(load_study(SMALL), tmp_path, 2).compiling > 0.0
+    text = SPINDLE.read_text()
+    several = tmp_path / "several.toml"
+    several.write_text(re.sub(r"(?m)^speed_rpm = ([\d.]+)", r"speed_rpm = [\1, 3000.0]", text, count=1))
+    said = call("validate", several, "-o", tmp_path / "none").out
+    assert "to do" in said and "kappa" not in said and "kept" not in said
 
 
 def test_nothing_is_solved(call, monkeypatch, tmp_path):

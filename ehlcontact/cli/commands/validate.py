@@ -63,10 +63,13 @@ def _show_points(document: Mapping[str, Any], json_to: str | None) -> None:
     if json_to == STDOUT:
         return
     rows = []
+    of_film = ("M", "L", "kappa", "p_h [GPa]", "h_c by formula [µm]", "kept")
     for one in document["points"]:
-        stages = f"{sum(stage['kept'] for stage in one['stages'])} of {len(one['stages'])}"
-        rows.append([one["name"], *_numbers(one["operating_point"]), stages, _time(one["seconds"])])
-    heads = ("point", "M", "L", "kappa", "p_h [GPa]", "h_c by formula [µm]", "kept", "to do")
+        contact = (
+            [] if one["operating_point"] is None else [*_numbers(one["operating_point"]), _kept(one["stages"])]
+        )
+        rows.append([one["name"], *contact, _time(one["seconds"])])
+    heads = ("point", *(of_film if len(rows[0]) > len(("point", "to do")) else ()), "to do")
     show_columns(heads, rows, document["title"], named=True)
     for films in sorted({one["films"] for one in document["points"]} - {""}):
         say(f"bearing: beside flooded isothermal films also {films}")
@@ -75,10 +78,13 @@ def _show_points(document: Mapping[str, Any], json_to: str | None) -> None:
     _say_whole(document["seconds"], document["jobs"], document["compiling_seconds"])
 
 
-def _numbers(p: Mapping[str, Any] | None) -> list[str]:
-    """Of the contact of a point; dashes of one without."""
-    if p is None:
-        return ["-"] * 5
+def _kept(stages: Sequence[Mapping[str, Any]]) -> str:
+    """How many stages of a point are kept."""
+    return f"{sum(stage['kept'] for stage in stages)} of {len(stages)}"
+
+
+def _numbers(p: Mapping[str, Any]) -> list[str]:
+    """Of the contact of a point."""
     numbers = (numeral(p[key]) for key in ("M", "L", "kappa"))
     return [*numbers, numeral(p["p_hertz"] * 1e-9, 3), numeral(p["h_central_expected"] * 1e6, 2)]
 

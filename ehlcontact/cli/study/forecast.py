@@ -24,7 +24,7 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import FINENESS, LARGEST_MESH, Purpose, mesh_for
-from reduced_models.elements.film_law import static_forces
+from reduced_models.elements.film_law import film_drive, films
 
 CONV = 2.3e-3  # seconds of one when those studies were run
 REST = 10.0 / CONV  # fits, impedance, FMU, reduced rotors and report, of either study
@@ -161,7 +161,7 @@ def forecast(study: Study, folder: Path, jobs: int, root: Path | None = None) ->
         kept = store is not None and store.get(stage_key(stage, study)) is not None
         plans.append(Plan(stage, _mesh(stage, study), *_steps(stage, study), estimate, kept))
     closed = store is not None and all(p.kept for p in plans) and store.final(study, folder) is not None
-    compiling = conv * compiling_cost(any(not plan.kept for plan in plans), not closed)
+    compiling = conv * compiling_cost(study, any(not plan.kept for plan in plans), not closed)
     about = films_words(study), tuple(cautions(study))
     return Forecast(study, folder, jobs, conv, tuple(plans), compiling, closed, *about)
 
@@ -191,13 +191,15 @@ def closing_cost(study: Study) -> float:
     )
 
 
-def compiling_cost(films: bool, rest: bool) -> float:
+def compiling_cost(study: Study, solved: bool, rest: bool) -> float:
     """Likewise of the compilation of kernels that are not kept: of stages that solve films, and of what follows.
 
+    What follows needs the film law of bearings in oil, and the force over time that elements are fitted by.
     Processes side by side compile each kernel once, and wait for each other.
     """
-    cost = COMPILED_FILMS if films and not solver_is_kept() else 0.0
-    return cost + (COMPILED_ELEMENTS if rest and not is_kept(static_forces) else 0.0)
+    needed = [films] * (study.oil is not None) + [film_drive] * (study.contact is not None)
+    cost = COMPILED_FILMS if solved and not solver_is_kept() else 0.0
+    return cost + (COMPILED_ELEMENTS if rest and not all(map(is_kept, needed)) else 0.0)
 
 
 def oil_and_heat_cost(study: Study) -> float:
