@@ -123,7 +123,7 @@ SLIPS = {
         ("[contact\n", "complete TOML", "'[contact'"),
         ("", "oil.race = ", "belongs to [contact]"),
         ("[contacts]\n", "contacts", "contact?"),
-        ("[surface]\nrq_ball_um = 0.02\n[contact]\n", "surface.rq_race_um", "given"),
+        ("[surface]\nrq_ball_um = 0.02\n[contact]\n", "surface.rq_race_um", "given", "or rq_um in place of both"),
         ("[surface]\nrq_ball_um = 2e-8\n[contact]\n", "surface.rq_ball_um", "2e-08", "0.001"),
         ("[surface]\nrq = 0.1\n[contact]\n", "surface.rq", "0.1", "rq_ball_um"),
     ],

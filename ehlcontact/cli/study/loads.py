@@ -5,7 +5,7 @@ Everything here is refused by the entry of the file before anything long is comp
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from math import ceil, hypot
 from typing import TYPE_CHECKING, Any
@@ -175,7 +175,7 @@ def loaded(study: Study) -> Iterator[None]:
         raise InputError(field, value, f"with a balance of all balls ({error})") from None
 
 
-def _carried(study: Study, k: int, load: Sequence[float] | _Floats) -> tuple[str, Any]:
+def _carried(study: Study, k: int, load: Any) -> tuple[str, Any]:
     """Entry and value that load a support most: the spring or preload of its axial load, else the load itself."""
     axial = abs(load[2]) if len(load) > len(PLANAR) else 0.0
     for place, one in enumerate(study.support):

@@ -244,7 +244,8 @@ class Study(Section):
             return 0.0, self.surface.rq_um * 1e-6
         if len(given) == 1:
             missing = next(name for name in found if name not in given)
-            raise InputError(f"surface.{missing}", None, f"given, as {next(iter(given))} is")
+            allowed = f"given, as {next(iter(given))} is; or rq_um in place of both, of ball and race together"
+            raise InputError(f"surface.{missing}", None, allowed)
         return (given["rq_ball_um"], given["rq_race_um"]) if given else None
 
     @property

@@ -49,7 +49,7 @@ class Surface(Section):
         None
     )
     rq_ball_um: Annotated[e.Roughness | None, e.meaning("Rq of the balls; with rq_race_um or not at all")] = None
-    rq_race_um: Annotated[e.Roughness | None, e.meaning("Rq of the races")] = None
+    rq_race_um: Annotated[e.Roughness | None, e.meaning("Rq of the races; with rq_ball_um or not at all")] = None
 
 
 class Shaft(Section):
