@@ -230,6 +230,8 @@ def shaft_of(study: Study) -> Shaft:
             return Shaft.jeffcott(given.stiffness, length, damping=given.damping)
     if given.diameter_mm is None:
         raise InputError("shaft.diameter_mm", None, "given, or shaft.stiffness of one without mass")
+    if given.bore_mm >= given.diameter_mm:
+        raise InputError("shaft.bore_mm", given.bore_mm, f"below shaft.diameter_mm = {given.diameter_mm:g}")
     if "damping" in given.model_fields_set:
         allowed = "left out where shaft.diameter_mm is given: such a shaft has a damping_time"
         raise InputError("shaft.damping", given.damping, allowed)
