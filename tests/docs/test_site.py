@@ -61,11 +61,11 @@ def test_entries_are_of_their_kind():
 
 
 def test_every_field_is_described():
-    """By its name, in the list of parameters or attributes of the class or, of the smallest, in its text."""
+    """By its name, in the list of parameters or attributes of its class or a base, or in the text of the smallest."""
     for package, _, name in described():
         if not is_dataclass(kind := getattr(import_module(package), name)):
             continue
-        text = inspect.getdoc(kind)
+        text = "\n\n".join(inspect.getdoc(own) for own in kind.__mro__ if is_dataclass(own))
         lists = re.findall(r"^(?:Parameters|Attributes)\n-+\n(.*?)(?=^\w+\n-+\n|\Z)", text, flags=re.M | re.S)
         heads = [line.split(" : ")[0] for part in lists for line in part.splitlines() if re.match(r"\w", line)]
         listed = {word.strip() for head in heads for word in head.split(",")} | set(re.findall(r"`(\w+)`", text))
