@@ -61,7 +61,7 @@ def test_entries_are_of_their_kind():
 
 
 def test_every_field_is_described():
-    """By its name, in the list of parameters or attributes of its class or a base, or in the text of the smallest."""
+    """By its name, in the list of parameters of its class or a base, or in the text of a small class."""
     for package, _, name in described():
         if not is_dataclass(kind := getattr(import_module(package), name)):
             continue

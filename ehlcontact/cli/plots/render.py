@@ -28,6 +28,7 @@ from ehlcontact.results.picture import (
 DASHES = {"-": "solid", "--": "dash", ":": "dot", "-.": "dashdot"}
 SYMBOLS = {"o": "circle", "s": "square", "^": "triangle-up", "v": "triangle-down", "D": "diamond", "*": "star"}
 POINTS, MOVING = (175, 111), (81, 49)  # of a map, horizontally and vertically; of one behind a slider
+ABOVE_LABEL = 4.0  # px, of the title of a panel, over the half of a label of its axis that is above its end
 QUARTERS, UPWARDS = (0, 90, 180, 270), 90  # degrees round a load zone, and that under its title
 REACH = 0.04  # of the span of an axis behind a slider, on either side of its values
 
@@ -62,6 +63,7 @@ def figure_of(picture: Picture | Slides, points: tuple[int, int] = POINTS) -> go
             _panel(figure, panel, at)
         if panel.title:
             over: Any = {"x": 0.5, "y": 1.0, "yanchor": "bottom", "showarrow": False, "font": {"size": 13}}
+            over["yshift"] = ABOVE_LABEL
             figure.add_annotation(text=panel.title, xref="x domain", yref="y domain", **over, **at)
         if picture.shared and (row + 1, column) in panels:
             figure.update_xaxes(title_text="", **at)
