@@ -152,6 +152,7 @@ def test_a_dry_bearing_has_no_film_and_no_highest_speed(call):
     assert found["highest_speed_rpm"] is None and not np.any(found["coefficients"][0]["damping"])
 
 
+@pytest.mark.long
 def test_a_file_and_options_that_stand_in_for_its_entries(call, file):
     alone = json.loads(call("bearing", EXAMPLE, "--json", "-").out)
     assert alone["load"] == 1000.0 and alone["speed_rpm"] == [1000.0, 3000.0, 6000.0]

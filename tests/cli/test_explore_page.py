@@ -131,6 +131,7 @@ def test_what_it_shows_is_what_python_answers(seen):
         assert f"{hz[name]:.4g}{order:.5g}" in found["defects"] and name.upper() in found["defects"]
 
 
+@pytest.mark.long
 def test_slip_of_the_cage(seen):
     found = seen(TEXTS, "#axial_load=60&load=500&slip=0.5&temperature=50")
     bearing = BallBearing.catalogue("6205", clearance="CN", oil=Lubricant.iso_vg(68, temperature=50.0))
@@ -198,6 +199,7 @@ def test_refused_input_marks_its_field(seen):
             assert word in found["refused"]
 
 
+@pytest.mark.long
 def test_unknown_parts_of_an_address_are_named(seen):
     first = seen(TEXTS)
     assert first["refused"] is False and first["said"] is False

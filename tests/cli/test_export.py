@@ -189,6 +189,7 @@ def test_a_study_as_a_system(call, refused, element, tmp_path):
     refused(("--output", ".fmu", "a study (.toml) with a rotor"), "export", element, "-o", tmp_path / "x.ssp")
 
 
+@pytest.mark.long
 def test_a_study_becomes_its_rotor(call, tmp_path):
     """On the atlas's contacts, at rest under the load of the study."""
     target = tmp_path / "rotor.fmu"
@@ -240,6 +241,7 @@ def test_rotors_that_cannot_be_exported(refused, tmp_path):
 BEARING = ROOT / "examples" / "bearing_6205.toml"
 
 
+@pytest.mark.long
 def test_a_bearing_file_becomes_the_fmu_of_its_bearing(call, refused, tmp_path):
     target = tmp_path / "6205.fmu"
     result = call("export", BEARING, "-o", target, "--json", "-")

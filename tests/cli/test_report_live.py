@@ -208,6 +208,7 @@ def test_words_of_a_figure_do_not_lie_on_each_other(seen, width):
     assert seen(body, width) == []
 
 
+@pytest.mark.long
 def test_the_page_opens_with_the_machine_and_its_tiles(seen, results):
     """Operating line and first tiles on the first screen of a telephone, all of them on that of a desk."""
     body = """const top = one => Math.round(one.getBoundingClientRect().top);
@@ -226,6 +227,7 @@ def test_the_page_opens_with_the_machine_and_its_tiles(seen, results):
     assert wide["heads"][0] == "machine" and wide["heads"][-2:] == ["convergence", "made"]
 
 
+@pytest.mark.long
 def test_reduced_against_full_is_a_section_with_its_verdict(seen, results):
     body = """const cells = row => all("th, td", row).filter(one => one.clientWidth).map(one => one.textContent);
     return { verdict: document.querySelector("#reduced + .verdict").textContent,
