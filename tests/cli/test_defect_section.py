@@ -101,16 +101,7 @@ def test_page_and_picture(found, tmp_path):
     assert one.to_dict()["frequencies_hz"]["bpfo"] == pytest.approx(50.0 * one.orders.bpfo_order, rel=1e-12)
     low, high = one.passage
     assert 0.0 < high - low < 0.2 and low < one.turns[np.abs(one.force["film"]).argmax()] % 20.0
-    inside = SimpleNamespace(defects=(one,), study=asked)
-    page = write_page(
-        tmp_path / "d.html",
-        "defect.html.j2",
-        {},
-        found=inside,
-        d=inside.defects[0],
-        number="",
-        picture=lambda name, text: text,
-    )
+    page = section(tmp_path, SimpleNamespace(defects=(one,), study=asked))
     text = re.sub(r"<[^>]*>|\s+", " ", page.read_text())
     assert "What a defect looks like" in text and f"multiples of {one.name}" in text
     assert f"{one.orders.bpfo_order:.5g}" in text and f"{one.highest['film']:.3g}" in text
@@ -125,16 +116,7 @@ def test_a_deep_spall_is_named(tmp_path):
     (deep,) = defects_of(asked)
     assert "not linear" in deep.reservation and "simulate_rotor" in deep.reservation
     assert deep.loses_load and deep.to_dict()["largest_force"] is None
-    inside = SimpleNamespace(defects=(deep,), study=asked)
-    page = write_page(
-        tmp_path / "d.html",
-        "defect.html.j2",
-        {},
-        found=inside,
-        d=inside.defects[0],
-        number="",
-        picture=lambda name, text: text,
-    )
+    page = section(tmp_path, SimpleNamespace(defects=(deep,), study=asked))
     assert "forces are left out" in page.read_text() and "largest change" not in page.read_text()
     assert defects_of(study(tmp_path, "")) == ()
 

@@ -99,9 +99,9 @@ def limits(found: Findings) -> list[str]:
 
 
 def calm(found: Findings) -> str:
-    """That nothing is critical, with the numbers that show it; empty where something is."""
+    """That nothing is critical, with the numbers that show it; empty where something is, or was not computed."""
     machine = found.machine
-    if isinstance(machine, str) or machine.concerns:
+    if isinstance(machine, str) or machine.concerns or machine.failed:
         return ""
     ratio, nearest = machine.worst_support.lambda_ratio, machine.nearest_critical
     said = [] if ratio is None else [f"lambda {numeral(ratio, 3)}"]

@@ -32,7 +32,7 @@ SIZES = {  # of lengths of entries, over those of the library
 }  # fmt: skip
 OF_A_PAIR = ("preload", "pair_spring", "distance_mm")
 NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
-SAME = 1e-6  # of the shaft, within which two places are one
+SAME_PLACE = 1e-6  # of the shaft, within which two places are one
 
 
 class Sizes(NamedTuple):
@@ -258,7 +258,7 @@ def disc_of(study: Study, k: int) -> Disc:
     load = (0.0, -one.radial_load, one.axial_load) if one.axial_load else (0.0, -one.radial_load)
     more: dict[str, Any] = {"unbalance": one.unbalance, "damping": one.damping, "load": load}
     place, end = 1e-3 * one.position_mm, 1e3 * shaft_of(study).end
-    if one.position_mm > end * (1.0 + SAME):
+    if one.position_mm > end * (1.0 + SAME_PLACE):
         allowed = f"on the shaft: between 0 and {end:g} mm, its length"
         raise InputError(f"{at}position_mm", one.position_mm, allowed)
     if one.mass is not None:
@@ -315,17 +315,19 @@ def places_of(study: Study) -> list[float]:
         at = support_field(study, k, "")
         if one.position_mm is None:
             raise InputError(f"{at}position_mm", None, "given, with [shaft]")
-        if one.position_mm > end * (1.0 + SAME):
+        if one.position_mm > end * (1.0 + SAME_PLACE):
             raise InputError(
                 f"{at}position_mm", one.position_mm, f"on the shaft: between 0 and {end:g} mm, its length"
             )
         for other, place in zip(names, places, strict=False):
-            if abs(one.position_mm - 1e3 * place) <= SAME * end:
+            if abs(one.position_mm - 1e3 * place) <= SAME_PLACE * end:
                 allowed = f"another place than that of support {other}: two bearings at one place are a pair = ..."
                 raise InputError(f"{at}position_mm", one.position_mm, allowed)
         _require_slides(one, at)
         places.append(1e-3 * one.position_mm)
-    if study.shaft.stiffness is not None and (min(places) > SAME * end or max(places) < (1.0 - SAME) * 1e-3 * end):
+    if study.shaft.stiffness is not None and (
+        min(places) > SAME_PLACE * end or max(places) < (1.0 - SAME_PLACE) * 1e-3 * end
+    ):
         allowed = "its whole length between the supports: a shaft given by its stiffness ends in its bearings"
         raise InputError("shaft.length_mm", end, allowed)
     springs = [one.spring for one in study.support if one.pair is None]
