@@ -34,18 +34,29 @@ from reduced_models import BallBearing
 from reduced_models.atlas import film as atlas_film
 from reduced_models.atlas import frequency_curve
 from reduced_models.atlas.surface import Surface, shipped
-from reduced_models.bearing import grooves, kinematics, race, ring, ring_statics, skf_friction
+from reduced_models.bearing import (
+    designation,
+    equilibrium_result,
+    grooves,
+    kinematics,
+    race,
+    ring,
+    ring_statics,
+    skf_friction,
+)
 from reduced_models.bearing.catalogue import DEEP_GROOVE, ROWS, Row
 from reduced_models.bearing.clearance import CLASSES, clearance_of_class
 from reduced_models.bearing.sliding import USUAL_LAW
 from reduced_models.core import CSRC
 from reduced_models.elements import film_curve, film_response
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
-from reduced_models.rotor.support_state import RELY_ON_SKF
+from reduced_models.rotor.support_state import ABOVE_MEASURED, RELY_ON_SKF
 
 # In the order in which they are joined: each stands on those before it; the last two are about the page itself.
-SCRIPTS = ("numbers", "core", "hertz", "oil", "atlas", "race", "bearing", "assumptions", "plot", "page")
-COMPUTING = SCRIPTS[:8]
+SCRIPTS = (
+    "numbers", "core", "hertz", "oil", "atlas", "race", "designation", "bearing", "assumptions", "plot", "page",
+)  # fmt: skip
+COMPUTING = SCRIPTS[:9]
 GLUE = "bearing.c"  # functions of the page on the C core
 UNITS = {"ball_diameter": "mm", "pitch_diameter": "mm", "eta0": "mPa s", "alpha": "1/GPa"}  # others as in Python
 # Numbers of the library's own rules, by the modules that have them
@@ -59,6 +70,7 @@ RULES: Mapping[Any, tuple[str, ...]] = {
     ring_statics: ("POSITIONS",),
     ring: ("SEATED", "CARRIES", "STEEPEST"),
     kinematics: ("LEAST_SLIP",),
+    equilibrium_result: ("MOST_FRICTION",),
     judge: ("CONDUCTIVITY",),
     film: ("LEAST_HEATING_FACTOR", "EYRING_STRESS", "LARGEST_STRESS"),
     oil: ("TYPICAL_SLOPE", "TYPICAL_DENSITY", "LEAST_SLOPE"),
@@ -83,7 +95,12 @@ def write_explorer(path: Path) -> Path:
     """
     from ehlcontact.cli.page import write_page
 
-    content: dict[str, Any] = {"script": script(), "version": __version__, "ratio": USUAL_DAMPING}
+    content: dict[str, Any] = {
+        "script": script(),
+        "version": __version__,
+        "ratio": USUAL_DAMPING,
+        "rely": int(RELY_ON_SKF),
+    }
     content |= {"index": oil.USUAL_INDEX, "density": oil.USUAL_DENSITY_15}  # as in `Lubricant.iso_vg`
     return write_page(path, "explore/page.html.j2", {}, **content)
 
@@ -96,9 +113,10 @@ def page_data() -> dict[str, Any]:
         "oil": _oils(),
         "catalogue": {name: row._asdict() | {"classes": _classes(row)} for name, row in ROWS.items()},
         "classes": CLASSES,
+        "designations": _designations(),
         "quantities": {name: _quantity(_in_units(name)) for name in OF_INPUTS},
         "rules": {name: getattr(module, name) for module, names in RULES.items() for name in names}
-        | {"TRACTION": USUAL_LAW.coefficient, "RELY_ON_SKF": RELY_ON_SKF},
+        | {"TRACTION": USUAL_LAW.coefficient, "RELY_ON_SKF": RELY_ON_SKF, "ABOVE_MEASURED": ABOVE_MEASURED},
         "skf": _skf(),
         "core": base64.b64encode(core_module()).decode("ascii"),
         "lambda": {"smooth": LEAST_LAMBDA, "mixed": MIXED_LAMBDA},
@@ -165,6 +183,13 @@ def _classes(row: Row) -> dict[str, float]:
     if row.contact_angle is not None or row.bore is None:
         return {}
     return {name: clearance_of_class(name, row.bore) for name in CLASSES}
+
+
+def _designations() -> dict[str, Any]:
+    """Regular expressions and words by which names of bearings are read."""
+    names = "TOKEN", "GAP", "SUFFIXES", "KINDS", "MAKERS", "NOT_READ", "NOT_IN_TORQUE"
+    tables = {name.lower(): getattr(designation, name) for name in names}
+    return tables | {"maker": designation.MAKER.pattern, "readings": designation.readings(ROWS)}
 
 
 def _skf() -> dict[str, Any]:

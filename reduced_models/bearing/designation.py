@@ -28,10 +28,15 @@ SUFFIXES = {  # regular expression of a suffix: what it means
     r"E|ETN\d*": "reinforced design: its balls may be others than those of the catalogue",
 }
 NOT_READ = "not read"
-_GAP = r"[\s\-_/.,]"
-_MAKER = re.compile(rf"^(?:{'|'.join(MAKERS)})(?={_GAP}|\d){_GAP}*")
+NOT_IN_TORQUE = {  # meaning of a suffix: what it adds to the torque that no model here has
+    "seals": "drag of the seals and of the grease is not in the torque",
+    "shields": "drag of the grease behind the shields is not in the torque",
+}
+GAP = r"[\s\-_/.,]"
+TOKEN = r"(C[1-5](?!\d)|CN$)"  # a suffix that may follow another one without a separator
+MAKER = re.compile(rf"^(?:{'|'.join(MAKERS)})(?={GAP}|\d){GAP}*")
 # A name of the catalogue ends before a separator, a letter, or a number of seals or shields.
-_END = rf"(?=$|{_GAP}|[A-Z]|2[A-Z])"
+_END = rf"(?=$|{GAP}|[A-Z]|2[A-Z])"
 _ANGLE_25 = r"(?!C(?!\d)|5)"  # 7205 AC and A5 have 25 degrees, 7205 A has 30
 KINDS = {  # regular expression of a name without separators: the kind of the bearing
     r"(R?NU?|R?NJ|R?NUP|NUJ|NF|NH|NNU?|NCF|NNCF|NNF|SL)\d{2}": "cylindrical roller bearings",
@@ -65,10 +70,15 @@ class Designation(NamedTuple):
         """Suffixes with their meanings; empty where there are none."""
         return "; ".join(f"{suffix}: {meaning}" for suffix, meaning in self.suffixes)
 
+    @property
+    def without_friction(self) -> str:
+        """What the name has that adds to the torque and is in no model here, in words; empty where nothing."""
+        return next((text for _, meaning in self.suffixes if (text := NOT_IN_TORQUE.get(meaning))), "")
+
 
 def squeezed(text: str) -> str:
     """A name in capitals without separators: 7205C, ER16K."""
-    return re.sub(_GAP, "", str(text).upper())
+    return re.sub(GAP, "", str(text).upper())
 
 
 def designation(text: str, names: Iterable[str]) -> Designation | None:
@@ -85,24 +95,42 @@ def designation(text: str, names: Iterable[str]) -> Designation | None:
     known = list(names)
     exact = {squeezed(name): name for name in known}
     written = str(text).strip().upper()
-    rest = _MAKER.sub("", written)
+    rest = MAKER.sub("", written)
     for whole in (squeezed(written), squeezed(rest)):
         for spelled in (whole, f"{whole}A"):
             if spelled in exact:
                 return Designation(str(text), exact[spelled])
-    for name in sorted(known, key=len, reverse=True):
-        if (found := re.match(_pattern(name), rest)) is not None:
-            return _with_suffixes(text, name, rest[found.end() :])
-    for name in known:  # of 30 degrees without its letter: only before suffixes that are no letter of an angle
-        if name.endswith(" A") and (found := re.match(_pattern(name[:-2]), rest)) is not None:
-            read = _with_suffixes(text, name, rest[found.end() :])
-            return None if read is None or NOT_READ in dict(read.suffixes).values() else read
+    for pattern, name, without_letter in readings(known):
+        if (found := re.match(pattern, rest)) is None:
+            continue
+        read = _with_suffixes(text, name, rest[found.end() :])
+        # of 30 degrees without its letter: only before suffixes that are no letter of an angle
+        unread = without_letter and read is not None and NOT_READ in dict(read.suffixes).values()
+        return None if unread else read
     return None
+
+
+def readings(names: Iterable[str]) -> list[tuple[str, str, bool]]:
+    """Regular expressions of the beginning of a designation, in the order in which they count.
+
+    Parameters
+    ----------
+    names : iterable of str
+        Of a catalogue.
+
+    Returns
+    -------
+    list of (str, str, bool)
+        Expression, name that it stands for, and whether it leaves out the letter of an angle of 30 degrees.
+    """
+    known = list(names)
+    whole = [(_pattern(name), name, False) for name in sorted(known, key=len, reverse=True)]
+    return whole + [(_pattern(name[:-2]), name, True) for name in known if name.endswith(" A")]
 
 
 def kind_of(text: str) -> str:
     """Kind of bearings that a name is of, where the library has none of them; else empty."""
-    name = squeezed(_MAKER.sub("", str(text).strip().upper()))
+    name = squeezed(MAKER.sub("", str(text).strip().upper()))
     return next((kind for pattern, kind in KINDS.items() if re.match(pattern, name)), "")
 
 
@@ -111,7 +139,7 @@ def _pattern(name: str) -> str:
     if re.match(r"(S )?\d", name) is None:
         return r"(?!)"  # names of letters as UER204 have no suffixes
     parts = [re.escape(part) for part in re.findall(r"\d+|[A-Z]+", name)]
-    return rf"^{f'{_GAP}?'.join(parts)}{_ANGLE_25 if name.endswith(' A') else ''}{_END}"
+    return rf"^{f'{GAP}?'.join(parts)}{_ANGLE_25 if name.endswith(' A') else ''}{_END}"
 
 
 def _with_suffixes(text: str, name: str, rest: str) -> Designation | None:
@@ -124,8 +152,8 @@ def _with_suffixes(text: str, name: str, rest: str) -> Designation | None:
 
 def _tokens(rest: str) -> Iterator[str]:
     """Suffixes one by one: "ZZC3" is two."""
-    for part in filter(None, re.split(_GAP, rest)):
-        yield from filter(None, re.split(r"(C[1-5](?!\d)|CN$)", part))
+    for part in filter(None, re.split(GAP, rest)):
+        yield from filter(None, re.split(TOKEN, part))
 
 
 def _meaning(token: str) -> str:

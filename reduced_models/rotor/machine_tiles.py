@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from reduced_models.rotor.modes import ALONG
 from reduced_models.rotor.picture import STRAIGHT
-from reduced_models.rotor.support_state import RELY_ON_SKF
+from reduced_models.rotor.support_state import ABOVE_MEASURED, RELY_ON_SKF
 
 AXIS = {"x": 0, "y": 1, "z": 2}
 MARGIN = 0.15  # of the speed, least separation of a critical speed
@@ -213,7 +213,7 @@ def _friction(machine: Any) -> Tile | None:
     cold = ", ".join(digits(one.film_torque) for one in supports)
     films = f"rolling of isothermal films {cold} N m"
     more = not all(one.relies_on_skf for one in supports) and machine.speed_rpm > RELY_ON_SKF
-    doubt = "flooded films resist more than measured bearings do at this speed" if more else ""
+    doubt = ABOVE_MEASURED if more else ""
     loss = f"{digits(sum(one.loss for one in supports))} W by {by}"
     return Tile("friction torque", digits(sum(torques)), "N m", _note(loss, each, films, doubt))
 

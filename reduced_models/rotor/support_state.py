@@ -31,6 +31,7 @@ from reduced_models.rotor.bearing_set import BearingSet
 _Floats = NDArray[np.float64]
 
 OUTER = RACES.index("outer")
+ABOVE_MEASURED = "flooded films resist more than measured bearings do at this speed"
 RELY_ON_SKF = 5000.0  # rev/min above which flooded films resist more than measured bearings do: docs/bearings.md
 
 

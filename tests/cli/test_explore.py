@@ -13,6 +13,7 @@ from ehlcontact.cli.explorer import COMPUTING, UNITS, script
 from ehlcontact.errors import InputError
 from reduced_models import Atlas, BallBearing
 from reduced_models.bearing.catalogue import DEEP_GROOVE, ROWS
+from reduced_models.bearing.designation import designation, kind_of
 from reduced_models.bearing.sliding import USUAL_LAW, friction_at
 from reduced_models.elements.film_response import FilterRates
 
@@ -124,7 +125,7 @@ return { q: there.q, stiffness: there.stiffness, heaviest: there.heaviest,
   films: films(film => [film.h_central, film.h_min]), moment: films(film => film.moment),
   pressure: films(film => film.pressure),
   highest: bearing.highestSpeed, orders: bearing.withSlip(there.orders, asked.slip), torque: there.torque,
-  outside: outsideAssumptions(there), beyond: beyondData(there),
+  outside: outsideAssumptions(there), beyond: beyondData(there), friction: there.frictionNote,
   both: there.coefficients(asked.hz.map(hz => 2 * Math.PI * hz)) };
 """
 
@@ -206,6 +207,7 @@ def require_equal(here, there, asked):
     assert here["torque"] == pytest.approx(torque, rel=CLOSE)
     beyond = f"Beyond the data: {state.reservation}." if state.reservation else ""
     assert (here["outside"], here["beyond"]) == (state.outside_assumptions, beyond)
+    assert here["friction"] == state.friction_note
     for name in ("stiffness", "damping"):
         for mine, matrix in zip((row[name] for row in here["both"]), getattr(vibrations, name), strict=True):
             whole = matrix[:n, :n]
@@ -236,6 +238,35 @@ def test_bearings_stand_and_vibrate_as_in_python(ask):
     ]
     cases += [case(clearance=8e-6, load=(0.0, -30.0, 200.0), slip=0.01), case("7206 C", load=(0.0, -150.0, 300.0))]
     assert stood(ask, cases) >= 6
+
+
+def test_friction_that_the_outer_race_must_hold(ask):
+    """Above what oils transmit, in the words of Python; below it nothing."""
+    cases = [case("7206 B", (32, 80.0), rpm, (0.0, -100.0, 1000.0)) for rpm in (3000.0, 15000.0)]
+    assert stood(ask, cases) == 2
+    slow, fast = (python_of(one)[0].friction_note for one in cases)
+    assert slow == "" and "the outer race must hold" in fast
+
+
+TYPED = [
+    "6205", "6205-2RS", "6203-2RS-JEM", "6205 ZZ", "SKF 6205", "6205/C3", "nsk6205ddu c4", "6205-2RSH/C3LHT23",
+    "7205 BECBP", "7205-2RS", "7205", "S 6205 C/P4", "608ZZ", "62052RS", "6205C6", "6205 47", "7205 AC", "62205",
+    "NU205", "30205", "x", "", "6205/C1", "ER16K", "218/C3", "6-205", "TIMKEN 6205 TIMKEN",
+]  # fmt: skip
+
+
+def test_names_are_read_as_in_python(ask):
+    """Name, suffixes with meanings and class; kinds of bearings that are not there."""
+    body = """const read = designation(asked);
+    return read ? { ...read, left: withoutFriction(read) } : allowedNames(asked);"""
+    for typed, here in zip(TYPED, ask(body, TYPED), strict=True):
+        there = designation(typed, ROWS)
+        if there is None:
+            assert isinstance(here, str) and kind_of(typed) in here, typed
+            continue
+        suffixes = [list(one) for one in there.suffixes]
+        told = {"name": there.name, "suffixes": suffixes, "clearance": there.clearance}
+        assert here == told | {"left": there.without_friction}, typed
 
 
 @pytest.mark.long

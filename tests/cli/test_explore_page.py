@@ -12,6 +12,7 @@ from browsers import dom
 from ehlcontact import Lubricant
 from reduced_models import Atlas, BallBearing
 from reduced_models.bearing.sliding import USUAL_LAW, bearing_friction
+from reduced_models.rotor.support_state import ABOVE_MEASURED
 
 LARGEST = 3e6  # bytes
 WIDTHS = (420, *(pytest.param(width, marks=pytest.mark.long) for width in (768, 1280)))
@@ -149,6 +150,33 @@ def test_an_angular_contact_bearing_needs_axial_load(seen):
     state = eval(found["python"], {"BallBearing": BallBearing, "Lubricant": Lubricant})
     assert found["refused"] is False and "of 12 balls" in found["tiles"][1][2]
     assert numbers(found["tiles"][1][1])[0] == pytest.approx(state.force[:, 0].max(), rel=6e-3)
+
+
+CLEARANCE = """return { class: field("clearance_class").value, off: field("clearance_class").disabled,
+  clearance: field("clearance").value, read: field("read").textContent, python: field("python").textContent,
+  refused: !field("refusal").hidden && field("refusal").textContent };"""
+
+
+def test_a_name_as_it_is_printed_on_the_bearing(seen):
+    """Its class is that of the clearance; seals are told; bearings with a contact angle have an empty entry."""
+    steps = ["6205-2RS/C3", "7206 C", "6206", "6205/C1", "NU205"]
+    body = f"""const told = () => {{ {CLEARANCE} }};
+    return {json.dumps(steps)}.map(name => {{ field("bearing").value = name; update(); return told(); }});"""
+    sealed, angular, plain, none, roller = seen(body, "#axial_load=300&clearance_class=C4")
+    assert (sealed["class"], sealed["off"], sealed["clearance"]) == ("C3", True, "20.5")
+    assert "2RS: seals; C3: clearance class. The drag of the seals and of the grease" in sealed["read"]
+    assert 'catalogue("6205", clearance="C3"' in sealed["python"]
+    assert (angular["class"], angular["off"], angular["clearance"]) == ("", True, "")
+    assert angular["refused"] is False and "clearance" not in angular["python"]
+    assert (plain["class"], plain["off"]) == ("C4", False) and 'clearance="C4"' in plain["python"]
+    assert "of a class of clearance: C2, CN, C3, C4" in none["refused"]
+    assert "NU205 is one of the cylindrical roller bearings" in roller["refused"]
+
+
+def test_torque_at_high_speed_without_a_measured_model(seen):
+    slow, fast = (seen(TEXTS, f"#bearing=7206 C&load=100&preload=250&speed_rpm={rpm}") for rpm in (4000, 9000))
+    assert "resist more than measured" not in slow["tiles"][3][2]
+    assert ABOVE_MEASURED in fast["tiles"][3][2]
 
 
 def test_a_bearing_of_ones_own(seen):

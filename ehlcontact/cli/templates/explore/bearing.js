@@ -1,11 +1,11 @@
 // A ball bearing under a load at a speed, in SI: reduced_models.bearing.ball_bearing. Equilibrium, contact angles, stiffness and damping
 // are those of the C core; this puts in grooves and races, and reads films of the atlas at the contacts that it finds.
 
-const { LARGEST_PLAY, LEAST_SLIP, POSITIONS, SEATED, CARRIES, TRACTION } = DATA.rules;
+const { LARGEST_PLAY, LEAST_SLIP, POSITIONS, SEATED, CARRIES, TRACTION, MOST_FRICTION } = DATA.rules;
 const LARGEST_ANGLE = Math.PI / 4, RACES = ["inner", "outer"], AXES = ["x", "y", "z"];
 // Of `BallAtRest` of csrc/bearing.h, in its order; what is behind them the page does not need.
 const OF_BALL = ["angle", "force", "approach", "compression", "slope", "factor", "rolling"]; // [inner, outer] each; then:
-const OF_ROLLING = ["orbit", "rotation", "axis"];
+const OF_ROLLING = ["orbit", "rotation", "axis", "share"];
 
 class Bearing {
   // `given`: balls, ball_diameter, pitch_diameter, conformity_inner, conformity_outer, clearance [m], contact_angle [rad] of an
@@ -245,6 +245,22 @@ class Loaded {
     const a = angle[i], turn = i === 0 ? 1 - orbit : -orbit;
     const by = turn * Math.sin(a) + rotation * Math.sin(a - axis), roll = turn * Math.cos(a) + rotation * Math.cos(a - axis);
     return by / roll;
+  }
+
+  // Friction across both contacts that holds the gyroscopic moment of a ball, over their forces (reduced_models.bearing.ring).
+  gyroscopicFriction({ force, orbit, rotation, axis, share }) {
+    const { ball_diameter: D, atlas: { steel: { density } } } = this.bearing, mass = density * Math.PI / 6 * D ** 3;
+    const friction = 0.2 * mass * D * orbit * rotation * Math.sin(axis) * this.omega ** 2;
+    return [share, 1 - share].map((part, i) => (force[i] > 0 ? part * friction / force[i] : 0));
+  }
+
+  // Friction of balls that carry above what films may transmit, in words: `friction_note` of reduced_models.bearing.equilibrium_result.
+  get frictionNote() {
+    if (this.load.length < 3) return "";
+    const carry = this.balls.filter(({ force }) => force[0] > 0), held = carry.map(ball => this.gyroscopicFriction(ball).map(Math.abs));
+    const needed = RACES.map((_, i) => Math.max(0, ...held.map(both => both[i]))), i = needed[1] > needed[0] ? 1 : 0;
+    return needed[i] > MOST_FRICTION ? `the ${RACES[i]} race must hold the gyroscopic moment of a ball by friction of ${g(needed[i], 2)}`
+      + ` of the contact force: above ${g(MOST_FRICTION)} the ball may slip` : "";
   }
 
   // Defect frequencies per turn of the shaft: the cage turns as the mean of the balls, each with the weight of its load.

@@ -34,24 +34,25 @@ function requireFinite(name) {
   throw new InputError(name, typed(name), "a finite number");
 }
 
+// The bearing's name taken apart; null for dimensions of one's own, and for what is no name.
+const isOwn = () => field("bearing").value.trim().toLowerCase() === OWN;
+const named = () => (isOwn() ? null : designation(field("bearing").value));
+
 // Dimensions of a name, in SI; undefined for those of one's own.
 function catalogued() {
-  const row = DATA.catalogue[field("bearing").value];
+  const row = DATA.catalogue[named()?.name];
   return row && { ...row, conformity_inner: row.conformity, conformity_outer: row.conformity, contact_angle: row.contact_angle ?? 0 };
 }
 
 // Names bring their dimensions, classes their clearance and oils by grade their viscosity: shown where one's own would stand.
 function fillIn() {
-  const row = catalogued(), grade = field("grade").value, classes = row?.classes ?? {}, chosen = classes[field("clearance_class").value];
+  const row = catalogued(), grade = field("grade").value;
   const text = (name, value) => { field(name).value = g(value / (SIZE[field(name).dataset.unit] ?? 1), 8); };
   if (row) for (const name of SIZES) text(name, row[name]);
   field("source").textContent = row ? `Dimensions: ${row.source}${row.sourced ? "." : "; measure yours."}` : "";
+  field("read").textContent = readName();
   for (const name of SIZES) field(name).readOnly = Boolean(row);
-  const angular = Number(field("contact_angle").value) > 0;
-  field("clearance_class").disabled = Object.keys(classes).length === 0;
-  field("clearance").readOnly = chosen !== undefined;
-  field("clearance").disabled = angular;
-  if (chosen !== undefined) text("clearance", chosen);
+  fillInClearance(row, text);
   for (const name of ["eta0", "alpha"]) field(name).readOnly = grade !== OWN;
   field("temperature").disabled = grade === OWN;
   if (grade === OWN) return;
@@ -64,8 +65,42 @@ function fillIn() {
   }
 }
 
+// The class of a name holds. Bearings with a contact angle, or whose bore is not known, have no class and an empty entry.
+function fillInClearance(row, text) {
+  const classes = row?.classes ?? {}, select = field("clearance_class"), play = field("clearance"), fixed = row && named().clearance;
+  const none = Object.keys(classes).length === 0, angular = Number(field("contact_angle").value) > 0;
+  if (!select.disabled) select.dataset.chosen = select.value;
+  if (!play.disabled && !play.readOnly) play.dataset.chosen = play.value;
+  select.disabled = none || Boolean(fixed);
+  select.value = none ? "" : fixed && classes[fixed] !== undefined ? fixed : select.dataset.chosen ?? select.dataset.first;
+  play.disabled = angular;
+  play.readOnly = classes[select.value] !== undefined;
+  if (angular) play.value = "";
+  else if (play.readOnly) text("clearance", classes[select.value]);
+  else if (play.value === "") play.value = play.dataset.chosen ?? play.dataset.first;
+}
+
+// How a name with suffixes was read, and what of it is not in the torque.
+function readName() {
+  const read = named();
+  if (read === null || read.suffixes.length === 0) return "As printed on the bearing, with suffixes as in 6205-2RS/C3; own: dimensions below.";
+  const left = withoutFriction(read);
+  return `Read as ${read.name}; ${read.suffixes.map(([suffix, words]) => `${suffix}: ${words}`).join("; ")}.${left ? ` The ${left}.` : ""}`;
+}
+
+// A name of the list, or own dimensions; the class of clearance in it is one that the bearing has.
+function requireName(sizes) {
+  const typed = field("bearing").value.trim();
+  if (!sizes && !isOwn()) throw new InputError("bearing", typed || "nothing", allowedNames(typed));
+  const fixed = sizes?.contact_angle === 0 && named().clearance, classes = sizes?.classes ?? {};
+  if (!fixed || classes[fixed] !== undefined) return;
+  const names = Object.keys(classes).join(", ");
+  throw new InputError("bearing", typed, names ? `of a class of clearance: ${names}` : "without a class of clearance: classes need its bore, which is not known");
+}
+
 function compute() {
-  const sizes = catalogued(), grade = field("grade").value, bearing = { name: field("bearing").value };
+  const sizes = catalogued(), grade = field("grade").value, bearing = { name: named()?.name ?? OWN };
+  requireName(sizes);
   for (const size of SIZES) bearing[size] = sizes ? sizes[size] : given(size);
   bearing.clearance = bearing.contact_angle > 0 ? 0 : given("clearance");
   const oil = grade === OWN ? { eta0: given("eta0"), alpha: given("alpha") } : mineralOil(DATA.oil, grade, typed("temperature"));
@@ -77,7 +112,8 @@ function compute() {
   const hz = field("hz").value.trim() === "" ? rpm / 60 : positive("hz", ">= 0");
   if (hz > highest) throw new InputError("hz", hz, `at most ${g(highest, 4)}: there the atlas ends for the film's memory`);
   const low = Math.min(1, rpm / 600), hzs = Array.from({ length: FREQUENCIES }, (_, i) => low * (highest / low) ** (i / (FREQUENCIES - 1)));
-  const balls = there.balls, torque = there.torque, outside = `${outsideAssumptions(there)} ${beyondData(there)}`.trim(), orders = whole.withSlip(there.orders, slip);
+  const balls = there.balls, torque = there.torque, orders = whole.withSlip(there.orders, slip);
+  const outside = [outsideAssumptions(there), beyondData(there), sentence(there.frictionNote)].filter(Boolean).join(" ");
   const rows = there.coefficients([0, hz, ...hzs].map(one => 2 * Math.PI * one));
   const contacts = films.map(film => film.answer && contact(film)), ways = Object.keys(WAYS).filter(way => WAYS[way] < rows[0].stiffness.length);
   const worst = balls.flatMap((_, k) => RACES.map((_, i) => [k, i]))
@@ -85,6 +121,8 @@ function compute() {
   return { whole, there, balls, heaviest, worst, films, outside, orders, torque, axial, slip, rpm, load, rq, ratio, hz, hzs, contacts, ways,
     still: rows[0], at: rows[1], over: rows.slice(2) };
 }
+
+const sentence = text => (text ? `${text[0].toUpperCase()}${text.slice(1)}.` : "");
 
 // K and C of one film in SI, with their bars: hz => { K: [value, bar], C: [value, bar] }.
 function contact({ answer, point: { force, length, time } }) {
@@ -139,7 +177,8 @@ function tiles(f) {
   const others = f.ways.slice(1).map((way, j) => `${IN_WORDS[way]} ${K[j + 1]} and ${C[j + 1]}`).join(", ");
   const { rolling, sliding, skf } = f.torque, relies = skf !== null && f.rpm > DATA.rules.RELY_ON_SKF, torque = relies ? skf : rolling + sliding;
   const films = `rolling ${show(rolling * 1e3)}, sliding ${show(sliding * 1e3)} N mm`, hz = name => show(f.orders[name] * f.rpm / 60, 4);
-  const parts = relies ? `by SKF's model; films alone: ${films}` : skf === null ? films : `${films}; SKF's model ${show(skf * 1e3)} N mm`;
+  const doubt = !relies && f.rpm > DATA.rules.RELY_ON_SKF ? `; ${DATA.rules.ABOVE_MEASURED}` : "";
+  const parts = relies ? `by SKF's model; films alone: ${films}` : `${films}${skf === null ? "" : `; SKF's model ${show(skf * 1e3)} N mm`}${doubt}`;
   const angles = f.axial === 0 ? "" : `; contact angle ${ball.angle.map(angle => show(Math.abs(angle) * 180 / Math.PI)).join("° and ")}°`;
   return [
     ["Smallest film", `${show(f.there.films[k][i].h_min * 1e6)} µm, lambda ${show(lambda)}`, `${RACES[i]} race, ball at ${degrees(f, k)}°${touching}`],
@@ -186,7 +225,7 @@ function drawAll(f) {
 const degrees = (f, k) => show(360 * k / f.whole.balls, 4);
 
 function tables(f) {
-  field("tiles").innerHTML = tiles(f).map(([name, value, more]) => `<div class="tile"><h2>${name}</h2><p class="value">${value.replace(/(\d) /g, "$1\u00a0").replace(/N s/, "N\u00a0s")}</p><p class="note">${more}</p></div>`).join("");
+  field("tiles").innerHTML = tiles(f).map(([name, value, more]) => `<div class="tile"><h2>${name}</h2><p class="value">${value.split(", ").map(part => `<span>${part}</span>`).join(", ")}</p><p class="note">${more}</p></div>`).join("");
   field("outside").textContent = f.outside;
   field("outside").hidden = f.outside === "";
   field("python").textContent = inPython(f);
@@ -209,12 +248,13 @@ function tables(f) {
 
 // The case as a call of the library.
 function inPython({ axial }) {
-  const name = field("bearing").value, own = name === OWN, m = id => `${show(given(id), 8)}`, angular = given("contact_angle") > 0;
+  const own = isOwn(), name = named()?.name, m = id => `${show(given(id), 8)}`, angular = given("contact_angle") > 0;
   const oil = field("grade").value === OWN ? `Lubricant(eta0=${m("eta0")}, alpha=${m("alpha")})`
     : `Lubricant.iso_vg(${field("grade").value}, temperature=${m("temperature")})`;
   const sizes = own ? SIZES.filter(id => id !== "contact_angle" || angular).map(id => `${id}=${m(id)}`) : [];
-  const chosen = field("clearance_class"), play = chosen.disabled || chosen.value === OWN ? m("clearance") : `"${chosen.value}"`;
-  if (!angular && play !== "0") sizes.push(`clearance=${play}`);
+  const chosen = field("clearance_class").value;
+  if (!angular && (chosen !== "" && chosen !== OWN)) sizes.push(`clearance="${chosen}"`);
+  else if (!angular && given("clearance") !== 0) sizes.push(`clearance=${m("clearance")}`);
   const inside = [...(own ? [] : [`"${name}"`]), ...sizes, `rq_race=${m("rq")}`, `oil=${oil}`].join(", ");
   const load = [0, `-${m("load")}`, ...(axial === 0 ? [] : [show(axial, 8)])].join(", ");
   return `BallBearing${own ? "" : ".catalogue"}(${inside}).equilibrium((${load}), speed_rpm=${m("speed_rpm")})`;
@@ -262,8 +302,15 @@ function toAddress() {
 function fromAddress() {
   const entries = new URLSearchParams(location.hash.slice(1)), said = [];
   if (entries.has("clearance") && !entries.has("clearance_class")) entries.set("clearance_class", OWN);
-  for (const name of FIELDS) field(name).value = entries.get(name) ?? field(name).dataset.first;
-  for (const name of ["bearing", "clearance_class", "grade"]) {
+  for (const name of FIELDS) {
+    field(name).value = entries.get(name) ?? field(name).dataset.first;
+    field(name).disabled = field(name).readOnly = false;
+  }
+  if (!named() && !isOwn()) {
+    said.push(`bearing = ${entries.get("bearing")} is not in its list, and ${field("bearing").dataset.first} is shown.`);
+    field("bearing").value = field("bearing").dataset.first;
+  }
+  for (const name of ["clearance_class", "grade"]) {
     if (field(name).value) continue;
     field(name).value = field(name).dataset.first;
     said.push(`${name} = ${entries.get(name)} is not in its list, and ${field(name).dataset.first} is shown.`);
@@ -277,15 +324,18 @@ function fromAddress() {
 
 function begin() {
   const options = (name, values) => { field(name).innerHTML = values.map(([value, text]) => `<option value="${value}">${text}</option>`).join(""); };
-  options("bearing", [...Object.keys(DATA.catalogue).map(name => [name, name]), [OWN, "own dimensions"]]);
+  options("bearings", [...Object.keys(DATA.catalogue).map(name => [name, ""]), [OWN, "dimensions below"]]);
   options("clearance_class", [...DATA.classes.map(name => [name, name]), [OWN, "as given"]]);
   options("grade", [...Object.keys(DATA.oil.walther_slopes).map(grade => [grade, `ISO VG ${grade}`]), [OWN, "own viscosity"]]);
   for (const name of FIELDS) field(name).dataset.first = field(name).dataset.first ?? field(name).value;
   let waiting = 0;
-  field("inputs").addEventListener("input", () => {
+  field("inputs").addEventListener("input", ({ target }) => {
     clearTimeout(waiting);
+    if (target === field("bearing") && !named() && !isOwn()) return; // a name that is being typed
     waiting = setTimeout(() => { update(); toAddress(); }, 150);
   });
+  field("bearing").addEventListener("change", () => { update(); toAddress(); });
+  field("bearing").addEventListener("focus", () => field("bearing").select());
   field("inputs").addEventListener("submit", event => { event.preventDefault(); update(); toAddress(); });
   field("copy").addEventListener("click", () => {
     toAddress();
