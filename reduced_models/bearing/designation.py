@@ -67,8 +67,9 @@ class Designation(NamedTuple):
 
     @property
     def words(self) -> str:
-        """Suffixes with their meanings; empty where there are none."""
-        return "; ".join(f"{suffix}: {meaning}" for suffix, meaning in self.suffixes)
+        """Suffixes with their meanings, and what of them is not in the torque; empty where there are none."""
+        parts = [f"{suffix}: {meaning}" for suffix, meaning in self.suffixes]
+        return "; ".join(filter(None, [*parts, self.without_friction]))
 
     @property
     def without_friction(self) -> str:

@@ -258,7 +258,7 @@ TYPED = [
 def test_names_are_read_as_in_python(ask):
     """Name, suffixes with meanings and class; kinds of bearings that are not there."""
     body = """const read = designation(asked);
-    return read ? { ...read, left: withoutFriction(read) } : allowedNames(asked);"""
+    return read ? { ...read, words: wordsOf(read) } : allowedNames(asked);"""
     for typed, here in zip(TYPED, ask(body, TYPED), strict=True):
         there = designation(typed, ROWS)
         if there is None:
@@ -266,7 +266,7 @@ def test_names_are_read_as_in_python(ask):
             continue
         suffixes = [list(one) for one in there.suffixes]
         told = {"name": there.name, "suffixes": suffixes, "clearance": there.clearance}
-        assert here == told | {"left": there.without_friction}, typed
+        assert here == told | {"words": there.words}, typed
 
 
 @pytest.mark.long

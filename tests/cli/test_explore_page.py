@@ -164,7 +164,10 @@ def test_a_name_as_it_is_printed_on_the_bearing(seen):
     return {json.dumps(steps)}.map(name => {{ field("bearing").value = name; update(); return told(); }});"""
     sealed, angular, plain, none, roller = seen(body, "#axial_load=300&clearance_class=C4")
     assert (sealed["class"], sealed["off"], sealed["clearance"]) == ("C3", True, "20.5")
-    assert "2RS: seals; C3: clearance class. The drag of the seals and of the grease" in sealed["read"]
+    assert (
+        "2RS: seals; C3: clearance class; drag of the seals and of the grease is not in the torque."
+        in sealed["read"]
+    )
     assert 'catalogue("6205", clearance="C3"' in sealed["python"]
     assert (angular["class"], angular["off"], angular["clearance"]) == ("", True, "")
     assert angular["refused"] is False and "clearance" not in angular["python"]

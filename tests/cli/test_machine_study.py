@@ -12,6 +12,7 @@ from tiny_study import ALONE, CONTACT, OIL
 
 from ehlcontact import OilLayer
 from ehlcontact.cli.study.answer import answer_of, over_frequency
+from ehlcontact.cli.study.forecast import seals_left_out
 from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
 from ehlcontact.cli.study.machine import bearing_of, carrier_of, rotor_of
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
@@ -93,6 +94,14 @@ def test_the_contact_is_that_of_the_heaviest_ball_at_its_angle(study):
 def test_other_angle_than_that_of_the_name(study):
     one = load_study(study(f"{ANGULAR}contact_angle_deg = 15.0\n"))
     assert bearing_of(one, 0).contact_angle == pytest.approx(radians(15.0))
+
+
+def test_seals_of_a_name_are_not_in_the_torque(study):
+    """Said once of all bearings that have some."""
+    assert seals_left_out(load_study(study(MOTOR))) == []
+    names = ('bearing = "6306"', 'bearing = "6306-2RS"'), ('bearing = "6206"', 'bearing = "6206-2RSH/C3"')
+    said = seals_left_out(load_study(study(MOTOR, *names, ('"6206-2RSH/C3"\nclearance = "CN"', '"6206-2RSH/C3"'))))
+    assert said == ["drag of the seals and of the grease is not in the torque"]
 
 
 def test_a_bearing_alone_is_that_of_the_library(study):

@@ -24,6 +24,7 @@ from ehlcontact.solver.domain import Domain
 from ehlcontact.solver.grid import Grid
 from ehlcontact.solver.mesh import Mesh
 from ehlcontact.solver.mesh_choice import FINENESS, LARGEST_MESH, Purpose, mesh_for
+from reduced_models.bearing.catalogue import designation_of
 from reduced_models.elements.film_law import film_drive, films
 
 CONV = 2.3e-3  # seconds of one when those studies were run
@@ -251,6 +252,12 @@ def discs_without_inertia(study: Study) -> list[str]:
         for name, disc in zip(names, study.disc, strict=True)
         if disc.mass is not None and not disc.diametral_inertia
     ]
+
+
+def seals_left_out(study: Study) -> list[str]:
+    """What seals and shields in the names of bearings add to the torque, which is in no model here."""
+    said = [designation_of(one.bearing).without_friction for one in study.support if one.bearing is not None]
+    return list(dict.fromkeys(filter(None, said)))
 
 
 def _deep_spall(study: Study) -> list[str]:

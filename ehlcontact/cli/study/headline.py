@@ -13,7 +13,7 @@ import numpy as np
 from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.study.answer import NAMES
 from ehlcontact.cli.study.differences import Events, RotorFindings
-from ehlcontact.cli.study.forecast import cautions, discs_without_inertia
+from ehlcontact.cli.study.forecast import cautions, discs_without_inertia, seals_left_out
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import ContactFindings, Findings
 from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN, OilAndHeat
@@ -80,7 +80,7 @@ def limits(found: Findings) -> list[str]:
     """What does not hold, with its number, one text for all supports of which it is said."""
     machine = found.machine
     rest = [text for text in (without_films(found), damping_below_zero(found)) if text]
-    rest += discs_without_inertia(found.study)
+    rest += [*discs_without_inertia(found.study), *seals_left_out(found.study)]
     if isinstance(machine, str):
         broken = "" if found.contact is None else found.contact.assumptions.headline
         return [*filter(None, [broken]), *rest]

@@ -271,6 +271,13 @@ def test_suffixes_of_names_as_people_type_them(typed, name, clearance, suffixes)
     assert (NOT_READ in read.words) == ("ECBP" in suffixes) and BallBearing.catalogue(typed).name == name
 
 
+def test_seals_and_grease_are_told_not_to_be_in_the_torque():
+    sealed, shielded, open_ = (designation_of(name) for name in ("6205-2RS/C3", "6205 ZZ", "6205/C3"))
+    assert sealed.without_friction == "drag of the seals and of the grease is not in the torque"
+    assert sealed.words.endswith(sealed.without_friction) and "shields" in shielded.without_friction
+    assert open_.without_friction == "" and open_.words == "C3: clearance class"
+
+
 def test_the_class_in_a_name_is_the_clearance_where_none_is_given():
     by_class = BallBearing.catalogue("6205", clearance="C3")
     assert BallBearing.catalogue("6205/C3") == by_class == BallBearing.catalogue("6205-2RS C3", clearance="c3")

@@ -24,8 +24,11 @@ function designation(text) {
 
 const meaningOf = suffix => Object.entries(NAMING.suffixes).find(([pattern]) => new RegExp(`^(?:${pattern})$`).test(suffix))?.[1] ?? NAMING.not_read;
 
-// What the name has that adds to the torque and is in no model here; empty where nothing.
-const withoutFriction = ({ suffixes }) => suffixes.map(([, words]) => NAMING.not_in_torque[words]).find(Boolean) ?? "";
+// Suffixes with their meanings, and what of them is not in the torque.
+function wordsOf({ suffixes }) {
+  const left = suffixes.map(([, words]) => NAMING.not_in_torque[words]).find(Boolean);
+  return [...suffixes.map(([suffix, words]) => `${suffix}: ${words}`), ...(left ? [left] : [])].join("; ");
+}
 
 // What a name must be that is none of the catalogue: the kind of bearing that it is of, or names that begin alike.
 function allowedNames(text) {

@@ -84,8 +84,7 @@ function fillInClearance(row, text) {
 function readName() {
   const read = named();
   if (read === null || read.suffixes.length === 0) return "As printed on the bearing, with suffixes as in 6205-2RS/C3; own: dimensions below.";
-  const left = withoutFriction(read);
-  return `Read as ${read.name}; ${read.suffixes.map(([suffix, words]) => `${suffix}: ${words}`).join("; ")}.${left ? ` The ${left}.` : ""}`;
+  return `Read as ${read.name}; ${wordsOf(read)}.`;
 }
 
 // A name of the list, or own dimensions; the class of clearance in it is one that the bearing has.
