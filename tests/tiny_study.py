@@ -1,4 +1,4 @@
-"""The coarsest study: the whole chain in a few seconds; and a bearing alone."""
+"""The coarsest study: the whole chain in a few seconds; bearings alone, and a motor."""
 
 BEARING = """balls = 9
 ball_diameter_mm = 7.94
@@ -65,6 +65,42 @@ radial_load = 20.0
 speed_rpm = 3000.0
 {OIL}[[support]]
 {BEARING}"""
+# A bearing under axial load, a pair of them, and a motor.
+ANGULAR = f"""[operation]
+radial_load = 200.0
+axial_load = 400.0
+speed_rpm = 6000.0
+{OIL}[[support]]
+bearing = "7205"
+"""
+PAIR = ANGULAR.replace("400.0", "100.0") + 'pair = "back-to-back"\npreload = 200.0\ndistance_mm = 40.0\n'
+MOTOR = """[operation]
+speed_rpm = 15000.0
+[oil]
+iso_vg = 32
+temperature = 80.0
+[surface]
+rq_um = 0.1
+[shaft]
+length_mm = 360.0
+diameter_mm = 35.0
+[[disc]]
+position_mm = 180.0
+diameter_mm = 110.0
+width_mm = 120.0
+unbalance = 1e-5
+[[support]]
+name = "drive end"
+position_mm = 30.0
+bearing = "6306"
+clearance = "CN"
+[[support]]
+name = "fan end"
+position_mm = 330.0
+bearing = "6206"
+clearance = "CN"
+spring = 200.0
+"""
 # That of examples/small_study.toml, of its first bearing alone.
 SMALL = """title = "6205 deep-groove ball bearing at light load, coarse grid"
 

@@ -508,7 +508,7 @@ class BallBearing(Summary):
             several, increasing, are the second axis of the tables: by default 0, and 41 from 1 Hz to 10 kHz.
             ROSS 2 has no such axis; there the default is the frequency of the shaft at each speed.
         **options
-            Of ``ross.BearingElement``, as ``tag`` or ``n_link``.
+            Of ``ross.BearingElement``, as ``tag`` or ``n_link``; ``kzz=0.0, czz=0.0`` where its outer ring slides.
 
         Raises
         ------

@@ -178,7 +178,7 @@ def bearing_element(
     axes = {rotation: speeds * RPM_TO_RAD_S} if speeds.size > 1 else {}
     if whirl is not None and whirl.size > 1:
         axes["frequency"] = whirl
-    element = ross.BearingElement(n=n, **ross_entries(K, C), **axes, **options)
+    element = ross.BearingElement(n=n, **(ross_entries(K, C) | axes | options))
     hold_ends(element, axes, rotation, f"{own} at node {n}")
     return element
 

@@ -105,7 +105,7 @@ class _Assembly:
         self, shaft: Shaft, discs: Sequence[Disc], supports: Sequence[Support], gravity: _Floats, axial: bool
     ) -> None:
         self.shaft, self.discs, self.supports = shaft, discs, supports
-        self.stations = _stations(
+        self.stations = shaft_stations(
             shaft, [*(disc.position for disc in discs), *(support.position for support in supports)]
         )
         held = [self._at(support.position) for support in supports]
@@ -260,7 +260,7 @@ class _Assembly:
         return moved
 
 
-def _stations(shaft: Shaft, positions: Sequence[float]) -> _Floats:
+def shaft_stations(shaft: Shaft, positions: Sequence[float]) -> _Floats:
     """Nodes: ends of sections, discs and supports, and between them as many as make the shaft's elements."""
     marks = np.sort(np.concatenate([[0.0], np.cumsum(shaft.length), np.clip(positions, 0.0, shaft.end)]))
     fixed = marks[np.concatenate([[True], np.diff(marks) > SAME * shaft.end])]

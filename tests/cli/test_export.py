@@ -17,7 +17,7 @@ from tiny_study import SMALL
 
 from ehlcontact import kernel_cache, save
 from ehlcontact.binaries import this_machine
-from ehlcontact.cli.study.points.finalise import export_fmu
+from ehlcontact.cli.study.exports import export_fmu
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import load_study
 from reduced_models import Atlas, SpringContact

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tiny_study import ALONE, CONTACT, OIL
+from tiny_study import ALONE, ANGULAR, CONTACT, MOTOR, PAIR
 
 from ehlcontact import OilLayer
 from ehlcontact.cli.study.answer import answer_of, over_frequency
@@ -25,41 +25,6 @@ from reduced_models.bearing.oil_and_heat import LAYER
 from reduced_models.rotor.machine_state import machine_state, single_bearing_state
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-ANGULAR = f"""[operation]
-radial_load = 200.0
-axial_load = 400.0
-speed_rpm = 6000.0
-{OIL}[[support]]
-bearing = "7205"
-"""
-PAIR = ANGULAR.replace("400.0", "100.0") + 'pair = "back-to-back"\npreload = 200.0\ndistance_mm = 40.0\n'
-MOTOR = """[operation]
-speed_rpm = 15000.0
-[oil]
-iso_vg = 32
-temperature = 80.0
-[surface]
-rq_um = 0.1
-[shaft]
-length_mm = 360.0
-diameter_mm = 35.0
-[[disc]]
-position_mm = 180.0
-diameter_mm = 110.0
-width_mm = 120.0
-unbalance = 1e-5
-[[support]]
-name = "drive end"
-position_mm = 30.0
-bearing = "6306"
-clearance = "CN"
-[[support]]
-name = "fan end"
-position_mm = 330.0
-bearing = "6206"
-clearance = "CN"
-spring = 200.0
-"""
 
 
 @pytest.fixture

@@ -264,7 +264,7 @@ def test_points_that_fail_do_not_stop_the_others(run, stub):
 def test_fmus_that_fail_are_tried_again(run, stub):
     stub.orders = ["4000rpm_20N report without FMU"]
     found = run(with_lists())
-    assert found.code == 1 and "4000rpm_20N: contact.fmu: differs from the element" in found.err
+    assert found.code == 1 and "4000rpm_20N: contact.fmu: differs from its model" in found.err
     stub()
     stub.orders = []
     assert run(with_lists()).code == 0 and stub() == ["4000rpm_20N report"]

@@ -307,22 +307,13 @@ def _on_bearings(
 
 def _whole_rotor(file: Path) -> tuple[Rotor, float]:
     """The rotor of a study on its bearings, and its speed [rev/min]."""
-    from ehlcontact.cli.study.machine import bearing_of, rotor_of
+    from ehlcontact.cli.study.exports import rotor_with_films
     from ehlcontact.cli.study.schema import load_study
-    from ehlcontact.cli.study.shared_entries import supply_and_heat
 
     study = load_study(file)
     if study.shaft is None:
         raise InputError("file", str(file), "a study with a table [shaft], for --bearings")
-    supply, thermal = supply_and_heat(study.operation, "operation", study.lubricant)
-    if supply is None and thermal is None:
-        return rotor_of(study), study.speed_rpm
-    with_them = []
-    for k, one in enumerate(study.support):
-        if one.pair is not None:
-            raise InputError("support.pair", one.pair, "left out with a layer of oil or heat, for an FMU")
-        with_them.append(replace(bearing_of(study, k), supply=supply, thermal=thermal))
-    return rotor_of(study, carriers=with_them), study.speed_rpm
+    return rotor_with_films(study), study.speed_rpm
 
 
 def _about(model: FmuModel | RotorSystem, system: bool) -> list[Row]:

@@ -7,6 +7,9 @@ module                 responsibility
 ``sections``           its sections, but for the oil
 ``schema_errors``      those errors, and guesses at what was meant
 ``machine``            bearings, pairs and rotor made of its entries
+``parts``              these as calls of the library, and as lines of Python
+``exports``            what other programs take: FMUs and scripts
+``scripts``            the machine in Python, and in ROSS
 ``loads``              loads on the supports, the most loaded ball, and what is no machine
 ``answer``             state of the machine, K and C over frequency, and runs in time on models of its bearings
 ``forecast``           what a study will do, and its cost, without doing it

@@ -7,7 +7,8 @@ from contextlib import contextmanager
 from math import radians
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ehlcontact.cli.study.shared_entries import pair_of
+from ehlcontact.cli.study.parts import Part
+from ehlcontact.cli.study.shared_entries import pair_part
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet, Disc, LinearBearing, Rotor, Shaft, Support, rotor_on_bearings
 from reduced_models.bearing.catalogue import BY_DIMENSIONS, USUAL_CONFORMITY, catalogue_row
@@ -29,6 +30,9 @@ ENTRIES = {  # of a support, where the library calls them otherwise
 SIZES = {  # of lengths of entries, over those of the library
     "clearance": 1e6, "offset": 1e6, "cutoff_gap": 1e6, "position": 1e3, "distance": 1e3, "ball_diameter": 1e3,
     "pitch_diameter": 1e3, "length": 1e3, "diameter": 1e3, "width": 1e3, "bore": 1e3,
+}  # fmt: skip
+SIZES_OF_DISC = {
+    "position": "position_mm", "diameter": "diameter_mm", "width": "width_mm", "bore": "bore_mm",
 }  # fmt: skip
 OF_A_PAIR = ("preload", "pair_spring", "distance_mm")
 NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
@@ -108,18 +112,16 @@ def dimensions_of(study: Study, k: int) -> Sizes:
     return Sizes(*found, (one.conformity_inner or both, one.conformity_outer or both))
 
 
-def bearing_of(study: Study, k: int, *, oil: bool = True) -> BallBearing:
-    """The bearing at a support, with all its balls, in oil or dry; of a pair one of both.
+def bearing_part(study: Study, k: int, *, oil: bool = True) -> Part:
+    """The call that makes the bearing at a support, in oil or dry; of a pair one of both.
 
     Raises
     ------
     InputError
-        Balls that overlap, a clearance that is none, a race that the atlas does not have.
+        As `dimensions_of`; a class of clearance of a bearing without a name.
     """
     one, rough, sizes = study.support[k], study.roughness, dimensions_of(study, k)
     given: dict[str, Any] = {
-        "conformity_inner": sizes.conformity[0],
-        "conformity_outer": sizes.conformity[1],
         "race_control": one.race_control or "outer",
         "oil": study.lubricant if oil else None,
         "rq_ball": rough[0] if rough else None,
@@ -127,6 +129,9 @@ def bearing_of(study: Study, k: int, *, oil: bool = True) -> BallBearing:
         "youngs_modulus": one.youngs_modulus,
         "poisson_ratio": one.poisson_ratio,
     }
+    for name in ("conformity_inner", "conformity_outer"):
+        if (value := getattr(one, name) or one.conformity) is not None:
+            given[name] = value
     for name in ("loss_factor", "ball_inertia"):
         if (value := getattr(one, name)) is not None:
             given[name] = value
@@ -136,21 +141,29 @@ def bearing_of(study: Study, k: int, *, oil: bool = True) -> BallBearing:
         given["contact_angle"] = radians(one.contact_angle_deg)
     if one.clearance is not None:
         given["clearance"] = one.clearance if isinstance(one.clearance, str) else one.clearance * 1e-6
-    at = support_field(study, k, "")
+    if one.bearing is not None:
+        return Part(BallBearing, given, "catalogue", (one.bearing,))
+    if isinstance(one.clearance, str):
+        allowed = "a number [um]: classes are of bearings by their names, bearing = ..."
+        raise InputError(support_field(study, k, "clearance"), one.clearance, allowed)
+    lengths = {"ball_diameter": sizes.ball_diameter, "pitch_diameter": sizes.pitch_diameter}
+    return Part(BallBearing, {"name": one.label, "balls": sizes.balls, **lengths, **given})
+
+
+def bearing_of(study: Study, k: int, *, oil: bool = True) -> BallBearing:
+    """The bearing at a support, with all its balls, in oil or dry; of a pair one of both.
+
+    Raises
+    ------
+    InputError
+        Balls that overlap, a clearance that is none, a race that the atlas does not have.
+    """
+    one, sizes, at = study.support[k], dimensions_of(study, k), support_field(study, k, "")
+    part = bearing_part(study, k, oil=oil)
     try:
         with called(at):
-            if one.bearing is not None:
-                return BallBearing.catalogue(one.bearing, **given)
-            if isinstance(one.clearance, str):
-                allowed = "a number [um]: classes are of bearings by their names, bearing = ..."
-                raise InputError("clearance", one.clearance, allowed)
-            return BallBearing(
-                name=one.label,
-                balls=sizes.balls,
-                ball_diameter=sizes.ball_diameter,
-                pitch_diameter=sizes.pitch_diameter,
-                **given,
-            )
+            found: BallBearing = part.made()
+            return found
     except InputError as error:
         if error.field == f"{at}clearance" and isinstance(one.clearance, float) and "left" not in error.allowed:
             most = 1e6 * LARGEST_PLAY * sizes.ball_diameter
@@ -168,17 +181,34 @@ def carrier_of(study: Study, k: int, *, oil: bool = True) -> BallBearing | Beari
     InputError
         As `bearing_of`; bearings that are no pair.
     """
-    bearing, one, at = bearing_of(study, k, oil=oil), study.support[k], support_field(study, k, "")
+    bearing = bearing_of(study, k, oil=oil)
+    part = set_part(study, k, bearing)
+    if part is None:
+        return bearing
+    with called(support_field(study, k, "")):
+        found: BearingSet = part.made()
+        return found
+
+
+def set_part(study: Study, k: int, bearing: BallBearing) -> Part | None:
+    """The call that makes the pair of such a bearing at a support; None where a bearing alone stands there.
+
+    Raises
+    ------
+    InputError
+        Entries of a pair without one; bearings without a contact angle.
+    """
+    one, at = study.support[k], support_field(study, k, "")
     if one.pair is None:
         for name in OF_A_PAIR:
             if getattr(one, name) is not None:
                 ring = f"; the force of a spring on the outer ring of a bearing is {at}spring"
                 hint = "" if study.shaft is None or name == "distance_mm" else ring
                 raise InputError(f"{at}{name}", getattr(one, name), f"left out without {at}pair{hint}")
-        return bearing
+        return None
     more = {"preload": one.preload, "spring": one.pair_spring, "distance_mm": one.distance_mm}
     with called(at):
-        return pair_of(bearing, one.pair, **more)
+        return pair_part(bearing, one.pair, **more)
 
 
 def rotor_of(
@@ -191,11 +221,30 @@ def rotor_of(
     InputError
         Parts that are none, at places where nothing can stand, or that contradict each other.
     """
-    shaft, places = shaft_of(study), places_of(study)
-    carriers = carriers or [carrier_of(study, k, oil=oil) for k in range(len(study.support))]
+    shaft, parts = (
+        shaft_of(study),
+        support_parts(study, carriers or [carrier_of(study, k, oil=oil) for k in range(len(study.support))]),
+    )
+    supports = []
+    for k, part in enumerate(parts):
+        with called(support_field(study, k, ""), ENTRIES | {"preload": "spring"}):
+            supports.append(part.made())
+    discs = [disc_of(study, k) for k in range(len(study.disc))]
+    return rotor_on_bearings(shaft, discs=discs, supports=supports)
+
+
+def support_parts(study: Study, carriers: Sequence[BallBearing | BearingSet | LinearBearing]) -> list[Part]:
+    """The calls that make the supports of the machine with these bearings.
+
+    Raises
+    ------
+    InputError
+        As `places_of`.
+    """
+    places = places_of(study)
     axial = _is_axial(study, carriers)
     middle = 0.5 * (min(places) + max(places))
-    supports = []
+    parts = []
     for k, (one, carrier) in enumerate(zip(study.support, carriers, strict=True)):
         given: dict[str, Any] = {}
         if one.housing_stiffness is not None or one.housing_mass is not None:
@@ -204,10 +253,9 @@ def rotor_of(
             given["facing"] = one.facing or ("+z" if places[k] > middle else "-z")
             given["offset"] = 1e-6 * (one.offset_um or 0.0)
             given["preload"] = one.spring
-        with called(support_field(study, k, ""), ENTRIES | {"preload": "spring"}):
-            supports.append(Support(position=places[k], bearing=carrier, journal_mass=one.journal_mass, **given))
-    discs = [disc_of(study, k) for k in range(len(study.disc))]
-    return rotor_on_bearings(shaft, discs=discs, supports=supports)
+        own = {"position": places[k], "bearing": carrier, "journal_mass": one.journal_mass}
+        parts.append(Part(Support, own | given))
+    return parts
 
 
 def shaft_of(study: Study) -> Shaft:
@@ -216,7 +264,21 @@ def shaft_of(study: Study) -> Shaft:
     Raises
     ------
     InputError
-        Neither a diameter nor a stiffness, or both; what a `Shaft` refuses.
+        As `shaft_part`; what a `Shaft` refuses.
+    """
+    part = shaft_part(study)
+    with called("shaft.", {"length": "length_mm", "diameter": "diameter_mm", "bore": "bore_mm"}):
+        found: Shaft = part.made()
+        return found
+
+
+def shaft_part(study: Study) -> Part:
+    """The call that makes the shaft of the machine.
+
+    Raises
+    ------
+    InputError
+        Neither a diameter nor a stiffness, or both.
     """
     given = study.shaft
     assert given is not None
@@ -226,8 +288,7 @@ def shaft_of(study: Study) -> Shaft:
             if name in given.model_fields_set:
                 allowed = "left out where shaft.stiffness is given: such a shaft has no mass"
                 raise InputError(f"shaft.{name}", getattr(given, name), allowed)
-        with called("shaft."):
-            return Shaft.jeffcott(given.stiffness, length, damping=given.damping)
+        return Part(Shaft, {"damping": given.damping}, "jeffcott", (given.stiffness, length))
     if given.diameter_mm is None:
         raise InputError("shaft.diameter_mm", None, "given, or shaft.stiffness of one without mass")
     if given.bore_mm >= given.diameter_mm:
@@ -235,15 +296,13 @@ def shaft_of(study: Study) -> Shaft:
     if "damping" in given.model_fields_set:
         allowed = "left out where shaft.diameter_mm is given: such a shaft has a damping_time"
         raise InputError("shaft.damping", given.damping, allowed)
-    with called("shaft.", {"length": "length_mm", "diameter": "diameter_mm", "bore": "bore_mm"}):
-        return Shaft(
-            length=length,
-            diameter=1e-3 * given.diameter_mm,
-            bore=1e-3 * given.bore_mm,
-            density=given.density,
-            youngs_modulus=given.youngs_modulus,
-            damping_time=given.damping_time,
-        )
+    lengths = {
+        "length": length,
+        "diameter": 1e-3 * given.diameter_mm,
+        "bore": 1e-3 * given.bore_mm,
+    }
+    rest = {name: getattr(given, name) for name in ("density", "youngs_modulus", "damping_time")}
+    return Part(Shaft, lengths | rest)
 
 
 def disc_of(study: Study, k: int) -> Disc:
@@ -252,9 +311,28 @@ def disc_of(study: Study, k: int) -> Disc:
     Raises
     ------
     InputError
-        Neither a size nor a mass, or both; a place beyond the shaft; what a `Disc` refuses.
+        As `disc_part`; what a `Disc` refuses.
     """
-    one, at = study.disc[k], "disc." if len(study.disc) == 1 else f"disc.{k + 1}."
+    part = disc_part(study, k)
+    with called(disc_field(study, k, ""), SIZES_OF_DISC):
+        found: Disc = part.made()
+        return found
+
+
+def disc_field(study: Study, k: int, key: str) -> str:
+    """Name of an entry of a disc, with its number where there are several."""
+    return f"disc.{key}" if len(study.disc) == 1 else f"disc.{k + 1}.{key}"
+
+
+def disc_part(study: Study, k: int) -> Part:
+    """The call that makes a disc of the machine.
+
+    Raises
+    ------
+    InputError
+        Neither a size nor a mass, or both; a place beyond the shaft.
+    """
+    one, at = study.disc[k], disc_field(study, k, "")
     load = (0.0, -one.radial_load, one.axial_load) if one.axial_load else (0.0, -one.radial_load)
     more: dict[str, Any] = {"unbalance": one.unbalance, "damping": one.damping, "load": load}
     place, end = 1e-3 * one.position_mm, 1e3 * shaft_of(study).end
@@ -268,8 +346,7 @@ def disc_of(study: Study, k: int) -> Disc:
         turns: dict[str, Any] = {
             name: getattr(one, name) or 0.0 for name in ("diametral_inertia", "polar_inertia")
         }
-        with called(at):
-            return Disc(position=place, mass=one.mass, **turns, **more)
+        return Part(Disc, {"position": place, "mass": one.mass, **turns, **more})
     for name in ("diametral_inertia", "polar_inertia"):
         if getattr(one, name) is not None:
             raise InputError(f"{at}{name}", getattr(one, name), f"left out without {at}mass")
@@ -284,16 +361,8 @@ def disc_of(study: Study, k: int) -> Disc:
         allowed = f"above {1e3 * bore:g} mm, the diameter of the shaft, which fills its bore"
         raise InputError(f"{at}diameter_mm", one.diameter_mm, allowed)
     density: dict[str, Any] = {} if one.density is None else {"density": one.density}
-    names = {"diameter": "diameter_mm", "width": "width_mm", "bore": "bore_mm"}
-    with called(at, names):
-        return Disc.cylinder(
-            position=place,
-            diameter=1e-3 * one.diameter_mm,
-            width=1e-3 * one.width_mm,
-            bore=bore,
-            **density,
-            **more,
-        )
+    lengths = {"diameter": 1e-3 * one.diameter_mm, "width": 1e-3 * one.width_mm, "bore": bore}
+    return Part(Disc, {"position": place, **lengths, **density, **more}, "cylinder")
 
 
 def places_of(study: Study) -> list[float]:

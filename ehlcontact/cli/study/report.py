@@ -53,6 +53,9 @@ from reduced_models.rotor.support_state import SupportState
 FILES = {
     "results.json": "every number of this page, and more, with all digits",
     "study.toml": "the study itself; the same command with it resumes, or makes this page again",
+    "machine.fmu": "FMU of the machine, as [export] has it",
+    "machine.py": "the same rotor or bearing, made by calls of the library",
+    "machine_ross.py": "the rotor in ROSS, on tables of K and C of its bearings",
     "contact.fmu": "FMU of the cubic element fitted in the rotor's band",
     "contact_film.fmu": "FMU of the element with a film memory",
     "elements/*.json": "an element in SI units, for ehlcontact export and for ehlcontact.read",

@@ -43,6 +43,7 @@ class Findings:
     defects: tuple[StudyDefect, ...]
     contact: ContactFindings | None
     rotors: RotorFindings | None  # on full films
+    exports: Mapping[str, Any]  # files of [export], as of `write_exports`
     seconds: Mapping[str, float]  # wall time by stage
 
     def to_dict(self) -> dict[str, Any]:
@@ -62,6 +63,7 @@ class Findings:
             "defects": [one.to_dict() for one in self.defects],
             **({} if self.contact is None else self.contact.to_dict()),
             **({} if self.rotors is None else {"rotor": self.rotors.to_dict()}),
+            "export": self.exports,
             "seconds": self.seconds,
             "versions": versions(),
         }

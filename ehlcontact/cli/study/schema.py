@@ -15,11 +15,13 @@ from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.study.parts import Part
 from ehlcontact.cli.study.schema_errors import first_error, inputs_of, names_of, require_sections
 from ehlcontact.cli.study.sections import (
     Contact,
     Defect,
     Disc,
+    Export,
     FullFilms,
     InTime,
     Operation,
@@ -89,9 +91,17 @@ class Oil(Section):
         InputError
             Given in no way, in part, or in two ways; or an oil that the library refuses.
         """
+        return lubricant_of(*self._given)
+
+    @property
+    def part(self) -> Part:
+        """The call that makes `lubricant`."""
+        return oil_part(*self._given)
+
+    @property
+    def _given(self) -> tuple[dict[str, Any], dict[str, str], Callable[[str], str]]:
         given = {name: getattr(self, name) for name in {*BY_NUMBERS, *BY_GRADE, *BY_SHEET}}
-        laws = {"viscosity": self.viscosity, "density": self.density}
-        return lubricant_of(given, laws, lambda name: f"oil.{name}")
+        return given, {"viscosity": self.viscosity, "density": self.density}, lambda name: f"oil.{name}"
 
 
 def lubricant_of(given: Mapping[str, Any], laws: Mapping[str, str], called: Callable[[str], str]) -> Lubricant:
@@ -111,6 +121,16 @@ def lubricant_of(given: Mapping[str, Any], laws: Mapping[str, str], called: Call
     InputError
         Given in no way, in part, or in two ways; or an oil that the library refuses.
     """
+    part = oil_part(given, laws, called)
+    try:
+        found: Lubricant = part.made()
+    except InputError as error:
+        raise InputError(called(error.field), error.value, error.allowed) from None
+    return found
+
+
+def oil_part(given: Mapping[str, Any], laws: Mapping[str, str], called: Callable[[str], str]) -> Part:
+    """The call that makes the oil of `lubricant_of`, whose arguments and errors it has."""
     known = {name: given[name] for name in (*BY_GRADE, *BY_SHEET, *BY_NUMBERS) if given.get(name) is not None}
     own = BY_NUMBERS if not known or set(known) & set(BY_NUMBERS) else BY_GRADE
     own = BY_SHEET if own is BY_GRADE and set(known) & set(BY_SHEET[:2]) else own
@@ -125,15 +145,10 @@ def lubricant_of(given: Mapping[str, Any], laws: Mapping[str, str], called: Call
                 " and ".join(map(called, names[:2])) for names in (BY_GRADE, BY_SHEET, BY_NUMBERS)
             )
             raise InputError(called(name), None, f"given: {grade}, or {numbers}, or {sheet} in their place")
-    make = {BY_NUMBERS: Lubricant, BY_GRADE: _of_grade, BY_SHEET: Lubricant.from_viscosities}[own]
-    try:
-        return make(**known, **laws)  # type: ignore[operator]
-    except InputError as error:
-        raise InputError(called(error.field), error.value, error.allowed) from None
-
-
-def _of_grade(iso_vg: int, **more: Any) -> Lubricant:
-    return Lubricant.iso_vg(iso_vg, **more)
+    if own is BY_GRADE:
+        grade = known.pop("iso_vg")
+        return Part(Lubricant, {**known, **laws}, "iso_vg", (grade,))
+    return Part(Lubricant, {**known, **laws}, "" if own is BY_NUMBERS else "from_viscosities")
 
 
 def oil_grade(text: str, field: str, others: str = "its eta0 and alpha") -> int:
@@ -167,6 +182,7 @@ class Study(Section):
     full_films: FullFilms | None = None
     in_time: InTime | None = None
     defect: Annotated[tuple[Defect, ...], Field(strict=False)] = ()
+    export: Export | None = None
 
     @property
     def speed_rpm(self) -> float:
@@ -417,6 +433,7 @@ def study_of(document: dict[str, Any], *, at_rest: bool = False) -> Study:
         raise first_error(error, Study, document) from None
     if not at_rest:
         INPUTS["speed_rpm"].require("operation.speed_rpm", study.speed_rpm)
+    from ehlcontact.cli.study.exports import require_export
     from ehlcontact.cli.study.loads import require_machine
     from ehlcontact.cli.study.machine import support_field
 
@@ -434,6 +451,7 @@ def study_of(document: dict[str, Any], *, at_rest: bool = False) -> Study:
             require_solvable(study.point, study.largest_load, given)
             if study.shaft is not None or study.operation.axial_load is not None or study.in_time is not None:
                 require_machine(study)
+        require_export(study)
     except InputError as error:
         names = ENTRIES | {"conformity": support_field(study, study.at, "conformity")}
         raise InputError(names.get(error.field, error.field), error.value, error.allowed) from None

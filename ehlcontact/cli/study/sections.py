@@ -259,3 +259,36 @@ class Defect(Section):
         e.CageSlip | None,
         e.meaning("slip of the cage in orders and lines of the spall, of its speed with balls that roll"),
     ] = None
+
+
+class Export(Section):
+    """What other programs take: an FMU of the machine, or of the bearing alone; scripts of Python and for ROSS."""
+
+    fmu: Annotated[
+        bool, e.meaning("machine.fmu: the rotor on its bearings, or a bearing alone under its load, verified")
+    ] = False
+    outside: Annotated[
+        tuple[e.Text, ...],
+        Field(
+            strict=False, description="names of supports whose forces are inputs of that FMU; the others inside"
+        ),
+    ] = ()
+    inertia: Annotated[
+        e.Positive | None,
+        e.meaning("kg m2, of all that turns: the torque is an input then; without it the speed is"),
+    ] = None
+    top_rpm: Annotated[
+        e.Speed | None, e.meaning("highest speed of the tables of its films; that of the study if left out")
+    ] = None
+    fmi: Annotated[Literal[2, 3], e.meaning("version of FMI, of FMUs of elements of [contact] too")] = 2
+    platforms: Annotated[
+        tuple[e.Text, ...],
+        Field(
+            strict=False,
+            description='binaries of these FMUs, as "x86_64-linux", or "all"; this machine\'s if left out',
+        ),
+    ] = ()
+    python: Annotated[bool, e.meaning("machine.py: the same rotor, or bearing, by calls of the library")] = False
+    ross: Annotated[
+        bool, e.meaning("machine_ross.py: the rotor in ROSS, on tables of K and C of its bearings")
+    ] = False

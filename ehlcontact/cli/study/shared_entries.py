@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ehlcontact.cli.numerals import numeral
+from ehlcontact.cli.study.parts import Part
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
 from ehlcontact.supply import OilLayer
@@ -16,15 +17,15 @@ if TYPE_CHECKING:
 OIL_AND_HEAT = "layer_um", "layer_ratio", "thermal"
 
 
-def pair_of(
+def pair_part(
     bearing: BallBearing,
     arrangement: str,
     *,
     preload: float | None = None,
     spring: float | None = None,
     distance_mm: float | None = None,
-) -> BearingSet:
-    """Two such bearings in an arrangement of `ehlcontact.cli.entries.Arrangement`.
+) -> Part:
+    """The call that makes two such bearings in an arrangement of `ehlcontact.cli.entries.Arrangement`.
 
     Raises
     ------
@@ -35,14 +36,13 @@ def pair_of(
     if bearing.free_angle == 0.0:
         allowed = "left out: bearings of a pair need a contact angle, as 7205 has one (or --contact-angle)"
         raise InputError("arrangement", arrangement, allowed)
-    return BearingSet.pair(
-        bearing,
-        words,
-        distance=None if distance_mm is None else 1e-3 * distance_mm,
-        preload=preload,
-        spring=spring,
-        name=f"pair of {bearing.name or 'ball bearings'}, {words}",
-    )
+    keywords = {
+        "distance": None if distance_mm is None else 1e-3 * distance_mm,
+        "preload": preload,
+        "spring": spring,
+        "name": f"pair of {bearing.name or 'ball bearings'}, {words}",
+    }
+    return Part(BearingSet, keywords, "pair", (bearing, words))
 
 
 def moments_of(given: Any, section: str) -> tuple[float, ...]:

@@ -14,6 +14,7 @@ from ehlcontact.cli.output import one_line, write_json
 from ehlcontact.cli.study.answer import answer_of, over_frequency, run_models
 from ehlcontact.cli.study.defect import defects_of
 from ehlcontact.cli.study.differences import compare_rotors
+from ehlcontact.cli.study.exports import export_fmu, write_exports
 from ehlcontact.cli.study.forecast import films_words
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
 from ehlcontact.cli.study.reduction import RECORDS, contact_text, reduce_records, save_elements
@@ -28,7 +29,6 @@ from ehlcontact.results import SteadyResult
 from ehlcontact.status import Status
 from ehlcontact.store import read
 from ehlcontact.transient.result import SimulationResult
-from reduced_models.elements.validity import frequency_text
 
 RESULTS, REPORT = "results.json", "report.html"
 TITLE = "machine, elements, FMUs, report"
@@ -95,7 +95,9 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
         conditions = run_oil_and_heat(study)
     with _timed(times, "defects", bool(study.defect)):
         defects = defects_of(study)
-    return Findings(study, machine, small, whole, conditions, defects, contact, rotors, times)
+    with _timed(times, "export", study.export is not None):
+        exports = write_exports(study, folder)
+    return Findings(study, machine, small, whole, conditions, defects, contact, rotors, exports, times)
 
 
 @contextmanager
@@ -116,41 +118,13 @@ def _contact(study: Study, folder: Path) -> ContactFindings:
     known = {"assumptions": assumed, "contact": contact_text(study)}
     reduction = reduce_records(simulations, response, study.point.scales, known)
     save_elements(reduction, folder)
-    exported = export_fmu(reduction.chosen, folder / "contact.fmu")
+    exported = export_fmu(reduction.chosen, folder / "contact.fmu", study)
     film = reduction.memory_element
-    exported_film = None if film is None else export_fmu(film, folder / "contact_film.fmu")
+    exported_film = None if film is None else export_fmu(film, folder / "contact_film.fmu", study)
     rotors = None
     if study.full_films is not None:
         rotors = compare_rotors(study, response, reduction.rotor_elements, folder)
     return ContactFindings(study, steady, simulations, reduction, rotors, exported, exported_film)
-
-
-def export_fmu(element: Any, path: Path) -> dict[str, Any]:
-    """Export an SI element as ``path``, verified; what went wrong, whatever it is, stands under ``error``.
-
-    With the largest steps of each way of coupling under ``steps``, and the frequencies that it is for.
-    """
-    from fmu import VerificationError
-    from fmu.export import export_model
-    from fmu.models import fmu_model
-    from fmu.steps import step_advice
-
-    band = element.omega_range
-    entry: dict[str, Any] = {
-        "file": path.name,
-        "passes": False,
-        "kind": element.kind,
-        "element_states": element.state_count,
-        "frequencies": None if band is None else frequency_text(band, element.units),
-        "steps": {},
-    }
-    try:
-        entry["steps"] = {way: {"step": step, "why": why} for way, step, why in step_advice(element)}
-        _, found = export_model(fmu_model(element, model_name=path.stem), path, overwrite=True)
-    except Exception as error:  # the rest of the study is worth having without an FMU
-        found = error.found if isinstance(error, VerificationError) else None
-        entry["error"] = " ".join(str(error).split()) or type(error).__name__
-    return entry | (found.to_dict() if found is not None else {})
 
 
 def read_results(folder: Path) -> dict[str, Any]:
@@ -163,6 +137,9 @@ def read_results(folder: Path) -> dict[str, Any]:
 def products(results: Mapping[str, Any]) -> dict[str, str]:
     """Files of the finalisation, relative to the folder, by their meaning."""
     made = {"results": RESULTS, "report": REPORT}
+    for entry in results.get("export", {}).values():
+        if entry.get("passes", True):
+            made[entry["file"]] = entry["file"]
     if "fits" not in results:  # no contact
         return made
     for row in results["fits"]:
@@ -171,7 +148,7 @@ def products(results: Mapping[str, Any]) -> dict[str, str]:
             made[f"element {name}"] = f"elements/{name}.json"
     if "refused" not in results["memory"]:
         made["element memory"] = "elements/memory.json"
-    for entry in _fmus(results):
+    for entry in (one for one in (results["fmu"], results["film_fmu"]) if one is not None):
         if entry["passes"]:
             made[f"FMU {Path(entry['file']).stem}"] = entry["file"]
     return made
@@ -190,11 +167,12 @@ def _without_films(found: Mapping[str, Any] | str | None) -> list[str]:
 
 def _broken_fmus(results: Mapping[str, Any]) -> list[str]:
     return [
-        f"{entry['file']}: {entry.get('error') or 'differs from the element'}"
+        f"{entry['file']}: {entry.get('error') or 'differs from its model'}"
         for entry in _fmus(results)
         if not entry["passes"]
     ]
 
 
 def _fmus(results: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    return [entry for entry in (results.get("fmu"), results.get("film_fmu")) if entry is not None]
+    every = results.get("fmu"), results.get("film_fmu"), results.get("export", {}).get("fmu")
+    return [entry for entry in every if entry is not None]

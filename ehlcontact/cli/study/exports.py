@@ -1,0 +1,189 @@
+"""What a study leaves for other programs: FMUs of elements, of the bearing or the rotor; scripts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ehlcontact.binaries import choose
+from ehlcontact.cli.study.loads import load_alone, places_of_bearings
+from ehlcontact.cli.study.machine import bearing_of, carrier_of, rotor_of, support_field
+from ehlcontact.cli.study.scripts import python_text, require_ross, ross_text
+from ehlcontact.cli.study.shared_entries import supply_and_heat
+from ehlcontact.errors import InputError
+from ehlcontact.files import write_text
+from reduced_models import BallBearing, BearingSet, Rotor
+from reduced_models.elements.validity import frequency_text
+
+if TYPE_CHECKING:
+    from ehlcontact.cli.study.schema import Study
+    from fmu.models import FmuModel
+
+FMU, PYTHON, ROSS = "machine.fmu", "machine.py", "machine_ross.py"
+
+
+def require_export(study: Study) -> None:
+    """Raise `InputError` for entries of [export] that contradict each other or the machine."""
+    asked = study.export
+    if asked is None:
+        return
+    if not asked.fmu:
+        for name in ("outside", "inertia", "top_rpm"):
+            if value := getattr(asked, name):
+                shown = list(value) if isinstance(value, tuple) else value
+                raise InputError(f"export.{name}", shown, "left out without export.fmu")
+    if not (asked.fmu or asked.python or asked.ross) and study.contact is None:
+        raise InputError("export.fmu", False, "true; or export.python, or export.ross")
+    if asked.fmu and study.shaft is None:
+        for name in ("outside", "inertia"):
+            if value := getattr(asked, name):
+                raise InputError(f"export.{name}", value, "left out without [shaft]: the FMU is a bearing's")
+        if study.support[0].pair is not None:
+            allowed = "left out: the FMU is that of one bearing; with [shaft] a rotor with pairs has one"
+            raise InputError("support.pair", study.support[0].pair, allowed)
+        for name in ("tilt_x_mrad", "tilt_y_mrad"):
+            if (tilt := getattr(study.operation, name)) is not None:
+                raise InputError(f"operation.{name}", tilt, "left out: tilts are inputs of the FMU")
+    for name in asked.outside:
+        study.index(name, "export.outside")
+    if asked.top_rpm is not None and asked.top_rpm < study.speed_rpm:
+        allowed = f"at least the speed of the study, {study.speed_rpm:g} rev/min"
+        raise InputError("export.top_rpm", asked.top_rpm, allowed)
+    if asked.platforms:
+        try:
+            choose(asked.platforms, asked.fmi)
+        except InputError as error:
+            raise InputError("export.platforms", error.value, error.allowed) from None
+    if asked.ross:
+        require_ross(study)
+    if asked.fmu and study.shaft is not None:
+        carriers_with_films(study)
+
+
+def rotor_with_films(study: Study) -> Rotor:
+    """The rotor of a machine, its bearings with the layer of oil and the heat of [operation].
+
+    Raises
+    ------
+    InputError
+        As `rotor_of`; a pair with a layer or heat.
+    """
+    return rotor_of(study, carriers=carriers_with_films(study))
+
+
+def carriers_with_films(study: Study) -> list[BallBearing | BearingSet]:
+    """What stands at each support, with the layer of oil and the heat of [operation].
+
+    Raises
+    ------
+    InputError
+        A pair with a layer or heat.
+    """
+    supply, thermal = supply_and_heat(study.operation, "operation", study.lubricant)
+    count = len(study.support)
+    if supply is None and thermal is None:
+        return [carrier_of(study, k) for k in range(count)]
+    for k, one in enumerate(study.support):
+        if one.pair is not None:
+            allowed = "left out with a layer of oil or heat, for an FMU"
+            raise InputError(support_field(study, k, "pair"), one.pair, allowed)
+    return [replace(bearing_of(study, k), supply=supply, thermal=thermal) for k in range(count)]
+
+
+def write_exports(study: Study, folder: Path) -> dict[str, Any]:
+    """Write what [export] asks for; what each file is, or why it is not there under ``error``.
+
+    Returns
+    -------
+    dict
+        By "fmu", "python" and "ross", those that are asked for, each with its ``file``.
+    """
+    asked, made = study.export, {}
+    if asked is None:
+        return {}
+    if asked.fmu:
+        made["fmu"] = _machine_fmu(study, folder / FMU)
+    for name, wanted, file, text in (
+        ("python", asked.python, PYTHON, python_text),
+        ("ross", asked.ross, ROSS, ross_text),
+    ):
+        if wanted:
+            write_text(folder / file, text(study), "file")
+            made[name] = {"file": file}
+    return made
+
+
+def export_fmu(element: Any, path: Path, study: Study | None = None) -> dict[str, Any]:
+    """Export an SI element as ``path``, as [export] of the study has it, and verify it.
+
+    With the largest steps of each way of coupling under ``steps``, and the frequencies that it is for. What went
+    wrong, whatever it is, stands under ``error``.
+    """
+    from fmu.models import fmu_model
+    from fmu.steps import step_advice
+
+    band = element.omega_range
+    entry: dict[str, Any] = {
+        "kind": element.kind,
+        "element_states": element.state_count,
+        "frequencies": None if band is None else frequency_text(band, element.units),
+        "steps": {},
+    }
+
+    def model() -> FmuModel:
+        entry["steps"] = {way: {"step": step, "why": why} for way, step, why in step_advice(element)}
+        return fmu_model(element, model_name=path.stem)
+
+    return _verified(model, path, study, entry)
+
+
+def _verified(model: Any, path: Path, study: Study | None, entry: dict[str, Any]) -> dict[str, Any]:
+    """Export what `model` makes; `entry` with what the verification found, or with the error."""
+    from fmu import VerificationError
+    from fmu.export import export_model
+
+    asked = None if study is None else study.export
+    fmi, platforms = (2, ()) if asked is None else (asked.fmi, asked.platforms)
+    entry |= {"file": path.name, "passes": False, "fmi": fmi}
+    try:
+        entry["platforms"] = [one.name for one in choose(platforms or None, fmi)]
+        _, found = export_model(model(), path, fmi=fmi, platforms=platforms or None, overwrite=True)
+    except Exception as error:  # the rest of the study is worth having without an FMU
+        found = error.found if isinstance(error, VerificationError) else None
+        entry["error"] = " ".join(str(error).split()) or type(error).__name__
+    return entry | (found.to_dict() if found is not None else {})
+
+
+def _machine_fmu(study: Study, path: Path) -> dict[str, Any]:
+    """FMU of the rotor, or of the bearing alone, at the speed of the study and up to the highest of [export]."""
+    from fmu.models import fmu_model
+
+    asked = study.export
+    assert asked is not None
+    speeds = sorted({study.speed_rpm, asked.top_rpm or study.speed_rpm})
+    entry: dict[str, Any] = {"speeds_rpm": speeds, "supports_inside": [], "supports_outside": list(asked.outside)}
+
+    def model() -> FmuModel:
+        if study.shaft is None:
+            entry["supports_inside"] = [study.support[0].label]
+            (bearing,) = carriers_with_films(study)
+            assert isinstance(bearing, BallBearing)  # `require_export`
+            return fmu_model(bearing, speeds_rpm=speeds, load=load_alone(study), model_name=path.stem)
+        entry["supports_inside"] = [name for name in study.names if name not in asked.outside]
+        rotor = rotor_with_films(study)
+        own = rotor.ball_bearing_names
+        several = places_of_bearings(study)
+        outside = [name for name, k in zip(own, several, strict=True) if study.names[k] in asked.outside]
+        made = fmu_model(
+            rotor,
+            outside=outside,
+            speeds_rpm=speeds if entry["supports_inside"] else None,
+            speed_rpm=study.speed_rpm,
+            inertia=asked.inertia,
+            model_name=path.stem,
+        )
+        entry["inner_step"] = made.source.inner_step
+        return made
+
+    return _verified(model, path, study, entry)
