@@ -34,6 +34,7 @@ from reduced_models.fitting.fit import fit as fit
 from reduced_models.fitting.memory_fit import fit_memory as fit_memory
 from reduced_models.fitting.records import ContactRecord as ContactRecord
 from reduced_models.rotor.assembly import rotor_on_bearings as rotor_on_bearings
+from reduced_models.rotor.bearing_matrices import bearing_matrices as bearing_matrices
 from reduced_models.rotor.bearing_set import BearingSet as BearingSet
 from reduced_models.rotor.campbell import campbell as campbell
 from reduced_models.rotor.compare import compare as compare

@@ -9,6 +9,8 @@
 | jeffcott | `jeffcott_rotor`: such a rotor by its parameters |
 | parts | `Shaft`, `Disc`, `Support`: what a rotor on bearings is made of |
 | beam | rotating shaft element: its matrices |
+| bearing_matrices | `bearing_matrices`: stiffness and damping about any point, for other programs |
+| matrix_text | these as input of other programs, with frame, units and signs |
 | bearing_set | `BearingSet`: pairs and other sets of ball bearings on one rigid shaft, their preload and growth |
 | assembly | `rotor_on_bearings`: such a rotor by its parts |
 | nodes | degrees of freedom by node and direction |
