@@ -11,7 +11,9 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from ehlcontact.cli.entries import allowed_of, is_several, meaning_of, section_of
+from ehlcontact.cli.commands.bearing import ENTRIES
+from ehlcontact.cli.commands.init import ENTRIES as OF_INIT
+from ehlcontact.cli.entries import allowed_of, is_several, meaning_of, options_of, section_of
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.schema_errors import REPLACED
 from ehlcontact.cli.toml import toml_value
@@ -28,7 +30,8 @@ HEAD = """# The study file
 A study is a machine in TOML: a shaft with discs, and a bearing at each support. `ehlcontact init` writes it with
 every entry explained, `ehlcontact validate` says what it will do, `ehlcontact run` does it. Without `[shaft]`
 the file is of a bearing alone, under the loads of `[operation]`. Sections beside `[operation]` and `[[support]]`
-may be left out. `[[disc]]`, `[[support]]` and `[[defect]]` may stand several times.
+may be left out. `[[disc]]`, `[[support]]` and `[[defect]]` may stand several times. An option in the last column
+sets its entry in `ehlcontact bearing`, which takes sections of a bearing alone, and in `ehlcontact init`.
 
 """
 FOOT = """## Sections of files of another kind
@@ -54,7 +57,7 @@ def _sections(model: Any, above: str) -> Iterator[str]:
     """A heading and a table for each section, and for those in it."""
     own = {name: entry for name, entry in model.model_fields.items() if section_of(entry.annotation) is None}
     if above:
-        yield from (_rows(own), "")
+        yield from (_rows(own, above), "")
     for name, entry in model.model_fields.items():
         if (section := section_of(entry.annotation)) is not None:
             head = f"{above}{name}"
@@ -64,9 +67,20 @@ def _sections(model: Any, above: str) -> Iterator[str]:
             yield from _sections(section, f"{head}.")
 
 
-def _rows(entries: dict[str, FieldInfo]) -> str:
-    rows = [f"| `{name}` | {_cell(entry)} | {_default(entry)} |" for name, entry in entries.items()]
-    return "\n".join(("| entry | what it is | default |", "|---|---|---|", *rows))
+def _rows(entries: dict[str, FieldInfo], above: str) -> str:
+    options = {name: _option(f"{above}{name}") for name in entries}
+    last = ["option"] if any(options.values()) else []
+    heads = ["entry", "what it is", "default", *last]
+    rows = [
+        [f"`{name}`", _cell(entry), _default(entry), *([options[name]] if last else [])]
+        for name, entry in entries.items()
+    ]
+    lines = [f"| {' | '.join(row)} |" for row in (heads, *rows)]
+    return "\n".join((lines[0], f"|{'---|' * len(heads)}", *lines[1:]))
+
+
+def _option(entry: str) -> str:
+    return f"`{options_of(entry)[0]}`" if entry in {**ENTRIES, **OF_INIT} else ""
 
 
 def _cell(entry: FieldInfo) -> str:

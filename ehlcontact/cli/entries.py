@@ -8,7 +8,7 @@ checks. Messages, the file that ``ehlcontact init`` writes and ``--help`` are ma
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from math import pi
 from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin
@@ -203,6 +203,51 @@ Stiffness = Annotated[Positive, Physical(Quantity("N/m", (1.0, 1e13), (1e4, 1e10
 Unbalance = Annotated[
     Positive, Physical(Quantity("kg m", (1e-15, 1e4), (1e-8, 1e-3), {"kg mm": 1e-3, "g mm": 1e-6}))
 ]
+
+
+# Options of entries that are not their keys without the unit; the first of several is for messages.
+OPTIONS = {
+    "operation.radial_load": "--load --radial",
+    "operation.axial_load": "--axial",
+    "oil.iso_vg": "--oil",
+    "oil.temperature": "--temp",
+    "support.bearing": "--bearing",
+    "support.pair_spring": "--spring",
+    "support.distance_mm": "--distance-mm",
+    "disc.unbalance": "--unbalance",
+}
+UNITS = ("_mm", "_um", "_deg", "_mrad")  # at the end of keys
+WITH_SECTION = ("shaft", "disc")  # options of their entries begin with the name of the section
+
+
+def options_of(entry: str) -> tuple[str, ...]:
+    """Options that set an entry, ``section.key``, of commands that have one for it."""
+    if entry in OPTIONS:
+        return tuple(OPTIONS[entry].split())
+    section, _, key = entry.rpartition(".")
+    for unit in UNITS:
+        key = key.removesuffix(unit)
+    name = f"{section}_{key}" if section in WITH_SECTION else key
+    return (f"--{name.replace('_', '-')}",)
+
+
+def in_options(text: str, entries: Iterable[str]) -> str:
+    """The text with options in place of the entries that they set."""
+    for entry in sorted(entries, key=len, reverse=True):
+        text = text.replace(entry, options_of(entry)[0])
+    return text
+
+
+def entries_of(
+    model: type[BaseModel], sections: Iterable[str], left_out: Collection[str] = ()
+) -> dict[str, FieldInfo]:
+    """Entries of some sections of a file, by ``section.key``, but those that are left out."""
+    return {
+        f"{section}.{key}": field
+        for section in sections
+        for key, field in keys_of(model.model_fields[section].annotation).items()
+        if f"{section}.{key}" not in left_out
+    }
 
 
 def field_of(model: type[BaseModel], entry: str) -> FieldInfo | None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import functools
 import inspect
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from copy import copy
 from pathlib import Path
-from types import MappingProxyType
+from types import MappingProxyType, NoneType
 from typing import (
     Annotated,
     Any,
@@ -24,13 +24,15 @@ from typing import (
 )
 
 import typer
-from pydantic import BaseModel, ValidationError, create_model
+from pydantic import ValidationError, create_model
+from pydantic.fields import FieldInfo
 from typer.models import ParameterInfo
 
 from ehlcontact.checks.machine import require_threads
-from ehlcontact.cli.entries import Intervals, Section, allowed_of, field_of, meaning, meaning_of
+from ehlcontact.cli.entries import Intervals, Section, allowed_of, meaning, meaning_of, options_of
 from ehlcontact.cli.output import check_apart, check_json, deliver, save_to, show_table, write_json, write_to
 from ehlcontact.cli.rows import Row
+from ehlcontact.cli.study.schema import oil_grade
 from ehlcontact.cli.study.schema_errors import first_error
 from ehlcontact.errors import InputError
 from ehlcontact.files import require_writable
@@ -46,6 +48,16 @@ class Options(Section):
     """A group of options: a field has a `typer.Option` in its metadata, and help from its declaration."""
 
     panel: ClassVar[str | None] = None  # heading in the help
+    ENTRIES: ClassVar[dict[str, str]] = {}  # of a study that its fields set, by the field
+
+    def entries(self) -> dict[str, Any]:
+        """Values that are given, by entry as "operation.speed_rpm"."""
+        found = {entry: getattr(self, name) for name, entry in self.ENTRIES.items()}
+        return {
+            entry: AS_TEXT[entry].read(value) if entry in AS_TEXT else value
+            for entry, value in found.items()
+            if value not in (None, [])
+        }
 
     def by_option(self, *names: str) -> dict[str, Any]:
         """Values that are given, by option as "--speed-rpm"; of some fields, or of all."""
@@ -82,32 +94,77 @@ def grouped(command: Callable[..., None]) -> Callable[..., None]:
     return ungrouped
 
 
+class AsText(NamedTuple):
+    """An entry that a command line gives as text."""
+
+    metavar: str
+    help: str
+    read: Callable[[str], Any]
+
+
+def _number_or_text(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text.strip()
+
+
+AS_TEXT = {  # by the entry
+    "oil.iso_vg": AsText(
+        "GRADE",
+        'ISO grade of a mineral oil, as "ISO VG 68".',
+        lambda text: oil_grade(text, "--oil", "its --nu40 and --nu100"),
+    ),
+    "support.clearance": AsText(
+        "UM|CLASS",
+        "Radial internal clearance, um, below 0 a preload; or C2, CN, C3, C4: the middle of that class.",
+        _number_or_text,
+    ),
+}
+
+
 def with_entries(
-    model: type[BaseModel], options: Mapping[str, tuple[str, str]]
+    entries: Mapping[str, FieldInfo], panels: Mapping[str, str]
 ) -> Callable[[type[Group]], type[Group]]:
-    """Let a group have options of entries of a file: types, ranges and meanings are those of its schema.
+    """Let a group have an option for each entry of a study, but those that it declares itself.
+
+    Type, range and meaning are those of the schema, the name that of `ehlcontact.cli.entries.options_of`: an entry
+    that is added to the schema is an option of the group at once.
 
     Parameters
     ----------
-    model : type
-        Schema of the file.
-    options : mapping
-        Option, or several names of it as "--load --radial": its entry as "operation.load", and panel in the help.
+    entries : mapping
+        As of `ehlcontact.cli.entries.entries_of`.
+    panels : mapping
+        Headings in the help, by the section.
     """
-    fields: dict[str, Any] = {}
-    for names, (entry, panel) in options.items():
-        field = field_of(model, entry)
-        assert field is not None
-        shown = typer.Option(*names.split(), rich_help_panel=panel)
-        own = Annotated[field.annotation, shown, *field.metadata, meaning(meaning_of(field))]  # type: ignore[name-defined]
-        fields[names.split()[0].removeprefix("--").replace("-", "_")] = (own, None)
 
     def decorate(group: type[Group]) -> type[Group]:
+        by_field, fields = dict[str, str](), dict[str, Any]()
+        for entry, field in entries.items():
+            names = options_of(entry)
+            own = names[0].removeprefix("--").replace("-", "_")
+            by_field[own] = entry
+            if own not in group.model_fields:
+                fields[own] = (_option(entry, field, names, panels[entry.partition(".")[0]]), None)
         made = create_model(group.__name__, __base__=group, __module__=group.__module__, **fields)
-        made.__doc__ = group.__doc__
+        made.__doc__, made.ENTRIES = group.__doc__, by_field
         return made
 
     return decorate
+
+
+def _option(entry: str, field: FieldInfo, names: Sequence[str], panel: str) -> Any:
+    """Type of an option that sets an entry; None where it is not given."""
+    if entry in AS_TEXT:
+        metavar, words, _ = AS_TEXT[entry]
+        return Annotated[str | None, typer.Option(*names, metavar=metavar, help=words, rich_help_panel=panel)]
+    shown, told = typer.Option(*names, rich_help_panel=panel), meaning(meaning_of(field))
+    kinds = [part for part in get_args(field.annotation) if part is not NoneType]
+    if kinds and get_origin(kinds[0]) is tuple:  # of any number of values
+        return Annotated[list[get_args(kinds[0])[0]] | None, shown, told]  # type: ignore[misc]
+    own: Any = Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation
+    return Annotated[own | None, shown, told]
 
 
 def group_of(group: type[Options], values: Mapping[str, Any]) -> Options:

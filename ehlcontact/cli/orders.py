@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import degrees
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import show_columns, show_table
+from ehlcontact.cli.output import STDOUT, show_columns, show_table
 from ehlcontact.errors import InputError
+from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.bearing.measured_order import Interval, angle_from_order, clearance_from_order
 
 if TYPE_CHECKING:
@@ -32,40 +34,60 @@ class MeasuredOrder(NamedTuple):
     order: float
     error: float
 
-    @property
-    def given(self) -> dict[str, float]:
-        """Arguments of `angle_from_order` and `clearance_from_order`."""
-        return {f"{self.name}_order": self.order, "error": self.error}
+    @classmethod
+    def of(cls, text: str) -> MeasuredOrder:
+        """The order that an option gives: name, value and error; without an error it is 0.
+
+        Raises
+        ------
+        InputError
+            Not these.
+        """
+        name, *numbers = (part.strip() for part in text.split(","))
+        try:
+            order, error = map(float, numbers if len(numbers) != 1 else [*numbers, "0"])
+        except ValueError:
+            raise InputError(OPTION, text, WORDS) from None
+        if name.lower() not in ("bpfo", "bpfi") or not error >= 0.0:
+            raise InputError(OPTION, text, WORDS)
+        return cls(name.lower(), order, error)
 
 
-class Found(NamedTuple):
-    """Contact angle [rad], and clearances [m] at axial loads [N]; without an axial load no clearances."""
+@dataclass(frozen=True)
+class OrderAnswer:
+    """Contact angle [rad], and clearances [m] at axial loads [N], that have a measured order."""
 
+    measured: MeasuredOrder
     angle: Interval
-    axial: tuple[float, ...]
-    clearance: Interval | None
+    axial: tuple[float, ...] = ()
+    clearance: Interval | None = None  # None without an axial load
     remark: str = ""  # on the clearance
 
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        entries: dict[str, Any] = {**self.measured._asdict(), "contact_angle": self.angle._asdict()}
+        if self.clearance is not None:  # without one at a load it is no number there
+            entries |= {"axial_load": self.axial, "clearance": self.clearance._asdict()}
+        return entries
 
-def measured_order_of(text: str) -> MeasuredOrder:
-    """The order that an option gives: name, value and error; without an error it is 0.
+    def show(self, json_to: str | None) -> None:
+        """Contact angle and clearances with their intervals, unless JSON goes to stdout."""
+        if json_to == STDOUT:
+            return
+        value, low, high = (f"{numeral(degrees(float(one)), 4)}°" for one in self.angle)
+        rows = [("contact angle", value, f"{low} to {high}: mean of the balls")]
+        rows += [("clearance", "", self.remark)] if self.remark else []
+        name, order, error = self.measured
+        show_table(f"measured {name.upper()} {numeral(order, 5)} ± {numeral(error, 2)}", rows, json_to)
+        if self.clearance is not None:
+            columns = (map(_micrometres, np.asarray(one).tolist()) for one in self.clearance)
+            rows_of_loads = [list(row) for row in zip(map(numeral, self.axial), *columns, strict=True)]
+            show_columns(
+                ["axial load [N]", "clearance [µm]", "from", "to"], rows_of_loads, "clearances with this order"
+            )
 
-    Raises
-    ------
-    InputError
-        Not these.
-    """
-    name, *numbers = (part.strip() for part in text.split(","))
-    try:
-        order, error = map(float, numbers if len(numbers) != 1 else [*numbers, "0"])
-    except ValueError:
-        raise InputError(OPTION, text, WORDS) from None
-    if name.lower() not in ("bpfo", "bpfi") or not error >= 0.0:
-        raise InputError(OPTION, text, WORDS)
-    return MeasuredOrder(name.lower(), order, error)
 
-
-def allowed_by(measured: MeasuredOrder, job: BearingJob, slip: float) -> Found:
+def order_answer(measured: MeasuredOrder, job: BearingJob, slip: float) -> OrderAnswer:
     """Contact angle and, of a deep-groove bearing under axial load at its first speed, clearances.
 
     Raises
@@ -76,49 +98,22 @@ def allowed_by(measured: MeasuredOrder, job: BearingJob, slip: float) -> Found:
     for given, option in ((job.pair, "--pair"), (job.tilt, "--tilt-x, --tilt-y"), (job.load[3:], "--moment-x")):
         if given:
             raise InputError(OPTION, measured.order, f"without {option}")
+    order = {f"{measured.name}_order": measured.order, "error": measured.error, "slip": slip}
     try:
-        angle = angle_from_order(job.bearing, **measured.given, slip=slip)
+        angle = angle_from_order(job.bearing, **order)
     except InputError as error:
         field = f"{OPTION}, its error" if error.field == "error" else OPTION
         raise InputError(field, error.value, error.allowed) from None
     if job.bearing.contact_angle is not None:
-        return Found(angle, (), None, "not searched: that of an angular contact bearing follows from its angle")
-    if job.planar or job.load[2] <= 0.0:
-        return Found(angle, (), None, "not searched without an --axial load above 0")
+        remark = "not searched: that of an angular contact bearing follows from its angle"
+        return OrderAnswer(measured, angle, remark=remark)
+    if len(job.load) == len(PLANAR) or job.load[2] <= 0.0:
+        return OrderAnswer(measured, angle, remark="not searched without an --axial load above 0")
     axial = tuple(job.load[2] * one for one in BESIDE)
-    at = {"radial": -job.load[1], "speed_rpm": job.speeds[0], "slip": slip}
+    found = clearance_from_order(job.bearing, axial, **order, radial=-job.load[1], speed_rpm=job.speeds[0])
     remark = f"{_micrometres(job.bearing.clearance)} µm of the bearing not used" if job.bearing.clearance else ""
-    return Found(angle, axial, clearance_from_order(job.bearing, axial, **measured.given, **at), remark)
-
-
-def summary(measured: MeasuredOrder, found: Found) -> dict[str, Any]:
-    """For JSON."""
-    entries: dict[str, Any] = {**measured._asdict(), "contact_angle": found.angle._asdict()}
-    if found.clearance is not None:
-        bounds = {name: _or_none(values) for name, values in found.clearance._asdict().items()}
-        entries |= {"axial_load": found.axial, "clearance": bounds}
-    return entries
-
-
-def show(measured: MeasuredOrder, found: Found) -> None:
-    """Contact angle and clearances with their intervals."""
-    value, low, high = (f"{numeral(degrees(float(one)), 4)}°" for one in found.angle)
-    order = f"{measured.name.upper()} {numeral(measured.order, 5)} ± {numeral(measured.error, 2)}"
-    rows = [("contact angle", value, f"{low} to {high}: mean of the balls")]
-    rows += [("clearance", "", found.remark)] if found.remark else []
-    show_table(f"measured {order}", rows, None)
-    if found.clearance is None:
-        return
-    loads = [
-        [numeral(load), *(_micrometres(float(np.asarray(one)[k])) for one in found.clearance)]
-        for k, load in enumerate(found.axial)
-    ]
-    show_columns(["axial load [N]", "clearance [µm]", "from", "to"], loads, "clearances with this order")
+    return OrderAnswer(measured, angle, axial, found, remark)
 
 
 def _micrometres(clearance: float) -> str:
     return "none" if np.isnan(clearance) else numeral(1e6 * clearance, 3)
-
-
-def _or_none(values: Any) -> list[float | None]:
-    return [None if np.isnan(one) else float(one) for one in values]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import pi
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ UNITS = {
     "N/m": ("N/µm", 1e6),
     "s": ("ms", 1e-3),
     "kg": ("g", 1e-3),
+    "rad": ("°", pi / 180.0),
 }
 # What a dimensionless value is measured in.
 SCALES = {
@@ -66,6 +68,39 @@ def quantity_rows(result: Any, remarks: Mapping[str, str], error: Mapping[str, f
             bars = "" if bar is None else f"± {in_unit(bar, quantity.unit, 1)}"
         rows.append((words(name), shown, ", ".join(filter(None, (beside, bars, remark)))))
     return rows
+
+
+def columns_over(result: Any, heads: Mapping[str, str], digits: int = 4) -> tuple[list[str], list[list[str]]]:
+    """Heads and rows of quantities along their first dimension; values over further ones share a cell.
+
+    Parameters
+    ----------
+    result : QuantityTable
+        Quantities that it does not have are left out; those with error bars have them.
+    heads : mapping
+        Head of the column by the name of the quantity; words of its declaration where empty.
+    digits : int
+        Significant figures.
+    """
+    shown, columns = [], []
+    bars = getattr(result, "error_bars", None) or {}
+    for name, head in heads.items():
+        if getattr(result, name) is None:
+            continue
+        values, (said, unit) = result.axis(name)
+        unit, size = UNITS.get(unit, (SCALES.get(unit, unit), 1.0))
+        rows = np.asarray(values).reshape(len(values), -1) / size
+        cells = [", ".join(numeral(value, digits) for value in row) for row in rows.tolist()]
+        if name in bars:
+            cells = [f"{cell} ± {numeral(bar / size, 1)}" for cell, bar in zip(cells, bars[name], strict=True)]
+        shown.append(f"{head or said}{f' [{unit}]' if unit else ''}")
+        columns.append(cells)
+    return shown, [list(row) for row in zip(*columns, strict=True)]
+
+
+def summary_lines(result: Any) -> list[str]:
+    """Lines of the summary of a library object, without the name of its class."""
+    return [line.strip() for line in repr(result).partition(": ")[2].splitlines()]
 
 
 def outside_rows(found: Assumptions) -> list[Row]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
@@ -16,7 +16,7 @@ from typing import Any
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from ehlcontact.cli.entries import allowed_of, is_several, keys_of, meaning_of, section_of
+from ehlcontact.cli.entries import allowed_of, in_options, is_several, keys_of, meaning_of, section_of
 from ehlcontact.cli.study.points.lists import points_of
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.toml import toml_value
@@ -28,35 +28,15 @@ from reduced_models.bearing.catalogue import BY_DIMENSIONS, catalogue_row
 
 WIDTH = 115  # characters of a line, as in the files of examples/
 COMMENT = 34  # of them before the comment
-# Entries of the file by the option that sets them.
-OPTIONS = {
+OF_A_MACHINE = {  # options that set entries of parts
     "name": "--bearing",
     "support.bearing": "--bearing",
-    "support.clearance": "--clearance",
-    "support.pair": "--pair",
-    "support.preload": "--preload",
     "support.spring": "--preload",
     "support.position_mm": "--positions",
-    "shaft.length_mm": "--shaft-length",
-    "shaft.diameter_mm": "--shaft-diameter",
-    "disc.mass": "--disc-mass",
-    "disc.diameter_mm": "--disc-diameter",
-    "disc.width_mm": "--disc-width",
-    "disc.unbalance": "--unbalance",
     "disc.radial_load": "--load",
     "disc.axial_load": "--axial",
-    "surface.rq_um": "--rq",
-    "oil.iso_vg": "--oil",
-    "oil.nu40": "--nu40",
-    "oil.nu100": "--nu100",
-    "oil.temperature": "--temp",
-    "operation.radial_load": "--load",
-    "operation.axial_load": "--axial",
-    "operation.speed_rpm": "--speed-rpm",
-    "operation.layer_um": "--layer",
-    "operation.layer_ratio": "--layer-ratio",
-    "operation.thermal": "--thermal",
 }
+IN_THE_FILE = "any other by its dimensions, in the file, balls = ..."
 OVERHANG = 1.2  # of a shaft whose length is not given, over the distance of its bearings
 HEAD = """\
 # {about} What the study will do, and about how long that takes; then the study itself:
@@ -115,7 +95,7 @@ def machine_of(
     return {entry: value for entry, value in found.items() if value is not None}
 
 
-def study_text(asked: Mapping[str, Any], name: str, sections: Sequence[str]) -> str:
+def study_text(asked: Mapping[str, Any], name: str, sections: Sequence[str], options: Collection[str] = ()) -> str:
     """The file, which `load_study` takes as it is.
 
     Parameters
@@ -126,6 +106,8 @@ def study_text(asked: Mapping[str, Any], name: str, sections: Sequence[str]) -> 
         Name of the file, for its first lines.
     sections : sequence of str
         Sections that the study has, beside those of these entries.
+    options : collection of str
+        Entries that options of the command have set.
 
     Raises
     ------
@@ -140,9 +122,11 @@ def study_text(asked: Mapping[str, Any], name: str, sections: Sequence[str]) -> 
         text = _written(entries, name, sections)
         points_of(tomllib.loads(text), Path())
     except InputError as error:
-        entry = re.sub(r"^(support|disc)\.[^.]+\.", r"\1.", error.field)
-        allowed = error.allowed.replace(BY_DIMENSIONS, "any other by its dimensions, in the file, balls = ...")
-        raise InputError(OPTIONS.get(entry, error.field), error.value, allowed) from None
+        entry, allowed = (
+            re.sub(r"\b(support|disc)\.\w+\.(?=\w)", r"\1.", text) for text in (error.field, error.allowed)
+        )
+        allowed = in_options(allowed, options).replace(BY_DIMENSIONS, IN_THE_FILE)
+        raise InputError(OF_A_MACHINE.get(entry) or in_options(entry, options), error.value, allowed) from None
     return text
 
 

@@ -142,6 +142,10 @@ class QuantityTable(Summary):
         """Values of a quantity, and words and unit of their axis in figures."""
         return np.asarray(getattr(self, name)), self._axis(name)
 
+    def units_by_name(self) -> dict[str, str]:
+        """Unit of every quantity by its name."""
+        return {name: self._unit(name) for name in self._declared()}
+
     def panels(self) -> list[Any]:
         """Panels of that figure, for a `Picture` of several results."""
         return list(self._panels())

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions import Assumptions, assumptions
-from ehlcontact.checks import parts, require_instance, require_positive
+from ehlcontact.checks import parts, require_instance
 from ehlcontact.checks.quantity import takes
 from ehlcontact.film_formulas import film_scatter
 from ehlcontact.hertz import hertz_contact
@@ -259,7 +259,7 @@ class SupportState(Summary):
         }
 
 
-@takes(load="N", speed_rpm=parts.SPEED, tilt="rad")
+@takes(load="N", speed_rpm=parts.SPEED_OR_NONE, tilt="rad")
 def support_state(
     bearing: BallBearing | BearingSet,
     load: ArrayLike,
@@ -277,7 +277,7 @@ def support_state(
     load : tuple of 2, 3 or 5 float
         Force on the inner ring [N], [N m], as in `BallBearing.equilibrium`.
     speed_rpm : float
-        Of the shaft [rev/min].
+        Of the shaft [rev/min]; 0 of a dry bearing.
     tilt : (float, float), optional
         About x and y, of the ring under (Fx, Fy, Fz) [rad].
     name : str
@@ -287,10 +287,10 @@ def support_state(
     Raises
     ------
     InputError
-        A speed of 0; what `equilibrium` of the bearing refuses.
+        A speed of 0 of a bearing in oil; what `equilibrium` of the bearing refuses.
     """
     require_instance("bearing", bearing, BallBearing | BearingSet, "a BallBearing or a BearingSet")
-    speed = bearing.speed(require_positive("speed_rpm", speed_rpm))
+    speed = bearing.speed(speed_rpm)
     state = bearing.equilibrium(load, speed_rpm=speed, tilt=tilt)
     coefficients = bearing.coefficients(load, speed_rpm=speed, tilt=tilt, rpm=speed)
     return support_of(name, position, bearing, state, coefficients)

@@ -3,10 +3,15 @@
 import pytest
 from tiny_study import SMALL
 
+from ehlcontact.cli.commands.bearing import BearingOptions
+from ehlcontact.cli.commands.init import ENTRIES as OF_A_STUDY
+from ehlcontact.cli.commands.init import Wish
 from ehlcontact.cli.commands.simulate import MotionOptions, TimeOptions
 from ehlcontact.cli.contact import Contact, Surfaces
-from ehlcontact.cli.entries import allowed_of, field_of, meaning_of, quantity_of
+from ehlcontact.cli.entries import allowed_of, field_of, keys_of, meaning_of, options_of, quantity_of
 from ehlcontact.cli.options import Grid
+from ehlcontact.cli.study.bearing import ENTRIES as OF_A_BEARING
+from ehlcontact.cli.study.bearing import NOT_OF_A_BEARING
 from ehlcontact.cli.study.schema import Study
 
 SAME = {  # entry: option of a point
@@ -45,6 +50,34 @@ def test_an_option_is_declared_as_its_entry(entry, option):
 )
 def test_range_in_words(entry, words):
     assert allowed_of(field_of(Study, entry)) == words
+
+
+@pytest.mark.parametrize(
+    ("entry", "options"),
+    [
+        ("operation.radial_load", ("--load", "--radial")),
+        ("operation.tilt_x_mrad", ("--tilt-x",)),
+        ("support.contact_angle_deg", ("--contact-angle",)),
+        ("oil.iso_vg", ("--oil",)),
+        ("surface.rq_um", ("--rq",)),
+        ("disc.width_mm", ("--disc-width",)),
+        ("support.a_new_one_um", ("--a-new-one",)),
+    ],
+)
+def test_the_option_of_an_entry_is_its_key_without_the_unit(entry, options):
+    assert options_of(entry) == options
+
+
+@pytest.mark.parametrize(("group", "entries"), [(BearingOptions, OF_A_BEARING), (Wish, OF_A_STUDY)])
+def test_every_entry_of_the_schema_is_an_option(group, entries):
+    """An entry that is added to [operation], [[support]], [oil] or [surface] is an option at once."""
+    assert set(group.ENTRIES.values()) == set(entries)
+    for section in ("operation", "support", "oil", "surface"):
+        keys = {f"{section}.{key}" for key in keys_of(Study.model_fields[section].annotation)}
+        assert keys - set(NOT_OF_A_BEARING) <= set(entries)
+    for name, entry in group.ENTRIES.items():
+        assert name in group.model_fields and f"--{name.replace('_', '-')}" == options_of(entry)[0]
+    assert len(set(group.ENTRIES)) == len(entries)  # no two have one name
 
 
 @pytest.mark.parametrize("group", [Contact, Surfaces, Grid, MotionOptions, TimeOptions])

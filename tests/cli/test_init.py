@@ -149,7 +149,7 @@ def test_a_spindle(study):
         ((*MOTOR, "--bearing", "6205"), ("--bearing = 3", "once or twice")),
         ((*MOTOR, "--load", "5", "--load", "6"), ("--load", "once")),
         (("--span", "300"), ("--span = 300", "with two bearings")),
-        (("--preload", "200"), ("--preload = 200", "without support.pair")),
+        (("--preload", "200"), ("--preload = 200", "without --pair")),
         ((*MOTOR[:4], "--positions", "30", "30"), ("--positions = (30.0, 30.0)", "two places", "--pair")),
         (
             (*MOTOR, "--shaft-diameter", "120", "--disc-diameter", "110", "--disc-width", "20"),

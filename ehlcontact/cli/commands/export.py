@@ -238,7 +238,8 @@ def _bearing_of(file: Path, keywords: dict[str, Any]) -> FmuModel:
         raise InputError("operation.tilt_x_mrad", 1e3 * job.tilt[0], allowed)
     speeds = sorted({job.speeds[0], job.speeds[-1]})
     with job.called():
-        bearing = replace(job.bearing, supply=job.supply, thermal=job.thermal)
+        supply, thermal = job.supply_and_heat
+        bearing = replace(job.bearing, supply=supply, thermal=thermal)
         return fmu_model(bearing, speeds_rpm=speeds, load=job.load, **keywords)
 
 

@@ -12,71 +12,57 @@ from pydantic import Field
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import OIL_NAME, known_bearings
+from ehlcontact.cli.entries import entries_of
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import check_new, say
-from ehlcontact.cli.study.schema import oil_grade
+from ehlcontact.cli.study.bearing import NOT_OF_A_BEARING
+from ehlcontact.cli.study.schema import Study
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_text
 
 SEVERAL = "given several times, the study runs at all of them"
 MOST_BEARINGS = 2
 LOAD = 100.0  # N, on a bearing alone
-MACHINE = (
-    "span",
-    "positions",
-    "shaft_length",
-    "shaft_diameter",
-    "disc_mass",
-    "disc_diameter",
-    "disc_width",
-    "unbalance",
+PANELS = {
+    "operation": "Load, speed, oil supply and heat",
+    "support": "Bearing and pair",
+    "oil": "Oil",
+    "surface": "Roughness",
+    "shaft": "Machine: two bearings under a shaft",
+    "disc": "Machine: a disc in the middle of both bearings",
+}
+ENTRIES = entries_of(
+    Study, PANELS, (*NOT_OF_A_BEARING, *(f"disc.{name}" for name in ("position_mm", "radial_load", "axial_load")))
 )
-_machine = partial(typer.Option, rich_help_panel="Machine: two bearings under a shaft")
+_operation, _machine = (partial(typer.Option, rich_help_panel=PANELS[name]) for name in ("operation", "shaft"))
 
 
+@o.with_entries(ENTRIES, PANELS)
 class Wish(o.Options):
     """What the study is about; in place of these options stand entries of the file afterwards."""
 
     bearing: Annotated[
         list[e.Catalogue],
-        typer.Option("--bearing", metavar="NAME", autocompletion=known_bearings),
+        typer.Option(
+            "--bearing", metavar="NAME", autocompletion=known_bearings, rich_help_panel=PANELS["support"]
+        ),
         e.meaning("name of a ball bearing in the catalogue, as 6205; two of them, left and right, are a machine"),
     ] = Field(["6205"])
     oil: Annotated[str, OIL_NAME] = "ISO VG 68"
-    nu40: Annotated[e.Nu40 | None, typer.Option("--nu40"), e.meaning("mm2/s at 40 C, in place of --oil")] = None
-    nu100: Annotated[e.Nu100 | None, typer.Option("--nu100"), e.meaning("mm2/s at 100 C, with --nu40")] = None
-    temp: Annotated[e.Temperature, typer.Option("--temp")] = 50.0
-    speed_rpm: Annotated[
-        list[e.Speed], typer.Option("--speed-rpm"), e.meaning(f"speed of the shaft; {SEVERAL}")
-    ] = Field([3000.0])
+    temp: Annotated[e.Temperature, typer.Option("--temp", rich_help_panel=PANELS["oil"])] = 50.0
+    speed_rpm: Annotated[list[e.Speed], _operation("--speed-rpm"), e.meaning(f"speed of the shaft; {SEVERAL}")] = (
+        Field([3000.0])
+    )
     load: Annotated[
         list[e.Load] | None,
-        typer.Option("--load", show_default="100 on a bearing, none on a machine"),
+        _operation("--load", show_default="100 on a bearing, none on a machine"),
         e.meaning(f"radial load on the bearing; {SEVERAL}; of a machine on its disc, beside the weight"),
     ] = None
-    axial: Annotated[
-        e.Load | None, typer.Option("--axial"), e.meaning("axial load; an angular contact bearing needs one")
-    ] = None
-    clearance: Annotated[
-        str | None,
-        typer.Option(
-            "--clearance",
-            metavar="UM|CLASS",
-            help="Radial internal clearance, um, below 0 a preload; or C2, CN, C3, C4: the middle of that class.",
-        ),
-    ] = None
-    rq: Annotated[
-        e.Roughness | None, typer.Option("--rq"), e.meaning("roughness of ball and race together, for lambda")
-    ] = None
-    pair: Annotated[e.Arrangement | None, typer.Option("--pair"), e.meaning("two of the first bearing")] = None
     preload: Annotated[
-        e.Preload | None, typer.Option("--preload"), e.meaning("of the pair, or of a spring on the second bearing")
+        e.Preload | None,
+        typer.Option("--preload", rich_help_panel=PANELS["support"]),
+        e.meaning("of the pair, or of a spring on the second bearing"),
     ] = None
-    layer: Annotated[e.OilThickness | None, typer.Option("--layer")] = None
-    layer_ratio: Annotated[e.BearingLayerRatio | None, typer.Option("--layer-ratio")] = None
-    thermal: Annotated[
-        bool, typer.Option("--thermal", help="Films of the bearing with heat, beside isothermal ones.")
-    ] = False
     span: Annotated[e.Distance | None, _machine("--span"), e.meaning("distance of both bearings")] = None
     positions: Annotated[
         tuple[float, float] | None,
@@ -91,16 +77,6 @@ class Wish(o.Options):
         e.Diameter | None,
         _machine("--shaft-diameter", show_default="the larger bore"),
         e.meaning("diameter of the shaft"),
-    ] = None
-    disc_mass: Annotated[
-        e.Mass | None, _machine("--disc-mass"), e.meaning("mass of a disc in the middle of both bearings")
-    ] = None
-    disc_diameter: Annotated[
-        e.Diameter | None, _machine("--disc-diameter"), e.meaning("its diameter, in place of its mass")
-    ] = None
-    disc_width: Annotated[e.Width | None, _machine("--disc-width"), e.meaning("its width along the shaft")] = None
-    unbalance: Annotated[
-        e.Unbalance | None, _machine("--unbalance"), e.meaning("mass times eccentricity of that disc")
     ] = None
     contact: Annotated[
         bool, _machine("--contact", help="The full film of the most loaded ball too, as of a bearing alone.")
@@ -119,16 +95,15 @@ def init(
 
     out.check(beside={"FILE.toml": (file, (".toml",))})
     check_new("FILE.toml", file, force)
-    bearings, grade = (
-        [name.strip().upper() for name in wish.bearing],
-        oil_grade(wish.oil, "--oil", "its --nu40 and --nu100"),
-    )
-    sheet = {f"oil.{key}": value for key in ("nu40", "nu100") if (value := getattr(wish, key)) is not None}
-    entries = _entries(wish, bearings) | (sheet or {"oil.iso_vg": grade}) | {"oil.temperature": wish.temp}
+    bearings = [name.strip().upper() for name in wish.bearing]
+    if len(bearings) > MOST_BEARINGS:
+        allowed = "given once or twice; others are added in the file, [[support]]"
+        raise InputError("--bearing", len(bearings), allowed)
     machine = len(bearings) == MOST_BEARINGS
-    text = study_text(entries, file.name, ("contact",) if wish.contact or not machine else ())
+    entries = _machine_entries(wish, bearings) if machine else _alone(wish, bearings[0])
+    text = study_text(entries, file.name, ("contact",) if wish.contact or not machine else (), ENTRIES)
     write_text(file, text, "FILE.toml")
-    oil = "an oil of that data sheet" if sheet else f"ISO VG {grade}"
+    oil = f"ISO VG {entries['oil.iso_vg']}" if "oil.iso_vg" in entries else "an oil of that data sheet"
     about = f"{' and '.join(bearings)} in {oil} at {numeral(wish.temp)} °C"
     speeds = ", ".join(map(numeral, wish.speed_rpm))
     loads = f"{', '.join(map(numeral, wish.load or [LOAD]))} N at " if not machine else ""
@@ -143,45 +118,35 @@ def init(
     out.deliver({"study": str(file), **known, **numbers}, told)
 
 
-def _entries(wish: Wish, bearings: list[str]) -> dict[str, Any]:
-    """Entries of the file that the options set, but those of the oil."""
-    from ehlcontact.cli.starter import machine_of
-
-    speeds = [float(speed) for speed in wish.speed_rpm]
-    found: dict[str, Any] = {"title": f"study of {' and '.join(bearings)}"}
-    found["operation.speed_rpm"] = _one_or_all(speeds)
-    for key, value in (("layer_um", wish.layer), ("layer_ratio", wish.layer_ratio), ("thermal", wish.thermal)):
-        if value:
-            found[f"operation.{key}"] = value
-    if wish.rq is not None:
-        found["surface.rq_um"] = wish.rq
-    if len(bearings) > MOST_BEARINGS:
-        raise InputError(
-            "--bearing", len(bearings), "given once or twice; others are added in the file, [[support]]"
-        )
-    found |= _alone(wish, bearings[0]) if len(bearings) == 1 else _machine_entries(wish, bearings, machine_of)
-    if wish.clearance is not None:
-        for k in range(len(bearings)):
-            found[f"support.{k}.clearance"] = _clearance(wish.clearance)
-    return found
-
-
 def _alone(wish: Wish, bearing: str) -> dict[str, Any]:
     """A bearing alone under its loads."""
-    for name in MACHINE:
+    parts = (name for name, entry in wish.ENTRIES.items() if entry.partition(".")[0] in ("shaft", "disc"))
+    for name in ("span", "positions", *parts):
         if (value := getattr(wish, name)) is not None:
             option = f"--{name.replace('_', '-')}"
             raise InputError(option, value, "given with two bearings, --bearing LEFT --bearing RIGHT")
-    found: dict[str, Any] = {"support.0.bearing": bearing}
-    found |= {"support.0.pair": wish.pair, "support.0.preload": wish.preload, "operation.axial_load": wish.axial}
     loads = [float(load) for load in wish.load or [LOAD]]
-    return {key: value for key, value in found.items() if value is not None} | {
-        "operation.radial_load": _one_or_all(loads)
-    }
+    return _shared(wish, [bearing]) | {"support.0.bearing": bearing, "operation.radial_load": _one_or_all(loads)}
 
 
-def _machine_entries(wish: Wish, bearings: list[str], machine_of: Any) -> dict[str, Any]:
+def _shared(wish: Wish, bearings: list[str]) -> dict[str, Any]:
+    """Entries that the options set as they are, those of [[support]] of every bearing."""
+    found: dict[str, Any] = {"title": f"study of {' and '.join(bearings)}"}
+    given = wish.entries() | {"operation.speed_rpm": _one_or_all([float(speed) for speed in wish.speed_rpm])}
+    if {"oil.nu40", "oil.nu100", "oil.eta0", "oil.alpha"} & set(given):
+        given.pop("oil.iso_vg")
+    several = {"support": range(len(bearings)), "disc": range(1)}
+    for entry, value in given.items():
+        section, _, key = entry.partition(".")
+        names = [f"{section}.{k}.{key}" for k in several[section]] if section in several else [entry]
+        found |= dict.fromkeys(names, value)
+    return found
+
+
+def _machine_entries(wish: Wish, bearings: list[str]) -> dict[str, Any]:
     """A shaft with a disc on two bearings."""
+    from ehlcontact.cli.starter import machine_of
+
     if wish.span is None and wish.positions is None:
         raise InputError("--span", None, "given, with two bearings: their distance [mm]; or --positions")
     if wish.span is not None and wish.positions is not None:
@@ -191,25 +156,19 @@ def _machine_entries(wish: Wish, bearings: list[str], machine_of: Any) -> dict[s
         raise InputError("--positions", wish.positions, allowed)
     if wish.load is not None and len(wish.load) > 1:
         raise InputError("--load", tuple(wish.load), "given once, of a machine")
-    given = {
-        name: getattr(wish, name) for name in ("shaft_length", "shaft_diameter", "positions", "pair", "preload")
-    }
-    with o.called(name="--bearing"):
-        found: dict[str, Any] = machine_of(bearings, span=wish.span or 0.0, **given)
-    disc = {"mass": wish.disc_mass, "diameter_mm": wish.disc_diameter, "width_mm": wish.disc_width}
-    if not any(disc.values()):
+    found = _shared(wish, bearings)
+    if not any(entry.startswith(f"disc.0.{key}") for entry in found for key in ("mass", "diameter", "width")):
         raise InputError("--disc-mass", None, "given, with two bearings: what they carry; or --disc-diameter")
-    disc |= {"unbalance": wish.unbalance, "radial_load": None if wish.load is None else float(wish.load[0])}
-    disc["axial_load"] = wish.axial
-    return found | {f"disc.0.{key}": value for key, value in disc.items() if value is not None}
-
-
-def _clearance(text: str) -> float | str:
-    """A number of micrometres, or the class as it is."""
-    try:
-        return float(text)
-    except ValueError:
-        return text.strip().upper()
+    loads = {
+        "disc.0.radial_load": None if wish.load is None else float(wish.load[0]),
+        "disc.0.axial_load": found.pop("operation.axial_load", None),
+    }
+    for entry in ("operation.radial_load", *(f"support.{k}.{key}" for k in (0, 1) for key in ("pair", "preload"))):
+        found.pop(entry, None)
+    names = "shaft_length", "shaft_diameter", "positions", "pair", "preload"
+    with o.called(name="--bearing"):
+        found |= machine_of(bearings, span=wish.span or 0.0, **{name: getattr(wish, name) for name in names})
+    return found | {entry: value for entry, value in loads.items() if value is not None}
 
 
 def _one_or_all(values: list[float]) -> float | list[float]:
