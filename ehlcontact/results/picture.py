@@ -293,6 +293,13 @@ class LoadZone:
         gaps = np.exp(1j * (self.angles + pi / self.angles.size))
         return float(np.degrees(np.angle(gaps[np.argmax((gaps * np.conj(away)).real)])))
 
+    @property
+    def longest_beside(self) -> float:
+        """Largest force of both balls beside `free_angle` [N]."""
+        apart = np.abs(np.angle(np.exp(1j * (self.angles - np.radians(self.free_angle)))))
+        beside = np.argsort(apart)[:2]
+        return max(float(values[beside].max()) for _, values, *_ in self.forces)
+
 
 AnyPanel = Panel | Map | LoadZone
 

@@ -194,8 +194,21 @@ class MachineState(Summary):
             high = max(
                 SHOWN * float(self.diagram.speed_rpm[-1]) * RPM_TO_HZ, SEEN * float(self.diagram.hz[:, 0].max())
             )
-            panels.append(replace(modes, y_ends=(0.0, min(high, SEEN * float(self.diagram.hz.max())))))
+            end = min(high, SEEN * float(self.diagram.hz.max()))
+            seen = [line for line in modes.lines if float(np.min(line.y)) <= end]
+            panels.append(replace(modes, lines=seen, y_ends=(0.0, end)))
         return Picture(panels, f"{self.speed_rpm:g} rev/min", columns=len(panels), heights=(340.0,))
+
+    def node_label(self, name: str) -> str:
+        """A node in words: that of a bearing by the label of its support."""
+        named = {f"bearing {number}": support.label for number, support in enumerate(self.supports)}
+        return named.get(name) or name
+
+    @property
+    def labelled_response(self) -> UnbalanceResponse | None:
+        """`response`, whose nodes at bearings have the labels of the supports."""
+        own = self.response
+        return None if own is None else replace(own, names=tuple(map(self.node_label, own.names)))
 
     def to_dict(self) -> dict[str, Any]:
         """All numbers, SI, ready for JSON."""

@@ -9,11 +9,12 @@ from reduced_models.rotor.modes import ALONG
 from reduced_models.rotor.picture import STRAIGHT
 from reduced_models.rotor.support_state import ABOVE_MEASURED, RELY_ON_SKF
 
+WHIRLS = "forward", "backward"
 AXIS = {"x": 0, "y": 1, "z": 2}
 MARGIN = 0.15  # of the speed, least separation of a critical speed
 HALF = 50.0  # %, of the strain energy
 FULL_FILM = 3.0  # lambda from which films keep the surfaces apart
-BRIEF, SHORT = 2, 44  # parts of a note in a line, and characters of each
+BRIEF, SHORT = 2, 54  # parts of a note in a line, and characters of each
 HEAVIER = 0.01  # share of a ball load, above which the centrifugal force of the ball is named
 LINEAR = 1.0  # displacement by unbalance over the approach of the balls, up to which it is small
 
@@ -85,7 +86,8 @@ def _film(machine: Any) -> Tile | None:
 
     ratio = "" if own.lambda_ratio is None else f"lambda {digits(own.lambda_ratio)}"
     of = " ".join(filter(None, (_of(machine, own), f"{own.worst_contact.race_name} race")))
-    sure = ", ".join(f"± {digits(100.0 * error, 2)} % {cause}" for cause, error in own.film_errors.items())
+    errors = ", ".join(f"± {digits(100.0 * error, 2)} % {cause}" for cause, error in own.film_errors.items())
+    sure = f"uncertain by {errors}" if errors else ""
     note = _note(ratio, of, *_others(machine, own, words), sure)
     return Tile("smallest film", digits(1e6 * own.h_min), "µm", note, bool(_thin_film(machine)))
 
@@ -95,8 +97,8 @@ def _ball_load(machine: Any) -> Tile:
 
     def words(one: Any) -> str:
         angles = one.contact_angles
-        at = "" if angles is None else f" at {digits(round(degrees(angles[0]), 1))}°"
-        return f"{digits(1e-9 * one.p_hertz)} GPa{at}"
+        at = "" if angles is None else f" at a contact angle of {digits(round(degrees(angles[0]), 1))}°"
+        return f"Hertz pressure {digits(1e-9 * one.p_hertz)} GPa{at}"
 
     def outer(one: Any) -> str:
         heavier = one.outer_load > one.ball_load * (1.0 + HEAVIER)
@@ -112,7 +114,7 @@ def _ball_load(machine: Any) -> Tile:
 
 
 def _coefficients(machine: Any) -> Tile:
-    """Along y, the direction of the weight, of the support that is softest, with the axial ones beside it."""
+    """Along y, the direction of the weight, of the support with the most loaded ball; with its axial ones."""
 
     def along(one: Any, axis: str) -> tuple[str, str]:
         k = AXIS[axis]
@@ -128,10 +130,10 @@ def _coefficients(machine: Any) -> Tile:
         K, C = along(one, "y")
         return f"{K} N/µm, {C} N s/m, {axial(one)}".removesuffix(", ")
 
-    own = min(machine.supports, key=lambda one: float(one.stiffness[1, 1]))
+    own = max(machine.supports, key=lambda one: one.ball_load)
     K, C = along(own, "y")
     note = _note(f"damping {C} N s/m", axial(own), _of(machine, own), *_others(machine, own, words))
-    which = "stiffness of the softest bearing" if len(machine.supports) > 1 else "stiffness"
+    which = "stiffness of the most loaded bearing" if len(machine.supports) > 1 else "stiffness"
     return Tile(f"{which} at {digits(machine.hz, 4)} Hz", K, "N/µm", note)
 
 
@@ -154,7 +156,8 @@ def _critical(machine: Any) -> Tile | None:
         rpm = machine.diagram.speed_rpm
         return Tile("critical speed", "none", "", f"from {rpm[0]:.5g} to {rpm[-1]:.5g} rev/min")
     speeds = ", ".join(f"{digits(one.speed_rpm, 5)} {_way(machine, one)}" for one in machine.critical_speeds)
-    way = _way(machine, own) + ("" if machine.is_excited(own) else ": unbalance hardly excites it")
+    way = f"{_way(machine, own)} whirl" if _way(machine, own) in WHIRLS else _way(machine, own)
+    way += "" if machine.is_excited(own) else ": unbalance hardly excites it"
     note = _note(_side(machine, own), way, f"all: {speeds}" if len(machine.critical_speeds) > 1 else "")
     critical = bool(_near_critical(machine))
     return Tile("nearest critical speed", digits(own.speed_rpm, 5), "rev/min", note, critical)
@@ -183,7 +186,7 @@ def _response(machine: Any) -> Tile | None:
     beside = "" if most == own else _orbit(most)
     narrow = "" if peak is None or peak.size < most.size else f"linear peak {_orbit(peak)}"
     critical = bool(_large_response(machine))
-    note = _note(_node(machine, own.node), narrow, beside)
+    note = _note(f"at the {machine.node_label(own.node)}", narrow, beside)
     return Tile(
         f"response to unbalance at {digits(own.speed_rpm, 5)} rev/min",
         digits(1e6 * own.size),
@@ -197,12 +200,6 @@ def _orbit(response: Any) -> str:
     return f"{digits(1e6 * response.size)} µm at {digits(response.speed_rpm, 5)} rev/min"
 
 
-def _node(machine: Any, name: str) -> str:
-    """Name of a node; that of a bearing by the label of its support."""
-    named = {f"bearing {number}": support.label for number, support in enumerate(machine.supports)}
-    return named.get(name) or name
-
-
 def _friction(machine: Any) -> Tile | None:
     supports = machine.supports
     torques = [one.torque for one in supports]
@@ -211,7 +208,7 @@ def _friction(machine: Any) -> Tile | None:
     by = "SKF's model" if all(one.relies_on_skf for one in supports) else "films and sliding"
     each = ", ".join(f"{one.label} {digits(one.torque)}" for one in supports) if len(supports) > 1 else ""
     cold = ", ".join(digits(one.film_torque) for one in supports)
-    films = f"rolling of isothermal films {cold} N m"
+    films = f"rolling of the films alone, without heat: {cold} N m"
     more = not all(one.relies_on_skf for one in supports) and machine.speed_rpm > RELY_ON_SKF
     doubt = ABOVE_MEASURED if more else ""
     loss = f"{digits(sum(one.loss for one in supports))} W by {by}"
@@ -237,7 +234,8 @@ def _near_critical(machine: Any) -> str:
     share = 100.0 * min(machine.modes, key=lambda one: abs(one.hz - own.hz)).support_share
     bends = f"{digits(100.0 - share, 2)} % of its strain energy is in the shaft, {digits(share, 2)} % in bearings"
     moves = "a stiffer or shorter shaft moves it" if share < HALF else "more preload or stiffer bearings move it"
-    return f"critical speed {digits(own.speed_rpm, 5)} rev/min, {_side(machine, own)}: {bends}, so {moves}"
+    there = f"{digits(own.speed_rpm, 5)} rev/min, {_side(machine, own)}"
+    return f"unbalance excites a mode at {there}: {bends}, so {moves}"
 
 
 def _growing(machine: Any) -> str:

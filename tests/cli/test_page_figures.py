@@ -144,6 +144,10 @@ def test_a_load_zone_points_along_the_load():
     # numbers stand between two balls, away from the load
     assert np.sin(np.radians(zone.free_angle)) > 0.9
     assert np.min(np.abs(np.degrees(angles) - zone.free_angle % 360.0)) == pytest.approx(22.5)
+    # and only where the bars of these two are not in the way
+    ticks = page.layout.polar.radialaxis
+    assert zone.longest_beside == 2.0 and ticks.tickvals[:4] == (2.0, 4.0, 6.0, 8.0)
+    assert ticks.ticktext[:4] == ("", "4 N", "6 N", "8 N")
 
 
 def test_numbers_are_as_short_as_the_axis_allows():

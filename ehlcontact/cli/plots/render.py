@@ -91,6 +91,8 @@ def _panel(figure: go.Figure, panel: Panel, at: dict[str, int]) -> None:
         options: dict[str, Any] = {"title_text": label, "type": "log" if logs[axis] else None, "dtick": tick}
         if "rev/min" in label:
             options["exponentformat"] = "none"
+        elif label.endswith("[Hz]"):
+            options["exponentformat"] = "SI"  # 10k
         if ends is not None:
             options["range"] = _range(ends, logs[axis])
         elif axis == "y" and panel.bottom is not None:
@@ -257,13 +259,23 @@ def _load_zone(figure: go.Figure, zone: LoadZone, at: dict[str, int]) -> None:
         towards = float(np.degrees(zone.load)) % 360.0
         place = {"theta": [towards] * 2, "r": [1.02 * most, 1.22 * most]}
         figure.add_scatterpolar(**place, **arrow, marker=marker, name="load", **at)
-    radius: dict[str, Any] = {"range": [0.0, LoadZone.ROOM * most], "ticksuffix": " N"}
+    radius: dict[str, Any] = {"range": [0.0, LoadZone.ROOM * most], "tickmode": "array"}
+    radius["tickvals"], covered = _even_numbers(LoadZone.ROOM * most), zone.longest_beside
+    # where bars are not in the way
+    radius["ticktext"] = [f"{value:g} N" if value > covered else "" for value in radius["tickvals"]]
     # numbers upright, wherever their axis points
     radius |= {"angle": zone.free_angle, "tickangle": zone.free_angle}
     around: dict[str, Any] = {"tickmode": "array", "tickvals": [*QUARTERS]}
     words = zone.title.replace("\n", "<br>")  # above the circle, in place of its degrees
     around["ticktext"] = [words if angle == UPWARDS and words else f"{angle}°" for angle in QUARTERS]
     figure.update_polars(barmode="overlay", radialaxis=radius, angularaxis=around, **at)
+
+
+def _even_numbers(end: float) -> list[float]:
+    """Numbers 1, 2 or 5 times a power of ten apart, about three of them up to `end`, and on to twice that."""
+    power = 10.0 ** np.floor(np.log10(end / 3.0))
+    step = power * max(factor for factor in (1.0, 2.0, 5.0) if factor * power <= end / 3.0)
+    return [float(f"{step * k:.6g}") for k in range(1, int(2.0 * end / step) + 1)]
 
 
 def _move_together(figure: go.Figure, panels: Sequence[Any]) -> None:

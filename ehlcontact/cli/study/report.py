@@ -254,8 +254,8 @@ def _of_bearings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
         pictures["machine"] = machine.picture
         for k, (_, state) in enumerate(shown_bearings(found)):
             pictures[f"balls_{k + 1}"] = state.picture
-        if machine.modes and machine.response is not None:
-            pictures["response_to_unbalance"] = machine.response.picture
+        if machine.modes and (response := machine.labelled_response) is not None:
+            pictures["response_to_unbalance"] = response.picture
     for k, (_, small) in enumerate(shown_coefficients(found)):
         pictures[f"frequency_{k + 1}"] = partial(_over_frequency, small)
     if isinstance(one := found.oil_and_heat, OilAndHeat):

@@ -6,7 +6,7 @@ const report = { wanted: 0, drawn: 0, failed: [] }; // what a test looks at
 const CONFIG = { displaylogo: false, showSendToCloud: false, showEditInChartStudio: false, plotlyServerURL: "", scrollZoom: false, doubleClick: "reset", modeBarButtonsToRemove: ["lasso2d", "select2d", "autoScale2d"] };
 const NARROWEST = 210; // px of a column; with less, panels stand below each other
 const PACE = 160; // ms of a frame that runs
-const SHEET = 703; // px of an A4 sheet between its margins
+const SHEET = 703, TALLEST = 900; // px of an A4 sheet between its margins; and of a figure with its notes and caption on it
 // What colours of paper become on a dark page, where the palette of Okabe and Ito is lightened.
 const DARK = {
   "#0072b2": "#56b4e9", "#e69f00": "#f0b23c", "#009e73": "#35c79c", "#d55e00": "#ff8f4f", "#cc79a7": "#e39bc6",
@@ -52,9 +52,10 @@ class Drawn {
     this.frames = frames;
     this.enter(data);
     const options = { ...CONFIG, toImageButtonOptions: { filename: this.plot.parentElement.id, scale: 2 } };
-    this.plot.style.setProperty("--sheet", Math.min(1, SHEET / width));
     this.plot.style.minHeight = "";
-    await Plotly.react(this.plot, data, merged(merged(layout, narrow ? this.meta.narrow : {}), own), options);
+    const whole = merged(merged(layout, narrow ? this.meta.narrow : {}), own);
+    this.plot.style.setProperty("--sheet", Math.min(1, SHEET / width, TALLEST / whole.height));
+    await Plotly.react(this.plot, data, whole, options);
   }
 
   enter(data) {

@@ -93,21 +93,23 @@ class TestMotor:
         assert tiles["smallest film"][1:3] == ("0.322", "µm")
         assert "0.369 µm, lambda 3.69" in tiles["smallest film"].note
         assert tiles["nearest critical speed"].value == "15957"  # that which whirls forward
-        said = "6.4 % above the speed; forward; all: 10367 along the shaft, 15924 backward"
+        said = "6.4 % above the speed; forward whirl; all: 10367 along the shaft, 15924 backward"
         assert said in tiles["nearest critical speed"].note
         response = tiles["response to unbalance at 15000 rev/min"]
-        assert response.value == "7.96" and response.note.startswith("disc; linear peak ")
+        assert response.value == "7.96" and response.note.startswith("at the disc; linear peak ")
         assert "at 15957 rev/min; 195 µm at 16000 rev/min" in response.note
         assert [text.split(":")[0] for text in machine.reservations] == ["left 6306", "right 6206"]
         assert all(": isothermal: " in text and "%" in text for text in machine.reservations)
-        assert tiles["stiffness of the softest bearing at 250 Hz"].note.startswith("damping 32.7 N s/m")
+        assert tiles["stiffness of the most loaded bearing at 250 Hz"].note.startswith("damping 32.7 N s/m")
         assert "175 N at the outer race" in tiles["largest ball load"].note
         assert "\n" not in "".join(map(str, machine.tiles()))
         assert tiles["smallest film"].brief == "smallest film 0.322 µm (lambda 3.22, right 6206 inner race)"
 
     def test_critical_is_the_speed_next_to_a_mode_of_the_shaft(self, machine: MachineState) -> None:
         (concern,) = machine.concerns
-        assert concern.startswith("critical speed 15957 rev/min, 6.4 % above the speed: 86 % of its strain energy")
+        assert concern.startswith(
+            "unbalance excites a mode at 15957 rev/min, 6.4 % above the speed: 86 % of its strain energy"
+        )
         assert "stiffer or shorter shaft" in concern
         marked = [tile.name for tile in machine.tiles() if tile.critical]
         assert marked == ["nearest critical speed"]
