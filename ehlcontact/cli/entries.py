@@ -100,6 +100,16 @@ Clearance = Annotated[
     Physical(Quantity("um", (0.01, 1e5), (0.1, 2e3), {"m": 1e6, "mm": 1e3}, zero=True, signed=True)),
     meaning("radial internal clearance; below 0 the bearing is preloaded"),
 ]
+Offset = Annotated[
+    Finite,
+    Physical(Quantity("um", (0.1, 1e4), (0.5, 500.0), {"m": 1e6, "mm": 1e3}, zero=True, signed=True)),
+    meaning("of a ground ring or spacer that presses the bearing"),
+]
+Gap = Annotated[
+    Positive,
+    Physical(Quantity("um", (0.1, 1e4), (1.0, 1e3), {"m": 1e6, "mm": 1e3})),
+    meaning("beyond which the film of an unloaded ball is gone"),
+]
 ContactAngle = Annotated[
     Positive,
     Physical(Quantity("degrees", (1.0, 45.0), (5.0, 45.0), {"rad": 180.0 / pi})),
@@ -176,7 +186,9 @@ ViscosityLaw = Annotated[Literal["roelands", "barus"], meaning("law of viscosity
 DensityLaw = Annotated[Literal["dowson-higginson", "incompressible"], meaning("law of density over pressure")]
 
 # Surfaces, grids and motions.
-Roughness = Annotated[Finite, Physical(Quantity("um", (1e-3, 100.0), (1e-3, 10.0), {"m": 1e6, "nm": 1e-3}))]
+Roughness = Annotated[
+    Finite, Physical(Quantity("um", (1e-3, 100.0), (1e-3, 10.0), {"m": 1e6, "mm": 1e3, "nm": 1e-3}))
+]
 OilThickness = Annotated[
     Positive,
     Physical(Quantity("um", (1e-6, 1e3), (1e-3, 500.0), {"m": 1e6, "mm": 1e3, "nm": 1e-3})),

@@ -13,6 +13,9 @@ from typing import Any
 from ehlcontact.errors import InputError
 from ehlcontact.files import read_text
 
+# Whole part, decimals behind a comma or a point, and exponent
+NUMBER = re.compile(r"([+-]?\d+)(?:[.,](\d+))?(e[+-]?\d+)?", re.IGNORECASE)
+
 
 def read_toml(path: Path | str, field: str) -> dict[str, Any]:
     """Content of a TOML file; `field` is the name of the input that gives the file, for messages.
@@ -32,6 +35,15 @@ def read_toml(path: Path | str, field: str) -> dict[str, Any]:
         raise InputError(field, str(path), f"complete TOML ({_broken_line(text, error)})") from None
 
 
+def number_in_text(text: str) -> str:
+    """The number that a text with a decimal comma or in quotes probably is, in words; empty if it is none."""
+    if (found := NUMBER.fullmatch(text.strip())) is None:
+        return ""
+    return (
+        f"{found[1]}{f'.{found[2]}' if found[2] else ''}{found[3] or ''}? decimals have a point, numbers no quotes"
+    )
+
+
 def _broken_line(text: str, error: Exception) -> str:
     """Why it is no TOML, and the line that the parser points to."""
     if isinstance(error, RecursionError):
@@ -42,7 +54,8 @@ def _broken_line(text: str, error: Exception) -> str:
     found = re.search(r"at line (\d+)", reason)
     lines = text.splitlines()
     line = lines[int(found[1]) - 1].strip() if found and int(found[1]) <= len(lines) else ""
-    return f"{reason}: {shortened(line)}" if line else reason
+    guess = number_in_text(line.partition("=")[2].partition("#")[0])
+    return f"{reason}: {shortened(line)}{f' ({guess})' if guess else ''}" if line else reason
 
 
 def toml_value(value: Any) -> str:

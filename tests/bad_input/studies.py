@@ -15,7 +15,9 @@ SLIPS = {
     "ball_diameter_mm = 7.94": [
         ("ball_diameter_mm = 0", "support.ball_diameter_mm = 0", "between 0.1 and 500 mm"),
         ("ball_diameter_mm = 7940", "support.ball_diameter_mm = 7940", "between 0.1 and 500 mm"),
-        ("ball_diameter_mm = 7,94", "complete TOML", "line 10", "'ball_diameter_mm = 7,94'"),
+        ("ball_diameter_mm = 7,94", "complete TOML", "line 10", "'ball_diameter_mm = 7,94' (7.94? decimals"),
+        ('ball_diameter_mm = "7,94"', "support.ball_diameter_mm = '7,94'", "(7.94? decimals have a point"),
+        ('ball_diameter_mm = "7.94"', "support.ball_diameter_mm = '7.94'", "(7.94? decimals have a point"),
         ("ball_diameter_mm = 7.94 mm", "complete TOML", "line 10", "'ball_diameter_mm = 7.94 mm'"),
         ("ball_diameter_mm =", "complete TOML", "line 10", "'ball_diameter_mm ='"),
         (
@@ -53,6 +55,10 @@ SLIPS = {
         ("poisson_ratio = 30", "support.poisson_ratio = 30", "between 0 and 0.5"),
         ("youngs_modulus = 206", "support.youngs_modulus", "in GPa? then 2.06e+11 Pa"),
         ("youngs_modulus = 206e3", "support.youngs_modulus", "in MPa? then 2.06e+11 Pa"),
+        ("cutoff_gap_um = 5e-6", "support.cutoff_gap_um = 5e-06", "in m? then 5 um"),
+        ("cutoff_gap_um = 0.05", "support.cutoff_gap_um = 0.05", "in mm? then 50 um"),
+        ("offset_um = 2e-5", "support.offset_um = 2e-05", "in m? then 20 um"),
+        ("offset_um = -0.02", "support.offset_um = -0.02", "in mm? then -20 um"),
         ("clearance = 12.5e-6", "support.clearance = 1.25e-05", "in m? then 12.5 um"),
         ('name = "a\\u0007"', "support.name", "without control characters"),
         ('bearing = "6025"', "support.bearing = '6025'", "6205", "nearest", "by its dimensions"),

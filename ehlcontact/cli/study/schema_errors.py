@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ehlcontact.checks.admissible_range import Given
 from ehlcontact.cli.entries import allowed_of, field_of, is_several, keys_of, quantity_of, section_of
+from ehlcontact.cli.toml import number_in_text
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -106,6 +107,8 @@ def first_error(
         if first["type"] in RANGE:
             guess = "" if quantity is None else quantity.slip(value)
             allowed = (ends or allowed) + (f" ({guess})" if guess else "")
+        elif isinstance(value, str) and (number := number_in_text(value)):
+            allowed = f"{allowed.partition(' (')[0]} ({number})"
         elif first["type"] == "finite_number" and ends:
             allowed = ends if ends.startswith(allowed) else f"{allowed}, {ends}"
     return InputError(field, _brief(value), allowed)

@@ -121,7 +121,7 @@ class Support(Section):
         e.RingSpring | None,
         e.meaning("N, of a spring that presses its outer ring, which slides, against facing; 0: it floats"),
     ] = None
-    offset_um: Annotated[e.Finite | None, e.meaning("um, of a ground ring or spacer that presses it")] = None
+    offset_um: e.Offset | None = None
     pair: e.Arrangement | None = None
     preload: e.Preload | None = None
     pair_spring: Annotated[
@@ -145,9 +145,7 @@ class Support(Section):
     ] = None
     loss_factor: Annotated[e.NotNegative | None, e.meaning("of rings and fits, measured")] = None
     ball_inertia: Annotated[bool | None, e.meaning("balls vibrate between the rings; from some kHz on")] = None
-    cutoff_gap_um: Annotated[
-        e.Positive | None, e.meaning("um, beyond which the film of an unloaded ball is gone")
-    ] = None
+    cutoff_gap_um: e.Gap | None = None
     youngs_modulus: e.YoungsModulus = 2.06e11
     poisson_ratio: e.PoissonRatio = 0.3
 
