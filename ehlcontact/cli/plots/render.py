@@ -91,7 +91,7 @@ def _panel(figure: go.Figure, panel: Panel, at: dict[str, int]) -> None:
         options: dict[str, Any] = {"title_text": label, "type": "log" if logs[axis] else None, "dtick": tick}
         if "rev/min" in label:
             options["exponentformat"] = "none"
-        elif label.endswith("[Hz]"):
+        elif "[Hz]" in label:
             options["exponentformat"] = "SI"  # 10k
         if ends is not None:
             options["range"] = _range(ends, logs[axis])
