@@ -8,13 +8,15 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from ehlcontact.summary import Summary
 from fmu.system.master import DESCRIPTION
+from fmu.verification import findings_text
 
 STEPS = 400  # of the check
 
 
 @dataclass(frozen=True, slots=True)
-class SystemVerification:
+class SystemVerification(Summary):
     """Result of `RotorSystem.verify`."""
 
     findings: tuple[str, ...]  # of the schema of the standard
@@ -26,6 +28,14 @@ class SystemVerification:
     def passes(self) -> bool:
         """No finding, and the rotor where it should be."""
         return not self.findings and self.deviation <= self.allowed
+
+    def _summary_lines(self) -> list[str]:
+        return [
+            f"{'passes' if self.passes else 'fails'}: rotor and supports wired, and each FMU by itself",
+            f"motion at the supports {self.deviation:.2g} off, over its way; {self.allowed:.2g} is allowed",
+            f"at a step of {self.step:g} s; longer ones damp more, and blow up in the end",
+            *findings_text(self.findings),
+        ]
 
     def to_dict(self) -> dict[str, Any]:
         """All fields and the verdict, for storage."""

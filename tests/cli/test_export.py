@@ -217,7 +217,7 @@ def test_a_rotor_on_an_element_of_ones_own(call, tmp_path):
     ):
         file, target = save(element, tmp_path / f"{name}.json"), tmp_path / f"{name}.fmu"
         done = call("export", STUDY, "-o", target, "--contact", file, "--fmi", "3")
-        assert done.code == 0 and "cubic" in done.out and "inner step" in done.out, done
+        assert done.code == 0 and "cubic" in done.out and "step" in done.out, done
         found.append(target.read_bytes())
     assert found[0] == found[1]
 
@@ -324,7 +324,7 @@ def test_a_study_becomes_a_shaft_and_a_system(call, refused, tmp_path):
             "resources/bearing_2.fmu",
         }
     done = call("export", STUDY, "--bearings", "outside", "-o", shaft)
-    assert done.code == 0 and "model exchange" in done.out and "forces are inputs" in done.out, done
+    assert done.code == 0 and "model exchange" in done.out and "2 supports outside" in done.out, done
     about = {v.name: v for v in fmpy.read_model_description(str(shaft)).modelVariables}
     study = load_study(STUDY)
     assert float(about["speed"].start) == pytest.approx(study.speed_rpm * pi / 30.0, rel=1e-15)

@@ -12,7 +12,7 @@ from ehlcontact.checks import require_positive
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import USAGE, check_new, complain
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row
+from ehlcontact.cli.rows import Row, summary_lines
 from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
 from ehlcontact.store import read
@@ -24,6 +24,15 @@ if TYPE_CHECKING:
     from fmu.verification import Verification
     from reduced_models import Rotor
 
+NAMES = {  # of the library, and the options
+    "model_name": "--name",
+    "platforms": "--platform",
+    "path": "--output",
+    "lead": "--lead",
+    "inertia": "--inertia",
+    "speed_rpm": "--top-rpm",
+    "speeds_rpm": "--top-rpm",
+}
 WAYS = {"inside": ".fmu", "outside": ".fmu", "wired": ".ssp"}  # of --bearings: ending of the file
 
 
@@ -127,61 +136,46 @@ def export(
     check_new("--output", output, force)
     from ehlcontact.binaries import choose
     from fmu import BuildError, VerificationError
+    from fmu.export import export_model
+    from fmu.system.export import export_verified_system
 
     system = output.suffix.lower() == ".ssp"
-    named = {} if name is None else {"model_name": name}
-    given = {} if lead is None else {"lead": lead}
-    names = {
-        "model_name": "--name",
-        "platforms": "--platform",
-        "path": "--output",
-        "lead": "--lead",
-        "element": str(file),
-        "model": str(file),
-        "inertia": "--inertia",
-        "speed_rpm": "--top-rpm",
-        "speeds_rpm": "--top-rpm",
-    }
+    keywords = {name: value for name, value in (("model_name", name), ("lead", lead)) if value is not None}
+    own = {} if system else keywords  # of the model; else of the system
     exported: Any
-    try:
-        with o.called(**names):
+    with o.called(**NAMES, element=str(file), model=str(file)):
+        try:
             if bearings is not None:
-                exported = _on_bearings(file, bearings, inertia, top_rpm, named)
+                exported = _on_bearings(file, bearings, inertia, top_rpm, own)
             elif study:
-                exported = _on_contacts(file, contact, system=system, named=named)
+                exported = _on_contacts(file, contact, system=system, named=own)
             else:
-                exported = _bearing_of(file, named | given) if bearing else _element_of(file, named | given)
-        with progress("compiling") as told, o.called(**names):
-            built = [one.name for one in choose(platform or None, fmi)]
-            _, found = _exporter(system)(
-                exported,
-                output,
-                fmi=fmi,
-                platforms=platform or None,
-                overwrite=force,
-                progress=told,
-                **(named | given if system else {}),
-            )
-    except (BuildError, VerificationError) as error:
-        complain(f"no {'system' if system else 'FMU'} was written: {error}")
-        raise typer.Exit(USAGE) from None
-    verdict = {"passes": None} if found is None else found.to_dict()
+                exported = _bearing_of(file, own) if bearing else _element_of(file, own)
+            with progress("compiling") as told:
+                built = [one.name for one in choose(platform or None, fmi)]
+                given: dict[str, Any] = {"fmi": fmi, "platforms": platform or None, "overwrite": force}
+                write: Any = export_verified_system if system else export_model
+                _, found = write(exported, output, **given, progress=told, **(keywords if system else {}))
+        except (BuildError, VerificationError) as error:
+            complain(f"no {'system' if system else 'FMU'} was written: {error}")
+            raise typer.Exit(USAGE) from None
     document = {
         "system" if system else "fmu": str(output),
         "fmi": f"{fmi}.0",
         "units": "SI" if toml else exported.source.units,
         "platforms": built,
-        **verdict,
+        **({"passes": None} if found is None else found.to_dict()),
     }
     uses = "co-simulation alone" if system else "co-simulation and model exchange"
-    version = "FMI", f"{fmi}.0", uses
     rows = [
-        *_about(exported, system),
-        version,
+        ("model", "", getattr(exported, "spec", exported).description),
+        *_kinds(exported),
+        ("FMI", f"{fmi}.0", uses),
         ("binaries", str(len(built)), ", ".join(built)),
-        *_advice(exported, found),
+        *_steps(exported, found),
+        *_verified(found),
     ]
-    out.deliver(document, (str(output), [*rows, *_rows(found, rotor=study)]))
+    out.deliver(document, (str(output), rows))
 
 
 def _check_bearings(output: Path, study: bool, bearings: str | None, **values: float | None) -> None:
@@ -202,17 +196,6 @@ def _check_bearings(output: Path, study: bool, bearings: str | None, **values: f
         raise InputError("--top-rpm", given["--top-rpm"], "left out: the bearings are no part of the FMU")
     for name, value in given.items():
         require_positive(name, value)
-
-
-def _exporter(system: bool) -> Any:
-    """What writes such a file."""
-    if system:
-        from fmu.system.export import export_verified_system
-
-        return export_verified_system
-    from fmu.export import export_model
-
-    return export_model
 
 
 def _element_of(file: Path, keywords: dict[str, Any]) -> FmuModel:
@@ -289,11 +272,16 @@ def _on_bearings(
     file: Path, bearings: str, inertia: float | None, top_rpm: float | None, named: dict[str, Any]
 ) -> FmuModel | RotorSystem:
     """The rotor of a study on its whole bearings, at its speed, at rest under the load on them."""
+    from ehlcontact.cli.study.exports import rotor_with_films
+    from ehlcontact.cli.study.schema import load_study
     from fmu.models import fmu_model
     from fmu.rotor.model import ALL
     from fmu.system.parts import RotorSystem
 
-    rotor, speed = _whole_rotor(file)
+    study = load_study(file)
+    if study.shaft is None:
+        raise InputError("file", str(file), "a study with a table [shaft], for --bearings")
+    rotor, speed = rotor_with_films(study), study.speed_rpm
     top = speed if top_rpm is None else top_rpm
     if top < speed:
         raise InputError("--top-rpm", top, f"at least the speed of the study, {speed:g} rev/min")
@@ -306,107 +294,30 @@ def _on_bearings(
     return fmu_model(rotor, speeds_rpm=speeds, **turning, **named)
 
 
-def _whole_rotor(file: Path) -> tuple[Rotor, float]:
-    """The rotor of a study on its bearings, and its speed [rev/min]."""
-    from ehlcontact.cli.study.exports import rotor_with_films
-    from ehlcontact.cli.study.schema import load_study
-
-    study = load_study(file)
-    if study.shaft is None:
-        raise InputError("file", str(file), "a study with a table [shaft], for --bearings")
-    return rotor_with_films(study), study.speed_rpm
-
-
-def _about(model: FmuModel | RotorSystem, system: bool) -> list[Row]:
-    """What it is."""
-    from fmu.bearing.model import BearingModel
-    from fmu.rotor.model import RotorModel
-
-    exported: Any = getattr(model, "made", None) or getattr(model, "source", model)
-    if isinstance(exported, RotorModel) and exported.rotor.contacts:
-        where = "each an FMU, wired" if system else "inside; their forces are outputs"
-        elements = [mount.contact for mount in exported.rotor.contacts]
-        return _on_contacts_row(exported.speed, elements, where)
-    if isinstance(exported, RotorModel):
-        where = (
-            "each an FMU, wired" if system else "outside; their forces are inputs" if exported.out else "inside"
-        )
-        speeds = {exported.speed} if not exported.bearings else {*exported.bearings[0].speeds[[0, -1]].tolist()}
-        turns = "its speed is an input" if exported.inertia is None else f"{exported.inertia:g} kg m2 turn"
-        of = "of the tables of the films" if exported.bearings else "at the start"
-        return [
-            ("bearings", str(len(exported.stations)), where),
-            ("speed", f"{' to '.join(f'{speed:g}' for speed in sorted(speeds))} rpm", f"{of}; {turns}"),
-        ]
-    if isinstance(exported, BearingModel):
-        span = " to ".join(f"{speed:g}" for speed in sorted({exported.speeds[0], exported.speeds[-1]}))
-        of = f"{exported.bearing.balls} balls; displacements {', '.join(exported.directions)}"
-        return [
-            ("bearing", exported.bearing.name, of),
-            ("speed", f"{span} rpm", "of the tables of the films"),
-        ]
-    return [("element", exported.kind, exported.units)]
-
-
-def _on_contacts_row(speed_rpm: float, elements: Any, where: str) -> list[Row]:
+def _kinds(model: FmuModel | RotorSystem) -> list[Row]:
+    """Elements of contacts that an FMU computes, or that are wired in a system."""
+    made = getattr(model, "made", None)
+    elements = getattr(model, "elements", ()) if made is None else [one.contact for one in made.rotor.contacts]
     kinds = sorted({element.kind for element in elements})
-    return [
-        ("rotor", f"{speed_rpm:g} rpm", f"contacts in each bearing: {len(elements)}; SI"),
-        ("contacts", ", ".join(kinds), where),
-    ]
+    return [("contacts", str(len(elements)), ", ".join(kinds))] if kinds else []
 
 
-def _advice(model: FmuModel | RotorSystem, found: Any) -> list[Row]:
+def _steps(model: FmuModel | RotorSystem, found: Any) -> list[Row]:
     """Steps of a co-simulation."""
-    step = getattr(found, "step", None)
-    if step is not None:
-        return [
-            ("step", f"{step:g} s", "of the default experiment; longer ones damp more, and blow up in the end")
-        ]
-    from fmu.bearing.model import BearingModel
-    from fmu.rotor.model import RotorModel
     from fmu.steps import step_advice
+    from reduced_models.elements.base import ContactElement
 
-    exported: Any = getattr(model, "source", None)
-    if isinstance(exported, RotorModel):
-        return [("inner step", f"{exported.inner_step:g} s", "steps of the master are cut into such ones")]
-    if isinstance(exported, BearingModel):
-        return [("step", "1e-05 s", "of the default experiment; how long one may be: docs/coupling.md")]
-    return [] if exported is None else step_advice(exported)
+    source, spec = getattr(model, "source", None), getattr(model, "spec", None)
+    if isinstance(source, ContactElement):
+        return step_advice(source)  # type: ignore[arg-type]
+    step = getattr(found, "step", None) if spec is None else spec.step
+    how = "of the default experiment, and within a step of the master; how long one may be: docs/coupling.md"
+    return [] if step is None else [("step", f"{step:g} s", how)]
 
 
-def _rows(found: Verification | SystemVerification | None, *, rotor: bool) -> list[Row]:
+def _verified(found: Verification | SystemVerification | None) -> list[Row]:
     """What the verification found."""
     if found is None:
         return [("verified", "no", "this machine can run no such FMU")]
-    from fmu.system.check import SystemVerification
-
-    if isinstance(found, SystemVerification):
-        return [
-            ("findings", str(len(found.findings)), "against the schema of the standard; there should be none"),
-            (
-                "deviation",
-                f"{found.deviation:.1e}",
-                "of the rotor at its bearings from simulate_rotor, over its way in a short run",
-            ),
-            ("verified", "yes", "and every FMU by itself"),
-        ]
-    findings = ("findings", str(len(found.findings)), "of fmpy's validation; there should be none")
-    if found.bearing:
-        run = f"largest error of forces and moments, over those in Python; {found.states} steps"
-        moved = "largest error of the states' rates in model exchange, over those in Python"
-        rates = [("rates", f"{found.rates:.1e}", moved)] if found.rates else []
-        return [findings, ("forces", f"{found.bearing:.1e}", run), *rates, ("verified", "yes", "")]
-    if rotor:
-        return [
-            findings,
-            ("motion", f"{found.motion:.1e}", f"largest error, over that of simulate_rotor; {found.states} steps"),
-            ("equations", f"{found.rates:.1e}", "largest error of accelerations and rates of films"),
-            ("verified", "yes", ""),
-        ]
-    return [
-        findings,
-        ("force", f"{found.force:.1e}", f"largest error, over the Python element's; {found.states} states"),
-        ("tangents", f"{found.tangents:.1e}", "likewise"),
-        ("verified", "yes", ""),
-    ]
+    first, *others = summary_lines(found)
+    return [("verified", "yes" if found.passes else "no", first), *(("", "", line) for line in others)]
