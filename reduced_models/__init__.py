@@ -7,6 +7,7 @@
 | elements | the elements: law, validity, units |
 | fitting | elements from data: `ContactRecord`, `fit`, `fit_memory`, `sensitivity` |
 | atlas | elements without a solve: `Atlas`, from contacts solved beforehand, with error bars |
+| life | rating life of ball bearings by the standards, from the loads of all balls |
 | bearing | ball bearings of such contacts: `BallBearing` |
 | rotor | rotors on contacts, full films and ball bearings: equilibrium, motion over time, responses |
 | signals | acceleration of nodes and housings, its spectra and features; a namespace of its own |
@@ -33,6 +34,7 @@ from reduced_models.elements.validity import OutsideValidityWarning as OutsideVa
 from reduced_models.fitting.fit import fit as fit
 from reduced_models.fitting.memory_fit import fit_memory as fit_memory
 from reduced_models.fitting.records import ContactRecord as ContactRecord
+from reduced_models.life.system_life import life_of_spectrum as life_of_spectrum
 from reduced_models.rotor.assembly import rotor_on_bearings as rotor_on_bearings
 from reduced_models.rotor.bearing_matrices import bearing_matrices as bearing_matrices
 from reduced_models.rotor.bearing_set import BearingSet as BearingSet

@@ -49,6 +49,7 @@ from reduced_models.bearing.clearance import CLASSES, clearance_of_class
 from reduced_models.bearing.sliding import USUAL_LAW
 from reduced_models.core import CSRC
 from reduced_models.elements import film_curve, film_response
+from reduced_models.life import load_ratings
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
 from reduced_models.rotor.support_state import ABOVE_MEASURED, RELY_ON_SKF
 
@@ -200,7 +201,7 @@ def _skf() -> dict[str, Any]:
         "K_Z": skf_friction.DEEP_GROOVE,
     }
     numbers |= {"mu_boundary": skf_friction.MU_BOUNDARY, "mu_film": skf_friction.MU_MINERAL}
-    numbers |= {"pressure": skf_friction.RATED_PRESSURE, "stribeck": skf_friction.STRIBECK}
+    numbers |= {"pressure": load_ratings.RATED_PRESSURE, "stribeck": load_ratings.STRIBECK}
     known = {}
     for name in DEEP_GROOVE:
         with suppress(InputError):

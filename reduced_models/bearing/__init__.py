@@ -7,12 +7,14 @@
 | bearing_conditions | oil, supply and heat: which go together; speeds of films |
 | bearing_tables | `BearingTables`: races, elements, tables and heights, made once |
 | catalogue | dimensions by name, with their sources |
+| printed_ratings | load ratings C and C0 of the catalogue's bearings, as NSK prints them |
 | designation | names as makers print them: maker, suffixes, other kinds of bearings |
 | clearance | radial clearance by class and bore |
 | freedoms | degrees of freedom of the ring: names, units, loads |
 | core_bearing | `CoreBearing`: a bearing as the C core has it, views of its state |
 | contact_angles | `Grooves`; the law of contact angles, rolling and race control, which the C core has |
 | ball | `Balls`: tables, grooves and inertia of a bearing; the law of a ball, which the C core has |
+| internals | a bearing as the standards of rating life need it |
 | ring | the inner ring on its balls in static equilibrium: `StaticRing`, `ring_equilibrium` |
 | ring_statics | loads that a bearing takes, its ring in equilibrium, the state for users |
 | shoulders | shoulders of the grooves, and contact ellipses that reach over them |

@@ -14,12 +14,14 @@ from ehlcontact.checks import as_column, as_numbers
 from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.grooves import ball_inertia, grooves_of
 from reduced_models.bearing.height_tables import heights_of
+from reduced_models.bearing.internals import internals_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.loss import loss_of
 from reduced_models.bearing.race import RACES, Race, race_of
 from reduced_models.bearing.race_table import RaceForceTable, tabulate_dry_race, tabulate_race
 from reduced_models.bearing.shoulders import shoulder_angle
 from reduced_models.elements.film_contact import FilmContact
+from reduced_models.life.internal_geometry import InternalGeometry
 
 if TYPE_CHECKING:
     from reduced_models.bearing.ball_bearing import BallBearing
@@ -62,6 +64,11 @@ class BearingTables:
     def heights(self) -> _Floats:
         """Heights of all features, as the kernels need them (`contact_heights`)."""
         return heights_of(self._bearing)
+
+    @cached_property
+    def internals(self) -> InternalGeometry:
+        """What the standards of rating life need of the bearing."""
+        return internals_of(self._bearing)
 
     @cached_property
     def dry(self) -> BallBearing:

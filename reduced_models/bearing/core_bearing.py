@@ -114,7 +114,7 @@ FULL_FILM = _numbers(force=(), slope=(), approach=())
 SURFACE = np.dtype(
     [
         *_numbers(angle=(), rotation=(), height=(2, 2)).descr, ("full", FULL_FILM, (2,)),
-        *_numbers(largest=(2,)).descr,
+        *_numbers(largest=(2,), fatigue=(2, 2)).descr,
     ]
 )  # fmt: skip
 STEP = np.dtype(

@@ -19,6 +19,8 @@ from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words, p
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, DefectOrders
 from reduced_models.bearing.picture import state_picture
 from reduced_models.bearing.race import RACES
+from reduced_models.life.bearing_life import BallLoads, BearingLife, life_of_bearing
+from reduced_models.life.internal_geometry import InternalGeometry
 
 _Floats = NDArray[np.float64]
 
@@ -97,6 +99,8 @@ class BearingState(QuantityTable):
     orbit, ball_rotation : ndarray, shape (balls,), or None
         Angular speed of every ball about the shaft, and about its own axis as seen from the cage, over the speed
         of the shaft. Balls of a bearing under combined load have different ones.
+    internals : InternalGeometry or None
+        Balls, grooves and printed ratings of the bearing, for `life`.
     """
 
     name: str
@@ -123,6 +127,7 @@ class BearingState(QuantityTable):
     gyroscopic_friction: Annotated[_Floats | None, NUMBER.over("ball race")] = None
     orbit: Annotated[_Floats | None, NUMBER.over("ball")] = None
     ball_rotation: Annotated[_Floats | None, NUMBER.over("ball")] = None
+    internals: InternalGeometry | None = None
 
     DISPLAY: ClassVar[Display] = Display(
         rows="ball",
@@ -260,6 +265,30 @@ class BearingState(QuantityTable):
     def friction_loss(self) -> float | None:
         """Power [W] that `friction_torque` takes from the shaft."""
         return None if self.friction_torque is None else self.friction_torque * self.speed_rpm * RPM_TO_RAD_S
+
+    def life(self, **options: Any) -> BearingLife:
+        """Rating life by ISO/TS 16281 from the loads of the balls, the first ball where it stands.
+
+        Parameters
+        ----------
+        **options
+            ``contamination``, ``reliability``, ``dynamic_rating``, ``static_rating``, ``fatigue_limit``,
+            ``kinematic_viscosity`` and ``viscosity_ratio`` of `reduced_models.life.bearing_life.life_of_bearing`.
+
+        Raises
+        ------
+        InputError
+            What `life_of_bearing` refuses.
+        """
+        ratio, tilts = self.lambda_ratio, self.displacement[3:]
+        loads = BallLoads.at_rest(
+            self.force,
+            self.load,
+            self.speed_rpm,
+            None if ratio is None else float(ratio[self.heaviest].min()),
+            float(np.hypot(*tilts)) if tilts.size else 0.0,
+        )
+        return life_of_bearing(self.internals, loads, **options)
 
     def picture(self) -> Picture:
         """Load zone and films, and with contact angles these and the spin."""

@@ -20,6 +20,7 @@ from reduced_models.bearing.film_heights import heights_in_runs
 from reduced_models.bearing.freedoms import directions_of
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
+from reduced_models.life.bearing_life import STANDING, TURNING
 
 _Floats = NDArray[np.float64]
 
@@ -84,6 +85,17 @@ class BallMotion:
     def largest(self) -> _Floats:
         """Largest force that any ball has had at either race, shape (2,) [N]."""
         return np.asarray(self._surfaces["largest"].max(axis=0))
+
+    @property
+    def mean_loads(self) -> _Floats:
+        """Forces of all balls at both races since the start, shape (balls, 2, 2) [N].
+
+        Means over the turns of the shaft with the exponents 3 and 10/3; 0 where it has not turned.
+        """
+        turned = float(self.core.shaft(self.state)[0])
+        sums = self._surfaces["fatigue"]
+        means = sums / turned if turned > 0.0 else np.zeros_like(sums)
+        return np.asarray(means ** (1.0 / np.array([TURNING, STANDING])))
 
     @property
     def full_films(self) -> NDArray[np.void]:

@@ -114,6 +114,7 @@ def state_of(bearing: BallBearing, at: RingEquilibrium, speed: float, angle: flo
         **({} if at.load.size == len(PLANAR) else rolling),
         **({} if bearing.oil is None else films_under(bearing, speed, at)),
         **friction_under(bearing, at.load, speed),
+        internals=bearing.tables.internals,
     )
 
 

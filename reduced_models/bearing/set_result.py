@@ -17,6 +17,7 @@ from ehlcontact.summary import note_line
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import FIVE, in_freedoms, load_words, place_words
 from reduced_models.bearing.picture import set_picture
+from reduced_models.life.system_life import SystemLife
 
 _Floats = NDArray[np.float64]
 
@@ -108,6 +109,11 @@ class SetState(QuantityTable):
     def outside_assumptions(self) -> str:
         """Assumptions of films that do not hold in the first bearing where one does not; empty where all do."""
         return next((one.outside_assumptions for one in self.bearings if one.outside_assumptions), "")
+
+    def life(self, **options: Any) -> SystemLife:
+        """Rating life of each bearing and of all together; options and errors as of `BearingState.life`."""
+        names = tuple(f"bearing {k}" for k in range(len(self.bearings)))
+        return SystemLife(lives=tuple(one.life(**options) for one in self.bearings), names=names)
 
     def picture(self) -> Picture:
         """Load zones and contact angles, bearing by bearing."""

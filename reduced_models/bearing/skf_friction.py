@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from ehlcontact.checks import require_nonnegative, require_positive
 from ehlcontact.errors import InputError
-from ehlcontact.hertz import hertz_contact
+from reduced_models.life.load_ratings import static_rating
 
 # R1, R2, S1, S2 by series
 CONSTANTS = {
@@ -35,8 +35,6 @@ OIL_BATH, GREASE = 3e-8, 6e-8  # K_rs of replenishment
 DEEP_GROOVE = 3.1  # K_Z
 MU_BOUNDARY = 0.12  # 0.15 in the catalogue's edition 10000; of no influence where films are full
 MU_MINERAL = 0.05  # full film of mineral oil; 0.04 of synthetic oil
-RATED_PRESSURE = 4.2e9  # Pa, of the most loaded ball under C0: ISO 76
-STRIBECK = 5.0  # most loaded ball over mean ball under radial load: ISO 76
 USUAL_DENSITY = 850.0  # kg/m3, of mineral oils at 50 C within 2 %
 
 
@@ -130,13 +128,6 @@ def skf_friction(
     return SkfFriction(1e-3 * inlet_heat * supply * g_rolling * (nu * n) ** 0.6, 1e-3 * g_sliding * mu)
 
 
-def static_rating(bearing: Any) -> float:
-    """Radial static load [N] at which the most loaded ball has 4.2 GPa at the inner race: C0 of ISO 76."""
-    body = bearing.race("inner").geometry
-    unit = hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure
-    return float(bearing.balls * (RATED_PRESSURE / unit) ** 3 / STRIBECK)
-
-
 def friction_under(bearing: Any, load: Any, speed_rpm: float) -> dict[str, Any]:
     """SKF's moments for a `BallBearing` in oil, by the names of `BearingState`; none if it has no constants."""
     if bearing.oil is None or bearing.contact_angle is not None:
@@ -148,7 +139,7 @@ def friction_under(bearing: Any, load: Any, speed_rpm: float) -> dict[str, Any]:
             axial=float(load[2]) if len(load) > 2 else 0.0,
             speed_rpm=speed_rpm,
             kinematic_viscosity=bearing.oil.eta0 / USUAL_DENSITY,
-            static_rating=static_rating(bearing),
+            static_rating=static_rating(bearing.tables.internals),
         )
     except InputError:
         return {}

@@ -352,13 +352,19 @@ static double accept_ball(const Search *s, double state[], int k)
     }
     if (b->heights != NULL) {
         BallSurface *surface = (BallSurface *)(void *)(state + shaft_place(b) + 1) + k;
-        surface->angle += 0.5 * step->h * (head_of(state)->omega + step->omega) * surface->rotation;
+        const double turned = 0.5 * step->h * (head_of(state)->omega + step->omega); /* by the shaft */
+        surface->angle += turned * surface->rotation;
         surface->rotation = at.rotation;
         for (race = 0; race < 2; race++) {
             surface->height[race][1] = moving ? surface->height[race][0] : now->height[race];
             surface->height[race][0] = now->height[race];
             if (moving && now->force[race] > surface->largest[race]) {
                 surface->largest[race] = now->force[race];
+            }
+            if (moving && now->force[race] > 0.0) {
+                const double force = now->force[race], cubed = force * force * force;
+                surface->fatigue[race][0] += turned * cubed;
+                surface->fatigue[race][1] += turned * cubed * cbrt(force);
             }
         }
     }

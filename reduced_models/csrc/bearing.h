@@ -88,13 +88,14 @@ typedef struct {
 } Ball;
 
 /* What changes at the contacts of a ball, of a bearing with `heights`: angle of the ball about its own axis and its speed over that
- * of the shaft, heights at the ends of the last two steps, a full film in place of the element of a contact. At rest the newest
- * heights are those that it rests on. */
+ * of the shaft, heights at the ends of the last two steps, a full film in place of the element of a contact, and sums over the turns
+ * of the shaft of force^3 and force^(10/3), as rating life needs them. At rest the newest heights are those that it rests on. */
 typedef struct {
     double angle, rotation;
     double height[2][2];   /* [race] m */
     FullFilm full[2];      /* [race] */
     double largest[2];     /* [race] force that it has had at the end of a step [N] */
+    double fatigue[2][2];  /* [race] integrals of force^3 and force^(10/3) over the angle of the shaft since it was at rest */
 } BallSurface;
 
 enum {

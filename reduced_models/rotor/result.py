@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import require_integer, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import FORCE, LENGTH, NUMBER, RATE, SPEED, TIME
 from ehlcontact.results.drawing import draw
@@ -17,6 +18,9 @@ from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import counted, span
+from reduced_models.life.bearing_life import life_of_bearing
+from reduced_models.life.history import BearingHistory
+from reduced_models.life.system_life import SystemLife
 from reduced_models.rotor.nodes import LENGTHS, PLANE, ByNode
 from reduced_models.rotor.picture import run_picture
 
@@ -60,6 +64,8 @@ class RotorResult(QuantityTable, ByNode):
         Names of degrees of freedom, as "disc x".
     places : ndarray, shape (len(names),)
         Those degrees of freedom.
+    ball_bearings : tuple of BearingHistory
+        Of every ball bearing: mean loads of its balls over the run, and its geometry, for `life`.
     """
 
     t: Annotated[_Floats, TIME.over("t")]
@@ -76,6 +82,7 @@ class RotorResult(QuantityTable, ByNode):
     names: tuple[str, ...] = ()
     places: NDArray[np.int64] = None  # type: ignore[assignment]
     reservation: str = ""
+    ball_bearings: tuple[BearingHistory, ...] = ()
 
     DISPLAY: ClassVar[Display] = Display(
         rows="t", panels=("displacement", "approach", "force"), labels={"race": ("inner", "outer")}, first=0
@@ -170,6 +177,34 @@ class RotorResult(QuantityTable, ByNode):
             if not name.startswith("contact "):
                 at.setdefault(name.rpartition(" ")[0], []).append(k)
         return at
+
+    @takes()
+    def life(self, *, rotating_load: bool = False, **options: Any) -> SystemLife:
+        """Rating life of every ball bearing from the loads of its balls over the run, and of all together.
+
+        Loads are means over the turns of the shaft of the whole run, with the exponents of ISO/TS 16281: a run
+        should have many ball passages, and no start that does not belong to it.
+
+        Parameters
+        ----------
+        rotating_load : bool
+            Whether the load turns with the shaft, as that of an unbalance: the inner race stands still against it.
+        **options
+            As of `BearingState.life`.
+
+        Raises
+        ------
+        InputError
+            A run without ball bearings; what `BearingState.life` refuses.
+        """
+        if not self.ball_bearings:
+            raise InputError("run", "without ball bearings", "one of a rotor on ball bearings")
+        places, lives = self._places_of_bearings(), []
+        for one, largest in zip(self.ball_bearings, self.largest_load, strict=True):
+            force = self.force[:, places[one.name]]
+            loads = one.loads(force, self.speed_rpm, largest, rotating=rotating_load)
+            lives.append(life_of_bearing(one.internals, loads, **options))
+        return SystemLife(lives=tuple(lives), names=tuple(one.name for one in self.ball_bearings))
 
     def part(self, first: int, last: int | None = None, *, keep_time: bool = True) -> Self:
         """Samples `first` to `last` of the run, both included; with ``keep_time=False`` their time starts at 0."""

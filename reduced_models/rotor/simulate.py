@@ -21,6 +21,7 @@ from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import beyond_loads
 from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out
 from reduced_models.elements.validity import OutsideValidityWarning, frequency_of
+from reduced_models.life.history import BearingHistory
 from reduced_models.rotor.contact_protocol import Contact
 from reduced_models.rotor.integrate_compiled import CompiledSteps
 from reduced_models.rotor.integrate_python import PythonSteps
@@ -189,6 +190,7 @@ def _result(run: PreparedRun, made: int, status: Status) -> RotorResult:
     columns, approach, rate, force = _supports(run, kept)
     names, places = flat_nodes(run.rotor.nodes)
     largest = np.array([one.largest for one in run.balls]).reshape(-1, 2)
+    balls = zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, run.balls, strict=True)
     return RotorResult(
         t=run.t[kept],
         speed_rpm=run.omega[kept] / RPM_TO_RAD_S,
@@ -204,6 +206,10 @@ def _result(run: PreparedRun, made: int, status: Status) -> RotorResult:
         columns=columns,
         names=names,
         places=places,
+        ball_bearings=tuple(
+            BearingHistory(name=name, internals=mount.ball_bearing.tables.internals, mean_loads=one.mean_loads)
+            for mount, name, one in balls
+        ),
     )
 
 

@@ -1,0 +1,66 @@
+"""Internal geometry of a `BallBearing` as the standards of rating life need it, with printed ratings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ehlcontact.errors import InputError
+from ehlcontact.hertz import hertz_contact
+from reduced_models.bearing.catalogue import ROWS
+from reduced_models.bearing.printed_ratings import NSK, RATINGS
+from reduced_models.bearing.race import RACES
+from reduced_models.bearing.skf_friction import USUAL_DENSITY, boundary_diameters
+from reduced_models.life.equivalent_load import LeastLoad
+from reduced_models.life.internal_geometry import InternalGeometry
+
+if TYPE_CHECKING:
+    from reduced_models.bearing.ball_bearing import BallBearing
+
+LEAST_LOADS = {"60": 0.025, "62": 0.025, "63": 0.03, "64": 0.035}  # kr of SKF's least load, by series
+SAME_SIZE = 1e-6  # of a length of the catalogue, for its ratings to be those of the bearing
+
+
+def internals_of(bearing: BallBearing) -> InternalGeometry:
+    """Balls, grooves and oil of a bearing; printed ratings where its balls are those of the catalogue."""
+    pressures = []
+    for name in RACES:
+        body = bearing.race(name).geometry
+        pressures.append(hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure)
+    printed = RATINGS[bearing.name] if _is_printed(bearing) else (None, None)
+    return InternalGeometry(
+        name=bearing.name,
+        balls=bearing.balls,
+        ball_diameter=bearing.ball_diameter,
+        pitch_diameter=bearing.pitch_diameter,
+        conformity_inner=bearing.conformity_inner,
+        conformity_outer=bearing.conformity_outer,
+        contact_angle=0.0 if bearing.contact_angle is None else bearing.contact_angle,
+        unit_pressures=(float(pressures[0]), float(pressures[1])),
+        ball_density=bearing.density,
+        kinematic_viscosity=None if bearing.oil is None else bearing.oil.eta0 / USUAL_DENSITY,
+        flooded=bearing.supply is None,
+        printed_dynamic=printed[0],
+        printed_static=printed[1],
+        printed_source="" if printed[0] is None else NSK,
+        least_load=_least_load(bearing.name),
+    )
+
+
+def _is_printed(bearing: BallBearing) -> bool:
+    """Whether NSK's ratings are for the balls of a bearing: as in the catalogue, their angle too."""
+    row = ROWS.get(bearing.name)
+    if row is None or bearing.name not in RATINGS or row.balls != bearing.balls:
+        return False
+    lengths = (row.ball_diameter, bearing.ball_diameter), (row.pitch_diameter, bearing.pitch_diameter)
+    angles = row.contact_angle or 0.0, bearing.contact_angle or 0.0
+    return all(abs(own / printed - 1.0) < SAME_SIZE for printed, own in lengths) and (
+        abs(angles[1] - angles[0]) < SAME_SIZE
+    )
+
+
+def _least_load(name: str) -> LeastLoad | None:
+    try:
+        series, bore, outside = boundary_diameters(name)
+    except InputError:
+        return None
+    return LeastLoad(LEAST_LOADS[series], 0.5e-3 * (bore + outside))
