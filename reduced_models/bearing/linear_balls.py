@@ -11,10 +11,11 @@ Both contacts are nearly on one line, along which films are far stiffer than G. 
 across the outer contact: elimination of the place along it leaves what acts across without a small difference.
 
 G has what follows the place of the ball without memory: the direction of both forces (Q/l), inertia of its orbit
-and spin, film over entrainment speed. Where the axis of a ball follows the forces at both races ("inner" and
-"shared" race control), G has the direction of the forces alone: friction that follows the place without delay is
-not the gradient of a potential, and takes energy from the shaft, with which undamaged bearings in flooded films
-would vibrate by themselves; how fast an axis follows is not known.
+and spin, film over entrainment speed. Friction that holds the gyroscopic moment and follows the place of its ball
+without delay is not the gradient of a potential: it takes energy from the shaft, with which undamaged bearings in
+flooded films would vibrate by themselves; how fast it follows is not known. G is taken as its symmetric part, and
+K is symmetric. Where the axis of a ball follows the forces at both races ("inner" and "shared" race control), that
+friction follows the films as well, and G has the direction of the forces alone.
 
 m is the mass of a ball where it has inertia towards the rings. The states
 behind Z, as matrices of first order: `ball_states`.
@@ -66,8 +67,9 @@ class LinearBalls:
             for name in ("balls", "angles", "geometric", "maps")
         )
         films = [_about(law, balls.omega, j, records) for j, law in enumerate((balls.inner, balls.outer))]
-        if balls.grooves.control in FOLLOWING and balls.omega > 0.0:
-            geometric = _of_directions(balls.grooves, records)
+        if balls.omega > 0.0:
+            follows = balls.grooves.control in FOLLOWING
+            geometric = _of_directions(balls.grooves, records) if follows else _of_a_potential(geometric)
         turned = angles.T - angles[:, 1]
         normals = np.stack([np.cos(turned), np.sin(turned)], axis=1)
         frame, outward = np.zeros((len(records), 5, 5)), _outward(angles[:, 1])
@@ -207,6 +209,14 @@ def _of_directions(grooves: Grooves, balls: NDArray[np.void]) -> _Floats:
             found[:, 2:4, :2] -= rows
             found[:, :2, 2:] += rows
             found[:, 2:4, 2:] += rows
+    return found
+
+
+def _of_a_potential(geometric: _Floats) -> _Floats:
+    """Symmetric part of `geometric` of `RingEquilibrium`: forces on the ball and of the ring by one energy."""
+    found = np.zeros_like(geometric)  # without friction at the inner race the ring has no moment by it
+    energy = geometric[:, :4] * np.array([-1.0, -1.0, 1.0, 1.0])[:, None]
+    found[:, :4] = 0.5 * (energy + energy.swapaxes(1, 2)) * np.array([-1.0, -1.0, 1.0, 1.0])[:, None]
     return found
 
 

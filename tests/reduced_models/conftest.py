@@ -6,6 +6,7 @@ import pytest
 from ehlcontact import Lubricant
 from ehlcontact.point import Scales
 from reduced_models import Atlas, BallBearing, ContactRecord, FilmContact, SpringContact
+from reduced_models.bearing import linear_balls
 
 # Nonato and Cavalca (2010), Table 3 case 2 (free vibration, Omega_n = 5.13).
 PAPER = {"K1": 0.806, "K2": 0.346, "K3": 0.054, "C1": 0.013}
@@ -26,6 +27,12 @@ def oil():
 def film(oil):
     """6205 with VG 68 at 50 C."""
     return BallBearing.catalogue("6205", oil=oil)
+
+
+@pytest.fixture
+def friction_follows(monkeypatch):
+    """Linear answers are slopes of runs and of static equilibria, where friction follows the place of a ball."""
+    monkeypatch.setattr(linear_balls, "_of_a_potential", lambda geometric: geometric)
 
 
 @pytest.fixture(scope="session")

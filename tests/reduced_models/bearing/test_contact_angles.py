@@ -367,6 +367,7 @@ def test_free_angle_and_files(tmp_path):
     assert "300 N axially" in figure.get_suptitle()
 
 
+@pytest.mark.usefixtures("friction_follows")
 def test_coefficients_are_the_tangent_at_rest_and_follow_the_films():
     oil = Lubricant.iso_vg(68, temperature=70.0)
     bearing, force = BallBearing(**SPINDLE, oil=oil), (300.0, -200.0, 900.0, 1.0, 0.5)

@@ -107,6 +107,7 @@ def test_block_of_the_rotor_is_the_rotor():
     ],
     ids=["pair", "loss", "cutoff gap", "inertia", "dry balls with inertia", "dry"],
 )
+@pytest.mark.usefixtures("friction_follows")
 def test_the_state_space_is_that_of_differences(make, changes):
     """Rates of rotor, balls and films of the nonlinear block by every state and input, of 1e-4 um, N."""
     rotor = make(**changes)

@@ -332,6 +332,7 @@ def test_tangents_of_sets(rpm):
         assert skew < 1e-9 if rpm == 0.0 else skew > 1e-6
 
 
+@pytest.mark.usefixtures("friction_follows")
 def test_coefficients_of_a_pair_are_those_of_its_bearings():
     wet = replace(SPINDLE, oil=OIL, loss_factor=0.01)
     given, kwargs = (100.0, -300.0, 80.0, 1.0, 0.5), {"speed_rpm": 12000.0, "cage_angle": 0.1}

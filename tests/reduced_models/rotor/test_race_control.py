@@ -23,11 +23,13 @@ def spindle(control, **changes):
     return BallBearing(**dimensions, contact_angle=radians(25.0), race_control=control, oil=OIL, **changes)
 
 
-def modes(bearing, load=LIGHT, speed=FAST):
+def modes(bearing, load=LIGHT, speed=FAST, inertia=(1.103, 2.023e-4, 2.728e-5)):
+    """Of a rigid rotor with this mass and these moments of inertia, across and about its axis."""
+    mass, across, about = inertia
     gyroscopic = np.zeros((5, 5))
-    gyroscopic[3, 4], gyroscopic[4, 3] = 2.728e-5, -2.728e-5
+    gyroscopic[3, 4], gyroscopic[4, 3] = about, -about
     mount = BearingMount(bearing=bearing, x=0, y=1, z=2, tilt_x=3, tilt_y=4)
-    mass = np.diag([1.103, 1.103, 1.103, 2.023e-4, 2.023e-4])
+    mass = np.diag([mass, mass, mass, across, across])
     rotor = Rotor(
         mass=mass, stiffness=np.zeros((5, 5)), gyroscopic=gyroscopic, load=np.array(load), mounts=(mount,)
     )
@@ -42,8 +44,45 @@ def test_no_flooded_bearing_vibrates_by_itself(control):
         assert all(mode.eigenvalue.real < 0.0 for mode in modes(spindle(control), load))
 
 
+# Three of the 54 of 100 random spindles with outer race control that grow with friction that follows its ball
+GROWING = {
+    "light": (
+        {"balls": 18, "ball_diameter": 10.84e-3, "pitch_diameter": 70.71e-3, "contact_angle": radians(29.4)},
+        Lubricant.iso_vg(32, temperature=52.0),
+        (15_230.0, (-243.5, 31.0, 277.2, 1.255, 1.498), (2.497, 3.83e-3, 3.04e-3)),
+    ),
+    "radial": (
+        {"balls": 13, "ball_diameter": 9.543e-3, "pitch_diameter": 47.08e-3, "contact_angle": radians(20.6)},
+        Lubricant.iso_vg(46, temperature=65.0),
+        (15_390.0, (-48.8, 194.4, 208.3, 0.52, -0.176), (0.915, 2.88e-4, 2.36e-4)),
+    ),
+    "axial": (
+        {"balls": 15, "ball_diameter": 9.579e-3, "pitch_diameter": 53.59e-3, "contact_angle": radians(25.7)},
+        Lubricant.iso_vg(46, temperature=69.0),
+        (17_870.0, (-206.5, 113.9, 623.5, 1.556, 0.842), (10.47, 1.74e-2, 1.32e-2)),
+    ),
+}
+
+
 @pytest.mark.long
-@pytest.mark.parametrize("control", ["inner", "shared"])
+@pytest.mark.parametrize("control", ["outer", "harris"])
+@pytest.mark.parametrize("case", GROWING)
+def test_symmetric_part_of_friction_lets_no_spindle_vibrate(request, control, case):
+    """Stiffness changes by less than two thousandths; with friction that follows its ball, they grow."""
+    dimensions, oil, (speed, load, inertia) = GROWING[case]
+    bearing = BallBearing(**dimensions, race_control=control, oil=oil)
+    every = modes(bearing, load, speed, inertia)
+    assert all(mode.eigenvalue.real < 0.0 for mode in every)
+    still = bearing.coefficients(load, speed_rpm=speed, hz=100.0).stiffness[0]
+    request.getfixturevalue("friction_follows")
+    following = modes(bearing, load, speed, inertia)
+    assert max(mode.eigenvalue.real for mode in following) > 0.1
+    follows = bearing.coefficients(load, speed_rpm=speed, hz=100.0).stiffness[0]
+    np.testing.assert_allclose(np.diag(still), np.diag(follows), rtol=2e-3, atol=0.0)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("control", ["inner", "shared", "outer", "harris"])
 def test_forces_on_a_ball_have_a_potential(control):
     """Stiffness is symmetric at every frequency, where that of the state, which friction follows, is not."""
     bearing = spindle(control)
