@@ -108,9 +108,10 @@ def solve_steady(
         nothing else is tried.
     method : {"automatic", "multigrid", "newton"}
         V cycles, or Newton steps from the same full-multigrid start; both solve the same equations.
-        ``"automatic"`` cycles; where that fails it begins again with twice the sweeps in every cycle, and at last,
-        on grids that allow it, turns to Newton. Where lines lie close (long contacts, kappa above 1) it begins
-        again with the load raised in small steps instead, and on a still finer grid where that fails.
+        ``"automatic"`` cycles; where that fails it begins again with twice the sweeps in every cycle, then, on 256
+        intervals or more, from the film on half the intervals, and at last, on grids that allow it, turns to
+        Newton. Where lines lie close (long contacts, kappa above 1) it begins again with the load raised in small
+        steps instead, and on a still finer grid where that fails.
     refine : bool
         False, with the number of intervals left out, accepts the first grid that gives a film, with a quarter of
         the nodes or fewer: the smallest film may be off by a third (``result.error_estimate``).
@@ -280,7 +281,7 @@ class _Film:
         if balance.weight == 0.0:
             mg.u = balance.rhs
         try:
-            advance = self._started_with(effects, balance) if effects else self._started(balance)
+            advance = self._started_with(effects, balance) if effects else self._started(balance, goal)
             status = iterate(mg, balance, advance, goal, self.track, watch)
             if status.ok and judged:
                 # coarser grids carry no asperities
@@ -290,13 +291,20 @@ class _Film:
             return Status.INTERRUPTED
         return status
 
-    def _started(self, balance: Balance) -> Callable[[Balance], float]:
-        """Full multigrid, and what is to follow it.
+    def _started(self, balance: Balance, goal: StoppingCriteria) -> Callable[[Balance], float]:
+        """Full multigrid, or the film on half the intervals, and what is to follow it.
 
         With close lines cycles need the better start, which raises the load by cycles on the grid of half the
         intervals; where those fail, in stiff oil, Newton steps do with the other one.
         """
         mg = self.multigrid
+        if self.method.from_half:
+            half = mg.halved()
+            half.u, scale = mg.u, half.finest.dry_residual()
+            half.full_multigrid(balance)
+            iterate(half, balance, AcceleratedCycles(half).step, goal._replace(scale=scale), IterationHistory())
+            mg.start_from(half)
+            return AcceleratedCycles(mg).step
         mg.full_multigrid(balance, nested=not self.method.newton)
         if not self.method.newton:
             return AcceleratedCycles(mg).step

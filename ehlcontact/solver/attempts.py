@@ -34,12 +34,17 @@ class Method(NamedTuple):
     newton: bool
     sweep_factor: int  # of the cycles, and of those that lead to the start of Newton steps
     load_continuation: bool = False  # during full multigrid
+    from_half: bool = False  # from the film on half the intervals, in place of full multigrid
 
 
 LAST_RESORT = Method(newton=True, sweep_factor=2)  # as the attempt before, whose start was no worse
+# The pressure spike of stiff oil is the narrower and the higher, the finer the grid: the few cycles that full
+# multigrid spends on a coarser one leave it where it is not, and the finest grid then settles late or never.
+FROM_HALF = Method(newton=False, sweep_factor=1, from_half=True)
+LEAST_HALVED = 256  # intervals
 # Twice the sweeps settle some films that single ones do not; a second attempt at once costs less than Newton.
 METHODS = {
-    "automatic": (Method(False, 1), Method(False, 2), LAST_RESORT),
+    "automatic": (Method(False, 1), Method(False, 2), FROM_HALF, LAST_RESORT),
     "multigrid": (Method(False, 1),),
     "newton": (Method(True, 1),),
 }
@@ -134,6 +139,8 @@ def attempts(
         for way in ways[:1] if earlier else ways:
             if way.newton and method == "automatic" and not allows_newton(mesh):
                 break
+            if way.from_half and mesh.n < LEAST_HALVED:
+                continue
             planned = Attempt(mesh, way, earlier)
             if tried and spent + planned.expected_time > budget:
                 tried[-1].cut = True

@@ -19,7 +19,7 @@ from ehlcontact.status import Status
 
 STAGNATION_CYCLES = 6  # the last so many are held against all before them,
 STAGNATION_FACTOR = 0.7  # and have to bring the least residual down to this share
-DIVERGENCE_FACTOR = 1e3  # times the scale: a residual that large does not come back,
+DIVERGENCE_FACTOR = 1e3  # times the scale: a residual that large, and growing, does not come back,
 # except where oil runs short, with smaller changes of P: a front that moves in a wide gap has one for a cycle.
 FRONT_CHANGE = 0.05
 # Where changes hardly fall, coarse corrections spoil what too few sweeps have left rough.
@@ -147,7 +147,7 @@ def classify(
         return Status.NONFINITE
     if last <= goal.tol * goal.scale and settled:
         return Status.CONVERGED
-    if cycles > 0 and last > DIVERGENCE_FACTOR * goal.scale:  # a poor start is not divergence
+    if cycles > 0 and last > max(DIVERGENCE_FACTOR * goal.scale, residuals[-2]):  # a poor start may fall slowly
         return Status.DIVERGED
     if cycles >= goal.most:
         return Status.MAX_CYCLES

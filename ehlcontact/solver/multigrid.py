@@ -162,6 +162,12 @@ class Multigrid:
             self._start_from_coarsest(balance, self.point.M)
         self.finest.update(self.u)
 
+    def start_from(self, half: Multigrid) -> None:
+        """Take over the film of `halved`."""
+        _interpolate_solution(half.finest, self.finest)
+        self.u = half.u
+        self.finest.update(self.u)
+
     def _start_from_half(self, balance: Balance, M: float) -> None:
         """From the film on half the intervals, its lines as close, under the load M at last.
 

@@ -42,6 +42,8 @@ def goal(scale=1.0, tol=1e-4, most=9, balance=1e-7, approach=1e-7, **others):
         ([1.0, 2e3], False, 9, Status.DIVERGED),
         ([1.0, 9e2], False, 9, None),
         ([2e3, 1.0], False, 9, None),  # a poor start is not divergence,
+        ([9e3, 8e3, 7e3], False, 9, None),  # however slowly it falls,
+        ([9e3, 8e3, 8.1e3], False, 9, Status.DIVERGED),
         ([2e3], False, 9, None),  # nor before anything has been tried
         ([1.0] * 13, False, 40, None),
         ([1.0] * 14, False, 40, Status.STAGNATED),
@@ -102,7 +104,7 @@ def test_pressure_error_is_the_rest_of_the_series():
 
 def test_scale_is_what_counts():
     assert classify([1e-3], goal(scale=100.0), True) is Status.CONVERGED
-    assert classify([1.0, 1e-3], goal(scale=1e-8), True) is Status.DIVERGED
+    assert classify([1e-4, 1e-3], goal(scale=1e-8), True) is Status.DIVERGED
 
 
 @pytest.fixture
