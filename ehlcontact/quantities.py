@@ -102,7 +102,7 @@ WORDS = {
     "load": "applied load",
     "omega": "angular frequency",
     "hz": "frequency",
-    "film_share": "film's share of the dry approach",
+    "separation": "dry approach less approach",
     "moment": "rolling resistance",
     "h_midplane": "film along the middle",
     "p_midplane": "pressure along the middle",

@@ -43,8 +43,8 @@ class AtlasAnswer(PointTable):
     point : MoesPoint or OperatingPoint
     approach, h_central, h_min : float
         Mutual approach, film in the centre and the smallest [m; dry approach].
-    film_share : float
-        Dry approach less approach: what the film takes from it [m; dry approach].
+    separation : float
+        By which the film holds the bodies apart: dry approach less approach [m; dry approach].
     moment : float
         Of the pressure about the centre line, > 0 where it resists rolling: `ehlcontact.SteadyResult.moment`
         [N m; load times a].
@@ -67,7 +67,7 @@ class AtlasAnswer(PointTable):
     approach: Annotated[float, LENGTH]
     h_central: Annotated[float, LENGTH]
     h_min: Annotated[float, LENGTH]
-    film_share: Annotated[float, LENGTH]
+    separation: Annotated[float, LENGTH]
     moment: Annotated[float, MOMENT]
     omega: Annotated[_Floats, FREQUENCY.over("omega")]
     stiffness: Annotated[_Floats, STIFFNESS.over("omega")]
@@ -167,7 +167,7 @@ class AtlasAnswers(QuantityTable):
     Attributes
     ----------
     M, L, kappa : ndarray, shape (n,)
-    approach, h_central, h_min, film_share, moment : ndarray, shape (n,)
+    approach, h_central, h_min, separation, moment : ndarray, shape (n,)
     omega : ndarray, shape (k,)
     stiffness, damping : ndarray, shape (n, k)
     error_bars : dict
@@ -180,7 +180,7 @@ class AtlasAnswers(QuantityTable):
     approach: Annotated[_Floats, LENGTH.over("point")]
     h_central: Annotated[_Floats, LENGTH.over("point")]
     h_min: Annotated[_Floats, LENGTH.over("point")]
-    film_share: Annotated[_Floats, LENGTH.over("point")]
+    separation: Annotated[_Floats, LENGTH.over("point")]
     moment: Annotated[_Floats, MOMENT.over("point")]
     omega: Annotated[_Floats, FREQUENCY.over("omega")]
     stiffness: Annotated[_Floats, STIFFNESS.over("point omega")]

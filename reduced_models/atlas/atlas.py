@@ -48,7 +48,7 @@ from reduced_models.elements.validity import OutsideValidityWarning
 _Floats = NDArray[np.float64]
 
 MODELS = ("memory", "wide", "cubic")
-NUMBERS = ("approach", "h_central", "h_min", "film_share", "moment")  # beside what is over frequency
+NUMBERS = ("approach", "h_central", "h_min", "separation", "moment")  # beside what is over frequency
 # Loads of a wide-range element, as far as the box goes.
 LOADS = np.array([0.01, 0.03, 0.07, 0.15, 0.3, 0.6, 1.0, 1.7, 3.0])
 INSIDE = 1e-9  # relative, that speeds keep from the ends of the box
@@ -174,7 +174,7 @@ class Atlas:
             values = np.vstack([rows.values for rows, _ in supplied])
             bars = np.vstack([bar for _, bar in supplied])
         named, error = _named(values), _named(bars)
-        error["film_share"], named["film_share"] = error["approach"], 1.0 - named["approach"]
+        error["separation"], named["separation"] = error["approach"], 1.0 - named["approach"]
         axes = dict(zip(("M", "L", "kappa"), points.T, strict=True))
         return AtlasAnswers(**axes, omega=Omega, **named, error_bars=error)
 
@@ -329,7 +329,7 @@ class Atlas:
         flooded, flooded_bars = self._surface.at(self._rows(moes, load), oil_error=error)
         (Omega, values), rows_bars = under(conditions, load, Rows(self._omega, flooded), flooded_bars)
         named, bars = ({n: v[0] for n, v in _named(part).items()} for part in (values, rows_bars))
-        bars["film_share"], named["film_share"] = bars["approach"], 1.0 - named["approach"]
+        bars["separation"], named["separation"] = bars["approach"], 1.0 - named["approach"]
         for numbers in (named, bars):
             numbers |= {name: float(numbers[name]) for name in NUMBERS}
         for condition in conditions:

@@ -53,7 +53,7 @@ def rows_of(atlas, entries):
         film = entry.get("film", entry)
         found = {name: (getattr(answer, name) - film[name], answer.error_bars[name]) for name in NAMES}
         sizes = {name: abs(film[name]) for name in NAMES} | {"approach": max(abs(film["approach"]), 1.0)}
-        found["film_share"], sizes["film_share"] = found["approach"], 1.0 - film["approach"]
+        found["separation"], sizes["separation"] = found["approach"], 1.0 - film["approach"]
         K, C, low = np.array(entry["stiffness"]), np.array(entry["damping"]), OMEGAS.index(0.05)
         found["tangent"], sizes["tangent"] = (answer.stiffness[0] - K[0], answer.error_bars["stiffness"][0]), K[0]
         found["K(Omega)"], sizes["K(Omega)"] = (answer.stiffness - K, answer.error_bars["stiffness"]), K

@@ -18,7 +18,7 @@ from reduced_models.bearing.sliding import USUAL_LAW, friction_at
 from reduced_models.elements.film_response import FilterRates
 
 CLOSE = 1e-6  # of every number: what the issue asks for
-NUMBERS = ("approach", "h_central", "h_min", "film_share", "moment", "stiffness", "damping")
+NUMBERS = ("approach", "h_central", "h_min", "separation", "moment", "stiffness", "damping")
 GRADES = (10, 22, 32, 68, 150, 460)
 
 

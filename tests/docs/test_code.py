@@ -237,12 +237,12 @@ def test_tutorial_of_the_integrator(capsys):
     film, decrement = found["film"], found["decrement"]
     small = film.impedance(hz=1000.0)
     exact = np.pi * float(small.damping[0]) / np.sqrt(found["mass"] * float(small.stiffness[0]))
-    assert decrement(found["solved"].y[0]) == pytest.approx(exact, rel=0.02)
-    assert decrement(found["moved"]) == pytest.approx(exact, rel=0.02)
+    assert decrement(found["solved"].y[0]) == pytest.approx(exact, rel=0.003)
+    assert decrement(found["moved"]) == pytest.approx(exact, rel=0.003)
     right = decrement(found["on"](found["right"]))
     with pytest.warns(OutsideValidityWarning):
         wrong = decrement(found["on"](found["wrong"]))
-    assert right == pytest.approx(exact, rel=0.03) and 5.0 < right / wrong < 7.0
+    assert right == pytest.approx(exact, rel=0.02) and 5.0 < right / wrong < 7.0
     (told,) = found["told"]
     assert "(fitted 12280 to 13770 Hz)" in str(told.message)
     assert found["off"] < 0.005

@@ -223,7 +223,7 @@ def test_wide_through_loads_of_ones_own(shipped):
     for load in (0.002, 0.4, 5.0):
         own = shipped.at(MoesPoint(BEARING.M * load, BEARING.L, BEARING.kappa))
         assert fine.approach_at(load) == pytest.approx(
-            own.approach * load ** (2.0 / 3.0), abs=2e-4 * own.film_share
+            own.approach * load ** (2.0 / 3.0), abs=2e-4 * own.separation
         )
     # in N where the point is one in SI
     bearing = Geometry.ball_bearing(7.94e-3, 39.04e-3, 0.52, "inner")
@@ -323,7 +323,7 @@ def test_answers_in_si_have_their_error_bars_in_si(shipped):
     si, answer, s = shipped.at(point), shipped.at(point.moes), point.scales
     np.testing.assert_allclose(si.hz, answer.omega / (2.0 * math.pi * s.time))
     np.testing.assert_allclose(si.damping, answer.damping * s.force / s.length * s.time)
-    lengths = ("approach", "h_min", "film_share")
+    lengths = ("approach", "h_min", "separation")
     units = dict.fromkeys(lengths, s.length) | {"stiffness": s.force / s.length, "moment": s.force * s.a}
     for name, unit in units.items():
         np.testing.assert_allclose(getattr(si, name), np.asarray(getattr(answer, name)) * unit)
@@ -442,7 +442,7 @@ def test_the_6205_on_vg_68_from_idling_to_its_limit(shipped, race, conformity, s
         own_oil = MoesPoint(answer.point.M, answer.point.L, answer.point.kappa)
         # an oil of another alpha than the atlas's widens the bars; those of the atlas alone are narrow
         assert shipped.at(own_oil).error_bars["approach"] < 0.01
-        assert answer.error_bars["approach"] < 0.03 * max(1.0, answer.film_share)
+        assert answer.error_bars["approach"] < 0.03 * max(1.0, answer.separation)
         assert answer.error_bars["h_central"] < 0.1 * answer.h_central
         assert 0.0 < answer.moment < 2.0  # of a thick film, pressed well ahead of the centre
         assert shipped.element(point, "memory").rest(1.0) is not None

@@ -58,7 +58,7 @@ def test_factors_and_differences(given):
     found = Atlas().at(POINT)
     assert found.h_central == pytest.approx(0.8 * flooded.h_central, rel=1e-14)
     assert found.h_min == pytest.approx(0.8 * flooded.h_min, rel=1e-14)
-    assert found.film_share == pytest.approx(0.8 * flooded.film_share, rel=1e-12)
+    assert found.separation == pytest.approx(0.8 * flooded.separation, rel=1e-12)
     low = flooded.damping[1]
     np.testing.assert_allclose(found.damping, flooded.damping - 0.3 * low * FADING, rtol=0, atol=1e-12 * low)
     assert found.stiffness[0] == flooded.stiffness[0]

@@ -72,7 +72,7 @@ def test_film_is_near_the_published_curve_and_continues_below_the_table():
         assert share < 1.01 * min(r, 1.0)
     thin = [atlas.at(POINT, supply=layer(r)) for r in (0.1, 0.2)]
     assert thin[1].h_central == pytest.approx(2.0 * thin[0].h_central, rel=1e-3)
-    assert thin[1].film_share == pytest.approx(2.0 * thin[0].film_share, rel=1e-9)
+    assert thin[1].separation == pytest.approx(2.0 * thin[0].separation, rel=1e-9)
 
 
 def test_layer_in_dry_approaches_is_the_same_layer():

@@ -57,8 +57,8 @@ class Atlas {
     this.requireInside(point);
     const { found, film, distance } = this.interpolated(point), { values, slopes } = this.fromSmooth(found, film);
     const named = this.named(values), error = this.named(this.bars(point, distance, values, slopes));
-    named.film_share = 1 - named.approach;
-    error.film_share = error.approach;
+    named.separation = 1 - named.approach;
+    error.separation = error.approach;
     return { ...named, error };
   }
 
