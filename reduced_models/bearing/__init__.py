@@ -10,6 +10,8 @@
 | printed_ratings | load ratings C and C0 of the catalogue's bearings, as NSK prints them |
 | designation | names as makers print them: maker, suffixes, other kinds of bearings |
 | clearance | radial clearance by class and bore |
+| tolerances | classes of seats, tolerances of rings, outside diameters by series |
+| operating_clearance | `operating_clearance`: clearance on its seats, warm and turning |
 | freedoms | degrees of freedom of the ring: names, units, loads |
 | core_bearing | `CoreBearing`: a bearing as the C core has it, views of its state |
 | contact_angles | `Grooves`; the law of contact angles, rolling and race control, which the C core has |
