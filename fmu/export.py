@@ -62,9 +62,12 @@ def export(
     those outside the FMU starts with the static force. Masses, stiffness and dampers can be set before
     initialization.
 
-    A `BearingSet` is a rotor too: ``set.rotor(load, mass=mass)``, its rigid shaft with all its bearings inside.
-    Forces and moments at 0 are inputs, `shaft.force_x`, ..., `shaft.moment_y`, beside the load; the motion there,
-    `shaft.x`, ..., is an output.
+    A `BearingSet` has the inputs of a bearing, here the motion of its rigid shaft at 0, and the forces there as
+    outputs; what each bearing has is under its label, ``bearing[1].smallest_film``. Outer rings on a spring are
+    moved from outside too: `outer_ring.z` and `outer_ring.velocity_z` are inputs, `outer_ring.force_z`, with the
+    force of the spring, an output. With `mass` a set is a rotor, ``set.rotor(load, mass=mass)``: forces and
+    moments at 0 are inputs, `shaft.force_x`, ..., `shaft.moment_y`, beside the load; the motion there, `shaft.x`,
+    ..., is an output.
 
     Reference inputs and results of the model are inside, for `verify_references`. The same model, name, library
     version and compiler give the same bytes. ``docs/notes/coupling.md`` has all variables.
@@ -79,7 +82,7 @@ def export(
         highest one. Tables of the films are made for these and some between; below the lowest films are those of
         the lowest, down to standstill.
     outside : sequence of str or "all"
-        Of a rotor or set: names of the supports whose forces are inputs, as in `RotorResult.columns`: "contact 0",
+        Of a rotor: names of the supports whose forces are inputs, as in `RotorResult.columns`: "contact 0",
         ..., names of ball bearings ("bearing 0", ... where they have none). Variables of an FMU count from 1:
         those of "contact 0" are ``contact[1]``, those of the first ball bearing ``bearing[1]``.
     speed_rpm : float, optional
@@ -93,10 +96,10 @@ def export(
         equilibrium or, where all contacts are outside and without an element, with these at their offsets.
     load : float or sequence of float, optional
         Of a bearing: force on the inner ring [N], [N m], as of `BallBearing.equilibrium`, under which it starts at
-        rest; by default the ring starts in the middle. Of a set: constant load on the shaft at 0, shape (5,), by
-        default none.
+        rest; by default the ring starts in the middle. Of a set: load on the shaft at 0, shape (5,), under
+        which it starts, with `mass` a constant one; by default none.
     mass : array_like, optional
-        Of a set, which needs it: mass of what moves with the shaft, as of `BearingSet.rotor`, shape (5, 5)
+        Of a set that moves by itself: mass of what moves with the shaft, as of `BearingSet.rotor`, shape (5, 5)
         [kg], [kg m2], or (6, 6) with that of the outer rings on a spring.
     directions : sequence of str, optional
         Of a bearing: displacements of its ring, the others are held, as of `BearingModel`; by default those that

@@ -13,6 +13,8 @@ from ehlcontact.checks import shown
 from ehlcontact.errors import InputError
 from fmu.bearing.model import BearingModel
 from fmu.bearing.references import bearing_references, bearing_trials
+from fmu.bearing.set_model import SetModel
+from fmu.bearing.set_variables import set_spec
 from fmu.bearing.variables import bearing_spec
 from fmu.contact_spec import contact_spec
 from fmu.contact_variables import Element
@@ -50,8 +52,9 @@ _TAKEN: tuple[tuple[Any, str, set[str]], ...] = (
     (Element, "a contact element", set()),
     (BallBearing, "a ball bearing", {"speeds_rpm", "load", "directions"}),
     (Rotor, "a Rotor", _ROTOR),
-    (BearingSet, "a BearingSet", _ROTOR | {"load", "mass"}),
+    (BearingSet, "a BearingSet without mass=", {"speeds_rpm", "load", "mass"}),
 )
+_MASSIVE: tuple[Any, str, set[str]] = BearingSet, "a BearingSet with mass=", _ROTOR | {"load", "mass"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,24 +97,23 @@ def fmu_model(model: Exported, **keywords: Unpack[Keywords]) -> FmuModel:
         spec = contact_spec(model, model_name, HELD_PARALLEL if lead is None else lead)
         written, compared = (partial(make, model, spec) for make in (contact_references, contact_trials))
         return FmuModel(model, spec, (model,), written, compared)
-    if isinstance(model, BallBearing):
-        bearing = BearingModel(model, given.pop("speeds_rpm", None), **given)
-        spec = bearing_spec(bearing, model_name, lead)
-        trials = cache(partial(bearing_trials, bearing, spec))
-        return FmuModel(bearing, spec, (), lambda: bearing_references(trials()), trials)
-    rotor = RotorModel(_on_set(model, given) if isinstance(model, BearingSet) else model, **given)
-    spec = rotor_spec(rotor, model_name, lead)
-    trials = cache(partial(rotor_references, rotor, spec))
-    return FmuModel(rotor, spec, rotor.elements, trials, trials)
-
-
-def _on_set(bearings: BearingSet, given: dict[str, Any]) -> Rotor:
-    """The shaft of a set as a rotor, with the mass and under the load that it takes from the keywords."""
-    mass = given.pop("mass", None)
-    if mass is None:
-        size = bearings.rotor().size
-        raise InputError("mass", None, f"that of the shaft of the set, shape ({size}, {size}) [kg], [kg m2]")
-    return bearings.rotor(given.pop("load", np.zeros(len(FIVE))), mass=mass)
+    if isinstance(model, BearingSet) and "mass" in given:
+        model = model.rotor(given.pop("load", np.zeros(len(FIVE))), mass=given.pop("mass"))
+    if isinstance(model, Rotor):
+        rotor = RotorModel(model, **given)
+        spec = rotor_spec(rotor, model_name, lead)
+        trials = cache(partial(rotor_references, rotor, spec))
+        return FmuModel(rotor, spec, rotor.elements, trials, trials)
+    moved: BearingModel | SetModel
+    speeds_rpm = given.pop("speeds_rpm", None)
+    if isinstance(model, BearingSet):
+        moved = SetModel(model, speeds_rpm, **given)
+        spec = set_spec(moved, model_name, lead)
+    else:
+        moved = BearingModel(model, speeds_rpm, **given)
+        spec = bearing_spec(moved, model_name, lead)
+    trials = cache(partial(bearing_trials, moved, spec))
+    return FmuModel(moved, spec, (), lambda: bearing_references(trials()), trials)
 
 
 def _is_given(value: Any) -> bool:
@@ -120,7 +122,8 @@ def _is_given(value: Any) -> bool:
 
 def _require_taken(model: object, given: dict[str, Any]) -> None:
     """Raise `InputError` for a model of another kind, or a keyword that it does not take."""
-    for kind, words, taken in _TAKEN:
+    massive = isinstance(model, BearingSet) and "mass" in given
+    for kind, words, taken in (_MASSIVE, *_TAKEN) if massive else _TAKEN:
         if isinstance(model, kind):
             for name in given.keys() - taken - _EVERY:
                 raise InputError(name, given[name], f"left out for {words}")

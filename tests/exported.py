@@ -6,6 +6,7 @@ from typing import Any
 
 from fmu import verify
 from fmu.bearing.model import BearingModel
+from fmu.bearing.set_model import SetModel
 from fmu.models import FmuModel, fmu_model
 from fmu.rotor.model import RotorModel
 from reduced_models import Rotor, jeffcott_rotor
@@ -71,6 +72,11 @@ def given(model: Any) -> tuple[Any, dict[str, Any]]:
 @given.register
 def _(model: BearingModel):
     return model.bearing, {"speeds_rpm": model.speeds_rpm, "load": model.load}
+
+
+@given.register
+def _(model: SetModel):
+    return model.bearings, {"speeds_rpm": model.speeds_rpm, "load": model.load}
 
 
 @given.register

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fmu.bearing.model import BearingModel
 from fmu.bearing.places import rates_of
+from fmu.bearing.set_model import SetModel
 from fmu.bearing.trial import START
 from fmu.bearing.variables import BallStates
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -47,31 +48,46 @@ class StatePoints:
     force: _Floats
 
 
-def state_points(model: BearingModel, count: int = POINTS, seed: int = 2) -> StatePoints:
+def state_points(model: BearingModel | SetModel, count: int = POINTS, seed: int = 2) -> StatePoints:
     """States about rest under the start values of the inputs, moved at random; rates and forces there."""
-    rng, in_time, n = np.random.default_rng(seed), rates_of(model), len(model.directions)
-    made = BallStates.of(model)
-    kinds = np.array([one.kind for ball in made.balls for one in ball], str)
-    sizes = np.array([CLOSER * one.nominal for ball in made.balls for one in ball])
-    sizes[kinds == "a"] *= ASIDE
-    fastest = float(model.speeds[-1]) * RPM_TO_RAD_S
-    moved = rng.normal(size=(count, sizes.size)) * sizes
+    rng, n = np.random.default_rng(seed), len(model.directions)
+    states_of = [_BallSizes(seat.model) for seat in model.seats]
+    moved = [rng.normal(size=(count, own.sizes.size)) * own.sizes for own in states_of]
     turned = rng.uniform(0.0, 1.0, count)
+    fastest = float(model.speeds[-1]) * RPM_TO_RAD_S
     size = np.ones(n)
-    size[3:] = 2.0 / model.bearing.pitch_diameter
+    diameter = max(seat.model.bearing.pitch_diameter for seat in model.seats)
+    size[[name.startswith("tilt") for name in model.directions]] = 2.0 / diameter
     place = model.place + DEEP * size * rng.normal(size=(count, n))
     velocity = FAST * size * rng.normal(size=(count, n))
     speed = fastest * np.linspace(1.0, 1.0 - SLOWER, count)
-    if (
-        model.angular
-    ):  # balls are near their balance at the place of the ring: little damps them across their contacts
-        angles = (START + turned).tolist()
-        states = np.array([in_time.rest(fastest, *at) for at in zip(angles, place, strict=True)])
-        states[:, 1 + sizes.size :] *= SETTLING
-    else:
-        states = np.tile(in_time.rest(fastest, START, model.place), (count, 1))
-    states[:, 0] = START + turned
-    states[:, 1 : 1 + sizes.size] += np.where(kinds == "w", np.abs(moved), moved)
-    found = [in_time.at(*row) for row in zip(speed.tolist(), states, place, velocity, strict=True)]
-    rates, pushed = (np.array(part) for part in zip(*found, strict=True))
-    return StatePoints(states, rates, place, velocity, speed, -pushed)
+    force = np.tile(model.constant_force, (count, 1))
+    columns = []
+    for seat, own, by in zip(model.seats, states_of, moved, strict=True):
+        in_time = rates_of(seat.model)
+        rings = np.array([seat.ring(at) for at in place])
+        if seat.model.angular:  # balls are near their balance there: little damps them across their contacts
+            angles = (START + turned).tolist()
+            states = np.array([in_time.rest(fastest, *at) for at in zip(angles, rings, strict=True)])
+            states[:, 1 + own.sizes.size :] *= SETTLING
+        else:
+            states = np.tile(in_time.rest(fastest, START, seat.ring(model.place)), (count, 1))
+        states[:, 0] = START + turned
+        states[:, 1 : 1 + own.sizes.size] += np.where(own.kinds == "w", np.abs(by), by)
+        moving = velocity @ seat.rows.T
+        found = [in_time.at(*row) for row in zip(speed.tolist(), states, rings, moving, strict=True)]
+        rates, pushed = (np.array(part) for part in zip(*found, strict=True))
+        force -= pushed @ seat.rows
+        columns.append((states, rates))
+    states, rates = (np.concatenate(parts, axis=1) for parts in zip(*columns, strict=True))
+    return StatePoints(states, rates, place, velocity, speed, force)
+
+
+class _BallSizes:
+    """Kinds of the states of the balls of a bearing, and how far they are moved."""
+
+    def __init__(self, model: BearingModel) -> None:
+        balls = BallStates.of(model).balls
+        self.kinds = np.array([state.kind for ball in balls for state in ball], str)
+        self.sizes = np.array([CLOSER * state.nominal for ball in balls for state in ball])
+        self.sizes[self.kinds == "a"] *= ASIDE

@@ -29,6 +29,31 @@ TRIED = 5  # loads of a ball, from the heaviest to the lightest
 MOST_SPEEDS = 4  # of the tables, which then leave an FMU with the binaries of five platforms below a megabyte
 
 
+@dataclass(frozen=True, eq=False)
+class Seat:
+    """One bearing of an FMU.
+
+    Attributes
+    ----------
+    label : str
+        In front of its variables: ``bearing[1].``; empty of a bearing alone.
+    model : BearingModel
+    rows : ndarray, shape (directions, n)
+        Motion of its inner ring against the outer one from that which is given.
+    shift : ndarray, shape (directions,)
+        Displacement of its inner ring beside that.
+    """
+
+    label: str
+    model: BearingModel
+    rows: _Floats
+    shift: _Floats
+
+    def ring(self, place: _Floats) -> _Floats:
+        """Place of the inner ring, shape (directions,), at a place that is given, shape (n,)."""
+        return np.asarray(self.rows @ place + self.shift, np.float64)
+
+
 @dataclass(frozen=True)
 class BearingModel:
     """A ball bearing whose inner ring is moved from outside.
@@ -152,6 +177,17 @@ class BearingModel:
             if words := damping_left_out(bearing, speed, np.full(len(RACES), load)):
                 return f"where a ball carries {load:.3g} N, {words}"
         return ""
+
+    @cached_property
+    def seats(self) -> tuple[Seat, ...]:
+        """The bearing, its ring moved as it is given."""
+        size = len(self.directions)
+        return (Seat("", self, np.eye(size), np.zeros(size)),)
+
+    @property
+    def constant_force(self) -> _Floats:
+        """What acts on the ring beside the balls, shape (n,) [N], [N m]: nothing."""
+        return np.zeros(len(self.directions))
 
     @cached_property
     def balls(self) -> Balls:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fmu.bearing.continuous import StatePoints, state_points
 from fmu.bearing.model import BearingModel
+from fmu.bearing.set_model import SetModel
 from fmu.bearing.trial import START, BearingTrial, bearing_trial
 from fmu.bearing.variables import FORCES, RATES
 from fmu.lead import CONTACT
@@ -27,11 +28,17 @@ ABOUT = (
 )
 
 
-def bearing_trials(model: BearingModel, spec: ModelSpec) -> References:
+def bearing_trials(model: BearingModel | SetModel, spec: ModelSpec) -> References:
     """What the FMU of a bearing is compared on."""
     trial, points = bearing_trial(model), state_points(model)
     names = [FORCES[name] for name in model.directions]
-    most = [model.bearing.race(race).heaviest(float(model.speeds[-1]))[0] for race in RACES]
+    fastest = float(model.speeds[-1])
+    most = np.concatenate(
+        [
+            np.tile([bearing.race(race).heaviest(fastest)[0] for race in RACES], (bearing.balls, 1))
+            for bearing in (seat.model.bearing for seat in model.seats)
+        ]
+    )
     outside = np.any(trial.balls > most, axis=(1, 2))
     forces = dict(zip(names, trial.force.T, strict=True))
     sizes = dict(zip(names, force_scales(trial), strict=True)) | {"outside_validity": 1.0}
@@ -40,7 +47,7 @@ def bearing_trials(model: BearingModel, spec: ModelSpec) -> References:
     return References(
         steps,
         _points(model, spec, points),
-        {CONTACT.name: CONTACT.at_end, "cage_angle_start": START},
+        {CONTACT.name: CONTACT.at_end} | {f"{seat.label}cage_angle_start": START for seat in model.seats},
         TOLERANCE,
         ABOUT,
         outside=int(outside.sum()),
@@ -59,11 +66,11 @@ def bearing_references(trials: References) -> References:
     )
 
 
-def _points(model: BearingModel, spec: ModelSpec, points: StatePoints) -> Trial:
+def _points(model: BearingModel | SetModel, spec: ModelSpec, points: StatePoints) -> Trial:
     """Rows for model exchange: inputs and states; forces and rates, measured by the largest of a kind in a row."""
     knowns = _columns(model, points)
     knowns |= {state.name: points.states[:, k] for k, state in enumerate(spec.states)}
-    directions = ("linear" if k < 3 else "tilts" for k in range(len(model.directions)))
+    directions = ("tilts" if name.startswith("tilt") else "linear" for name in model.directions)
     forces = [(FORCES[name], kind) for name, kind in zip(model.directions, directions, strict=True)]
     rates = [
         (rate.name, re.sub(r"\[\d+\]", "", state.name))
@@ -86,7 +93,7 @@ def knowns_of(names: Sequence[str], place: _Floats, velocity: _Floats, speed: fl
     return dict(zip((*names, *rates, "speed"), (*place.tolist(), *velocity.tolist(), float(speed)), strict=True))
 
 
-def _columns(model: BearingModel, of: StatePoints | BearingTrial) -> dict[str, _Floats]:
+def _columns(model: BearingModel | SetModel, of: StatePoints | BearingTrial) -> dict[str, _Floats]:
     """Inputs by name, over time or points."""
     names = (*model.directions, *(RATES[name] for name in model.directions), "speed")
     return dict(zip(names, np.column_stack([of.place, of.velocity, of.speed]).T, strict=True))
@@ -95,6 +102,6 @@ def _columns(model: BearingModel, of: StatePoints | BearingTrial) -> dict[str, _
 def force_scales(trial: BearingTrial) -> _Floats:
     """Largest force or moment of a run, by its kind, shape (n,)."""
     scale = np.asarray(np.abs(trial.force).max(axis=0))
-    for kind in (slice(0, 3), slice(3, 5)):
+    for kind in (slice(0, 3), slice(3, 5)):  # behind them outer rings
         scale[kind] = scale[kind].max(initial=0.0)
     return scale

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu.bearing.model import BearingModel
+from fmu.bearing.set_model import SetModel
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 _Floats = NDArray[np.float64]
@@ -34,7 +35,7 @@ class BearingTrial:
     force : ndarray, shape (k, n)
         On the inner ring [N], [N m].
     balls : ndarray, shape (k, balls, 2)
-        Load of every ball at both races [N].
+        Load of every ball of all bearings at both races [N].
     """
 
     time: _Floats
@@ -45,18 +46,17 @@ class BearingTrial:
     balls: _Floats
 
 
-def bearing_trial(model: BearingModel, steps: int = STEPS, dt: float = DT, seed: int = 1) -> BearingTrial:
+def bearing_trial(
+    model: BearingModel | SetModel, steps: int = STEPS, dt: float = DT, seed: int = 1
+) -> BearingTrial:
     """A run from rest: vibrations in all directions, a speed that falls, balls that part from the ring."""
     rng, n = np.random.default_rng(seed), len(model.directions)
     time = np.asarray(dt * np.arange(steps + 1), np.float64)
-    pressed = model.place.copy()
-    if model.load is None:
+    pressed, size = model.place.copy(), vibration_sizes(model)
+    if isinstance(model, BearingModel) and model.load is None:
         pressed[0] = 0.5 * model.bearing.clearance + DEEP
         if n > 2:
             pressed[2] = DEEP
-    size = np.full(n, DEEP)
-    size[2:3] = STEEP * DEEP
-    size[3:] = DEEP / (0.5 * model.bearing.pitch_diameter)
     omega = 2.0 * np.pi * rng.uniform(LOWEST, HIGHEST, (TONES, n))
     grows = np.sin(0.5 * np.pi * np.minimum(time / time[-1] * 2.0, 1.0)) ** 2
     faster = np.gradient(grows, time)
@@ -70,15 +70,26 @@ def bearing_trial(model: BearingModel, steps: int = STEPS, dt: float = DT, seed:
     return _forces(model, time, place, velocity, speed)
 
 
-def _forces(model: BearingModel, time: _Floats, place: _Floats, velocity: _Floats, speed: _Floats) -> BearingTrial:
-    motion = model.motion()
-    force, balls = np.zeros_like(place), np.zeros((time.size, model.bearing.balls, 2))
-    force[0] = -motion.rest(float(speed[0]), START, place[0])
-    balls[0] = motion.loads
-    for k in range(1, time.size):
-        dt = float(time[k] - time[k - 1])
-        motion.begin(float(speed[k]), dt)
-        force[k] = -motion.forces(place[k], velocity[k])[0]
-        motion.accept()
-        balls[k] = motion.loads
-    return BearingTrial(time, place, velocity, speed, force, balls)
+def vibration_sizes(model: BearingModel | SetModel) -> _Floats:
+    """Sizes of vibrations of all displacements, shape (n,) [m], [rad]."""
+    radius = 0.5 * max(seat.model.bearing.pitch_diameter for seat in model.seats)
+    kinds = {"x": DEEP, "y": DEEP, "tilt_x": DEEP / radius, "tilt_y": DEEP / radius}
+    return np.array([kinds.get(name, STEEP * DEEP) for name in model.directions])
+
+
+def _forces(
+    model: BearingModel | SetModel, time: _Floats, place: _Floats, velocity: _Floats, speed: _Floats
+) -> BearingTrial:
+    force = np.tile(model.constant_force, (time.size, 1))
+    balls = []
+    for seat in model.seats:
+        motion, loads = seat.model.motion(), np.zeros((time.size, seat.model.bearing.balls, 2))
+        force[0] -= seat.rows.T @ motion.rest(float(speed[0]), START, seat.ring(place[0]))
+        loads[0] = motion.loads
+        for k in range(1, time.size):
+            motion.begin(float(speed[k]), float(time[k] - time[k - 1]))
+            force[k] -= seat.rows.T @ motion.forces(seat.ring(place[k]), seat.rows @ velocity[k])[0]
+            motion.accept()
+            loads[k] = motion.loads
+        balls.append(loads)
+    return BearingTrial(time, place, velocity, speed, force, np.concatenate(balls, axis=1))

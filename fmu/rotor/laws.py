@@ -15,6 +15,7 @@ import numpy as np
 from fmu import sources as fmu_sources
 from fmu.bearing.model import BearingModel
 from fmu.bearing.tables import bearing_table, state_size, work_size
+from fmu.bearing.variables import PARAMETERS
 from fmu.c_headers import c_headers, c_table
 from fmu.contact_variables import Element, Film
 from fmu.rotor.model import RotorModel
@@ -22,7 +23,6 @@ from fmu.spec import ModelSpec, Variable
 
 SHOWN = "force", "moment_", "largest_", "smallest_", "rolling_", "outside_"  # outputs that the rotor has
 HIDDEN = "outside_approach", "outside_rate", "outside_force"  # of a contact, which the rotor does not tell apart
-PARAMETERS = "clearance", "offset", "cage_angle_start", "film"
 NUMBERS_OF_DUAL = 2
 CONTACT_WORK = 4  # numbers of a step of a contact beside those of its model: enum STEP_... of contact_law.c
 

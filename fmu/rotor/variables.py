@@ -11,10 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu.bearing.places import rest_states
-from fmu.bearing.variables import BEARING_HEADERS, BEARING_SOURCES, FORCES, RATES, bearing_spec
+from fmu.bearing.variables import (
+    BEARING_HEADERS,
+    BEARING_SOURCES,
+    FORCES,
+    OUTSIDE,
+    PARAMETERS,
+    RATES,
+    bearing_spec,
+)
 from fmu.contact_spec import checked_name, contact_spec, source_text
 from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
-from fmu.rotor.laws import PARAMETERS, shown, tunable
+from fmu.rotor.laws import shown, tunable
 from fmu.rotor.model import RotorModel, Station
 from fmu.rotor.tables import rotor_macros, rotor_tables
 from fmu.spec import ModelSpec, Variable, VariableList
@@ -23,7 +31,6 @@ from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 _Floats = NDArray[np.float64]
 
-OUTSIDE = "outside_validity"
 SOURCES = (
     "core.c", "core_step.c", "model_rotor.c", "rotor.c", "rotor_supports.c", "rotor_rest.c", "rotor_step.c",
     "linear_equations.c",
@@ -32,7 +39,6 @@ HEADERS = "core.h", "model.h", "rotor.h", "support.h", "linear_equations.h"
 LEAST_INNER_STEP = 1e-6  # of the default: below it, importers repeat what is refused without end
 EXCHANGE_TOLERANCE = 1e-8  # an orbit is some thousandths of the approach; 1e-6 of that is a tenth of it
 MOST_INDICATORS = 64  # bits of a number in core.h
-MOST_DEPENDED = 200  # beyond, dependencies are left out of the model description
 
 
 def rotor_spec(model: RotorModel, model_name: str | None = None, force_lead: float | None = None) -> ModelSpec:

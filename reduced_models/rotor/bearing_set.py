@@ -524,6 +524,11 @@ class BearingSet(Summary):
         return speed
 
     @property
+    def is_preloaded(self) -> bool:
+        """Whether offsets or a spring press the bearings without a load."""
+        return self._interference > 0.0
+
+    @property
     def _interference(self) -> float:
         """Displacement [m] by which the rings of opposite bearings are pressed together; below 0 there is play.
 
@@ -628,13 +633,9 @@ class BearingSet(Summary):
                 allowed = f"one with Fz {side} {sign * most + 0.0:g} N: {carried} in {facing}"
                 raise InputError("load", load.tolist(), allowed)
 
-    @property
-    def _preloads(self) -> bool:
-        return self._interference > 0.0
-
     def _require_loaded(self, balls: Sequence[StaticBearing], load: _Floats, speed: float) -> None:
         """Raise `InputError` where a load has unloaded a bearing of a set that offsets preload."""
-        if self.may_lift_off or self.sprung is not None or not self._preloads:
+        if self.may_lift_off or self.sprung is not None or not self.is_preloaded:
             return
         for k, facing in enumerate(self.facings):
             if _margin(balls, k) > 0.0:

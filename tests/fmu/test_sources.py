@@ -23,11 +23,12 @@ from ehlcontact import Lubricant
 from fmu import export, verify
 from fmu.archive import content_guid
 from fmu.bearing.model import BearingModel
+from fmu.bearing.set_model import SetModel
 from fmu.contact_spec import contact_spec
 from fmu.references.contact_references import film_motion, state_grid
 from fmu.rotor.laws import law_names, laws_of
 from fmu.sources import SOURCE_FOLDERS, source_files, standard_folder, standard_headers
-from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings
+from reduced_models import BallBearing, BearingSet, Disc, Shaft, Support, rotor_on_bearings
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]
@@ -36,7 +37,7 @@ SANITIZED = [*STRICT, "-g", "-O0", *SANITIZE]
 HERE = Path(__file__).parent
 CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]
 ROTORS = ["rotor alone", "rotor mixed", "rotor wide in y"]
-BEARINGS = ["bearing planar", "bearing five"]
+BEARINGS = ["bearing planar", "bearing five", "bearing set"]
 SHAFTS = ["shaft", "whole rotor"]
 FUZZ = {2: "fuzz.c", 3: "fuzz3.c"}
 MANY = 1_250_000  # calls of each version of FMI, over all kinds
@@ -86,6 +87,8 @@ def models(elements, rotors):
         "shaft": OfRotor(shaft, {"outside": "all", "speed_rpm": 3e3, "inertia": 0.02}),
         "whole rotor": OfRotor(whole, {"speeds_rpm": 3e3, "inertia": 0.02}),
     }
+    angular = BallBearing.catalogue("7205", oil=oil, loss_factor=0.05)
+    bearings["bearing set"] = SetModel(BearingSet.pair(angular, spring=200.0), 8e3)
     return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings | shafts
 
 
@@ -127,7 +130,8 @@ def compiled(compiler, models, tmp_path_factory):
 def random_calls_of(name):
     """Macros of `fuzz.c` for a rotor or a bearing: which variables it sets and reads."""
     if name in BEARINGS:
-        given = {"INPUTS": "VR_y,VR_velocity_y", "OUTPUTS": "VR_largest_load_inner,VR_force_x,VR_force_y"}
+        positive = "VR_lead" if name == "bearing set" else "VR_largest_load_inner"
+        given = {"INPUTS": "VR_y,VR_velocity_y", "OUTPUTS": f"{positive},VR_force_x,VR_force_y"}
         return [f"-DFUZZ_{macro}={text}" for macro, text in (given | {"USUAL": "0.0", "STEP": "1e-7"}).items()]
     if name in SHAFTS:
         # the first of them must not be negative, as motions may be
@@ -151,7 +155,7 @@ def but(few, *others, long=()):
     but(
         ["shaft"],
         *(("rotor alone",), ("rotor alone in y",), ("bearing planar",), ("bearing dry",)),
-        long=(("rotor mixed",), ("bearing five",), ("whole rotor",)),
+        long=(("rotor mixed",), ("bearing five",), ("bearing set",), ("whole rotor",)),
     ),
 )
 def test_strict_warnings_of_rotors(compiled, name):
@@ -186,8 +190,8 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
         *((2, name) for name in ("polynomial", "power_si", "memory", "rotor alone", "rotor wide in y")),
         *((2, "bearing planar"), (3, "cubic")),
         long=(
-            *((2, name) for name in ("wide_si", "rotor mixed", "bearing five", "whole rotor")),
-            (3, "rotor mixed"),
+            *((2, name) for name in ("wide_si", "rotor mixed", "bearing five", "bearing set", "whole rotor")),
+            *((3, name) for name in ("rotor mixed", "bearing set")),
         ),
     ),
 )

@@ -386,7 +386,7 @@ def test_a_set_is_its_rigid_shaft(tmp_path):
     rotor = pair.rotor(load, mass=mass)
     start = rotor.equilibrium(rpm) + np.array([2e-7, -3e-7, 4e-7, 1e-6, -2e-6]), np.zeros(5)
     keywords = {"speeds_rpm": rpm, "mass": mass, "load": load, "start": start}
-    with pytest.raises(InputError, match=r"^mass = None: must be that of the shaft of the set, shape \(5, 5\)"):
+    with pytest.raises(InputError, match=r"^start = .*: must be left out for a BearingSet without mass="):
         export(pair, tmp_path / "x.fmu", **{**keywords, "mass": None})
     one = Exported(export(pair, tmp_path / "x.fmu", **keywords))
     assert verify(one.path, pair, **keywords).passes
