@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from functools import partial
+from dataclasses import dataclass
+from functools import cached_property, partial
 from math import sqrt
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -12,14 +13,15 @@ import typer
 
 from ehlcontact.asperities import Asperities
 from ehlcontact.assumptions import Assumptions, assumptions
-from ehlcontact.assumptions.contact import KnownFilm
 from ehlcontact.checks import require_between
 from ehlcontact.checks.admissible_range import INPUTS, Given
 from ehlcontact.cli import entries as e
+from ehlcontact.cli.entries import entries_of, in_options
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.options import Options, called, option_of
-from ehlcontact.cli.rows import Row
-from ehlcontact.cli.study.schema import lubricant_of, oil_grade
+from ehlcontact.cli.options import Options, Output, called, option_of, with_entries
+from ehlcontact.cli.output import complain
+from ehlcontact.cli.rows import Row, outside_rows
+from ehlcontact.cli.study.schema import Oil, Study
 from ehlcontact.errors import InputError
 from ehlcontact.heat import RANGES, Heat
 from ehlcontact.hertz import most_loaded_ball
@@ -32,7 +34,7 @@ from ehlcontact.supply import OilLayer
 if TYPE_CHECKING:
     from ehlcontact.results import SteadyResult, Traction
 
-_SI, _MOES, _LAWS = "A ball of a bearing, in SI", "Or a point without dimensions", "Laws of the oil"
+_SI, _MOES, _OIL = "A ball of a bearing, in SI", "Or a point without dimensions", "The oil and its laws"
 _DISC = "Or a ball on a disc, in SI (with --oil, --temp, --load)"
 BESIDE = (
     "or a ball of a bearing: --bearing, --oil, --temp, --speed-rpm, --load; "
@@ -52,10 +54,11 @@ def known_bearings() -> list[str]:
 
 _moes = partial(typer.Option, rich_help_panel=_MOES, show_default=False)
 _disc = partial(typer.Option, rich_help_panel=_DISC, show_default=False)
-_law = partial(typer.Option, rich_help_panel=_LAWS)
+_oil = partial(typer.Option, rich_help_panel=_OIL)
 OIL_NAME = typer.Option("--oil", metavar="GRADE", help='ISO grade of a mineral oil, as "ISO VG 68".')
 
 
+@with_entries(entries_of(Study, ("oil",), ("oil.name",)), {"oil": _OIL})
 class Contact(Options):
     """Which contact it is: that of a bearing's most loaded ball, of a ball on a disc, or M, L and kappa."""
 
@@ -64,10 +67,6 @@ class Contact(Options):
         e.Catalogue | None,
         typer.Option("--bearing", metavar="NAME", autocompletion=known_bearings, show_default=False),
     ] = None
-    oil: Annotated[str | None, OIL_NAME] = None
-    nu40: Annotated[e.Nu40 | None, typer.Option("--nu40", show_default=False)] = None
-    nu100: Annotated[e.Nu100 | None, typer.Option("--nu100", show_default=False)] = None
-    temp: Annotated[e.Temperature | None, typer.Option("--temp", show_default=False)] = None
     speed_rpm: Annotated[e.Speed | None, typer.Option("--speed-rpm", show_default=False)] = None
     load: Annotated[e.Load | None, typer.Option("--load", show_default=False)] = None
     race: Annotated[e.Race | None, typer.Option("--contact", metavar="RACE", show_default="inner")] = None
@@ -77,10 +76,8 @@ class Contact(Options):
     M: Annotated[float | None, _moes("--M"), e.meaning("Moes load parameter, > 0")] = None
     L: Annotated[float | None, _moes("--L"), e.meaning("Moes lubricant parameter, >= 0")] = None
     kappa: Annotated[float | None, _moes("--kappa"), e.meaning("ellipse ratio a/b, 0.01 to 100")] = None
-    eta0: Annotated[e.Eta0 | None, _law("--eta0", show_default="0.04, or the oil's")] = None
-    alpha: Annotated[e.Alpha | None, _law("--alpha", show_default="2.2e-8, or the oil's")] = None
-    viscosity: Annotated[e.ViscosityLaw, _law("--viscosity", metavar="LAW")] = "roelands"
-    density: Annotated[e.DensityLaw, _law("--density", metavar="LAW")] = "dowson-higginson"
+    eta0: Annotated[e.Eta0 | None, _oil("--eta0", show_default="0.04, or the oil's")] = None
+    alpha: Annotated[e.Alpha | None, _oil("--alpha", show_default="2.2e-8, or the oil's")] = None
 
     def _missing(self, name: str, beside: str = "") -> InputError:
         """The error for an option that has to be given."""
@@ -121,7 +118,7 @@ class Contact(Options):
             if getattr(self, name) is None:
                 raise self._missing(name, f", {BESIDE}")
         laws = {name: getattr(self, name) for name in ("alpha", "eta0") if getattr(self, name) is not None}
-        laws |= {"viscosity": self.viscosity, "density": self.density}
+        laws |= {name: law for name in ("viscosity", "density") if (law := getattr(self, name)) is not None}
         return MoesPoint(M=self.M, L=self.L, kappa=self.kappa, **laws)  # type: ignore[arg-type]
 
     @staticmethod
@@ -191,12 +188,16 @@ class Contact(Options):
         InputError
             Given in no way, in part, or in both ways; an oil that the library refuses.
         """
-        grade = None if self.oil is None else oil_grade(self.oil, "--oil")
-        names = {"iso_vg": "--oil", "temperature": "--temp"}
-        given = {"eta0": self.eta0, "alpha": self.alpha, "iso_vg": grade, "temperature": self.temp}
-        given |= {"nu40": self.nu40, "nu100": self.nu100}
-        laws = {"viscosity": self.viscosity, "density": self.density}
-        return lubricant_of(given, laws, lambda name: names.get(name, f"--{name}"))
+        try:
+            return self._sheet.lubricant
+        except InputError as error:
+            field, allowed = (in_options(text, self.ENTRIES.values()) for text in (error.field, error.allowed))
+            raise InputError(field, error.value, allowed) from None
+
+    @property
+    def _sheet(self) -> Oil:
+        """The oil as a study has it."""
+        return Oil(**{entry.removeprefix("oil."): value for entry, value in self.entries().items()})
 
     @contextmanager
     def called(self) -> Iterator[None]:
@@ -262,17 +263,12 @@ class Contact(Options):
             ("M, L, kappa", ", ".join(numeral(getattr(point.moes, k)) for k in ("M", "L", "kappa")), ""),
         ]
 
-    def judged(self, point: Point, film: KnownFilm, surfaces: Surfaces | None = None) -> Assumptions:
-        """Assumptions at this contact with its oil and a known film, and with the roughness where one is given."""
-        rq = None if surfaces is None or surfaces.rq is None else (1e-6 * surfaces.rq / sqrt(2.0),) * 2
-        return assumptions(point, film=film, roughness=rq)
-
     @property
     def description(self) -> str:
         """Bearing, race, load, speed and oil in one line; empty for a dimensionless point."""
         if not self.in_si:
             return ""
-        oil = f"oil of {numeral(self.eta0)} Pa s" if self.oil is None else self._oil_name()
+        oil = f"oil of {numeral(self.eta0)} Pa s" if self.eta0 is not None else self._oil_name()
         if self._of_disc:
             ball = f"steel ball of {numeral(self.ball_diameter)} mm on {self.flat or 'steel'}"
             return f"{ball}, {numeral(self.load)} N, entrainment {numeral(self.entrainment)} m/s, {oil}"
@@ -284,12 +280,7 @@ class Contact(Options):
         return (self.bearing or "").strip().upper()
 
     def _oil_name(self) -> str:
-        if self.nu40 is not None:
-            viscosities = f"{numeral(self.nu40)} and {numeral(self.nu100)} mm2/s at 40 and 100 °C"
-            return f"{viscosities}, at {numeral(self.temp)} °C"
-        if self.oil is None:
-            return "by its numbers"
-        return f"ISO VG {oil_grade(self.oil, '--oil')} at {numeral(self.temp)} °C"
+        return self._sheet.label if self.eta0 is None else "by its numbers"
 
 
 class Surfaces(Options):
@@ -349,21 +340,68 @@ class Mixed(Options):
         return Asperities(1e-6 * surfaces.rq)
 
 
-class Supply(Options):
-    """How much oil reaches the contact; flooded where neither is given."""
+_supply = partial(typer.Option, rich_help_panel="Oil supply (flooded if left out)", help=None)
+_slides = partial(typer.Option, rich_help_panel="Sliding (pure rolling if left out)")
 
-    panel: ClassVar[str | None] = "Oil supply (flooded if left out)"
-    layer: Annotated[e.OilThickness | None, typer.Option("--layer", help=None)] = None
-    layer_ratio: Annotated[e.LayerRatio | None, typer.Option("--layer-ratio", help=None)] = None
 
-    def chosen(self, contact: Contact) -> OilLayer | None:
-        """The layer, or None for a flooded inlet.
+class FilmConditions(Options):
+    """How much oil reaches the contact, whether the film heats up, whether the surfaces slide."""
+
+    layer: Annotated[e.OilThickness | None, _supply("--layer")] = None
+    layer_ratio: Annotated[e.LayerRatio | None, _supply("--layer-ratio")] = None
+    thermal: Annotated[
+        bool,
+        typer.Option(
+            "--thermal",
+            rich_help_panel="Heat (isothermal if left out)",
+            help="Let the film heat up and its viscosity follow; with --oil and --temp.",
+        ),
+    ] = False
+    slide_roll: Annotated[
+        float | None,
+        _slides(
+            "--slide-roll",
+            show_default="0",
+            help="Slide-to-roll ratio, difference over mean of the surface speeds: 0 to 2, with --thermal 0 to 1.",
+        ),
+    ] = None
+    eyring: Annotated[
+        float | None, _slides("--eyring-mpa", show_default="5", help="Eyring stress of the oil, MPa.")
+    ] = None
+    limiting_shear: Annotated[
+        float | None,
+        _slides(
+            "--limiting-shear", help="Limiting shear stress over pressure, as 0.05, in place of Eyring's law."
+        ),
+    ] = None
+    thinning: Annotated[
+        bool, _slides("--thinning", help="Shear thinning of the film by sliding, by Eyring's law.")
+    ] = False
+
+    def chosen(self, contact: Contact, *, traction: bool = False) -> dict[str, Any]:
+        """``supply``, ``thermal`` and ``sliding`` for a solver.
+
+        Parameters
+        ----------
+        contact : Contact
+        traction : bool
+            Whether the traction of the film is an answer of the command, and not only what sliding makes of it.
 
         Raises
         ------
         InputError
-            Both options; a layer in micrometres at a point without a unit of length.
+            Options that exclude each other; lengths, heat or stress at a point without units; an oil without its
+            temperature; sliding without heat, thinning or traction.
         """
+        supply = self._layer_of(contact)
+        self._check_sliding(contact, traction=traction)
+        return {"supply": supply, "sliding": self._thinned(), "thermal": self._heat(contact)}
+
+    def traction(self, film: SteadyResult) -> Traction | None:
+        """Traction of a film that has converged; None in pure rolling."""
+        return None if self.slide_roll is None or not film.status.ok else film.traction(self.slide_roll, self._law)
+
+    def _layer_of(self, contact: Contact) -> OilLayer | None:
         if self.layer is not None and self.layer_ratio is not None:
             raise InputError("--layer", self.layer, "given without --layer-ratio")
         if self.layer is not None and not contact.in_si:
@@ -373,69 +411,24 @@ class Supply(Options):
             return OilLayer(1e-6 * self.layer)
         return None if self.layer_ratio is None else OilLayer(over_flooded=self.layer_ratio)
 
-
-class Heating(Options):
-    """Whether the film heats up."""
-
-    panel: ClassVar[str | None] = "Heat (isothermal if left out)"
-    thermal: Annotated[
-        bool,
-        typer.Option("--thermal", help="Let the film heat up and its viscosity follow; with --oil and --temp."),
-    ] = False
-
-    def chosen(self, contact: Contact, sliding: Sliding) -> Heat | None:
-        """Data of the heating, or None for an isothermal film.
-
-        Raises
-        ------
-        InputError
-            Heat of an oil without its temperature, at a point without units, or with a limiting shear stress.
-        """
+    def _heat(self, contact: Contact) -> Heat | None:
         if not self.thermal:
             return None
         if not contact.in_si:
             allowed = "left out: a point of --M --L --kappa has no metres, seconds and kelvin"
             raise InputError("--thermal", True, allowed)
-        if contact.oil is None:
+        if "oil.iso_vg" not in contact.entries():
             allowed = (
                 "given with --oil and --temp: an oil by its grade has the change of viscosity with temperature"
             )
             raise InputError("--thermal", True, allowed)
-        law = sliding.law
-        if not isinstance(law, Eyring):
+        if not isinstance(self._law, Eyring):
             allowed = "left out with --thermal: Eyring's stress heats the film (--eyring-mpa)"
-            raise InputError("--limiting-shear", sliding.limiting_shear, allowed)
-        return Heat(slide_roll=sliding.slide_roll or 0.0, eyring_stress=law.stress)
-
-
-class Sliding(Options):
-    """Whether the surfaces slide, and the traction law of the oil."""
-
-    panel: ClassVar[str | None] = "Sliding (pure rolling if left out)"
-    slide_roll: Annotated[
-        float | None,
-        typer.Option(
-            "--slide-roll",
-            show_default="0",
-            help="Slide-to-roll ratio, difference over mean of the surface speeds: 0 to 2, with --thermal 0 to 1.",
-        ),
-    ] = None
-    eyring: Annotated[
-        float | None, typer.Option("--eyring-mpa", show_default="5", help="Eyring stress of the oil, MPa.")
-    ] = None
-    limiting_shear: Annotated[
-        float | None,
-        typer.Option(
-            "--limiting-shear", help="Limiting shear stress over pressure, as 0.05, in place of Eyring's law."
-        ),
-    ] = None
-
-    thinning: Annotated[
-        bool, typer.Option("--thinning", help="Shear thinning of the film by sliding, by Eyring's law.")
-    ] = False
+            raise InputError("--limiting-shear", self.limiting_shear, allowed)
+        return Heat(slide_roll=self.slide_roll or 0.0, eyring_stress=self._law.stress)
 
     @property
-    def law(self) -> TractionLaw:
+    def _law(self) -> TractionLaw:
         """Traction law; raises `InputError` for numbers out of range, or both laws."""
         if self.limiting_shear is None:
             stress = 5.0 if self.eyring is None else require_between("--eyring-mpa", self.eyring, 0.1, 1000.0)
@@ -444,42 +437,82 @@ class Sliding(Options):
             raise InputError("--eyring-mpa", self.eyring, "left out with --limiting-shear: one traction law")
         return LimitingShear(require_between("--limiting-shear", self.limiting_shear, 1e-3, 0.5))
 
-    def check(self, contact: Contact, *, heated: bool, traction: bool = True) -> None:
-        """Raise `InputError` for sliding that has no traction, or no heat, before anything is solved.
-
-        Without `traction` only what sliding makes of the film is an answer of the command.
-        """
+    def _check_sliding(self, contact: Contact, *, traction: bool) -> None:
+        """Raise `InputError` for sliding that has no traction, or no heat, before anything is solved."""
         if self.slide_roll is None:
+            still = "left out without --slide-roll: in pure rolling nothing slides"
+            thin = "given with --slide-roll: in pure rolling nothing thins the oil"
             for name, value in (("--eyring-mpa", self.eyring), ("--limiting-shear", self.limiting_shear)):
                 if value is not None:
-                    raise InputError(name, value, "left out without --slide-roll: in pure rolling nothing slides")
+                    raise InputError(name, value, still)
             if self.thinning:
-                raise InputError(
-                    "--thinning", True, "given with --slide-roll: in pure rolling nothing thins the oil"
-                )
+                raise InputError("--thinning", True, thin)
             return
-        most = RANGES["slide_roll"][1] if heated else LARGEST_SLIDE_ROLL
+        most = RANGES["slide_roll"][1] if self.thermal else LARGEST_SLIDE_ROLL
         require_between("--slide-roll", self.slide_roll, 0.0, most)
         if not contact.in_si:
             allowed = "left out: a point of --M --L --kappa has no pascals, which a traction law needs"
             raise InputError("--slide-roll", self.slide_roll, allowed)
-        self.law  # noqa: B018  # which checks its numbers
-        if not (traction or heated or self.thinning):
+        self._law  # noqa: B018  # which checks its numbers
+        if not (traction or self.thermal or self.thinning):
             allowed = "given with --thermal or --thinning: else it changes nothing of this film"
             raise InputError("--slide-roll", self.slide_roll, allowed)
 
-    def thinned(self) -> ShearThinning | None:
-        """Sliding that thins the film, or None; raises `InputError` with a limiting shear stress."""
+    def _thinned(self) -> ShearThinning | None:
         if not self.thinning:
             return None
         if self.limiting_shear is not None:
             allowed = "left out with --thinning: it leaves no viscosity along the sliding (--eyring-mpa)"
             raise InputError("--limiting-shear", self.limiting_shear, allowed)
-        return ShearThinning(self.slide_roll or 0.0, self.law)
+        return ShearThinning(self.slide_roll or 0.0, self._law)
 
-    def traction(self, film: SteadyResult) -> Traction | None:
-        """Traction of a film that has converged; None in pure rolling."""
-        return None if self.slide_roll is None or not film.status.ok else film.traction(self.slide_roll, self.law)
+
+@dataclass(frozen=True)
+class ContactAnswer:
+    """Answer of a command about a contact: whose it is, assumptions that do not hold, lambda, and the result."""
+
+    contact: Contact
+    point: Point
+    result: Any  # with `to_dict`
+    film: Any  # for the assumptions; None where they are those of the formulas
+    surfaces: Surfaces | None = None
+    h_min: float = 0.0  # of the film over which lambda is
+
+    @cached_property
+    def assumptions(self) -> Assumptions:
+        """At this contact with its oil, and with the roughness where one is given."""
+        rq = None if self.surfaces is None or self.surfaces.rq is None else 1e-6 * self.surfaces.rq / sqrt(2.0)
+        rough = None if rq is None else (rq, rq)
+        domain = None if self.film is not None else getattr(self.result, "domain", None)
+        return assumptions(self.point, film=self.film, roughness=rough, domain=domain)
+
+    def deliver(
+        self, out: Output, title: str, rows: Sequence[Row], *, judged: bool = True, more: Any = None, **files: Any
+    ) -> None:
+        """Write and show it: rows of the contact, of what does not hold, and those given.
+
+        Parameters
+        ----------
+        out : Output
+        title : str
+        rows : sequence of Row
+        judged : bool
+            False where a film that has not converged says nothing of assumptions.
+        more : mapping, optional
+            Further entries of the JSON.
+        **files
+            As of `Output.deliver`.
+        """
+        about = self.contact.about(self.point) | (more or {})
+        shown = [*self.contact.rows(self.point), *(outside_rows(self.assumptions) if judged else ()), *rows]
+        if self.surfaces is not None and isinstance(self.point, OperatingPoint):
+            about |= self.surfaces.about(self.h_min)
+            shown += self.surfaces.rows(self.h_min)
+        about["outside_assumptions"] = self.assumptions.headline if judged else ""
+        out.deliver({**self.result.to_dict(), **about}, (title, shown), **files)
+        for text in (getattr(self.result, name, "") for name in ("negative_damping", "reservation")):
+            if text:
+                complain(f"warning: {text}")
 
 
 class Frequencies(Options):

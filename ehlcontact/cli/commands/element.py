@@ -12,9 +12,9 @@ import typer
 
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Frequencies, Surfaces
+from ehlcontact.cli.contact import Contact, ContactAnswer, Frequencies, Surfaces
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.rows import Row, in_unit, outside_rows, quantity_rows
+from ehlcontact.cli.rows import Row, in_unit, quantity_rows
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint
 
@@ -56,25 +56,9 @@ def element(
         answer, made = table.at(point), table.element(point, kind.model, **at)
     if contact.description:
         made = replace(made, source={**(made.source or {}), "contact": contact.description})
-    found = contact.judged(point, answer, surfaces)
-    rough = () if surfaces.rq is None else surfaces.rows(answer.h_min)
-    about = {} if surfaces.rq is None else surfaces.about(answer.h_min)
-    shown = (
-        f"{kind.model} element from the atlas, version {table.metadata['version']}",
-        [
-            *contact.rows(point),
-            *outside_rows(found),
-            *_answer(answer, contact.speed_rpm),
-            *rough,
-            *_damper(made),
-            *_valid(made),
-        ],
-    )
-    out.deliver(
-        {**made.to_dict(), **contact.about(point), **about, "outside_assumptions": found.headline},
-        shown,
-        save=made,
-    )
+    title = f"{kind.model} element from the atlas, version {table.metadata['version']}"
+    rows = [*_answer(answer, contact.speed_rpm), *_damper(made), *_valid(made)]
+    ContactAnswer(contact, point, made, answer, surfaces, answer.h_min).deliver(out, title, rows, save=made)
 
 
 def _answer(answer: AtlasAnswer, rpm: float | None) -> list[Row]:

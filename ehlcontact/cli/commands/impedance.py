@@ -6,11 +6,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Frequencies, Heating, Sliding, Supply
+from ehlcontact.cli.contact import Contact, ContactAnswer, FilmConditions, Frequencies
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.output import complain
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row, heat_rows, in_unit, outside_rows, run_rows, thinning_rows
+from ehlcontact.cli.rows import Row, heat_rows, in_unit, run_rows, thinning_rows
 from ehlcontact.point import OperatingPoint
 
 if TYPE_CHECKING:
@@ -20,9 +19,7 @@ if TYPE_CHECKING:
 @o.grouped
 def impedance(
     contact: Contact,
-    supply: Supply,
-    heating: Heating,
-    sliding: Sliding,
+    conditions: FilmConditions,
     grid: o.Grid,
     frequencies: Frequencies,
     out: o.Output,
@@ -30,9 +27,7 @@ def impedance(
     """Linearise the steady film: stiffness K and damping C over frequency."""
     from ehlcontact.response import impedance as solve
 
-    chosen = grid.chosen() | {"supply": supply.chosen(contact)}
-    sliding.check(contact, heated=heating.thermal, traction=False)
-    chosen |= {"sliding": sliding.thinned(), "thermal": heating.chosen(contact, sliding)}
+    chosen = grid.chosen() | conditions.chosen(contact)
     point = contact.solvable()
     at = frequencies.named(contact)
     out.check()
@@ -40,22 +35,12 @@ def impedance(
         result = solve(point, **at, **chosen)
     film = result.film
     assert film is not None
-    found = contact.judged(point, film)
-    si = isinstance(result.point, OperatingPoint)
+    si = isinstance(point, OperatingPoint)
     scale = "small vibrations about rest" if si else "static load 1, dry approach 1, time unit 2a/u_sum"
     run = run_rows(replace(film, seconds=result.seconds))
-    rows = [
-        *contact.rows(point),
-        *outside_rows(found),
-        *_rows(result, si),
-        *thinning_rows(film),
-        *heat_rows(film),
-        *run,
-    ]
-    content = {**result.to_dict(), **contact.about(point), "outside_assumptions": found.headline}
-    out.deliver(content, (f"impedance: force over approach, {scale}", rows))
-    for warning in filter(None, (result.negative_damping, result.reservation)):
-        complain(f"warning: {warning}")
+    rows = [*_rows(result, si), *thinning_rows(film), *heat_rows(film), *run]
+    title = f"impedance: force over approach, {scale}"
+    ContactAnswer(contact, point, result, film).deliver(out, title, rows)
 
 
 def _rows(result: Response, si: bool) -> list[Row]:

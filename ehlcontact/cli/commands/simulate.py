@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import typer
 
-from ehlcontact.assumptions import assumptions
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import NO_TIME, Contact, Heating, Sliding, Supply, Surfaces
+from ehlcontact.cli.contact import NO_TIME, Contact, ContactAnswer, FilmConditions, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row, in_unit, outside_rows, quantity_rows, run_rows, share_text
+from ehlcontact.cli.rows import Row, in_unit, quantity_rows, run_rows, share_text
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.process.early_interrupt import INTERRUPTED
@@ -203,9 +202,7 @@ class RestartOptions(o.Options):
 def simulate(
     contact: Contact,
     surfaces: Surfaces,
-    supply: Supply,
-    heating: Heating,
-    sliding: Sliding,
+    conditions: FilmConditions,
     motion: MotionOptions,
     time: TimeOptions,
     grid: o.Grid,
@@ -218,9 +215,7 @@ def simulate(
     point = contact.solvable()
     arguments = (point, motion.chosen(point))
     surfaces.check(contact)
-    chosen, steps, layer = grid.chosen(), time.chosen(), supply.chosen(contact)
-    sliding.check(contact, heated=heating.thermal, traction=False)
-    thinned, heat = sliding.thinned(), heating.chosen(contact, sliding)
+    chosen, steps, given = grid.chosen(), time.chosen(), conditions.chosen(contact)
     out.check(restart.other, beside={"--checkpoint": (restart.checkpoint, o.HDF5)})
     failure, unkept = "", None
     with progress("transient film") as update, o.called(dt="--dt", local_error="--local-error"):
@@ -228,9 +223,7 @@ def simulate(
             result = integrate(
                 *arguments,
                 grid=chosen["grid"],
-                supply=layer,
-                thermal=heat,
-                sliding=thinned,
+                **given,
                 time=steps,
                 keep=KeepSettings(checkpoint=restart.checkpoint, restart=restart.restart),
                 run=RunSettings(threads=chosen["threads"], callback=update),
@@ -241,15 +234,8 @@ def simulate(
             result, unkept = error.result, error
     # stopped before the first step, there is nothing to draw
     drawn = partial(_draw, result) if result.steps else None
-    found = assumptions(point, film=_at_rest(result), domain=result.domain)
-    rows = [*contact.rows(point), *outside_rows(found), *_rows(result)]
-    about = contact.about(point) | {"outside_assumptions": found.headline}
-    if isinstance(point, OperatingPoint):
-        rows += surfaces.rows(result.h_min.min())
-        about |= surfaces.about(float(result.h_min.min()))
-    out.deliver({**result.to_dict(), **about}, ("transient film", rows), save=result, figure=drawn)
-    if result.reservation:
-        complain(f"warning: {result.reservation}")
+    answer = ContactAnswer(contact, point, result, _at_rest(result), surfaces, float(result.h_min.min()))
+    answer.deliver(out, "transient film", _rows(result), save=result, figure=drawn)
     if unkept is not None:
         raise unkept
     own = result.dimensionless

@@ -12,11 +12,11 @@ import typer
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli import options as o
-from ehlcontact.cli.contact import Contact, Heating, Mixed, Sliding, Supply, Surfaces
+from ehlcontact.cli.contact import Contact, ContactAnswer, FilmConditions, Mixed, Surfaces
 from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import FAILED, complain
 from ehlcontact.cli.progress import progress
-from ehlcontact.cli.rows import Row, heat_rows, outside_rows, quantity_rows, run_rows, share_text, thinning_rows
+from ehlcontact.cli.rows import Row, heat_rows, quantity_rows, run_rows, share_text, thinning_rows
 from ehlcontact.point import OperatingPoint
 from ehlcontact.results.contact_map import VIEW
 from ehlcontact.solver.domain import Domain
@@ -65,9 +65,7 @@ class Solving(o.Options):
 @o.grouped
 def steady(
     contact: Contact,
-    supply: Supply,
-    heating: Heating,
-    sliding: Sliding,
+    conditions: FilmConditions,
     surfaces: Surfaces,
     mixed: Mixed,
     grid: o.Grid,
@@ -77,9 +75,7 @@ def steady(
     """Solve the steady film of a contact, in SI for a ball of a bearing."""
     from ehlcontact.steady import solve_steady
 
-    chosen = grid.chosen() | solving.model_dump() | {"supply": supply.chosen(contact)}
-    sliding.check(contact, heated=heating.thermal)
-    chosen |= {"sliding": sliding.thinned(), "thermal": heating.chosen(contact, sliding)}
+    chosen = grid.chosen() | solving.model_dump() | conditions.chosen(contact, traction=True)
     point = contact.solvable()
     surfaces.check(contact)
     chosen |= {"asperities": mixed.chosen(surfaces)}
@@ -91,18 +87,17 @@ def steady(
             throw=False,
             callback=lambda cycle, residual: update(cycle, None, f"cycle {cycle}, residual {residual:.1e}"),
         )
-    si = isinstance(point, OperatingPoint)
-    rough = surfaces.rows(result.h_min) if si else ()
-    about = contact.about(point) | (surfaces.about(result.h_min) if si else {})
-    found = contact.judged(point, result, surfaces) if result.status.ok else None
-    outside = [] if found is None else outside_rows(found)
-    about |= {"outside_assumptions": "" if found is None else found.headline}
-    traction = sliding.traction(result)
-    about |= {} if traction is None else {"traction": traction.to_dict()}
-    table = "steady film", [*contact.rows(point), *outside, *_rows(result), *_traction_rows(traction), *rough]
-    out.deliver({**result.to_dict(), **about}, table, save=result, figure=partial(_draw, result, traction))
-    if result.reservation:
-        complain(f"warning: {result.reservation}")
+    traction = conditions.traction(result)
+    answer = ContactAnswer(contact, point, result, result, surfaces, result.h_min)
+    answer.deliver(
+        out,
+        "steady film",
+        [*_rows(result), *_traction_rows(traction)],
+        judged=result.status.ok,
+        more=None if traction is None else {"traction": traction.to_dict()},
+        save=result,
+        figure=partial(_draw, result, traction),
+    )
     if not result.status.ok:
         kept = f"; partial result in {out.save}" if out.save else ""
         complain(f"{result.status}: {result.status.advice}{kept}")
