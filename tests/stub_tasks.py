@@ -46,6 +46,8 @@ class StubTasks:
         entry = self._begin(key)
         speed, load = study.speed_rpm, study.radial_load
         results = {
+            "machine": None,
+            "does_not_hold": ["isothermal"],
             "answer": f"It rolls at {speed:g} rpm.",
             "fits": [
                 {"record": "free", "model": "cubic"},

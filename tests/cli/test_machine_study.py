@@ -18,7 +18,7 @@ from ehlcontact.cli.study.machine import bearing_of, carrier_of, rotor_of
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
 from ehlcontact.cli.study.points.lists import Point
 from ehlcontact.cli.study.points.numbers import numbers_of
-from ehlcontact.cli.study.points.summary import Row, cells, columns_of
+from ehlcontact.cli.study.points.summary import Row, cells, columns_of, narrowed
 from ehlcontact.cli.study.schema import load_study
 from reduced_models import BallBearing, BearingSet, Disc, Shaft, Support, linearise, rotor_on_bearings
 from reduced_models.bearing.oil_and_heat import LAYER
@@ -145,8 +145,10 @@ def test_numbers_of_a_point_of_a_machine(motor, tmp_path):
     assert numbers["ball_load"] == max(support.ball_load for support in answer.supports)
     assert numbers["torque"] == pytest.approx(sum(support.torque for support in answer.supports), rel=1e-12)
     assert numbers["critical_rpm"] == pytest.approx(answer.nearest_critical.speed_rpm, rel=1e-12)
-    row = Row(point, "converged", (), (), numbers, {}, {}, None, ())
-    heads = [column.head for column in columns_of([row], narrow=True).values()]
+    row = Row(point, "converged", (), answer.concerns, (), (), numbers, {}, {}, None, ())
+    heads = [column.head for column in columns_of([row]).values()]
+    narrow = [column.head for column in narrowed([row], columns_of([row]), 50).values()]
+    assert narrow == ["speed [rpm]", "mode [Hz]", "critical [rpm]", "response [µm]", "h_min [µm]", "lambda"]
     assert heads[:3] == ["speed [rpm]", "ball [N]", "mode [Hz]"] and "h_c [µm]" not in heads
     assert cells(row, columns_of([row]))[0] == "15000"
 

@@ -10,19 +10,21 @@ import threading
 import time
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from programs import begin, dask_cluster
 from stub_tasks import StubTasks, Threads
-from tiny_study import ALONE, CONTACT
+from tiny_study import ALONE, CONTACT, MOTOR
 
 from ehlcontact import Grid, InputError, read, solve_steady
 from ehlcontact.cli.study import runner
 from ehlcontact.cli.study.points.folder import locked
-from ehlcontact.cli.study.points.lists import MOST, load_points, points_of
+from ehlcontact.cli.study.points.lists import MOST, Chosen, load_points, points_of
 from ehlcontact.cli.study.points.numbers import MEANINGS, UNITS
+from ehlcontact.cli.study.points.picture import draw_points
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import solve_stage, stage_named
 from ehlcontact.executors import ProcessExecutor
@@ -115,7 +117,7 @@ def test_every_speed_with_every_load(tmp_path):
         ("[3000, -5]", "20.0", ("operation.speed_rpm = -5", "between 0.001 and")),
         ("[3000, 3000.0]", "20.0", ("operation.speed_rpm = 3000.0", "once")),
         ('["3000"]', "20.0", ("operation.speed_rpm", "a number")),
-        ("[[3000]]", "20.0", ("operation.speed_rpm = [3000]", "a number, in a list")),
+        ("[[3000]]", "20.0", ("operation.speed_rpm = [3000]", "one value, in a list")),
         ("[3000, nan]", "20.0", ("operation.speed_rpm = nan",)),
         (str(list(range(1000, 1011))), str(list(range(10, 20))), ("11 x 10", f"at most {MOST} points")),
         ("[3000, 4000]", "[20.0, 1e7]", ("M = ", "at 3000 rpm, 10000000.0 N")),
@@ -129,13 +131,89 @@ def test_lists_that_are_none_of_points(refused, tmp_path, speeds, loads, words):
     assert not (tmp_path / "out").exists()
 
 
+def test_any_entry_of_one_value_may_be_a_list(tmp_path):
+    """Every value with every one of the others; names and titles of points have them, tables their units."""
+    file = tmp_path / "s.toml"
+    text = MOTOR.replace("spring = 200.0", "spring = [100.0, 200]").replace(
+        'bearing = "6206"\nclearance = "CN"', 'bearing = ["6206", "6206/C3"]'
+    )
+    file.write_text(text.replace("width_mm = 120.0", "width_mm = [100.0, 120.0]"))
+    points = load_points(file, tmp_path / "out")
+    assert len({point.name for point in points}) == 8 == len({point.study.title for point in points})
+    one = points[3]
+    assert one.name == "15000rpm_disc_width_100_fan_end_bearing_6206_C3_fan_end_spring_200"
+    assert one.study.disc[0].width_mm == 100.0 and one.study.support[1].bearing == "6206/C3"
+    assert one.study.support[1].spring == 200.0 and one.study.support[0] == points[0].study.support[0]
+    assert [choice.head for choice in one.chosen] == ["disc width [mm]", "fan end bearing", "fan end spring [N]"]
+    assert one.study.title.endswith(
+        "15000.0 rpm, disc width 100 mm, fan end bearing 6206/C3, fan end spring 200 N"
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("spring = 200.0", "spring = []", ("support.fan end.spring = []", "1 to 100")),
+        ("spring = 200.0", "spring = [100.0, 100]", ("support.fan end.spring = 100", "once")),
+        ("spring = 200.0", "spring = [100.0, true]", ("support.fan end.spring = True", "a number")),
+        ("spring = 200.0", 'spring = [100.0, "200"]', ("support.fan end.spring = '200'", "a number")),
+        ("spring = 200.0", "spring = [200.0, 2e5]", ("support.fan end.spring = 200000", "a ball carries at most")),
+        ("diameter_mm = 35.0", "diameter_mm = [35.0, 0.035]", ("shaft.diameter_mm = 0.035", "in m? then 35")),
+        ("diameter_mm = 35.0", "diameter_mm = [35.0, 120.0]", ("disc.diameter_mm = 110", ", at 15000.0 rpm")),
+        ('bearing = "6206"', 'bearing = ["6206/C3", "6206 C3"]', ("fan end.bearing", "letters and digits")),
+        ("[oil]", 'name = ["a", "b"]\n[oil]', ("operation.name", "known here")),
+        ("width_mm = 120.0", f"width_mm = {list(range(50, 151))}", ("width_mm = '101'", f"most {MOST} points")),
+    ],
+)  # fmt: skip
+def test_lists_that_contradict(refused, tmp_path, old, new, words):
+    file = tmp_path / "s.toml"
+    text = MOTOR if "C3" not in new else MOTOR.replace('6206"\nclearance = "CN"', '6206"')
+    assert old in text
+    file.write_text(text.replace(old, new))
+    for command in ("run", "validate"):
+        refused(words, command, file, "-o", tmp_path / "out")
+
+
+def test_what_lists_chose_is_in_summary_table_and_page(run, stub):
+    """And what does not hold, once where it is said of all points."""
+    text = STUDY.replace("conformity = 0.52", "conformity = [0.52, 0.54]")
+    found = run(text)
+    assert found.code == 0 and "conformity" in found.out and "does not hold: isothermal" in found.out
+    summary = json.loads((run.folder / "summary.json").read_text())
+    assert [point["lists"] for point in summary["points"]] == [{"support.conformity": k} for k in (0.52, 0.54)]
+    rows = list(csv.DictReader((run.folder / "summary.csv").read_text().splitlines()))
+    assert [row["conformity"] for row in rows] == ["0.52", "0.54"] and rows[0]["does not hold"] == "isothermal"
+    page = (run.folder / "report.html").read_text()
+    assert "<th>conformity</th>" in page and page.count("<li>isothermal</li>") == 1
+    assert "Critical" not in page and "FMU" not in page
+
+
+def test_the_picture_is_over_the_longest_list(tmp_path, monkeypatch):
+    """Numbers along it, a line for each choice of the others; texts alone are counted."""
+    drawn = []
+    monkeypatch.setattr("ehlcontact.cli.study.points.picture.draw", lambda picture, path: drawn.append(picture))
+
+    def row(speed, *chosen):
+        numbers = dict.fromkeys(UNITS) | {"speed_rpm": speed, "h_min": 1e-7 * speed}
+        return SimpleNamespace(numbers=numbers, point=SimpleNamespace(chosen=chosen))
+
+    masses = [Chosen("disc.mass", "kg", value) for value in (3.0, 1.0, 2.0)]
+    draw_points([row(speed, mass) for speed in (1.0, 2.0) for mass in masses], tmp_path / "a.png")
+    (panel,) = drawn[-1].panels
+    assert panel.x == "disc mass [kg]" and [line.name for line in panel.lines] == ["1 rpm", "2 rpm"]
+    assert panel.lines[1].x.tolist() == [1.0, 2.0, 3.0] and panel.lines[1].y[0] == pytest.approx(0.2)
+    draw_points([row(1.0, Chosen("support.clearance", "um", name)) for name in ("CN", "C3")], tmp_path / "b.png")
+    (panel,) = drawn[-1].panels
+    assert [line.name for line in panel.lines] == ["clearance CN", "clearance C3"]
+
+
 def test_commands_of_one_point_refuse_lists(refused, tmp_path):
     file = tmp_path / "s.toml"
     file.write_text(with_lists())
     refused(
-        ("operation.speed_rpm = ", "one number here", "ehlcontact run"), "export", file, "-o", tmp_path / "r.fmu"
+        ("operation.speed_rpm = ", "one value here", "ehlcontact run"), "export", file, "-o", tmp_path / "r.fmu"
     )
-    with pytest.raises(InputError, match="one number here"):
+    with pytest.raises(InputError, match="one value here"):
         load_study(file)
 
 

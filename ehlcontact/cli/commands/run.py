@@ -141,11 +141,17 @@ def _tell(points: Sequence[Point], folder: Path, done: Scheduler, seconds: float
 
 
 def _show(rows: Sequence[Row], json_to: str | None) -> None:
-    """A row per point, unless JSON goes to stdout."""
+    """A row per point, what is critical and what does not hold, unless JSON goes to stdout."""
     if json_to == STDOUT:
         return
-    from ehlcontact.cli.study.points.summary import cells, columns_of
+    from rich.console import Console
 
-    columns = columns_of(rows, narrow=True)
-    heads, lines = [one.head for one in columns.values()], [[*cells(row, columns), row.status] for row in rows]
-    show_columns([*heads, "status"], lines, rows[0].point.study_title, padding=(0, 1, 0, 0))
+    from ehlcontact.cli.study.points.summary import columns_of, lines_of, narrowed, said_of
+
+    columns, width = columns_of(rows), Console().width
+    heads, *lines = lines_of(rows, narrowed(rows, columns, width))
+    heads = [head.replace("[", "\\[") for head in heads]  # which rich would take for a style
+    show_columns(heads, lines, rows[0].point.study_title, padding=(0, 1, 0, 0))
+    for words, name in (("critical", "critical"), ("does not hold", "limits")):
+        for text, points in said_of(rows, name):
+            say(f"{words}{f', {points}' if points else ''}: {text}", json_to)

@@ -35,6 +35,7 @@ def document(found: Findings) -> dict[str, Any]:
         "operating_line": operating_line(found),
         "verdict": "" if found.rotors is None else verdict(found.rotors),
         "answer": headline(found),
+        "does_not_hold": limits(found),
     }
     return said | found.to_dict()
 

@@ -30,8 +30,8 @@ REPLACED = {
 }
 # Where pydantic speaks of Python: what TOML calls it.
 RANGE = ("limits", "greater_than", "greater_than_equal", "less_than", "less_than_equal", "multiple_of")
+ONE = ("float_type", "int_type", "string_type", "literal_error", "bool_type")  # of what is one value
 LIST = "a list of three numbers"
-SEVERAL = ("operation.speed_rpm", "operation.radial_load")  # may be lists, which other commands do not take
 PLAIN_WORDS = {
     "float_type": "a number (true or quoted text is none)",
     "int_type": "a whole number (9, not 9.0, true or quoted text)",
@@ -86,7 +86,7 @@ def first_error(
     value = first["input"]
     # of an entry of several types, pydantic names the type that was tried
     loc = tuple(part for part in first["loc"] if not str(part).startswith(("float", "str", "function-")))
-    field = _named(loc, study, document)
+    field = entry_name(loc, study, document)
     if first["type"] == "extra_forbidden":
         allowed = "left out; " + _known_instead(study, loc)
     elif first["type"] == "missing" and isinstance(loc[-1], int):
@@ -97,8 +97,8 @@ def first_error(
         getattr(field_of(study, field), "annotation", None)
     ):
         allowed = f"a section, written [[{field}]]"
-    elif isinstance(value, list) and field in SEVERAL:
-        allowed = "one number here; a list is for `ehlcontact run` and `validate`"
+    elif isinstance(value, list) and "." in field and first["type"] in ONE:
+        allowed = "one value here; a list is for `ehlcontact run` and `validate`"
     else:
         allowed = first["msg"].removeprefix("Input should be ").removeprefix("Value error, ")
         allowed = PLAIN_WORDS.get(first["type"], allowed).format(field=field)
@@ -114,7 +114,7 @@ def first_error(
     return InputError(field, _brief(value), allowed)
 
 
-def _named(loc: tuple[int | str, ...], study: type[BaseModel], document: Mapping[str, Any]) -> str:
+def entry_name(loc: tuple[int | str, ...], study: type[BaseModel], document: Mapping[str, Any]) -> str:
     """Name of an entry in the file: a table of several by its own name, or by its number; the only one without."""
     parts = [str(part) for part in loc]
     if len(loc) > 1 and isinstance(loc[1], int) and is_several(study.model_fields[str(loc[0])].annotation):

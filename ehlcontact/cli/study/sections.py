@@ -13,7 +13,8 @@ from ehlcontact.cli.entries import Section
 class Operation(Section):
     """Speed and loads. Loads are for a bearing alone: with [shaft] the discs and their weight are the load.
 
-    Lists, as [1500.0, 3000.0], make a study of several points: every speed with every radial load.
+    A list, as [1500.0, 3000.0] of speeds, makes a study of several points. In every section an entry of one value
+    may be a list, as ["C2", "CN"] of clearances; every value of it goes with every one of other lists.
     """
 
     speed_rpm: Annotated[e.SpeedOrRest, e.meaning("speed of the shaft, or a list")]

@@ -31,7 +31,7 @@ from ehlcontact.store import read
 from ehlcontact.transient.result import SimulationResult
 
 RESULTS, REPORT = "results.json", "report.html"
-TITLE = "machine, elements, FMUs, report"
+TITLE = "results and report"
 
 
 def finalise_point(key: str, study: Study, folder: Path, seconds: Mapping[str, float]) -> Answer:

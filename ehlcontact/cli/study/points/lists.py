@@ -1,36 +1,87 @@
-"""Points of a study file: every speed with every load, each a study of its own in a folder of its own."""
+"""Points of a study file: every value of a list with every one of the others, each a study in a folder of its own.
+
+An entry of a section that is one number, one text or one choice may be a list of these.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from itertools import product
-from math import isclose
+from math import isclose, prod
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple, get_args, get_origin
 
+from ehlcontact.cli.entries import is_several, quantity_of, section_of
 from ehlcontact.cli.study.schema import Study, study_of
-from ehlcontact.cli.study.schema_errors import SEVERAL
+from ehlcontact.cli.study.schema_errors import entry_name
 from ehlcontact.cli.toml import read_toml, toml_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import read_text, write_text
 
-LISTS = [name.removeprefix("operation.") for name in SEVERAL]
+UNITS = "mm", "um", "deg", "rpm", "mrad"  # at the end of names of entries
+USUAL = {"operation.speed_rpm": "rpm", "operation.radial_load": "N"}  # entries that every point is named by
 MOST = 100  # points: at some minutes each what a night has room for
 SAME = 1e-6  # share by which two numbers of a list differ at least: they name folders and rows of tables
 TITLE = Study.model_fields["title"].default
 STUDY_FILE, POINTS = "study.toml", "points"
 
 
+class Chosen(NamedTuple):
+    """What a point has of a list of the file."""
+
+    entry: str  # "support.fan end.spring"
+    unit: str
+    value: Any
+
+    @property
+    def label(self) -> str:
+        """The entry in words: without the section where that is plain, and without its unit."""
+        name = self.entry.removeprefix("operation.").removeprefix("support.")
+        return re.sub(f"_({'|'.join(UNITS)})$", "", name).replace(".", " ").replace("_", " ")
+
+    @property
+    def head(self) -> str:
+        """The label with the unit."""
+        return f"{self.label} [{self._unit}]" if self._unit else self.label
+
+    @property
+    def words(self) -> str:
+        """Label, value and unit."""
+        return f"{self.label} {self.shown} {self._unit}".rstrip()
+
+    @property
+    def _unit(self) -> str:
+        """That of a number; a class of clearance has none."""
+        return self.unit if isinstance(self.value, float | int) else ""
+
+    @property
+    def shown(self) -> str:
+        """The value in words."""
+        return short_text(self.value) if isinstance(self.value, float | int) else str(self.value)
+
+
+class _List(NamedTuple):
+    """A list of the file, by where it stands."""
+
+    path: tuple[str | int, ...]
+    entry: str
+    unit: str
+    values: list[Any]
+
+
 @dataclass(frozen=True)
 class Point:
-    """One speed and load of a study."""
+    """One point of a study."""
 
     study: Study
     name: str  # "3000rpm_100N"
     folder: Path  # of its results
     study_title: str = ""  # of all points together
     of_several: bool = False
+    chosen: tuple[Chosen, ...] = ()  # of lists beside those of speed and load
 
     @property
     def study_file(self) -> Path:
@@ -55,12 +106,12 @@ def load_points(path: Path, folder: Path) -> tuple[Point, ...]:
     Returns
     -------
     tuple of Point
-        Speeds in the order of the file, and under each the loads.
+        In the order of the lists: under each speed the loads, under these what other lists have.
 
     Raises
     ------
     InputError
-        As `load_study`; lists that are empty, name a number twice, or make too many points.
+        As `load_study`; lists that are empty, have a value twice, or make too many points.
     """
     document = read_toml(path, "study")
     try:
@@ -70,65 +121,110 @@ def load_points(path: Path, folder: Path) -> tuple[Point, ...]:
 
 
 def points_of(document: Mapping[str, Any], folder: Path, *, at_rest: bool = False) -> tuple[Point, ...]:
-    """The points of a document, as `load_points` without the name of the file; `at_rest`: speeds may be 0."""
-    documents = expanded(document)
-    several = len(documents) > 1
-    points = []
-    for one in documents:
+    """The points of a document, as `load_points` without the name of the file.
+
+    `at_rest`: of a bearing whose speed may be 0, and whose speeds and loads alone may be lists.
+    """
+    found = expanded(document, tuple(USUAL) if at_rest else None)
+    several = len(found) > 1
+    points: list[Point] = []
+    for one, chosen in found:
         try:
             study = study_of(one, at_rest=at_rest)
         except InputError as error:
-            where = f", at {_said(one)}" if several and not error.field.startswith("operation.") else ""
+            own = [error.field.startswith("operation."), *(choice.entry == error.field for choice in chosen)]
+            where = f", at {_said(one, chosen)}" if several and not any(own) else ""
             raise InputError(error.field, error.value, error.allowed + where) from None
-        name = point_name(study)
+        name = point_name(study, chosen)
+        if name in [point.name for point in points]:
+            fields = ", ".join(choice.entry for choice in chosen)
+            raise InputError(fields, chosen[-1].shown, "told from the others by its letters and digits")
         title = str(document.get("title", TITLE)) if several else study.title
-        points.append(Point(study, name, folder / POINTS / name if several else folder, title, several))
+        place = folder / POINTS / name if several else folder
+        points.append(Point(study, name, place, title, several, chosen))
     return tuple(points)
 
 
-def expanded(document: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """A document without lists for every point of it.
+def expanded(
+    document: Mapping[str, Any], allowed: Sequence[str] | None = None
+) -> list[tuple[dict[str, Any], tuple[Chosen, ...]]]:
+    """A document without lists for every point of it, and what it has of lists beside those of speed and load.
+
+    Parameters
+    ----------
+    document : mapping
+    allowed : sequence of str, optional
+        Entries that may be lists; by default all that are one value.
 
     Raises
     ------
     InputError
-        A list that is none of several numbers.
+        A list that is none of several values.
     """
-    operation = document.get("operation")
-    if not isinstance(operation, Mapping) or not any(isinstance(operation.get(key), list) for key in LISTS):
-        return [dict(document)]
-    values = [
-        _values(key, operation[key]) if isinstance(operation.get(key), list) else [operation.get(key)]
-        for key in LISTS
-    ]
-    count = len(values[0]) * len(values[1])
+    lists = [one for one in lists_of(document) if allowed is None or one.entry in allowed]
+    for one in lists:
+        _require_values(one)
+    count = prod(len(one.values) for one in lists)
     if count > MOST:
-        allowed = f"at most {MOST} points: speeds times loads"
-        raise InputError(", ".join(SEVERAL), f"{len(values[0])} x {len(values[1])}", allowed)
+        sizes = " x ".join(str(len(one.values)) for one in lists)
+        most = f"at most {MOST} points: every value of a list with every one of the others"
+        raise InputError(", ".join(one.entry for one in lists), sizes, most)
     found = []
-    for pair in product(*values):
-        own = {key: value for key, value in zip(LISTS, pair, strict=True) if value is not None}
-        one = dict(document) | {"operation": dict(operation) | own}
+    for values in product(*(one.values for one in lists)):
+        own, chosen = deepcopy(dict(document)), []
+        for one, value in zip(lists, values, strict=True):
+            *above, key = one.path
+            section: Any = own
+            for part in above:
+                section = section[part]
+            section[key] = value
+            if len(one.values) > 1 and one.entry not in USUAL:
+                chosen.append(Chosen(one.entry, one.unit, value))
         if count > 1 and isinstance(document.get("title", ""), str):
-            one["title"] = f"{document.get('title', TITLE)}, {_said(one)}"
-        found.append(one)
+            own["title"] = f"{document.get('title', TITLE)}, {_said(own, chosen)}"
+        found.append((own, tuple(chosen)))
     return found
 
 
-def _values(key: str, given: list[Any]) -> list[Any]:
-    """The numbers of a list, each once."""
-    field = f"operation.{key}"
-    if not given:
-        raise InputError(field, given, f"a number, or a list of 1 to {MOST} numbers, as [1000, 3000]")
-    for value in given:
+def lists_of(document: Mapping[str, Any]) -> list[_List]:
+    """Lists of a document in the place of one value, in the order of the schema."""
+    return list(_lists(document, Study, (), document))
+
+
+def _lists(section: Any, model: Any, above: tuple[str | int, ...], document: Mapping[str, Any]) -> Iterator[_List]:
+    if not isinstance(section, Mapping):
+        return
+    for key, field in model.model_fields.items():
+        value, path = section.get(key), (*above, key)
+        inner = section_of(field.annotation)
+        if inner is not None and is_several(field.annotation):
+            for k, table in enumerate(value if isinstance(value, list) else ()):
+                yield from _lists(table, inner, (*path, k), document)
+        elif inner is not None:
+            yield from _lists(value, inner, path, document)
+        elif above and isinstance(value, list) and not _is_list(field.annotation):
+            quantity = quantity_of(field)
+            unit = "" if quantity is None else quantity.unit
+            yield _List(path, entry_name(path, Study, document), unit, value)
+
+
+def _is_list(kind: Any) -> bool:
+    """Whether an entry is a list in every point."""
+    return get_origin(kind) is tuple or any(_is_list(part) for part in get_args(kind))
+
+
+def _require_values(one: _List) -> None:
+    """Raise `InputError` for a list that is none of values, each once."""
+    if not one.values:
+        raise InputError(one.entry, one.values, f"one value, or a list of 1 to {MOST}, as [1000, 3000]")
+    for value in one.values:
         if isinstance(value, list | dict):
-            raise InputError(field, value, "a number, in a list of numbers")
-    require_apart(field, given)
-    return given
+            raise InputError(one.entry, value, "one value, in a list of values")
+    require_apart(one.entry, one.values)
 
 
 def require_apart(field: str, given: Sequence[Any]) -> None:
-    """Raise `InputError` for a number that a list has twice, or nearly so."""
+    """Raise `InputError` for a value that a list has twice, or nearly so."""
     for i, value in enumerate(given):
         if value in given[:i]:
             raise InputError(field, value, "once in its list")
@@ -137,19 +233,26 @@ def require_apart(field: str, given: Sequence[Any]) -> None:
                 raise InputError(field, value, f"further from {other!r}, in its list, than {SAME:g} of it")
 
 
-def _said(document: Mapping[str, Any]) -> str:
-    """Speed and load of a document of one point, in words."""
-    speed, load = (document["operation"].get(key) for key in LISTS)
-    return f"{speed} rpm" if load is None else f"{speed} rpm, {load} N"
+def _said(document: Mapping[str, Any], chosen: Sequence[Chosen]) -> str:
+    """A point in words: speed and load, and what it has of other lists."""
+    usual = [(document["operation"].get(name.partition(".")[2]), unit) for name, unit in USUAL.items()]
+    parts = [f"{value} {unit}" for value, unit in usual if value is not None]
+    return ", ".join([*parts, *(choice.words for choice in chosen)])
 
 
-def point_name(study: Study) -> str:
-    """Name of a point and of its folder, different for different points."""
-    speed, load = (getattr(study.operation, key) for key in LISTS)
-    return f"{_short(speed)}rpm" + ("" if load is None else f"_{_short(load)}N")
+def point_name(study: Study, chosen: Sequence[Chosen] = ()) -> str:
+    """Name of a point and of its folder."""
+    usual = [(getattr(study.operation, name.partition(".")[2]), unit) for name, unit in USUAL.items()]
+    parts = [f"{short_text(value)}{unit}" for value, unit in usual if value is not None]
+    return "_".join([*parts, *(_plain(f"{choice.label}_{choice.shown}") for choice in chosen)])
 
 
-def _short(value: float) -> str:
+def _plain(text: str) -> str:
+    """Text that names a folder anywhere."""
+    return re.sub(r"[^\w.+-]+", "_", text)
+
+
+def short_text(value: float) -> str:
     """Shortest text of a number that gives all its digits."""
     text = f"{value:g}"
     return text if float(text) == value else repr(value)

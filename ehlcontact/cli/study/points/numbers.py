@@ -13,34 +13,29 @@ class Number(NamedTuple):
     """A number of a point; those of a contact are of [contact], else of the worst bearing of the machine."""
 
     unit: str
-    meaning: str = ""  # where the name does not say it
+    meaning: str = ""  # of what has a column, and where the name does not say it
     head: str = ""  # of its column in the table for people, which has no other numbers
     factor: float = 1.0  # from its unit to that of the table and the picture
     figures: int = 3
-    narrow: bool = True  # whether a table of 80 characters has it
     label: str = ""  # of its panel in the picture, which has no other numbers
 
 
 NUMBERS = {
     "speed_rpm": Number("rev/min", head="speed [rpm]", figures=6),
     "radial_load": Number("N", "on the bearing that the study is about", head="load [N]", figures=6),
-    "ball_load": Number("N", head="ball [N]", narrow=False),
-    "mode_hz": Number(
-        "Hz", "lowest mode of the machine", head="mode [Hz]", figures=4, narrow=False, label="lowest mode [Hz]"
-    ),
+    "ball_load": Number("N", "load of the most loaded ball", head="ball [N]"),
+    "mode_hz": Number("Hz", "lowest mode of the machine", head="mode [Hz]", figures=4, label="lowest mode [Hz]"),
     "critical_rpm": Number(
         "rev/min",
         "critical speed nearest to the speed, of a mode that unbalance excites",
         head="critical [rpm]",
         figures=5,
-        narrow=False,
     ),
     "response": Number(
         "m",
         "largest response to unbalance, at the speed",
         head="response [µm]",
         factor=1e6,
-        narrow=False,
         label="response to unbalance [µm]",
     ),
     "torque": Number(
@@ -48,17 +43,24 @@ NUMBERS = {
         "friction of all bearings",
         head="torque [N mm]",
         factor=1e3,
-        narrow=False,
         label="friction torque [N mm]",
     ),
     "M": Number("-"),
     "L": Number("-"),
     "kappa": Number("-"),
-    "p_hertz": Number("Pa", head="p_h [GPa]", factor=1e-9, narrow=False),
+    "p_hertz": Number("Pa", "Hertz pressure of the most loaded ball", head="p_h [GPa]", factor=1e-9),
     "u_sum": Number("m/s"),
-    "h_central": Number("m", head="h_c [µm]", factor=1e6, label="central film [µm]"),
+    "h_central": Number(
+        "m", "central film of the contact", head="h_c [µm]", factor=1e6, label="central film [µm]"
+    ),
     "h_central_error": Number("of h_central"),
-    "h_min": Number("m", head="h_min [µm]", factor=1e6, label="smallest film [µm]"),
+    "h_min": Number(
+        "m",
+        "smallest film, of the contact or of the worst one of the machine",
+        head="h_min [µm]",
+        factor=1e6,
+        label="smallest film [µm]",
+    ),
     "h_min_error": Number("of h_min"),
     "lambda": Number(
         "-", "smallest film over the roughness of both surfaces", head="lambda", label="lambda ratio"
@@ -76,10 +78,10 @@ NUMBERS = {
         head="C [N s/m]",
         label="damping of a contact [N s/m]",
     ),
-    "decay_hz": Number(
-        "Hz", "vibration of the kicked rotor, on the full film", head="decay [Hz]", figures=4, narrow=False
+    "decay_hz": Number("Hz", "vibration of the kicked rotor, on the full film", head="decay [Hz]", figures=4),
+    "decrement": Number(
+        "-", "logarithmic, of the vibration of the kicked rotor", head="decrement", label="logarithmic decrement"
     ),
-    "decrement": Number("-", "logarithmic, of that vibration", head="decrement", label="logarithmic decrement"),
 }
 UNITS = {name: one.unit for name, one in NUMBERS.items()}
 MEANINGS = {name: one.meaning for name, one in NUMBERS.items() if one.meaning}

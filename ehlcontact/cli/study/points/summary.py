@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 from ehlcontact.cli.numerals import numeral
@@ -25,6 +26,7 @@ from ehlcontact.cli.study.points.kept import FINALISE, Entry
 from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
 from ehlcontact.cli.study.points.numbers import MEANINGS, NUMBERS, UNITS, Number, numbers_of
 from ehlcontact.cli.study.points.picture import draw_points
+from ehlcontact.cli.study.sections import Support
 from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text
@@ -32,6 +34,8 @@ from ehlcontact.status import Status
 
 FORMAT = 1  # of the summary
 SUMMARY, TABLE, PICTURE = "summary.json", "summary.csv", "summary.png"
+HEAD = 10  # characters of a line of a head
+LEFT_OUT = "p_hertz", "ball_load", "decay_hz", "torque", "mode_hz", "response"  # of a narrow table, in this order
 COLUMNS = {name: one for name, one in NUMBERS.items() if one.head}  # of the table for people
 
 
@@ -42,6 +46,8 @@ class Row:
     point: Point
     status: str
     messages: tuple[str, ...]  # by stages that did not converge, and why
+    critical: tuple[str, ...]  # at its speed, and what changes it
+    limits: tuple[str, ...]  # what does not hold
     warnings: tuple[str, ...]
     numbers: Mapping[str, float | None]  # by `UNITS`; None where not reached
     files: Mapping[str, str]  # by what they are, relative to the folder of the study
@@ -59,7 +65,10 @@ class Row:
         return {
             "name": self.point.name,
             "status": self.status,
+            "lists": {choice.entry: choice.value for choice in self.point.chosen},
             "messages": list(self.messages),
+            "critical": list(self.critical),
+            "does_not_hold": list(self.limits),
             "warnings": list(self.warnings),
             **self.numbers,
             "answer": self.answer,
@@ -91,9 +100,10 @@ def row_of(point: Point, ended: Mapping[str, Entry], root: Path) -> Row:
         point=point,
         status=str(Status.CONVERGED) if final else _worst(stages, lacking),
         messages=tuple(f"{name}: {stages[name]}: {ended[name]['message']}" for name in lacking),
+        critical=() if results is None else tuple((results["machine"] or {}).get("concerns", ())),
+        limits=() if results is None else tuple(results["does_not_hold"]),
         warnings=(
             *cautions(point.study),
-            *_outside(results),
             *ended.get(FINALISE, {}).get("warnings", ()),
             *broken,
         ),
@@ -103,12 +113,6 @@ def row_of(point: Point, ended: Mapping[str, Entry], root: Path) -> Row:
         answer=None if results is None else results["answer"],
         faults=broken,
     )
-
-
-def _outside(results: Mapping[str, Any] | None) -> tuple[str, ...]:
-    """Assumptions that do not hold, in one line, or none."""
-    found = {} if results is None else results.get("assumptions", {})
-    return (found["headline"],) if found.get("out_of_range") else ()
 
 
 def _worst(stages: Mapping[str, str], lacking: Sequence[str]) -> str:
@@ -126,7 +130,7 @@ def summary(rows: Sequence[Row], title: str, run: Mapping[str, Any]) -> dict[str
     return {
         "format": FORMAT,
         "title": title,
-        "bearing": ", ".join(one.label for one in first.support),
+        "bearing": ", ".join(_bearing(one) for one in first.support),
         "oil": None if first.oil is None else first.oil.label,
         "status": "converged" if converged == len(rows) else "not converged",
         "converged": converged,
@@ -137,6 +141,12 @@ def summary(rows: Sequence[Row], title: str, run: Mapping[str, Any]) -> dict[str
         "versions": versions(),
         "run": dict(run),
     }
+
+
+def _bearing(support: Support) -> str:
+    """Name of a support and of its bearing."""
+    beside = "" if support.bearing in (None, support.label) else f" {support.bearing}"
+    return f"{support.label}{beside}"
 
 
 def withdraw(folder: Path, names: Sequence[str], changes: bool) -> tuple[str, ...]:
@@ -172,31 +182,80 @@ def withdraw(folder: Path, names: Sequence[str], changes: bool) -> tuple[str, ..
 def table(rows: Sequence[Row]) -> str:
     """Content of ``summary.csv``: a row per point, units in the first line; what was not reached is left empty.
 
-    The last columns say in words how the point ended, and its warnings, parted by semicolons.
+    The last columns say in words how the point ended, what is critical, what does not hold, and its warnings,
+    parted by semicolons.
     """
+    chosen = [choice.head for choice in rows[0].point.chosen]
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["point", *(f"{name} [{unit}]" for name, unit in UNITS.items()), "status", "warnings"])
+    heads = (f"{name} [{unit}]" for name, unit in UNITS.items())
+    writer.writerow(["point", *chosen, *heads, "status", "critical", "does not hold", "warnings"])
     for row in rows:
         values = plain(dict(row.numbers))
         numbers = ("" if v is None else repr(float(v)) for v in values.values())
-        writer.writerow([row.point.name, *numbers, row.status, "; ".join(row.warnings)])
+        texts = ("; ".join(texts) for texts in (row.critical, row.limits, row.warnings))
+        values_of_lists = (choice.value for choice in row.point.chosen)
+        writer.writerow([row.point.name, *values_of_lists, *numbers, row.status, *texts])
     return stream.getvalue()
 
 
-def columns_of(rows: Sequence[Row], *, narrow: bool = False) -> dict[str, Number]:
-    """Columns of a table for people, of numbers that some point has; `narrow` ones where there is a contact."""
-    known = {name: one for name, one in COLUMNS.items() if any(row.numbers[name] is not None for row in rows)}
-    if not narrow or "h_central" not in known:  # a machine alone has few
-        return known
-    return {name: one for name, one in known.items() if one.narrow}
+def columns_of(rows: Sequence[Row]) -> dict[str, Number]:
+    """Columns of a table for people, of numbers that some point has."""
+    return {name: one for name, one in COLUMNS.items() if any(row.numbers[name] is not None for row in rows)}
+
+
+def heads_of(rows: Sequence[Row], columns: Mapping[str, Number]) -> list[str]:
+    """Heads of the number of a point, of lists, and of these columns."""
+    return ["point", *(choice.head for choice in rows[0].point.chosen), *(one.head for one in columns.values())]
 
 
 def cells(row: Row, columns: Mapping[str, Number]) -> list[str]:
-    """Numbers of a point in words; a dash where there is none."""
-    return [
+    """What a point has of lists, and its numbers in words; a dash where there is none."""
+    numbers = [
         numeral(None if (value := row.numbers[name]) is None else one.factor * value, one.figures)
         for name, one in columns.items()
+    ]
+    return [*(choice.shown for choice in row.point.chosen), *numbers]
+
+
+def lines_of(rows: Sequence[Row], columns: Mapping[str, Number]) -> list[list[str]]:
+    """Lines of a table in a terminal, heads with their units below; how points ended where not all converged."""
+    heads = ["\n".join(_head_lines(head)) for head in heads_of(rows, columns)]
+    lines = [[str(k + 1), *cells(row, columns)] for k, row in enumerate(rows)]
+    if all(row.ok for row in rows):
+        return [heads, *lines]
+    return [[*heads, "status"], *([*line, row.status] for line, row in zip(lines, rows, strict=True))]
+
+
+def _head_lines(head: str) -> list[str]:
+    """Short lines of a head, its unit in one of its own."""
+    label, _, unit = head.partition(" [")
+    return [*wrap(label, HEAD, break_long_words=False), *([f"[{unit}"] if unit else [])]
+
+
+def narrowed(rows: Sequence[Row], columns: Mapping[str, Number], width: int) -> dict[str, Number]:
+    """Columns of a table of that many characters: those that can be missed most are left out."""
+    kept = dict(columns)
+    for name in ("", *LEFT_OUT):
+        kept.pop(name, None)
+        parts = (
+            [len(line) for text in column for line in text.split("\n")]
+            for column in zip(*lines_of(rows, kept), strict=True)
+        )
+        if sum(max(lengths) + 1 for lengths in parts) <= width:
+            break
+    return kept
+
+
+def said_of(rows: Sequence[Row], name: str) -> list[tuple[str, str]]:
+    """Texts ``critical`` or ``limits`` of the points, each with "point 2" or "points 1, 3"; none where of all."""
+    said: dict[str, list[str]] = {}
+    for k, row in enumerate(rows):
+        for text in getattr(row, name):
+            said.setdefault(text, []).append(str(k + 1))
+    return [
+        (text, "" if len(of) == len(rows) else f"point{'s' if len(of) > 1 else ''} {', '.join(of)}")
+        for text, of in said.items()
     ]
 
 
@@ -208,9 +267,9 @@ def write_overview(rows: Sequence[Row], document: Mapping[str, Any], folder: Pat
     InputError
         One of them cannot be written.
     """
-    picture = ""
+    picture, columns = "", columns_of(rows)
     if document["converged"]:
-        draw_points([row.numbers for row in rows], folder / PICTURE)
+        draw_points(rows, folder / PICTURE)
         picture = base64.b64encode((folder / PICTURE).read_bytes()).decode("ascii")
     return write_page(
         folder / REPORT,
@@ -219,6 +278,12 @@ def write_overview(rows: Sequence[Row], document: Mapping[str, Any], folder: Pat
         picture=picture,
         summary=document,
         rows=rows,
-        heads=[one.head for one in columns_of(rows).values()],
-        cells=partial(cells, columns=columns_of(rows)),
+        heads=heads_of(rows, columns),
+        cells=partial(cells, columns=columns),
+        legend=[(one.head.partition(" [")[0], one.meaning) for one in columns.values() if one.meaning],
+        labels=[one.label.partition(" [")[0] for one in columns.values() if one.label],
+        critical=said_of(rows, "critical"),
+        limits=said_of(rows, "limits"),
+        messages=said_of(rows, "messages"),
+        warnings=said_of(rows, "warnings"),
     )
