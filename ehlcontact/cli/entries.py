@@ -185,6 +185,10 @@ Density15 = Annotated[Finite, _between(DENSITIES, "kg/m3"), meaning("density at 
 ViscosityLaw = Annotated[Literal["roelands", "barus"], meaning("law of viscosity over pressure")]
 DensityLaw = Annotated[Literal["dowson-higginson", "incompressible"], meaning("law of density over pressure")]
 
+# Rating life.
+Contamination = Annotated[Finite, Allowed("above 0 and at most 1")]
+Reliability = Annotated[Finite, Field(ge=90.0, le=99.95)]
+
 # Surfaces, grids and motions.
 Roughness = Annotated[
     Finite, Physical(Quantity("um", (1e-3, 100.0), (1e-3, 10.0), {"m": 1e6, "mm": 1e3, "nm": 1e-3}))

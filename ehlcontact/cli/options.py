@@ -120,6 +120,11 @@ AS_TEXT = {  # by the entry
         "Radial internal clearance, um, below 0 a preload; or C2, CN, C3, C4: the middle of that class.",
         _number_or_text,
     ),
+    "operation.contamination": AsText(
+        "FACTOR|CLASS",
+        'For the modified rating life: e_C of ISO 281, 1 is clean; or a class, as "normal cleanliness".',
+        _number_or_text,
+    ),
 }
 
 

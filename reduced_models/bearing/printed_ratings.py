@@ -7,7 +7,7 @@ Makers differ: for one name they print ratings that are up to 10 % apart.
 
 from __future__ import annotations
 
-NSK = "NSK, Rolling Bearings"
+NSK = "as NSK prints it"
 RATINGS: dict[str, tuple[float, float]] = {  # C, C0 [N]
     "6000": (4550.0, 1970.0),
     "6001": (5100.0, 2370.0),

@@ -30,6 +30,8 @@ from reduced_models.bearing.picture import load_zone
 from reduced_models.bearing.race import beyond_data
 from reduced_models.bearing.ring import RingEquilibrium
 from reduced_models.bearing.ring_statics import state_of
+from reduced_models.life.life_modification import BASIC_RELIABILITY
+from reduced_models.life.system_life import SystemLife
 from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.campbell import Campbell, CriticalSpeed, campbell
 from reduced_models.rotor.equilibrium import StaticRotor
@@ -88,6 +90,10 @@ class MachineState(Summary):
         What ends there, in words.
     failed : tuple of str
         What could not be computed, and why.
+    contamination : float, str or None
+        Of the oil, for the modified rating life, as of `BearingState.life`; None: the basic one alone.
+    reliability : float
+        Of the modified rating life [%].
     """
 
     speed_rpm: float
@@ -99,6 +105,8 @@ class MachineState(Summary):
     highest_speed: float = inf
     ends: str = ""
     failed: tuple[str, ...] = ()
+    contamination: float | str | None = None
+    reliability: float = BASIC_RELIABILITY
 
     def _summary_lines(self) -> list[str]:
         tiles = [str(tile) for tile in self.tiles()]
@@ -161,6 +169,21 @@ class MachineState(Summary):
         if wet:
             return min(wet, key=lambda one: one.h_min or inf)
         return max(self.supports, key=lambda one: one.ball_load)
+
+    @cached_property
+    def rating_life(self) -> SystemLife:
+        """Rating life of every bearing and of all together, with the contamination and the reliability."""
+        return self.life(contamination=self.contamination, reliability=self.reliability)
+
+    def life(self, **options: Any) -> SystemLife:
+        """Rating life of every bearing and of all together; options and errors as of `BearingState.life`."""
+        names: list[str] = []
+        for support in self.supports:
+            several = len(support.bearings) > 1
+            parts = [f" bearing {k}" if several else "" for k in range(len(support.bearings))]
+            names += [f"{support.label or 'bearing'}{part}" for part in parts]
+        states = (state for support in self.supports for _, state in support.bearings)
+        return SystemLife(lives=tuple(state.life(**options) for state in states), names=tuple(names))
 
     @property
     def reservations(self) -> tuple[str, ...]:
@@ -228,6 +251,7 @@ class MachineState(Summary):
             "largest_response": None if largest is None else largest._asdict(),
             "largest_peak": None if peak is None else peak._asdict(),
             "response_at_speed": None if own is None else own._asdict(),
+            "life": self.rating_life.to_dict(),
             "highest_speed": None if self.highest_speed == inf else self.highest_speed,
             "ends": self.ends,
             "concerns": list(self.concerns),

@@ -48,8 +48,8 @@ def digits(value: float, count: int = 3) -> str:
 
 
 def machine_tiles(machine: Any) -> tuple[Tile, ...]:
-    """Film, ball load, stiffness and damping, lowest mode, critical speeds, response, friction, highest speed."""
-    rows = (_film, _ball_load, _coefficients, _mode, _critical, _response, _friction, _highest)
+    """Film, ball load, life, stiffness and damping, modes, critical speeds, response, friction, highest speed."""
+    rows = (_film, _ball_load, _life, _coefficients, _mode, _critical, _response, _friction, _highest)
     return tuple(tile for row in rows if (tile := row(machine)) is not None)
 
 
@@ -111,6 +111,26 @@ def _ball_load(machine: Any) -> Tile:
     others = _others(machine, own, lambda one: f"{digits(one.ball_load)} N, {words(one)}")
     note = _note(words(own), _of(machine, own), outer(own), *others)
     return Tile("largest ball load", digits(own.ball_load), "N", note)
+
+
+def _life(machine: Any) -> Tile | None:
+    """Of all bearings together: the modified one where the contamination is known, else the basic one."""
+    system = machine.rating_life
+    hours = system.lnmrh or system.l10rh
+    if hours is None or hours == inf:
+        return None
+    shortest = min(system, key=lambda one: one.l10rh)
+    kind = "basic, 90 %: the modified one needs a contamination"
+    if system.lnmrh is not None:
+        film = "" if system.lnmrh_film is None else f", by the solved film {digits(system.lnmrh_film)} h"
+        kind = f"modified, {machine.reliability:g} %, by nu/nu1{film}; basic {digits(system.l10rh)} h"
+    own = system.names[system.lives.index(shortest)]
+    of = f"{own} {digits(shortest.l10rh)} h" if len(system) > 1 else ""
+    safety = min(one.pressure_safety for one in system)
+    ratings = f"C {digits(1e-3 * shortest.ratings.dynamic, 4)} kN {shortest.ratings.dynamic_source}"
+    covered = f"not covered: {system.not_covered[0]}" if system.not_covered else ""
+    note = _note(kind, of, covered, f"static safety {digits(safety)} by pressure", ratings)
+    return Tile("rating life", digits(hours), "h", note)
 
 
 def _coefficients(machine: Any) -> Tile:

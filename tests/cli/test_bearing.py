@@ -76,6 +76,20 @@ def test_the_answer_begins_with_the_tiles_of_the_library(call):
     assert still == [tile._asdict() for tile in dry] and still[0]["name"] == "largest ball load"
 
 
+def test_rating_life_with_a_contamination(call):
+    """The modified one, of the library, and the basic one without."""
+    given = ("bearing", "6205", *OIL, "--rq", "0.1", "--load", "1000", "--speed-rpm", "3000", "--json", "-")
+    more = ("--contamination", "normal cleanliness", "--reliability", "95")
+    bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0), rq_race=0.1e-6)
+    state = bearing.equilibrium((0.0, -1000.0), speed_rpm=3000.0)
+    for options, life in (
+        ((), state.life().l10rh),
+        (more, state.life(contamination="normal cleanliness", reliability=95.0).lnmrh),
+    ):
+        tiles = {tile["name"]: tile for tile in json.loads(call(*given, *options).out)["tiles"][0]}
+        assert float(tiles["rating life"]["value"]) == pytest.approx(life, rel=5e-3)
+
+
 def test_an_entry_of_a_bearing_has_its_option(call):
     """Grooves, oil and losses of a bearing by its name, with the numbers of the library."""
     given = ("--conformity", "0.515", "--eta0", "0.03", "--alpha", "2e-8", "--loss-factor", "0.01")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -42,11 +43,12 @@ NAMES = {
 def answer_of(study: Study) -> MachineState | str:
     """State of the machine, or of the bearing alone, at the speed of the study; or why there is none."""
     speed = study.speed_rpm
+    life: dict[str, Any] = {"contamination": study.contamination, "reliability": study.operation.reliability}
     try:
         if study.shaft is None:
             tilt = tilt_of(study.operation)
             carrier, name = carrier_of(study, 0), study.support[0].name or ""
-            return single_bearing_state(carrier, load_alone(study), speed, tilt=tilt, name=name)
+            return replace(single_bearing_state(carrier, load_alone(study), speed, tilt=tilt, name=name), **life)
         names: list[str] = []
         places: list[float] = []
         for k, (name, place) in enumerate(zip(study.names, places_of(study), strict=True)):
@@ -54,7 +56,7 @@ def answer_of(study: Study) -> MachineState | str:
             several = len(carrier.bearings) if isinstance(carrier, BearingSet) else 1
             names += [name] if several == 1 else [f"{name} {number + 1}" for number in range(several)]
             places += [place] * several
-        return machine_state(rotor_of(study), speed, names=names, positions=places)
+        return replace(machine_state(rotor_of(study), speed, names=names, positions=places), **life)
     except (ConvergenceError, InputError) as error:
         return str(error)
 

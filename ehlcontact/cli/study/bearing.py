@@ -100,7 +100,8 @@ class BearingJob:
 
     def answer(self, speed_rpm: float) -> MachineState:
         """The bearing or pair in the numbers of a designer."""
-        return single_bearing_state(self.bearing_or_pair, self.load, speed_rpm, tilt=self.tilt)
+        found = single_bearing_state(self.bearing_or_pair, self.load, speed_rpm, tilt=self.tilt)
+        return replace(found, contamination=self.study.contamination, reliability=self.study.operation.reliability)
 
     def coefficients(self, speed_rpm: float) -> BearingCoefficients:
         """K and C at the frequencies that are asked for, or at that of the shaft; means over a ball passage."""

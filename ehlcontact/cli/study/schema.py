@@ -37,6 +37,7 @@ from ehlcontact.lubricant.oil import GRADES
 from ehlcontact.point import OperatingPoint, require_solvable
 from ehlcontact.solver.domain import Domain
 from ehlcontact.transient.motion import FreeVibration, HarmonicLoad
+from reduced_models.life.life_modification import require_contamination
 from reduced_models.rotor.rotor import require_unbalance
 
 BY_NUMBERS = ("eta0", "alpha")  # entries of an oil
@@ -265,6 +266,21 @@ class Study(Section):
         return (given["rq_ball_um"], given["rq_race_um"]) if given else None
 
     @property
+    def contamination(self) -> float | str | None:
+        """Of the oil, for the modified rating life: factor or class; None where it is not given.
+
+        Raises
+        ------
+        InputError
+            No such class.
+        """
+        given = self.operation.contamination
+        try:
+            return None if given is None else require_contamination(given)
+        except InputError as error:
+            raise InputError("operation.contamination", given, error.allowed) from None
+
+    @property
     def domain(self) -> Domain:
         """Computed region."""
         assert self.contact is not None
@@ -440,7 +456,7 @@ def study_of(document: dict[str, Any], *, at_rest: bool = False) -> Study:
     at = support_field(study, study.at, "").rstrip(".")
     given = inputs_of({at: study.carrier, "operation": study.operation, "oil": study.oil})
     try:
-        for name in ("lubricant", "roughness"):
+        for name in ("lubricant", "roughness", "contamination"):
             getattr(study, name)  # made here once, so that what the library refuses is refused now
         _require_together(study)
         if study.contact is None:

@@ -41,6 +41,11 @@ class Operation(Section):
     layer_um: e.OilThickness | None = None
     layer_ratio: e.BearingLayerRatio | None = None
     thermal: Annotated[bool, e.meaning("films that heat up, beside isothermal ones")] = False
+    contamination: Annotated[
+        e.Contamination | str | None,
+        e.meaning('factor e_C of ISO 281 for the modified rating life, or a class, as "normal cleanliness"'),
+    ] = None
+    reliability: Annotated[e.Reliability, e.meaning("percent, of the modified rating life")] = 90.0
 
 
 class Surface(Section):

@@ -130,6 +130,17 @@ class TestMotor:
         by_viscosity = changed.h_central / answer.h_central - 1.0
         assert by_viscosity < support.film_errors["oil"] < by_viscosity + OIL.alpha_scatter
 
+    def test_life_is_that_of_all_bearings_together(self, machine: MachineState) -> None:
+        system, tile = machine.rating_life, next(one for one in machine.tiles() if one.name == "rating life")
+        each = [support.state.life().l10rh for support in machine.supports]
+        assert [one.l10rh for one in system] == each and system.names == ("left 6306", "right 6206")
+        assert system.l10rh < min(each) and float(tile.value) == pytest.approx(system.l10rh, rel=5e-3)
+        assert "needs a contamination" in tile.note and machine.to_dict()["life"]["lnmrh"] is None
+        clean = replace(machine, contamination=0.5, reliability=95.0)
+        tile = next(one for one in clean.tiles() if one.name == "rating life")
+        assert float(tile.value) == pytest.approx(clean.rating_life.lnmrh, rel=5e-3)
+        assert tile.note.startswith("modified, 95 %, by nu/nu1, by the solved film")
+
     def test_whole_answer_is_json(self, machine: MachineState) -> None:
         found = json.loads(json.dumps(machine.to_dict()))
         assert [one["name"] for one in found["supports"]] == ["left", "right"]
