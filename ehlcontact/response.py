@@ -71,6 +71,7 @@ LARGEST_OMEGA = 200.0
 NEAR_ZERO = 1e-4  # where C(0) is evaluated
 FEWEST_NODES = 4.0  # of the mesh to a wave, as of `Roughness`: with fewer the film does not follow it
 SLOW_SHARE = 0.1  # of C at low frequency that is not in C at `SLOW`, from which it is slow oil: else 7 % at most
+LONGEST = 2000.0  # semi-axes: waves as long are an approach, and in m most likely semi-axes
 TO = f"{APPROACH!r}, {SPEED!r}, {LAYER!r} or Waves(...)"
 
 
@@ -81,8 +82,8 @@ class Waves:
     Parameters
     ----------
     wavelength : float or sequence of float, optional
-        Along rolling, in semi-axes a at every point, as of `Waviness`: ``2 pi speed/Omega``; by default it follows
-        from the frequencies of the response.
+        Along rolling, in the units of the point of the response: m at an `OperatingPoint`, semi-axes a at a
+        `MoesPoint`. By default it follows from the frequencies: ``2 pi speed/Omega`` semi-axes.
     speed : float
         dX/dT of the surface with the waves: 1 in pure rolling, ``2 u_i/u_sum`` in general.
     """
@@ -90,8 +91,8 @@ class Waves:
     wavelength: ArrayLike | None = None
     speed: float = 1.0
 
-    def frequencies(self, time_unit: float | None, given: Frequency) -> Array:
-        """Omega of the frequencies or wavelengths, shape (k,), of a contact with a unit of time [s].
+    def frequencies(self, point: Point, given: Frequency) -> Array:
+        """Omega of the frequencies or wavelengths, shape (k,), at a point.
 
         Raises
         ------
@@ -100,7 +101,7 @@ class Waves:
         """
         speed = require_positive("speed", self.speed)
         if self.wavelength is None:
-            w = dimensionless(time_unit, **given, most=LARGEST_OMEGA)
+            w = dimensionless(_time_unit(point), **given, most=LARGEST_OMEGA)
             if not w.all():
                 raise InputError(next(name for name, value in given.items() if value is not None), 0.0, "> 0")
             return w
@@ -110,12 +111,17 @@ class Waves:
         lengths = np.atleast_1d(as_numbers("wavelength", self.wavelength))
         if lengths.ndim != 1 or lengths.size == 0:
             raise InputError("wavelength", f"of shape {lengths.shape}", "a number, or a flat list of at least one")
+        si = isinstance(point, OperatingPoint)
+        unit, name = point.scales.a, "m" if si else "semi-axes a"
         least = 2.0 * pi * speed / LARGEST_OMEGA
-        bad = lengths[~((lengths >= least) & np.isfinite(lengths))]
+        bad = lengths[~((lengths >= least * unit) & np.isfinite(lengths))]
         if bad.size:
-            allowed = f"finite and at least {least:.3g} semi-axes a, which is Omega = {LARGEST_OMEGA:g}"
+            allowed = f"finite and at least {least * unit:.3g} {name}, which is Omega = {LARGEST_OMEGA:g}"
             raise InputError("wavelength", float(bad[0]), allowed)
-        return 2.0 * pi * speed / lengths
+        if si and lengths.max() > LONGEST * unit:
+            allowed = f"at most {LONGEST * unit:.3g} m at an OperatingPoint (given in semi-axes a?)"
+            raise InputError("wavelength", float(lengths.max()), allowed)
+        return 2.0 * pi * speed * unit / lengths
 
     def resolved_by(self, mesh: Mesh, Omega: float, point: Point) -> Mesh:
         """`mesh`, or `InputError` where waves of this frequency have too few nodes."""
@@ -126,8 +132,9 @@ class Waves:
         most = 2.0 * pi * self.speed / least
         si = isinstance(point, OperatingPoint)
         limit = f"up to {most / point.scales.time / (2.0 * pi):.3g} Hz" if si else f"Omega up to {most:.3g}"
-        allowed = f"at least {least:.3g} semi-axes a ({limit}), {FEWEST_NODES:g} nodes of n = {mesh.n}: raise n"
-        raise InputError("wavelength", float(f"{length:.3g}"), allowed)
+        unit, name = point.scales.a, "m" if si else "semi-axes a"
+        allowed = f"at least {least * unit:.3g} {name} ({limit}), {FEWEST_NODES:g} nodes of n = {mesh.n}: raise n"
+        raise InputError("wavelength", float(f"{length * unit:.3g}"), allowed)
 
 
 @by_name(1)
@@ -185,7 +192,7 @@ def response(
     started = time.perf_counter()
     moes = require_solvable(point)
     frequency: Frequency = {"Omega": Omega, "omega": omega, "hz": hz, "rpm": rpm}
-    waves, w = _change(to, None if isinstance(point, MoesPoint) else point.scales.time, frequency)
+    waves, w = _change(to, point, frequency)
     require_grid(grid)
     threads = require_threads("threads", threads)
     conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
@@ -232,18 +239,26 @@ def excitation(
     threads: int | None = None,
     **frequency: Unpack[Frequency],
 ) -> Response:
-    """Force of waves on a surface over frequency: `response` to `Waves`, with its parameters and errors."""
+    """Force of waves on a surface over frequency: `response` to `Waves`, with its parameters and errors.
+
+    `wavelength` is in the units of the point: m at an `OperatingPoint`, semi-axes a at a `MoesPoint`.
+    """
     conditions: dict[str, Any] = {"supply": supply, "thermal": thermal, "sliding": sliding}
     return response(point, to=Waves(wavelength, speed), grid=grid, threads=threads, **conditions, **frequency)
 
 
-def _change(to: str | Waves, time_unit: float | None, frequency: Frequency) -> tuple[Waves | None, Array]:
+def _change(to: str | Waves, point: Point, frequency: Frequency) -> tuple[Waves | None, Array]:
     """Waves, where the response is to them, and Omega, shape (k,)."""
     if isinstance(to, Waves):
-        return to, to.frequencies(time_unit, frequency)
+        return to, to.frequencies(point, frequency)
     if not isinstance(to, str) or to not in (APPROACH, SPEED, LAYER):
         raise InputError("to", shown(to), TO)
-    return None, dimensionless(time_unit, **frequency, most=LARGEST_OMEGA)
+    return None, dimensionless(_time_unit(point), **frequency, most=LARGEST_OMEGA)
+
+
+def _time_unit(point: Point) -> float | None:
+    """Unit of time [s], which a dimensionless point has not."""
+    return None if isinstance(point, MoesPoint) else point.scales.time
 
 
 def _to_approach(steady: SteadyResult, solved: Multigrid, w: Array) -> Response:

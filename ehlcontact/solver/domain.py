@@ -26,6 +26,9 @@ MOST_LIGHT_GROWTH = 10.0
 class Domain:
     """Region [x_in, x_out] x [-y_max, y_max] in X = x/a, Y = y/b; pressure is zero on its border.
 
+    It belongs to the mesh and is in semi-axes at every point: a film needs the same region in these whatever its
+    load, so that one `Grid` serves a range of operating points.
+
     Damping depends on it (by about 1/extent^2), stiffness hardly.
 
     Parameters

@@ -56,7 +56,7 @@ def scales_at(point: object, dimensionless: str) -> Scales:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class OverTime:
-    """What changes over dimensionless time; one that `at` made from SI knows at which point.
+    """Motion, speed or surface over dimensionless time, with the point at which it was made from SI units.
 
     Attributes
     ----------
@@ -65,6 +65,7 @@ class OverTime:
     """
 
     made_at: OperatingPoint | None = field(default=None, repr=False, compare=False)
+    MADE_BY: ClassVar[str] = "at(point, ...)"
 
     def require_point(self, name: str, point: Point) -> None:
         """Raise `InputError`, with its `name`, at a point where it would not be what SI units said of it.
@@ -79,7 +80,7 @@ class OverTime:
         else:
             theirs, ours = ((one.M, one.L, one.kappa) for one in (own.moes, point))
         if not all(isclose(a, b, rel_tol=SAME_POINT) for a, b in zip(theirs, ours, strict=True)):
-            allowed = f"made with {type(self).__name__}.at(point, ...) of the point of this run"
+            allowed = f"made with {type(self).__name__}.{self.MADE_BY} of the point of this run"
             raise InputError(name, "made at another operating point", allowed)
 
 

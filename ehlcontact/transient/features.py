@@ -1,7 +1,8 @@
 """Surface features that travel through the contact: what excites bearings.
 
 A feature is a height G(X, Y, T) *added to the gap* (eq. 3), in dry approaches, even in Y: a dent is positive, a
-ridge negative. It moves with one surface at ``dX/dT = speed``: 1 in pure rolling, ``2 u_i/u_sum`` in general.
+ridge negative. It moves with one surface at ``dX/dT = speed``: 1 in pure rolling, ``2 u_i/u_sum`` in general. As
+motions, features are dimensionless, and their method `at` makes them for an `OperatingPoint` from metres.
 Shapes after Venner and Lubrecht, ASME J. Tribology 116 (1994) 751 (ridge) and 118 (1996) 153 (waviness).
 """
 
@@ -17,7 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import require_finite, require_nonnegative, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
+from ehlcontact.point import OperatingPoint, Point
+from ehlcontact.transient.bodies import OverTime, scales_at
 
 Array = NDArray[np.float64]
 Surface = Callable[[Array, Array, float], Array]
@@ -27,6 +31,7 @@ BETWEEN = (0.5, 0.25, 0.382)  # places between nodes where a feature must be muc
 LARGEST_MISS = 0.75  # of the height: fewer than 2.4 nodes to a wave; a step misses half
 LINES = 9  # along which that is looked at
 FAINT = 1e-9  # dry approaches: features that do not matter
+START = -2.5  # semi-axes a: ahead of the contact, where a feature of its size is not felt
 RATE_STEP = 1e-6  # of the central difference along the path of the film, in X and T
 
 
@@ -39,10 +44,12 @@ class SurfaceStep(NamedTuple):
     rate: Array  # (U d/dX + d/dT) G at the end: what passing film sees; 0 in pure rolling
 
 
-def require_surface(surface: object) -> None:
-    """Raise `InputError` unless this is None, or can be called with X, Y and T."""
+def require_surface(surface: object, point: Point) -> None:
+    """Raise `InputError` unless this is None, or can be called with X, Y and T, and was made for this point."""
     if surface is None:
         return
+    if isinstance(surface, OverTime):
+        surface.require_point("surface", point)
     fits = callable(surface) and not isinstance(surface, type)
     if fits:
         try:
@@ -126,7 +133,7 @@ def surface_step(
 
 
 @dataclass(frozen=True, slots=True)
-class Dent:
+class Dent(OverTime):
     """Round dent (depth > 0) or bump (depth < 0) centred on Y = 0.
 
     ``depth cos(pi r/(2 radius)) exp(-2 (r/radius)^2)``, r in the *physical* metric:
@@ -150,7 +157,7 @@ class Dent:
 
     depth: float
     radius: float
-    start: float = -2.5
+    start: float = START
     kappa: float = 1.0
     speed: float = 1.0
 
@@ -160,6 +167,30 @@ class Dent:
         require_finite("start", self.start)
         require_positive("kappa", self.kappa)
         require_nonnegative("speed", self.speed)
+
+    @classmethod
+    @takes(depth="m", radius="m", start="m")
+    def at(
+        cls,
+        point: OperatingPoint,
+        depth: float,
+        radius: float,
+        *,
+        start: float | None = None,
+        speed: float = 1.0,
+    ) -> Dent:
+        """The same in metres: depth, radius and where it is at T = 0, by default 2.5 semi-axes a ahead.
+
+        Raises
+        ------
+        InputError
+            A dimensionless point; a number outside its range.
+        """
+        scales = scales_at(point, "Dent(depth, radius)")
+        place = START if start is None else require_finite("start", start) / scales.a
+        high = require_finite("depth", depth) / scales.length
+        own = require_positive("radius", radius) / scales.a
+        return cls(high, own, place, kappa=scales.a / scales.b, speed=speed, made_at=point)
 
     @property
     def passing(self) -> float:
@@ -173,7 +204,7 @@ class Dent:
 
 
 @dataclass(frozen=True, slots=True)
-class TransverseRidge:
+class TransverseRidge(OverTime):
     """Ridge across the rolling direction: ``-height cos(2 pi s) 10^(-10 s^2)``, s = (X - X0 - speed T)/width.
 
     Parameters
@@ -190,7 +221,7 @@ class TransverseRidge:
 
     height: float
     width: float
-    start: float = -2.5
+    start: float = START
     speed: float = 1.0
 
     def __post_init__(self) -> None:
@@ -198,6 +229,30 @@ class TransverseRidge:
         require_positive("width", self.width)
         require_finite("start", self.start)
         require_nonnegative("speed", self.speed)
+
+    @classmethod
+    @takes(height="m", width="m", start="m")
+    def at(
+        cls,
+        point: OperatingPoint,
+        height: float,
+        width: float,
+        *,
+        start: float | None = None,
+        speed: float = 1.0,
+    ) -> TransverseRidge:
+        """The same in metres: height, width and where it is at T = 0, by default 2.5 semi-axes a ahead.
+
+        Raises
+        ------
+        InputError
+            A dimensionless point; a number outside its range.
+        """
+        scales = scales_at(point, "TransverseRidge(height, width)")
+        place = START if start is None else require_finite("start", start) / scales.a
+        high = require_finite("height", height) / scales.length
+        own = require_positive("width", width) / scales.a
+        return cls(high, own, place, speed=speed, made_at=point)
 
     @property
     def passing(self) -> float:
@@ -211,7 +266,7 @@ class TransverseRidge:
 
 
 @dataclass(frozen=True, slots=True)
-class Waviness:
+class Waviness(OverTime):
     """Transverse waviness that enters the contact from ``X0 + speed T`` on, with a smooth front.
 
     Upstream of the front ``amplitude sin(2 pi s)``, s = (X - X0 - speed T)/wavelength, downstream zero.
@@ -230,7 +285,7 @@ class Waviness:
 
     amplitude: float
     wavelength: float
-    start: float = -2.5
+    start: float = START
     speed: float = 1.0
 
     def __post_init__(self) -> None:
@@ -238,6 +293,30 @@ class Waviness:
         require_positive("wavelength", self.wavelength)
         require_finite("start", self.start)
         require_nonnegative("speed", self.speed)
+
+    @classmethod
+    @takes(amplitude="m", wavelength="m", start="m")
+    def at(
+        cls,
+        point: OperatingPoint,
+        amplitude: float,
+        wavelength: float,
+        *,
+        start: float | None = None,
+        speed: float = 1.0,
+    ) -> Waviness:
+        """The same in metres: amplitude, wavelength and where it is at T = 0, by default 2.5 semi-axes a ahead.
+
+        Raises
+        ------
+        InputError
+            A dimensionless point; a number outside its range.
+        """
+        scales = scales_at(point, "Waviness(amplitude, wavelength)")
+        place = START if start is None else require_finite("start", start) / scales.a
+        high = require_finite("amplitude", amplitude) / scales.length
+        own = require_positive("wavelength", wavelength) / scales.a
+        return cls(high, own, place, speed=speed, made_at=point)
 
     @property
     def passing(self) -> float:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import ceil, log, pi, sqrt
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,20 +16,22 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive, shown
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
-from ehlcontact.point import Scales
+from ehlcontact.point import OperatingPoint
+from ehlcontact.transient.bodies import OverTime, scales_at
 
 Array = NDArray[np.float64]
 Taps = tuple[NDArray[np.intp], Array]  # samples beside each place, and their weights, shape (4, ...)
 
 FEWEST_NODES = 4.0  # of the mesh to the shortest wavelength: with fewer the film does not follow it
 SAMPLES = 8.0  # of a made map to its shortest wavelength: the spline between them is then off by up to 3e-4 of rq
+LENGTH, WIDTH = 8.0, 4.0  # of a made map, in semi-axes along and across
 FEWEST_SAMPLES = 4  # of a map along either direction, which a cubic spline needs
 MOST_SAMPLES = 20_000_000  # of a made map: 160 MB, and three times that while it is made
 
 
 @fields_take()
 @dataclass(frozen=True, slots=True, eq=False)
-class Roughness:
+class Roughness(OverTime):
     """Rough surface that enters the contact from ``X0 + speed T`` on, with a smooth front.
 
     Heights are positive out of the surface, as instruments give them: a summit narrows the gap. `synthetic` makes
@@ -72,6 +74,7 @@ class Roughness:
     front: float = 0.25
     kappa: float = 1.0
     periodic: bool = False
+    MADE_BY: ClassVar[str] = "synthetic(..., point=point), or measured likewise,"
     _coefficients: Array = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -98,8 +101,9 @@ class Roughness:
         *,
         hurst: float = 0.8,
         seed: int = 0,
-        length: float = 8.0,
-        width: float = 4.0,
+        length: float | None = None,
+        width: float | None = None,
+        point: OperatingPoint | None = None,
         **course: Any,
     ) -> Self:
         """Gaussian heights of rms value `rq`, isotropic in metres, periodic, the same for the same arguments.
@@ -112,17 +116,20 @@ class Roughness:
         Parameters
         ----------
         rq : float
-            In dry approaches, over the whole map.
+            In dry approaches, over the whole map; with a `point` in m.
         longest_wavelength, shortest_wavelength : float
-            Wavelengths in semi-axes a.
+            Wavelengths in semi-axes a; with a `point` in m.
         hurst : float
             Between 0 (jagged) and 1 (smooth).
         seed : int
             Of `numpy.random.default_rng`.
         length, width : float
-            Of the map, in semi-axes a along and b across, where it is mirrored again.
+            Of the map, in semi-axes a along and b across, where it is mirrored again; with a `point` in m. By
+            default 8 and 4 semi-axes.
+        point : OperatingPoint, optional
+            Of the run: lengths are in m.
         **course
-            `start`, `speed`, `front` and `kappa`, as for the class.
+            `start`, `speed`, `front` and, without a `point`, `kappa`, as for the class; with one in m.
 
         Raises
         ------
@@ -131,6 +138,13 @@ class Roughness:
         """
         rq, short = require_positive("rq", rq), require_positive("shortest_wavelength", shortest_wavelength)
         long = require_positive("longest_wavelength", longest_wavelength)
+        if point is not None:
+            scales = scales_at(point, "synthetic(...) without point")
+            rq, long, short = rq / scales.length, long / scales.a, short / scales.a
+            length = None if length is None else require_positive("length", length) / scales.a
+            width = None if width is None else require_positive("width", width) / scales.b
+            course = _course_at(point, course)
+        length, width = LENGTH if length is None else length, WIDTH if width is None else width
         if short >= long:
             raise InputError("shortest_wavelength", short, f"below longest_wavelength = {long!r}")
         hurst = require_nonnegative("hurst", hurst)
@@ -165,7 +179,7 @@ class Roughness:
         dy: float,
         shortest_wavelength: float,
         *,
-        scales: Scales | None = None,
+        point: OperatingPoint | None = None,
         **course: Any,
     ) -> Self:
         """A map as an instrument gives it: levelled, and smoothed to what the mesh can show.
@@ -176,13 +190,13 @@ class Roughness:
         Parameters
         ----------
         heights : array_like, shape (k, m)
-            As for the class, in dry approaches; with `scales` in m.
+            As for the class, in dry approaches; with a `point` in m.
         dx, dy, shortest_wavelength : float
-            As for the class; with `scales` in m.
-        scales : Scales, optional
-            ``point.scales`` of an `OperatingPoint`.
+            As for the class; with a `point` in m.
+        point : OperatingPoint, optional
+            Of the run: lengths are in m.
         **course
-            `start`, `speed`, `front` and `periodic`, and without `scales` `kappa`, as for the class.
+            `start`, `speed`, `front`, `periodic` and, without a `point`, `kappa`, as for the class; with one in m.
 
         Raises
         ------
@@ -194,9 +208,10 @@ class Roughness:
             require_positive(name, value)
             for name, value in (("dx", dx), ("dy", dy), ("shortest_wavelength", shortest_wavelength))
         )
-        if scales is not None:
+        if point is not None:
+            scales = scales_at(point, "measured(...) without point")
             table, dx, dy, short = table / scales.length, dx / scales.a, dy / scales.b, short / scales.a
-            course["kappa"] = scales.a / scales.b
+            course = _course_at(point, course)
         kappa = require_positive("kappa", course.get("kappa", 1.0))
         from scipy.ndimage import gaussian_filter
 
@@ -243,6 +258,16 @@ class Roughness:
             raise InputError("length of surface.heights", length, f"{allowed}; or make it periodic")
         if width < Y[-1] * (1.0 - 1e-9):
             raise InputError("width of surface.heights", width, f"at least y_max = {Y[-1]:g}")
+
+
+def _course_at(point: OperatingPoint, course: dict[str, Any]) -> dict[str, Any]:
+    """Keywords of the class by those in m at a point, whose kappa they have."""
+    if "kappa" in course:
+        raise InputError("kappa", course["kappa"], "left out with a point, which has it")
+    scales = point.scales
+    checks = {"start": require_finite, "front": require_positive}
+    own = {name: check(name, course[name]) / scales.a for name, check in checks.items() if name in course}
+    return course | own | {"kappa": scales.a / scales.b, "made_at": point}
 
 
 def _table(heights: ArrayLike) -> Array:

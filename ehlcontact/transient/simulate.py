@@ -138,7 +138,7 @@ def simulate(
     require_grid(grid)
     require_groups(time, keep, run)
     conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
-    require_surface(surface)
+    require_surface(surface, point)
     require_speed(speed, grid, point)
     reverses = speed is not None and speed.reverses
     wider = wider_meshes(moes, Purpose.RUN, grid, largest_load=motion.largest_load, reverses=reverses)

@@ -106,7 +106,7 @@ class TransientContact(Summary):
         self.point, self.scales = point, point.scales
         require_grid(grid)
         conditions = Conditions.of(supply=supply, thermal=thermal, sliding=sliding).at(point)
-        require_surface(surface)
+        require_surface(surface, point)
         self._surface, self._T = surface, 0.0
         self.tol = tol = require_positive("tol", tol)
         threads = require_threads("threads", threads)

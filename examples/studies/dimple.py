@@ -73,7 +73,7 @@ def dimple_centre(curve: Curve) -> float:
 
 def dent(depth: float) -> Dent:
     """Their dimple, of the given depth [m], at its starting place."""
-    return Dent(depth / POINT.scales.length, RADIUS / POINT.scales.a, START)
+    return Dent.at(POINT, depth, RADIUS, start=START * POINT.scales.a)
 
 
 def without_rim(shape: Dent) -> Surface:

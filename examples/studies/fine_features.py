@@ -72,8 +72,7 @@ def under_load(
 
 def roll(speed: float, start: float, n: int) -> SimulationResult:
     """Let the dimple pass at `speed`, keeping whole fields where it is at `PLACES`."""
-    scales = BALL_ON_DISC.scales
-    dent = Dent(DEPTH / scales.length, RADIUS / scales.a, start, speed=speed)
+    dent = Dent.at(BALL_ON_DISC, DEPTH, RADIUS, start=start * BALL_ON_DISC.scales.a, speed=speed)
     mesh = (NEAR.x_out - NEAR.x_in) / n
     times = [mesh * round((place - start) / speed / mesh) for place in PLACES]
     return under_load(BALL_ON_DISC, n, times[-1], surface=dent, snapshots=times)

@@ -24,9 +24,10 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact import MoesPoint, excitation, impedance
 from ehlcontact.checks import as_numbers
 from ehlcontact.errors import InputError
-from ehlcontact.point import Point, moes_point
-from ehlcontact.quantities import NUMBER
-from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.point import OperatingPoint, Point, moes_point
+from ehlcontact.quantities import ALONG, NUMBER
+from ehlcontact.response import LONGEST
+from ehlcontact.results.table import Display, PointTable
 from ehlcontact.summary import contact_text, span
 from reduced_models.atlas.film import published_films
 from reduced_models.atlas.mesh import TableGrid
@@ -203,28 +204,27 @@ def last_wave_number() -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class FilterAnswer(QuantityTable):
+class FilterAnswer(PointTable):
     """Contact filter of one point over wavelength, with error bars.
 
     Attributes
     ----------
-    point : MoesPoint
+    point : MoesPoint or OperatingPoint
     wavelength : ndarray, shape (m,)
-        Along rolling, in semi-axes a.
+        Along rolling [m; a].
     in_phase, quadrature : ndarray, shape (m,)
         Real and imaginary part of `ratio`.
     error : ndarray, shape (m,)
         Half width of the error bar of `ratio`, whatever its phase.
     """
 
-    point: MoesPoint
-    wavelength: Annotated[_Floats, NUMBER.over("wavelength")]
+    point: Point
+    wavelength: Annotated[_Floats, ALONG.over("wavelength")]
     in_phase: Annotated[_Floats, NUMBER.over("wavelength")]
     quadrature: Annotated[_Floats, NUMBER.over("wavelength")]
     error: Annotated[_Floats, NUMBER.over("wavelength")]
 
     DISPLAY: ClassVar[Display] = Display(rows="wavelength", panels=("contact_filter",), logs="x")
-    UNITS = "dimensionless"
 
     @property
     def ratio(self) -> _Complex:
@@ -240,9 +240,10 @@ class FilterAnswer(QuantityTable):
         return np.abs(self.ratio)
 
     def _summary_lines(self) -> list[str]:
+        unit = (1e6, "µm") if isinstance(self.point, OperatingPoint) else (1.0, "semi-axes")
         return [
-            contact_text(self.point),
-            f"contact filter {span(self.contact_filter)} at wavelengths of {span(self.wavelength)} semi-axes",
+            contact_text(self.point.moes),
+            f"contact filter {span(self.contact_filter)} at wavelengths of {span(self.wavelength, *unit)}",
             f"error bars up to {self.error.max():.2g}",
         ]
 
@@ -257,21 +258,26 @@ def contact_filter(point: Point, *, wavelength: ArrayLike) -> FilterAnswer:
     ----------
     point : MoesPoint or OperatingPoint
     wavelength : float or sequence of float
-        Along rolling, in semi-axes a. For waves shorter than the table has it is 0 within its error bar.
+        Along rolling, in the units of the point: m at an `OperatingPoint`, semi-axes a at a `MoesPoint`. For waves
+        shorter than the table has it is 0 within its error bar.
 
     Raises
     ------
     InputError
         A point outside the box of the table; wavelengths that are not positive.
     """
-    moes = moes_point(point)
+    moes, unit = moes_point(point), point.scales.a
     filter_box().require_inside(moes)
     waves = np.atleast_1d(as_numbers("wavelength", wavelength))
     if waves.ndim != 1 or not waves.size or not (np.isfinite(waves) & (waves > 0.0)).all():
         raise InputError("wavelength", np.asarray(wavelength).tolist(), "finite and > 0, one or a flat list")
+    if isinstance(point, OperatingPoint) and waves.max() > LONGEST * unit:
+        allowed = f"at most {LONGEST * unit:.3g} m at an OperatingPoint (given in semi-axes a?)"
+        raise InputError("wavelength", float(waves.max()), allowed)
+    waves = waves / unit
     row = np.array([[moes.M, moes.L, moes.kappa]])
     ratio, error = filters_of(np.repeat(row, waves.size, axis=0)).at(2.0 * np.pi / waves)
-    return FilterAnswer(moes, waves, ratio.real.copy(), ratio.imag.copy(), error)
+    return FilterAnswer(moes, waves, ratio.real.copy(), ratio.imag.copy(), error).in_units_of(point)
 
 
 def film_over_dry(point: Point, k: ArrayLike) -> _Complex:

@@ -8,6 +8,7 @@ from balls import OF_6205
 from programs import script
 
 from ehlcontact import (
+    Geometry,
     Grid,
     InputError,
     Lubricant,
@@ -76,6 +77,24 @@ def test_waves_of_a_thick_elliptic_film():
     Z = impedance(POINT, Omega=result.omega, grid=Grid(n=96)).value
     np.testing.assert_allclose(result.contact_filter, np.abs(result.value / Z), rtol=1e-6)
     np.testing.assert_allclose(result.wavelength * result.omega, 2.0 * pi)
+
+
+def test_wavelengths_are_in_the_units_of_the_point():
+    """Metres at an operating point, where semi-axes are refused, and semi-axes at its Moes point."""
+    point = OperatingPoint(Geometry(3e-3, 60e-3), Lubricant(0.05, 2e-8), 200.0, 5.0)
+    a, grid = point.scales.a, Grid(n=64)
+    found = excitation(point, wavelength=[20.0 * a, 8.0 * a], speed=0.7, grid=grid)
+    plain = excitation(point.moes, wavelength=[20.0, 8.0], speed=0.7, grid=grid)
+    np.testing.assert_allclose(found.wavelength, [20.0 * a, 8.0 * a], rtol=1e-14, atol=0.0)
+    np.testing.assert_allclose(found.contact_filter, plain.contact_filter, rtol=1e-12, atol=0.0)
+    np.testing.assert_allclose(found.dimensionless.wavelength, plain.wavelength, rtol=1e-14, atol=0.0)
+    for wavelength, words in (
+        (8.0, r"at most 0\.179 m at an OperatingPoint \(given in semi-axes a\?\)"),
+        (2e-6, r"at least 2\.81e-06 m, which is Omega = 200"),
+        (1e-5, r"at least 3\.36e-05 m \(up to .* Hz\), 4 nodes of n = 64"),
+    ):
+        with pytest.raises(InputError, match=rf"^wavelength = {wavelength!r}: must be .*{words}"):
+            excitation(point, wavelength=wavelength, grid=grid)
 
 
 @pytest.mark.slow

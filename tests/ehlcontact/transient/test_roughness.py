@@ -150,18 +150,44 @@ def test_a_map_in_metres():
     point = OperatingPoint(Geometry(12.7e-3, 20e-3, e2=8e10, nu2=0.2), Lubricant(0.1), 20.0, 0.5)
     s, rng = point.scales, np.random.default_rng(5)
     table = rng.standard_normal((60, 40))
-    metres = Roughness.measured(table * 1e-7, 2e-6, 2e-6, 1.2e-5, scales=s, start=-1.0)
+    metres = Roughness.measured(table * 1e-7, 2e-6, 2e-6, 1.2e-5, point=point, start=-s.a)
     same = Roughness.measured(
         table * 1e-7 / s.length, 2e-6 / s.a, 2e-6 / s.b, 1.2e-5 / s.a, kappa=s.a / s.b, start=-1.0
     )
     np.testing.assert_allclose(metres.heights, same.heights, rtol=1e-12)
     assert (metres.dx, metres.dy, metres.shortest_wavelength) == (2e-6 / s.a, 2e-6 / s.b, 1.2e-5 / s.a)
     assert metres.kappa == pytest.approx(point.moes.kappa, rel=1e-9)
+    assert (metres.start, metres.made_at) == (-1.0, point)
 
 
-def run_over(surface, n=64, until=0.5, **changes):
+def test_a_made_surface_in_metres():
+    point = OperatingPoint(Geometry(12.7e-3, 20e-3, e2=8e10, nu2=0.2), Lubricant(0.1), 20.0, 0.5)
+    s = point.scales
+    metres = Roughness.synthetic(
+        1e-8, 2e-4, 1e-4, length=6e-4, width=4e-4, point=point, start=-2e-4, front=3e-5, seed=3
+    )
+    same = Roughness.synthetic(
+        1e-8 / s.length, 2e-4 / s.a, 1e-4 / s.a, length=6e-4 / s.a, width=4e-4 / s.b, kappa=s.a / s.b,
+        start=-2e-4 / s.a, front=3e-5 / s.a, seed=3,
+    )  # fmt: skip
+    np.testing.assert_allclose(metres.heights, same.heights, rtol=1e-12, atol=0.0)
+    assert (metres.dx, metres.start, metres.front) == (same.dx, same.start, same.front)
+    rows, columns = Roughness.synthetic(1e-8, 2e-4, 1e-4, point=point).heights.shape
+    assert (rows, columns) == Roughness.synthetic(1e-8, 2e-4 / s.a, 1e-4 / s.a, kappa=s.a / s.b).heights.shape
+    for other in (replace(point, load=30.0), replace(point, load=30.0).moes):
+        with pytest.raises(
+            InputError, match=r"surface = 'made at another .* Roughness\.synthetic\(\.\.\., point=point"
+        ):
+            run_over(metres, point=other)
+    with pytest.raises(InputError, match=r"^kappa = 2\.0: must be left out with a point"):
+        Roughness.synthetic(1e-8, 2e-4, 1e-4, point=point, kappa=2.0)
+    with pytest.raises(InputError, match=r"^point = .*MoesPoint.* a dimensionless one takes"):
+        Roughness.measured(np.eye(8), 2e-6, 2e-6, 1.2e-5, point=point.moes)
+
+
+def run_over(surface, n=64, until=0.5, point=POINT, **changes):
     options = {"n": n, "domain": NEAR, "until": until, "dt": 4.0 / n, "surface": surface, "threads": 1} | changes
-    return simulate(POINT, PrescribedLoad(np.linspace(0.0, 4.0, 4), np.ones(4)), **grouped(**options))
+    return simulate(point, PrescribedLoad(np.linspace(0.0, 4.0, 4), np.ones(4)), **grouped(**options))
 
 
 def test_waves_that_the_mesh_does_not_show_are_refused(made):

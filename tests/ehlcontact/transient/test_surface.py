@@ -1,5 +1,6 @@
 """Surface features over time: dents, ridges, waves, and the film over them."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -11,13 +12,17 @@ from ehlcontact import (
     ConvergenceError,
     Dent,
     Domain,
+    Geometry,
     Grid,
     HarmonicLoad,
     InputError,
+    Lubricant,
     MoesPoint,
+    OperatingPoint,
     PrescribedLoad,
     Roughness,
     TimeSteps,
+    TransientContact,
     TransverseRidge,
     Waviness,
     simulate,
@@ -26,6 +31,7 @@ from ehlcontact import (
 from ehlcontact.transient.features import surface_height, surface_step
 
 X, Y = np.linspace(-2.0, 1.0, 31), np.linspace(0.0, 1.0, 5)
+SI = OperatingPoint(Geometry(3e-3, 60e-3), Lubricant(0.05, 2e-8), 200.0, 5.0)
 
 
 def test_dent_and_its_rim():
@@ -39,6 +45,36 @@ def test_dent_and_its_rim():
     assert height.min() == pytest.approx(-0.0173 * 2.0, abs=2e-4) and r[height.argmin()] == pytest.approx(
         0.36, abs=2e-3
     )
+
+
+@pytest.mark.parametrize(
+    ("make", "same"),
+    [
+        (lambda at: Dent.at(SI, 1e-7, 5e-5, **at), lambda s: Dent(1e-7 / s.length, 5e-5 / s.a, kappa=s.a / s.b)),
+        (
+            lambda at: TransverseRidge.at(SI, 2e-7, 8e-5, **at),
+            lambda s: TransverseRidge(2e-7 / s.length, 8e-5 / s.a),
+        ),
+        (lambda at: Waviness.at(SI, 1e-8, 9e-5, **at), lambda s: Waviness(1e-8 / s.length, 9e-5 / s.a)),
+    ],
+    ids=["dent", "ridge", "waviness"],
+)
+def test_features_in_metres_belong_to_a_point(make, same):
+    made, plain = make({"speed": 0.6}), replace(same(SI.scales), speed=0.6)
+    assert (made, repr(made), made.made_at, plain.made_at) == (plain, repr(plain), SI, None)
+    assert make({"start": -3.0 * SI.scales.a}).start == pytest.approx(-3.0, rel=1e-14, abs=0.0)
+    for point in (replace(SI, load=150.0), replace(SI, load=150.0).moes):
+        with pytest.raises(InputError, match=rf"^surface = 'made at another .*{type(made).__name__}\.at\(point"):
+            simulate(point, HarmonicLoad(Omega=3.0), surface=made)
+        with pytest.raises(InputError, match=r"^surface = 'made at another"):
+            TransientContact(point, surface=made)
+    for point in (SI, replace(SI), SI.moes):
+        made.require_point("surface", point)
+    with pytest.raises(InputError, match=rf"^point = 'MoesPoint.*takes {type(made).__name__}\("):
+        type(made).at(SI.moes, 1e-7, 1e-4)
+    for wrong in ((1e-7, -1e-4), (float("nan"), 1e-4)):
+        with pytest.raises(InputError, match="must be a finite number"):
+            type(made).at(SI, *wrong)
 
 
 @pytest.mark.parametrize(

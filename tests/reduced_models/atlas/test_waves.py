@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from ehlcontact import Grid, InputError, MoesPoint, excitation
+from ehlcontact import Geometry, Grid, InputError, Lubricant, MoesPoint, OperatingPoint, excitation
 from ehlcontact.content_store import ContentStore
 from reduced_models.atlas.build import entry_key
 from reduced_models.atlas.surface import shipped
@@ -101,6 +101,19 @@ def test_fewer_draws_are_among_more():
 def test_bad_input_is_one_line(arguments, message):
     with pytest.raises(InputError, match=message):
         contact_filter(MoesPoint(*arguments[0]), wavelength=arguments[1])
+
+
+def test_wavelengths_are_in_the_units_of_the_point():
+    point = OperatingPoint(Geometry(3e-3, 60e-3), Lubricant(0.05, 2e-8), 200.0, 5.0)
+    lengths = np.array([16.0, 4.0])
+    found = contact_filter(point, wavelength=lengths * point.scales.a)
+    plain = contact_filter(point.moes, wavelength=lengths)
+    np.testing.assert_allclose(found.contact_filter, plain.contact_filter, rtol=1e-12, atol=0.0)
+    np.testing.assert_allclose(found.wavelength, lengths * point.scales.a, rtol=1e-14, atol=0.0)
+    np.testing.assert_allclose(found.dimensionless.wavelength, lengths, rtol=1e-14, atol=0.0)
+    assert "µm" in repr(found) and "semi-axes" in repr(plain)
+    with pytest.raises(InputError, match=r"^wavelength = 4\.0: must be at most 0\.179 m .*semi-axes"):
+        contact_filter(point, wavelength=4.0)
 
 
 def test_film_over_dry_filter():
