@@ -103,6 +103,11 @@ def summary_lines(result: Any) -> list[str]:
     return [line.strip() for line in repr(result).partition(": ")[2].splitlines()]
 
 
+def summary_rows(name: str, result: Any) -> list[Row]:
+    """Those lines as rows, the first one with a name."""
+    return [(name if k == 0 else "", "", line) for k, line in enumerate(summary_lines(result))]
+
+
 def outside_rows(found: Assumptions) -> list[Row]:
     """A row for each assumption that does not hold."""
     return [(f"NOT {one.name}", "", one.verdict) for one in found.out_of_range]

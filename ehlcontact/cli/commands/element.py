@@ -14,7 +14,7 @@ from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.contact import Contact, ContactAnswer, Frequencies, Surfaces
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.rows import Row, in_unit, quantity_rows
+from ehlcontact.cli.rows import Row, in_unit, quantity_rows, summary_rows
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint
 
@@ -57,7 +57,7 @@ def element(
     if contact.description:
         made = replace(made, source={**(made.source or {}), "contact": contact.description})
     title = f"{kind.model} element from the atlas, version {table.metadata['version']}"
-    rows = [*_answer(answer, contact.speed_rpm), *_damper(made), *_valid(made)]
+    rows = [*_answer(answer, contact.speed_rpm), *summary_rows("element", made)]
     ContactAnswer(contact, point, made, answer, surfaces, answer.h_min).deliver(out, title, rows, save=made)
 
 
@@ -85,23 +85,3 @@ def _answer(answer: AtlasAnswer, rpm: float | None) -> list[Row]:
             omega = f"Ω = {numeral(w, 3)}"
             rows.append(row(f"C at {hz or omega}", c, bar, "N s/m", f", {omega}" if hz else ""))
     return rows
-
-
-def _damper(made: Any) -> list[Row]:
-    """The one damping of a cubic, and the band it is for."""
-    from reduced_models.elements.validity import MARGIN, frequency_text
-
-    if not hasattr(made, "C1"):
-        return []
-    damper = f"{numeral(made.C1)} N s/m" if made.units == "SI" else f"{made.C1:.5f}"
-    return [("damper C1", damper, f"within {MARGIN:.0%} for {frequency_text(made.omega_range, made.units)}")]
-
-
-def _valid(made: Any) -> list[Row]:
-    """Where it holds."""
-    from reduced_models.elements.validity import text_of
-
-    si = made.units == "SI"
-    load = "" if made.load_range is None else f"load {text_of(made.load_range)}{' N' if si else ''}"
-    ends = [f"{numeral(1e6 * end)} µm" if si else f"{end:.4f}" for end in (made.low, made.high)]
-    return [("valid approach", " .. ".join(ends), load)]

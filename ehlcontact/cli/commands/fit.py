@@ -11,7 +11,7 @@ import typer
 from ehlcontact.checks import require_choice
 from ehlcontact.cli import options as o
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.rows import Row
+from ehlcontact.cli.rows import Row, summary_rows
 from ehlcontact.errors import InputError
 
 if TYPE_CHECKING:
@@ -104,25 +104,7 @@ def _coefficients(fitted: FitResult) -> list[Row]:
 def _memory(fitted: ElementFit) -> list[Row]:
     from reduced_models.elements.validity import frequency_text
 
-    p, found = fitted.parameters, fitted.to_dict()
-    gains = p["gains"]
-    return [
-        (
-            "film",
-            numeral(p["film"], 5),
-            f"of the dry Hertz approach, at rest; thins like load^-{numeral(p['exponent'], 3)}",
-        ),
-        ("inlet saturation", numeral(p["inlet_saturation"]), "film that a vibrating inlet makes on average"),
-        (
-            "rates",
-            ", ".join(numeral(p[key]) for key in ("lag_rate", "inlet_rate", "fast_rate")),
-            "lag, inlet, fast; per 2a/u_sum",
-        ),
-        ("gains", ", ".join(numeral(g, 3) for g in gains[:3]), f"viscous, inlet, fast; and {len(gains) - 3} lags"),
-        ("K(Ω)", f"{100 * found['stiffness_error_max']:.2f} %", "largest error, of the impedance's K"),
-        (
-            "C(Ω)",
-            f"{100 * found['damping_error_max']:.1f} %",
-            f"of its C; both for {frequency_text(fitted.valid['omega'], fitted.element.units)}",
-        ),
-    ]
+    found, units = fitted.to_dict(), fitted.element.units
+    of = f"largest error of K and of C beside the impedance, for {frequency_text(fitted.valid['omega'], units)}"
+    errors = (f"{100.0 * found[f'{name}_error_max']:.2g} %" for name in ("stiffness", "damping"))
+    return [*summary_rows("element", fitted.element), ("K(Ω), C(Ω)", ", ".join(errors), of)]

@@ -9,7 +9,7 @@ import typer
 
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import FAILED, complain
-from ehlcontact.cli.rows import Row
+from ehlcontact.cli.rows import Row, summary_lines
 
 if TYPE_CHECKING:
     from fmu.references.check import ReferenceCheck
@@ -45,13 +45,7 @@ def verify(
 
 def _rows(found: ReferenceCheck) -> list[Row]:
     """What was compared, and how large the differences are."""
-    rows = [
-        ("FMI", found.fmi, ""),
-        ("findings", str(len(found.findings)), "of fmpy's validation and of checksums"),
-    ]
-    for one in found.interfaces:
-        compared = f"{len(one.variables)} variables in {one.rows} rows"
-        unit = f"largest difference, of {one.variable}, over its size; {compared}"
-        rows.append((one.name, f"{one.difference:.1e}", unit))
-    rows.append(("tolerance", f"{found.tolerance:.0e}", "of the differences"))
-    return [*rows, ("verified", "yes" if found.passes else "no", "")]
+    _, *lines = summary_lines(found)
+    compared = [(name, "", text) for name, _, text in (line.partition(": ") for line in lines)]
+    tolerance = "tolerance", f"{found.tolerance:.0e}", "of the differences"
+    return [("FMI", found.fmi, ""), *compared, tolerance, ("verified", "yes" if found.passes else "no", "")]
