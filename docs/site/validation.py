@@ -238,10 +238,10 @@ def figures() -> list[Row]:
     from ehlcontact.cli.paper.figures import first_turns, periods
 
     rows = []
-    for case, found in periods("2", "3")(fits()).items():
+    for case, found in periods(fits(), ("2", "3")).items():
         dry, reason = found["period of the dry contact"], "K of the film is above that of the dry contact"
         rows.append(row(f"Fig. 5, {case}", "period", found["period"], dry, reason))
-    valley, reason = first_turns(fits())["ours"]["first valley, T"], "read from a picture, close to 1"
+    valley, reason = first_turns(fits(), "2")["ours"]["first valley, T"], "read from a picture, close to 1"
     rows.append(row("Fig. 6, case 2", "T of the first valley of the central film", valley, FIRST_VALLEY, reason))
     return rows
 

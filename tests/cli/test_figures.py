@@ -181,11 +181,11 @@ def test_figures_of_the_paper(reproduction, number):
     (figure,) = (figure for figure in reproduction.figures if figure.number == number)
     drawn = figure.draw(reproduction.fits)
     json.dumps(finished(figure_of(drawn)), allow_nan=False)
-    said = [*texts(drawn), figure.caption, figure.theirs]
+    said = [*texts(drawn), figure.caption, figure.paper]
     assert not [text for text in said if SPELLED.search(text)]
     # the paper's own values where there are any, and where there are none that is said
     shown = any("paper" in text for text in texts(drawn))
-    assert shown or "not shown" in figure.theirs
+    assert shown or "not shown" in figure.paper
     assert ("The surfaces move" in " ".join(said)) == (number in (4, 7, 12))  # fringes
 
 

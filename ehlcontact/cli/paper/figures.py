@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -13,51 +13,38 @@ import scipy
 from ehlcontact.cli.paper import pictures as p
 from ehlcontact.cli.paper.data import FIRST_VALLEY, paper_films, paper_fits
 from ehlcontact.cli.paper.fits import Fits
-from ehlcontact.cli.paper.runs import CASES, FREE, HARMONIC
+from ehlcontact.cli.paper.runs import CASES, FREE, HARMONIC, RAMP
 from ehlcontact.film_formulas import wijnant_approach
+from ehlcontact.results.picture import Picture
 from ehlcontact.transient.motion import FreeVibration
 from ehlcontact.transient.result import SimulationResult
 
-Numbers = Callable[[Fits], dict[str, Any]]
+Numbers = dict[str, dict[str, Any]]  # by the row
 OUTSIDE = (0.5, 1.0, 1.5, 2.5)  # approaches at which springs are compared in numbers
 TURN = 0.2  # of its range that a film has to turn by
 
 
-def integrated(table: int, *cases: str, motion: str | None = None) -> Numbers:
+def integrated(fits: Fits, table: int, cases: Sequence[str], motion: str | None = None) -> Numbers:
     """How far cubic elements of the cases are from the full approach, and RK2(3) from Radau.
 
     All under the motion of one case, or each under its own.
     """
-    return lambda fits: {
+    return {
         _named(whose, case): fits.difference(element, motion or case)
         for whose, elements in p.elements_of(fits, cases, table, motion).items()
         for case, element in elements.items()
     }
 
 
-def rms(table: int, *cases: str) -> Numbers:
+def rms(fits: Fits, table: int, cases: Sequence[str]) -> Numbers:
     """How far the forces of the elements are from the full film's."""
-
-    def numbers(fits: Fits) -> dict[str, Any]:
-        values: dict[str, Any] = {}
-        for case in cases:
-            theirs = fits.theirs(table, case)
-            ours = fits.fit(case, theirs.kind)
-            values[_named("the paper's", case)] = {"force_rms": fits.rms(theirs, case)}
-            values[_named("our", case)] = {"force_rms": None if ours is None else ours.rms}
-        return values
-
-    return numbers
-
-
-def both(first: Numbers, second: Numbers) -> Numbers:
-    """Numbers of the same rows, side by side."""
-
-    def numbers(fits: Fits) -> dict[str, Any]:
-        left, right = first(fits), second(fits)
-        return {name: left.get(name, {}) | right.get(name, {}) for name in (*left, *(set(right) - set(left)))}
-
-    return numbers
+    values: Numbers = {}
+    for case in cases:
+        theirs = fits.theirs(table, case)
+        ours = fits.fit(case, theirs.kind)
+        values[_named("the paper's", case)] = {"force_rms": fits.rms(theirs, case)}
+        values[_named("our", case)] = {"force_rms": None if ours is None else ours.rms}
+    return values
 
 
 def _named(whose: str, case: str) -> str:
@@ -89,25 +76,22 @@ def static_numbers(fits: Fits) -> dict[str, Any]:
     }
 
 
-def films_at_rest(fits: Fits) -> dict[str, Any]:
-    """Minimum over central film before the ramp: the paper's two, and ours."""
-    run = fits.runs.cases["validation"]
+def films_at_rest(fits: Fits, case: str) -> Numbers:
+    """Minimum over central film before the ramp: the paper's two, and ours; it has those of no other case."""
+    if case not in RAMP:
+        return {}
+    run = fits.runs.cases[case]
     theirs = {f"the paper's, {source}": {"h_min/h_c at rest": ratio} for source, ratio in paper_films().items()}
     return theirs | {"ours": {"h_min/h_c at rest": float(run.h_min[0] / run.h_central[0])}}
 
 
-def periods(*cases: str) -> Numbers:
+def periods(fits: Fits, cases: Sequence[str]) -> Numbers:
     """Periods of free vibrations about the approach at rest, beside that of the dry contact."""
-
-    def numbers(fits: Fits) -> dict[str, Any]:
-        values: dict[str, Any] = {}
-        for case in cases:
-            run, motion = fits.runs.cases[case], CASES[case].motion
-            assert isinstance(motion, FreeVibration)
-            values[f"case {case}"] = {"period of the dry contact": motion.period, "period": period(run)}
-        return values
-
-    return numbers
+    return {
+        f"case {case}": {"period of the dry contact": motion.period, "period": period(fits.runs.cases[case])}
+        for case in cases
+        if isinstance(motion := CASES[case].motion, FreeVibration)
+    }
 
 
 def period(run: SimulationResult) -> float:
@@ -118,9 +102,9 @@ def period(run: SimulationResult) -> float:
     return float(2.0 * (crossed[-1] - crossed[0]) / (crossed.size - 1))
 
 
-def first_turns(fits: Fits) -> dict[str, Any]:
+def first_turns(fits: Fits, case: str) -> Numbers:
     """When the central film first turns for good."""
-    run = fits.runs.cases["2"]
+    run = fits.runs.cases[case]
     depth = TURN * float(np.ptp(run.h_central))
     turns = {
         name: scipy.signal.find_peaks(sign * run.h_central, prominence=depth)[0]
@@ -136,6 +120,7 @@ ROOTS = "Dotted: approach at which the paper's cubics (Table {}) carry the stati
 INTEGRATED = "integrated by Bogacki-Shampine RK2(3) from the start of the fitted window"
 # What there is of the paper in a figure.
 CURVES = "its curves are a picture only, and not shown."
+PICTURES = "its fringes are pictures only, and not shown."
 ELEMENT = "its curves are a picture only; dashed: its element, of Table {}, on our motion."
 
 
@@ -144,149 +129,131 @@ class PaperFigure:
     """One figure; drawn only where all its cases converged."""
 
     number: int
+    kinds: str  # of picture, or of panels side by side
     cases: tuple[str, ...]
+    table: int  # of the paper, that has its elements; 0 without elements
     caption: str
-    theirs: str  # what of the paper's figure is shown, and what is not
-    draw: p.Draw
-    numbers: Numbers = lambda fits: {}
+    theirs: str = ""  # what of the paper's figure is shown, and what is not; its elements where left out
+    elements: tuple[str, ...] = ()  # cases whose elements run under the motion of the one shown
+
+    @property
+    def paper(self) -> str:
+        """What of the paper's figure is shown."""
+        return self.theirs or ELEMENT.format(self.table)
+
+    def draw(self, fits: Fits) -> Picture:
+        """The picture."""
+        case = self.cases[0] if self.cases else ""
+        whole = {
+            "static": lambda: p.static(fits),
+            "fringes": lambda: p.fringes(fits, case),
+            "approaches": lambda: p.approaches(fits, self.table, self.cases),
+            "film": lambda: p.film(fits, case),
+            "springs": lambda: p.springs(fits),
+            "swapped": lambda: p.swapped(fits, self.table, case, self.elements),
+        }
+        if self.kinds in whole:
+            return whole[self.kinds]()
+        return p.side_by_side(fits, self.table, self.cases, self.kinds.split())
+
+    def numbers(self, fits: Fits) -> Numbers:
+        """Numbers beside it, row by row."""
+        case, found = self.cases[0] if self.cases else "", Numbers()
+        every = {
+            "static": lambda: static_numbers(fits),
+            "fringes": lambda: films_at_rest(fits, case),
+            "approaches": lambda: periods(fits, self.cases),
+            "film": lambda: first_turns(fits, case),
+            "springs": lambda: spring_numbers(fits),
+            "swapped": lambda: integrated(fits, self.table, self.elements, case),
+            "force": lambda: rms(fits, self.table, self.cases),
+            "approach": lambda: integrated(fits, self.table, self.cases),
+        }
+        for kind in self.kinds.split():
+            for name, values in every.get(kind, Numbers)().items():
+                found[name] = found.get(name, {}) | values
+        return found
 
 
-FIGURES = {
-    figure.number: figure
-    for figure in (
-        PaperFigure(
-            2,
-            (),
-            "Approach at rest over M, for a circle, as the paper does not say for which ellipse. Points: our "
-            "solves; lines: Wijnant's formula.",
-            "its lines are this formula; its points are a picture only, and not shown.",
-            p.static,
-            static_numbers,
-        ),
-        PaperFigure(
-            4,
-            ("validation",),
-            f"Pseudo-interferograms of the load ramp, {FRINGES}.",
-            "its fringes are pictures only, and not shown. Its text gives the film at rest in micrometres, for "
-            "scales that it does not state: only ratios compare.",
-            p.fringes("validation"),
-            films_at_rest,
-        ),
-        PaperFigure(
-            5,
-            ("2", "3"),
-            f"Approach of two free vibrations, which begin by opening. {ROOTS.format(3)}",
-            f"{CURVES} Its section 4 gives the period of the dry contact, 5.13/Ω_n.",
-            p.approaches(3, "2", "3"),
-            periods("2", "3"),
-        ),
-        PaperFigure(
-            6,
-            ("2",),
-            f"Central and minimum film, {CASES['2'].title}, which begins by opening.",
-            f"{CURVES} Its text sees the first valley of the central film close to T = {FIRST_VALLEY:g}; a turn "
-            f"counts here if its height is {100 * TURN:.0f} % of the film's range.",
-            p.film("2"),
-            first_turns,
-        ),
-        PaperFigure(
-            7,
-            ("2",),
-            f"Pseudo-interferograms, {CASES['2'].title}, {FRINGES}.",
-            "its fringes are pictures only, and not shown.",
-            p.fringes("2"),
-        ),
-        PaperFigure(
-            8,
-            ("2",),
-            "Linear element: force, and acceleration that follows from it.",
-            ELEMENT.format(1),
-            p.force_and_acceleration(1, "2"),
-            rms(1, "2"),
-        ),
-        PaperFigure(
-            9,
-            ("2",),
-            "Cubic element: force, and acceleration that follows from it.",
-            ELEMENT.format(3),
-            p.force_and_acceleration(3, "2"),
-            rms(3, "2"),
-        ),
-        PaperFigure(
-            10,
-            ("2", "3"),
-            f"Cubic elements: approach, {INTEGRATED}.",
-            ELEMENT.format(3),
-            p.of_cases(p.reduced, 3, "2", "3"),
-            integrated(3, "2", "3"),
-        ),
-        PaperFigure(
-            11,
-            ("4", "5"),
-            f"Approach under two harmonic loads. {ROOTS.format(5)}",
-            CURVES,
-            p.approaches(5, "4", "5"),
-        ),
-        PaperFigure(
-            12,
-            ("5",),
-            f"Pseudo-interferograms, {CASES['5'].title}, {FRINGES}.",
-            "its fringes are pictures only, and not shown.",
-            p.fringes("5"),
-        ),
-        PaperFigure(
-            13, ("5",), "Linear element: force.", ELEMENT.format(4), p.of_cases(p.force, 4, "5"), rms(4, "5")
-        ),
-        PaperFigure(
-            14,
-            ("4", "5"),
-            "Cubic elements: force.",
-            ELEMENT.format(5),
-            p.of_cases(p.force, 5, "4", "5"),
-            rms(5, "4", "5"),
-        ),
-        PaperFigure(
-            15,
-            ("4", "5"),
-            f"Cubic elements: approach, {INTEGRATED}.",
-            ELEMENT.format(5),
-            p.of_cases(p.reduced, 5, "4", "5"),
-            integrated(5, "4", "5"),
-        ),
-        PaperFigure(
-            16,
-            HARMONIC,
-            "Stiffness polynomials of cases 4 to 6, continued outside the fitted interval (shaded), and our "
-            "elements (dashed).",
-            "left, the coefficients of Table 5.",
-            p.springs,
-            spring_numbers,
-        ),
-        PaperFigure(
-            17,
-            ("4",),
-            f"Elements of cases 4, 5 and 6 under the load of case 4: approach, {INTEGRATED}.",
-            "left, the elements of Table 5.",
-            p.swapped("4", HARMONIC, 5),
-            integrated(5, *HARMONIC, motion="4"),
-        ),
-        PaperFigure(
-            18,
-            ("3",),
-            f"Elements of cases 1, 2 and 3 on the mass of case 3: approach, {INTEGRATED}.",
-            "left, the elements of Table 3.",
-            p.swapped("3", FREE, 3),
-            integrated(3, *FREE, motion="3"),
-        ),
-        PaperFigure(
-            19,
-            ("validation",),
-            f"Cubic element of the load ramp: force, and approach {INTEGRATED}.",
-            ELEMENT.format(6),
-            p.force_and_approach(6, "validation"),
-            both(rms(6, "validation"), integrated(6, "validation")),
-        ),
-    )
-}
-# Simulations that a figure's elements come from, besides those it shows.
-ELEMENTS_OF = {17: HARMONIC, 18: FREE}
+_FREE, _LOADED = CASES["2"].title, CASES["5"].title
+EVERY = (
+    PaperFigure(
+        2,
+        "static",
+        (),
+        0,
+        "Approach at rest over M, for a circle, as the paper does not say for which ellipse. Points: our solves; "
+        "lines: Wijnant's formula.",
+        "its lines are this formula; its points are a picture only, and not shown.",
+    ),
+    PaperFigure(
+        4,
+        "fringes",
+        RAMP,
+        0,
+        f"Pseudo-interferograms of the load ramp, {FRINGES}.",
+        "its fringes are pictures only, and not shown. Its text gives the film at rest in micrometres, for scales "
+        "that it does not state: only ratios compare.",
+    ),
+    PaperFigure(
+        5,
+        "approaches",
+        ("2", "3"),
+        3,
+        f"Approach of two free vibrations, which begin by opening. {ROOTS.format(3)}",
+        f"{CURVES} Its section 4 gives the period of the dry contact, 5.13/Ω_n.",
+    ),
+    PaperFigure(
+        6,
+        "film",
+        ("2",),
+        0,
+        f"Central and minimum film, {_FREE}, which begins by opening.",
+        f"{CURVES} Its text sees the first valley of the central film close to T = {FIRST_VALLEY:g}; a turn "
+        f"counts here if its height is {100 * TURN:.0f} % of the film's range.",
+    ),
+    PaperFigure(7, "fringes", ("2",), 0, f"Pseudo-interferograms, {_FREE}, {FRINGES}.", PICTURES),
+    PaperFigure(
+        8, "force acceleration", ("2",), 1, "Linear element: force, and acceleration that follows from it."
+    ),
+    PaperFigure(
+        9, "force acceleration", ("2",), 3, "Cubic element: force, and acceleration that follows from it."
+    ),
+    PaperFigure(10, "approach", ("2", "3"), 3, f"Cubic elements: approach, {INTEGRATED}."),
+    PaperFigure(11, "approaches", ("4", "5"), 5, f"Approach under two harmonic loads. {ROOTS.format(5)}", CURVES),
+    PaperFigure(12, "fringes", ("5",), 0, f"Pseudo-interferograms, {_LOADED}, {FRINGES}.", PICTURES),
+    PaperFigure(13, "force", ("5",), 4, "Linear element: force."),
+    PaperFigure(14, "force", ("4", "5"), 5, "Cubic elements: force."),
+    PaperFigure(15, "approach", ("4", "5"), 5, f"Cubic elements: approach, {INTEGRATED}."),
+    PaperFigure(
+        16,
+        "springs",
+        HARMONIC,
+        5,
+        "Stiffness polynomials of cases 4 to 6, continued outside the fitted interval (shaded), and our elements "
+        "(dashed).",
+        "left, the coefficients of Table 5.",
+    ),
+    PaperFigure(
+        17,
+        "swapped",
+        ("4",),
+        5,
+        f"Elements of cases 4, 5 and 6 under the load of case 4: approach, {INTEGRATED}.",
+        "left, the elements of Table 5.",
+        HARMONIC,
+    ),
+    PaperFigure(
+        18,
+        "swapped",
+        ("3",),
+        3,
+        f"Elements of cases 1, 2 and 3 on the mass of case 3: approach, {INTEGRATED}.",
+        "left, the elements of Table 3.",
+        FREE,
+    ),
+    PaperFigure(
+        19, "force approach", RAMP, 6, f"Cubic element of the load ramp: force, and approach {INTEGRATED}."
+    ),
+)
+FIGURES = {figure.number: figure for figure in EVERY}

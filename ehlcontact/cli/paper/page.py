@@ -10,7 +10,7 @@ from typing import Any
 
 from ehlcontact.cli.page import write_page
 from ehlcontact.cli.paper.data import CITATION
-from ehlcontact.cli.paper.figures import ELEMENTS_OF, FIGURES, PaperFigure
+from ehlcontact.cli.paper.figures import FIGURES, PaperFigure
 from ehlcontact.cli.paper.fits import Fits
 from ehlcontact.cli.paper.runs import POINT, VALIDATION_POINT, compute
 from ehlcontact.cli.paper.tables import TABLE_CASES, Table, make_table
@@ -52,7 +52,7 @@ class Reproduction:
             "figures": {
                 str(figure.number): {
                     "caption": figure.caption,
-                    "paper": figure.theirs,
+                    "paper": figure.paper,
                     "numbers": self.numbers[figure.number],
                 }
                 for figure in self.figures
@@ -72,7 +72,7 @@ def reproduce(tables: Sequence[int], figures: Sequence[int], folder: Path, n: in
         After Ctrl-C; what was finished is in the folder.
     """
     wanted = {case for number in tables for case in TABLE_CASES[number]}
-    wanted |= {case for number in figures for case in (*FIGURES[number].cases, *ELEMENTS_OF.get(number, ()))}
+    wanted |= {case for number in figures for case in (*FIGURES[number].cases, *FIGURES[number].elements)}
     fits = Fits(compute(folder, n, sorted(wanted), 2 in figures))
     missing = {}
     for number in figures:

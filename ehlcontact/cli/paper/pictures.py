@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -45,21 +46,6 @@ POINTS = (67, 101)  # of a map of fringes
 
 TIMES, APPROACH, FORCES = ("time", TIME.moes), ("approach", LENGTH.moes), ("force", FORCE.moes)
 
-Draw = Callable[[Fits], Picture]
-Describe = Callable[[Fits], Panel]
-
-
-def row(*panels: Describe, titles: Sequence[str] = ()) -> Draw:
-    """Panels side by side."""
-
-    def draw(fits: Fits) -> Picture:
-        found = [panel(fits) for panel in panels]
-        for k, title in enumerate(titles):
-            found[k] = replace(found[k], title=title)
-        return Picture(found, columns=len(found))
-
-    return draw
-
 
 def static(fits: Fits) -> Picture:
     """Approach at rest over the loads M, for each oil L, for a circle: solves, and Wijnant's formula."""
@@ -75,110 +61,88 @@ def static(fits: Fits) -> Picture:
     return Picture([panel], heights=(320.0,))
 
 
-def fringes(case: str) -> Draw:
+def fringes(fits: Fits, case: str) -> Picture:
     """Fringes of a case at its snapshots, which has no unit of length: three to the central film at rest."""
-
-    def draw(fits: Fits) -> Picture:
-        run = fits.runs.cases[case]
-        growth = max(1.0, float(run.load.max())) ** (1.0 / 3.0)
-        panels = []
-        for T in run.snapshot_t:
-            film = refined(film_of(run, float(T)), POINTS, growth)
-            view = ContactView.of(film.point, film.x, film.y)
-            depth = film.h / run.h_central[0]
-            order = FRINGES_AT_REST * depth
-            bright = Interferogram(0.5 * (1.0 + np.cos(2.0 * np.pi * order)), order, film.x, film.y, (1.0, 1.0))
-            shown = brightness(bright, depth / FADING)
-            panels.append(view.map(shown, "", "gray", (0.0, 1.0), title=f"T = {numeral(T)}"))
-        note = f"{MOVES[view.upwards].capitalize()}. {view.note}".strip()
-        return Picture(panels, columns=min(len(panels), 4), heights=(TALL,), note=note)
-
-    return draw
+    run = fits.runs.cases[case]
+    growth = max(1.0, float(run.load.max())) ** (1.0 / 3.0)
+    panels = []
+    for T in run.snapshot_t:
+        film = refined(film_of(run, float(T)), POINTS, growth)
+        view = ContactView.of(film.point, film.x, film.y)
+        depth = film.h / run.h_central[0]
+        order = FRINGES_AT_REST * depth
+        bright = Interferogram(0.5 * (1.0 + np.cos(2.0 * np.pi * order)), order, film.x, film.y, (1.0, 1.0))
+        shown = brightness(bright, depth / FADING)
+        panels.append(view.map(shown, "", "gray", (0.0, 1.0), title=f"T = {numeral(T)}"))
+    note = f"{MOVES[view.upwards].capitalize()}. {view.note}".strip()
+    return Picture(panels, columns=min(len(panels), 4), heights=(TALL,), note=note)
 
 
-def approaches(table: int, *cases: str) -> Draw:
+def approaches(fits: Fits, table: int, cases: Sequence[str]) -> Picture:
     """Approach of the full contact in some cases, and where the paper's cubics carry the load."""
-
-    def panel(fits: Fits) -> Panel:
-        lines = []
-        for case, colour in zip(cases, COLOURS, strict=False):
-            run, root = fits.runs.cases[case], paper_fits()[table, case].root
-            lines.append(Line(run.t, run.approach, CASES[case].title, colour))
-            lines.append(Line(run.t[[0, -1]], [root] * 2, f"root of the paper's cubic, case {case}", colour, ":"))
-        return Panel(lines, TIMES, APPROACH)
-
-    return row(panel)
+    lines = []
+    for case, colour in zip(cases, COLOURS, strict=False):
+        run, root = fits.runs.cases[case], paper_fits()[table, case].root
+        lines.append(Line(run.t, run.approach, CASES[case].title, colour))
+        lines.append(Line(run.t[[0, -1]], [root] * 2, f"root of the paper's cubic, case {case}", colour, ":"))
+    return Picture([Panel(lines, TIMES, APPROACH)])
 
 
-def film(case: str) -> Draw:
+def film(fits: Fits, case: str) -> Picture:
     """Central and minimum film, and when the first film made by the motion reaches the centre."""
-
-    def panel(fits: Fits) -> Panel:
-        marks = (Mark(1.0, "inlet edge to centre at the speed of the surfaces"),)
-        return Panel(film_lines(fits.runs.cases[case]), TIMES, ("film", LENGTH.moes), marks=marks)
-
-    return row(panel)
+    marks = (Mark(1.0, "inlet edge to centre at the speed of the surfaces"),)
+    return Picture([Panel(film_lines(fits.runs.cases[case]), TIMES, ("film", LENGTH.moes), marks=marks)])
 
 
-def force(table: int, case: str, *, acceleration: bool = False) -> Describe:
+def force(fits: Fits, table: int, case: str, *, acceleration: bool = False) -> Panel:
     """Force of a record, of our and the paper's element, or the acceleration of each; grey: not fitted."""
+    record, theirs = fits.record(case), fits.theirs(table, case)
+    found, bands = fits.fit(case, theirs.kind), list[Band]()
 
-    def panel(fits: Fits) -> Panel:
-        record, theirs = fits.record(case), fits.theirs(table, case)
-        found, bands = fits.fit(case, theirs.kind), list[Band]()
+    def of(element: Any) -> Any:
+        fitted = np.asarray(element.force(record.approach, record.rate))
+        if not acceleration:
+            return fitted
+        assert record.mass is not None and record.load is not None
+        return (record.load - fitted) / record.mass
 
-        def of(element: Any) -> Any:
-            fitted = np.asarray(element.force(record.approach, record.rate))
-            if not acceleration:
-                return fitted
-            assert record.mass is not None and record.load is not None
-            return (record.load - fitted) / record.mass
-
-        own = record.acceleration if acceleration else record.force
-        lines = [
-            Line(record.t, own, "full film", BLUE),
-            Line(record.t, of(theirs), f"paper's {theirs.kind}", **THEIRS),
-        ]
-        if found is not None:
-            if found.window[0][0] > record.t[0]:
-                bands.append(Band(float(record.t[0]), found.window[0][0]))
-            lines.append(_dots(record.t, of(found.element), f"our {found.model}"))
-        return Panel(lines, TIMES, "acceleration d²u/dT²" if acceleration else FORCES, bands=bands)
-
-    return panel
+    own = record.acceleration if acceleration else record.force
+    lines = [
+        Line(record.t, own, "full film", BLUE),
+        Line(record.t, of(theirs), f"paper's {theirs.kind}", **THEIRS),
+    ]
+    if found is not None:
+        if found.window[0][0] > record.t[0]:
+            bands.append(Band(float(record.t[0]), found.window[0][0]))
+        lines.append(_dots(record.t, of(found.element), f"our {found.model}"))
+    return Panel(lines, TIMES, "acceleration d²u/dT²" if acceleration else FORCES, bands=bands)
 
 
-def reduced(table: int, case: str) -> Describe:
+def reduced(fits: Fits, table: int, case: str) -> Panel:
     """Approach of a case and of our and the paper's cubic element, integrated."""
-
-    def panel(fits: Fits) -> Panel:
-        record, found = fits.record(case), fits.fit(case)
-        theirs = fits.integrated(fits.theirs(table, case), case)
-        lines = [
-            Line(record.t, record.approach, "full film", BLUE),
-            Line(theirs.T, theirs.approach, "paper's cubic", **THEIRS),
-        ]
-        if found is not None:
-            ours = fits.integrated(found.element, case)
-            lines.append(_dots(ours.T, ours.approach, "our cubic"))
-        return Panel(lines, TIMES, APPROACH)
-
-    return panel
+    record, found = fits.record(case), fits.fit(case)
+    theirs = fits.integrated(fits.theirs(table, case), case)
+    lines = [
+        Line(record.t, record.approach, "full film", BLUE),
+        Line(theirs.T, theirs.approach, "paper's cubic", **THEIRS),
+    ]
+    if found is not None:
+        ours = fits.integrated(found.element, case)
+        lines.append(_dots(ours.T, ours.approach, "our cubic"))
+    return Panel(lines, TIMES, APPROACH)
 
 
-def of_cases(panel: Callable[[int, str], Describe], table: int, *cases: str) -> Draw:
-    """The same panel for some cases."""
-    return row(*(panel(table, case) for case in cases), titles=[CASES[case].title for case in cases])
+PANELS: dict[str, Callable[[Fits, int, str], Panel]] = {
+    "force": force,
+    "acceleration": partial(force, acceleration=True),
+    "approach": reduced,
+}
 
 
-def force_and_acceleration(table: int, case: str) -> Draw:
-    """Force, and the acceleration that follows."""
-    return row(force(table, case), force(table, case, acceleration=True), titles=[CASES[case].title] * 2)
-
-
-def force_and_approach(table: int, case: str) -> Draw:
-    """Force, and approach of the elements, integrated."""
-    return row(force(table, case), reduced(table, case), titles=[CASES[case].title] * 2)
+def side_by_side(fits: Fits, table: int, cases: Sequence[str], kinds: Sequence[str]) -> Picture:
+    """Panels of some kinds for some cases."""
+    found = [replace(PANELS[kind](fits, table, case), title=CASES[case].title) for case in cases for kind in kinds]
+    return Picture(found, columns=len(found))
 
 
 def elements_of(
@@ -194,23 +158,19 @@ def cubics_of(fits: Fits, cases: Sequence[str]) -> dict[str, FitResult]:
     return {case: found for case in cases if (found := fits.fit(case)) is not None}
 
 
-def swapped(motion: str, cases: Sequence[str], table: int) -> Draw:
+def swapped(fits: Fits, table: int, motion: str, cases: Sequence[str]) -> Picture:
     """Elements of several cases under the motion of one of them."""
-
-    def draw(fits: Fits) -> Picture:
-        record, panels = fits.record(motion), []
-        for whose, elements in elements_of(fits, cases, table, motion).items():
-            lines = [Line(record.t, record.approach, "full film", GREY, width=3.5)]
-            for (case, element), colour in zip(elements.items(), COLOURS, strict=False):
-                run = fits.integrated(element, motion)
-                lines.append(Line(run.T, run.approach, f"element of case {case}", colour, width=1.1))
-            panels.append(Panel(lines, TIMES, APPROACH, title=f"{whose} elements: {CASES[motion].title}"))
-        every = np.concatenate([np.ravel(line.y) for panel in panels for line in panel.lines])
-        room = 0.05 * float(np.ptp(every))
-        ends = float(every.min()) - room, float(every.max()) + room
-        return Picture([replace(panel, y_ends=ends) for panel in panels], heights=(290.0,))
-
-    return draw
+    record, panels = fits.record(motion), []
+    for whose, elements in elements_of(fits, cases, table, motion).items():
+        lines = [Line(record.t, record.approach, "full film", GREY, width=3.5)]
+        for (case, element), colour in zip(elements.items(), COLOURS, strict=False):
+            run = fits.integrated(element, motion)
+            lines.append(Line(run.T, run.approach, f"element of case {case}", colour, width=1.1))
+        panels.append(Panel(lines, TIMES, APPROACH, title=f"{whose} elements: {CASES[motion].title}"))
+    every = np.concatenate([np.ravel(line.y) for panel in panels for line in panel.lines])
+    room = 0.05 * float(np.ptp(every))
+    ends = float(every.min()) - room, float(every.max()) + room
+    return Picture([replace(panel, y_ends=ends) for panel in panels], heights=(290.0,))
 
 
 def springs(fits: Fits) -> Picture:
