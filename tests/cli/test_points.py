@@ -275,6 +275,30 @@ def test_only_what_changed_is_done_again(run, stub):
     assert stub() == sorted(f"{n}rpm_20N {task}" for n in (3000, 4000, 5000) for task in ("harmonic", "report"))
 
 
+def test_another_study_does_not_replace_results_silently(run, stub, tmp_path, call):
+    """A study from another file is refused; what changed of the same one is told."""
+    assert run(STUDY).err.count("changed") == 0
+    changed = STUDY.replace("3000.0", "4000.0").replace("conformity = 0.52", "conformity = 0.53")
+    found = run(changed)
+    entries = "operation.speed_rpm, support.conformity"
+    assert found.code == 0 and f"changed since the last run in {run.folder}: {entries}\n" in found.err
+    assert f"changed   {entries}\n" in (run.folder / "run.log").read_text()
+    assert "changed" not in run(changed).err
+    other = tmp_path / "b" / "mine.toml"
+    other.parent.mkdir()
+    other.write_text(changed)
+    assert call("run", other, "-o", run.folder).code == 0  # a copy
+    (tmp_path / "mine.toml").write_text(STUDY)
+    refusal = call("run", tmp_path / "mine.toml", "-o", run.folder)
+    assert refusal.code == 2 and f"results of another study, of {other}; or with --force" in refusal.err
+    assert (run.folder / "study.toml").read_text() == changed
+    assert run(STUDY, "--force").code == 0 and (run.folder / "study.toml").read_text() == STUDY
+    other.write_text(changed)
+    (tmp_path / "mine.toml").unlink()  # moved
+    found = call("run", other, "-o", run.folder)
+    assert found.code == 0 and "changed since" in found.err
+
+
 def test_what_only_the_report_shows_solves_nothing(run, stub):
     run(STUDY)
     stub()

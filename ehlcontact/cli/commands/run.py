@@ -11,7 +11,16 @@ import typer
 
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.cli import options as o
-from ehlcontact.cli.output import FAILED, STDOUT, USAGE, complain, prepare_folder, say, show_columns, write_json
+from ehlcontact.cli.output import (
+    FAILED,
+    STDOUT,
+    USAGE,
+    complain,
+    prepare_folder,
+    say,
+    show_columns,
+    write_json,
+)
 from ehlcontact.errors import InputError
 from ehlcontact.files import remove_leftovers, write_text
 from ehlcontact.point import moes_point
@@ -33,13 +42,19 @@ def run(
     scheduler: Annotated[
         str | None, typer.Option("--scheduler", metavar="ADDRESS", help="Solve the stages on this Dask cluster.")
     ] = None,
+    force: Annotated[
+        bool,
+        typer.Option("--force", help="Replace the results of another study, from another file, in the folder."),
+    ] = False,
 ) -> None:
     """Do a whole study: steady film, transients, elements, FMUs, rotor, report.
 
-    With lists of speeds or loads at every point of them, and a report over all. Run it again to resume: what is
-    finished in the folder and belongs to the same study is kept, and after a change only what changed is done.
+    With lists of speeds, loads or other values at every point of them, and a report over all. Run it again to
+    resume: what is finished in the folder and belongs to the same study is kept, and after a change only what
+    changed is done.
     """
-    from ehlcontact.cli.study.points.lists import load_points, write_studies
+    from ehlcontact.cli.study.points.lists import load_points
+    from ehlcontact.cli.study.points.origin import require_own, write_studies
 
     study_file, folder = options.study_file, options.folder
     points = load_points(study_file, folder)
@@ -47,6 +62,7 @@ def run(
     for point in points:
         _require_room(point.study, study_file)
     out.check(study_file)
+    changed = require_own(study_file, folder, force=force)
     if scheduler is not None:
         from ehlcontact.executors import require_scheduler
 
@@ -59,6 +75,9 @@ def run(
     with locked(folder):
         write_studies(points, study_file, folder)
         log = Log(folder / LOG)
+        if changed:
+            complain(f"the study changed since the last run in {folder}: {changed}")
+            log.line("changed", changed)
         share = Share(options.side_by_side, threads, scheduler)
         done, seconds = _compute(points, folder, share, log)
         _tell(points, folder, done, seconds, out.json_to)

@@ -4,6 +4,7 @@
 module         responsibility
 ============== ======================================================================================
 ``lists``      points of a study file, each a study of its own with a folder of its own
+``origin``     study files in the folder: whose results these are, and what changed since
 ``finalise``   elements, FMUs, rotors, results and report from the stages of a point
 ``kept``       what is computed, in one store by content
 ``folder``     of a run: its lock, and ``run.log``

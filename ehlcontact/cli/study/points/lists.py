@@ -17,16 +17,15 @@ from typing import Any, NamedTuple, get_args, get_origin
 from ehlcontact.cli.entries import is_several, quantity_of, section_of
 from ehlcontact.cli.study.schema import Study, study_of
 from ehlcontact.cli.study.schema_errors import entry_name
-from ehlcontact.cli.toml import read_toml, toml_of
+from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
-from ehlcontact.files import read_text, write_text
 
 UNITS = "mm", "um", "deg", "rpm", "mrad"  # at the end of names of entries
 USUAL = {"operation.speed_rpm": "rpm", "operation.radial_load": "N"}  # entries that every point is named by
 MOST = 100  # points: at some minutes each what a night has room for
 SAME = 1e-6  # share by which two numbers of a list differ at least: they name folders and rows of tables
 TITLE = Study.model_fields["title"].default
-STUDY_FILE, POINTS = "study.toml", "points"
+STUDY_FILE, POINTS = "study.toml", "points"  # in the folder of the results
 
 
 class Chosen(NamedTuple):
@@ -256,15 +255,3 @@ def short_text(value: float) -> str:
     """Shortest text of a number that gives all its digits."""
     text = f"{value:g}"
     return text if float(text) == value else repr(value)
-
-
-def write_studies(points: tuple[Point, ...], path: Path, folder: Path) -> None:
-    """Copy the study file to the folder of its results, and write the study of each of several points."""
-    copy = folder / STUDY_FILE
-    if not copy.exists() or not copy.samefile(path):
-        write_text(copy, read_text(path), "file")
-    for point in points:
-        if point.of_several:
-            point.folder.mkdir(parents=True, exist_ok=True)
-            entries = point.study.model_dump(exclude_unset=True, exclude_none=True)
-            write_text(point.study_file, f"# One point of {path.name}\n{toml_of(entries)}", "file")
