@@ -46,18 +46,20 @@ from reduced_models.bearing import (
 )
 from reduced_models.bearing.catalogue import DEEP_GROOVE, ROWS, Row
 from reduced_models.bearing.clearance import CLASSES, clearance_of_class
+from reduced_models.bearing.printed_ratings import RATINGS
 from reduced_models.bearing.sliding import USUAL_LAW
 from reduced_models.core import CSRC
 from reduced_models.elements import film_curve, film_response
-from reduced_models.life import load_ratings
+from reduced_models.life import bearing_life, life_modification, load_ratings
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
 from reduced_models.rotor.support_state import ABOVE_MEASURED, RELY_ON_SKF
 
 # In the order in which they are joined: each stands on those before it; the last two are about the page itself.
 SCRIPTS = (
-    "numbers", "core", "hertz", "oil", "atlas", "race", "designation", "bearing", "assumptions", "plot", "page",
+    "numbers", "core", "hertz", "oil", "atlas", "race", "designation", "bearing", "life", "assumptions", "plot",
+    "page",
 )  # fmt: skip
-COMPUTING = SCRIPTS[:9]
+COMPUTING = SCRIPTS[:10]
 GLUE = "bearing.c"  # functions of the page on the C core
 UNITS = {"ball_diameter": "mm", "pitch_diameter": "mm", "eta0": "mPa s", "alpha": "1/GPa"}  # others as in Python
 # Numbers of the library's own rules, by the modules that have them
@@ -75,6 +77,9 @@ RULES: Mapping[Any, tuple[str, ...]] = {
     judge: ("CONDUCTIVITY",),
     film: ("LEAST_HEATING_FACTOR", "EYRING_STRESS", "LARGEST_STRESS"),
     oil: ("TYPICAL_SLOPE", "TYPICAL_DENSITY", "LEAST_SLOPE"),
+    load_ratings: ("MATERIAL", "RATING_CONSTANT", "REDUCTION", "RATED_GROOVE", "LARGE_BALL", "LARGE_FACTOR"),
+    bearing_life: ("TURNING", "STANDING", "RACE_POWER", "SLOPE", "PER_HOUR"),
+    life_modification: ("SLOW", "FILM_POWER"),
 }
 OF_INPUTS = ("ball_diameter", "pitch_diameter", "conformity", "speed_rpm", "eta0", "alpha")
 
@@ -112,7 +117,10 @@ def page_data() -> dict[str, Any]:
         "version": __version__,
         "atlas": _atlas(shipped("film")),
         "oil": _oils(),
-        "catalogue": {name: row._asdict() | {"classes": _classes(row)} for name, row in ROWS.items()},
+        "catalogue": {
+            name: row._asdict() | {"classes": _classes(row), "ratings": RATINGS.get(name)}
+            for name, row in ROWS.items()
+        },
         "classes": CLASSES,
         "designations": _designations(),
         "quantities": {name: _quantity(_in_units(name)) for name in OF_INPUTS},

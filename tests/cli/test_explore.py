@@ -16,6 +16,7 @@ from reduced_models.bearing.catalogue import DEEP_GROOVE, ROWS
 from reduced_models.bearing.designation import designation, kind_of
 from reduced_models.bearing.sliding import USUAL_LAW, friction_at
 from reduced_models.elements.film_response import FilterRates
+from reduced_models.life.life_modification import film_ratio
 
 CLOSE = 1e-6  # of every number: what the issue asks for
 NUMBERS = ("approach", "h_central", "h_min", "separation", "moment", "stiffness", "damping")
@@ -126,6 +127,7 @@ return { q: there.q, stiffness: there.stiffness, heaviest: there.heaviest,
   pressure: films(film => film.pressure),
   highest: bearing.highestSpeed, orders: bearing.withSlip(there.orders, asked.slip), torque: there.torque,
   outside: outsideAssumptions(there), beyond: beyondData(there), friction: there.frictionNote,
+  life: ratingLife(there, 1e-7),
   both: there.coefficients(asked.hz.map(hz => 2 * Math.PI * hz)) };
 """
 
@@ -205,6 +207,14 @@ def require_equal(here, there, asked):
     skf = here["torque"].pop("skf")
     assert skf == (None if state.skf_torque is None else pytest.approx(state.skf_torque, rel=CLOSE))
     assert here["torque"] == pytest.approx(torque, rel=CLOSE)
+    life = state.life()
+    ratio = state.h_min[state.heaviest].min() / 1e-7
+    found = {
+        "rating": life.ratings.dynamic, "turns": life.l10r, "hours": life.l10rh, "kappa": life.viscosity_ratio,
+        "film": film_ratio(ratio), "safety": life.pressure_safety,
+    }  # fmt: skip
+    assert here["life"].pop("printed") == ("NSK" in life.ratings.dynamic_source)
+    assert here["life"] == pytest.approx(found, rel=10.0 * CLOSE)
     beyond = f"Beyond the data: {state.reservation}." if state.reservation else ""
     assert (here["outside"], here["beyond"]) == (state.outside_assumptions, beyond)
     assert here["friction"] == state.friction_note

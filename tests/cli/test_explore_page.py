@@ -117,12 +117,14 @@ def test_what_it_shows_is_what_python_answers(seen):
     hertz = inner.point(mine.force[0, 0], 1.0).moes.p_hertz * 1e-9
     K, C = np.diagonal(at.stiffness[0]) * 1e-6, np.diagonal(at.damping[0])
     skf, hz = 1e3 * mine.skf_torque, asdict(mine.orders.at(15000.0))
+    life = mine.life()
     degrees = np.degrees(np.abs(mine.contact_angles[mine.heaviest]))
     told = [
         [mine.h_min.min() * 1e6, mine.lambda_ratio.min(), 0.0],
         [mine.force.max(axis=0)[0], hertz, mine.loaded, 9, *degrees],
         [250.0, K[1], C[1], K[0], C[0], K[2], C[2]],
         [skf, 1e-3 * skf * 500.0 * np.pi, 1e3 * friction.rolling, 1e3 * friction.sliding],
+        [life.l10rh, 90.0, life.l10r, life.viscosity_ratio, 1.0, life.film_ratio, life.pressure_safety, 19.5],
         [hz["bpfo"], hz["bpfi"], hz["ftf"], hz["bsf"]],
     ]
     for values, tile in zip(told, found["tiles"], strict=True):

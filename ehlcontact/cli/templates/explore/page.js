@@ -111,13 +111,13 @@ function compute() {
   const hz = field("hz").value.trim() === "" ? rpm / 60 : positive("hz", ">= 0");
   if (hz > highest) throw new InputError("hz", hz, `at most ${g(highest, 4)}: there the atlas ends for the film's memory`);
   const low = Math.min(1, rpm / 600), hzs = Array.from({ length: FREQUENCIES }, (_, i) => low * (highest / low) ** (i / (FREQUENCIES - 1)));
-  const balls = there.balls, torque = there.torque, orders = whole.withSlip(there.orders, slip);
+  const balls = there.balls, torque = there.torque, life = ratingLife(there, rq), orders = whole.withSlip(there.orders, slip);
   const outside = [outsideAssumptions(there), beyondData(there), sentence(there.frictionNote)].filter(Boolean).join(" ");
   const rows = there.coefficients([0, hz, ...hzs].map(one => 2 * Math.PI * one));
   const contacts = films.map(film => film.answer && contact(film)), ways = Object.keys(WAYS).filter(way => WAYS[way] < rows[0].stiffness.length);
   const worst = balls.flatMap((_, k) => RACES.map((_, i) => [k, i]))
     .reduce((best, next) => (there.films[next[0]][next[1]].h_min < there.films[best[0]][best[1]].h_min ? next : best));
-  return { whole, there, balls, heaviest, worst, films, outside, orders, torque, axial, slip, rpm, load, rq, ratio, hz, hzs, contacts, ways,
+  return { whole, there, balls, heaviest, worst, films, outside, orders, torque, life, axial, slip, rpm, load, rq, ratio, hz, hzs, contacts, ways,
     still: rows[0], at: rows[1], over: rows.slice(2) };
 }
 
@@ -185,6 +185,8 @@ function tiles(f) {
       `${pressed} of ${f.balls.length} balls are pressed by both rings${angles}`],
     [`K and C at ${show(f.hz, 4)} Hz`, `${K[0]} N/µm, ${C[0]} N s/m`, `${IN_WORDS.along}; ${others}`],
     ["Friction torque", `${show(torque * 1e3)} N mm, ${show(torque * f.rpm * Math.PI / 30)} W`, `${parts}; without seals`],
+    ["Rating life", `${show(f.life.hours)} h`, `basic, 90 %: ${show(f.life.turns)} million turns; viscosity ratio ${show(f.life.kappa)} by nu/nu1, `
+      + `${show(f.life.film)} by the film; static safety ${show(f.life.safety)}; C ${show(f.life.rating * 1e-3)} kN ${f.life.printed ? "as NSK prints it" : "from the geometry"}`],
     ["Defect frequencies", `BPFO ${hz("BPFO")} Hz, BPFI ${hz("BPFI")} Hz`,
       `FTF ${hz("FTF")}, BSF ${hz("BSF")} Hz`],
   ];
