@@ -6,6 +6,7 @@ module            responsibility
 ``point``         inputs (`MoesPoint`, `OperatingPoint`, `Geometry`) and all conventions
 ``lubricant/``    `Lubricant`, from its numbers or its grade; the laws of viscosity, density and traction
 ``hertz``         dry elliptic contact
+``capacitance``   capacitance of gaps with oil: of dry contacts that a film separates, of spheres
 ``dry_contact``   `ElasticContact`: dry contact over heights along its track
 ``film_formulas``  published film and approach formulas: grids are chosen from them, results compared with them
 ``solver/``       film at one instant: mesh, equations, multigrid, Newton

@@ -6,6 +6,7 @@ module                responsibility
 ``steady_result``     `SteadyResult`: the film at rest
 ``film_temperature``  `FilmTemperature`: temperatures of a heated film
 ``asperity_contact``  `AsperityContact`: load share of asperities beside a film
+``capacitance``       `FilmCapacitance`: capacitance and field strength of a film
 ``response``          `Response`: force over frequency by small changes of a contact or a bearing
 ``traction``          `Traction`: traction of a film over the slide-to-roll ratio
 ``table``             `PointTable`, `QuantityTable`: units, dictionary, tables and figure of quantities

@@ -11,11 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions.judge import judged
+from ehlcontact.capacitance import OIL
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin
 from ehlcontact.quantities import ACROSS, ALONG, FORCE, LENGTH, MOMENT, NUMBER, PRESSURE
 from ehlcontact.results.asperity_contact import AsperityContact
+from ehlcontact.results.capacitance import FilmCapacitance, capacitance_of
 from ehlcontact.results.contact_map import ContactView, contact_panels, fields, maps_note
 from ehlcontact.results.film_temperature import FilmTemperature
 from ehlcontact.results.picture import Picture
@@ -210,6 +212,28 @@ class SteadyResult(PointTable, Origin):
             or at a dimensionless point.
         """
         return traction_of(self, slide_roll, law)
+
+    def capacitance(
+        self, permittivity: float = OIL, *, surroundings: float | None = None, reach: float | None = None
+    ) -> FilmCapacitance:
+        """Capacitance between the bodies across this film and its surroundings (docs/capacitance.md).
+
+        Parameters
+        ----------
+        permittivity : float
+            Of the oil, relative: 2.0 to 2.5 of mineral and hydrocarbon oils.
+        surroundings : float, optional
+            Of what fills the gap beyond the region that was solved: 1 for air; the oil by default. Behind the
+            contact the oil that left it stands in layers on both surfaces.
+        reach : float, optional
+            Radius [m] up to which the bodies face each other; by default the smaller radius of relative curvature.
+
+        Raises
+        ------
+        InputError
+            A permittivity below 1; a film that has not converged, or at a dimensionless point.
+        """
+        return capacitance_of(self, permittivity, surroundings, reach)
 
     @property
     def supply_behind(self) -> OilLayer:

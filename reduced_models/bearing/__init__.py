@@ -46,6 +46,7 @@
 | fed_layer | `FedLayer`: the layer that a feed keeps; what a contact takes off a layer |
 | oil_feedback | layers that follow the passes of the balls before, in K and C of a bearing with a held feed |
 | ross_bearing | export to ROSS: bearings as elements of a ROSS rotor |
+| capacitance | `BearingCapacitance`: films as capacitors, voltage across them, films from a measurement |
 | sliding | `bearing_friction`: sliding moment of the contacts by a traction law |
 | table_bars | error bars of films, K and C under these conditions, from the tables of the atlas |
 | oil_and_heat | a bearing with heat and with a layer of oil, beside flooded isothermal films |

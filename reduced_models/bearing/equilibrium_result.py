@@ -9,12 +9,19 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.capacitance import OIL
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import FORCE, LENGTH, MOMENT, NUMBER, RADIAN, SPEED, STIFFNESS, Quantity
 from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import note_line
+from reduced_models.bearing.capacitance import (
+    BearingCapacitance,
+    MeasuredFilm,
+    capacitance_of,
+    film_from_capacitance,
+)
 from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words, place_words
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S, DefectOrders
 from reduced_models.bearing.picture import state_picture
@@ -289,6 +296,41 @@ class BearingState(QuantityTable):
             float(np.hypot(*tilts)) if tilts.size else 0.0,
         )
         return life_of_bearing(self.internals, loads, **options)
+
+    def capacitance(self, permittivity: float = OIL, *, surroundings: float | None = None) -> BearingCapacitance:
+        """Capacitance between the rings across the films of all balls (docs/capacitance.md).
+
+        Parameters
+        ----------
+        permittivity : float
+            Of the oil, relative: 2.0 to 2.5 of mineral and hydrocarbon oils.
+        surroundings : float, optional
+            Of what fills the gaps around the contacts: 1 for air; the oil by default.
+
+        Raises
+        ------
+        InputError
+            A permittivity below 1; a dry bearing, whose rings touch.
+        """
+        return capacitance_of(self, permittivity, surroundings)
+
+    def film_from_capacitance(self, capacitance: float, **options: float) -> MeasuredFilm:
+        """Films by a measured capacitance: one factor on all films of this state.
+
+        Parameters
+        ----------
+        capacitance : float
+            Of the bearing, less that of cables and housing [F].
+        **options
+            ``error`` of the capacitance [F]; ``permittivity`` (2.2), ``permittivity_error`` (0.1), and
+            ``law_error``, of the capacitance of a film (0.06): together they make the interval.
+
+        Raises
+        ------
+        InputError
+            No capacitance of films 30 times thicker or thinner; picofarad in place of farad.
+        """
+        return film_from_capacitance(self, capacitance, **options)
 
     def picture(self) -> Picture:
         """Load zone and films, and with contact angles these and the spin."""

@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.capacitance import OIL
 from ehlcontact.quantities import FORCE, LENGTH, SPEED, STIFFNESS, Quantity
 from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
@@ -114,6 +115,10 @@ class SetState(QuantityTable):
         """Rating life of each bearing and of all together; options and errors as of `BearingState.life`."""
         names = tuple(f"bearing {k}" for k in range(len(self.bearings)))
         return SystemLife(lives=tuple(one.life(**options) for one in self.bearings), names=names)
+
+    def capacitance(self, permittivity: float = OIL, *, surroundings: float | None = None) -> float:
+        """Capacitance between shaft and housing [F]: that of all bearings, as of `BearingState.capacitance`."""
+        return sum(one.capacitance(permittivity, surroundings=surroundings).total for one in self.bearings)
 
     def picture(self) -> Picture:
         """Load zones and contact angles, bearing by bearing."""

@@ -10,6 +10,7 @@
 | parts | `Shaft`, `Disc`, `Support`: what a rotor on bearings is made of |
 | beam | rotating shaft element: its matrices |
 | bearing_matrices | `bearing_matrices`: stiffness and damping about any point, for other programs |
+| capacitance_run | capacitance of a ball bearing over a run of its rotor |
 | matrix_text | these as input of other programs, with frame, units and signs |
 | bearing_set | `BearingSet`: pairs and other sets of ball bearings on one rigid shaft, their preload and growth |
 | assembly | `rotor_on_bearings`: such a rotor by its parts |

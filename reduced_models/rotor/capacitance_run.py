@@ -1,0 +1,111 @@
+"""`capacitance_of_run`: capacitance of a ball bearing over a run of its rotor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.capacitance import OIL, require_permittivity
+from ehlcontact.checks import require_instance, require_integer
+from ehlcontact.errors import InputError
+from ehlcontact.quantities import LENGTH, TIME
+from ehlcontact.results.table import Display, QuantityTable
+from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.capacitance import FARAD, capacitance_of
+from reduced_models.bearing.freedoms import PLANAR
+from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.bearing.ring import equilibrium_at
+from reduced_models.bearing.ring_statics import state_of, static_ring
+from reduced_models.rotor.result import RotorResult
+from reduced_models.rotor.rotor import Rotor
+
+_Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CapacitanceHistory(QuantityTable):
+    """Capacitance of a bearing over time; SI.
+
+    Attributes
+    ----------
+    t : ndarray, shape (k,)
+        Times [s].
+    capacitance : ndarray, shape (k,)
+        Between the rings [F].
+    h_min : ndarray, shape (k,)
+        Smallest film or gap of all contacts [m].
+    """
+
+    t: Annotated[_Floats, TIME.over("t")]
+    capacitance: Annotated[_Floats, FARAD.over("t")]
+    h_min: Annotated[_Floats, LENGTH.over("t")]
+
+    DISPLAY: ClassVar[Display] = Display(rows="t", panels=("capacitance", "h_min"))
+
+    def _summary_lines(self) -> list[str]:
+        pico = 1e12 * self.capacitance
+        return [
+            f"{self.t.size} times from {self.t[0]:.4g} to {self.t[-1]:.4g} s",
+            f"{pico.min():.4g} to {pico.max():.4g} pF, mean {pico.mean():.4g} pF",
+            f"smallest film {1e6 * self.h_min.min():.4g} µm",
+        ]
+
+
+def capacitance_of_run(
+    rotor: Rotor, run: RotorResult, bearing: int = 0, permittivity: float = OIL, *, every: int = 1
+) -> CapacitanceHistory:
+    """Capacitance of a ball bearing where its ring was at each time of a run.
+
+    Balls are in equilibrium with the ring where it is, under their centrifugal forces; films are those of these
+    loads and of the speed, without their memory: they follow a ball through the load zone within a few per cent.
+
+    Parameters
+    ----------
+    rotor : Rotor
+        That ran.
+    run : RotorResult
+    bearing : int
+        Which of the rotor's bearings, counted from 0.
+    permittivity : float
+        Of the oil.
+    every : int
+        Every so many steps alone.
+
+    Raises
+    ------
+    InputError
+        No ball bearing with oil; a shaft that stands still; a run of another rotor.
+    """
+    require_instance("rotor", rotor, Rotor, "a Rotor")
+    require_instance("run", run, RotorResult, "a result of simulate_rotor")
+    e = require_permittivity("permittivity", permittivity)
+    step = require_integer("every", every, "a whole number >= 1", 1)
+    mounts = rotor.bearings
+    if not 0 <= require_integer("bearing", bearing, "a bearing of the rotor, from 0", 0) < len(mounts):
+        raise InputError("bearing", bearing, f"below {len(mounts)}, the number of bearings of the rotor")
+    mount = mounts[bearing]
+    own = mount.bearing
+    if not isinstance(own, BallBearing) or own.oil is None:
+        raise InputError("bearing", bearing, "a ball bearing with oil: without films its rings touch")
+    if not run.speed_rpm.min() > 0.0:
+        raise InputError(
+            "run", "a shaft that stands still", "one of a shaft that turns: a bearing at rest has no film"
+        )
+    first = len(rotor.contacts) + sum(len(one.directions) for one in mounts[:bearing])
+    size = len(mount.directions)
+    if run.approach.shape[1] < first + size:
+        raise InputError("run", f"{run.approach.shape[1]} columns", "a run of this rotor")
+    cage = own.orders.ftf_order * RPM_TO_RAD_S * run.speed_rpm
+    turned = np.concatenate([[0.0], np.cumsum(0.5 * (cage[1:] + cage[:-1]) * np.diff(run.t))])
+    capacitance, least = [], []
+    for k in range(0, run.t.size, step):
+        speed, angle = float(run.speed_rpm[k]), float(mount.cage_angle + turned[k])
+        ring = static_ring(own, speed, angle, size if size > len(PLANAR) else len(PLANAR))
+        at = equilibrium_at(ring, run.approach[k, first : first + size])
+        found = capacitance_of(state_of(own, at, speed, angle), e)
+        capacitance.append(found.total)
+        least.append(found.h_min.min())
+    return CapacitanceHistory(t=run.t[::step], capacitance=np.array(capacitance), h_min=np.array(least))
