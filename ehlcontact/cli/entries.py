@@ -210,6 +210,7 @@ BearingLayerRatio = Annotated[  # as tables of oil supply have it: THINNEST of `
 ]
 Intervals = Annotated[Whole, Field(ge=16, le=2048, multiple_of=16)]
 Frequency = Annotated[Finite, Field(ge=SLOWEST, le=FASTEST)]  # dimensionless
+Hertz = Annotated[NotNegative, Field(le=1e9)]  # of a vibration in Hz: films forget in a millionth of a second
 Steps = Annotated[Whole, Field(ge=20, le=2000, description="time steps in each of them")]
 Periods = Annotated[Finite, Field(ge=1.0, le=100.0, description="periods that are computed")]
 

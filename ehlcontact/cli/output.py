@@ -73,6 +73,12 @@ def check_place(folder: Path) -> None:
         A file stands there or above it, or the folder above cannot be written to.
     """
     FOLDER.take("--output", folder, False)
+    try:
+        os.lstat(folder)
+    except (FileNotFoundError, NotADirectoryError):
+        pass
+    except OSError as error:
+        raise InputError("--output", str(folder), f"a folder that can be made ({error.strerror})") from None
     above = next(path for path in (folder, *folder.absolute().parents) if os.path.lexists(path))
     if not above.is_dir():
         raise InputError("--output", str(folder), f"a folder that can be made; {above} is a file")

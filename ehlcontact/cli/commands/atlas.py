@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from ehlcontact.checks import require_choice, require_integer
+from ehlcontact.checks import require_choice
 from ehlcontact.checks.kinds import Count
 from ehlcontact.cli import options as o
 from ehlcontact.cli.output import check_apart, complain
@@ -19,6 +19,7 @@ from ehlcontact.process.early_interrupt import INTERRUPTED
 HELP = "Build the tables of solved contacts that elements are taken from."
 group = typer.Typer(no_args_is_help=True, help=HELP)
 
+MOST_PROCESSES = 1024  # of one machine
 MOST_DRAWS = 10_000_000  # of a sample: years of solves
 
 
@@ -77,7 +78,7 @@ def build(
         if value is not None
     }
     count = (os.cpu_count() or 1) if processes is None else processes
-    require_integer("--processes", count, "a whole number > 0", 1)
+    Count(1, MOST_PROCESSES).take("--processes", count, True)
     try:
         with progress(kind.things) as update:
             table = build_table(

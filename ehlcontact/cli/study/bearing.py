@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -131,7 +132,7 @@ def load_job(source: str, entries: Mapping[str, Any]) -> BearingJob:
     InputError
         No such file or name; an unknown, missing or impossible entry or option; a machine. The line names it.
     """
-    is_file = source.lower().endswith(".toml") or Path(source).is_file()
+    is_file = source.lower().endswith(".toml") or os.path.isfile(source)  # of a name of any length
     document: dict[str, Any] = {"support": [{"bearing": source}], "operation": {}}
     if is_file:
         document = read_toml(source, "file")

@@ -35,7 +35,7 @@ class Operation(Section):
     ] = None
     tilt_y_mrad: Annotated[e.Tilt | None, e.meaning("tilt about y at which the inner ring is held")] = None
     hz: Annotated[
-        tuple[e.NotNegative, ...] | None,
+        tuple[e.Hertz, ...] | None,
         Field(strict=False, min_length=1, description="frequencies of K and C, Hz; those about the shaft's"),
     ] = None
     layer_um: e.OilThickness | None = None
