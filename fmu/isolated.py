@@ -13,10 +13,12 @@ import os
 import secrets
 import signal
 import tempfile
+import time
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import asdict
+from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -29,6 +31,7 @@ T = TypeVar("T")
 
 LONGEST = 120.0  # s: a rotor takes some seconds
 LARGEST = 2**31  # bytes that the child may take beside what it starts with: an FMU of ours takes some MB
+LONGEST_PAUSE = 0.05  # s, between looks at the child
 ANSWER = "answer.json"
 
 
@@ -62,12 +65,9 @@ def isolated(work: Callable[[Path], T], path: Path, read: Callable[[dict[str, An
             warnings.simplefilter("ignore", DeprecationWarning)
             child.start()
         try:
-            child.join(LONGEST)
-            code = child.exitcode
+            code = _wait(child)
         finally:
-            if child.is_alive():
-                child.kill()
-            child.join()
+            _end(child)
         answer = _read_answer(Path(folder, ANSWER), nonce)
     if code is None or answer is None:
         raise InputError("path", str(path), f"an FMU whose library runs to the end ({_ended(code)})")
@@ -76,6 +76,26 @@ def isolated(work: Callable[[Path], T], path: Path, read: Callable[[dict[str, An
     if "error" in answer:
         raise RuntimeError(answer["error"])
     return read(answer["found"])
+
+
+def _wait(child: Any) -> int | None:
+    """Exit code of the child; None where it runs longer. Processes it left behind are not waited for."""
+    until = time.monotonic() + LONGEST
+    while child.exitcode is None and time.monotonic() < until:
+        # its end closes the sentinel, unless such a process has it too: then this is a pause
+        wait([child.sentinel], timeout=LONGEST_PAUSE)
+    return child.exitcode
+
+
+def _end(child: Any) -> None:
+    """End the child and what it left behind, as far as this is in its group."""
+    for end in (child.kill, lambda: os.killpg(child.pid, signal.SIGKILL)):
+        with suppress(OSError):  # ended
+            end()
+    while child.exitcode is None:
+        wait([child.sentinel], timeout=LONGEST_PAUSE)
+    with suppress(OSError):  # of a process that began meanwhile
+        os.killpg(child.pid, signal.SIGKILL)
 
 
 def _read_answer(file: Path, nonce: str) -> dict[str, Any] | None:
@@ -106,6 +126,7 @@ def _ended(code: int | None) -> str:
 def _answer(work: Callable[[Path], Any], path: Path, folder: str, nonce: str) -> None:
     """Write what `work` returned or raised to the folder, and end."""
     tempfile.tempdir = folder
+    os.setpgid(0, 0)  # for what the library leaves behind to be ended too
     faulthandler.disable()  # how it ended is told by the parent
     _limit()
     answer: dict[str, Any]

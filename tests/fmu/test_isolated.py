@@ -1,15 +1,27 @@
 """FMUs whose libraries do what no library should: the process of the caller goes on, and nothing stays behind."""
 
 import importlib
+import os
+import signal
 import subprocess
 import tempfile
+import time
 import zipfile
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 from ehlcontact import InputError
 from fmu import fmu_file, isolated, verify, verify_references
+
+
+@dataclass
+class Verified:
+    """What the work of a child returns."""
+
+    findings: list
+
 
 DEEDS = {
     "exit": ("exit(0);", "ended the process with exit code 0"),
@@ -46,6 +58,60 @@ def rogue(fmus, tmp_path_factory):
             binary = name.startswith("binaries/") and name.endswith(".so")
             bad.writestr(name, (folder / "rogue.so").read_bytes() if binary else good.read(name))
     return folder / "rogue.fmu"
+
+
+LEFT = """
+__attribute__((constructor)) static void leave(void)
+{
+    const char *own = getenv("LEFT");
+    if (own != NULL && fork() == 0) {
+        if (!strcmp(own, "session")) setsid();
+        FILE *f = fopen(getenv("LEFT_PID"), "w");
+        fprintf(f, "%d", (int)getpid());
+        fclose(f);
+        sleep(600);
+        _exit(0);
+    }
+}
+"""
+
+
+def runs(pid):
+    """Whether a process is there, and has not ended."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="no /proc")
+@pytest.mark.parametrize("own", ["group", "session"])
+def test_a_process_that_is_left_behind(fmus, tmp_path, monkeypatch, own):
+    """It holds all files of the child open. Nobody waits for it, and in the group of the child it is ended."""
+    (tmp_path / "left.c").write_text(CODE.split("__attribute__")[0] + LEFT)
+    command = ["cc", "-shared", "-fPIC", "-w", "-o", str(tmp_path / "left.so"), str(tmp_path / "left.c")]
+    subprocess.run(command, check=True)
+    pid = tmp_path / "pid"
+    monkeypatch.setenv("LEFT", own)
+    monkeypatch.setenv("LEFT_PID", str(pid))
+
+    def work(path):
+        import ctypes
+
+        ctypes.CDLL(str(tmp_path / "left.so"))
+        while not (pid.exists() and pid.read_text()):
+            time.sleep(0.01)
+        return Verified(findings=[])
+
+    isolated.isolated(work, fmus["cubic"], lambda found: found)
+    left = int(pid.read_text())
+    if own == "session":  # it sleeps for minutes, and was not waited for
+        assert runs(left)
+        os.kill(left, signal.SIGKILL)
+    for _ in range(1000):
+        if runs(left):
+            time.sleep(0.01)
+    assert not runs(left)
 
 
 @pytest.fixture(autouse=True)
