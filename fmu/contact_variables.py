@@ -91,6 +91,7 @@ class ContactVariables(VariableList):
             "BOX_LEAST_FORCE": c_double(least),
             "BOX_MOST_FORCE": c_double(most),
             "DEFAULT_TOLERANCE": c_double(ALLOWED_ERROR),
+            "FORCE_SIGN": "(-1.0)",  # against the approach
             **CONTACT.macros,
         }
 

@@ -27,12 +27,12 @@ class FmiFiles:
     licence: str | None  # of those that go into the FMU
 
 
-_SHARED = ("instance.c", "values.c", "exchange.c")  # of the core: what both versions do alike
+_SHARED = ("instance.c", "master.c", "values.c", "exchange.c")  # of the core: what both versions do alike
 
 FMI_FILES = {
     2: FmiFiles(
         sources=("fmi2.c", "fmi2_values.c", "fmi2_state.c", "fmi2_cosimulation.c", "fmi2_exchange.c", *_SHARED),
-        headers=("fmi2_instance.h", "instance.h"),
+        headers=("fmi2_instance.h", "instance.h", "master.h"),
         standard=("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h"),
         licence="fmi2-headers.txt",
     ),
@@ -41,7 +41,7 @@ FMI_FILES = {
             "fmi3.c", "fmi3_values.c", "fmi3_state.c", "fmi3_cosimulation.c", "fmi3_exchange.c",
             "fmi3_unsupported.c", *_SHARED,
         ),
-        headers=("fmi3_instance.h", "instance.h"),
+        headers=("fmi3_instance.h", "instance.h", "master.h"),
         standard=("fmi3FunctionTypes.h", "fmi3Functions.h", "fmi3PlatformTypes.h"),
         licence=None,
     ),

@@ -93,7 +93,7 @@ def bearing_data(seats: Sequence[Seat], places: Sequence[SeatPlaces], constant_f
 
 
 def bearing_macros(seats: Sequence[Seat], states: Sequence[int], size: int, first_force: int) -> dict[str, str]:
-    """Counts of config.h: `size` displacements are given; `states` are the numbers of those of each bearing."""
+    """Macros of config.h: `size` displacements are given; `states` are the numbers of those of each bearing."""
     counts = {
         "N_DIRECTIONS": size,
         "BEARINGS": len(seats),
@@ -103,7 +103,7 @@ def bearing_macros(seats: Sequence[Seat], states: Sequence[int], size: int, firs
         "N_WORK": max(work_size(seat.model) for seat in seats),
         "FIRST_FORCE": first_force,
     }
-    return {name: str(count) for name, count in counts.items()}
+    return {name: str(count) for name, count in counts.items()} | {"FORCE_SIGN": "1.0"}  # on the ring
 
 
 def bearing_table(model: BearingModel, name: str = "bearing") -> str:

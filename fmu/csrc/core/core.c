@@ -99,10 +99,15 @@ static Fault tuned(Model *model)
 /* Outputs that do not exist are no error of the call: other inputs or parameters can help. */
 Fault core_outputs(State *s)
 {
-    double before[N_INPUTS];
+    double before[N_INPUTS], force[N_INPUTS];
+    const int early = s->phase == STEPPING && (s->stale & STALE_INPUTS) != 0;
     Fault fault;
+    int k;
     if ((s->stale & (STALE_LAW | STALE_OUTPUTS)) == 0) {
         return fine;
+    }
+    for (k = 0; k < N_INPUTS; k++) {
+        force[k] = force_on[k] < 0 ? 0.0 : s->model.value[force_on[k]];
     }
     memcpy(before, s->model.input, sizeof before);
     if ((s->stale & STALE_INPUTS) != 0) {
@@ -114,6 +119,9 @@ Fault core_outputs(State *s)
     }
     if (fault.severity == FINE) {
         s->stale &= ~(STALE_LAW | STALE_INPUTS | STALE_OUTPUTS | (N_STATES == 0 ? STALE_RATES : 0));
+        for (k = 0; early && k < N_INPUTS; k++) {
+            s->read_early |= force_on[k] >= 0 && s->model.value[force_on[k]] != force[k];
+        }
     } else {
         memcpy(s->model.input, before, sizeof before);
         fault.severity = DISCARD;

@@ -38,9 +38,19 @@ static inline Fault refuse(const char *reason)
     return fault(REFUSE, reason);
 }
 
+static inline int count_bits(unsigned long long bits)
+{
+    int n = 0;
+    for (; bits != 0; bits &= bits - 1) {
+        n++;
+    }
+    return n;
+}
+
 static const char *const not_finite[N_INPUTS] = INPUTS_NOT_FINITE;
 /* NULL of an input without a rate: */
 static const char *const unlike_rate[N_INPUTS] = INPUTS_UNLIKE_RATES;
+static const int force_on[N_INPUTS] = INPUT_FORCES; /* value references; -1: none, or of no rate */
 static const char *const too_far[N_INPUTS] = INPUTS_TOO_FAR;
 
 enum { STALE_LAW = 1, STALE_OUTPUTS = 2, STALE_RATES = 4, STALE_INPUTS = 8 }; /* what must be computed anew */
@@ -59,10 +69,13 @@ typedef struct {
     int has_stop_time, n_given; /* n_given: steps in given, at most 2 */
     double missed[N_INPUTS], moved[N_INPUTS]; /* squares of what was missed of the changes of rates, and of these, in a block */
     double most_moved;                        /* of any rate in any block */
+    double most_change;                       /* of any rate in a step */
+    unsigned long long astray[N_INPUTS];      /* bits: of the last 64 steps, those that missed a rate by far */
     double apart[N_INPUTS], travelled[N_INPUTS]; /* squares of how far slopes of inputs and their rates are apart, and of both */
     double most_travelled, unlike[N_INPUTS]; /* unlike: blocks on end in which an input did not change as its rate */
     int stale, judged, compared, too_long;   /* judged, compared: steps in this block; too_long: blocks on end whose steps were */
-    int told_long, told_unlike;              /* whether that has been logged */
+    int far_astray;                          /* most of 32 steps missed a rate by far */
+    int read_early;                          /* bits: outputs of inputs, without lead, were read after the last step, before it */
 } State;
 
 /* What saving a state keeps of it. */
@@ -115,9 +128,14 @@ Fault core_set_time(State *state, double time);
 Fault core_contact_changed(State *state, int *changed);
 unsigned long long core_contact(const State *state); /* contacts that push, as bits; of an evaluated model */
 
+/* What has been logged of steps: not part of the state, for a master that goes back is not told anew. */
+typedef struct {
+    int too_long, unlike;
+} Told;
+
 /* That steps are too long for the motion, or an input does not change as its rate says: each once, where it was so for some
  * time; NULL else. */
-const char *core_step_warning(State *state);
+const char *core_step_warning(const State *state, Told *told);
 
 /* Bounds of the validity box that have been left since the last call, in words written to `text`; NULL for none. */
 const char *core_warning(State *state, char *text, size_t size);

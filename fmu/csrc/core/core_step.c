@@ -206,22 +206,25 @@ static double motion_of(const State *s, double time, double h, Motion *motion, M
 #ifndef LEAD_OF_INPUTS
 
 /* Where inputs go on beyond what was given: how well they did, in blocks of steps, each rate by itself. Of a vibration w is
- * missed (w h)^2 of the change of its rate; a jump spoils one block, or two. */
+ * missed (w h)^2 of the change of its rate; a jump spoils one block, or two. -1 where too little moves. */
 static int block_is_too_long(State *s)
 {
-    static const double most = 0.02;   /* w h = 0.17 with slower motion beside it: the damping of a contact is 5 % too large */
+    static const double most = 0.03;   /* w h = 0.17: the damping of a contact is 10 % too large where its ratio is 0.002 */
     static const double still = 1e-6;  /* of the nominal rate: no motion */
     static const double small = 0.01;  /* of the largest motion so far: what is left of it, or noise beside it */
-    int k, found = 0;
+    int k, found = 0, judged = 0;
     for (k = 0; k < N_INPUTS; k++) {
         s->most_moved = s->moved[k] > s->most_moved ? s->moved[k] : s->most_moved;
     }
     for (k = 0; k < N_INPUTS; k++) {
         const double moved = s->moved[k], least = small * small * s->most_moved;
-        found |= s->missed[k] > most * most * moved && moved > still * still && moved >= least;
+        if (moved > still * still && moved >= least) {
+            judged = 1;
+            found |= s->missed[k] > most * most * moved;
+        }
         s->missed[k] = s->moved[k] = 0.0;
     }
-    return found;
+    return judged ? found : -1;
 }
 
 enum { BLOCK = 64 };
@@ -266,6 +269,9 @@ static void compare_rates(State *s, double time, double h)
 
 static void judge_step(State *s)
 {
+    enum { ASTRAY_STEPS = 20 };       /* of 32: a jump spoils three */
+    static const double far = 0.1;    /* of the change of a rate: w h = 0.32 */
+    static const double small = 1e-3; /* of the largest change so far */
     int k;
     if (s->n_given < 2 || !core_path_is_known(s)) {
         return;
@@ -275,12 +281,17 @@ static void judge_step(State *s)
             const int rate = rate_of[k];
             const double unit = 1.0 / core_variables[rate].nominal, now = s->model.value[rate];
             const double missed = unit * (now - s->now[rate]), moved = unit * (now - s->given[0][rate]);
+            s->most_change = fabs(moved) > s->most_change ? fabs(moved) : s->most_change;
+            s->astray[k] <<= 1;
+            s->astray[k] |= fabs(missed) > far * fabs(moved) && fabs(moved) > small * s->most_change ? 1ULL : 0ULL;
+            s->far_astray |= count_bits(s->astray[k] & 0xffffffffULL) >= ASTRAY_STEPS;
             s->missed[k] += missed * missed;
             s->moved[k] += moved * moved;
         }
     }
     if (++s->judged == BLOCK) {
-        s->too_long = block_is_too_long(s) ? s->too_long + 1 : 0;
+        const int found = block_is_too_long(s);
+        s->too_long = found > 0 ? s->too_long + 1 : found == 0 ? 0 : s->too_long;
         s->judged = 0;
     }
 }
@@ -376,22 +387,23 @@ Fault core_step(State *s, double time, double h)
         s->turn[k] = motion.input[k].slope;
     }
     s->slopes_set[0] = s->slopes_set[1] = 0;
+    s->read_early = s->read_early << 1 & 2;
     s->stale = N_STATES == 0 ? 0 : STALE_RATES;
     return fine;
 }
 
-const char *core_step_warning(State *s)
+const char *core_step_warning(const State *s, Told *told)
 {
     enum { LONG_BLOCKS = 3, UNLIKE_BLOCKS = 2 };
     int k;
-    for (k = 0; k < N_INPUTS && !s->told_unlike; k++) {
+    for (k = 0; k < N_INPUTS && !told->unlike; k++) {
         if (s->unlike[k] >= (double)UNLIKE_BLOCKS) {
-            s->told_unlike = 1;
+            told->unlike = 1;
             return unlike_rate[k];
         }
     }
-    if (!s->told_long && s->too_long >= LONG_BLOCKS) {
-        s->told_long = 1;
+    if (!told->too_long && (s->too_long >= LONG_BLOCKS || s->far_astray)) {
+        told->too_long = 1;
         return "the communication steps are too long for this motion: the coupling adds to its damping";
     }
     return NULL;

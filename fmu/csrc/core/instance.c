@@ -43,9 +43,14 @@ void warn_if_outside(Instance *instance, const char *function)
 
 void warn_of_step(Instance *instance, const char *function)
 {
-    const char *text = core_step_warning(&instance->state);
-    if (text != NULL) {
-        log_call(instance, WARNED, LOG_WARNING, function, text);
+    char text[200];
+    const char *of_step = core_step_warning(&instance->state, &instance->told);
+    const char *of_master = master_warning(&instance->master, &instance->state, text, sizeof text);
+    if (of_step != NULL) {
+        log_call(instance, WARNED, LOG_WARNING, function, of_step);
+    }
+    if (of_master != NULL) {
+        log_call(instance, WARNED, LOG_WARNING, function, of_master);
     }
     warn_if_outside(instance, function);
 }
@@ -201,6 +206,8 @@ int reset(void *c, const char *function)
         return FAILED;
     }
     core_start(&instance->state, (Kind)instance->state.kind);
+    memset(&instance->master, 0, sizeof instance->master);
+    memset(&instance->told, 0, sizeof instance->told);
     return DONE;
 }
 
@@ -231,6 +238,7 @@ int load_state(void *c, const void *saved, const char *function)
     if (instance == NULL || saved == NULL) {
         return FAILED;
     }
+    master_goes_back(&instance->master);
     return report(instance, core_load(&instance->state, instance->version->token, (const Saved *)saved), function);
 }
 

@@ -3,7 +3,7 @@
 #ifndef INSTANCE_H
 #define INSTANCE_H
 
-#include "core.h"
+#include "master.h"
 
 typedef enum { LOG_ERROR, LOG_DISCARD, LOG_WARNING, LOG_CATEGORIES } LogCategory;
 
@@ -23,6 +23,8 @@ typedef struct {
 /* The first member of the instance of a version. */
 struct Instance {
     State state;
+    Master master;
+    Told told;
     const Version *version;
     int logged[LOG_CATEGORIES];
     int within_step; /* the importer is called from a step: reading is all that it may do */

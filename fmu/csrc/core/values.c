@@ -37,6 +37,7 @@ int get_slopes(Instance *instance, const unsigned int references[], size_t count
                const char *function)
 {
     size_t i;
+    master_is_unclear(&instance->master);
     for (i = 0; i < count; i++) {
         Fault fault;
         if (orders[i] != 1) {

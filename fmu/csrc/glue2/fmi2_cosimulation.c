@@ -32,6 +32,7 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
             return outcome(instance, fault, "fmi2SetRealInputDerivatives");
         }
     }
+    master_is_unclear(&instance->master);
     for (i = 0; i < nvr; i++) {
         core_set_slope(&instance->state, vr[i], order[i], value[i]);
     }
