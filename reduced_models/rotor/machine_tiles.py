@@ -225,14 +225,26 @@ def _friction(machine: Any) -> Tile | None:
     torques = [one.torque for one in supports]
     if None in torques:
         return None
-    by = "SKF's model" if all(one.relies_on_skf for one in supports) else "films and sliding"
+    measured = [one.relies_on_skf for one in supports]
+    by = "SKF's model" if all(measured) else "SKF's model and films" if any(measured) else "films and sliding"
     each = ", ".join(f"{one.label} {digits(one.torque)}" for one in supports) if len(supports) > 1 else ""
     cold = ", ".join(digits(one.film_torque) for one in supports)
     films = f"rolling of the films alone, without heat: {cold} N m"
-    more = not all(one.relies_on_skf for one in supports) and machine.speed_rpm > RELY_ON_SKF
-    doubt = ABOVE_MEASURED if more else ""
+    doubt = ABOVE_MEASURED if not all(measured) and machine.speed_rpm > RELY_ON_SKF else ""
     loss = f"{digits(sum(one.loss for one in supports))} W by {by}"
-    return Tile("friction torque", digits(sum(torques)), "N m", _note(loss, each, films, doubt))
+    note = _note(loss, _other_torque(machine), each, films, doubt)
+    return Tile("friction torque", digits(sum(torques)), "N m", note)
+
+
+def _other_torque(machine: Any) -> str:
+    """The torque on the other side of the speed from which on SKF's model counts, where all bearings have it."""
+    by_films = [one.flooded_torque for one in machine.supports]
+    by_skf = [one.skf_torque for one in machine.supports]
+    if None in by_films or None in by_skf:
+        return ""
+    if machine.speed_rpm > RELY_ON_SKF:
+        return f"films and sliding, which count up to {RELY_ON_SKF:.0f} rev/min: {digits(sum(by_films))} N m"
+    return f"SKF's model, which counts above {RELY_ON_SKF:.0f} rev/min: {digits(sum(by_skf))} N m"
 
 
 def _highest(machine: Any) -> Tile | None:

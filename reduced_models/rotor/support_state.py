@@ -213,8 +213,11 @@ class SupportState(Summary):
 
         Up to 5000 rev/min films and sliding by a traction law, above by SKF's model where it has the bearing.
         """
-        if self.relies_on_skf:
-            return self.skf_torque
+        return self.skf_torque if self.relies_on_skf else self.flooded_torque
+
+    @property
+    def flooded_torque(self) -> float | None:
+        """Moment of friction by films and sliding by a traction law [N m]; None where the bearing is dry."""
         return sum(one.total for one in self.friction) if self.friction else None
 
     @property

@@ -145,7 +145,10 @@ def test_the_torque_by_skf_stands_beside_that_of_the_films(call):
         shown = call("bearing", "6205", *OIL, "--load", "1000", "--speed-rpm", f"{speed:.0f}").out
         line = next(line for line in shown.splitlines() if line.startswith("friction by SKF"))
         assert f"{1e3 * bearing.equilibrium((0.0, -1000.0), speed_rpm=speed).skf_torque:.4g} N mm" in line
-        assert ("by SKF's model" in " ".join(shown.split())) == (speed > 5000.0)
+        words = " ".join(shown.split())
+        assert ("by SKF's model" in words) == (speed > 5000.0)
+        other = "films and sliding, which count up to" if speed > 5000.0 else "SKF's model, which counts above"
+        assert f"{other} 5000 rev/min: " in words
 
 
 @pytest.mark.parametrize("more", [(), ("--axial", "500")], ids=["radial", "combined"])

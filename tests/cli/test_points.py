@@ -25,6 +25,7 @@ from ehlcontact.cli.study.points.folder import locked
 from ehlcontact.cli.study.points.lists import MOST, Chosen, load_points, points_of
 from ehlcontact.cli.study.points.numbers import MEANINGS, UNITS
 from ehlcontact.cli.study.points.picture import draw_points
+from ehlcontact.cli.study.points.summary import torque_jump
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import solve_stage, stage_named
 from ehlcontact.executors import ProcessExecutor
@@ -578,3 +579,11 @@ def test_a_cluster_without_workers(tmp_path):
 def test_points_of_a_document_without_a_bearing():
     with pytest.raises(InputError, match="bearing"):
         points_of({"bearing": [3000]}, Path())
+
+
+def test_why_the_torque_jumps_over_speeds():
+    rows = [SimpleNamespace(numbers={"speed_rpm": rpm, "torque": 0.03}) for rpm in (3000.0, 5000.0, 5100.0)]
+    assert "above 5000 rev/min by SKF's model" in torque_jump(rows)
+    assert torque_jump(rows[:2]) == torque_jump(rows[2:]) == ""
+    rows[2].numbers["torque"] = None
+    assert torque_jump(rows) == ""

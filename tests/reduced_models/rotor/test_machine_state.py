@@ -20,6 +20,7 @@ from reduced_models import (
     unbalance_response,
 )
 from reduced_models.rotor.machine_state import MachineState, single_bearing_state
+from reduced_models.rotor.machine_tiles import digits
 from reduced_models.rotor.support_state import support_state
 
 OIL = Lubricant.iso_vg(32, temperature=80.0)
@@ -173,6 +174,20 @@ class TestBearingAlone:
         support = support_state(bearing("6205"), (0.0, -500.0), 3000.0)
         assert not support.relies_on_skf
         assert support.torque == support.friction[0].total
+
+    @pytest.mark.long
+    def test_a_jump_of_the_friction_over_speeds_has_both_of_its_ends(self) -> None:
+        low, high = (single_bearing_state(bearing("6205"), (0.0, -500.0), rpm) for rpm in (5000.0, 5001.0))
+        ends = []
+        for machine in (low, high):
+            tile = next(tile for tile in machine.tiles() if tile.name == "friction torque")
+            support = machine.supports[0]
+            flooded, skf = support.flooded_torque, support.skf_torque
+            own, other = (skf, flooded) if support.relies_on_skf else (flooded, skf)
+            assert tile.value == digits(own) and f" 5000 rev/min: {digits(other)} N m" in tile.note
+            ends.append((flooded, skf))
+        assert ends[0] == pytest.approx(ends[1], rel=1e-3)
+        assert not low.supports[0].relies_on_skf and high.supports[0].relies_on_skf
 
     def test_thin_films_are_critical(self) -> None:
         machine = single_bearing_state(bearing("6205", rq_race=4e-7), (0.0, -500.0), 3000.0)

@@ -7,6 +7,7 @@ from math import hypot
 from typing import Any, NamedTuple
 
 from ehlcontact.cli.study.points.lists import Point
+from reduced_models.rotor.support_state import RELY_ON_SKF
 
 
 class Number(NamedTuple):
@@ -40,7 +41,8 @@ NUMBERS = {
     ),
     "torque": Number(
         "N m",
-        "friction of all bearings",
+        "friction of all bearings by films and sliding, "
+        f"above {RELY_ON_SKF:.0f} rev/min by SKF's model where it has them, with a jump there",
         head="torque [N mm]",
         factor=1e3,
         label="friction torque [N mm]",

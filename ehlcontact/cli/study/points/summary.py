@@ -31,6 +31,7 @@ from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text
 from ehlcontact.status import Status
+from reduced_models.rotor.support_state import RELY_ON_SKF
 
 FORMAT = 1  # of the summary
 SUMMARY, TABLE, PICTURE = "summary.json", "summary.csv", "summary.png"
@@ -245,6 +246,13 @@ def narrowed(rows: Sequence[Row], columns: Mapping[str, Number], width: int) -> 
         if sum(max(lengths) + 1 for lengths in parts) <= width:
             break
     return kept
+
+
+def torque_jump(rows: Sequence[Row]) -> str:
+    """Why the torque jumps between points at speeds below and above that of SKF's model; empty where none are."""
+    speeds = [row.numbers["speed_rpm"] for row in rows if row.numbers["torque"] is not None]
+    above = [speed is not None and speed > RELY_ON_SKF for speed in speeds]
+    return NUMBERS["torque"].meaning if any(above) and not all(above) else ""
 
 
 def said_of(rows: Sequence[Row], name: str) -> list[tuple[str, str]]:
