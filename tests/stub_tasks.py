@@ -57,7 +57,7 @@ class StubTasks:
             "fmu": FMU | {"passes": f"{key} without FMU" not in self.orders},
             "film_fmu": None,
             "oil_and_heat": {
-                "refused": {"with the layer": "thin"} if f"{key} without films" in self.orders else {}
+                "1": {"refused": {"with the layer": "thin"} if f"{key} without films" in self.orders else {}}
             },
             "operating_point": {
                 "h_central_um": 1e-4 * speed,

@@ -1,5 +1,7 @@
 """The machine of a study in time on models of its bearings: what may stand in the file, and what becomes of it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from tiny_study import CONTACT, FULL_FILMS, IN_TIME, MACHINE, STUDY
@@ -87,11 +89,8 @@ def test_a_rotor_that_no_bearing_holds_costs_no_study(tmp_path, monkeypatch):
     assert set(found.failed) == {"memory", "dry"} and set(found.ran) == {"constant", "usual"}
     assert "has left it" in found.failed["dry"]
 
-    class Holds:
-        oil_and_heat = None
-        whole = found
-
-    assert "could not be run on its bearings with: film memory under every ball (rotor at t" in sentence(Holds)
+    holds = SimpleNamespace(oil_and_heat={}, whole=found)
+    assert "could not be run on its bearings with: film memory under every ball (rotor at t" in sentence(holds)
 
 
 @pytest.mark.parametrize(("amplitude", "hz"), [(3e-6, 179.2), (4e-9, 50.0)])

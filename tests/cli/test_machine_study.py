@@ -13,7 +13,9 @@ from tiny_study import ALONE, ANGULAR, CONTACT, MOTOR, PAIR
 from ehlcontact import OilLayer
 from ehlcontact.cli.study.answer import answer_of, over_frequency
 from ehlcontact.cli.study.forecast import seals_left_out
+from ehlcontact.cli.study.headline import ball_words
 from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
+from ehlcontact.cli.study.loads import by_formula
 from ehlcontact.cli.study.machine import bearing_of, carrier_of, rotor_of
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
 from ehlcontact.cli.study.points.lists import Point
@@ -97,7 +99,7 @@ def test_a_pair_carries_the_load(study):
 def test_a_pair_with_a_layer_of_oil(study):
     """What the study has of it is that of the set; its words are of a pair."""
     one = load_study(study(PAIR, ("speed_rpm", "layer_ratio = 0.8\nspeed_rpm"), ("distance_mm = 40.0\n", "")))
-    found = run_oil_and_heat(one)
+    (found,) = run_oil_and_heat(one).values()
     pair = BearingSet.pair(bearing_of(one, 0), preload=200.0)
     starved = replace(pair, bearings=[replace(k, supply=OilLayer(over_flooded=0.8)) for k in pair.bearings])
     load = (0.0, -200.0, 100.0)
@@ -106,7 +108,7 @@ def test_a_pair_with_a_layer_of_oil(study):
     layer = found.conditions[LAYER]
     np.testing.assert_array_equal(layer.damping, np.einsum("kii->ki", small.signed_damping)[:, :3])
     np.testing.assert_array_equal(layer.h_central, state.h_central)
-    assert "isothermal, the pair has" in conditions_sentence(SimpleNamespace(oil_and_heat=found))
+    assert "isothermal, the pair has" in conditions_sentence(SimpleNamespace(oil_and_heat={"1": found}))
 
 
 @pytest.fixture(scope="module")
@@ -162,6 +164,17 @@ def test_the_film_of_a_bearing_of_a_machine(study, motor):
     state = motor[1].supports[1].state
     assert one.ball_load == pytest.approx(state.force[:, 0].max(), rel=1e-9)
     assert one.radial_load == pytest.approx(abs(loads[1][1]), rel=1e-9)
+
+
+def test_the_contact_says_where_its_load_is_from(study):
+    """And why it is another one than that of the machine's tile."""
+    one = load_study(EXAMPLES / "small_study.toml")
+    assert by_formula(one)
+    machine = SimpleNamespace(supports=[SimpleNamespace(ball_load=0.9 * one.ball_load, outer_load=1.0)] * 2)
+    words = ball_words(SimpleNamespace(study=one, machine=machine))
+    assert words.startswith("by Stribeck's formula") and f"{0.9 * one.ball_load:.4g} N with films" in words
+    tight = study(ALONE + "clearance = -1.0\n" + CONTACT)
+    assert ball_words(SimpleNamespace(study=load_study(tight), machine="none")).endswith("at rest without films")
 
 
 def test_a_pair_in_a_machine(study):

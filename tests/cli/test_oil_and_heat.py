@@ -5,10 +5,11 @@ import json
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tiny_study import ALONE
+from tiny_study import ALONE, MACHINE, MOTOR
 
 import reduced_models.bearing.oil_and_heat as module
 from ehlcontact import ConvergenceError, Grid, Lubricant, OilLayer, impedance
@@ -186,28 +187,26 @@ def study(folder, text):
 def test_section_of_a_study(coarse, tmp_path):
     """Table, figures and sentence of the report; its cost in the forecast; nothing where it is not asked for."""
     plain, asked = (load_study(study(tmp_path, text)) for text in (BY_GRADE, ASKED))
-    assert run_oil_and_heat(plain) is None
+    assert run_oil_and_heat(plain) == {}
     less, more = (closing_cost(one) for one in (plain, asked))
     assert more - less == pytest.approx(4 * CONDITION)
-    found = run_oil_and_heat(asked)
+    (found,) = run_oil_and_heat(asked).values()
     assert list(found.conditions) == ["flooded, isothermal", "with heat", "with the layer", "with both"]
     assert found.hz.size == 2 + FREQUENCIES
 
-    class Findings:
-        study = asked
-        oil_and_heat = found
-
-    told = conditions(Findings)
-    assert told["conditions"][0][1:] == list(found.conditions) and "r = 1 over" in told["supply_words"]
-    words = sentence(Findings)
+    findings = SimpleNamespace(study=asked, oil_and_heat={"1": found})
+    told = conditions(findings)
+    (row,) = told["conditions"]
+    assert row[0] == "" and row[2][0][1:] == list(found.conditions) and "r = 1 over" in told["supply_words"]
+    words = sentence(findings)
     assert words.count("% of the film") == 3 and f"{found.conditions[FLOODED].damping[0, 1]:.3g} N s/m" in words
     C = found.conditions[LAYER].damping[0, 1]
     assert C < 0.0
-    assert f"damping below zero: the bearing has with the layer {C:.3g} N s/m" in damping_below_zero(Findings)
-    Findings.oil_and_heat = replace(found, conditions={FLOODED: found.conditions[FLOODED]})
-    assert damping_below_zero(Findings) == "" == without_films(Findings)
-    Findings.oil_and_heat = replace(found, refused={LAYER: "thin"})
-    assert without_films(Findings) == "no films of the bearing with the layer (thin)."
+    assert f"damping below zero: the bearing has with the layer {C:.3g} N s/m" in damping_below_zero(findings)
+    findings.oil_and_heat = {"1": replace(found, conditions={FLOODED: found.conditions[FLOODED]})}
+    assert damping_below_zero(findings) == "" == without_films(findings)
+    findings.oil_and_heat = {"1": replace(found, refused={LAYER: "thin"})}
+    assert without_films(findings) == "no films of the bearing with the layer (thin)."
     around, band = (
         [line for panel in describe(found).panels for line in panel.lines]
         for describe in (conditions_films, conditions_coefficients)
@@ -223,13 +222,33 @@ def test_a_study_tells_why_there_is_no_answer(tmp_path, monkeypatch):
 
     monkeypatch.setattr("ehlcontact.cli.study.oil_and_heat.oil_and_heat", fails)
 
-    class Findings:
-        oil_and_heat = run_oil_and_heat(load_study(study(tmp_path, ASKED)))
+    asked = load_study(study(tmp_path, ASKED))
+    findings = SimpleNamespace(study=asked, oil_and_heat=run_oil_and_heat(asked))
+    assert "not computed" in (said := without_films(findings)) and "no film" in said
+    assert sentence(findings) == "" and conditions(findings)["conditions"][0][2] is None
+    results = {"fmu": {"passes": True}, "film_fmu": None, "oil_and_heat": findings.oil_and_heat}
+    assert faults(results) == [f"oil supply and heat of the bearing: {findings.oil_and_heat['1']}"]
 
-    assert "not computed" in (said := without_films(Findings)) and "no film" in said
-    assert sentence(Findings) == "" and conditions(Findings) == {}
-    results = {"fmu": {"passes": True}, "film_fmu": None, "oil_and_heat": Findings.oil_and_heat}
-    assert faults(results) == [f"oil supply and heat of the bearing: {Findings.oil_and_heat}"]
+
+def test_every_bearing_has_a_section(tmp_path, monkeypatch):
+    """Under its own load; equal bearings under one load share it."""
+    loads = []
+
+    def answer(carrier, load, **given):
+        loads.append(load)
+        raise ConvergenceError(f"none of {carrier.name}", None)
+
+    monkeypatch.setattr("ehlcontact.cli.study.oil_and_heat.oil_and_heat", answer)
+    asked = load_study(study(tmp_path, MOTOR.replace("speed_rpm", "layer_ratio = 1.0\nspeed_rpm")))
+    found = run_oil_and_heat(asked)
+    assert list(found) == ["drive end", "fan end"] and ["6306" in found["drive end"], "6206" in found["fan end"]]
+    assert [load[2] for load in loads] == pytest.approx([200.0, 200.0], rel=1e-6)
+    rows = conditions(SimpleNamespace(study=asked, oil_and_heat=found))["conditions"]
+    assert [row[0] for row in rows] == ["drive end", "fan end"]
+    both = load_study(study(tmp_path, MACHINE.replace("speed_rpm", "layer_ratio = 1.0\nspeed_rpm")))
+    shared = run_oil_and_heat(both)
+    assert len(loads) == 3 and shared["left"] is shared["right"]
+    assert conditions(SimpleNamespace(study=both, oil_and_heat=shared))["conditions"][0][0] == ""
 
 
 @pytest.mark.parametrize(

@@ -204,10 +204,10 @@ def compiling_cost(study: Study, solved: bool, rest: bool) -> float:
 
 
 def oil_and_heat_cost(study: Study) -> float:
-    """Likewise of the bearing with heat and with a layer of oil, where they are asked for."""
+    """Likewise of the bearings with heat and with a layer of oil, where they are asked for."""
     asked = study.operation
     heat, layer = asked.thermal, asked.layer_um is not None or asked.layer_ratio is not None
-    return CONDITION * (1 + heat) * (1 + layer) if heat or layer else 0.0
+    return len(study.support) * CONDITION * (1 + heat) * (1 + layer) if heat or layer else 0.0
 
 
 def convolution_seconds() -> float:

@@ -14,6 +14,7 @@ from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.study.answer import NAMES
 from ehlcontact.cli.study.differences import Events, RotorFindings
 from ehlcontact.cli.study.forecast import cautions, discs_without_inertia, seals_left_out
+from ehlcontact.cli.study.loads import by_formula, places_of_bearings
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import ContactFindings, Findings
 from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN, OilAndHeat
@@ -23,6 +24,7 @@ from reduced_models.rotor.machine_tiles import MARGIN
 # Change by half the step, over the standard deviation of a signal or the decrement, that has a sentence.
 LARGE_CHANGE = 0.01
 STANDS_FOR = 0.05  # of the decrement on full films, within which an element stands for the film
+SAME_BALL = 1e-3  # share by which loads of a ball differ at least where both are told
 AXIAL = 2  # of the components of a load
 NEGLIGIBLE = 1e-6  # of the largest component of a load, below which another one is none
 
@@ -165,6 +167,35 @@ def contact(found: ContactFindings) -> str:
     )
 
 
+def ball_words(found: Findings) -> str:
+    """Where the load of the contact is from, and that of the most loaded ball of the support with its films."""
+    study, machine = found.study, found.machine
+    if by_formula(study):
+        source = "by Stribeck's formula, of a bearing without clearance and films"
+    elif study.shaft is None:
+        source = "of the bearing at rest without films"
+    else:
+        source = "of the machine at rest with its films"
+    if isinstance(machine, str):
+        return source
+    places = places_of_bearings(study)
+    own = max((one for one, k in zip(machine.supports, places, strict=True) if k == study.at), key=_ball_load)
+    race = 0 if study.contact is None else int(study.contact.race == "outer")
+    load = (own.ball_load, own.outer_load)[race]
+    if abs(load / study.ball_load - 1.0) < SAME_BALL:
+        return source
+    why = (
+        "films take up clearance, so that more balls share the load"
+        if load < study.ball_load
+        else "films change it"
+    )
+    return f"{source}; {numeral(load)} N with films, as in the machine above ({why})"
+
+
+def _ball_load(one: Any) -> float:
+    return float(one.ball_load)
+
+
 def uncertainty(found: ContactFindings, name: str) -> str:
     """Error of a film by the grid, and its scatter by that of the oil, in words; empty where neither is known."""
     op = found.operating_point
@@ -258,14 +289,33 @@ def whole(found: Findings) -> str:
 
 def _flooded_words(found: Findings) -> str:
     """Of bearings of a rotor, where heat or a layer is asked for: they have neither."""
-    return "" if found.oil_and_heat is None else ", flooded and isothermal,"
+    return "" if not found.oil_and_heat else ", flooded and isothermal,"
 
 
 def oil_and_heat(found: Findings) -> str:
-    """The bearing with heat and with its layer of oil, where they are asked for: films and damping."""
-    w = found.oil_and_heat
-    if not isinstance(w, OilAndHeat):
-        return ""
+    """Bearings with heat and with their layer of oil, where they are asked for: films and damping."""
+    return " ".join(
+        _sentence(f"{of}: {_of_conditions(w)}") if of else _sentence(_of_conditions(w))
+        for of, w in conditions_of(found)
+        if isinstance(w, OilAndHeat)
+    )
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}"
+
+
+def conditions_of(found: Findings) -> list[tuple[str, OilAndHeat | str]]:
+    """Results of oil supply and heat with the supports that share each, empty where all do."""
+    shared: dict[int, tuple[list[str], OilAndHeat | str]] = {}
+    for name, w in found.oil_and_heat.items():
+        shared.setdefault(id(w), ([], w))[0].append(name)
+    if len(shared) == 1:
+        return [("", next(iter(shared.values()))[1])]
+    return [(" and ".join(names), w) for names, w in shared.values()]
+
+
+def _of_conditions(w: OilAndHeat) -> str:
     ball, way, flooded = w.state.heaviest, next(iter(w.ways.values())), w.conditions[FLOODED]
     said = (
         f"{key} {percent(float((one.h_central / flooded.h_central)[ball, 0]), 3)} of the film and "
@@ -275,34 +325,41 @@ def oil_and_heat(found: Findings) -> str:
     )
     own = numeral(float(flooded.damping[0, way]), 3)
     carrier = "pair" if isinstance(w.at_rest, SetState) else "bearing"
-    text = f"Flooded and isothermal, the {carrier} has {own} N s/m of damping at the frequency of the speed; "
+    text = f"flooded and isothermal, the {carrier} has {own} N s/m of damping at the frequency of the speed; "
     return f"{text}{'; '.join(said) or 'nothing beside it'}."
 
 
 def without_films(found: Findings) -> str:
     """Conditions of oil and heat that were asked for and have no films, and why."""
-    w = found.oil_and_heat
-    if isinstance(w, str):
-        return f"not computed: oil supply and heat of the bearing ({w})."
-    said = [] if w is None else [f"{key} ({reason})" for key, reason in w.refused.items()]
-    return f"no films of the bearing {'; '.join(said)}." if said else ""
+    said = []
+    for of, w in conditions_of(found):
+        bearing = of or "the bearing"
+        if isinstance(w, str):
+            said.append(f"not computed: oil supply and heat of {bearing} ({w})")
+        elif w.refused:
+            reasons = "; ".join(f"{key} ({reason})" for key, reason in w.refused.items())
+            said.append(f"no films of {bearing} {reasons}")
+    return "; ".join(said) + "." if said else ""
 
 
 def damping_below_zero(found: Findings) -> str:
-    """Conditions of oil and heat in which the bearing adds energy to small vibrations."""
-    w = found.oil_and_heat
-    if not isinstance(w, OilAndHeat):
+    """Conditions of oil and heat in which a bearing adds energy to small vibrations."""
+    bearings = []
+    for of, w in conditions_of(found):
+        if not isinstance(w, OilAndHeat):
+            continue
+        said = [
+            f"{key} {numeral(C, 3)} N s/m at {numeral(hz)} Hz{f' {way}' if len(w.ways) > 1 else ''}"
+            for key, one in w.conditions.items()
+            for k, hz in enumerate(w.hz[:SHOWN].tolist())
+            for way, column in w.ways.items()
+            if (C := float(one.damping[k, column])) < 0.0
+        ]
+        if said:
+            bearings.append(f"{of or 'the bearing'} has {'; '.join(said)}")
+    if not bearings:
         return ""
-    said = [
-        f"{key} {numeral(C, 3)} N s/m at {numeral(hz)} Hz{f' {way}' if len(w.ways) > 1 else ''}"
-        for key, one in w.conditions.items()
-        for k, hz in enumerate(w.hz[:SHOWN].tolist())
-        for way, column in w.ways.items()
-        if (C := float(one.damping[k, column])) < 0.0
-    ]
-    if not said:
-        return ""
-    return f"damping below zero: the bearing has {'; '.join(said)}: there films add energy to vibrations."
+    return f"damping below zero: {'; '.join(bearings)}: there films add energy to vibrations."
 
 
 def unsettled(found: Any) -> str:

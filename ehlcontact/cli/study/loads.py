@@ -109,15 +109,21 @@ def _pressed(study: Study, k: int) -> list[tuple[BallBearing, _Floats]]:
     raise AssertionError(k)
 
 
+def by_formula(study: Study) -> bool:
+    """Whether the load of the most loaded ball is that of Stribeck: planar, without clearance and films."""
+    return ring_load(study, study.at).size == len(PLANAR) and not study.carrier.clearance
+
+
 def heaviest_ball(study: Study) -> tuple[float, float]:
     """Load [N] and contact angle [rad] of the ball that presses most on the race of the study.
 
-    Of a bearing alone it is without films, of a machine that at which the machine rests.
+    Of a bearing alone it is without films, of a machine that at which the machine rests; `by_formula` of a planar
+    bearing without clearance.
     """
     race = int(study.contact is not None and study.contact.race == "outer")
     k = study.at
     load = ring_load(study, k)
-    if load.size == len(PLANAR) and not study.support[k].clearance:
+    if by_formula(study):
         return most_loaded_ball(study.radial_load, dimensions_of(study, k).balls), 0.0
     with loaded(study):
         if study.shaft is None:

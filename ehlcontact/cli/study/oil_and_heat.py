@@ -1,11 +1,11 @@
-"""A study's bearing with its layer of oil and with heat: results as a table and CSV."""
+"""Bearings of a study with their layer of oil and with heat: results as a table and CSV."""
 
 from __future__ import annotations
 
 import csv
 import io
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,23 +22,44 @@ if TYPE_CHECKING:
     from reduced_models.bearing.oil_and_heat import OilAndHeat
 
 BAND, FREQUENCIES = (0.2, 50.0), 13  # over the frequency of the shaft: K and C of the figure
+SAME_LOAD = 1e-6  # of the largest component: loads of equal bearings that share a result
+NOT_OF_THE_BEARING = "name", "position_mm", "facing", "journal_mass"  # entries of a support
 
 
-def run_oil_and_heat(study: Study) -> OilAndHeat | str | None:
-    """The study's bearing with heat and with its layer, or why there is none; None where neither is asked for."""
+def run_oil_and_heat(study: Study) -> dict[str, OilAndHeat | str]:
+    """The bearing or pair at each support with heat and with its layer, or why it is not computed; by the support.
+
+    Empty where neither is asked for. Supports of one kind under one load share a result.
+    """
     asked = study.operation
     supply, thermal = supply_and_heat(asked, "operation", study.lubricant)
     if supply is None and thermal is None:
-        return None
+        return {}
     speed = study.speed_rpm
+    found: dict[str, OilAndHeat | str] = {}
+    known: list[tuple[Any, Any, OilAndHeat | str]] = []  # kinds of support, loads and results
+    for k, (name, one) in enumerate(zip(study.names, study.support, strict=True)):
+        load, kind = ring_load(study, k), one.model_copy(update=dict.fromkeys(NOT_OF_THE_BEARING))
+        near = SAME_LOAD * float(np.abs(load).max())
+        for other, beside, result in known:
+            if other == kind and beside.shape == load.shape and np.allclose(beside, load, rtol=0.0, atol=near):
+                found[name] = result
+        if name not in found:
+            found[name] = _answer(study, k, load, speed, supply, thermal)
+            known.append((kind, load, found[name]))
+    return found
+
+
+def _answer(study: Study, k: int, load: Any, speed: float, supply: Any, thermal: Any) -> OilAndHeat | str:
+    """Of one support."""
     try:
         return oil_and_heat(
-            carrier_of(study, study.at),
-            ring_load(study, study.at),
+            carrier_of(study, k),
+            load,
             speed_rpm=speed,
             supply=supply,
             thermal=thermal,
-            tilt=tilt_of(asked),
+            tilt=tilt_of(study.operation),
             band=speed * RPM_TO_HZ * np.geomspace(*BAND, FREQUENCIES),
         )
     except (ConvergenceError, InputError) as error:

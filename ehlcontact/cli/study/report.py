@@ -13,7 +13,15 @@ import numpy as np
 from ehlcontact.cli.page import write_page
 from ehlcontact.cli.study.answer import NAMES
 from ehlcontact.cli.study.differences import RotorFindings
-from ehlcontact.cli.study.headline import calm, in_sections, limits, operating_line, verdict
+from ehlcontact.cli.study.headline import (
+    ball_words,
+    calm,
+    conditions_of,
+    in_sections,
+    limits,
+    operating_line,
+    verdict,
+)
 from ehlcontact.cli.study.machine import disc_of
 from ehlcontact.cli.study.oil_and_heat import columns, skf_words
 from ehlcontact.cli.study.points.folder import versions
@@ -88,6 +96,7 @@ def write_report(found: Findings, path: Path) -> Path:
         calm=calm(found),
         verdict="" if found.rotors is None else verdict(found.rotors),
         story=in_sections(found),
+        ball_words="" if found.contact is None else ball_words(found),
         files=files_beside(path.parent),
         titles=TITLES,
         ways=ways_of_coupling(() if found.contact is None else found.contact.fmus),
@@ -168,12 +177,15 @@ def passages(support: SupportState) -> list[float]:
 
 
 def conditions(found: Findings) -> dict[str, Any]:
-    """Table and words of the bearing with heat and with a layer of oil; empty where it is not computed."""
-    if not isinstance(found.oil_and_heat, OilAndHeat):
+    """Tables and words of the bearings with heat and with a layer of oil; empty where they are not asked for."""
+    if not found.oil_and_heat:
         return {}
-    asked, one = found.study.operation, found.oil_and_heat
-    supply, _ = supply_and_heat(asked, "operation", found.study.lubricant)
-    return {"conditions": columns(one), "skf": skf_words(one), "supply_words": supply_words(supply)}
+    supply, _ = supply_and_heat(found.study.operation, "operation", found.study.lubricant)
+    rows = [
+        (of, one, *((None, "") if isinstance(one, str) else (columns(one), skf_words(one))))
+        for of, one in conditions_of(found)
+    ]
+    return {"conditions": rows, "supply_words": supply_words(supply)}
 
 
 def files_beside(folder: Path) -> dict[str, str]:
@@ -258,9 +270,10 @@ def _of_bearings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
             pictures["response_to_unbalance"] = response.picture
     for k, (_, small) in enumerate(shown_coefficients(found)):
         pictures[f"frequency_{k + 1}"] = partial(_over_frequency, small)
-    if isinstance(one := found.oil_and_heat, OilAndHeat):
-        pictures["conditions_films"] = lambda: conditions_films(one)
-        pictures["conditions_coefficients"] = lambda: conditions_coefficients(one)
+    for k, (_, one) in enumerate(conditions_of(found)):
+        if isinstance(one, OilAndHeat):
+            pictures[f"conditions_films_{k + 1}"] = partial(conditions_films, one)
+            pictures[f"conditions_coefficients_{k + 1}"] = partial(conditions_coefficients, one)
     for k, defect in enumerate(found.defects):
         pictures[f"defect_signal{k + 1 if k else ''}"] = defect.picture
     return pictures

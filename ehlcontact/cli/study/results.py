@@ -39,7 +39,9 @@ class Findings:
     machine: MachineState | str  # or why there is none
     over_frequency: Mapping[str, BearingCoefficients]  # K and C of the bearings, by the name of the support
     whole: BearingModels | None  # where the machine is run in time on models of its bearings
-    oil_and_heat: OilAndHeat | str | None  # where there is a layer of oil or heat; or why there is none
+    oil_and_heat: Mapping[
+        str, OilAndHeat | str
+    ]  # with a layer of oil or heat, by the support; or why there is none
     defects: tuple[StudyDefect, ...]
     contact: ContactFindings | None
     rotors: RotorFindings | None  # on full films
@@ -57,9 +59,9 @@ class Findings:
                 for name, one in self.over_frequency.items()
             },
             "in_time": None if self.whole is None else self.whole.to_dict(),
-            "oil_and_heat": (
-                self.oil_and_heat.to_dict() if isinstance(self.oil_and_heat, OilAndHeat) else self.oil_and_heat
-            ),
+            "oil_and_heat": {
+                name: one if isinstance(one, str) else one.to_dict() for name, one in self.oil_and_heat.items()
+            },
             "defects": [one.to_dict() for one in self.defects],
             **({} if self.contact is None else self.contact.to_dict()),
             **({} if self.rotors is None else {"rotor": self.rotors.to_dict()}),

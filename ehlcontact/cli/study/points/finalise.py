@@ -156,13 +156,18 @@ def products(results: Mapping[str, Any]) -> dict[str, str]:
 
 def faults(results: Mapping[str, Any]) -> list[str]:
     """FMUs that could not be made and conditions of oil and heat without films, with reasons."""
-    return [*_broken_fmus(results), *_without_films(results.get("oil_and_heat"))]
+    return [*_broken_fmus(results), *_without_films(results["oil_and_heat"])]
 
 
-def _without_films(found: Mapping[str, Any] | str | None) -> list[str]:
-    if found is None or isinstance(found, str):
-        return [] if found is None else [f"oil supply and heat of the bearing: {found}"]
-    return [f"no films of the bearing {key}: {reason}" for key, reason in found["refused"].items()]
+def _without_films(found: Mapping[str, Any]) -> list[str]:
+    said = []
+    for name, one in found.items():
+        of = "the bearing" if len(found) == 1 else name
+        if isinstance(one, str):
+            said.append(f"oil supply and heat of {of}: {one}")
+        else:
+            said += [f"no films of {of} {key}: {reason}" for key, reason in one["refused"].items()]
+    return said
 
 
 def _broken_fmus(results: Mapping[str, Any]) -> list[str]:
