@@ -181,6 +181,22 @@ static void share_gyroscopic(Explored *e, double share)
     e->bearing.grooves.gyroscopic = share * e->gyroscopic;
 }
 
+/* Symmetric part of what follows the place of a ball, as in `linear_balls`: outer race control has no moment on the ring. */
+static void slopes_of_a_potential(Explored *e)
+{
+    int k, i, j;
+    for (k = 0; k < e->bearing.balls; k++) {
+        double *g = &e->geometric[20 * k];
+        for (i = 0; i < 4; i++) {
+            for (j = 0; j < i; j++) {
+                const double sign = (i < 2) == (j < 2) ? 1.0 : -1.0, mean = 0.5 * (g[4 * i + j] + sign * g[4 * j + i]);
+                g[4 * i + j] = mean;
+                g[4 * j + i] = sign * mean;
+            }
+        }
+    }
+}
+
 /* The ring under a load [N] with the first ball at an angle, from where it is; first without the gyroscopic moments of balls, then
  * with growing ones. Returns 0 where it is, else a text. */
 EXPORT const char *bearing_stand(Explored *e, double angle, const double load[])
@@ -218,6 +234,9 @@ EXPORT const char *bearing_stand(Explored *e, double angle, const double load[])
         double damping[AXES * AXES];
         bearing_slopes(&e->bearing, e->bearing_work, e->stiffness, damping);
         bearing_describe(&e->bearing, own, e->bearing_work, e->balls, e->geometric);
+        if (e->omega > 0.0) {
+            slopes_of_a_potential(e);
+        }
     }
     return reason;
 }
