@@ -145,11 +145,7 @@ class SpectrumLife(_Hours):
         return tuple(f"state {k + 1}: {text}" for k, one in enumerate(self.lives) for text in one.not_covered)
 
     def _of(self, name: str) -> float | None:
-        lives = [getattr(one, name) for one in self.lives]
-        if None in lives:
-            return None
-        damage = fsum(share / life for share, life in zip(self.shares, lives, strict=True))
-        return 1.0 / damage if damage > 0.0 else inf
+        return over_spectrum(self.shares, [getattr(one, name) for one in self.lives])
 
     def to_dict(self) -> dict[str, Any]:
         """Lives of the spectrum [h] and of its states, ready for JSON."""
@@ -168,6 +164,17 @@ def together(lives: Sequence[float | None]) -> float | None:
         return None
     damage = fsum(life**-SLOPE for life in known)
     return float(damage ** (-1.0 / SLOPE)) if damage > 0.0 else inf
+
+
+def over_spectrum(shares: Sequence[float], lives: Sequence[float | None]) -> float | None:
+    """Life under states with shares of the time and lives in hours; None where a state that lasts has none."""
+    lasting = [(share, life) for share, life in zip(shares, lives, strict=True) if share > 0.0]
+    damage = 0.0
+    for share, life in lasting:
+        if life is None:
+            return None
+        damage += share / life
+    return 1.0 / damage if damage > 0.0 else inf
 
 
 def life_of_spectrum(states: Sequence[tuple[float, Any]], **options: Any) -> SpectrumLife:

@@ -25,7 +25,7 @@ from ehlcontact.cli.study.points.folder import locked
 from ehlcontact.cli.study.points.lists import MOST, Chosen, load_points, points_of
 from ehlcontact.cli.study.points.numbers import MEANINGS, UNITS
 from ehlcontact.cli.study.points.picture import draw_points
-from ehlcontact.cli.study.points.summary import torque_jump
+from ehlcontact.cli.study.points.summary import life_over, spectrum_words, torque_jump
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.stages import solve_stage, stage_named
 from ehlcontact.executors import ProcessExecutor
@@ -130,6 +130,39 @@ def test_lists_that_are_none_of_points(refused, tmp_path, speeds, loads, words):
     for command in ("run", "validate"):
         refused(("s.toml: ", *words), command, file, "-o", tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+def test_shares_make_the_points_a_load_spectrum(tmp_path):
+    """Each point has its share, its own study none; lives add up as of two states by hand."""
+    file = tmp_path / "s.toml"
+    file.write_text(with_lists("[3000, 4500]", "20.0").replace("[operation]", "[operation]\nshares = [0.3, 0.7]"))
+    points = load_points(file, tmp_path / "out")
+    assert [point.share for point in points] == [0.3, 0.7]
+    assert points[0].study.operation.shares is None
+    lives = {"l10rh": (2000.0, 500.0), "lnmrh": (None, 900.0), "lnmrh_film": (1000.0, None)}
+    rows = [
+        SimpleNamespace(point=point, numbers={name: own[k] for name, own in lives.items()})
+        for k, point in enumerate(points)
+    ]
+    basic = pytest.approx(1.0 / (0.3 / 2e3 + 0.7 / 5e2))
+    assert life_over(rows) == {"l10rh": basic, "lnmrh": None, "lnmrh_film": None}
+    assert spectrum_words(rows) == "basic reference 645 h"
+
+
+@pytest.mark.parametrize(
+    ("shares", "words"),
+    [
+        ("[0.3]", ("operation.shares = '1 of them'", "one for each point", "has 2")),
+        ("0.3", ("operation.shares = 0.3", "has 2")),
+        ("[0.3, 0.6]", ("operation.shares = [0.3, 0.6]", "1 in sum, not 0.9")),
+        ("[30, 70]", ("operation.shares", "percent")),
+        ('["a", 0.7]', ("operation.shares = 'a'", "a finite number >= 0")),
+    ],
+)
+def test_shares_that_are_none(refused, tmp_path, shares, words):
+    file = tmp_path / "s.toml"
+    file.write_text(with_lists("[3000, 4500]", "20.0").replace("[operation]", f"[operation]\nshares = {shares}"))
+    refused(("s.toml: ", *words), "validate", file, "-o", tmp_path / "out")
 
 
 def test_any_entry_of_one_value_may_be_a_list(tmp_path):

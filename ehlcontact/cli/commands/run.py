@@ -165,7 +165,14 @@ def _show(rows: Sequence[Row], json_to: str | None) -> None:
         return
     from rich.console import Console
 
-    from ehlcontact.cli.study.points.summary import columns_of, lines_of, narrowed, said_of, torque_jump
+    from ehlcontact.cli.study.points.summary import (
+        columns_of,
+        lines_of,
+        narrowed,
+        said_of,
+        spectrum_words,
+        torque_jump,
+    )
 
     columns = narrowed(rows, columns_of(rows), Console().width)
     heads, *lines = lines_of(rows, columns)
@@ -173,6 +180,8 @@ def _show(rows: Sequence[Row], json_to: str | None) -> None:
     show_columns(heads, lines, rows[0].point.study_title, padding=(0, 1, 0, 0))
     if "torque" in columns and (why := torque_jump(rows)):
         say(f"torque: {why}", json_to)
+    if spectrum := spectrum_words(rows):
+        say(f"rating life over the load spectrum: {spectrum}", json_to)
     for words, name in (("critical", "critical"), ("does not hold", "limits")):
         for text, points in said_of(rows, name):
             say(f"{words}{f', {points}' if points else ''}: {text}", json_to)

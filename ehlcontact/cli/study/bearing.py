@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 NOT_OF_A_BEARING = (  # entries that name something, and those of a bearing under a shaft
     *(f"support.{name}" for name in ("name", "bearing", "journal_mass", "housing_damping", *OF_A_ROTOR)),
     "oil.name",
+    "operation.shares",  # of points, which `ehlcontact run` computes
     "defect.support",
     "defect.cage_slip_percent",  # of a bearing without a spall too
 )

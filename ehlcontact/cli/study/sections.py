@@ -45,6 +45,14 @@ class Operation(Section):
         e.Contamination | str | None,
         e.meaning('factor e_C of ISO 281 for the modified rating life, or a class, as "normal cleanliness"'),
     ] = None
+    shares: Annotated[
+        tuple[e.NotNegative, ...] | None,
+        Field(
+            strict=False,
+            min_length=1,
+            description="of the time, one for each point of lists, 1 together: the points are a load spectrum",
+        ),
+    ] = None
     reliability: Annotated[e.Reliability, e.meaning("percent, of the modified rating life")] = 90.0
 
 

@@ -157,6 +157,7 @@ def test_no_load_lives_for_ever():
     assert idle.static_safety == inf == idle.pressure_safety
 
 
+@pytest.mark.long
 def test_what_the_standard_does_not_cover_is_said():
     def said(**changes):
         load, speed = changes.pop("load", (0.0, -1000.0)), changes.pop("speed_rpm", 3000.0)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from math import isclose, prod
 from pathlib import Path
@@ -19,7 +19,9 @@ from ehlcontact.cli.study.schema import Study, study_of
 from ehlcontact.cli.study.schema_errors import entry_name
 from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
+from reduced_models.life.system_life import require_shares
 
+SHARES = "operation.shares"
 UNITS = "mm", "um", "deg", "rpm", "mrad"  # at the end of names of entries
 USUAL = {"operation.speed_rpm": "rpm", "operation.radial_load": "N"}  # entries that every point is named by
 MOST = 100  # points: at some minutes each what a night has room for
@@ -81,6 +83,7 @@ class Point:
     study_title: str = ""  # of all points together
     of_several: bool = False
     chosen: tuple[Chosen, ...] = ()  # of lists beside those of speed and load
+    share: float | None = None  # of the time, of a load spectrum
 
     @property
     def study_file(self) -> Path:
@@ -124,6 +127,7 @@ def points_of(document: Mapping[str, Any], folder: Path, *, at_rest: bool = Fals
 
     `at_rest`: of a bearing whose speed may be 0, and whose speeds and loads alone may be lists.
     """
+    document, shares = _without_shares(document)
     found = expanded(document, tuple(USUAL) if at_rest else None)
     several = len(found) > 1
     points: list[Point] = []
@@ -141,7 +145,29 @@ def points_of(document: Mapping[str, Any], folder: Path, *, at_rest: bool = Fals
         title = str(document.get("title", TITLE)) if several else study.title
         place = folder / POINTS / name if several else folder
         points.append(Point(study, name, place, title, several, chosen))
-    return tuple(points)
+    return _with_shares(points, shares)
+
+
+def _without_shares(document: Mapping[str, Any]) -> tuple[Mapping[str, Any], Any]:
+    """The document of the points, and the shares of the time that it has of all of them."""
+    operation = document.get("operation")
+    if not isinstance(operation, Mapping) or "shares" not in operation:
+        return document, None
+    rest = {name: value for name, value in operation.items() if name != "shares"}
+    return {**document, "operation": rest}, operation["shares"]
+
+
+def _with_shares(points: Sequence[Point], shares: Any) -> tuple[Point, ...]:
+    """Points with their shares of the time; raises `InputError` for shares that are none of them."""
+    if shares is None:
+        return tuple(points)
+    if not isinstance(shares, list) or len(shares) != len(points):
+        count = f"{len(shares)} of them" if isinstance(shares, list) else shares
+        allowed = f"a list of one for each point, of which this study has {len(points)}"
+        raise InputError(SHARES, count, allowed)
+    return tuple(
+        replace(point, share=share) for point, share in zip(points, require_shares(SHARES, shares), strict=True)
+    )
 
 
 def expanded(

@@ -7,6 +7,7 @@ from math import hypot
 from typing import Any, NamedTuple
 
 from ehlcontact.cli.study.points.lists import Point
+from reduced_models.life.system_life import HOURS
 from reduced_models.rotor.support_state import RELY_ON_SKF
 
 
@@ -47,6 +48,11 @@ NUMBERS = {
         factor=1e3,
         label="friction torque [N mm]",
     ),
+    "l10rh": Number("h", "basic rating life of all bearings together", head="L10rh [h]"),
+    "lnmrh": Number(
+        "h", "modified rating life of all bearings together", head="Lnmrh [h]", label="modified rating life [h]"
+    ),
+    "lnmrh_film": Number("h", "modified rating life with the viscosity ratios of the solved films"),
     "M": Number("-"),
     "L": Number("-"),
     "kappa": Number("-"),
@@ -131,6 +137,7 @@ def _of_machine(machine: Mapping[str, Any]) -> dict[str, float | None]:
         found["critical_rpm"] = nearest["speed_rpm"]
     if machine["response_at_speed"] is not None:
         found["response"] = machine["response_at_speed"]["size"]
+    found |= {name: machine["life"][name] for name in HOURS}
     torques = [one["torque"] for one in supports]
     if torques and None not in torques:
         found["torque"] = sum(torques)

@@ -31,12 +31,16 @@ from ehlcontact.cli.study.stages import stages_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text
 from ehlcontact.status import Status
+from reduced_models.life.bearing_life import finite
+from reduced_models.life.system_life import HOURS, KIND_OF_LIFE, over_spectrum
+from reduced_models.rotor.machine_tiles import digits
 from reduced_models.rotor.support_state import RELY_ON_SKF
 
 FORMAT = 1  # of the summary
 SUMMARY, TABLE, PICTURE = "summary.json", "summary.csv", "summary.png"
 HEAD = 10  # characters of a line of a head
-LEFT_OUT = "p_hertz", "ball_load", "decay_hz", "torque", "mode_hz", "response"  # of a narrow table, in this order
+# of a narrow table, in this order
+LEFT_OUT = "l10rh", "lnmrh", "p_hertz", "ball_load", "decay_hz", "torque", "mode_hz", "response"
 COLUMNS = {name: one for name, one in NUMBERS.items() if one.head}  # of the table for people
 
 
@@ -66,6 +70,7 @@ class Row:
         return {
             "name": self.point.name,
             "status": self.status,
+            **({} if self.point.share is None else {"share": self.point.share}),
             "lists": {choice.entry: choice.value for choice in self.point.chosen},
             "messages": list(self.messages),
             "critical": list(self.critical),
@@ -123,7 +128,7 @@ def _worst(stages: Mapping[str, str], lacking: Sequence[str]) -> str:
 
 def summary(rows: Sequence[Row], title: str, run: Mapping[str, Any]) -> dict[str, Any]:
     """Content of ``summary.json``; `run` is what may differ between two runs of one study."""
-    first, several = rows[0].point.study, len(rows) > 1
+    first, several, first_share = rows[0].point.study, len(rows) > 1, rows[0].point.share
     files = {"study": STUDY_FILE, "summary": SUMMARY, "table": TABLE, "log": LOG}
     converged = sum(row.ok for row in rows)
     files |= {"report": REPORT} if several or converged else {}
@@ -135,6 +140,7 @@ def summary(rows: Sequence[Row], title: str, run: Mapping[str, Any]) -> dict[str
         "oil": None if first.oil is None else first.oil.label,
         "status": "converged" if converged == len(rows) else "not converged",
         "converged": converged,
+        **({} if first_share is None else {"spectrum_life": life_over(rows)}),
         "units": UNITS,
         "meanings": MEANINGS,
         "points": [row.to_dict() for row in rows],
@@ -142,6 +148,21 @@ def summary(rows: Sequence[Row], title: str, run: Mapping[str, Any]) -> dict[str
         "versions": versions(),
         "run": dict(run),
     }
+
+
+def life_over(rows: Sequence[Row]) -> dict[str, float | None]:
+    """Rating lives over the load spectrum of the points [h]; None where a point that lasts has none."""
+    shares = [row.point.share or 0.0 for row in rows]
+    lives = {name: [row.numbers[name] for row in rows] for name in HOURS}
+    return {name: finite(over_spectrum(shares, own)) for name, own in lives.items()}
+
+
+def spectrum_words(rows: Sequence[Row]) -> str:
+    """Rating lives over the load spectrum in words; empty where the points are none, or have no lives."""
+    if rows[0].point.share is None:
+        return ""
+    lives = [(KIND_OF_LIFE[name], life) for name, life in life_over(rows).items() if life is not None]
+    return "; ".join(f"{kind} {digits(life)} h" for kind, life in lives)
 
 
 def _bearing(support: Support) -> str:
@@ -289,6 +310,7 @@ def write_overview(rows: Sequence[Row], document: Mapping[str, Any], folder: Pat
         heads=heads_of(rows, columns),
         cells=partial(cells, columns=columns),
         legend=[(one.head.partition(" [")[0], one.meaning) for one in columns.values() if one.meaning],
+        spectrum=spectrum_words(rows),
         labels=[one.label.partition(" [")[0] for one in columns.values() if one.label],
         critical=said_of(rows, "critical"),
         limits=said_of(rows, "limits"),
