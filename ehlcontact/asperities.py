@@ -89,6 +89,7 @@ class Asperities:
         density, radius = m4 / (6.0 * pi * sqrt(3.0) * m2), 0.375 * sqrt(pi / m4)
         return cls(sqrt(m0), density * radius * sqrt(m0), sqrt(m0) / radius)
 
+    @takes(e_reduced=parts.MODULUS)
     def unit(self, e_reduced: float) -> float:
         """Pressure [Pa] of F_5/2 = 1 at the reduced modulus E' of `Geometry` [Pa]."""
         shape = self.summits**2 * sqrt(self.rq_over_radius)
@@ -104,6 +105,7 @@ class Asperities:
         """Increase of the pressure over decrease of the gap [Pa/m]."""
         return 2.5 * self.unit(e_reduced) / self.rq * greenwood_tripp(np.asarray(gap) / self.rq, 1.5)
 
+    @takes(pressure=parts.ANY, e_reduced=parts.MODULUS)
     def gap(self, pressure: float, e_reduced: float) -> float:
         """Gap [m] at which they carry a pressure [Pa] alone, as at standstill when the oil has left.
 

@@ -59,6 +59,9 @@ class HeatNumbers(NamedTuple):
         return np.expm1(-self.exponent * np.log1p(np.maximum(temperature / self.temperature_scale, COLDEST)))
 
 
+OF_OIL = "temperature", "temperature_slope"  # by default those of the oil
+
+
 @fields_take(temperature="degrees Celsius", temperature_slope="1/K", conductivity="W/(m K)", eyring_stress="Pa")
 @dataclass(frozen=True, slots=True)
 class Heat:
@@ -108,7 +111,7 @@ class Heat:
 
     def __post_init__(self) -> None:
         for name, ends in RANGES.items():
-            if getattr(self, name) is not None:
+            if getattr(self, name) is not None or name not in OF_OIL:
                 number = require_finite(name, getattr(self, name))
                 if name == "slide_roll" and abs(number) > LARGEST_HEATED:
                     raise InputError(name, number, STANDING)

@@ -12,7 +12,8 @@ from math import cos, log, pi
 
 import scipy
 
-from ehlcontact.checks import require_integer, require_positive
+from ehlcontact.checks import parts, require_integer, require_positive
+from ehlcontact.checks.kinds import Count
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 
@@ -104,7 +105,7 @@ def hertz_contact(load: float, radius_x: float, radius_y: float, e_reduced: floa
     return HertzContact(a, b, 1.5 * load / (pi * a * b), a * a * K / (2.0 * R * E), kappa)
 
 
-@takes(radial_load="N")
+@takes(radial_load=parts.FORCE, balls=Count(1, 10_000))
 def most_loaded_ball(radial_load: float, balls: int) -> float:
     """Load on the ball that stands under the radial load of a bearing, without clearance or contact angle [N].
 

@@ -296,7 +296,7 @@ NO_UNITS = Scales(1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
 OIL = Object(Lubricant, "a Lubricant")
 
 
-@fields_take(load="N", u_sum="m/s")
+@fields_take(geometry=Object(Geometry, "a Geometry"), lubricant=OIL, load="N", u_sum="m/s")
 @dataclass(frozen=True, slots=True)
 class OperatingPoint:
     """A contact in SI units; every solver takes it, or a `MoesPoint`.
@@ -423,6 +423,7 @@ class OperatingPoint:
 
 
 Point = MoesPoint | OperatingPoint
+POINT = Object((MoesPoint, OperatingPoint), "a MoesPoint or an OperatingPoint")
 
 
 def moes_point(point: Point) -> MoesPoint:

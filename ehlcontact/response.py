@@ -42,9 +42,10 @@ from typing import Any, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_numbers, require_positive, shown
+from ehlcontact.checks import as_numbers, parts, require_positive, shown
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, is_given
 from ehlcontact.checks.machine import require_threads
+from ehlcontact.checks.quantity import fields_take
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
@@ -75,6 +76,7 @@ LONGEST = 2000.0  # semi-axes: waves as long are an approach, and in m most like
 TO = f"{APPROACH!r}, {SPEED!r}, {LAYER!r} or Waves(...)"
 
 
+@fields_take(wavelength=parts.ANY, speed=parts.ANY)
 @dataclass(frozen=True, slots=True)
 class Waves:
     """Straight waves on one of both surfaces, with crests across rolling; those of both surfaces add.

@@ -24,11 +24,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_numbers, require_instance, require_positive
+from ehlcontact.checks import as_numbers, parts, require_instance, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density, log_viscosity
-from ehlcontact.point import MoesPoint, Point, moes_point
+from ehlcontact.point import POINT, MoesPoint, OperatingPoint, Point, moes_point
 from ehlcontact.results import SteadyResult
 from ehlcontact.steady import solve_steady
 from ehlcontact.supply import OilLayer, layer_on
@@ -54,6 +55,7 @@ def side_flow(point: Point) -> float:
     return growth / point.scales.length**2
 
 
+@takes(point=POINT, layer=parts.ANY)
 def layer_after_passes(point: Point, layer: float, passes: ArrayLike) -> Array:
     """Thin layer on the line in the middle after passes of a contact, without any return of oil.
 
@@ -73,6 +75,8 @@ def layer_after_passes(point: Point, layer: float, passes: ArrayLike) -> Array:
     InputError
         A layer that is not positive; passes below 0.
     """
+    if isinstance(point, OperatingPoint):
+        parts.LAYER.require("layer", layer)
     count = as_numbers("passes", passes)
     if not np.all((count >= 0.0) & np.isfinite(count)):
         raise InputError("passes", passes, "finite numbers >= 0")

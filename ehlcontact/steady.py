@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ehlcontact.asperities import Asperities
-from ehlcontact.checks import require_choice, require_finite, require_integer, require_positive
+from ehlcontact.checks import parts, require_choice, require_finite, require_integer, require_positive
 from ehlcontact.checks.kinds import Callback, Object
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.checks.quantity import takes
@@ -50,7 +50,7 @@ MAX_CYCLES = 80  # of V cycles: films of the box take up to 18
 LARGEST_APPROACH = 1e9  # beyond all that is solved, and its power still a number
 
 
-@takes(grid=Object(Grid, "a Grid"), callback=Callback("cycles, residual"))
+@takes(grid=Object(Grid, "a Grid"), tol=parts.TOLERANCE, callback=Callback("cycles, residual"))
 @one_blas_thread()
 def solve_steady(
     point: Point,

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_nonnegative
-from ehlcontact.checks.quantity import fields_take
+from ehlcontact.checks import as_column, is_single, parts, require_nonnegative
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density
@@ -92,6 +92,7 @@ class OilLayer:
         """Whether its thickness is that of a flooded film, which has to be solved first."""
         return self.over_flooded is not None
 
+    @takes(Y=parts.ANY)
     def at(self, Y: ArrayLike) -> Array:
         """Thickness at y/b >= 0, in its own unit."""
         values, places = getattr(self, self._name), np.asarray(Y, dtype=float)
@@ -138,11 +139,11 @@ def _thickness(name: str, value: Any) -> float | tuple[float, ...]:
     """Thickness, or several of them, that a layer can have."""
     most = THICKEST[name]
     field = f"{name} of the supply"
-    values = np.atleast_1d(require_nonnegative(field, value) if np.ndim(value) == 0 else as_column(field, value))
+    values = np.atleast_1d(require_nonnegative(field, value) if is_single(value) else as_column(field, value))
     for number in values.tolist():
         if not 0.0 <= number <= most:
             slip = "; is it in um?" if name == "h" and number > SLIP else ""
             raise InputError(field, number, f"between 0 and {most:g} {UNITS[name]}{slip}")
     if not values.any():
         raise InputError(field, 0.0, "> 0 somewhere: without oil the contact is dry")
-    return float(values[0]) if np.ndim(value) == 0 else tuple(values.tolist())
+    return float(values[0]) if is_single(value) else tuple(values.tolist())

@@ -15,9 +15,12 @@ module               responsibility
 
 from ehlcontact.checks.inputs import (
     as_column,
+    as_complex,
     as_float,
     as_numbers,
     as_rows,
+    as_values,
+    is_single,
     require_between,
     require_choice,
     require_finite,
@@ -33,9 +36,12 @@ from ehlcontact.checks.inputs import (
 
 __all__ = [
     "as_column",
+    "as_complex",
     "as_float",
     "as_numbers",
     "as_rows",
+    "as_values",
+    "is_single",
     "require_between",
     "require_choice",
     "require_finite",

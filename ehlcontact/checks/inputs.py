@@ -202,6 +202,43 @@ def as_numbers(field: str, values: ArrayLike, allowed: str = "numbers") -> Array
     raise InputError(field, shown(values), allowed)
 
 
+def as_values(field: str, values: ArrayLike) -> Array:
+    """Return `values` as an array of numbers, the same one where it is one of floats; else as `as_numbers`.
+
+    For calls within a solve, whose arrays need no look at every entry.
+    """
+    if isinstance(values, np.ndarray) and values.dtype == np.float64:
+        return values
+    return as_numbers(field, values)
+
+
+def is_single(values: object) -> bool:
+    """Whether this is no list, column or array of numbers."""
+    return not isinstance(values, list | tuple) and np.ndim(values) == 0  # type: ignore[arg-type]
+
+
+def as_complex(field: str, values: ArrayLike) -> NDArray[np.complex128]:
+    """Return `values` as a new array of any shape, of finite numbers that may be complex.
+
+    Raises
+    ------
+    InputError
+        What `as_numbers` refuses, but for complex numbers; infinite ones.
+    """
+    allowed = "finite numbers, real or complex"
+    try:
+        array = np.array(values)
+    except ValueError:  # lists of several lengths
+        raise InputError(field, shown(values), allowed) from None
+    if array.dtype.kind != "c":
+        array = as_numbers(field, values, allowed).astype(complex)
+    elif any(isinstance(one, bool) for one in np.array(values, object).flat):
+        raise InputError(field, shown(values), allowed)
+    if not np.isfinite(array).all():
+        raise InputError(field, "infinite, or not a number", allowed)
+    return np.asarray(array, np.complex128)
+
+
 def _all_numbers(values: object) -> bool:
     """Whether nested sequences, arrays and columns of tables hold numbers alone.
 

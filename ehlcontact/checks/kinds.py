@@ -8,10 +8,11 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from inspect import signature
 from pathlib import PurePath
 from typing import Any
 
-from ehlcontact.checks.inputs import TEXT, require_integer, shown
+from ehlcontact.checks.inputs import TEXT, as_complex, require_integer, shown
 from ehlcontact.errors import InputError
 
 LONGEST_NAME = 255  # bytes of a name in a folder, on every usual file system
@@ -74,9 +75,20 @@ class Callback:
 
     def take(self, field: str, value: Any, number: bool) -> Any:
         """The value, or raise `InputError`."""
-        if not callable(value):
+        if not callable(value) or not accepts(value, self.arguments.count(",") + 1):
             raise InputError(field, shown(value), f"a function, called as {field}({self.arguments})")
         return value
+
+
+def accepts(function: Any, count: int) -> bool:
+    """Whether a function takes so many arguments without names, as far as its signature is known."""
+    try:
+        signature(function).bind(*range(count))
+    except TypeError:
+        return False
+    except ValueError:  # of some functions written in C
+        pass
+    return True
 
 
 @dataclass(frozen=True)
@@ -120,15 +132,29 @@ class Text:
 
 
 @dataclass(frozen=True)
+class ComplexNumbers:
+    """Complex numbers of any shape, all of them finite."""
+
+    unit: str = ""
+
+    def take(self, field: str, value: Any, number: bool) -> Any:
+        """Their array, or raise `InputError`."""
+        return as_complex(field, value)
+
+
+@dataclass(frozen=True)
 class Count:
     """A whole number of a range, both ends included."""
 
     low: int
     high: int
+    none: bool = False  # None leaves it out, where that is no default
     unit: str = ""
 
     def take(self, field: str, value: Any, number: bool) -> Any:
         """The value, or raise `InputError`."""
+        if self.none and value is None:
+            return None
         allowed = f"a whole number >= {self.low} and <= {self.high}"
         if require_integer(field, value, allowed, self.low) > self.high:
             raise InputError(field, value, allowed)
@@ -136,6 +162,10 @@ class Count:
 
 
 FILE, FOLDER, NAME = PathName("a file"), PathName("a folder"), Text()
+ENTRIES = Object(Mapping, "a mapping of names to values")
+COMPLEX = ComplexNumbers()
+INDEX = Count(0, 1_000_000)  # of degrees of freedom, balls, bearings
+INDEX_OR_NONE = Count(0, 1_000_000, none=True)
 PROGRESS = Callback("libraries compiled, libraries in all")
 STEPS = Count(3, 10_000_000)  # of a table of a function
 DONE = Callback("done, of")  # progress of a task in many parts

@@ -31,10 +31,12 @@ DAMPING_TIME = Quantity("s", (1e-15, 10.0), (1e-9, 0.1), {"us": 1e-6, "ms": 1e-3
 
 # Supports
 STIFFNESS = Quantity("N/m", (1e-3, 1e15), (1e3, 1e12), {"N/um": 1e6, "N/mm": 1e3})
+SHAFT_STIFFNESS = STIFFNESS._replace(limits=(1e-3, 1e20))  # next to infinite: a rigid shaft
 STIFFNESS_OR_NONE = STIFFNESS._replace(zero=True)
 DAMPING = Quantity("N s/m", (1e-12, 1e12), (1e-2, 1e7), {"N s/mm": 1e3}, zero=True)
 FORCE = Quantity("N", (0.0, 1e8), (0.0, 1e7), {"mN": 1e-3}, signed=True)
 PRELOAD = Quantity("N", (1e-6, 1e8), (0.1, 1e6), {"kN": 1e3, "mN": 1e-3}, zero=True)
+LOAD = INPUTS["load"]
 GRAVITY = Quantity("m/s2", (0.0, 1e3), (0.0, 100.0), {"mm/s2": 1e-3}, signed=True)
 OFFSET = Quantity("m", (0.0, 0.1), (1e-9, 1e-3), UM, signed=True)  # along a shaft, of rings
 
@@ -60,5 +62,13 @@ NATURAL = Quantity("Hz", (1e-3, 1e9), (0.1, 1e6), {"kHz": 1e3})
 MODAL_MASS = Quantity("kg", (0.0, 1e9), (1e-6, 1e6), {"g": 1e-3}, signed=True)
 FEED = Quantity("m3/s", (1e-24, 1.0), (1e-18, 1e-3), {"mm3/s": 1e-9}, zero=True)
 SHARE = Quantity("", (0.0, 1.0), (0.0, 1.0))
+TIMES = Quantity("s", (0.0, 1e7), (1e-6, 1e5), {"ms": 1e-3, "us": 1e-6})
+STEP = Quantity("s", (1e-15, 10.0), (1e-9, 0.1), {"us": 1e-6, "ms": 1e-3})  # of an integration
+APPROACH = Quantity("m", (0.0, 0.1), (1e-9, 1e-3), UM, signed=True)  # of two bodies
+TOLERANCE = Quantity("", (1e-15, 0.5), (1e-12, 0.1))
+INDEX_OF_REFRACTION = Quantity("", (1.0, 5.0), (1.0, 5.0))
+VISCOSITY = Quantity("m2/s", (1e-9, 1.0), (1e-6, 0.1), {"mm2/s": 1e-6})  # kinematic
+RATIO_OF_LOADS = Quantity("", (1e-6, 1e3), (1e-2, 20.0))
+DRY_APPROACHES = Quantity("dry approaches", (0.0, 1e3), (0.0, 10.0), signed=True)
 ANY = Quantity("", (0.0, 1e30), (0.0, 1e30), signed=True)
 LARGEST_LOAD = Quantity("", (1e-9, 1e9), (1e-3, 1e3))  # over the mean load

@@ -15,7 +15,7 @@ from inspect import Parameter, signature
 from math import pi
 from typing import Any, ParamSpec, Protocol, TypeVar
 
-from ehlcontact.checks.inputs import has_quantity, is_quantity, require_flag
+from ehlcontact.checks.inputs import as_numbers, has_quantity, is_quantity, require_flag
 from ehlcontact.errors import InputError
 
 P = ParamSpec("P")
@@ -80,9 +80,7 @@ def takes(**kinds: str | Kind) -> Callable[[Callable[P, Result]], Callable[P, Re
         parameters = signature(call).parameters
         names = tuple(parameters)
         units = {name: kind if isinstance(kind, str) else kind.unit for name, kind in kinds.items()}
-        checks = {
-            name: _check_of(kind, parameters[name]) for name, kind in kinds.items() if not isinstance(kind, str)
-        }
+        checks = {name: _check_of(kind, parameters[name]) for name, kind in kinds.items()}
         checks |= {name: require_flag for name, one in parameters.items() if one.annotation in ("bool", bool)}
 
         def convert(name: str, value: Any) -> Any:
@@ -121,9 +119,20 @@ def fields_take(**kinds: str | Kind) -> Callable[[type[Result]], type[Result]]:
     return decorate
 
 
-def _check_of(kind: Kind, parameter: Parameter) -> Callable[[str, Any], Any]:
-    """Check of one argument; None is what leaves it out where that is its default."""
+def _check_of(kind: str | Kind, parameter: Parameter) -> Callable[[str, Any], Any]:
+    """Check of one argument; None is what leaves it out where that is its default.
+
+    Of a quantity without a range of its own arrays are looked at; calls refuse single numbers themselves.
+    """
     number = parameter.annotation in ("float", "float | None", float)
+
+    def numbers(name: str, value: Any) -> Any:
+        if isinstance(value, list | tuple | dict | set):
+            as_numbers(name, value)  # type: ignore[arg-type]
+        return value
+
+    if isinstance(kind, str):
+        return numbers
 
     def check(name: str, value: Any) -> Any:
         return None if value is None and parameter.default is None else kind.take(name, value, number)

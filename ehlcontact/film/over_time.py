@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import require_finite, require_instance
+from ehlcontact.checks.kinds import Object
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point
 from ehlcontact.quantities import ALONG, LENGTH, SURFACE_SPEED, TIME
@@ -53,6 +55,7 @@ class FilmHistory(PointTable):
     DISPLAY: ClassVar[Display] = Display(rows="t", panels=("h_central h_min",))
 
 
+@takes(run=Object(SimulationResult, "a result of simulate"))
 def film_history(run: SimulationResult) -> FilmHistory:
     """Central and smallest film of a simulation over time."""
     return FilmHistory(run.point, run.t, run.h_central, run.h_min)
@@ -129,6 +132,7 @@ def film_wave(run: SimulationResult) -> FilmWave:
     return FilmWave(run.point, run.x, run.t, run.h_midplane - run.h_midplane[0])
 
 
+@takes(wave=Object(FilmWave, "a FilmWave"))
 def track_wave(wave: FilmWave, start: float = -0.6, end: float = 0.6) -> WaveTrack:
     """Speed of a film wave: the delay from station to station, and a straight line through the delays.
 

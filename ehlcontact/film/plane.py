@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import require_finite, require_instance, require_positive
+from ehlcontact.checks import parts, require_finite, require_instance, require_positive
 from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
@@ -242,7 +242,7 @@ class Interferogram(QuantityTable):
         return np.maximum(np.abs(along), np.abs(across)) < 0.5
 
 
-@takes(film=Object(Film, "a Film"), wavelength="m", phase="rad")
+@takes(film=Object(Film, "a Film"), wavelength="m", refractive_index=parts.INDEX_OF_REFRACTION, phase=parts.ANY)
 def interferogram(
     film: Film, wavelength: float, refractive_index: float = 1.5, phase: float = 0.0
 ) -> Interferogram:

@@ -247,8 +247,11 @@ def _log_ratio(temperature: float) -> float:
 
 
 def _looks_kelvin(temperature: object) -> bool:
-    return isinstance(temperature, int | float) and TEMPERATURES[0] <= temperature - KELVIN <= TEMPERATURES[1]
+    return (
+        isinstance(temperature, int | float)
+        and TEMPERATURES[0] + KELVIN <= temperature <= TEMPERATURES[1] + KELVIN
+    )
 
 
 def _looks_gram(density: object) -> bool:
-    return isinstance(density, int | float) and DENSITIES[0] <= density * 1e3 <= DENSITIES[1]
+    return isinstance(density, int | float) and DENSITIES[0] * 1e-3 <= density <= DENSITIES[1] * 1e-3

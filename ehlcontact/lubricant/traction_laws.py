@@ -14,7 +14,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_float, require_between, require_choice, require_instance
+from ehlcontact.checks import as_float, as_values, require_between, require_choice, require_instance
 from ehlcontact.checks.admissible_range import Quantity
 from ehlcontact.checks.quantity import fields_take
 
@@ -76,7 +76,7 @@ class TractionLaw:
 
 def log_sinh_law(log_ratio: ArrayLike) -> Array:
     """asinh(r) from ln r: shear stress over tau_0 by Eyring's law (eq. 3), without overflow."""
-    x = np.asarray(log_ratio, float)
+    x = as_values("log_ratio", log_ratio)
     return np.where(x > STRAIGHT, x + np.log(2.0), np.arcsinh(np.exp(np.minimum(x, STRAIGHT))))
 
 
@@ -106,7 +106,7 @@ class Eyring(TractionLaw):
 
     def thinning(self, log_newton: ArrayLike) -> tuple[Array, Array]:
         """1/cosh(tau/tau_0) along, and (tau/tau_0)/sinh(tau/tau_0) across: `TractionLaw.thinning`."""
-        x = np.asarray(log_newton, float) - np.log(self.stress)
+        x = as_values("log_newton", log_newton) - np.log(self.stress)
         along = -0.5 * np.logaddexp(0.0, 2.0 * x)
         little = x < LITTLE
         across = np.where(little, 0.0, np.log(np.where(little, 1.0, log_sinh_law(x))) - np.where(little, 0.0, x))
@@ -114,20 +114,20 @@ class Eyring(TractionLaw):
 
     def reduced(self, log_ratio: ArrayLike) -> tuple[Array, Array]:
         """asinh(x), and x/(1 + x^2)^(1/2): `TractionLaw.reduced`."""
-        x = np.asarray(log_ratio, float)
+        x = as_values("log_ratio", log_ratio)
         return log_sinh_law(x), 1.0 / np.hypot(1.0, np.exp(-np.clip(x, -STRAIGHT, STRAIGHT)))
 
     def thinning_slopes(self, log_newton: ArrayLike) -> tuple[Array, Array]:
         """-x^2/(1 + x^2) along, x/((1 + x^2)^(1/2) asinh x) - 1 across: `TractionLaw.thinning_slopes`."""
-        x = np.asarray(log_newton, float) - np.log(self.stress)
+        x = as_values("log_newton", log_newton) - np.log(self.stress)
         ratio = np.exp(-np.logaddexp(0.0, -2.0 * x))  # x^2/(1 + x^2)
         little = x < LITTLE
         return -ratio, np.where(little, 0.0, np.sqrt(ratio) / np.where(little, 1.0, log_sinh_law(x)) - 1.0)
 
     def of(self, log_newton: ArrayLike, p: ArrayLike) -> Array:
         """Shear stress [Pa]: `TractionLaw.of` (eq. 3)."""
-        found = log_sinh_law(np.asarray(log_newton, float) - np.log(self.stress))
-        return np.asarray(self.stress * found + 0.0 * np.asarray(p))
+        found = log_sinh_law(as_values("log_newton", log_newton) - np.log(self.stress))
+        return np.asarray(self.stress * found + 0.0 * as_values("p", p))
 
 
 @fields_take(stress="Pa")
@@ -161,29 +161,29 @@ class Carreau(TractionLaw):
 
     def thinning(self, log_newton: ArrayLike) -> tuple[Array, Array]:
         """``((1 + n x^2)/(1 + x^2))`` of the viscosity along, all of it across: `TractionLaw.thinning`."""
-        square = 2.0 * (np.asarray(log_newton, float) - np.log(self.stress))  # ln of x^2
+        square = 2.0 * (as_values("log_newton", log_newton) - np.log(self.stress))  # ln of x^2
         across = 0.5 * (self.exponent - 1.0) * np.logaddexp(0.0, square)
         slope = np.logaddexp(0.0, square + np.log(self.exponent)) - np.logaddexp(0.0, square)
         return across + slope, across
 
     def reduced(self, log_ratio: ArrayLike) -> tuple[Array, Array]:
         """X (1 + x^2)^((n - 1)/2), and x times its derivative: `TractionLaw.reduced`."""
-        x = np.asarray(log_ratio, float)
+        x = as_values("log_ratio", log_ratio)
         along, across = self.thinning(x + np.log(self.stress))
         return np.exp(x + across), np.exp(x + along)
 
     def thinning_slopes(self, log_newton: ArrayLike) -> tuple[Array, Array]:
         """As of `thinning`: `TractionLaw.thinning_slopes`."""
-        x = np.asarray(log_newton, float) - np.log(self.stress)
+        x = as_values("log_newton", log_newton) - np.log(self.stress)
         share, own = (np.exp(-np.logaddexp(0.0, -2.0 * s)) for s in (x, x + 0.5 * np.log(self.exponent)))
         across = (self.exponent - 1.0) * share
         return across + 2.0 * (own - share), across
 
     def of(self, log_newton: ArrayLike, p: ArrayLike) -> Array:
         """Shear stress [Pa]: `TractionLaw.of` (eq. 4)."""
-        log_newton = np.asarray(log_newton, float)
+        log_newton = as_values("log_newton", log_newton)
         thinner = 0.5 * (self.exponent - 1.0) * np.logaddexp(0.0, 2.0 * (log_newton - np.log(self.stress)))
-        return np.asarray(np.exp(log_newton + thinner) + 0.0 * np.asarray(p))
+        return np.asarray(np.exp(log_newton + thinner) + 0.0 * as_values("p", p))
 
 
 @fields_take(base="Pa")
@@ -216,11 +216,13 @@ class LimitingShear(TractionLaw):
     def of(self, log_newton: ArrayLike, p: ArrayLike) -> Array:
         """Shear stress [Pa]: `TractionLaw.of` (eq. 5)."""
         most = self.limit(p)
-        return np.asarray(-most * np.expm1(-np.exp(np.minimum(np.asarray(log_newton) - np.log(most), STRAIGHT))))
+        return np.asarray(
+            -most * np.expm1(-np.exp(np.minimum(as_values("log_newton", log_newton) - np.log(most), STRAIGHT)))
+        )
 
     def limit(self, p: ArrayLike) -> Array:
         """Limiting stress [Pa]."""
-        return np.asarray(self.base + self.coefficient * np.asarray(p, float))
+        return np.asarray(self.base + self.coefficient * as_values("p", p))
 
 
 LAWS: Mapping[str, type[TractionLaw]] = {law.__name__: law for law in (Eyring, Carreau, LimitingShear)}

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from ehlcontact.checks.kinds import FILE
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_bytes
 from ehlcontact.results.picture import (
@@ -47,6 +48,8 @@ def draw(picture: Picture | Slides, path: str | os.PathLike[str] | None = None) 
     """
     from matplotlib.figure import Figure
 
+    if path is not None:
+        FILE.take("path", path, False)
     if isinstance(picture, Slides):
         picture = picture.pictures[picture.start]
     rows, columns = picture.shape

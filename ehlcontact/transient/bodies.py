@@ -20,11 +20,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import shown
+from ehlcontact.checks.kinds import Object
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint, Point, Scales
 from ehlcontact.solver.balance import Balance
 
 Array = NDArray[np.float64]
+MADE_AT = Object(OperatingPoint, "an OperatingPoint")
 
 # Fixed steps, in the time in which the film goes on by a semi-axis. Under a load that bends from 1 to 1.3 and back
 # within T = 2 the shorter one leaves 0.2 % of the smallest film open, 0.25 leaves 2 %, 0.5 leaves 7 % and 1 leaves

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from math import hypot, inf, pi, sin
 from typing import Any, ClassVar
 
-from ehlcontact.checks import require_choice, require_finite, require_positive
+from ehlcontact.checks import parts, require_choice, require_finite, require_positive
 from ehlcontact.checks.frequency import dimensionless, fields_by_name, is_given, one
-from ehlcontact.checks.quantity import takes
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint
 from ehlcontact.solver.balance import Balance
-from ehlcontact.transient.bodies import LONGEST_ABRUPT, Start, UnderLoad, scales_at
+from ehlcontact.transient.bodies import LONGEST_ABRUPT, MADE_AT, Start, UnderLoad, scales_at
 
 SMALL_VIBRATION = 1.5**0.5  # dry angular frequency over Omega_n
 STEPS_PER_PERIOD = 80
@@ -30,6 +30,7 @@ def _require_frequency(field: str, value: object) -> None:
         raise InputError(field, value, f"between {SLOWEST:g} and {FASTEST:g} ({unit})")
 
 
+@fields_take(made_at=MADE_AT)
 @fields_by_name(0, omega_n="Omega_n, dimensionless; FreeVibration.at(point, hz=...) takes SI")
 @dataclass(frozen=True, slots=True)
 class FreeVibration(UnderLoad):
@@ -118,6 +119,7 @@ class FreeVibration(UnderLoad):
         """Period of small dry vibrations, 5.13/Omega_n."""
         return 2.0 * pi / (SMALL_VIBRATION * self.Omega_n)
 
+    @takes(T=parts.ANY)
     def load(self, T: float) -> float:
         """Applied load."""
         return 1.0
@@ -162,6 +164,7 @@ class FreeVibration(UnderLoad):
     omega="Omega, dimensionless; HarmonicLoad.at(point, hz=...) takes SI",
     omega_n="Omega_n, dimensionless",
 )
+@fields_take(made_at=MADE_AT)
 @dataclass(frozen=True, slots=True)
 class HarmonicLoad(UnderLoad):
     """Load ``1 + amplitude sin(Omega T)``; quasi-static (eq. 6) unless Omega_n gives the bodies inertia.
@@ -218,6 +221,7 @@ class HarmonicLoad(UnderLoad):
         """2 pi/Omega."""
         return 2.0 * pi / self.Omega
 
+    @takes(T=parts.ANY)
     def load(self, T: float) -> float:
         """Applied load."""
         return 1.0 + self.amplitude * sin(self.Omega * T)
@@ -252,6 +256,7 @@ class HarmonicLoad(UnderLoad):
         return {"kind": self.kind, "Omega": self.Omega, "amplitude": self.amplitude, "Omega_n": self.Omega_n}
 
 
+@fields_take(made_at=MADE_AT)
 @fields_by_name(2, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, slots=True)
 class RampLoad(UnderLoad):
@@ -281,7 +286,7 @@ class RampLoad(UnderLoad):
         _require_frequency("Omega_n", self.Omega_n)
 
     @classmethod
-    @takes(load="N", duration="s", mass="kg")
+    @takes(load=parts.PRELOAD, duration=parts.SECONDS, mass=parts.MASS)
     def at(cls, point: OperatingPoint, *, load: float, duration: float, mass: float) -> RampLoad:
         """The same in SI: to a load [N] within a duration [s], on bodies of a mass [kg].
 
@@ -295,6 +300,7 @@ class RampLoad(UnderLoad):
         within = require_positive("duration", duration) / scales.time
         return cls(ratio, within, Omega_n=point.Omega_n(mass), made_at=point)
 
+    @takes(T=parts.ANY)
     def load(self, T: float) -> float:
         """Applied load."""
         return 1.0 + (self.ratio - 1.0) * min(max(T / self.duration, 0.0), 1.0)

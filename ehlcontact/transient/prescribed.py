@@ -10,14 +10,24 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlcontact.checks import as_column, require_positive
+from ehlcontact.checks import as_column, parts, require_positive
 from ehlcontact.checks.frequency import by_name, fields_by_name
 from ehlcontact.checks.kinds import STEPS, Callback
-from ehlcontact.checks.quantity import takes
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.solver.balance import Balance
-from ehlcontact.transient.bodies import LONGEST_ABRUPT, Array, Motion, MotionState, Start, UnderLoad, scales_at
+from ehlcontact.transient.bodies import (
+    LONGEST_ABRUPT,
+    MADE_AT,
+    Array,
+    Motion,
+    MotionState,
+    Start,
+    UnderLoad,
+    scales_at,
+)
+from ehlcontact.transient.motion import RampLoad
 
 CORNER = 0.3  # jump of a table's slope, over its steepest, that counts as a corner; 1/20 period of a sine is 0.31
 MISSED = 0.5  # of the range of a table, by which a row is beyond the values at both ends of a step
@@ -78,9 +88,14 @@ def passed_over_note(inputs: Iterable[object], T: Array, point: Point) -> str:
     return ""
 
 
-def unit_hint(motion: object, point: Point) -> str:
+def unit_hint(motion: Motion, point: Point) -> str:
     """How to give a table in SI, where one at an `OperatingPoint` was hardly meant without; else empty."""
-    if not isinstance(motion, Tabulated) or motion.made_at is not None or not isinstance(point, OperatingPoint):
+    if motion.made_at is not None or not isinstance(point, OperatingPoint):
+        return ""
+    if isinstance(motion, RampLoad):
+        wrong = motion.ratio > HEAVIEST
+        return "RampLoad(ratio, ...) is in static loads, RampLoad.at(point, load=...) in newton" if wrong else ""
+    if not isinstance(motion, Tabulated):
         return ""
     largest = float(np.abs(motion._table[1]).max())
     if isinstance(motion, PrescribedApproach):
@@ -109,6 +124,7 @@ class Tabulated(Motion):
         return self.default_end / (len(self._table[0]) - 1)
 
 
+@fields_take(made_at=MADE_AT)
 @fields_by_name(2, omega_n="Omega_n, dimensionless")
 @dataclass(frozen=True, slots=True, eq=False)
 class PrescribedLoad(Tabulated, UnderLoad):
@@ -146,7 +162,7 @@ class PrescribedLoad(Tabulated, UnderLoad):
         object.__setattr__(self, "_table", table)
 
     @classmethod
-    @takes(t="s", load="N", mass="kg")
+    @takes(t="s", load=parts.PRELOAD, mass=parts.MASS)
     def at(
         cls, point: OperatingPoint, t: ArrayLike, load: ArrayLike, *, mass: float | None = None
     ) -> PrescribedLoad:
@@ -172,6 +188,7 @@ class PrescribedLoad(Tabulated, UnderLoad):
         T = np.linspace(0.0, require_positive("until", until), steps + 1)
         return cls(T, [load(t) for t in T], Omega_n=Omega_n)
 
+    @takes(T=parts.ANY)
     def load(self, T: float) -> float:
         """Applied load."""
         return float(np.interp(T, *self._table))
@@ -198,6 +215,7 @@ class PrescribedLoad(Tabulated, UnderLoad):
         return {"kind": self.kind, "T": T.tolist(), "values": values.tolist(), "Omega_n": self.Omega_n}
 
 
+@fields_take(made_at=MADE_AT)
 @dataclass(frozen=True, slots=True, eq=False)
 class PrescribedApproach(Tabulated):
     """Approach u(T) given by a table (cubic spline, so that the rate is continuous).
@@ -227,11 +245,12 @@ class PrescribedApproach(Tabulated):
         from scipy.interpolate import CubicSpline
 
         table = as_table(self.T, self.values)
+        parts.DRY_APPROACHES.take("values", table[1], False)
         object.__setattr__(self, "_table", table)
         object.__setattr__(self, "_spline", CubicSpline(*table))
 
     @classmethod
-    @takes(t="s", approach="m")
+    @takes(t="s", approach=parts.APPROACH)
     def at(cls, point: OperatingPoint, t: ArrayLike, approach: ArrayLike) -> PrescribedApproach:
         """The same in SI: approaches [m] over times [s], shape (k,) each.
 

@@ -8,7 +8,9 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.checks import parts
 from ehlcontact.checks.inputs import require_number
+from ehlcontact.checks.quantity import takes
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError
 from ehlcontact.origin import Origin, freeze
@@ -198,6 +200,7 @@ class SimulationResult(Columns, PointTable, Origin):
         """Number of time steps done."""
         return len(self.t) - 1
 
+    @takes(t=parts.ANY)
     def at(self, t: ArrayLike) -> Instants:
         """Dense output: cubic Hermite polynomials between the steps.
 
@@ -256,7 +259,7 @@ class SimulationResult(Columns, PointTable, Origin):
         start, end = (require_number(name, t, "a time") for name, t in (("start", start), ("end", end)))
         if not end >= self.t[0]:
             raise InputError("end", end, f"at least {self.t[0]:g}, where the run starts")
-        if not start <= end:
+        if not start <= min(end, self.t[-1]):
             raise InputError("start", start, f"at most end = {end:g}")
         keep = (self.t >= start) & (self.t <= end)
         return float(np.trapezoid(self.force[keep], self.approach[keep]))

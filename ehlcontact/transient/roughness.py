@@ -13,7 +13,8 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive, shown
+from ehlcontact.checks import require_finite, require_integer, require_nonnegative, require_positive
+from ehlcontact.checks.inputs import as_numbers
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint
@@ -272,10 +273,7 @@ def _course_at(point: OperatingPoint, course: dict[str, Any]) -> dict[str, Any]:
 
 def _table(heights: ArrayLike) -> Array:
     """`heights` as an array of numbers, or `InputError`."""
-    try:
-        table = np.array(heights, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("heights", shown(heights), "a table of numbers, rows along rolling") from None
+    table = as_numbers("heights", heights, "a table of numbers, rows along rolling")
     if table.ndim != 2 or min(table.shape) < FEWEST_SAMPLES:
         allowed = f"of two dimensions with at least {FEWEST_SAMPLES} samples each"
         raise InputError("heights", f"of shape {table.shape}", allowed)

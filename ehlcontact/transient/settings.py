@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from math import ceil, inf
 from typing import Self
 
-from ehlcontact.checks import require_instance, require_nonnegative, require_positive
-from ehlcontact.checks.kinds import Callback
+from ehlcontact.checks import parts, require_instance, require_nonnegative, require_positive
+from ehlcontact.checks.kinds import FILE, Callback
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.conditions import FLOODED, Conditions
@@ -31,6 +31,7 @@ ROUNDING = 1e-9  # of a step: an end this much later is met all the same
 TOL_SHARE = 3.0  # tol over local error: the last changes of force and approach are then a tenth of the error
 
 
+@fields_take(tol=parts.TOLERANCE)
 @dataclass(frozen=True, slots=True)
 class TimeSteps:
     """End of a run and its steps; what is left out follows from the motion, the film and the surfaces.
@@ -95,6 +96,7 @@ class TimeSteps:
         return None if self.dt is None else self.dt / unit
 
 
+@fields_take(checkpoint=FILE, restart=FILE)
 @dataclass(frozen=True, slots=True)
 class KeepSettings:
     """What a run keeps besides its history: whole fields, and checkpoints to go on from.

@@ -21,11 +21,11 @@ from numpy.typing import ArrayLike
 
 from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.checks.kinds import STEPS, Callback
-from ehlcontact.checks.quantity import takes
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint, Point
 from ehlcontact.solver.grid import Grid
-from ehlcontact.transient.bodies import Array, OverTime, scales_at
+from ehlcontact.transient.bodies import MADE_AT, Array, OverTime, scales_at
 from ehlcontact.transient.features import Surface
 from ehlcontact.transient.prescribed import as_table, corners_of
 
@@ -33,6 +33,7 @@ LARGEST_SPEED = 100.0  # over that of the operating point: a film of other scale
 LARGEST_CHANGE = 1e6  # of U over T: a speed that jumps
 
 
+@fields_take(made_at=MADE_AT)
 @dataclass(frozen=True, slots=True, eq=False)
 class SpeedHistory(OverTime):
     """Speed of both surfaces over time, straight between its rows, constant after the last.

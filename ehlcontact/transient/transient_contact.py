@@ -170,6 +170,7 @@ class TransientContact(Summary):
         """
         dT = require_positive("dt", dt) / self.scales.time
         u = require_finite("approach", approach) / self.scales.length
+        require_finite("rate", rate)
         film, T = self._film, self._T + dT
         feature = surface_step(self._surface, film.level.X, film.level.Y, T, dT, film.last_step)
         state = film.save_state()

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions import assumptions
-from ehlcontact.checks import as_column, as_numbers, require_choice, require_positive
+from ehlcontact.checks import as_column, as_numbers, parts, require_choice, require_positive
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, one
+from ehlcontact.checks.quantity import takes
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import InputError, warn_user
 from ehlcontact.heat import Heat
@@ -124,6 +125,7 @@ class Atlas:
         """
         return self._answer(point, conditions_at(point, Conditions.of(supply=supply, thermal=thermal)))
 
+    @takes(M=parts.ANY, L=parts.ANY, kappa=parts.ANY, alpha="1/Pa", eta0="Pa s")
     def over(
         self,
         M: ArrayLike,

@@ -21,7 +21,7 @@ from ehlcontact.checks import (
     require_nonnegative,
 )
 from ehlcontact.checks.frequency import by_name, radians_per_second
-from ehlcontact.checks.kinds import FILE, NAME
+from ehlcontact.checks.kinds import ENTRIES, FILE, NAME
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
@@ -276,7 +276,7 @@ class BallBearing(Summary):
         """
         return DefectOrders.of(self.balls, self.gamma, table_cosine(self))
 
-    @takes(load="N", axial="N", speed_rpm="rev/min")
+    @takes(load="N", axial=parts.FORCE, speed_rpm="rev/min")
     def orders_under(
         self, load: ArrayLike, *, axial: float = 0.0, speed_rpm: float = 0.0, slip: float = 0.0
     ) -> DefectOrders:
@@ -306,7 +306,7 @@ class BallBearing(Summary):
         found = self.equilibrium(force, speed_rpm=speed_rpm).orders or self.orders
         return found.with_slip(slip)
 
-    @takes(speed_rpm="rev/min")
+    @takes(speed_rpm=parts.SPEED_OR_NONE)
     def frequencies(self, speed_rpm: float) -> DefectFrequencies:
         """Defect frequencies [Hz] at a speed of the shaft [rev/min]."""
         return self.orders.at(require_nonnegative("speed_rpm", speed_rpm))
@@ -341,7 +341,7 @@ class BallBearing(Summary):
             raise InputError("oil", None, "given, for a film")
         return self.tables.element(contact.name, speed)
 
-    @takes(load="N", speed_rpm="rev/min", cage_angle="rad", tilt="rad")
+    @takes(load="N", speed_rpm="rev/min", cage_angle="rad", shaft_angle=parts.ANY, tilt="rad")
     def equilibrium(
         self,
         load: ArrayLike,
@@ -534,6 +534,7 @@ class BallBearing(Summary):
         }
 
     @classmethod
+    @takes(entries=ENTRIES)
     def from_dict(cls, entries: Mapping[str, Any]) -> Self:
         """Rebuild a bearing from `to_dict`; raises `InputError` for entries that are missing, unknown or wrong."""
         require_names(entries, [f.name for f in fields(cls) if f.init])

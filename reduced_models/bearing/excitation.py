@@ -33,7 +33,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact import Dent
-from ehlcontact.checks import require_instance
+from ehlcontact.checks import parts, require_instance
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.hertz import hertz_contact
 from ehlcontact.quantities import FORCE, HERTZ, LENGTH, NUMBER, RADIAN, SPEED, Quantity
@@ -144,6 +145,7 @@ class BearingExcitation(QuantityTable):
             )
         return "; ".join(notes)
 
+    @takes(turns=parts.ANY)
     def force(self, turns: ArrayLike) -> _Floats:
         """Forces [N], [N m] at these turns of the shaft, shape of `turns` + (n,)."""
         at = np.exp(2j * np.pi * np.asarray(turns, float)[..., None] * self.order)

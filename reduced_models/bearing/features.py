@@ -21,7 +21,7 @@ from ehlcontact.checks import (
     require_integer,
     require_names,
 )
-from ehlcontact.checks.quantity import fields_take
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.race import RACES
 
@@ -163,6 +163,7 @@ class Spall:
         if self.edge > 0.5 * self.length:
             raise InputError("edge", self.edge, f"at most half of the length, {0.5 * self.length:g} m")
 
+    @takes(x=parts.ANY)
     def height(self, x: _Floats) -> _Floats:
         """Height [m] at distances x [m] from its middle along the track."""
         inside = 0.5 * self.length - np.abs(x)
@@ -205,6 +206,7 @@ class Indentation:
     def __post_init__(self) -> None:
         _require_place(self)
 
+    @takes(x=parts.ANY)
     def height(self, x: _Floats) -> _Floats:
         """Height [m] at distances x [m] from its middle along the track."""
         at = np.abs(x) / self.length

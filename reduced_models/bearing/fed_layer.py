@@ -12,6 +12,7 @@ from math import inf
 from typing import Any
 
 from ehlcontact.checks import parts, require_between
+from ehlcontact.checks.inputs import require_number
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.film_formulas import film_of_layer
@@ -62,7 +63,8 @@ class FedLayer(OilLayer):
 def require_return(returned: float, return_time: float, sharpness: float | None) -> None:
     """Raise `InputError` unless these can be those of oil that returns, and g of a film over its layer."""
     require_between("returned", returned, 0.0, 1.0)
-    if returned > 0.0 and not 0.0 < return_time < inf:
+    require_number("return_time", return_time, "a time [s]")
+    if not return_time > 0.0 or (returned > 0.0 and return_time == inf):
         raise InputError("return_time", return_time, "> 0 and finite [s], where oil returns")
     if sharpness is not None:
         require_between("sharpness", sharpness, 1.0, 30.0)

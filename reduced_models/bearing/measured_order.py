@@ -17,6 +17,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_numbers, require_finite, require_nonnegative
+from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.ball_bearing import BallBearing
@@ -37,6 +38,7 @@ class Interval(NamedTuple):
     high: float | _Floats
 
 
+@takes(bearing=Object(BallBearing, "a BallBearing"))
 def angle_from_order(
     bearing: BallBearing,
     *,
@@ -79,7 +81,7 @@ def angle_from_order(
     return Interval(value, low, high)
 
 
-@takes(axial="N", radial="N", speed_rpm="rev/min")
+@takes(bearing=Object(BallBearing, "a BallBearing"), axial="N", radial="N", speed_rpm="rev/min")
 def clearance_from_order(
     bearing: BallBearing,
     axial: ArrayLike,

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, as_rows, require_instance, require_positive
+from ehlcontact.checks.inputs import as_numbers
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.ball import Balls
 from reduced_models.bearing.ball_bearing import BallBearing
@@ -24,6 +25,7 @@ from reduced_models.life.bearing_life import STANDING, TURNING
 
 _Floats = NDArray[np.float64]
 
+FASTEST, FARTHEST = 1e3, 0.1  # m/s, rad/s and m, rad: of a ring
 LEAST_STEPS = 16  # per turn of the shaft and per ball passage
 
 
@@ -227,6 +229,10 @@ class BearingMotion:
             A ball finds no balance.
         """
         place, rate = (as_column(name, x, size=self._size) for name, x in (("q", q), ("v", v)))
+        if abs(place).max() > FARTHEST:
+            raise InputError("q", place.tolist(), f"at most {FARTHEST:g} m or rad in magnitude")
+        if abs(rate).max() > FASTEST:
+            raise InputError("v", rate.tolist(), f"at most {FASTEST:g} m/s or rad/s in magnitude")
         force, stiffness, damping = self._motion.forces(place, rate)
         return _finite(force, place), stiffness, damping
 
@@ -250,7 +256,8 @@ class BearingMotion:
         balls : ndarray, shape (k, balls, 2)
             Force on every ball, at the inner and the outer race [N].
         """
-        places = as_rows("q", q, np.shape(q)[0], self._size)
+        places = as_numbers("q", q)
+        places = as_rows("q", places, len(np.atleast_1d(places)), self._size)
         found = self._motion.drive(self._omega, self.dt, places, as_rows("v", v, places.shape[0], self._size))
         self._motion.begin(self._omega, self.dt)
         return found

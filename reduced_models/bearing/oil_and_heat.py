@@ -28,12 +28,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact import Heat, OilLayer, OperatingPoint, impedance
+from ehlcontact.checks import parts, require_instance
+from ehlcontact.checks.kinds import Callback
+from ehlcontact.checks.quantity import takes
 from ehlcontact.conditions import Conditions
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.lubricant import TractionLaw
 from ehlcontact.status import Status
 from ehlcontact.summary import Summary
 from ehlcontact.supply import THICKEST
+from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.kinematics import RPM_TO_HZ, rolling_torque
 from reduced_models.bearing.race import RACES, shared_atlas
@@ -297,6 +301,7 @@ FILMS = (
 SMALL = (("stiffness", "N/µm", 1e6), ("damping", "N s/m", 1.0))
 
 
+@takes(band=parts.NATURAL, callback=Callback("done, of, words"))
 def oil_and_heat(
     bearing: Any,
     load: ArrayLike,
@@ -341,6 +346,7 @@ def oil_and_heat(
         Of flooded films that are solved. Other films that do not converge are in `OilAndHeat.refused`.
     """
     for one in _bearings(bearing):
+        require_instance("bearing", one, BallBearing, "a BallBearing, or a BearingSet")
         require_oil(one, law)
         if one.supply is not None:
             raise InputError(

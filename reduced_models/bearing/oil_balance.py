@@ -50,7 +50,7 @@ THICKEST, THINNEST = 1e3, 1e-6  # flooded films, between which a layer in balanc
 ACCURACY = 1e-8  # relative, of layers over time
 
 
-@fields_take(load=parts.FORCE, speed_rpm=parts.SPEED, feed=parts.FEED)
+@fields_take(load=parts.FORCE, speed_rpm=parts.SPEED, feed=parts.FEED, returned=parts.SHARE, sharpness=parts.ANY)
 @dataclass(frozen=True, kw_only=True, eq=False)
 class OilBalance(Summary):
     """Balance of the oil on the tracks of a ball bearing under a radial load at a speed. SI units.
@@ -147,6 +147,7 @@ class OilBalance(Summary):
         law = self.bearing.race(race).point(force, self.speed_rpm).moes.law
         return float(plain(density)(1.0, law)[0])
 
+    @takes(layer=parts.LAYER._replace(zero=True))
     def films(self, layer: ArrayLike) -> _Floats:
         """Central films of the most loaded ball [m], shape (..., 2): at inner and outer race under a layer [m]."""
         found = []
@@ -157,6 +158,7 @@ class OilBalance(Summary):
             found.append(self.flooded[column] * film_of_layer(np.asarray(layer, dtype=float) / full, g))
         return np.stack(found, axis=-1)
 
+    @takes(layer=parts.LAYER)
     def loss_rate(self, layer: float) -> float:
         """L: rate at which all contacts together thin a layer [m/s]."""
         passes = self.bearing.race("inner").speed_sum * self.speed_rpm * RPM_TO_RAD_S / self.track_length

@@ -12,7 +12,9 @@ from __future__ import annotations
 from math import exp, radians, sin, sqrt
 from typing import Any, NamedTuple
 
-from ehlcontact.checks import require_nonnegative, require_positive
+from ehlcontact.checks import parts, require_nonnegative, require_positive
+from ehlcontact.checks.kinds import NAME
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.life.load_ratings import static_rating
 
@@ -66,6 +68,11 @@ def boundary_diameters(name: str) -> tuple[str, int, int]:
     return series, BORES[int(size)], OUTSIDE[series][int(size)]
 
 
+@takes(
+    name=NAME, radial=parts.FORCE, axial=parts.FORCE, speed_rpm=parts.SPEED_OR_NONE,
+    kinematic_viscosity=parts.VISCOSITY, static_rating=parts.PRELOAD, replenishment=parts.SHARE,
+    mu_boundary=parts.SHARE, mu_film=parts.SHARE,
+)  # fmt: skip
 def skf_friction(
     name: str,
     *,

@@ -27,6 +27,8 @@ from ehlcontact.checks.frequency import (
     one,
     radians_per_second,
 )
+from ehlcontact.checks.kinds import ENTRIES
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError, warn_user
 from ehlcontact.point import Point, Scales
 from ehlcontact.results.response import Response
@@ -108,6 +110,8 @@ class ContactElement(ElementSummary, _Common, ABC):
     def __post_init__(self) -> None:
         require_choice("kind", self.kind, tuple(self.kinds))
         require_choice("units", self.units, UNITS)
+        for name in ("fit", "source"):
+            require_instance(name, getattr(self, name), Mapping | None, "a mapping of names to values, or None")
         self._check_coefficients()
         validity = Validity((self.low, self.high), self.rate, self.load_range, self.omega_range)
         fresh = {"validity": validity, "_warned": set(), "_reach": validity.reach}
@@ -468,6 +472,7 @@ class ContactElement(ElementSummary, _Common, ABC):
         }
 
     @classmethod
+    @takes(entries=ENTRIES)
     def from_dict(cls, entries: Mapping[str, Any]) -> Self:
         """Build the element from `to_dict`.
 

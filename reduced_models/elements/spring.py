@@ -11,8 +11,17 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_float, as_numbers, require_finite, require_nonnegative, require_positive, shown
+from ehlcontact.checks import (
+    as_float,
+    as_numbers,
+    parts,
+    require_finite,
+    require_nonnegative,
+    require_positive,
+    shown,
+)
 from ehlcontact.checks.frequency import Frequency
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from ehlcontact.store import stored
@@ -299,6 +308,7 @@ class SpringContact(ContactElement):
         ends = {"xtol": 1e-300, "rtol": 1e-14}
         return float(scipy.optimize.brentq(lambda u: inside(u, law)[0] - force, self.low, self.high, **ends))
 
+    @takes(approach=parts.ANY, force=parts.ANY)
     def rate_at(self, approach: float, force: float) -> float:
         """Rate at which the contact carries `force` > 0 at this approach: the motion without inertia.
 
@@ -353,6 +363,7 @@ class SpringContact(ContactElement):
 
     def advance(self, dt: float, approach: float, rate: float) -> float:
         """Force at the end of a step; `dt` is ignored, for the element has no memory."""
+        as_float("dt", dt)
         approach, rate = as_float("approach", approach), as_float("rate", rate)
         if not (math.isfinite(approach) and math.isfinite(rate)):
             raise InputError("approach and rate", (approach, rate), "finite")

@@ -9,11 +9,21 @@ from typing import Annotated, Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive, shown
+from ehlcontact.checks import (
+    as_column,
+    parts,
+    require_choice,
+    require_finite,
+    require_instance,
+    require_positive,
+    shown,
+)
 from ehlcontact.checks.admissible_range import Quantity
 from ehlcontact.checks.frequency import fields_by_name
+from ehlcontact.checks.kinds import ENTRIES, Count
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
-from ehlcontact.point import OperatingPoint, Point, Scales, moes_point
+from ehlcontact.point import POINT, OperatingPoint, Point, Scales, moes_point
 from ehlcontact.quantities import ACCELERATION, FORCE, LENGTH, MASS, RATE, TIME, scaled
 from ehlcontact.results.table import Display, PointTable
 from ehlcontact.status import Status
@@ -34,6 +44,7 @@ _REQUIRED = ("t", "approach", "rate", "force")
 _HISTORIES = (*_REQUIRED, "load", "acceleration")
 
 
+@fields_take(point=POINT, n=Count(2, 100_000), domain=parts.ANY, motion=ENTRIES, conditions=ENTRIES)
 @fields_by_name(6, omega_n=_MASS, Omega_n=_MASS)
 @dataclass(frozen=True, eq=False)
 class ContactRecord(PointTable):
@@ -112,6 +123,8 @@ class ContactRecord(PointTable):
             if self.units not in ("", units):
                 raise InputError("units", self.units, f"left out, or those of the point, {units!r}")
         object.__setattr__(self, "units", require_choice("units", units, UNITS))
+        if self.domain is not None:
+            as_column("domain", self.domain, size=3)
         object.__setattr__(self, "t", as_column("t", self.t, least=FEWEST_SAMPLES, increasing=True))
         for name in _HISTORIES[1:]:
             values = getattr(self, name)
@@ -136,6 +149,7 @@ class ContactRecord(PointTable):
         load.require("largest force", float(np.abs(self.force).max()))
 
     @classmethod
+    @takes()
     def from_result(cls, simulation: Any, *, accept_unconverged: bool = False) -> Self:
         """Record of an `ehlcontact` simulation, in its units.
 

@@ -13,9 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact import Grid, impedance, solve_steady
 from ehlcontact.checks import as_column
 from ehlcontact.checks.frequency import by_name
+from ehlcontact.checks.parts import ANY, LARGEST_LOAD
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.origin import source_of
-from ehlcontact.point import OperatingPoint, Point, moes_point, require_solvable
+from ehlcontact.point import POINT, OperatingPoint, Point, moes_point, require_solvable
 from ehlcontact.results import Response
 from reduced_models.elements.film_contact import FilmContact
 from reduced_models.elements.film_response import FilterRates, fit_gains, inlet_saturation_of
@@ -90,6 +92,7 @@ def wide_range_contact(
     )
 
 
+@takes(point=POINT, loads=LARGEST_LOAD, memory_loads=LARGEST_LOAD, Omega=ANY)
 @by_name(2)
 def wide_range_from_solves(
     point: Point,

@@ -8,7 +8,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from ehlcontact.checks import require_instance, require_nonnegative, require_positive
+from ehlcontact.checks import parts, require_instance, require_nonnegative, require_positive
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import Scales
 from reduced_models.elements.base import ContactElement
@@ -49,6 +50,7 @@ def without_damper(element: ContactElement) -> ContactElement:
     return replace(element, **lost, fit=None)  # type: ignore[arg-type]
 
 
+@takes(load="N", approach=parts.APPROACH, stiffness="N/m", damping="N s/m")
 def local_contact(load: float, approach: float, stiffness: float, damping: float) -> SpringContact:
     """Contact with a given load, stiffness and damping at one approach, and the curvature of a Hertz contact.
 

@@ -16,7 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact import Grid
-from ehlcontact.checks import require_choice, require_instance, require_integer, require_positive
+from ehlcontact.checks import parts, require_choice, require_instance, require_integer, require_positive
+from ehlcontact.checks.kinds import INDEX, Callback, Count, Object
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.point import OperatingPoint, Scales
 from ehlcontact.quantities import FORCE, LENGTH, NUMBER, TIME
@@ -45,6 +47,7 @@ STEEP = 1.5  # film at the nodes beside the lowest one over its own, from which 
 MOST_EVALUATIONS = 30  # of the balance of a step
 
 
+@fields_take(ball=INDEX, between=parts.TIMES, bearing=INDEX)
 @dataclass(frozen=True, kw_only=True)
 class FullFilm:
     """A contact of a ball bearing that is computed as a full film during a time interval.
@@ -166,6 +169,14 @@ class FullFilmRun:
         return self.rotor.status
 
 
+@takes(
+    rotor=Object(Rotor, "a Rotor"),
+    dt=parts.STEP,
+    until=parts.SECONDS,
+    processes=Count(1, 1000),
+    rho_inf=parts.SHARE,
+    callback=Callback("step, steps"),
+)
 def simulate_full_films(
     rotor: Rotor,
     films: FullFilm | Sequence[FullFilm],

@@ -35,7 +35,7 @@ from ehlcontact.checks import (
     require_positive,
 )
 from ehlcontact.checks.frequency import by_name, radians_per_second
-from ehlcontact.checks.kinds import NAME, Objects
+from ehlcontact.checks.kinds import ENTRIES, NAME, Count, Objects
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.store import stored
@@ -124,6 +124,8 @@ class BearingSet(Summary):
             if len(values) != len(bearings):
                 raise InputError(name, f"{len(values)} of them", f"one for each of {len(bearings)} bearings")
             object.__setattr__(self, name, tuple(values))
+        if len(set(self.positions)) < len(bearings):
+            raise InputError("positions", self.positions, "places [m] of which no two are one")
         for k, bearing in enumerate(bearings):
             facing_signs(self.facings[k])
             require_offset(f"offsets[{k}]", offsets[k], bearing.ball_diameter)
@@ -205,7 +207,7 @@ class BearingSet(Summary):
         return pair if preload is None else pair.preloaded(preload)
 
     @classmethod
-    @takes(distance=parts.DISTANCE)
+    @takes(count=Count(2, 100), distance=parts.DISTANCE)
     def tandem(
         cls, bearing: BallBearing, count: int = 2, *, distance: float | None = None, **options: Any
     ) -> Self:
@@ -671,6 +673,7 @@ class BearingSet(Summary):
         return entries | {"bearings": [bearing.to_dict() for bearing in self.bearings]}
 
     @classmethod
+    @takes(entries=ENTRIES)
     def from_dict(cls, entries: Mapping[str, Any]) -> Self:
         """Rebuild a set from `to_dict`; raises `InputError` for entries that are missing, unknown or wrong."""
         require_names(entries, [f.name for f in fields(cls) if f.init])

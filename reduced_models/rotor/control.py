@@ -13,13 +13,15 @@ turns, its angle comes last, ``b0_cage``: it follows the contact angles.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import require_instance, require_integer, require_nonnegative
+from ehlcontact.checks import require_instance, require_integer, require_nonnegative, shown
+from ehlcontact.checks.kinds import NAME, Object
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.ball_states import PER_METRE, across_damping, bearing_system
 from reduced_models.bearing.continuous_time import BearingRates
@@ -85,6 +87,7 @@ def linear_block(
     return system
 
 
+@takes(rotor=Object(Rotor, "a Rotor"), name=NAME)
 def rotor_to_control(
     rotor: Rotor,
     speed_rpm: float,
@@ -139,6 +142,10 @@ def rotor_to_control(
 
 def _signals(field: str, given: Signals, letter: str, size: int) -> dict[str, int]:
     chosen = range(size) if given is None else given
+    if isinstance(chosen, str) or not isinstance(chosen, Iterable):
+        raise InputError(
+            field, shown(given), f"degrees of freedom from 0 to {size - 1}, or a mapping of names to them"
+        )
     named = dict(chosen) if isinstance(chosen, Mapping) else {f"{letter}{one}": one for one in chosen}
     allowed = f"degrees of freedom from 0 to {size - 1}, each once"
     if not named or (not isinstance(chosen, Mapping) and len(named) != len(chosen)):

@@ -88,6 +88,10 @@ def log_decrement(t: ArrayLike, signal: ArrayLike, *, omega: float) -> Decrement
     values = as_column("signal", signal, size=times.size)
     guess = require_positive("omega", omega)
     periods = float(times[-1] - times[0]) * guess / (2.0 * pi)
+    if periods > 0.5 * times.size:
+        raise InputError(
+            "omega", guess, f"at most {guess * 0.5 * times.size / periods:.3g} rad/s, two times a period"
+        )
     if periods < FEWEST_PERIODS:
         raise InputError("t", f"{periods:.3g} periods", f"at least {FEWEST_PERIODS:g} periods of omega")
     spread = float(np.std(values))

@@ -5,12 +5,15 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from types import NoneType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_positive
+from ehlcontact.checks import as_column, parts, require_positive
+from ehlcontact.checks.kinds import Object, Objects
+from ehlcontact.checks.quantity import takes
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import MARGIN, OCTAVE, Band, OutsideValidityWarning, Validity, frequency_of
 from reduced_models.rotor.result import RotorResult
@@ -75,6 +78,11 @@ def lift_offs(force: ArrayLike, load: float) -> tuple[int, int, float]:
     return int(np.count_nonzero(turns == 1)), int(np.count_nonzero(turns == -1)), float(lost.mean())
 
 
+@takes(
+    result=Object(RotorResult, "a RotorResult"),
+    load=parts.PRELOAD,
+    elements=Objects((ContactElement, NoneType), "a contact element, or None"),
+)
 def contact_events(
     result: RotorResult, load: float, elements: Sequence[ContactElement | None] | None = None
 ) -> tuple[ContactEvents, ...]:

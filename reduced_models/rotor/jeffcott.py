@@ -19,11 +19,13 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import (
     as_column,
+    parts,
     require_choice,
     require_integer,
     require_nonnegative,
     require_positive,
 )
+from ehlcontact.checks.kinds import Count, Objects
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point
@@ -39,8 +41,10 @@ BETWEEN = np.array([[1.0, -1.0], [-1.0, 1.0]])
 
 
 @takes(
-    disc_mass="kg", journal_mass="kg", shaft_stiffness="N/m", shaft_damping="N s/m", disc_damping="N s/m",
-    unbalance="kg m", speed_rpm="rev/min", gravity="m/s2", load="N", half_angle="rad", offset="m",
+    disc_mass=parts.MASS, journal_mass=parts.MASS, shaft_stiffness=parts.SHAFT_STIFFNESS,
+    shaft_damping=parts.DAMPING, disc_damping=parts.DAMPING, unbalance=parts.UNBALANCE, speed_rpm="rev/min",
+    gravity=parts.GRAVITY, load=parts.FORCE, bearings=Count(1, 1000),
+    mounts=Objects(ContactMount, "a ContactMount"), half_angle="rad", offset=parts.APPROACH,
 )  # fmt: skip
 def jeffcott_rotor(
     *,
@@ -143,7 +147,7 @@ def _mounts(
     if mounts is not None:
         if half_angle is not None:
             raise InputError("half_angle", half_angle, "left out where mounts are given")
-        if len(mounts) == 0 or not all(isinstance(mount, ContactMount) for mount in mounts):
+        if len(mounts) == 0:
             raise InputError("mounts", mounts, "at least one ContactMount")
         return mounts
     if half_angle is None:

@@ -61,6 +61,7 @@ class LinearBearing(Summary):
 
     def at(self, speed_rpm: float | _Floats) -> tuple[_Floats, _Floats]:
         """Stiffness and damping at speeds [rev/min], shape (n, n) or one for each."""
+        speed_rpm = as_numbers("speed_rpm", speed_rpm)
         if self.speeds_rpm is None:
             return self.stiffness, self.damping
         n = self.stiffness.shape[-1]

@@ -12,6 +12,9 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.checks import parts
+from ehlcontact.checks.kinds import Object
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint
 from ehlcontact.results import Response
@@ -25,11 +28,13 @@ Impedance = Callable[[_Floats], _Complex]  # omega [rad/s], shape (k,) -> Z [N/m
 TINY_OMEGA = 1e-6  # rad/s, stands for 0: where damping is the slope of Z
 
 
+@takes(element=Object(ContactElement, "a contact element"), load=parts.LOAD)
 def impedance_about(element: ContactElement, load: float) -> Impedance:
     """Impedance of an SI element about static equilibrium under `load` [N], as a function of omega [rad/s]."""
     return lambda omega: element.impedance(omega=omega, load=load).value
 
 
+@takes(response=Object(Response, "a Response"))
 def film_impedance(response: Response) -> Impedance:
     """Impedance of a solved film over omega [rad/s], between its frequencies by monotone cubics.
 

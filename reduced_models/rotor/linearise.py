@@ -19,7 +19,7 @@ from ehlcontact.checks import (
     require_nonnegative,
 )
 from ehlcontact.checks.frequency import Frequency, by_name, radians_per_second
-from ehlcontact.checks.kinds import Object
+from ehlcontact.checks.kinds import COMPLEX, NAME, Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.summary import Summary
@@ -133,6 +133,7 @@ class LinearRotor(Summary):
         """Mass, damping with the gyroscopic part, and stiffness; linear bearings are in them."""
         return self.rotor.matrices(self.speed_rpm * RPM_TO_RAD_S)
 
+    @takes(s=COMPLEX)
     def support_impedance(self, s: ArrayLike) -> _Complex:
         """Part of contacts and ball bearings in `dynamic_stiffness` [N/m] at s [1/s], shape of `s` + (N, N)."""
         rows = self._rows
@@ -144,6 +145,7 @@ class LinearRotor(Summary):
             Z[..., here, here], first = impedance, here.stop
         return np.asarray(rows.T @ Z @ rows)
 
+    @takes(s=COMPLEX)
     def dynamic_stiffness(self, s: ArrayLike) -> _Complex:
         """Forces over displacements [N/m] at s [1/s] of exp(s t), shape of `s` + (N, N)."""
         M, C, K = self.matrices
@@ -177,6 +179,7 @@ class LinearRotor(Summary):
             modes.setdefault("y" if mode.vertical_share >= VERTICAL else "x", mode)
         return modes
 
+    @takes(mode=Object(RotorMode, "a RotorMode"))
     def nearest(self, mode: RotorMode) -> RotorMode:
         """The mode next in frequency to that of another rotor, if possible among those along its direction."""
         modes = self.modes(None)
@@ -236,12 +239,14 @@ class LinearRotor(Summary):
         about = self.rest if rest is None else as_column("rest", rest, size=self.rotor.size)
         return about + q.real, (1j * w * q).real
 
+    @takes(t=parts.ANY)
     def motion(self, t: ArrayLike) -> _Floats:
         """Displacements of that motion over times [s], shape (k, N)."""
         w = self.speed_rpm * RPM_TO_RAD_S
         turned = np.exp(1j * w * np.atleast_1d(np.asarray(t, float)))[:, None]
         return np.asarray(self.rest + np.real(turned * self._unbalanced(w)))
 
+    @takes(name=NAME, tolerance=parts.SHARE)
     def to_control(
         self, inputs: Signals = None, outputs: Signals = None, name: str = "rotor", *, tolerance: float = REDUCED
     ) -> Any:

@@ -17,8 +17,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import parts, require_positive
-from ehlcontact.checks.kinds import Object
+from ehlcontact.checks import as_column, parts, require_positive
+from ehlcontact.checks.kinds import Object, Objects
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.results.picture import Panel, Picture
@@ -123,6 +123,7 @@ class MachineState(Summary):
         """Speeds at which a mode has the frequency of the shaft, in the range of the diagram."""
         return () if self.diagram is None else self.diagram.critical_speeds()
 
+    @takes(critical=Object(CriticalSpeed, "a CriticalSpeed"))
     def margin(self, critical: CriticalSpeed) -> float:
         """By which share of the speed a critical speed lies above it; below 0 it lies below."""
         return critical.speed_rpm / self.speed_rpm - 1.0
@@ -292,7 +293,10 @@ def single_bearing_state(
     return MachineState(speed_rpm=speed_rpm, supports=(support,), highest_speed=highest, ends=ends)
 
 
-@takes(rotor=Object(Rotor, "a Rotor"), speed_rpm=parts.SPEED, highest_rpm=parts.SPEED_OR_NONE)
+@takes(
+    rotor=Object(Rotor, "a Rotor"), speed_rpm=parts.SPEED, highest_rpm=parts.SPEED_OR_NONE,
+    names=Objects(str, "text"), positions=parts.PLACE,
+)  # fmt: skip
 def machine_state(
     rotor: Rotor,
     speed_rpm: float,
@@ -332,6 +336,7 @@ def machine_state(
     speed, mounts = require_positive("speed_rpm", speed_rpm), rotor.ball_bearings
     if not mounts:
         raise InputError("rotor", "without ball bearings", "one on ball bearings: they are what a state is of")
+    positions = as_column("positions", positions, least=0).tolist()
     for field, values in (("names", names), ("positions", positions)):
         if len(values) not in (0, len(mounts)):
             raise InputError(field, f"{len(values)} of them", f"one for each of {len(mounts)} ball bearings")

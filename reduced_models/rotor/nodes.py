@@ -43,7 +43,7 @@ class ByNode:
     def _node(self, values: NDArray[Any], name: str) -> NDArray[Any]:
         """Motion of a node in x and y, of `values` over all degrees of freedom; 0 where it does not move."""
         nodes = self.nodes
-        if name not in nodes:
+        if not isinstance(name, str) or name not in nodes:
             known = f"one of {', '.join(nodes)}" if nodes else "none: the rotor has no names"
             raise NodeError("node", name, known)
         if nodes[name].keys().isdisjoint(PLANE):

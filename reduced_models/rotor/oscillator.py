@@ -10,8 +10,18 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_choice, require_finite, require_instance, require_positive
+from ehlcontact.checks import (
+    as_column,
+    is_single,
+    parts,
+    require_choice,
+    require_finite,
+    require_instance,
+    require_positive,
+)
 from ehlcontact.checks.frequency import Frequency, by_name
+from ehlcontact.checks.kinds import Callback
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.quantities import FORCE, LENGTH, RATE, TIME
 from ehlcontact.results.table import Display, QuantityTable
@@ -68,6 +78,7 @@ class OscillatorResult(QuantityTable):
         ]
 
 
+@takes(rtol=parts.TOLERANCE)
 @by_name(2, omega_n="Omega_n (dimensionless), or mass [kg] with an element in SI")
 def simulate_oscillator(
     element: ContactElement,
@@ -201,8 +212,9 @@ def _quasi_static(element: Any, applied: Callable[[float], float]) -> tuple[Call
 
 def _load(load: Load, times: _Floats) -> Callable[[float], float]:
     if callable(load):
+        Callback("T").take("load", load, False)
         return lambda time: require_finite(f"load at T = {time:g}", load(time))
-    if np.ndim(load) == 0:
+    if is_single(load):
         constant = float(as_column("load", np.atleast_1d(load))[0])
         return lambda time: constant
     values = as_column("load", load, size=times.size)

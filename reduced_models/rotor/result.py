@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import require_integer, require_positive
+from ehlcontact.checks.kinds import INDEX
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import FORCE, LENGTH, NUMBER, RATE, SPEED, TIME
@@ -206,8 +207,11 @@ class RotorResult(QuantityTable, ByNode):
             lives.append(life_of_bearing(one.internals, loads, **options))
         return SystemLife(lives=tuple(lives), names=tuple(one.name for one in self.ball_bearings))
 
+    @takes(first=INDEX, last=INDEX)
     def part(self, first: int, last: int | None = None, *, keep_time: bool = True) -> Self:
         """Samples `first` to `last` of the run, both included; with ``keep_time=False`` their time starts at 0."""
+        if first >= self.t.size:
+            raise InputError("first", first, f"at most {self.t.size - 1}, the last sample of the run")
         end, along_time = None if last is None else last + 1, set(self._declared()) - {"largest_load"}
         cut = {name: getattr(self, name)[first:end].copy() for name in along_time}
         if not keep_time:
@@ -267,7 +271,7 @@ class RotorResult(QuantityTable, ByNode):
         named = {name: tuple(at.get(k, -1) for k in "xy") for name, at in self.nodes.items()}
         if isinstance(node, str) and node in named:
             return [(node, self.node(node))]
-        pair, most = () if isinstance(node, str) else node, self.displacement.shape[1] - 1
+        pair, most = node if isinstance(node, list | tuple) else (), self.displacement.shape[1] - 1
         if len(pair) != 2 or not all(0 <= require_integer("node", at, "whole numbers", 0) <= most for at in pair):
             known = f"one of {', '.join(named)}, or " if named else ""
             raise InputError("node", node, f"{known}two degrees of freedom from 0 to {most}")

@@ -26,10 +26,11 @@ from ehlcontact.checks import (
     parts,
     require_finite,
     require_integer,
+    require_no_others,
     shown,
 )
-from ehlcontact.checks.kinds import NAME, Object, Objects
-from ehlcontact.checks.quantity import fields_take
+from ehlcontact.checks.kinds import INDEX_OR_NONE, NAME, Object, Objects
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, counted
 from reduced_models.bearing.ball_bearing import BallBearing
@@ -75,7 +76,7 @@ class _Nodes(dict[str, Mapping[str, int]]):
         raise InputError("node", name, f"one of {', '.join(self)}" if self else "none: the rotor has no names")
 
 
-@fields_take(amount=parts.UNBALANCE, phase="rad")
+@fields_take(x=INDEX_OR_NONE, y=INDEX_OR_NONE, amount=parts.UNBALANCE, phase="rad")
 @dataclass(frozen=True, kw_only=True)
 class Unbalance:
     """Mass times eccentricity [kg m] at two degrees of freedom; `phase` [rad] ahead of the shaft's angle.
@@ -131,6 +132,10 @@ class Parameter:
     reason: str = ""
 
     def __post_init__(self) -> None:
+        require_no_others(self.parts, (*MATRICES, "load"), "parts.")
+        for name, part in self.parts.items():
+            if as_numbers(f"parts.{name}", part).ndim != (1 if name == "load" else 2):
+                raise InputError(f"parts.{name}", "a number", "of shape (N, N), of load (N,)")
         if not self.reason:
             allowed = f"finite and {'>' if self.positive else '>='} 0"
             object.__setattr__(self, "reason", f"{self.name} must be {allowed}")
@@ -139,7 +144,7 @@ class Parameter:
 @fields_take(
     mounts=Objects((BearingMount, ContactMount), "a BearingMount or ContactMount"),
     unbalances=Objects(Unbalance, "an Unbalance"), parameters=Objects(Parameter, "a Parameter"),
-    speed_rpm=parts.SPEED_OR_NONE,
+    load=parts.FORCE, speed_rpm=parts.SPEED_OR_NONE,
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Rotor(Summary):
@@ -197,6 +202,8 @@ class Rotor(Summary):
         size = len(np.atleast_1d(as_numbers("mass", self.mass)))
         for name in ("mass", "stiffness", "damping", "gyroscopic"):
             given = getattr(self, name)
+            if given is None and name == "stiffness":
+                raise InputError(name, None, f"a matrix of shape ({size}, {size}); zeros of a rotor that is free")
             matrix = as_rows(name, np.zeros((size, size)) if given is None else given, size, size)
             object.__setattr__(self, name, matrix)
             if matrix.shape != (size, size):
@@ -217,7 +224,10 @@ class Rotor(Summary):
             self._require_there(f"unbalances[{i}]", (unbalance.x, unbalance.y))
             whole = float(np.trace(self.mass))
             require_unbalance(f"unbalances[{i}].amount", unbalance.amount, whole, MOST_OF_MATRICES)
-        if not isinstance(self.nodes, Mapping) or not all(isinstance(at, Mapping) for at in self.nodes.values()):
+        if not isinstance(self.nodes, Mapping) or not all(
+            isinstance(name, str) and isinstance(at, Mapping) and all(isinstance(key, str) for key in at)
+            for name, at in self.nodes.items()
+        ):
             raise InputError("nodes", shown(self.nodes), 'as {"disc": {"x": 4, "y": 5}}')
         named = {name: MappingProxyType(dict(at)) for name, at in self.nodes.items()}
         object.__setattr__(self, "nodes", MappingProxyType(_Nodes(named)))
@@ -332,6 +342,7 @@ class Rotor(Summary):
         tables = (bearing for bearing in linear if bearing.speeds_rpm is not None)
         return bool(self.gyroscopic.any()) or any(True for _ in tables)
 
+    @takes(omega=parts.ANY)
     def matrices(self, omega: float) -> Matrices:
         """Mass, damping with the gyroscopic part, and stiffness at a speed [rad/s], linear bearings added."""
         damping = self.damping + omega * self.gyroscopic
@@ -354,6 +365,7 @@ class Rotor(Summary):
         ]
         return replace(self, mounts=tuple(mounts))
 
+    @takes(speed_rpm=parts.SPEEDS._replace(zero=True))
     def equilibrium(self, speed_rpm: float = 0.0) -> _Floats:
         """Displacements in static equilibrium under the load, films as at a speed, shape (N,) [m].
 
@@ -396,6 +408,7 @@ class Rotor(Summary):
         q[free] = np.linalg.solve(bent, (self.load - stiffness @ q)[free])
         return q
 
+    @takes(speed_rpm=parts.SPEEDS._replace(zero=True))
     def check_contacts(self, speed_rpm: float | None = None) -> None:
         """Let elements warn, once each, whose band does not hold a speed, or that were made for other contacts.
 

@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import require_integer
+from ehlcontact.checks import parts, require_integer
+from ehlcontact.checks.kinds import Object
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.results.drawing import draw
 from ehlcontact.results.picture import Line, Panel, Picture
@@ -93,6 +95,7 @@ class Settling:
         }
 
 
+@takes(result=Object(RotorResult, "a RotorResult"), limit=parts.TOLERANCE)
 def settling(result: RotorResult, *, limit: float = SETTLED) -> Settling:
     """Compare successive revolutions of a run at constant speed.
 

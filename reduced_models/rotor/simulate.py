@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ehlcontact import TransientContact
 from ehlcontact.checks import parts, require_instance, require_integer, require_positive, shown
-from ehlcontact.checks.kinds import Callback, Object
+from ehlcontact.checks.kinds import Callback, Count, Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError, warn_user
 from ehlcontact.status import Status
@@ -44,8 +44,9 @@ Integrator = CompiledSteps | PythonSteps
 @takes(
     rotor=Object(Rotor, "a Rotor"),
     speed_rpm="rev/min",
-    dt="s",
-    until="s",
+    dt=parts.STEP,
+    until=parts.SECONDS,
+    max_iterations=Count(1, 100_000),
     callback=Callback("step, steps"),
     rho_inf=parts.SHARE,
 )

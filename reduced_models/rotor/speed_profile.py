@@ -61,6 +61,7 @@ class SpeedProfile(QuantityTable):
         """From one speed to another at a constant rate: a run-up, or a coast-down."""
         return cls(np.array([0.0, seconds]), np.array([first_rpm, last_rpm]))
 
+    @takes(t=parts.ANY)
     def at(self, t: _Floats) -> tuple[_Floats, _Floats, _Floats]:
         """Speed [rad/s], angle of the shaft [rad] and angular acceleration [rad/s2]."""
         knots = np.concatenate([[0.0], self.t, [np.inf]]) if self.t[0] > 0.0 else np.append(self.t, np.inf)

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.checks import parts, require_instance
+from ehlcontact.checks.kinds import NAME
 from ehlcontact.checks.quantity import takes
 from ehlcontact.film_formulas import film_scatter
 from ehlcontact.hertz import hertz_contact
@@ -262,7 +263,7 @@ class SupportState(Summary):
         }
 
 
-@takes(load="N", speed_rpm=parts.SPEED_OR_NONE, tilt="rad")
+@takes(load="N", speed_rpm=parts.SPEED_OR_NONE, tilt="rad", name=NAME, position=parts.PLACE)
 def support_state(
     bearing: BallBearing | BearingSet,
     load: ArrayLike,

@@ -15,7 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import require_finite, require_instance, require_integer
+from ehlcontact.checks import parts, require_finite, require_instance, require_integer, shown
+from ehlcontact.checks.kinds import INDEX, INDEX_OR_NONE, NAME, Count, Objects
 from ehlcontact.checks.quantity import fields_take
 from ehlcontact.errors import InputError
 from ehlcontact.point import Point, moes_point
@@ -29,7 +30,10 @@ _Floats = NDArray[np.float64]
 AXIAL = FIVE.index("z")
 
 
-@fields_take(cage_angle="rad", offset="m", arm="m")
+@fields_take(
+    x=INDEX, y=INDEX, z=INDEX, tilt_x=INDEX, tilt_y=INDEX, housing=Objects(object, "a number"),
+    cage_angle="rad", offset="m", arm="m", name=NAME,
+)  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class BearingMount(Summary):
     """A bearing between degrees of freedom of the shaft and the ground, or those of a housing.
@@ -105,6 +109,8 @@ class BearingMount(Summary):
                 raise InputError("offset", self.offset, "left out: matrices are about static equilibrium")
         else:
             require_offset("offset", self.offset, self.bearing.ball_diameter)
+        for k, place in enumerate(self.housing or ()):
+            INDEX_OR_NONE.take(f"housing[{k}]", place, True)
         if self.housing is not None and len(self.housing) != (2 if self.z is None else 3):
             raise InputError("housing", self.housing, "(x, y), or (x, y, z) with five degrees of freedom")
 
@@ -146,7 +152,7 @@ class BearingMount(Summary):
         return rows if self.z is None else facing_signs(self.facing)[:, None] * rows
 
 
-@fields_take(angle="rad", offset="m")
+@fields_take(angle="rad", offset=parts.APPROACH, x=INDEX, y=INDEX, count=Count(1, 1000))
 @dataclass(frozen=True, slots=True)
 class ContactMount:
     """Where a contact sits: approach = n . q + offset, n = (cos angle, sin angle), q that of the shaft.
@@ -184,6 +190,9 @@ class ContactMount:
     def __post_init__(self) -> None:
         if self.point is not None:
             moes_point(self.point)
+        if self.contact is not None and not (callable(self.contact) or hasattr(self.contact, "advance")):
+            allowed = "an element, a full film, or an impedance as a function of omega"
+            raise InputError("contact", shown(self.contact), allowed)
         if abs(require_finite("angle", self.angle)) > 2.0 * pi:
             raise InputError("angle", self.angle, "between -2 pi and 2 pi; angles are in radians")
         require_finite("offset", self.offset)

@@ -8,6 +8,8 @@ from typing import Annotated, Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.checks.kinds import INDEX
+from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import LENGTH, SPEED, Quantity
 from ehlcontact.results.picture import Picture
@@ -113,6 +115,7 @@ class UnbalanceResponse(QuantityTable):
         x, y = moving[:, self.nodes[:, 0]], moving[:, self.nodes[:, 1]]
         return np.asarray(0.5 * (np.abs(x + 1j * y) + np.abs(x - 1j * y)))  # forward and backward circle
 
+    @takes(node=INDEX)
     def peaks(self, node: int = 0) -> _Floats:
         """Speeds [rev/min] at which the orbit of a node is larger than at both neighbouring speeds."""
         if not 0 <= node < len(self.nodes):

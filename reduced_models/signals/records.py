@@ -57,8 +57,8 @@ BALL = "rolling_element"
 
 @fields_take(
     bearing=Object(BallBearing, "a BallBearing"), path=Object(ModalPath, "a ModalPath"), load=parts.FORCE,
-    speed_rpm=parts.SPEED, mass=parts.MASS, noise=parts.NOISE, seconds=parts.SECONDS, rate=parts.RATE,
-    label=Text(LONGEST_LABEL),
+    speed_rpm=parts.SPEED, mass=parts.MASS, noise=parts.NOISE, waviness=parts.RIM,
+    seconds=parts.SECONDS, rate=parts.RATE, label=Text(LONGEST_LABEL),
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RecordCase(Summary):

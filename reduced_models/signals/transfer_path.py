@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, as_numbers, parts, require_positive, shown
-from ehlcontact.checks.quantity import fields_take
+from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary, counted, span
 
@@ -33,6 +33,7 @@ class TransferPath(Summary, ABC):
     """Response of a structure: acceleration at a sensor over a force."""
 
     @abstractmethod
+    @takes(hz=parts.ANY)
     def response(self, hz: ArrayLike) -> _Complex:
         """Acceleration over force [(m/s2)/N] at these frequencies [Hz], of their shape."""
 
@@ -120,6 +121,7 @@ class ModalPath(TransferPath):
         hz, damping, _ = self._columns
         return float((-log(FADED) / (2.0 * pi * hz * damping)).max())
 
+    @takes(hz=parts.ANY)
     def response(self, hz: ArrayLike) -> _Complex:
         """Acceleration over force [(m/s2)/N] at these frequencies [Hz], of their shape."""
         at = 2.0 * pi * np.asarray(hz, float)[..., None]
@@ -188,6 +190,7 @@ class MeasuredPath(TransferPath):
             raise InputError("rate", rate, f"at most {most:g} Hz, twice the measured frequencies")
         return super().acceleration(force, rate)
 
+    @takes(hz=parts.ANY)
     def response(self, hz: ArrayLike) -> _Complex:
         """Acceleration over force [(m/s2)/N] at these frequencies [Hz], of their shape."""
         known, found, at = np.asarray(self.hz), np.asarray(self.accelerance), np.asarray(hz, float)
@@ -237,6 +240,7 @@ class SystemPath(TransferPath):
         slowest = -np.asarray(self.system.poles()).real.max(initial=-np.inf)
         return float(-log(FADED) / slowest)
 
+    @takes(hz=parts.ANY)
     def response(self, hz: ArrayLike) -> _Complex:
         """Acceleration over force [(m/s2)/N] at these frequencies [Hz], of their shape."""
         return np.asarray(self.system(2j * pi * np.asarray(hz, float)))

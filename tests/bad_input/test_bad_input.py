@@ -17,7 +17,7 @@ from datetime import date
 from pathlib import Path
 
 import pytest
-from bad_input import files, kinds
+from bad_input import files, kinds, methods
 from bad_input.calls import CALLS, full_contact
 from bad_input.commands import COMMANDS, ELEMENT, FILM, OTHER, RECORD, STUDY, at, bearing, steady
 from bad_input.fields import FIELDS, INF, NAMED, NAN
@@ -329,7 +329,9 @@ def test_fields(function, good, bad):
 
 
 @pytest.mark.parametrize(
-    ("call", "bad"), kinds.ARGUMENTS, ids=lambda part: ",".join(part)[:60] if isinstance(part, dict) else ""
+    ("call", "bad"),
+    [*kinds.ARGUMENTS, *methods.ARGUMENTS],
+    ids=lambda part: ",".join(part)[:60] if isinstance(part, dict) else "",
 )
 def test_kinds(call, bad, tmp_path, monkeypatch):
     """Units, flags, columns, lists, paths, callbacks: one line, with the name of the argument in front."""
