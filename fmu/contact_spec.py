@@ -15,7 +15,7 @@ from fmu.contact_variables import ContactVariables, Element, Film
 from fmu.lead import CONTACT, HELD_PARALLEL
 from fmu.spec import ModelSpec
 from fmu.steps import default_step, step_advice
-from reduced_models.elements.film_law import film_made
+from reduced_models.elements.film_law import FilmLaw, film_made
 from reduced_models.elements.spring import SpringContact
 from reduced_models.elements.validity import frequency_text, text_of
 
@@ -23,6 +23,12 @@ LONGEST_NAME = 200  # characters of the name of a contact in the description of 
 
 _DIMENSIONLESS = "dimensionless: force in static loads, approach in dry Hertz approaches, time in 2a/u_sum"
 LAW = "film_law", "film_filters"  # C files of the film law, each with its header
+SPEED = "u_sum"  # input of an element over the speed
+HISTORY = 74  # numbers that it remembers beside the lags: inlet, fast, whether it has begun, `SpeedHistory` in C
+TABLES = (
+    "ln F_s, ln h_s, its slope and the approach at the nodes of the static curve; ln F_s of the rows of gains;"
+    " viscous, inlet and fast gain and those of the chain of every row"
+)
 # Unit and description of every coefficient.
 _POLYNOMIAL = {
     "K1": ("N/m", "Coefficient of the approach in the spring force"),
@@ -70,9 +76,8 @@ def contact_spec(element: Element, model_name: str | None = None, lead: float = 
     InputError
         No contact element, a name that is empty, too long or not printable, or another lead.
     """
-    if not isinstance(element, Element) or element.kind == "speed":
-        kind = getattr(element, "kind", type(element).__name__)
-        raise InputError("element", kind, "a contact element (linear, cubic, ..., wide)")
+    if not isinstance(element, Element):
+        raise InputError("element", type(element).__name__, "a contact element (linear, cubic, ..., speed)")
     name = checked_name(f"{element.kind.capitalize()}Contact" if model_name is None else model_name)
     parts = _film_parts(element, lead) if isinstance(element, Film) else _spring_parts(element, lead)
     system = "SI units" if element.units == "SI" else _DIMENSIONLESS
@@ -81,6 +86,7 @@ def contact_spec(element: Element, model_name: str | None = None, lead: float = 
         description=f"{parts.pop('description')}; {system}{source_text([element])}",
         notes=_notes(element),
         step=default_step(element),
+        exchange=element.kind != "speed",
         time_unit="s" if element.units == "SI" else "1",
         **parts,
     )
@@ -218,16 +224,19 @@ def _spring_macros(law: tuple[str, ...], element: SpringContact, levels_off: boo
 
 def _film_parts(element: Film, lead: float) -> dict[str, Any]:
     """Fields of the `ModelSpec` of an element with a film memory."""
-    common, lags = ContactVariables(element), element.lags
-    states = ("s", "y", *(f"q[{k}]" for k in range(1, lags + 1)))
+    common, lags, speeds = ContactVariables(element), element.lags, element.speeds
+    states = () if speeds else ("s", "y", *(f"q[{k}]" for k in range(1, lags + 1)))
     force, length, time = element._units
     u = element.approach_at(force)
     K = element.spring_tangent(u)
     C = float(element.step_tangents(time, u, 0.0)[2])
     rate = element.rate if element.rate else length / time
-    depends = ("approach", "rate", *states)
+    depends = ("approach", "rate", *((SPEED,) if speeds else ()), *states)
     common.input("approach", "m", u, length, "Mutual approach, positive when the bodies come closer")
     common.input("rate", "m/s", 0.0, rate, "Rate of the approach")
+    if speeds:
+        text = "Sum of both surface speeds; the film follows its changes, and its sign says nothing"
+        common.speed(SPEED, element.speed, speeds[-1] * element._reference_speed, text)
     common.output("force", "N", force, depends, "Contact force, positive = repulsive, never negative")
     common.output("stiffness", "N/m", K, depends, "d(force)/d(approach), the states of the film as they are")
     common.output("damping", "N.s/m", C, depends, "d(force)/d(rate), the states of the film as they are")
@@ -238,29 +247,45 @@ def _film_parts(element: Film, lead: float) -> dict[str, Any]:
     common.lead(CONTACT, lead)
     common.flags(depends, first=False)
     common.box(low_high=True)
-    nominal = max(rate * time / length, 1e-3)
-    _film_states(common, states, nominal, float(film_made(0.0, element.law)), element.law.rim > 0.0)
-    law = element.law
+    if not speeds:
+        nominal = max(rate * time / length, 1e-3)
+        _film_states(common, states, nominal, float(film_made(0.0, element.law)), element.law.rim > 0.0)
+    law = (*LAW, "film_speed") if speeds else LAW
+    what = "film memory over the speed" if speeds else "film memory"
     return {
-        "description": f"Rolling contact with a film memory ({element.kind} element, {lags} lags)",
-        "sources": ("core.c", "core_step.c", "validity.c", "model_film.c", *(f"{name}.c" for name in LAW)),
-        "headers": ("core.h", "model.h", "validity.h", "jet.h", *(f"{name}.h" for name in LAW)),
+        "description": f"Rolling contact with a {what} ({element.kind} element, {lags} lags)",
+        "sources": ("core.c", "core_step.c", "validity.c", "model_film.c", *(f"{name}.c" for name in law)),
+        "headers": ("core.h", "model.h", "validity.h", "jet.h", *(f"{name}.h" for name in law)),
         "variables": tuple(common.variables),
         "macros": common.macros() | _film_macros(element),
-        "tables": {
-            "film_tables.h": _header(
-                "ln F_s, ln h_s, its slope and the approach at the nodes of the static curve; ln F_s of the rows"
-                " of gains; viscous, inlet and fast gain and those of the chain of every row",
-                {
-                    "film_x": law.x,
-                    "film_y": law.y,
-                    "film_slope": law.slope,
-                    "film_u": law.u,
-                    "film_gain_x": law.gain_x,
-                    "film_gains": law.gains.ravel(),
-                },
-            ),
-        },
+        "tables": {"film_tables.h": _film_tables(element)},
+    }
+
+
+def _film_tables(element: Film) -> str:
+    """C text of the tables of a film: of one law, or of those at all speeds."""
+    laws = element._range.laws
+    if element.speeds is None:
+        return _header(TABLES, _law_tables(element.law))
+    text = _header(TABLES, {"film_speeds": np.array(element.speeds)})
+    rows = []
+    for k, law in enumerate(laws):
+        tables = {f"{name}_{k}": values for name, values in _law_tables(law).items()}
+        text += "".join(f"{c_table(name, values)}\n" for name, values in tables.items())
+        numbers = (law.lag_rate, law.inlet_rate, law.fast_rate, law.inlet_saturation, law.rim)
+        rows.append(", ".join(["CURVE_NODES, GAIN_ROWS, LAGS", *tables, *(c_double(float(x)) for x in numbers)]))
+    laws_text = ",\n".join(f"    {{{row}}}" for row in rows)
+    return f'#include "film_speed.h"\n\n{text}static const FilmLaw film_laws[] = {{\n{laws_text}}};\n'
+
+
+def _law_tables(law: FilmLaw) -> dict[str, NDArray[np.float64]]:
+    return {
+        "film_x": law.x,
+        "film_y": law.y,
+        "film_slope": law.slope,
+        "film_u": law.u,
+        "film_gain_x": law.gain_x,
+        "film_gains": law.gains.ravel(),
     }
 
 
@@ -291,8 +316,12 @@ def _film_macros(element: Film) -> dict[str, str]:
         "INLET_SATURATION": law.inlet_saturation,
         **dict(zip(("SCALE_FORCE", "SCALE_LENGTH", "SCALE_TIME"), element._units, strict=True)),
     }
+    speeds = () if element.speeds is None else element.speeds
+    if speeds:
+        numbers |= {"SCALE_SPEED": element._reference_speed, "BOX_SPEED": speeds[-1] * element._reference_speed}
     counts = {
-        "N_CACHE": 5,
+        "N_CACHE": 5 + (HISTORY + element.lags if speeds else 0),
+        "SPEEDS": len(speeds),
         "LAGS": element.lags,
         "CURVE_NODES": law.x.size,
         "GAIN_ROWS": law.gain_x.size,

@@ -38,6 +38,13 @@ class ContactVariables(VariableList):
             unit=self.unit(si), start=start, nominal=_nominal(nominal), rate=rate,
         )  # fmt: skip
 
+    def speed(self, name: str, start: float, most: float, text: str) -> None:
+        """Append a speed of the surfaces as an input; `most` is the highest one of the tables."""
+        self.add(
+            name, "input", "continuous", text,
+            unit=self.unit("m/s"), start=start, nominal=most, minimum=-most, maximum=most,
+        )  # fmt: skip
+
     def output(self, name: str, si: str, nominal: float, depends: tuple[str, ...], text: str) -> None:
         """Append a real output that is never negative."""
         self.add(
@@ -58,6 +65,8 @@ class ContactVariables(VariableList):
             "outside_rate": "True where the rate is larger than rate_max by more than the margin",
             "outside_force": "True where the force is outside [force_min, force_max] by more than the margin",
         }
+        if isinstance(self.element, Film) and self.element.speeds is not None:
+            texts["outside_speed"] = "True above the highest speed of the tables, whose films then hold"
         for name in list(texts)[:1] if first else list(texts)[1:]:
             self.add(name, "output", "discrete", texts[name], type="Boolean", depends=depends)
 

@@ -46,7 +46,9 @@ def export(
     A contact has the inputs `approach` and `rate`, and the output `force` with its tangents `stiffness` and
     `damping`. Coefficients of elements without memory, and their interval, are tunable parameters that start at
     the element's values; those of a film memory are constants, for others could put energy into a vibration. Units
-    are the element's: SI, or "1" for a dimensionless element.
+    are the element's: SI, or "1" for a dimensionless element. An element over the speed has the input `u_sum` too,
+    sum of both surface speeds, with the highest speed of its tables as bound; above it films are those of that
+    speed, which is logged once. It is for co-simulation alone, and starts at the speed of its reference.
 
     A ball bearing has the inputs displacement and velocity of the inner ring against the outer one, `x`, `y` and,
     with five degrees of freedom, `z`, `tilt_x`, `tilt_y`; `velocity_x`, ..., `tilt_rate_y`; and the `speed` of the

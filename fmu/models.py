@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import Any, TypedDict, Unpack
 
@@ -94,6 +94,8 @@ def fmu_model(model: Exported, **keywords: Unpack[Keywords]) -> FmuModel:
     _require_taken(model, given)
     model_name, lead = given.pop("model_name", None), given.pop("lead", None)
     if isinstance(model, Element):
+        if model.kind == "speed":
+            model = replace(model)  # at the speed of its reference
         spec = contact_spec(model, model_name, HELD_PARALLEL if lead is None else lead)
         written, compared = (partial(make, model, spec) for make in (contact_references, contact_trials))
         return FmuModel(model, spec, (model,), written, compared)
@@ -128,5 +130,5 @@ def _require_taken(model: object, given: dict[str, Any]) -> None:
             for name in given.keys() - taken - _EVERY:
                 raise InputError(name, given[name], f"left out for {words}")
             return
-    allowed = "a contact element (linear, cubic, ..., wide), BallBearing, BearingSet or Rotor"
+    allowed = "a contact element (linear, cubic, ..., speed), BallBearing, BearingSet or Rotor"
     raise InputError("model", shown(model), allowed)

@@ -7,6 +7,7 @@ memory, a wilder motion in steps of many lengths.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,8 +18,19 @@ from fmu.lead import CONTACT
 from fmu.references.series import References, Trial, floored
 from fmu.spec import ModelSpec
 from fmu.steps import SHARE_OF_TRANSIT, round_down
+from reduced_models.elements.film_contact import units_of
 from reduced_models.elements.film_filters import CHAIN, DIRECT, INLET
-from reduced_models.elements.film_law import RATE, THETA, film_entering, film_made, film_rest, film_step, static
+from reduced_models.elements.film_law import (
+    RATE,
+    THETA,
+    FilmLaw,
+    film_entering,
+    film_made,
+    film_rest,
+    film_step,
+    static,
+)
+from reduced_models.elements.film_speed import slow_law
 
 _Floats = NDArray[np.float64]
 
@@ -30,6 +42,7 @@ VIBRATION = 2.5, 0.3  # angular frequency in that unit, amplitude over the lengt
 PULSES = 4.5, 8.5, 0.8  # when the load comes, when the surfaces part, how long either takes
 DIGITS = 7  # of times and inputs, which are exact in the files then
 POINTS = 12  # states of a film for model exchange
+SLOWLY = 0.4  # angular frequency of the speed of the surfaces, in the unit of time
 FAR = -30.0  # approach of one of them, from that under the reference load, over the length scale
 MEMORY = 0.2  # size of the remembered rates there
 FIELDS = {
@@ -49,7 +62,11 @@ def contact_references(element: Element, spec: ModelSpec) -> References:
     spec : ModelSpec
         Of its FMU.
     """
-    if isinstance(element, Film):
+    points: Trial | None = None
+    if isinstance(element, Film) and element.speeds is not None:
+        time, approach, rate = _motion(spec.step / SHARE_OF_TRANSIT, *_reach_of_film(element))
+        steps = _speed_steps(element, time, approach, rate, _rounded(speed_course(element, time)))
+    elif isinstance(element, Film):
         time, approach, rate = _motion(spec.step / SHARE_OF_TRANSIT, *_reach_of_film(element))
         steps = _film_steps(element, time, approach, rate)
         points = _film_points(element, [variable.name for variable in spec.states])
@@ -68,7 +85,9 @@ def contact_trials(element: Element, spec: ModelSpec) -> References:
     Differences are over the value, and at least 1e-3 of that at the upper end of the interval, or under the
     reference load of a film.
     """
-    return _film_trials(element, spec) if isinstance(element, Film) else _spring_trials(element)
+    if not isinstance(element, Film):
+        return _spring_trials(element)
+    return _film_trials(element, spec) if element.speeds is None else _speed_trials(element)
 
 
 def _spring_trials(element: Any) -> References:
@@ -97,15 +116,38 @@ def _spring_trials(element: Any) -> References:
     )
 
 
+def _speed_trials(element: Film) -> References:
+    """Steps while the speed of the surfaces changes, down to standstill and back; without partial derivatives."""
+    low, high = element.validity.approach
+    T, u, v = film_motion(element)
+    steps = _speed_steps(element, T, u, v, speed_course(element, T))
+    unknowns, sizes = _compared(element, steps)
+    return References(
+        Trial(T, steps.knowns, unknowns, sizes, FIELDS),
+        None,
+        {CONTACT.name: CONTACT.at_end},
+        outside=int((~((low <= u) & (u <= high))).sum()),
+        parted=int((unknowns["force"] == 0.0).sum()),
+    )
+
+
+def _compared(element: Film, steps: Trial) -> tuple[dict[str, _Floats], dict[str, Any]]:
+    """Columns of steps that are compared, and their sizes."""
+    f, length, time = element._units
+    unknowns = {name: steps.unknowns[name] for name in FIELDS if name in steps.unknowns}
+    scales = dict.fromkeys(unknowns, f / length) | {"force": f}
+    scales |= dict.fromkeys(("damping", "step_damping"), f / length * time)
+    sizes: dict[str, Any] = {name: floored(values, scales[name]) for name, values in unknowns.items()}
+    return unknowns, sizes | {"outside_validity": 1.0}
+
+
 def _film_trials(element: Film, spec: ModelSpec) -> References:
-    (f, length, time), (low, high) = element._units, element.validity.approach
+    f, (low, high) = element._units[0], element.validity.approach
     T, u, v = film_motion(element)
     steps = _film_steps(element, T, u, v)
-    unknowns = {name: steps.unknowns[name] for name in FIELDS if name in steps.unknowns}
-    unknowns |= {"force / approach": unknowns["stiffness"], "force / rate": unknowns["damping"]}
-    scales = dict.fromkeys(unknowns, f / length) | {"force": f}
-    scales |= dict.fromkeys(("damping", "step_damping", "force / rate"), f / length * time)
-    sizes = {name: floored(values, scales[name]) for name, values in unknowns.items()} | {"outside_validity": 1.0}
+    unknowns, sizes = _compared(element, steps)
+    for name, column in {"force / approach": "stiffness", "force / rate": "damping"}.items():
+        unknowns[name], sizes[name] = unknowns[column], sizes[column]
     states = np.array([states for _, _, _, states in film_walk(element, T, u, v)])
     rows, terms = [], []
     for x, approach, rate in zip(states, u[1:].tolist(), v[1:].tolist(), strict=True):
@@ -184,6 +226,56 @@ def _film_steps(element: Film, time: _Floats, approach: _Floats, rate: _Floats) 
     found = dict(zip(names, np.array(rows).T, strict=True))
     found |= bounds(element, approach, rate, found["force"])
     return Trial(time, {"approach": approach, "rate": rate}, found)
+
+
+def speed_course(element: Film, time: _Floats) -> _Floats:
+    """Speeds over times: from that of the reference through standstill to the opposite one, and back."""
+    return element._reference_speed * np.cos(SLOWLY * time / element._units[2])
+
+
+def _speed_steps(element: Film, time: _Floats, approach: _Floats, rate: _Floats, speed: _Floats) -> Trial:
+    rows = list(speed_walk(element, time, approach, rate, speed))
+    names = ("force", "stiffness", "damping", "step_stiffness", "step_damping")
+    found: dict[str, Any] = dict(zip(names, np.array(rows).T, strict=True))
+    found |= bounds(element, approach, rate, found["force"])
+    return Trial(time, {"approach": approach, "rate": rate, "u_sum": speed}, found)
+
+
+def speed_walk(
+    element: Any, T: _Floats, approach: _Floats, rate: _Floats, speed: _Floats
+) -> Iterator[tuple[float, ...]]:
+    """Force, tangents with the states as they are and those of the step, at the ends of steps of an own element.
+
+    The first row is at rest, moving already as `drive` has it.
+    """
+    element = replace(element)
+    element.set_speed(float(speed[0]))
+    force, still = element.rest(float(approach[0])), np.zeros(element.state_count)
+    start = _Film(element.law, element._units)
+    force, _ = film_rates_at(element, still, approach[0], rate[0])
+    now = tangents(start, still, approach[0], rate[0])
+    _, length, time = element._units
+    element._state[RATE] = element._state[THETA] * rate[0] / length * time
+    yield (force, *now, *now)
+    for k in range(1, T.size):
+        element.set_speed(float(speed[k]))
+        _, k_step, c_step = element.step_tangents(T[k] - T[k - 1], approach[k], rate[k])
+        force = element._move(T[k] - T[k - 1], float(approach[k]), float(rate[k]))
+        history, unit = element._history, units_of(element.scales)
+        law = slow_law(element._range.at(history.film), history.slowed)
+        film = _Film(law, (*unit[:2], unit[2] / history.pace))
+        yield (force, *tangents(film, element._state[INLET:], approach[k], rate[k]), k_step, c_step)
+
+
+class _Film:
+    """A law with its units, as an element has them."""
+
+    def __init__(self, law: FilmLaw, units: tuple[float, float, float]) -> None:
+        self.law, self._units = law, units
+
+    def gains_at(self, x: float) -> _Floats:
+        """Gains at x = ln F."""
+        return np.array([np.interp(x, self.law.gain_x, column) for column in self.law.gains.T])
 
 
 def _film_points(element: Film, names: list[str]) -> Trial:

@@ -359,8 +359,8 @@ def _with_elements(rotor: Rotor, outside: str | Iterable[str]) -> Rotor:
 
 def _element(name: str, contact: Any) -> Element:
     """A contact element in SI that the FMU can hold."""
-    if not isinstance(contact, Element):
-        raise InputError(name, shown(contact), "a contact element (linear, cubic, ..., wide)")
+    if not isinstance(contact, Element) or contact.kind == "speed":
+        raise InputError(name, shown(contact), "a contact element for one speed (linear, cubic, ..., wide)")
     if contact.units != "SI":
         raise InputError(f"{name}.units", contact.units, "SI: an element of an OperatingPoint")
     return contact.copy()

@@ -165,7 +165,7 @@ def bearing_element(
         as_column(name, np.atleast_1d(np.asarray(frequency[name], float)), increasing=True)
         if whirl.size > 1 and not has_whirl_axis(ross):
             raise InputError(name, f"{whirl.size} numbers", "a single frequency: tables of ROSS 2 have one axis")
-    own = bearing.name or "ball bearing"
+    own = bearing.name or ("set of bearings" if hasattr(bearing, "bearings") else "ball bearing")
     rows = []
     for rpm in speeds.tolist():
         there = bearing.dry if rpm == 0.0 else bearing

@@ -322,10 +322,11 @@ static Chain advance_chain(const double before[], double after[], double mu, dou
         if (kept < 1.0) {
             const double stayed_mu = held[j - 1] - held[j], passed_mu = poisson[j - 1];
             if (j == 1) { /* what the first lag has got: a mean over the step that ends on the film at its end */
-                rim.value = (q.value - held[1]) / r.r0;
-                rim.by_mu = (q.by_mu - stayed_mu - rim.value * passed_mu) / r.r0;
-                rim.by_end = q.by_end / r.r0;
-                rim.by_hump = q.by_hump / r.r0;
+                const double got = (q.value - held[1]) / r.r0;
+                rim.value = b->law->rim * got;
+                rim.by_mu = b->law->rim * ((q.by_mu - stayed_mu - got * passed_mu) / r.r0);
+                rim.by_end = b->law->rim * (q.by_end / r.r0);
+                rim.by_hump = b->law->rim * (q.by_hump / r.r0);
             }
             q = with_rim(q, held[j], stayed_mu, r.r0, passed_mu, kept, rim);
         }
@@ -501,7 +502,7 @@ void film_rates(const FilmLaw *law, const double states[], const Rest *rest, dou
     for (k = 2; k < DIRECT - 1 + law->lags; k++) {
         rates[k] = law->lag_rate * (fed - states[k]) / unit;
         if (law->rim > 0.0 && v > 0.0) {
-            rates[k] += 0.5 * rest->g_u / theta * v / unit * (entered - states[k]);
+            rates[k] += 0.5 * rest->g_u / theta * v / unit * (law->rim * entered - states[k]);
         }
         fed = states[k];
     }
@@ -532,7 +533,7 @@ void film_rates_along(const FilmLaw *law, const double states[], const Rest *res
     dentered = dfed;
     for (k = 2; k < DIRECT - 1 + law->lags; k++) {
         change[k] = law->lag_rate * ((dfed - along[k]) - (fed - states[k]) * dunit) / unit;
-        change[k] += dgrow * (entered - states[k]) + grow * (dentered - along[k]);
+        change[k] += dgrow * (law->rim * entered - states[k]) + grow * (law->rim * dentered - along[k]);
         fed = states[k];
         dfed = along[k];
     }

@@ -442,6 +442,12 @@ class FilmContact(ContactElement):
         approaches and rates, and every filter is integrated exactly.
         """
         u, v = as_float("approach", approach), as_float("rate", rate)
+        force = self._move(dt, u, v)
+        self._watch(u, v, force)
+        return force
+
+    def _move(self, dt: float, u: float, v: float) -> float:
+        """Move the state through a step; returns the force at its end."""
         f, length, _ = self._units
         law, own, old, time, history = self._begin(dt)
         force = float(film_step(law, old, self._next, own, u / length, v / length * time)[0])
@@ -452,7 +458,6 @@ class FilmContact(ContactElement):
         object.__setattr__(self, "_next", old)
         if history is not None:
             object.__setattr__(self, "_history", history)
-        self._watch(u, v, force * f)
         return force * f
 
     def step_tangents(self, dt: float, approach: float, rate: float) -> tuple[float, float, float]:

@@ -19,7 +19,7 @@ from exported import OfRotor, model_of
 from fmpy.build import build_platform_binary
 from fmpy.validation import validate_fmu
 
-from ehlcontact import Lubricant
+from ehlcontact import Lubricant, MoesPoint
 from fmu import export, verify
 from fmu.archive import content_guid
 from fmu.bearing.model import BearingModel
@@ -28,14 +28,14 @@ from fmu.contact_spec import contact_spec
 from fmu.references.contact_references import film_motion, state_grid
 from fmu.rotor.laws import law_names, laws_of
 from fmu.sources import SOURCE_FOLDERS, source_files, standard_folder, standard_headers
-from reduced_models import BallBearing, BearingSet, Disc, Shaft, Support, rotor_on_bearings
+from reduced_models import Atlas, BallBearing, BearingSet, Disc, Shaft, Support, rotor_on_bearings
 
 pytestmark = pytest.mark.filterwarnings("ignore::reduced_models.OutsideValidityWarning")
 STRICT = ["-pedantic", "-Wall", "-Wextra", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Werror"]
 SANITIZE = ["-fsanitize=address,undefined,float-divide-by-zero", "-fno-sanitize-recover=all"]
 SANITIZED = [*STRICT, "-g", "-O0", *SANITIZE]
 HERE = Path(__file__).parent
-CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory"]
+CONTACTS = ["cubic", "polynomial", "power_si", "wide_si", "memory", "speed"]
 ROTORS = ["rotor alone", "rotor mixed", "rotor wide in y"]
 BEARINGS = ["bearing planar", "bearing five", "bearing set"]
 SHAFTS = ["shaft", "whole rotor"]
@@ -89,7 +89,8 @@ def models(elements, rotors):
     }
     angular = BallBearing.catalogue("7205", oil=oil, loss_factor=0.05)
     bearings["bearing set"] = SetModel(BearingSet.pair(angular, spring=200.0), 8e3)
-    return elements | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings | shafts
+    over = {"speed": Atlas().element_over_speed(MoesPoint(200, 10, 0.5), (0.1, 4.0))}
+    return elements | over | {f"rotor {name}": rotor for name, rotor in rotors.items()} | bearings | shafts
 
 
 @pytest.fixture(scope="module")
@@ -137,6 +138,9 @@ def random_calls_of(name):
         # the first of them must not be negative, as motions may be
         given = {"INPUTS": "0,FIRST_DRIVE", "OUTPUTS": "VR_mass_scale,VR_angle,FIRST_RATE"}
         return [f"-DFUZZ_{macro}={text}" for macro, text in (given | {"USUAL": "1e2", "STEP": "1e-5"}).items()]
+    if name == "speed":
+        given = {"INPUTS": "VR_approach,VR_u_sum", "OUTPUTS": "VR_force,VR_stiffness,VR_damping"}
+        return [f"-DFUZZ_{macro}={text}" for macro, text in (given | {"USUAL": "0.0", "STEP": "1e-6"}).items()]
     if name not in ROTORS:
         return []
     # the first of them must not be negative, as motions may be
@@ -190,8 +194,11 @@ def test_a_library_exports_fmi(compiled, extracted, fmi, name):
         *((2, name) for name in ("polynomial", "power_si", "memory", "rotor alone", "rotor wide in y")),
         *((2, "bearing planar"), (3, "cubic")),
         long=(
-            *((2, name) for name in ("wide_si", "rotor mixed", "bearing five", "bearing set", "whole rotor")),
-            *((3, name) for name in ("rotor mixed", "bearing set")),
+            *(
+                (2, name)
+                for name in ("speed", "wide_si", "rotor mixed", "bearing five", "bearing set", "whole rotor")
+            ),
+            *((3, name) for name in ("speed", "rotor mixed", "bearing set")),
         ),
     ),
 )

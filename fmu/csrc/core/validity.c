@@ -18,18 +18,26 @@ void model_watch(Model *m)
     value[VR_outside_rate] = rate;
     value[VR_outside_force] = load;
     value[VR_outside_validity] = approach || rate || load;
+#ifdef BOX_SPEED
+    value[VR_outside_speed] = !(fabs(m->input[VR_u_sum]) <= (1.0 + 1e-9) * BOX_SPEED);
+    value[VR_outside_validity] = value[VR_outside_validity] || value[VR_outside_speed] > 0.0;
+#endif
 }
 
 unsigned long long model_outside(const Model *m)
 {
     return (m->value[VR_outside_approach] > 0.0 ? 1U : 0U) | (m->value[VR_outside_rate] > 0.0 ? 2U : 0U)
-           | (m->value[VR_outside_force] > 0.0 ? 4U : 0U);
+           | (m->value[VR_outside_force] > 0.0 ? 4U : 0U)
+#ifdef BOX_SPEED
+           | (m->value[VR_outside_speed] > 0.0 ? 8U : 0U)
+#endif
+        ;
 }
 
 void model_name_outside(const Model *m, unsigned long long which, char *text, size_t size)
 {
     const char *approach = m->input[VR_approach] < m->value[VR_low] ? " approach below low;" : " approach above high;";
-    snprintf(text, size, "%s%s%s", (which & 1U) == 0 ? "" : approach, (which & 2U) == 0 ? "" : " rate;",
-             (which & 4U) == 0 ? "" : " force;");
+    snprintf(text, size, "%s%s%s%s", (which & 1U) == 0 ? "" : approach, (which & 2U) == 0 ? "" : " rate;",
+             (which & 4U) == 0 ? "" : " force;", (which & 8U) == 0 ? "" : " u_sum above the speeds of the tables;");
     text[strlen(text) - 1] = '\0';
 }
