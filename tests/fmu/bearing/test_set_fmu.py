@@ -158,7 +158,7 @@ def test_leaving_the_tables_names_the_bearing(made):
     slave.set(speed=1.5 * RPM * RPM_TO_RAD_S)
     slave.step(1e-6)
     assert slave.flag("outside_validity") and slave.flag("bearing[1].outside_speed")
-    slave.set(speed=RPM * RPM_TO_RAD_S, z=4e-5)
+    slave.set(speed=RPM * RPM_TO_RAD_S, z=1.5e-4)
     for _ in range(20):
         slave.step(1e-6)
     assert slave.flag("bearing[1].outside_load") and not slave.flag("bearing[2].outside_load")
