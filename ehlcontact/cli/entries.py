@@ -133,6 +133,9 @@ Tilt = Annotated[
 ]
 Load = Annotated[Positive, Physical(INPUTS["load"]), meaning("radial load on the bearing")]
 LoadOrNone = Annotated[NotNegative, Physical(INPUTS["load"]._replace(zero=True))]
+MatrixProgram = Literal[
+    "csv", "json", "ansys-combi214", "ansys-matrix27", "nastran-cbush", "nastran-dmig", "abaqus", "exudyn", "links"
+]
 Arrangement = Annotated[
     Literal["back-to-back", "face-to-face", "tandem"],
     meaning("two such bearings on one shaft, in this arrangement"),

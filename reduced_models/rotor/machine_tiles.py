@@ -48,8 +48,19 @@ def digits(value: float, count: int = 3) -> str:
 
 
 def machine_tiles(machine: Any) -> tuple[Tile, ...]:
-    """Film, ball load, life, stiffness and damping, modes, critical speeds, response, friction, highest speed."""
-    rows = (_film, _ball_load, _life, _coefficients, _mode, _critical, _response, _friction, _highest)
+    """Film, ball load, life, K and C, modes, critical speeds, response, friction, capacitance, highest speed."""
+    rows = (
+        _film,
+        _ball_load,
+        _life,
+        _coefficients,
+        _mode,
+        _critical,
+        _response,
+        _friction,
+        _capacitance,
+        _highest,
+    )
     return tuple(tile for row in rows if (tile := row(machine)) is not None)
 
 
@@ -245,6 +256,22 @@ def _other_torque(machine: Any) -> str:
     if machine.speed_rpm > RELY_ON_SKF:
         return f"films and sliding, which count up to {RELY_ON_SKF:.0f} rev/min: {digits(sum(by_films))} N m"
     return f"SKF's model, which counts above {RELY_ON_SKF:.0f} rev/min: {digits(sum(by_skf))} N m"
+
+
+def _capacitance(machine: Any) -> Tile | None:
+    """Of each bearing between shaft and housing; the largest field per volt."""
+    if any(one.capacitance is None for one in machine.supports):
+        return None
+    own = max(machine.supports, key=lambda one: one.field_per_volt)
+    several = len(machine.supports) > 1
+    each = (
+        ", ".join(f"{one.label} {digits(1e12 * one.capacitance)}" for one in machine.supports) if several else ""
+    )
+    field = f"{digits(own.field_per_volt)} V/µm in the thinnest film per volt"
+    total = sum(one.capacitance for one in machine.supports)
+    return Tile(
+        "capacitance of the films", digits(1e12 * total), "pF", _note(field, each, "oil of permittivity 2.2")
+    )
 
 
 def _highest(machine: Any) -> Tile | None:

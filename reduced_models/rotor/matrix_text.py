@@ -317,4 +317,8 @@ SINGLE: dict[str, tuple[str, Callable[[BearingMatrices, Values, Placed], list[st
     "exudyn": ("#", _exudyn),
     "links": ("#", _links),
 }
+ENDINGS = {  # of files, by program
+    "csv": "csv", "json": "json", "ansys-combi214": "mac", "ansys-matrix27": "mac", "nastran-cbush": "bdf",
+    "nastran-dmig": "bdf", "abaqus": "inp", "exudyn": "py", "links": "txt",
+}  # fmt: skip
 PROGRAMS: tuple[Any, ...] = (*WHOLE, "ansys-combi214", *SINGLE)

@@ -7,6 +7,7 @@ damping at the frequency of the shaft, friction, and what does not hold. All of 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf, sqrt
 from typing import Any, NamedTuple
 
@@ -21,6 +22,7 @@ from ehlcontact.film_formulas import film_scatter
 from ehlcontact.hertz import hertz_contact
 from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
+from reduced_models.bearing.capacitance import BearingCapacitance
 from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -236,6 +238,21 @@ class SupportState(Summary):
         said += [self.coefficients.damping_left_out, self.coefficients.held_feed]
         return tuple(f"{self.label}: {text}" for text in said if text)
 
+    @property
+    def capacitance(self) -> float | None:
+        """Between shaft and housing, permittivity of the oil 2.2 [F]; None where it is dry."""
+        return sum(one.total for one in self._films) if self._films else None
+
+    @property
+    def field_per_volt(self) -> float | None:
+        """Largest field in a film [V/um] for 1 V between shaft and housing; None where it is dry."""
+        return max(one.field_strength(1.0) for one in self._films) if self._films else None
+
+    @cached_property
+    def _films(self) -> tuple[BearingCapacitance, ...]:
+        dry = any(state.h_min is None for _, state in self.bearings)
+        return () if dry else tuple(state.capacitance() for _, state in self.bearings)
+
     def to_dict(self) -> dict[str, Any]:
         """All numbers, SI, ready for JSON."""
         worst = self.worst_contact
@@ -258,6 +275,8 @@ class SupportState(Summary):
             "skf_torque": self.skf_torque,
             "sliding_torque": sum(one.sliding for one in self.friction) if self.friction else None,
             "inlet_heat": [one.inlet_heat for one in self.friction],
+            "capacitance": self.capacitance,
+            "field_per_volt": self.field_per_volt,
             "state": self.state.to_dict(),
             "reservations": list(self.reservations),
         }

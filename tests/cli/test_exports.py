@@ -12,6 +12,7 @@ import pytest
 from tiny_study import ALONE, ANGULAR, MOTOR, PAIR
 
 from ehlcontact.cli.study.answer import answer_of
+from ehlcontact.cli.study.exports import write_exports
 from ehlcontact.cli.study.machine import rotor_of
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.scripts import python_text, ross_text, variables_of
@@ -109,8 +110,10 @@ def test_the_machine_in_ross(study, monkeypatch):
         (MOTOR, "fmu = true\ntop_rpm = 9000", ("export.top_rpm = 9000", "at least the speed of the study, 15000")),
         (MOTOR, "fmu = true\nplatforms = ['linux']", ("export.platforms = 'linux'", "x86_64-linux")),
         (MOTOR, "fmu = true\nfmi = 4", ("export.fmi = 4", "2 or 3")),
-        (MOTOR, "", ("export.fmu = False", "or export.python, or export.ross")),
-        (MOTOR, "fmi = 3", ("export.fmu = False", "or export.python, or export.ross")),
+        (MOTOR, "", ("export.fmu = False", "or export.python, export.ross or export.matrices")),
+        (MOTOR, "fmi = 3", ("export.fmu = False", "or export.python, export.ross or export.matrices")),
+        (MOTOR, "matrices = ['nastran']", ("export.matrices", "nastran-dmig")),
+        (MOTOR, "matrices = ['csv']\nmatrix_units = 'mm'", ("export.matrix_units = 'mm'", "left out")),
         (ALONE, "fmu = true\ninertia = 1.0", ("export.inertia = 1.0", "without [shaft]")),
         (ALONE, "ross = true", ("export.ross = True", "without [shaft]")),
         (PAIR, "fmu = true", ("support.pair = 'back-to-back'", "one bearing")),
@@ -122,6 +125,25 @@ def test_entries_that_contradict(refused, tmp_path, text, entries, words):
     path.write_text(f"{text}\n[export]\n{entries}\n")
     for command in ("validate", "run"):
         refused(words, command, path, "-o", tmp_path / "out")
+
+
+def test_matrices_of_every_support(study, tmp_path):
+    """About each bearing in the axes of the shaft, under the load that it has in the machine."""
+    entries = '[export]\nmatrices = ["json", "abaqus"]\nmatrix_units = "mm"\nshaft_along = "x"\n'
+    one = study(f"{MOTOR}\n{entries}")
+    made = write_exports(one, tmp_path)["matrices"]
+    assert [(row["support"], row["program"]) for row in made] == [
+        (name, program) for name in ("drive end", "fan end") for program in ("json", "abaqus")
+    ]
+    rows = linearise(rotor_of(one), one.speed_rpm)
+    for k, name in enumerate(("drive_end", "fan_end")):
+        read = json.loads((tmp_path / f"{name}_matrices.json").read_text())
+        own = rows.balls[k].coefficients(np.array([15000.0 * np.pi / 30.0]))[0][0]
+        K = np.array(read["stiffness"])[0, 0]
+        assert np.diag(K)[:3] == pytest.approx(np.diag(own)[:3], rel=1e-3)
+        lines = (tmp_path / f"{name}_abaqus.inp").read_text().splitlines()
+        first = next(line for line in lines if line.startswith("1, 1, 1, 1,"))
+        assert float(first.split(",")[4]) == pytest.approx(1e-3 * K[2, 2], rel=1e-9)
 
 
 def test_a_shaft_without_mass_has_no_model_in_ross(refused, tmp_path):

@@ -6,15 +6,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ehlcontact.binaries import choose
 from ehlcontact.cli.study.loads import load_alone, places_of_bearings
 from ehlcontact.cli.study.machine import bearing_of, carrier_of, rotor_of, support_field
-from ehlcontact.cli.study.scripts import python_text, require_ross, ross_text
+from ehlcontact.cli.study.scripts import python_text, require_ross, ross_text, support_load, variables_of
 from ehlcontact.cli.study.shared_entries import supply_and_heat
 from ehlcontact.errors import InputError
 from ehlcontact.files import write_text
-from reduced_models import BallBearing, BearingSet, Rotor
+from reduced_models import BallBearing, BearingSet, Rotor, bearing_matrices
+from reduced_models.bearing.freedoms import facing_signs
 from reduced_models.elements.validity import frequency_text
+from reduced_models.rotor.matrix_text import ENDINGS, WHOLE
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
@@ -33,8 +37,12 @@ def require_export(study: Study) -> None:
             if value := getattr(asked, name):
                 shown = list(value) if isinstance(value, tuple) else value
                 raise InputError(f"export.{name}", shown, "left out without export.fmu")
-    if not (asked.fmu or asked.python or asked.ross) and study.contact is None:
-        raise InputError("export.fmu", False, "true; or export.python, or export.ross")
+    if not (asked.fmu or asked.python or asked.ross or asked.matrices) and study.contact is None:
+        raise InputError("export.fmu", False, "true; or export.python, export.ross or export.matrices")
+    if not set(asked.matrices) - set(WHOLE):
+        for name, usual in (("matrix_units", "m"), ("shaft_along", "z")):
+            if (value := getattr(asked, name)) != usual:
+                raise InputError(f"export.{name}", value, "left out without export.matrices for a program")
     if asked.fmu and study.shaft is None:
         for name in ("outside", "inertia"):
             if value := getattr(asked, name):
@@ -97,7 +105,8 @@ def write_exports(study: Study, folder: Path) -> dict[str, Any]:
     Returns
     -------
     dict
-        By "fmu", "python" and "ross", those that are asked for, each with its ``file``.
+        By "fmu", "python" and "ross", those that are asked for, each with its ``file``; under "matrices" a list of
+        these with the ``program`` and the ``support`` of each.
     """
     asked, made = study.export, {}
     if asked is None:
@@ -111,6 +120,30 @@ def write_exports(study: Study, folder: Path) -> dict[str, Any]:
         if wanted:
             write_text(folder / file, text(study), "file")
             made[name] = {"file": file}
+    if asked.matrices:
+        made["matrices"] = _write_matrices(study, folder)
+    return made
+
+
+def _write_matrices(study: Study, folder: Path) -> list[dict[str, str]]:
+    """Stiffness and damping of what stands at every support, at the speed, under its load there."""
+    asked, made = study.export, []
+    assert asked is not None
+    facings = dict.fromkeys(range(len(study.support)), "+z")
+    if study.shaft is not None:
+        facings |= {
+            k: one.facing for k, one in zip(places_of_bearings(study), rotor_of(study).bearings, strict=True)
+        }
+    for k, (name, word) in enumerate(zip(study.names, variables_of(study.names), strict=True)):
+        carrier = carrier_of(study, k)
+        facing = "+z" if isinstance(carrier, BearingSet) else facings[k]
+        load = np.array(support_load(study, k))
+        table = bearing_matrices(carrier, load * facing_signs(facing)[: load.size], study.speed_rpm, facing=facing)
+        for program in asked.matrices:
+            file = f"{word}_{'matrices' if program in WHOLE else program.replace('-', '_')}.{ENDINGS[program]}"
+            options = {} if program in WHOLE else {"units": asked.matrix_units, "shaft_along": asked.shaft_along}
+            write_text(folder / file, table.text(program, **options), "file")
+            made.append({"file": file, "program": program, "support": name})
     return made
 
 

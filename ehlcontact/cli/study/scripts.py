@@ -132,7 +132,7 @@ def ross_text(study: Study) -> str:
             elements.append(f"ross.BearingElement({_keywords(ground)})")
     for k, one in enumerate(study.support):
         node = nodes[places[k]]
-        options: dict[str, Any] = {"load": _load(study, k)}
+        options: dict[str, Any] = {"load": support_load(study, k)}
         if one.spring is not None:
             options |= {"kzz": 0.0, "czz": 0.0}  # its outer ring slides
         if one.journal_mass:
@@ -196,7 +196,7 @@ def variables_of(names: Sequence[str]) -> list[str]:
     return found
 
 
-def _load(study: Study, k: int) -> list[float]:
+def support_load(study: Study, k: int) -> list[float]:
     """Load on a support, with 0 for what is rounding."""
     load = ring_load(study, k)
     most = float(np.abs(load).max())

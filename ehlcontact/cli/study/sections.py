@@ -304,3 +304,15 @@ class Export(Section):
     ross: Annotated[
         bool, e.meaning("machine_ross.py: the rotor in ROSS, on tables of K and C of its bearings")
     ] = False
+    matrices: Annotated[
+        tuple[e.MatrixProgram, ...],
+        Field(
+            strict=False,
+            description="K and C of each bearing at the speed, 6 x 6, for other programs: csv, json,"
+            " ansys-combi214, ansys-matrix27, nastran-cbush, nastran-dmig, abaqus, exudyn, links",
+        ),
+    ] = ()
+    matrix_units: Annotated[Literal["m", "mm"], e.meaning("N and this, in those files but csv and json")] = "m"
+    shaft_along: Annotated[
+        Literal["x", "y", "z"], e.meaning("axis of the other program along the shaft, in those files")
+    ] = "z"

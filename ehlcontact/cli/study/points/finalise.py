@@ -137,7 +137,8 @@ def read_results(folder: Path) -> dict[str, Any]:
 def products(results: Mapping[str, Any]) -> dict[str, str]:
     """Files of the finalisation, relative to the folder, by their meaning."""
     made = {"results": RESULTS, "report": REPORT}
-    for entry in results.get("export", {}).values():
+    exports = results.get("export", {})
+    for entry in (*(exports[name] for name in exports if name != "matrices"), *exports.get("matrices", ())):
         if entry.get("passes", True):
             made[entry["file"]] = entry["file"]
     if "fits" not in results:  # no contact
