@@ -6,9 +6,11 @@ does to a film is in `ehlcontact.solver`.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import wraps
 from math import nan
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 from ehlcontact.asperities import Asperities
 from ehlcontact.checks import require_instance, shown
@@ -18,6 +20,10 @@ from ehlcontact.point import OperatingPoint, Point, moes_point, scales_of
 from ehlcontact.shear_thinning import ShearThinning
 from ehlcontact.supply import OilLayer
 
+P = ParamSpec("P")
+Result = TypeVar("Result")
+
+SMOOTH = "left out of vibrations and runs, whose films are between smooth surfaces: solve_steady takes asperities"
 KEYWORDS = {"supply": "supply", "heat": "thermal", "sliding": "sliding", "asperities": "asperities"}
 WANTED = {
     "supply": (OilLayer, "an OilLayer(h, ...)"),
@@ -126,6 +132,18 @@ class Conditions:
         if self.sliding is not None and heat.slide_roll == 0.0:
             heat = replace(heat, slide_roll=self.sliding.slide_roll)
         return replace(self, heat=heat)
+
+
+def between_smooth_surfaces(call: Callable[P, Result]) -> Callable[P, Result]:
+    """Let a call that takes the other conditions refuse asperities with the reason: they are not linearised."""
+
+    @wraps(call)
+    def checked(*args: P.args, **kwargs: P.kwargs) -> Result:
+        if kwargs.pop("asperities", None) is not None:
+            raise InputError("asperities", "given", SMOOTH)
+        return call(*args, **kwargs)
+
+    return checked
 
 
 def _require_one_sliding(heat: Heat, sliding: ShearThinning) -> None:

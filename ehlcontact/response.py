@@ -46,7 +46,7 @@ from ehlcontact.checks import as_numbers, parts, require_positive, shown
 from ehlcontact.checks.frequency import Frequency, by_name, dimensionless, is_given
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.checks.quantity import fields_take
-from ehlcontact.conditions import Conditions
+from ehlcontact.conditions import Conditions, between_smooth_surfaces
 from ehlcontact.errors import InputError
 from ehlcontact.heat import Heat
 from ehlcontact.linearised_film import coarser_contacts, film_to_linearise, held, linearised
@@ -139,6 +139,7 @@ class Waves:
         raise InputError("wavelength", float(f"{length * unit:.3g}"), allowed)
 
 
+@between_smooth_surfaces
 @by_name(1)
 @one_blas_thread()
 def response(
@@ -212,6 +213,7 @@ def response(
     return replace(found, seconds=time.perf_counter() - started).in_units_of(point)
 
 
+@between_smooth_surfaces
 @by_name(1)
 def impedance(
     point: Point,
@@ -228,6 +230,7 @@ def impedance(
     return response(point, to=APPROACH, grid=grid, threads=threads, **conditions, **frequency)
 
 
+@between_smooth_surfaces
 @by_name(1)
 def excitation(
     point: Point,

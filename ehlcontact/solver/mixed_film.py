@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.asperities import AsperityNumbers, greenwood_tripp
+from ehlcontact.conditions import SMOOTH
 from ehlcontact.errors import InputError
 from ehlcontact.solver.balance import Balance
 from ehlcontact.solver.multigrid import Multigrid
@@ -69,7 +70,7 @@ class AsperityPressure:
 
     def linear(self, still: bool = False) -> Any:
         """Refused: their pressure over a vibration is not known here."""
-        raise InputError("asperities", "given", "left out of vibrations: their pressure is not linearised")
+        raise InputError("asperities", "given", SMOOTH)
 
     def hold(self, results: Mapping[str, Mapping[str, Any]]) -> None:
         """Take over the pressure of a result."""

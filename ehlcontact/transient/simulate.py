@@ -14,7 +14,7 @@ from ehlcontact.checks import require_instance
 from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.machine import require_threads
 from ehlcontact.checks.quantity import takes
-from ehlcontact.conditions import Conditions
+from ehlcontact.conditions import Conditions, between_smooth_surfaces
 from ehlcontact.errors import ConvergenceError, InputError, warn_user
 from ehlcontact.heat import Heat
 from ehlcontact.point import Point, require_solvable, scales_of
@@ -58,6 +58,7 @@ LARGEST_MISMATCH = 0.01  # of the kappa of a feature, over that of the contact
     run=Object(RunSettings, "a RunSettings"),
     speed=Object(SpeedHistory, "a SpeedHistory"),
 )
+@between_smooth_surfaces
 @one_blas_thread()
 def simulate(
     point: Point,

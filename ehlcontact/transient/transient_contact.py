@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields, replace
 
 from ehlcontact.checks import require_finite, require_instance, require_positive
 from ehlcontact.checks.machine import require_threads
-from ehlcontact.conditions import Conditions
+from ehlcontact.conditions import Conditions, between_smooth_surfaces
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.heat import Heat
 from ehlcontact.point import OperatingPoint, Point, require_solvable, scales_of
@@ -87,6 +87,7 @@ class TransientContact(Summary):
         The steady state at the start did not converge.
     """
 
+    @between_smooth_surfaces
     @one_blas_thread()
     def __init__(
         self,

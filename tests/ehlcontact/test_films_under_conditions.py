@@ -7,6 +7,7 @@ from ehlcontact import (
     Asperities,
     Domain,
     Grid,
+    HarmonicLoad,
     Heat,
     InputError,
     KeepSettings,
@@ -19,6 +20,7 @@ from ehlcontact import (
     SpeedHistory,
     TimeSteps,
     TransientContact,
+    excitation,
     impedance,
     simulate,
     solve_steady,
@@ -267,6 +269,22 @@ def test_asperities_are_held_and_have_no_vibrations():
     np.testing.assert_allclose(solved.finest.H, film.dimensionless.h.T, rtol=1e-9)
     with pytest.raises(InputError, match=r"^asperities = 'given': must be left out of vibrations"):
         linearised(film, solved)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda **given: impedance(BALL, hz=100.0, **given),
+        lambda **given: response(BALL, to="speed", hz=100.0, **given),
+        lambda **given: excitation(BALL, hz=100.0, **given),
+        lambda **given: simulate(BALL, HarmonicLoad(Omega=1.0), **given),
+        lambda **given: TransientContact(BALL, **given),
+    ],
+    ids=["impedance", "response", "excitation", "simulate", "contact"],
+)
+def test_asperities_are_refused_where_surfaces_are_smooth(call):
+    with pytest.raises(InputError, match=r"^asperities = 'given': must be left out of vibrations and runs, whose"):
+        call(asperities=Asperities(0.3e-6))
 
 
 def test_a_state_of_other_conditions_is_refused():
