@@ -131,7 +131,7 @@ def _life(machine: Any) -> Tile | None:
     if hours is None or hours == inf:
         return None
     shortest = min(system, key=lambda one: one.l10rh)
-    kind = "basic, 90 %: the modified one needs a contamination"
+    kind = "basic, 90 %: the modified one needs an oil and a contamination"
     if system.lnmrh is not None:
         film = "" if system.lnmrh_film is None else f", by the solved film {digits(system.lnmrh_film)} h"
         kind = f"modified, {machine.reliability:g} %, by nu/nu1{film}; basic {digits(system.l10rh)} h"

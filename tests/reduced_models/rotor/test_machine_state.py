@@ -136,7 +136,7 @@ class TestMotor:
         each = [support.state.life().l10rh for support in machine.supports]
         assert [one.l10rh for one in system] == each and system.names == ("left 6306", "right 6206")
         assert system.l10rh < min(each) and float(tile.value) == pytest.approx(system.l10rh, rel=5e-3)
-        assert "needs a contamination" in tile.note and machine.to_dict()["life"]["lnmrh"] is None
+        assert "an oil and a contamination" in tile.note and machine.to_dict()["life"]["lnmrh"] is None
         clean = replace(machine, contamination=0.5, reliability=95.0)
         tile = next(one for one in clean.tiles() if one.name == "rating life")
         assert float(tile.value) == pytest.approx(clean.rating_life.lnmrh, rel=5e-3)
