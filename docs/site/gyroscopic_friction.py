@@ -1,4 +1,4 @@
-"""The forces on a ball at a contact angle, in `docs/theory.md`: ``python docs/site/gyroscopic_friction.py``."""
+"""The forces on a ball at a contact angle, in `docs/notes/bearings.md`."""
 
 from math import cos, radians, sin
 from pathlib import Path

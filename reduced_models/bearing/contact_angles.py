@@ -21,8 +21,8 @@ of nearly 1, that ends where the ball leaves the inner race.
 Friction of the outer race, of the inner race, or of both in the ratio of W turns the axis of the ball around the
 shaft (gyroscopic moment). With the inner ring rotating, the angular momentum of the ball points outward where
 alpha > 0. Its change is along the orbit, so that friction across the outer contact has to push the ball outward,
-that across the inner contact inward (derivation: `docs/theory.md`). Published tables have the opposite direction;
-"harris" is outer race control with the direction of these tables.
+that across the inner contact inward (derivation: `docs/notes/bearings.md`). Published tables have the opposite
+direction; "harris" is outer race control with the direction of these tables.
 """
 
 from __future__ import annotations

@@ -348,9 +348,9 @@ def test_widened_ends_with_what_was_given():
     assert len(regions) == m.LARGEST_ATTEMPTS
 
 
-def test_the_page_of_notation_has_the_numbers_of_the_code():
-    """`docs/notation.md`, "Lengths that are inputs"."""
-    page = (Path(__file__).parents[3] / "docs" / "notation.md").read_text(encoding="utf-8")
+def test_the_note_on_the_solver_has_the_numbers_of_the_code():
+    """`docs/notes/solver.md`, "Lengths that are inputs"."""
+    page = (Path(__file__).parents[3] / "docs" / "notes" / "solver.md").read_text(encoding="utf-8")
     text = " ".join(page[page.index("## Lengths that are inputs") :].split())
     near, nearest, limits = m.NEAR_DOMAIN, m.NEAREST_DOMAIN, m.ACCURACY
     for said in (
