@@ -271,7 +271,7 @@ def test_films_with_close_lines_are_solved_on_twice_the_grid():
     point = MoesPoint(97.0, 10.56, 1.489)
     coarse = box.finer_close_lines(point, box.Mesh(64, box.Domain(), point.kappa, 2))
     row = coarse._asdict() | {"M": point.M, "L": point.L, "kappa": point.kappa, "key": "0", "n": 64, "apart": 0.5}
-    finer = box.solve_finer(row | {"domain": box.Domain().as_tuple(), "error_estimate": {"h_min": 0.2}})
+    finer = box.solve_finer(row | {"domain": box.Domain().as_tuple(), "error_estimate": {"h_min_relative": 0.2}})
     again = box.finer_close_lines(point, box.Mesh(128, box.Domain(), point.kappa, 2))
     assert finer["status"] == "converged"
     assert finer["move"] == pytest.approx(abs(coarse.h_min / again.h_min - 1.0))

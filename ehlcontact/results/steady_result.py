@@ -42,7 +42,7 @@ def grid_doubt(error: ErrorEstimate | None, when: str = "") -> str:
     """Say in words where a mesh does not show its film, `when` as in "at the start"; else empty."""
     if error is None:
         return ""
-    films = {"central": error.h_central, "smallest": error.h_min}
+    films = {"central": error.h_central_relative, "smallest": error.h_min_relative}
     off = [
         f"the {name} film may be off by {'anything' if bar >= ALL else f'{100.0 * bar:.0f} %'}"
         for name, bar in films.items()
@@ -53,7 +53,9 @@ def grid_doubt(error: ErrorEstimate | None, when: str = "") -> str:
 
 def film_bars(error: ErrorEstimate) -> tuple[str, str]:
     """Errors of the central and the smallest film in words."""
-    central, least = (f"± {float(f'{100.0 * e:.2g}'):g} %" for e in (error.h_central, error.h_min))
+    central, least = (
+        f"± {float(f'{100.0 * e:.2g}'):g} %" for e in (error.h_central_relative, error.h_min_relative)
+    )
     return central, least
 
 
@@ -275,7 +277,7 @@ class SteadyResult(PointTable, Origin):
             return f"not solved: {self.status}"
         if self.error_estimate is None:
             return "solved"
-        bar = self.error_estimate.h_min
+        bar = self.error_estimate.h_min_relative
         return "solved, off by anything" if bar >= ALL else f"solved, ± {float(f'{100.0 * bar:.2g}'):g} %"
 
     @property

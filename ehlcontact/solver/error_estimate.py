@@ -37,13 +37,13 @@ class ErrorEstimate:
     ----------
     approach : float
         Error of the mutual approach [m; dry approach], in the units of its result.
-    h_central, h_min : float
+    h_central_relative, h_min_relative : float
         Errors of the film at X = Y = 0 and of the smallest, each over that film; 1 where nothing is known.
     """
 
     approach: Annotated[float, LENGTH]
-    h_central: float
-    h_min: float
+    h_central_relative: float
+    h_min_relative: float
 
     @classmethod
     def of(cls, found: Sequence[tuple[float, float, float]]) -> Self:

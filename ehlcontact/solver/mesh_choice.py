@@ -82,7 +82,7 @@ FAILED = (Status.STAGNATED, Status.DIVERGED, Status.MAX_CYCLES, Status.NONFINITE
 REFINED = (*FAILED, Status.UNRESOLVED, Status.STARVED)  # what a finer mesh may cure
 DOMAIN_GROWTH = 1.5  # of a region that pressure fills
 # Errors of a steady film (by their estimates) below which no finer mesh is tried where it is left open.
-ACCURACY = ErrorEstimate(approach=0.002, h_central=0.01, h_min=0.03)
+ACCURACY = ErrorEstimate(approach=0.002, h_central_relative=0.01, h_min_relative=0.03)
 LARGEST_ATTEMPTS = 4  # meshes for one film, the first one included
 LARGEST_NEWTON = 300_000  # nodes for Newton as a last resort: sparse factors take minutes and gigabytes beyond
 

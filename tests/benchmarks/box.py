@@ -91,7 +91,7 @@ def solve_finer(row: Row) -> Row:
     lines = 2 ** round(-log2(row["apart"])) if row["apart"] < CLOSE else 1  # the number of lines was rounded up
     mesh = Mesh(2 * row["n"], domain, point.kappa, lines)
     found: Row = {"of": row["key"], "M": row["M"], "L": row["L"], "kappa": row["kappa"], "n": mesh.n}
-    found["estimate"] = row["error_estimate"]["h_min"]
+    found["estimate"] = row["error_estimate"]["h_min_relative"]
     if not mesh.nodes <= LARGEST_GRID:
         return found | {"status": "not solved: the grid has too many nodes", "move": None}
     try:

@@ -108,7 +108,7 @@ def test_grid_too_coarse_for_the_start_of_a_run_warns(call, point):
     found = json.loads(coarse.out)
     assert coarse.code == 0 and coarse.err == f"ehlcontact: warning: {found['reservation']}\n"
     assert found["reservation"].startswith("the grid is too coarse: at the start the central film may be off by")
-    assert found["film_error"]["h_central"] > 0.1
+    assert found["film_error"]["h_central_relative"] > 0.1
 
 
 @pytest.mark.long

@@ -329,5 +329,5 @@ def _in_si(result: SimulationResult) -> list[Row]:
 def _grid_error(result: SimulationResult) -> list[Row]:
     if (error := result.film_error) is None:
         return []
-    central, smallest = map(share_text, (error.h_central, error.h_min))
+    central, smallest = map(share_text, (error.h_central_relative, error.h_min_relative))
     return [("error of the grid", central, f"at the start, in the centre; {smallest} for the smallest film")]

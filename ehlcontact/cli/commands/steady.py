@@ -128,7 +128,9 @@ def _draw(result: SteadyResult, traction: Traction | None, path: Path) -> None:
 
 def _rows(result: SteadyResult) -> list[Row]:
     error, to_come = result.error_estimate, result.dimensionless.pressure_error
-    central, smallest = ("", "") if error is None else map(share_text, (error.h_central, error.h_min))
+    central, smallest = (
+        ("", "") if error is None else map(share_text, (error.h_central_relative, error.h_min_relative))
+    )
     remarks = {"approach": "", "h_central": central, "h_min": smallest, "p_max": "", "moment": _left_out(result)}
     return [
         *quantity_rows(result, remarks, None if error is None else {"approach": error.approach}),

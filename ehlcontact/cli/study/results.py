@@ -106,8 +106,8 @@ class ContactFindings:
             "h_central_um": self.steady.h_central * 1e6,
             "h_min_um": self.steady.h_min * 1e6,
             "approach_error": None if error is None else error.approach,
-            "h_central_error": None if error is None else error.h_central,
-            "h_min_error": None if error is None else error.h_min,
+            "h_central_error": None if error is None else error.h_central_relative,
+            "h_min_error": None if error is None else error.h_min_relative,
             "h_oil_scatter": self.oil_scatter,
             "rotor_omega": self.study.rotor_omega,
         }

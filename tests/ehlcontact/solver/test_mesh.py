@@ -154,7 +154,7 @@ def test_no_remedy_for_what_was_asked_for_or_is_done():
     assert m.remedy(Mesh(2048, Domain(), point.kappa), Status.UNRESOLVED, point) is None
 
 
-POOR = ErrorEstimate(approach=1e-5, h_central=1e-3, h_min=0.5)
+POOR = ErrorEstimate(approach=1e-5, h_central_relative=1e-3, h_min_relative=0.5)
 
 
 @pytest.mark.parametrize(
@@ -358,8 +358,8 @@ def test_the_note_on_the_solver_has_the_numbers_of_the_code():
         f"{m.FINE_SIDES:g} or {m.FINE_THIN_SIDES:g} where side lobes are thinner",
         f"kappa above {grid_rules.SIDE_LOBES:g}; {m.MESH_OF_THIN_SIDES:g} of very",
         f"{m.LARGEST_MESH:g} semi-axes at most",
-        f"above {limits.approach:g} dry approaches, {100 * limits.h_central:g} % of the central or "
-        f"{100 * limits.h_min:g} % of the smallest film",
+        f"above {limits.approach:g} dry approaches, {100 * limits.h_central_relative:g} % of the central or "
+        f"{100 * limits.h_min_relative:g} % of the smallest film",
         f"[{near.x_in:g}, {near.x_out:g}] x [-{near.y_max:g}, {near.y_max:g}]",
         f"[{nearest.x_in:g}, {nearest.x_out:g}] x [-{nearest.y_max:g}, {nearest.y_max:g}]",
         f"below Wijnant's load number N = {LIGHT_LOAD / LIGHT_BLEND:g} the inlet with ({LIGHT_LOAD:g}/N)^"

@@ -40,8 +40,8 @@ def test_starts_at_rest(contact, steady):
 
 def test_the_error_of_its_grid_is_that_of_the_film_at_rest(contact, steady, monkeypatch):
     """And nothing that steps go on from is changed by it."""
-    assert contact.film_error.h_central == pytest.approx(
-        steady(200, 10, 0.5, 32).error_estimate.h_central, rel=0.02
+    assert contact.film_error.h_central_relative == pytest.approx(
+        steady(200, 10, 0.5, 32).error_estimate.h_central_relative, rel=0.02
     )
     assert contact.reservation.startswith("the grid is too coarse: at rest the central film may be off by 75 %")
     assert contact.reservation in repr(contact)

@@ -510,8 +510,8 @@ def test_another_oil_lies_inside_its_error_bar(alpha, eta0):
     off = film.error_estimate
     allowed = {
         "approach": off.approach,
-        "h_central": off.h_central * film.h_central,
-        "h_min": off.h_min * film.h_min,
+        "h_central": off.h_central_relative * film.h_central,
+        "h_min": off.h_min_relative * film.h_min,
     }
     for name, grid in allowed.items():
         bar = answer.error_bars[name]

@@ -62,7 +62,7 @@ def test_film_of_the_atlas_makes_the_lambda_ratio():
 def test_origin_of_a_solved_film():
     point = MoesPoint(200, 10, 0.5)
     solved = solve_steady(point, grid=Grid(n=64))
-    assert solved.film_origin == f"solved, ± {100.0 * solved.error_estimate.h_min:.2g} %"
+    assert solved.film_origin == f"solved, ± {100.0 * solved.error_estimate.h_min_relative:.2g} %"
     assert impedance(point, Omega=[0.0], grid=Grid(n=64)).film.film_origin.startswith("solved, ±")
     stopped = solve_steady(point, grid=Grid(n=64), max_cycles=1, throw=False)
     assert stopped.film_origin == f"not solved: {stopped.status}"
