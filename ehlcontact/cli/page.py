@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from html import escape
 from pathlib import Path
@@ -14,6 +15,10 @@ from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.errors import warn_user
 from ehlcontact.files import write_text
 from ehlcontact.results.picture import Panel, Picture, Slides
+
+# A number with its sign and its unit
+UNITS = "%", "N/\u00b5m", "N s/m", "N m", "N", "W", "GPa", "Hz", "\u00b5m", "rev/min", "h"
+MEASURE = re.compile(rf"(?:\u00b1 )?\d[\d.e+-]*(?: (?:{'|'.join(UNITS)})(?![\w/]))?")
 
 
 def write_page(
@@ -36,7 +41,7 @@ def write_page(
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"sig": numeral, "percent": percent, "cell": cell}
+    environment.filters |= {"sig": numeral, "percent": percent, "cell": cell, "together": together}
     heights, packed = {}, None
     if drawings:
         from ehlcontact.cli.plots.bundle import bundle
@@ -59,6 +64,11 @@ def _drawn(name: str, describe: Callable[[], Picture | Slides]) -> Any:
         reason = f"the figure {name!r} could not be drawn: {type(error).__name__}: {error}"
         warn_user(reason)
         return figure_of(Picture([Panel([], "", "", title=escape(shorten(reason, 100)))]))
+
+
+def together(text: str) -> str:
+    """A text whose numbers stay on a line with their signs and units."""
+    return MEASURE.sub(lambda found: found[0].replace(" ", "\u00a0"), text)
 
 
 def cell(value: float | str | None) -> str:

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from ehlcontact.cli.page import together
 from ehlcontact.cli.plots.bundle import bundle, library, packed, unpacked, version
 from ehlcontact.cli.plots.finish import finished
 from ehlcontact.cli.plots.render import figure_of
@@ -184,3 +185,8 @@ def test_what_is_packed_comes_out_again():
     assert "</script" not in found["script"]
     with pytest.raises(ValueError):
         bundle({"a": float("nan")})
+
+
+def test_numbers_stay_beside_their_units():
+    kept = together("uncertain by ± 4.4 % atlas; 39.5 N s/m at 15957 rev/min, 2 roads").replace("\u00a0", "~")
+    assert kept == "uncertain by ±~4.4~% atlas; 39.5~N~s/m at 15957~rev/min, 2 roads"
