@@ -166,7 +166,8 @@ def test_films_and_records(films, results):
         unit = "" if name == "approach" else "_um"
         size = 1.0 if name == "approach" else 1e6
         assert point[name + unit] == pytest.approx(getattr(film, name) * size)
-        assert point[f"{name}_error"] == getattr(film.error_estimate, name)
+        of_film = "" if name == "approach" else "_relative"
+        assert point[f"{name}_error"] == getattr(film.error_estimate, name + of_film)
     for name in RECORDS:
         row, run = results["simulations"][name], films[name]
         assert row["static_approach"] == run.static_approach and row["steps"] == run.t.size - 1
