@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -210,20 +209,11 @@ def _element_of(file: Path, keywords: dict[str, Any]) -> FmuModel:
 def _bearing_of(file: Path, keywords: dict[str, Any]) -> FmuModel:
     """The bearing of a study without a shaft, from its lowest to its highest speed, at rest under its load."""
     from ehlcontact.cli.study.bearing import load_job
-    from fmu.models import fmu_model
+    from ehlcontact.cli.study.exports import machine_model
 
     job = load_job(str(file), {})
-    if job.pair is not None:
-        allowed = "left out: the FMU is that of one bearing; a rotor with pairs is an FMU by fmu.export"
-        raise InputError(f"{file}: support.pair", job.pair.name, allowed)
-    if job.tilt is not None:
-        allowed = "left out: tilts are inputs of the FMU"
-        raise InputError("operation.tilt_x_mrad", 1e3 * job.tilt[0], allowed)
-    speeds = sorted({job.speeds[0], job.speeds[-1]})
     with job.called():
-        supply, thermal = job.supply_and_heat
-        bearing = replace(job.bearing, supply=supply, thermal=thermal)
-        return fmu_model(bearing, speeds_rpm=speeds, load=job.load, **keywords)
+        return machine_model(job.study, sorted({job.speeds[0], job.speeds[-1]}), **keywords)
 
 
 def _on_contacts(
@@ -272,26 +262,23 @@ def _on_bearings(
     file: Path, bearings: str, inertia: float | None, top_rpm: float | None, named: dict[str, Any]
 ) -> FmuModel | RotorSystem:
     """The rotor of a study on its whole bearings, at its speed, at rest under the load on them."""
-    from ehlcontact.cli.study.exports import rotor_with_films
+    from ehlcontact.cli.study.exports import machine_model, rotor_with_films
     from ehlcontact.cli.study.schema import load_study
-    from fmu.models import fmu_model
-    from fmu.rotor.model import ALL
     from fmu.system.parts import RotorSystem
 
     study = load_study(file)
     if study.shaft is None:
         raise InputError("file", str(file), "a study with a table [shaft], for --bearings")
-    rotor, speed = rotor_with_films(study), study.speed_rpm
-    top = speed if top_rpm is None else top_rpm
-    if top < speed:
-        raise InputError("--top-rpm", top, f"at least the speed of the study, {speed:g} rev/min")
-    turning: dict[str, Any] = {"speed_rpm": speed, "inertia": inertia}
-    if bearings == "outside":
-        return fmu_model(rotor, outside=ALL, **turning, **named)
-    speeds = sorted({speed, top})
+    top = study.speed_rpm if top_rpm is None else top_rpm
+    if top < study.speed_rpm:
+        allowed = f"at least the speed of the study, {study.speed_rpm:g} rev/min"
+        raise InputError("--top-rpm", top, allowed)
+    speeds = sorted({study.speed_rpm, top})
     if bearings == "wired":
-        return RotorSystem.of(rotor, speeds_rpm=speeds, **turning)
-    return fmu_model(rotor, speeds_rpm=speeds, **turning, **named)
+        turning: dict[str, Any] = {"speed_rpm": study.speed_rpm, "inertia": inertia}
+        return RotorSystem.of(rotor_with_films(study), speeds_rpm=speeds, **turning)
+    outside = study.names if bearings == "outside" else ()
+    return machine_model(study, speeds, outside=outside, inertia=inertia, **named)
 
 
 def _kinds(model: FmuModel | RotorSystem) -> list[Row]:

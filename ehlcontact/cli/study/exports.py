@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -47,12 +48,7 @@ def require_export(study: Study) -> None:
         for name in ("outside", "inertia"):
             if value := getattr(asked, name):
                 raise InputError(f"export.{name}", value, "left out without [shaft]: the FMU is a bearing's")
-        if study.support[0].pair is not None:
-            allowed = "left out: the FMU is that of one bearing; with [shaft] a rotor with pairs has one"
-            raise InputError("support.pair", study.support[0].pair, allowed)
-        for name in ("tilt_x_mrad", "tilt_y_mrad"):
-            if (tilt := getattr(study.operation, name)) is not None:
-                raise InputError(f"operation.{name}", tilt, "left out: tilts are inputs of the FMU")
+        _require_one_bearing(study)
     for name in asked.outside:
         study.index(name, "export.outside")
     if asked.top_rpm is not None and asked.top_rpm < study.speed_rpm:
@@ -67,6 +63,16 @@ def require_export(study: Study) -> None:
         require_ross(study)
     if asked.fmu and study.shaft is not None:
         carriers_with_films(study)
+
+
+def _require_one_bearing(study: Study) -> None:
+    """Raise `InputError` for what an FMU of a bearing alone does not have."""
+    if study.support[0].pair is not None:
+        allowed = "left out: the FMU is that of one bearing; with [shaft] a rotor with pairs has one"
+        raise InputError("support.pair", study.support[0].pair, allowed)
+    for name in ("tilt_x_mrad", "tilt_y_mrad"):
+        if (tilt := getattr(study.operation, name)) is not None:
+            raise InputError(f"operation.{name}", tilt, "left out: tilts are inputs of the FMU")
 
 
 def rotor_with_films(study: Study) -> Rotor:
@@ -190,33 +196,58 @@ def _verified(model: Any, path: Path, study: Study | None, entry: dict[str, Any]
 
 def _machine_fmu(study: Study, path: Path) -> dict[str, Any]:
     """FMU of the rotor, or of the bearing alone, at the speed of the study and up to the highest of [export]."""
-    from fmu.models import fmu_model
-
     asked = study.export
     assert asked is not None
     speeds = sorted({study.speed_rpm, asked.top_rpm or study.speed_rpm})
     entry: dict[str, Any] = {"speeds_rpm": speeds, "supports_inside": [], "supports_outside": list(asked.outside)}
 
     def model() -> FmuModel:
-        if study.shaft is None:
-            entry["supports_inside"] = [study.support[0].label]
-            (bearing,) = carriers_with_films(study)
-            assert isinstance(bearing, BallBearing)  # `require_export`
-            return fmu_model(bearing, speeds_rpm=speeds, load=load_alone(study), model_name=path.stem)
-        entry["supports_inside"] = [name for name in study.names if name not in asked.outside]
-        rotor = rotor_with_films(study)
-        own = rotor.ball_bearing_names
-        several = places_of_bearings(study)
-        outside = [name for name, k in zip(own, several, strict=True) if study.names[k] in asked.outside]
-        made = fmu_model(
-            rotor,
-            outside=outside,
-            speeds_rpm=speeds if entry["supports_inside"] else None,
-            speed_rpm=study.speed_rpm,
-            inertia=asked.inertia,
-            model_name=path.stem,
-        )
-        entry["inner_step"] = made.source.inner_step
+        names = [study.support[0].label] if study.shaft is None else study.names
+        entry["supports_inside"] = [name for name in names if name not in asked.outside]
+        made = machine_model(study, speeds, outside=asked.outside, inertia=asked.inertia, model_name=path.stem)
+        if study.shaft is not None:
+            entry["inner_step"] = made.source.inner_step
         return made
 
     return _verified(model, path, study, entry)
+
+
+def machine_model(
+    study: Study,
+    speeds_rpm: Sequence[float],
+    *,
+    outside: Collection[str] = (),
+    inertia: float | None = None,
+    **keywords: Any,
+) -> FmuModel:
+    """Model of the FMU of the rotor of a study, or of its bearing alone, at rest under its load.
+
+    Parameters
+    ----------
+    study : Study
+    speeds_rpm : sequence of float
+        For which bearings have tables [rev/min].
+    outside : collection of str
+        Names of the supports whose forces are inputs.
+    inertia : float, optional
+        Polar, of all that turns [kg m2].
+    **keywords
+        Of `fmu.models.fmu_model`.
+
+    Raises
+    ------
+    InputError
+        A pair or tilts of a bearing alone, a pair with a layer or heat; what `fmu.export` refuses.
+    """
+    from fmu.models import fmu_model
+
+    if study.shaft is None:
+        _require_one_bearing(study)
+        (bearing,) = carriers_with_films(study)
+        return fmu_model(bearing, speeds_rpm=speeds_rpm, load=load_alone(study), **keywords)
+    rotor, places = rotor_with_films(study), places_of_bearings(study)
+    names = zip(rotor.ball_bearing_names, places, strict=True)
+    out = [name for name, k in names if study.names[k] in outside]
+    speeds = speeds_rpm if len(out) < len(places) else None
+    turning: dict[str, Any] = {"speed_rpm": study.speed_rpm, "inertia": inertia}
+    return fmu_model(rotor, outside=out, speeds_rpm=speeds, **turning, **keywords)
