@@ -183,6 +183,7 @@ Grade = Annotated[
 Nu40 = Annotated[Positive, Physical(KINEMATIC), meaning("kinematic viscosity at 40 C, of a data sheet")]
 Nu100 = Annotated[Positive, Physical(KINEMATIC), meaning("kinematic viscosity at 100 C, of a data sheet")]
 Temperature = Annotated[Finite, _between(TEMPERATURES, "C"), meaning("temperature of the oil in the inlet")]
+RingTemperature = Annotated[Finite, Physical(parts.TEMPERATURE), meaning("temperature of a part of the machine")]
 ViscosityIndex = Annotated[Finite, _between(INDICES, ""), meaning("viscosity index of the grade; 95 if left out")]
 Density15 = Annotated[Finite, _between(DENSITIES, "kg/m3"), meaning("density at 15 C; 875 if left out")]
 ViscosityLaw = Annotated[Literal["roelands", "barus"], meaning("law of viscosity over pressure")]

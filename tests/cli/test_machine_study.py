@@ -16,13 +16,22 @@ from ehlcontact.cli.study.forecast import seals_left_out
 from ehlcontact.cli.study.headline import ball_words
 from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
 from ehlcontact.cli.study.loads import by_formula
-from ehlcontact.cli.study.machine import bearing_of, carrier_of, rotor_of
+from ehlcontact.cli.study.machine import bearing_of, carrier_of, clearance_of, rotor_of
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
 from ehlcontact.cli.study.points.lists import Point
 from ehlcontact.cli.study.points.numbers import numbers_of
 from ehlcontact.cli.study.points.summary import Row, cells, columns_of, narrowed
 from ehlcontact.cli.study.schema import load_study
-from reduced_models import BallBearing, BearingSet, Disc, Shaft, Support, linearise, rotor_on_bearings
+from reduced_models import (
+    BallBearing,
+    BearingSet,
+    Disc,
+    Shaft,
+    Support,
+    linearise,
+    operating_clearance,
+    rotor_on_bearings,
+)
 from reduced_models.bearing.oil_and_heat import LAYER
 from reduced_models.rotor.machine_state import machine_state, single_bearing_state
 
@@ -244,6 +253,34 @@ def test_mistakes(refused, study, tmp_path, text, old, new, words):
     for command in ("validate", "run"):
         refused(words, command, study(text, (old, new)), "-o", tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+FITS = 'bearing = "6306"\nshaft_fit = "k5"\nhousing_fit = "H6"\ninner_temperature = 75\nouter_temperature = 60'
+
+
+def test_clearance_of_fits(study):
+    """That of the mean deviations, warm and at the speed; shaft and housing are as warm as their rings."""
+    one = load_study(study(MOTOR, ('bearing = "6306"', FITS)))
+    warm = {"shaft": 75.0, "inner": 75.0, "outer": 60.0, "housing": 60.0}
+    found = operating_clearance("6306", fit=("k5", "H6"), temperatures=warm, speed_rpm=15000.0)
+    assert bearing_of(one, 0).clearance == pytest.approx(found.mean, rel=1e-5)
+    assert clearance_of(one, 0).clearance == pytest.approx(found.clearance, rel=1e-12)
+    assert clearance_of(one, 1) is None
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('housing_fit = "H6"\n', "", ("support.drive end.housing_fit", "shaft and housing")),
+        ('"k5"', '"H6"', ("support.drive end.shaft_fit = 'H6'", "shaft first")),
+        ("= 75", "= 348", ("support.drive end.inner_temperature = 348", "in K")),
+        ('shaft_fit = "k5"\nhousing_fit = "H6"\n', "", ("inner_temperature = 75", "left out without")),
+        ('bearing = "6306"', 'bearing = "7306"', ("support.drive end.shaft_fit", "operating_clearance")),
+    ],
+)
+def test_mistakes_in_fits(refused, study, tmp_path, old, new, words):
+    path = study(MOTOR, ('bearing = "6306"', FITS), (old, new))
+    refused(words, "validate", path, "-o", tmp_path / "out")
 
 
 @pytest.mark.long

@@ -13,6 +13,7 @@ from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet, Disc, LinearBearing, Rotor, Shaft, Support, rotor_on_bearings
 from reduced_models.bearing.catalogue import BY_DIMENSIONS, USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.grooves import LARGEST_PLAY
+from reduced_models.bearing.operating_clearance import REFERENCE, OperatingClearance, operating_clearance
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
@@ -36,6 +37,10 @@ SIZES_OF_DISC = {
 }  # fmt: skip
 OF_A_PAIR = ("preload", "pair_spring", "distance_mm")
 NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
+OF_FITS = (
+    "inner_temperature", "outer_temperature", "shaft_temperature", "housing_temperature", "housing_material",
+)  # fmt: skip
+CLEARANCE_DIGITS = 6  # of one in operation, as in scripts
 SAME_PLACE = 1e-6  # of the shaft, within which two places are one
 
 
@@ -139,7 +144,9 @@ def bearing_part(study: Study, k: int, *, oil: bool = True) -> Part:
         given["cutoff_gap"] = one.cutoff_gap_um * 1e-6
     if one.contact_angle_deg is not None:
         given["contact_angle"] = radians(one.contact_angle_deg)
-    if one.clearance is not None:
+    if (mounted := clearance_of(study, k)) is not None:
+        given["clearance"] = float(f"{mounted.mean:.{CLEARANCE_DIGITS}g}")
+    elif one.clearance is not None:
         given["clearance"] = one.clearance if isinstance(one.clearance, str) else one.clearance * 1e-6
     if one.bearing is not None:
         return Part(BallBearing, given, "catalogue", (one.bearing,))
@@ -148,6 +155,51 @@ def bearing_part(study: Study, k: int, *, oil: bool = True) -> Part:
         raise InputError(support_field(study, k, "clearance"), one.clearance, allowed)
     lengths = {"ball_diameter": sizes.ball_diameter, "pitch_diameter": sizes.pitch_diameter}
     return Part(BallBearing, {"name": one.label, "balls": sizes.balls, **lengths, **given})
+
+
+def clearance_of(study: Study, k: int) -> OperatingClearance | None:
+    """Clearance of a bearing on its fits, warm and at the speed of the study; None where it has no fits.
+
+    Raises
+    ------
+    InputError
+        One fit alone; entries of fits without them; a bearing without a name, or an angular contact bearing.
+    """
+    one, at = study.support[k], support_field(study, k, "")
+    if one.shaft_fit is None and one.housing_fit is None:
+        for name in OF_FITS:
+            if (value := getattr(one, name)) not in (None, "steel"):
+                raise InputError(f"{at}{name}", value, f"left out without {at}shaft_fit and {at}housing_fit")
+        return None
+    for name in ("shaft_fit", "housing_fit"):
+        if getattr(one, name) is None:
+            raise InputError(f"{at}{name}", None, 'given: fits are those of shaft and housing, as "k5" and "H6"')
+    angular = one.contact_angle_deg is not None
+    if one.bearing is None or angular or catalogue_row(one.bearing)[1].contact_angle is not None:
+        allowed = "of a deep-groove bearing by its name; any other in Python: operating_clearance(...)"
+        raise InputError(f"{at}shaft_fit", one.shaft_fit, allowed)
+    inner = REFERENCE if one.inner_temperature is None else one.inner_temperature
+    outer = REFERENCE if one.outer_temperature is None else one.outer_temperature
+    warm = {
+        "inner": inner,
+        "outer": outer,
+        "shaft": inner if one.shaft_temperature is None else one.shaft_temperature,
+        "housing": outer if one.housing_temperature is None else one.housing_temperature,
+    }
+    initial = one.clearance if one.clearance is None or isinstance(one.clearance, str) else one.clearance * 1e-6
+    try:
+        return operating_clearance(
+            one.bearing,
+            fit=(str(one.shaft_fit), str(one.housing_fit)),
+            initial=initial,
+            shaft_bore=0.0 if study.shaft is None else study.shaft.bore_mm * 1e-3,
+            housing_material=one.housing_material,
+            temperatures=warm,
+            speed_rpm=study.speed_rpm,
+        )
+    except InputError as error:
+        names = {"initial": "clearance", "fit": "shaft_fit" if error.value == one.shaft_fit else "housing_fit"}
+        raise InputError(f"{at}{names.get(error.field, error.field)}", error.value, error.allowed) from None
 
 
 def bearing_of(study: Study, k: int, *, oil: bool = True) -> BallBearing:

@@ -12,6 +12,7 @@ import numpy as np
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.cli.study.defect import StudyDefect
 from ehlcontact.cli.study.differences import RotorFindings
+from ehlcontact.cli.study.machine import clearance_of
 from ehlcontact.cli.study.points.folder import versions
 from ehlcontact.cli.study.reduction import (
     CONTACTS,
@@ -27,6 +28,7 @@ from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
 from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.oil_and_heat import OilAndHeat
+from reduced_models.bearing.operating_clearance import OperatingClearance
 from reduced_models.rotor.compare_bearing_models import BearingModels
 from reduced_models.rotor.machine_state import MachineState
 
@@ -48,6 +50,12 @@ class Findings:
     exports: Mapping[str, Any]  # files of [export], as of `write_exports`
     seconds: Mapping[str, float]  # wall time by stage
 
+    @property
+    def clearances(self) -> dict[str, OperatingClearance]:
+        """Clearance in operation of the bearings with fits, by the support."""
+        every = ((name, clearance_of(self.study, k)) for k, name in enumerate(self.study.names))
+        return {name: one for name, one in every if one is not None}
+
     def to_dict(self) -> dict[str, Any]:
         """Numbers of ``results.json``."""
         machine = self.machine
@@ -58,6 +66,7 @@ class Findings:
                 name: {"hz": one.hz, "stiffness": one.stiffness, "damping": one.damping}
                 for name, one in self.over_frequency.items()
             },
+            "clearances": {name: one.to_dict() for name, one in self.clearances.items()},
             "in_time": None if self.whole is None else self.whole.to_dict(),
             "oil_and_heat": {
                 name: one if isinstance(one, str) else one.to_dict() for name, one in self.oil_and_heat.items()

@@ -127,6 +127,26 @@ class Support(Section):
         e.Clearance | str | None,
         e.meaning('radial internal clearance, below 0 a preload; or a class, as "CN"; 0 if left out'),
     ] = None
+    shaft_fit: Annotated[
+        e.Text | None,
+        e.meaning('class of the shaft, as "k5": clearance is that before mounting then; with housing_fit'),
+    ] = None
+    housing_fit: Annotated[e.Text | None, e.meaning('class of the bore of the housing, as "H6"')] = None
+    inner_temperature: Annotated[
+        e.RingTemperature | None, e.meaning("of the inner ring, with fits; 20 where left out")
+    ] = None
+    outer_temperature: Annotated[
+        e.RingTemperature | None, e.meaning("of the outer ring, with fits; 20 where left out")
+    ] = None
+    shaft_temperature: Annotated[
+        e.RingTemperature | None, e.meaning("of the shaft, with fits; that of the inner ring where left out")
+    ] = None
+    housing_temperature: Annotated[
+        e.RingTemperature | None, e.meaning("of the housing, with fits; that of the outer ring where left out")
+    ] = None
+    housing_material: Annotated[
+        Literal["steel", "stainless steel", "cast iron", "aluminium"], e.meaning("of the housing, with fits")
+    ] = "steel"
     facing: Annotated[
         Literal["+z", "-z"] | None,
         e.meaning("direction in which the shaft presses the inner ring; +z is to the right"),
