@@ -114,7 +114,8 @@ def write_exports(study: Study, folder: Path) -> dict[str, Any]:
         By "fmu", "python" and "ross", those that are asked for, each with its ``file``; under "matrices" a list of
         these with the ``program`` and the ``support`` of each.
     """
-    asked, made = study.export, {}
+    asked = study.export
+    made: dict[str, Any] = {}
     if asked is None:
         return {}
     if asked.fmu:
@@ -147,7 +148,9 @@ def _write_matrices(study: Study, folder: Path) -> list[dict[str, str]]:
         table = bearing_matrices(carrier, load * facing_signs(facing)[: load.size], study.speed_rpm, facing=facing)
         for program in asked.matrices:
             file = f"{word}_{'matrices' if program in WHOLE else program.replace('-', '_')}.{ENDINGS[program]}"
-            options = {} if program in WHOLE else {"units": asked.matrix_units, "shaft_along": asked.shaft_along}
+            options: dict[str, Any] = (
+                {} if program in WHOLE else {"units": asked.matrix_units, "shaft_along": asked.shaft_along}
+            )
             write_text(folder / file, table.text(program, **options), "file")
             made.append({"file": file, "program": program, "support": name})
     return made
