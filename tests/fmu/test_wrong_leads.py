@@ -134,6 +134,21 @@ def test_a_motion_that_is_played_has_no_master(bench, motion, lead):
     assert wrong(loop(bench, step, lead)) == []
 
 
+@pytest.mark.parametrize("others", ["ramp", "pulse"])
+@pytest.mark.parametrize("h", [1e-6, 1e-5])
+def test_a_load_that_grows_or_jumps_hides_no_wrong_lead(bench, others, h):
+    """In a serial master whose mass holds the force."""
+
+    def step(t, u, v, held):
+        other = {"ramp": 50.0 * t / (1000.0 * h), "pulse": 50.0 * (t > 1000.0 * h)}
+        a = (bench.load + other[others] + held) / 5.0
+        u, v = u + h * (v + 0.5 * h * a), v + h * a
+        return u, v, (u, v)
+
+    (line,) = wrong(loop(bench, step, DEFAULT, h=h))
+    assert "lead must be 0.5, with 1.5" in line
+
+
 @pytest.mark.parametrize("rate", ["predicted", "of before", "of the middle"])
 @pytest.mark.parametrize("h", [1e-5, 3e-5])
 def test_velocity_verlet_needs_no_lead(bench, rate, h):

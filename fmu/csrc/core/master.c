@@ -126,6 +126,12 @@ static Fit fit_constant(const Course *c, int d)
     return fit;
 }
 
+/* With other forces that grow or fall straight, or along a parabola. */
+static Fit fit_smooth(const Course *c, int d)
+{
+    return fit_at(c, d, 0.0);
+}
+
 /* With a harmonic part of them: the best e, on a grid and between its neighbours by the golden section. */
 static Fit fit_harmonic(const Course *c, int d)
 {
@@ -178,9 +184,8 @@ static void judge_delay(Course *c, double sign)
 {
     double inertia = 0.0;
     int d = only_delay(c, fit_constant, sign, &inertia);
-    if (d < 0) {
-        d = only_delay(c, fit_harmonic, sign, &inertia);
-    }
+    d = d < 0 ? only_delay(c, fit_smooth, sign, &inertia) : d;
+    d = d < 0 ? only_delay(c, fit_harmonic, sign, &inertia) : d;
     if (d < 0) {
         return;
     }
