@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import asdict, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, Unpack
 
 import numpy as np
@@ -233,6 +233,7 @@ class Atlas:
         *,
         supply: OilLayer | None = None,
         thermal: Heat | bool | None = None,
+        saturating: bool = True,
     ) -> FilmContact:
         """Wide element through answers at loads of one's own choice, in units of the point's, the reference load.
 
@@ -246,6 +247,8 @@ class Atlas:
             Increasing.
         supply, thermal : optional
             As in `element`.
+        saturating : bool
+            False: its inlet does not saturate, as in the contacts of a bearing (`inlet_saturation` 0).
 
         Raises
         ------
@@ -257,7 +260,7 @@ class Atlas:
         require_positive("loads[0]", float(column[0]))
         self.box.require_all_inside(_rows(moes, column), moes.alpha)
         conditions = conditions_at(point, Conditions.of(supply=supply, thermal=thermal))
-        element = self._remembering(point, column, conditions)
+        element = self._remembering(point, column, conditions, saturating=saturating)
         assert isinstance(element, FilmContact)
         return element
 
@@ -355,7 +358,13 @@ class Atlas:
         return cubic if scales is None else cubic.to_si(scales)
 
     def _remembering(
-        self, point: Point, over: _Floats | None, conditions: Sequence[Condition], *, one_region: bool = False
+        self,
+        point: Point,
+        over: _Floats | None,
+        conditions: Sequence[Condition],
+        *,
+        one_region: bool = False,
+        saturating: bool = True,
     ) -> FilmContact:
         """Wide-range element over these loads, or film memory about the point's own load.
 
@@ -388,7 +397,7 @@ class Atlas:
             fit=self._fit(rows.Omega[followed], gains, rows.damping[:, followed], at_rest),
             source=self._whence(point, conditions),
         )
-        make = memory_element if over is None else wide_element
+        make = memory_element if over is None else partial(wide_element, saturating=saturating)
         try:
             return make(made_of, scales)
         except InputError:  # rarely: interpolated gains that would feed energy back

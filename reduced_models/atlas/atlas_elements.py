@@ -93,8 +93,8 @@ def memory_element(at: Loads, scales: Scales | None) -> FilmContact:
     )
 
 
-def wide_element(at: Loads, scales: Scales | None) -> FilmContact:
-    """Wide-range element for all loads at one speed."""
+def wide_element(at: Loads, scales: Scales | None, *, saturating: bool = True) -> FilmContact:
+    """Wide-range element for all loads at one speed; without `saturating` its inlet does not saturate."""
     approach = at.approach * at.loads ** (2.0 / 3.0)
     saturation = inlet_saturation_of(at.loads, approach, at.loads, at.gains)
     _, length, time = units_of(scales)
@@ -103,7 +103,7 @@ def wide_element(at: Loads, scales: Scales | None) -> FilmContact:
         approach=approach,
         gain_loads=at.loads,
         gains=at.gains,
-        inlet_saturation=saturation,
+        inlet_saturation=saturation if saturating else 0.0,
         **at.rates.coefficients,
         # beyond, closing makes more film than the static one; a starved contact hardly makes any
         rate=length / time / saturation if saturation > LEAST_SATURATION else None,

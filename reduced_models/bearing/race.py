@@ -154,10 +154,9 @@ class Race:
         loads = np.concatenate([[low], inside, [high]])
         reference = float(np.sqrt(low * high))
         with self._films_named(speed_rpm):
-            found = shared_atlas(self.atlas).wide(
-                self.point(reference, speed_rpm), loads / reference, **self.conditions.keywords
+            return shared_atlas(self.atlas).wide(
+                self.point(reference, speed_rpm), loads / reference, saturating=False, **self.conditions.keywords
             )
-        return replace(found, inlet_saturation=0.0)
 
     @contextmanager
     def _films_named(self, speed_rpm: float) -> Iterator[None]:

@@ -20,7 +20,7 @@ from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import counted, span
-from reduced_models.rotor.linearise import DEFAULT_MODES, linearise
+from reduced_models.rotor.linearise import DEFAULT_MODES, LinearRotor, linearise
 from reduced_models.rotor.modes import RotorMode, mode_distance
 from reduced_models.rotor.picture import campbell_picture
 from reduced_models.rotor.rotor import Rotor
@@ -209,17 +209,24 @@ def campbell(
     """
     speeds = as_column("speeds_rpm", speeds_rpm, increasing=True)
     count = require_integer("count", count, "a whole number >= 1", 1)
+    linear = (linearise(rotor, s, passage=passage, signed_damping=signed_damping) for s in speeds.tolist())
+    return campbell_of(linear, count)
+
+
+def campbell_of(linear: Iterable[LinearRotor], count: int) -> Campbell:
+    """The diagram of a rotor that is linearised at increasing speeds; errors of modes as of `campbell`."""
+    speeds: list[float] = []
     rows: list[list[RotorMode]] = []
-    for speed in speeds.tolist():
-        linear = linearise(rotor, speed, passage=passage, signed_damping=signed_damping)
-        modes = list(linear.modes(count + BESIDE))
+    for one in linear:
+        modes = list(one.modes(count + BESIDE))
         if rows and len(modes) < len(rows[-1]):
-            what = f"{len(modes)} of {len(rows[-1])} modes oscillate at {speed:g} rev/min: ask for fewer (count)"
-            raise ConvergenceError(f"Campbell diagram: only {what}", None)
+            what = f"{len(modes)} of {len(rows[-1])} modes oscillate at {one.speed_rpm:g} rev/min"
+            raise ConvergenceError(f"Campbell diagram: only {what}: ask for fewer (count)", None)
         rows.append(_tracked(rows[-1], modes) if rows else modes[:count])
+        speeds.append(one.speed_rpm)
     columns = np.array([[(m.omega, m.eigenvalue.real, m.whirl, m.axial_share) for m in row] for row in rows])
     omega, growth, whirl, axial_share = np.moveaxis(columns, -1, 0)
-    return Campbell(speed_rpm=speeds, omega=omega, growth=growth, whirl=whirl, axial_share=axial_share)
+    return Campbell(speed_rpm=np.array(speeds), omega=omega, growth=growth, whirl=whirl, axial_share=axial_share)
 
 
 def _tracked(before: list[RotorMode], modes: list[RotorMode]) -> list[RotorMode]:

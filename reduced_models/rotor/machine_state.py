@@ -33,7 +33,7 @@ from reduced_models.bearing.ring_statics import state_of
 from reduced_models.life.life_modification import BASIC_RELIABILITY
 from reduced_models.life.system_life import SystemLife
 from reduced_models.rotor.bearing_set import BearingSet
-from reduced_models.rotor.campbell import Campbell, CriticalSpeed, campbell
+from reduced_models.rotor.campbell import Campbell, CriticalSpeed, campbell_of
 from reduced_models.rotor.equilibrium import StaticRotor
 from reduced_models.rotor.linearise import LinearRotor, linearise
 from reduced_models.rotor.machine_tiles import Tile, machine_concerns, machine_tiles
@@ -41,7 +41,7 @@ from reduced_models.rotor.modes import ALONG, RotorMode
 from reduced_models.rotor.picture import campbell_picture
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.support_state import SupportState, states_of, support_of, support_state
-from reduced_models.rotor.unbalance import unbalance_response
+from reduced_models.rotor.unbalance import response_of, unbalance_response
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
 _Floats = NDArray[np.float64]
@@ -349,15 +349,25 @@ def machine_state(
     failed: list[str] = []
     last = max(speed, min(highest, UP_TO * speed if highest_rpm is None else highest_rpm))
     speeds = speed / PARTS * np.arange(1, max(int(PARTS * last / speed * (1.0 + ROUNDING)), PARTS) + 1)
+    speeds[PARTS - 1] = speed  # not but for rounding
+    known = {speed: linear}  # diagram and response are of the same linearisations
+
+    def linearised(at: float) -> LinearRotor:
+        if at not in known:
+            known[at] = linearise(rotor, at)
+        return known[at]
+
     modes = _tried(lambda: linear.modes(MODES), "modes", failed) or ()
     diagram = _tried(
-        lambda: campbell(rotor, speeds[EVERY - 1 :: EVERY], count=max(len(modes), 1)),
+        lambda: campbell_of(map(linearised, speeds[EVERY - 1 :: EVERY].tolist()), max(len(modes), 1)),
         "diagram over the speed",
         failed,
     )
     response = None
     if rotor.unbalances:
-        response = _tried(lambda: unbalance_response(rotor, speeds), "response to unbalance", failed)
+        response = _tried(
+            lambda: response_of(rotor, [linearised(at) for at in speeds.tolist()]), "response to unbalance", failed
+        )
     machine = MachineState(
         speed_rpm=speed,
         supports=supports,

@@ -5,6 +5,8 @@ The response at one speed is computed by `linearise`; here it is called at every
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -13,7 +15,7 @@ from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.rotor.linearise import linearise
+from reduced_models.rotor.linearise import LinearRotor, linearise
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
@@ -47,8 +49,11 @@ def unbalance_response(
         raise InputError("unbalances", (), "at least one Unbalance")
     if speeds[0] <= 0.0:
         raise InputError("speeds_rpm[0]", float(speeds[0]), "> 0")
-    amplitudes = [
-        linearise(rotor, s, passage=passage, signed_damping=signed_damping)._unbalanced(s * RPM_TO_RAD_S)
-        for s in speeds.tolist()
-    ]
-    return UnbalanceResponse.of(rotor, speeds, np.array(amplitudes))
+    linear = [linearise(rotor, s, passage=passage, signed_damping=signed_damping) for s in speeds.tolist()]
+    return response_of(rotor, linear)
+
+
+def response_of(rotor: Rotor, linear: Sequence[LinearRotor]) -> UnbalanceResponse:
+    """The response of a rotor with unbalances that is linearised at increasing speeds above 0."""
+    amplitudes = [one._unbalanced(one.speed_rpm * RPM_TO_RAD_S) for one in linear]
+    return UnbalanceResponse.of(rotor, np.array([one.speed_rpm for one in linear]), np.array(amplitudes))

@@ -94,12 +94,21 @@ def ring_load(study: Study, k: int) -> _Floats:
     return np.asarray(sum(load[:3] * (1.0, 1.0, sign) for (_, load), sign in zip(pressed, signs, strict=True)))
 
 
+def loads_at_rest(study: Study) -> list[_Floats]:
+    """Load on every ball bearing of the machine at rest at its speed [N], [N m].
+
+    Raises
+    ------
+    InputError
+        A machine without a place of rest, by the entry of the file.
+    """
+    with loaded(study):
+        return list(linearise(rotor_of(study), study.speed_rpm).loads)
+
+
 def _pressed(study: Study, k: int) -> list[tuple[BallBearing, _Floats]]:
     """The bearings at a support and the load on each, of the machine at rest at its speed."""
-    rotor = rotor_of(study)
-    with loaded(study):
-        loads = list(linearise(rotor, study.speed_rpm).loads)
-    first = 0
+    loads, first = study.loads_at_rest, 0
     for place in range(len(study.support)):
         carrier = carrier_of(study, place)
         bearings = list(carrier.bearings) if isinstance(carrier, BearingSet) else [carrier]
@@ -209,8 +218,7 @@ def require_machine(study: Study) -> None:
 
 def _require_films(study: Study) -> None:
     """Raise `InputError` for a machine without a place of rest, or with loads beyond what films are known for."""
-    with loaded(study):
-        loads = iter(linearise(rotor_of(study), study.speed_rpm).loads)
+    loads = iter(study.loads_at_rest)
     for k in range(len(study.names)):
         carrier = carrier_of(study, k)
         for bearing in carrier.bearings if isinstance(carrier, BearingSet) else (carrier,):

@@ -240,6 +240,13 @@ class Study(Section):
         return float(f"{hypot(load[0], load[1]):.{LOAD_DIGITS}g}")
 
     @cached_property
+    def loads_at_rest(self) -> Any:
+        """Loads on the ball bearings of the machine at rest, once for all that asks for them."""
+        from ehlcontact.cli.study.loads import loads_at_rest
+
+        return loads_at_rest(self)
+
+    @cached_property
     def lubricant(self) -> Lubricant | None:
         """The oil as the solvers take it; None of a dry machine."""
         return None if self.oil is None else self.oil.lubricant
