@@ -97,7 +97,7 @@ def first_error(
         getattr(field_of(study, field), "annotation", None)
     ):
         allowed = f"a section, written [[{field}]]"
-    elif isinstance(value, list) and "." in field and first["type"] in ONE:
+    elif isinstance(value, list) and "." in field and isinstance(loc[-1], str) and first["type"] in ONE:
         allowed = "one value here; a list is for `ehlcontact run` and `validate`"
     else:
         allowed = first["msg"].removeprefix("Input should be ").removeprefix("Value error, ")
