@@ -295,7 +295,7 @@ BAD = {
         "zero byte": study('race = "inner"', 'race = "\0"'),
         "twice": study("balls = 9", "balls = 9\nballs = 9"),
         "a date": study("balls = 9", "balls = 2026-01-01"),
-        "a list": study("balls = 9", "balls = [9]"),
+        "a list": study("balls = 9", "balls = [9, [9]]"),
         "JSON": content("study", '{"bearing": {}}'),
     },
     "atlas": HDF5
