@@ -35,6 +35,7 @@ UNIT, MORE = 1e-6, 2e-5  # kg m, unbalances: by which forces are scaled; by whic
 RISE = 0.1  # of the speed, where no table has a range
 TURN = 60  # steps of a revolution of a rotor that stands
 DRAG = 0.05  # N m, of bearings outside
+FAR = -1e3  # m
 NOWHERE = SpringContact.linear(K1=1.0, C1=0.0, low=1.0, high=2.0, units="SI")  # a contact that is not met
 
 
@@ -109,7 +110,9 @@ def _rotor_inside(model: RotorModel) -> Rotor:
         if id(mount) not in gone
     ]
     if not model.inside:
-        mounts.append(ContactMount(0.0, -1e3, None, NOWHERE, x=0, y=None))
+        nowhere = ContactMount(0.0, 0.0, None, NOWHERE, x=0, y=None)
+        object.__setattr__(nowhere, "offset", FAR)  # a rotor without supports flies further than machines reach
+        mounts.append(nowhere)
     return replace(model.rotor, mounts=tuple(mounts))
 
 
