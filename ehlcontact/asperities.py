@@ -19,6 +19,7 @@ from ehlcontact.checks import parts, require_between, require_positive
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint, Point
+from ehlcontact.summary import Summary
 
 Array = NDArray[np.float64]
 
@@ -36,7 +37,7 @@ class AsperityNumbers(NamedTuple):
 
 @fields_take(rq="m")
 @dataclass(frozen=True, slots=True)
-class Asperities:
+class Asperities(Summary):
     """Asperities of both surfaces together: summits of one radius, Gaussian heights, elastic.
 
     Parameters

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from math import inf, log, pi, sqrt
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from ehlcontact.lubricant.oil import KELVIN, typical_temperature_slope
 from ehlcontact.lubricant.oil_laws import ROELANDS_LOG
 from ehlcontact.lubricant.traction_laws import Carreau, Eyring
 from ehlcontact.point import MoesPoint, OperatingPoint, Point, Scales
+from ehlcontact.summary import Summary
 
 ROELANDS_COLD = 135.0  # K: Roelands counts temperatures from -135 C
 COLDEST = -0.3  # of that of the inlet over Roelands' -135 C: only iterates are colder
@@ -64,7 +65,7 @@ OF_OIL = "temperature", "temperature_slope"  # by default those of the oil
 
 @fields_take(temperature="degrees Celsius", temperature_slope="1/K", conductivity="W/(m K)", eyring_stress="Pa")
 @dataclass(frozen=True, slots=True)
-class Heat:
+class Heat(Summary):
     """Data of oil and surfaces for a film that heats up.
 
     Parameters
@@ -99,6 +100,12 @@ class Heat:
     >>> Heat(slide_roll=0.05).conductivity
     0.134
     """
+
+    FIELD_UNITS: ClassVar[Mapping[str, str]] = {
+        "heat_capacity": "J/(m3 K)",
+        "expansion": "1/K",
+        "effusivity": "W s^0.5/(m2 K)",
+    }
 
     slide_roll: float = 0.0
     temperature: float | None = None

@@ -15,8 +15,10 @@ The full table is in docs/notation.md.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from math import inf, pi, sqrt
+from typing import ClassVar
 
 from ehlcontact.checks import require_finite, require_nonnegative, require_positive, shown
 from ehlcontact.checks.admissible_range import INPUTS, Given, require_admissible
@@ -27,11 +29,12 @@ from ehlcontact.film_formulas import expected_film, film_to_moes, load_number, m
 from ehlcontact.hertz import HertzContact, ellipse_ratio, hertz_contact, scaled_axis, shape_factor
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import FluidLaw, Lubricant, log_viscosity
+from ehlcontact.summary import Summary, contact_text, entries_of, quantity_text, wrapped
 
 
 @fields_take(alpha="1/Pa", eta0="Pa s")
 @dataclass(frozen=True, slots=True)
-class MoesPoint:
+class MoesPoint(Summary):
     """Dimensionless operating point: Moes load M, Moes lubricant L, ellipse ratio kappa = a/b.
 
     ``alpha`` [1/Pa] and ``eta0`` [Pa s] do not follow from M and L but set the Hertz pressure, hence the
@@ -61,6 +64,11 @@ class MoesPoint:
     eta0: float = 0.04
     viscosity: str = "roelands"
     density: str = "dowson-higginson"
+
+    def _summary_lines(self) -> list[str]:
+        own = {"alpha": quantity_text(self.alpha, "1/Pa"), "eta0": quantity_text(self.eta0, "Pa s")}
+        laws = f"{self.viscosity}, {self.density}"
+        return [contact_text(self), f"{', '.join(f'{name} {text}' for name, text in own.items())}, {laws}"]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "M", require_positive("M", self.M))
@@ -137,7 +145,7 @@ class MoesPoint:
 
 @fields_take(radius_x="m", radius_y="m", e1="Pa", e2="Pa")
 @dataclass(frozen=True, slots=True)
-class Geometry:
+class Geometry(Summary):
     """Two bodies in point contact.
 
     Parameters
@@ -226,7 +234,7 @@ class Geometry:
 
 
 @dataclass(frozen=True, slots=True)
-class Scales:
+class Scales(Summary):
     """SI values of the dimensionless units at an operating point.
 
     Attributes
@@ -236,6 +244,15 @@ class Scales:
     a, b, pressure : float
         Semi-axes along rolling and across [m]; Hertz pressure [Pa].
     """
+
+    FIELD_UNITS: ClassVar[Mapping[str, str]] = {
+        "force": "N",
+        "length": "m",
+        "time": "s",
+        "a": "m",
+        "b": "m",
+        "pressure": "Pa",
+    }
 
     force: float
     length: float
@@ -298,7 +315,7 @@ OIL = Object(Lubricant, "a Lubricant")
 
 @fields_take(geometry=Object(Geometry, "a Geometry"), lubricant=OIL, load="N", u_sum="m/s")
 @dataclass(frozen=True, slots=True)
-class OperatingPoint:
+class OperatingPoint(Summary):
     """A contact in SI units; every solver takes it, or a `MoesPoint`.
 
     Parameters
@@ -326,6 +343,9 @@ class OperatingPoint:
     u_sum: float
     moes: MoesPoint = field(init=False, repr=False)
     scales: Scales = field(init=False, repr=False)
+
+    def _summary_lines(self) -> list[str]:
+        return [contact_text(self), *wrapped(entries_of(self.geometry)), *wrapped(entries_of(self.lubricant))]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "load", require_positive("load", self.load))

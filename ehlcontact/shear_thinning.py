@@ -14,10 +14,11 @@ from ehlcontact.checks import require_between, shown
 from ehlcontact.errors import InputError
 from ehlcontact.lubricant.traction_laws import LARGEST_SLIDE_ROLL, Eyring, TractionLaw, require_law
 from ehlcontact.point import Scales
+from ehlcontact.summary import Summary
 
 
 @dataclass(frozen=True, slots=True)
-class ShearThinning:
+class ShearThinning(Summary):
     """Sliding that shears the oil and so lowers its effective viscosity in the pressure-driven flow.
 
     Parameters

@@ -2,15 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import fields
 from html import escape
-from textwrap import shorten
-from typing import Any
+from textwrap import fill, shorten
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlcontact.point import MoesPoint, Point
+if TYPE_CHECKING:
+    from ehlcontact.point import Point
+
+# How summaries show quantities in SI: the first unit that is not above the value, the last one below all of them
+SHOWN: Mapping[str, tuple[tuple[float, str], ...]] = {
+    "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")),
+    "s": ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")),
+    "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
+    "1/Pa": ((1e-9, "1/GPa"),),
+    "Pa s": ((1.0, "Pa s"), (1e-3, "mPa s")),
+    "N/m": ((1e6, "N/µm"), (1.0, "N/m")),
+    "kg m": ((1e-3, "kg m"), (1e-6, "g mm")),
+    "degrees Celsius": ((1.0, "°C"),),
+}
 
 LINES, WIDTH = 5, 90  # most lines of a summary, and characters of a line
 NOTE = 116  # characters of a line of words
@@ -20,14 +34,15 @@ class Summary:
     """Base of classes with a summary: `_summary_lines` returns its lines, the first stands beside the name."""
 
     __slots__ = ()
+    FIELD_UNITS: ClassVar[Mapping[str, str]] = {}  # of the numbers among the fields; `fields_take` adds its own
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         cls.__repr__ = Summary.__repr__  # type: ignore[method-assign]  # in the class itself: a dataclass leaves it
 
     def _summary_lines(self) -> Sequence[str]:
-        """Lines of the summary, five at most."""
-        raise NotImplementedError
+        """Lines of the summary, five at most: by default the fields that are given, with their units."""
+        return wrapped(entries_of(self))
 
     def _summary_name(self) -> str:
         """What the summary opens with."""
@@ -43,13 +58,52 @@ class Summary:
         return "<br>".join([f"<strong>{self._summary_name()}</strong>: {first}", *others])
 
 
+def entries_of(thing: Any) -> list[str]:
+    """Fields of a data class that are given, as "name value unit"."""
+    units, texts = thing.FIELD_UNITS, []
+    for name in (one.name for one in fields(thing) if one.repr):
+        value = getattr(thing, name)
+        if value is None or value is False or (isinstance(value, Sequence) and not value):
+            continue
+        texts.append(f"{name} {entry_text(value, units.get(name, ''))}".rstrip())
+    return texts
+
+
+def entry_text(value: Any, unit: str = "") -> str:
+    """A number, a table of numbers by its range, or another object, in words."""
+    if isinstance(value, str):
+        return value
+    if value is True:
+        return ""
+    try:
+        return quantity_text(np.asarray(value, float), unit)
+    except (TypeError, ValueError):
+        return " ".join(repr(value).split())
+
+
+def quantity_text(values: ArrayLike, unit: str = "") -> str:
+    """A quantity in SI, or the range of a table of it, with a unit in which it is easily read."""
+    array = np.asarray(values, float)
+    size = float(np.abs(array[np.isfinite(array)]).max(initial=0.0))
+    choices = SHOWN.get(unit, ((1.0, unit),)) if size > 0.0 else ((1.0, unit),)
+    factor, shown = next((one for one in choices if size >= one[0] * (1.0 - 1e-9)), choices[-1])
+    return span(array, 1.0 / factor, shown)
+
+
+def wrapped(texts: Sequence[str]) -> list[str]:
+    """Entries of a summary in lines, separated by commas."""
+    text = fill(", ".join(texts), WIDTH, max_lines=LINES, placeholder=" ...", break_long_words=False)
+    return text.splitlines() or [""]
+
+
 def contact_text(point: Point) -> str:
     """Contact in words: of an `OperatingPoint` load, speed and Hertz pressure; then its Moes numbers and kappa."""
     moes = point.moes
     text = f"M {moes.M:.4g}, L {moes.L:.4g}, kappa {moes.kappa:.4g}"
-    if isinstance(point, MoesPoint):
+    if not hasattr(point, "u_sum"):
         return text
-    return f"{point.load:.4g} N, u_sum {point.u_sum:.4g} m/s, {point.scales.pressure * 1e-9:.3g} GPa; {text}"
+    si: Any = point
+    return f"{si.load:.4g} N, u_sum {si.u_sum:.4g} m/s, {si.scales.pressure * 1e-9:.3g} GPa; {text}"
 
 
 def counted(number: int, one: str, many: str = "") -> str:
@@ -59,7 +113,7 @@ def counted(number: int, one: str, many: str = "") -> str:
 
 def film_unit(point: Point) -> tuple[float, str]:
     """Factor of films at a point for summaries, and its unit: micrometres, or dry approaches without a unit."""
-    return (1.0, "of the dry approach") if isinstance(point, MoesPoint) else (1e6, "µm")
+    return (1e6, "µm") if hasattr(point, "load") else (1.0, "of the dry approach")
 
 
 def note_line(text: str) -> list[str]:

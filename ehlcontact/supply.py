@@ -18,6 +18,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.jit import plain
 from ehlcontact.lubricant import density
 from ehlcontact.point import MoesPoint, Point, Scales
+from ehlcontact.summary import Summary
 
 Array = NDArray[np.float64]
 
@@ -29,7 +30,7 @@ SLIP = 0.05  # m: below, a thickness that is too large is one in um
 
 @fields_take(h="m")
 @dataclass(frozen=True, slots=True)
-class OilLayer:
+class OilLayer(Summary):
     """Layer of oil on both surfaces together, ahead of the contact; exactly one of `h`, `over_flooded` and `H`.
 
     Parameters

@@ -100,6 +100,7 @@ from reduced_models.signals import (
     envelope_spectrum,
     order_spectrum,
 )
+from reduced_models.signals.indicators import indicators
 from reduced_models.signals.records import VibrationRecord
 from reduced_models.signals.spectra import EnvelopeSpectrum, OrderSpectrum
 
@@ -294,6 +295,60 @@ def test_every_public_result_of_arrays_has_a_summary():
             if any("NDArray" in kind or "Array" in kind or "_Floats" in kind for kind in kinds):
                 left += [] if issubclass(value, Summary) else [name]
     assert left == []
+
+
+# Dimensionless, or in the units of a point that they do not know: shown as they are made.
+RAW = {
+    *("TimeSteps", "KeepSettings", "RunSettings", "Domain", "Grid", "Waves", "SpeedHistory", "Roughness"),
+    *("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedLoad", "PrescribedApproach"),
+    *("Dent", "TransverseRidge", "Waviness", "BearingModel", "RotorModel"),
+}
+
+
+def test_every_public_class_of_quantities_has_a_summary():
+    shown = {name: kind for name, kind in public_classes().items() if is_dataclass(kind)}
+    assert {name for name, kind in shown.items() if not issubclass(kind, Summary)} == RAW
+
+
+def test_summaries_have_units(point, results):
+    """Of each class that a user makes or is given, words that its summary must hold."""
+    film = solve_steady(point, grid=Grid(n=16), thermal=True, throw=False)
+    record = next(thing for thing in results if isinstance(thing, ContactRecord))
+    spring = Atlas().element(point, "cubic", rpm=3000)
+    scales, oil, bearing = point.scales, point.lubricant, BallBearing.catalogue("6205")
+    free = simulate_oscillator(spring, [0.0, 1e-4], mass=3.0, u0=spring.high, load=49.0)
+    table = [
+        (point, ("49 N", "m/s", "GPa", "radius_x 3.163 mm", "e1 206 GPa", "mPa s", "1/GPa", "1/K", "60 °C")),
+        (point.moes, ("M ", "L ", "kappa ", "1/GPa", "mPa s")),
+        (point.geometry, ("radius_x 3.163 mm", "radius_y 103.2 mm", "e2 206 GPa")),
+        (oil, ("mPa s", "1/GPa", "temperature_slope", "1/K", "temperature 60 °C")),
+        (scales, ("force 49 N", "length ", "µm", "µs", "MPa")),
+        (ehlcontact.assumptions(point), ("hold", "not judged, for an input is missing: ")),
+        (ehlcontact.assumptions(point)["isothermal"], ("isothermal ", "phi_T", "at least 0.9")),
+        (film.temperature, ("% thinner", " K", "surfaces up to")),
+        (indicators(np.sin(np.linspace(0.0, 3000.0, 2000)), 2e3), ("in the unit of the signal", "mm/s rms")),
+        (record, ("µs", "approach ", "µm", " N")),
+        (record.dimensionless, ("2a/u_sum", "delta_H", "f0")),
+        (fit(record, model="linear"), ("N/m", "N s/m", "root ", "µm", "N/µm")),
+        (spring, ("N/m2", "N/m3", "N s/m")),
+        (Atlas().element(point), ("coefficients dimensionless", " m", " N", "Hz")),
+        (free, ("µs", "µm", " N")),
+        (OilLayer(h=1e-7), ("100 nm",)),
+        (ehlcontact.Heat(), ("W/(m K)", "J/(m3 K)")),
+        (Eyring(), ("5 MPa",)),
+        (ehlcontact.Asperities(1e-7), ("rq 100 nm",)),
+        (BallDiameter(ball=0, excess=1e-7), ("excess 100 nm",)),
+        (Unbalance(x=0, y=1, amount=1e-6), ("amount 1 g mm", "rad")),
+        (ContactMount(angle=-1.5), ("angle -1.5 rad", "offset 0 m")),
+        (FullFilm(ball=0, race="inner", between=(0.0, 1e-3)), ("between 0 .. 1 ms",)),
+        (bearing.frequencies(3000.0), ("bpfo ", "Hz")),
+    ]
+    for thing, words in table:
+        text = repr(thing)
+        assert [word for word in words if word not in text] == [], text
+        assert text.startswith(f"{thing._summary_name()}: ") and len(text.splitlines()) <= 5, text
+    to = {thing.to: repr(thing) for thing in results if isinstance(thing, Response)}
+    assert all("phase " in to[kind] and "°" in to[kind] for kind in ("speed", "layer", "waves"))
 
 
 def public_classes():

@@ -8,10 +8,11 @@ from math import inf
 from typing import Any
 
 from ehlcontact.errors import InputError
+from ehlcontact.summary import Summary, note_line
 
 
 @dataclass(frozen=True, slots=True)
-class Assumption:
+class Assumption(Summary):
     """One assumption with its number.
 
     Attributes
@@ -48,6 +49,13 @@ class Assumption:
     source: str
     details: Mapping[str, float] = field(default_factory=dict)
 
+    def _summary_lines(self) -> list[str]:
+        word = {True: "holds", False: "does not hold", None: "is not judged"}[self.holds]
+        unit = "" if self.unit == "-" else f" {self.unit}"
+        value = "not known" if self.value is None else f"{self.value:.4g}{unit}"
+        limit = f"{'at least' if self.at_least else 'at most'} {self.limit:.4g}{unit}"
+        return [f"{self.name} {word}", *note_line(f"{self.number}: {value}, {limit}"), *note_line(self.verdict)]
+
     @property
     def holds(self) -> bool | None:
         """Whether the value is inside its limit; None where there is no value."""
@@ -61,7 +69,7 @@ class Assumption:
 
 
 @dataclass(frozen=True, slots=True)
-class Assumptions:
+class Assumptions(Summary):
     """All assumptions of a contact, by name: ``found["isothermal"].value``.
 
     Attributes
@@ -70,6 +78,12 @@ class Assumptions:
     """
 
     table: tuple[Assumption, ...]
+
+    def _summary_lines(self) -> list[str]:
+        lines = [f"{sum(a.holds is True for a in self.table)} of {len(self.table)} hold"]
+        lines += note_line("; ".join(f"{a.name} does not hold: {a.verdict}" for a in self.out_of_range))
+        waiting = ", ".join(a.name for a in self.not_judged)
+        return lines + note_line(f"not judged, for an input is missing: {waiting}" if waiting else "")
 
     def __iter__(self) -> Iterator[Assumption]:
         return iter(self.table)

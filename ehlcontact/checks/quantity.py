@@ -110,10 +110,13 @@ def takes(**kinds: str | Kind) -> Callable[[Callable[P, Result]], Callable[P, Re
 
 
 def fields_take(**kinds: str | Kind) -> Callable[[type[Result]], type[Result]]:
-    """`takes` for the fields of a class."""
+    """`takes` for the fields of a class, whose summary has their units (`ehlcontact.summary`)."""
 
     def decorate(cls: type[Result]) -> type[Result]:
         setattr(cls, "__init__", takes(**kinds)(cls.__init__))  # noqa: B010
+        units = {name: kind if isinstance(kind, str) else kind.unit for name, kind in kinds.items()}
+        own = getattr(cls, "FIELD_UNITS", {})
+        setattr(cls, "FIELD_UNITS", {name: unit for name, unit in units.items() if unit} | dict(own))  # noqa: B010
         return cls
 
     return decorate

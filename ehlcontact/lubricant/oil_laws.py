@@ -27,6 +27,7 @@ from ehlcontact.lubricant.oil import (
     USUAL_INDEX,
     MineralOil,
 )
+from ehlcontact.summary import Summary
 
 VISCOSITY_LAWS = ("roelands", "barus")
 DENSITY_LAWS = ("dowson-higginson", "incompressible")
@@ -55,7 +56,7 @@ class FluidLaw(NamedTuple):
 
 @fields_take(eta0="Pa s", alpha="1/Pa", temperature_slope="1/K", temperature=TEMPERATURE)
 @dataclass(frozen=True, slots=True)
-class Lubricant:
+class Lubricant(Summary):
     """Oil at inlet temperature; `iso_vg` makes one from its grade, `from_viscosities` from its data sheet.
 
     Parameters

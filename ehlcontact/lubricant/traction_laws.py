@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_float, as_values, require_between, require_choice, require_instance
 from ehlcontact.checks.admissible_range import Quantity
 from ehlcontact.checks.quantity import fields_take
+from ehlcontact.summary import Summary
 
 Array = NDArray[np.float64]
 
@@ -26,7 +27,7 @@ LITTLE = -18.0  # ln of a stress over Eyring's, below which asinh equals its arg
 STRAIGHT = 20.0  # the same, above which asinh is a logarithm
 
 
-class TractionLaw:
+class TractionLaw(Summary):
     """Base of the traction laws."""
 
     __slots__ = ()

@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.heat import Heat
+from ehlcontact.summary import Summary
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class FilmTemperature:
+class FilmTemperature(Summary):
     """Temperatures above that of the inlet [K], at points in metres as at others.
 
     Attributes
@@ -40,6 +41,14 @@ class FilmTemperature:
     film_share: float
     thermal_load: float
     balance: float
+
+    def _summary_lines(self) -> list[str]:
+        surfaces = float(self.surfaces.max())
+        return [
+            self.summary(False),
+            f"above the inlet: film up to {self.largest:.3g} K, surfaces up to {surfaces:.3g} K",
+            f"thermal load {self.thermal_load:.4g}; heat made and heat given away are {self.balance:.2g} apart",
+        ]
 
     @property
     def largest(self) -> float:

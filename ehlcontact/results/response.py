@@ -378,12 +378,13 @@ class Response(PointTable):
                 shares = (100.0 * self._share(name) for name in ("stiffness", "damping"))
                 found = [f"{text} (± {span(np.round(s, 2))} %)" for text, s in zip(found, shares, strict=True)]
             return ", ".join(found)
+        phase = f"phase {span(np.round(np.degrees(np.angle(self.value))) + 0.0)}°"
         if self.to == SPEED:
-            return f"force over relative change of speed {span(self.amplitude, *force)}"
+            return f"force over relative change of speed {span(self.amplitude, *force)}, {phase}"
         if self.to == LAYER:
-            passed = f"passes on {span(self.passed_share)} of a change"
-            return f"force over thickness of the layer ahead {span(self.amplitude, *rigid)}, {passed}"
+            passed = f"passes on {span(self.passed_share)} of it"
+            return f"force over thickness of the layer ahead {span(self.amplitude, *rigid)}, {phase}, {passed}"
         unit = (1e6, "µm") if si else (1.0, "a")
         waves = f"waves of {span(self.wavelength, *unit)}"  # type: ignore[arg-type]
         size, share = span(self.amplitude, *rigid), span(self.contact_filter)
-        return f"{waves}: force over height |G| {size}, contact filter |G/Z| {share}"
+        return f"{waves}: force over height |G| {size}, {phase}, filter |G/Z| {share}"

@@ -27,7 +27,7 @@ from ehlcontact.quantities import (
 )
 from ehlcontact.results.drawing import draw
 from ehlcontact.results.picture import Line, Map, Panel, Picture
-from ehlcontact.summary import LINES, WIDTH, Summary, contact_text
+from ehlcontact.summary import LINES, WIDTH, Summary, contact_text, quantity_text
 
 Array = NDArray[Any]
 
@@ -186,6 +186,10 @@ class QuantityTable(Summary):
                 numbers.append(f"{name} {array:.5g} {self._unit(base)}".rstrip())
         text = fill(", ".join([*numbers, *arrays]), WIDTH, max_lines=LINES, placeholder=" ...")
         return text.splitlines() or [""]
+
+    def _amount(self, name: str) -> str:
+        """A quantity, or its range, with its unit."""
+        return quantity_text(getattr(self, name), self._unit(name))
 
     def _title(self) -> str:
         """Name of the class, and the first line of its summary where it has one of its own."""

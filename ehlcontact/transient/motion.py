@@ -108,6 +108,10 @@ class FreeVibration(UnderLoad):
         else:
             Omega_n = one("frequency", dimensionless(scales.time, omega=omega, hz=hz)) / SMALL_VIBRATION
         at_start = None if rate is None else require_finite("rate", rate) / scales.rate
+        fastest = 2.0 * SMALL_VIBRATION * Omega_n
+        if at_start is not None and abs(at_start) > fastest:
+            words = "2 dry approaches times the dry angular frequency, in either direction"
+            raise InputError("rate", rate, f"at most {fastest * scales.rate:.3g} m/s, {words}")
         displaced = require_finite("offset", offset) / scales.length
         if abs(displaced) > FARTHEST:
             allowed = f"at most {FARTHEST * scales.length:.3g} m, {FARTHEST:g} dry approaches, on either side"

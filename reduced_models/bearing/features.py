@@ -23,6 +23,7 @@ from ehlcontact.checks import (
 )
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
+from ehlcontact.summary import Summary
 from reduced_models.bearing.race import RACES
 
 _Floats = NDArray[np.float64]
@@ -34,7 +35,7 @@ MOST_WAVES = 100_000  # around a race or a ball
 
 @fields_take(amplitude=parts.HEIGHT, phase="rad")
 @dataclass(frozen=True, kw_only=True)
-class RaceWaviness:
+class RaceWaviness(Summary):
     """Waves around a race: ``amplitude cos(waves theta - phase)``, theta from the x axis with the shaft at 0.
 
     Parameters
@@ -66,7 +67,7 @@ class RaceWaviness:
 
 @fields_take(amplitude=parts.HEIGHT, phase="rad")
 @dataclass(frozen=True, kw_only=True)
-class BallWaviness:
+class BallWaviness(Summary):
     """Waves around a ball in the plane of its rolling: ``amplitude cos(waves theta - phase)`` at the inner race.
 
     Parameters
@@ -98,7 +99,7 @@ class BallWaviness:
 
 @fields_take(excess=parts.EXCESS)
 @dataclass(frozen=True, kw_only=True)
-class BallDiameter:
+class BallDiameter(Summary):
     """A ball that is larger than the others, or smaller.
 
     Parameters
@@ -123,7 +124,7 @@ class BallDiameter:
 
 @fields_take(angle="rad", length=parts.TRACK, depth=parts.HEIGHT, edge=parts.EDGE)
 @dataclass(frozen=True, kw_only=True)
-class Spall:
+class Spall(Summary):
     """A pit across the whole track of a race or a ball, of constant depth between its edges.
 
     Where features overlap, their heights add up: two pits at one place are as deep as both together.
@@ -174,7 +175,7 @@ class Spall:
 
 @fields_take(angle="rad", length=parts.TRACK, depth=parts.HEIGHT, rim=parts.RIM)
 @dataclass(frozen=True, kw_only=True)
-class Indentation:
+class Indentation(Summary):
     """A dent that a hard particle has left: a smooth pit with raised rims, across the whole track.
 
     ``-depth cos^2(pi x/length)`` within the length, and rims ``rim sin^2(2 pi x/length)`` half as long beside it.

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks import require_finite
 from ehlcontact.errors import InputError
+from ehlcontact.summary import Summary
 
 _Floats = NDArray[np.float64]
 
@@ -18,7 +21,7 @@ LEAST_SLIP = -0.5  # of a cage: one that turns half as fast again is an error of
 
 
 @dataclass(frozen=True, slots=True)
-class DefectFrequencies:
+class DefectFrequencies(Summary):
     """Frequencies [Hz] of a ball bearing whose outer ring stands still, at a speed of its shaft.
 
     Attributes
@@ -31,6 +34,8 @@ class DefectFrequencies:
         Turns of a ball. A spot on it meets a race twice per turn: what some tables print as the ball's is 2 BSF.
     """
 
+    FIELD_UNITS: ClassVar[Mapping[str, str]] = {"ftf": "Hz", "bpfo": "Hz", "bpfi": "Hz", "bsf": "Hz"}
+
     ftf: float
     bpfo: float
     bpfi: float
@@ -38,7 +43,7 @@ class DefectFrequencies:
 
 
 @dataclass(frozen=True, slots=True)
-class DefectOrders:
+class DefectOrders(Summary):
     """`DefectFrequencies` per turn of the shaft.
 
     Attributes

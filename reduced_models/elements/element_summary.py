@@ -23,6 +23,21 @@ BAND = 0.01, 30.0  # Omega of figures, of an element without a known band
 BEYOND = 0.25  # of the interval of approach, that figures show on either side of it
 
 
+PARAMETER_UNITS = {  # of coefficients of springs and dampers in SI
+    "K1": "N/m", "K2": "N/m2", "K3": "N/m3", "K": "N/m^n", "u0": "m", "F0": "N",
+    "C1": "N s/m", "C2": "N s2/m2", "C3": "N s3/m3", "B4": "N s/m2",
+}  # fmt: skip
+
+
+def parameter_text(parameters: Mapping[str, Any], units: str) -> str:
+    """Coefficients of an element with their units; those of a film are dimensionless in SI too."""
+    numbers = {name: value for name, value in parameters.items() if isinstance(value, int | float)}
+    known = PARAMETER_UNITS if units == "SI" else {}
+    texts = [f"{name} {value:.4g} {known.get(name, '')}".rstrip() for name, value in numbers.items()]
+    tables = ", ".join(name for name in parameters if name not in numbers)
+    return ", ".join(texts) + f"; tables of {tables}" * bool(tables)
+
+
 class ElementSummary(Summary):
     """Base of the elements: summary and figure."""
 
@@ -88,12 +103,10 @@ class ElementSummary(Summary):
 
     def _summary_lines(self) -> list[str]:
         si = self.units == "SI"
-        numbers = {k: v for k, v in self.parameters.items() if isinstance(v, int | float)}
-        arrays = ", ".join(name for name in self.parameters if name not in numbers)
+        own = ", its coefficients dimensionless" if si else ""
         lines = [
-            f"{self.units}, {f'{self.state_count} states' if self.state_count else 'no memory'}",
-            ", ".join(f"{name} {value:.4g}" for name, value in numbers.items())
-            + f"; tables of {arrays}" * bool(arrays),
+            f"{self.units}, {f'{self.state_count} states{own}' if self.state_count else 'no memory'}",
+            parameter_text(self.parameters, self.units),
             f"approach {text_of(self.validity.approach)}{' m' if si else ''}",
         ]
         if self.load_range is not None:

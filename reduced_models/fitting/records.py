@@ -27,7 +27,7 @@ from ehlcontact.point import POINT, OperatingPoint, Point, Scales, moes_point
 from ehlcontact.quantities import ACCELERATION, FORCE, LENGTH, MASS, RATE, TIME, scaled
 from ehlcontact.results.table import Display, PointTable
 from ehlcontact.status import Status
-from ehlcontact.summary import contact_text, span
+from ehlcontact.summary import contact_text, quantity_text
 from reduced_models.elements.validity import UNITS
 
 _Floats = NDArray[np.float64]
@@ -109,10 +109,11 @@ class ContactRecord(PointTable):
     def _summary_lines(self) -> list[str]:
         kind = "" if self.motion is None else f", {self.motion.get('kind', 'a motion')}"
         under = f", with {', '.join(self.conditions)}" if self.conditions else ""
+        end = quantity_text(self.t[-1], self._unit("t"))
         return [
-            f"{self.units}{kind}{under}, {self.t.size} samples up to t = {self.t[-1]:.4g}",
+            f"{self.units}{kind}{under}, {self.t.size} samples up to t = {end}",
             *([] if self.point is None else [contact_text(self.point)]),
-            f"approach {span(self.approach)}, force {span(self.force)}",
+            f"approach {self._amount('approach')}, force {self._amount('force')}",
         ]
 
     def __post_init__(self) -> None:

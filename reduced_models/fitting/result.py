@@ -12,9 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.point import Scales
+from ehlcontact.quantities import LENGTH, STIFFNESS
 from ehlcontact.results.table import frame_of, plain
-from ehlcontact.summary import Summary
+from ehlcontact.summary import Summary, quantity_text
 from reduced_models.elements.base import ContactElement
+from reduced_models.elements.element_summary import parameter_text
 from reduced_models.elements.film_contact import FilmContact
 from reduced_models.elements.spring import SpringContact
 
@@ -55,11 +57,15 @@ class ElementFit(Summary):
     condition: float | None
 
     def _summary_lines(self) -> list[str]:
-        numbers = [f"{k} {v:.4g}" for k, v in self.parameters.items() if isinstance(v, int | float)]
+        own = {"root": LENGTH, "tangent": STIFFNESS}
         rest = [
-            f"{name} {value:.5g}" for name in ("root", "tangent") if (value := getattr(self, name)) is not None
+            f"{name} {quantity_text(value, quantity.unit if self.element.units == 'SI' else quantity.moes)}"
+            for name, quantity in own.items()
+            if (value := getattr(self, name)) is not None
         ]
-        lines = [f"{self.model}, {self.element.units}", ", ".join(numbers), ", ".join(rest) or "no root"]
+        numbers = parameter_text(self.parameters, self.element.units)
+        note = ", coefficients dimensionless" if self.element.state_count and self.element.units == "SI" else ""
+        lines = [f"{self.model}, {self.element.units}{note}", numbers, ", ".join(rest) or "no root"]
         if self.rms is not None:
             lines.append(f"rms error {100.0 * self.rms:.2g} % of the standard deviation of the force")
         return lines

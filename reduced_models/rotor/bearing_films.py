@@ -24,7 +24,7 @@ from ehlcontact.point import OperatingPoint, Scales
 from ehlcontact.quantities import FORCE, LENGTH, NUMBER, TIME
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
-from ehlcontact.summary import span
+from ehlcontact.summary import Summary, span
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import RACES
@@ -49,7 +49,7 @@ MOST_EVALUATIONS = 30  # of the balance of a step
 
 @fields_take(ball=INDEX, between=parts.TIMES, bearing=INDEX)
 @dataclass(frozen=True, kw_only=True)
-class FullFilm:
+class FullFilm(Summary):
     """A contact of a ball bearing that is computed as a full film during a time interval.
 
     Parameters

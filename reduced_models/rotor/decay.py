@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
+from typing import ClassVar
 
 import numpy as np
 import scipy
@@ -11,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, require_positive
 from ehlcontact.errors import InputError, warn_user
+from ehlcontact.summary import Summary
 
 _Floats = NDArray[np.float64]
 
@@ -21,7 +24,7 @@ STILL = 1e-9  # spread of a signal over its largest value, below which nothing v
 
 
 @dataclass(frozen=True)
-class Decrement:
+class Decrement(Summary):
     """A decaying vibration A exp(-decrement t/period) cos(omega t + phase) + mean, fitted to samples.
 
     Attributes
@@ -39,6 +42,8 @@ class Decrement:
     periods : float
         Covered.
     """
+
+    FIELD_UNITS: ClassVar[Mapping[str, str]] = {"omega": "rad/s"}
 
     decrement: float
     interval: tuple[float, float]

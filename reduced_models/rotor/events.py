@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from types import NoneType
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_column, parts, require_positive
 from ehlcontact.checks.kinds import Object, Objects
 from ehlcontact.checks.quantity import takes
+from ehlcontact.summary import Summary
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import MARGIN, OCTAVE, Band, OutsideValidityWarning, Validity, frequency_of
 from reduced_models.rotor.result import RotorResult
@@ -24,7 +25,7 @@ LOST = 0.01  # share of the load at rest below which a contact counts as lost: a
 
 
 @dataclass(frozen=True)
-class ContactEvents:
+class ContactEvents(Summary):
     """One contact over one run. Shares are of the samples of the run, which are evenly spaced.
 
     Attributes
@@ -42,6 +43,8 @@ class ContactEvents:
     warnings : tuple of str
         Of the element.
     """
+
+    FIELD_UNITS: ClassVar[Mapping[str, str]] = {"load_range": "N"}
 
     lift_offs: int
     impacts: int

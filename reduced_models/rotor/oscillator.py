@@ -26,7 +26,7 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.quantities import FORCE, LENGTH, RATE, TIME
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
-from ehlcontact.summary import span
+from ehlcontact.summary import quantity_text
 from reduced_models.elements.base import ContactElement
 from reduced_models.elements.validity import frequency_of
 
@@ -73,8 +73,9 @@ class OscillatorResult(QuantityTable):
 
     def _summary_lines(self) -> list[str]:
         return [
-            f"{self.status}, {self.T.size} times up to {self.T[-1]:.4g}, {self.evaluations} evaluations",
-            f"approach {span(self.approach)}, force {span(self.force)}",
+            f"{self.status}, {self.T.size} times up to {quantity_text(self.T[-1], self._unit('T'))}, "
+            f"{self.evaluations} evaluations",
+            f"approach {self._amount('approach')}, force {self._amount('force')}",
         ]
 
 

@@ -78,7 +78,7 @@ class _Nodes(dict[str, Mapping[str, int]]):
 
 @fields_take(x=INDEX_OR_NONE, y=INDEX_OR_NONE, amount=parts.UNBALANCE, phase="rad")
 @dataclass(frozen=True, kw_only=True)
-class Unbalance:
+class Unbalance(Summary):
     """Mass times eccentricity [kg m] at two degrees of freedom; `phase` [rad] ahead of the shaft's angle.
 
     Parameters
@@ -104,7 +104,7 @@ class Unbalance:
 
 @fields_take(name=NAME, unit=NAME, text=NAME, value=parts.ANY, parts=Object(Mapping, "a mapping"), reason=NAME)
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Parameter:
+class Parameter(Summary):
     """A number that is a factor of constant matrices; mass, damping, stiffness and load are sums of such products.
 
     An FMU of the rotor has it as a parameter.

@@ -154,7 +154,7 @@ class BearingMount(Summary):
 
 @fields_take(angle="rad", offset=parts.APPROACH, x=INDEX, y=INDEX, count=Count(1, 1000))
 @dataclass(frozen=True, slots=True)
-class ContactMount:
+class ContactMount(Summary):
     """Where a contact sits: approach = n . q + offset, n = (cos angle, sin angle), q that of the shaft.
 
     Parameters

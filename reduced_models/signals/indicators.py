@@ -11,13 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import as_column, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
+from ehlcontact.summary import Summary, wrapped
 
 VELOCITY_BAND = (10.0, 1000.0)  # Hz, of vibration severity in ISO 20816-1
 SEGMENT, SHORTEST = 1.0, 0.3  # s: of an averaged spectrum; three periods of the lowest frequency
 
 
 @dataclass(frozen=True)
-class Indicators:
+class Indicators(Summary):
     """Features of a signal about its mean, without a unit but for rms, peak and velocity.
 
     Attributes
@@ -43,6 +44,14 @@ class Indicators:
     skewness: float
     kurtosis: float
     velocity_rms_mm_s: float | None = None
+
+    def _summary_lines(self) -> list[str]:
+        shares = ("crest_factor", "shape_factor", "impulse_factor", "clearance_factor", "skewness", "kurtosis")
+        velocity = "" if self.velocity_rms_mm_s is None else f", velocity {self.velocity_rms_mm_s:.4g} mm/s rms"
+        return [
+            f"rms {self.rms:.4g}, peak {self.peak:.4g} in the unit of the signal{velocity}",
+            *wrapped([f"{name.replace('_', ' ')} {getattr(self, name):.4g}" for name in shares]),
+        ]
 
     def to_dict(self) -> dict[str, float | None]:
         """All of it, ready for JSON."""

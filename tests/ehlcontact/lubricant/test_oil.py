@@ -192,7 +192,7 @@ def test_derivation_of_the_shipped_study():
     assert oil.eta0 == pytest.approx(0.0367, rel=0.01)
     assert oil.alpha == pytest.approx(2.0e-8, rel=0.03)
     assert (oil.eta0_scatter, oil.alpha_scatter) == (0.10, 0.20)
-    assert "alpha_scatter=0.2" in repr(oil)
+    assert "alpha_scatter 0.2" in repr(oil)
 
 
 @pytest.mark.literature
