@@ -143,6 +143,32 @@ def test_a_set_as_an_element(program, oil):
     np.testing.assert_allclose(element.C(0.0)[[0, 1, 2], [0, 1, 2]], np.diag(ours.damping[0])[:3], rtol=1e-12)
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("kind", ["spring", "three"])
+def test_tables_of_sets_begin_at_rest_and_hold_their_ends(program, oil, kind):
+    spindle, load, speeds = (
+        BallBearing.catalogue("7205", oil=oil),
+        (0.0, -200.0, 0.0, 0.0, 0.0),
+        [0.0, 2e3, 4e3, 6e3],
+    )
+    if kind == "spring":
+        bearings = BearingSet.pair(spindle, spring=300.0)
+    else:
+        three = {"facings": ("+z", "+z", "-z"), "positions": (-0.03, 0.0, 0.03)}
+        bearings = BearingSet(bearings=[spindle] * 3, **three).preloaded(400.0)
+    element = bearings.to_ross(1, speeds_rpm=speeds, load=load, hz=50.0)
+    at = [0, 1, 2], [0, 1, 2]
+    for rpm in speeds:
+        ours = (bearings if rpm else bearings.dry).coefficients(load, speed_rpm=rpm, hz=50.0)
+        w = (rpm * np.pi / 30.0,) * (1 + program.whirl)
+        np.testing.assert_allclose(element.K(*w)[at], ours.stiffness[0][at], rtol=1e-9)
+        np.testing.assert_allclose(element.C(*w)[at], ours.damping[0][at], rtol=1e-6, atol=1e-6)
+    words = "^set of bearings at node 1: an analysis goes beyond its table, 0 to 6000 rev/min"
+    with pytest.warns(OutsideValidityWarning, match=words) if program.installed else nullcontext():
+        beyond = element.K(*(900.0,) * (1 + program.whirl))
+    np.testing.assert_allclose(beyond[at], element.K(*w)[at], rtol=1e-9)
+
+
 def test_level_1_stability_is_analysed(program, film):
     if not program.installed:
         pytest.skip("stand-ins have no run_level1")
