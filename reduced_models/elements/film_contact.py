@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from ehlcontact.checks import (
     as_column,
     as_float,
+    as_values,
     require_finite,
     require_positive,
 )
@@ -591,6 +592,7 @@ class FilmContact(ContactElement):
 
     def gains_at(self, x: float | _Floats) -> _Floats:
         """Gains at x = ln F, shape (3 + lags,) + that of x, with F in units of the reference load."""
+        x = as_values("x", x)
         return np.array([np.interp(x, self.law.gain_x, column) for column in self.law.gains.T])
 
     @property

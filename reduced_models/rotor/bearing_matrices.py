@@ -16,7 +16,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, require_instance
+from ehlcontact.checks import as_column, as_numbers, parts, require_instance
 from ehlcontact.checks.frequency import is_given, radians_per_second
 from ehlcontact.checks.kinds import FILE
 from ehlcontact.checks.quantity import takes
@@ -236,7 +236,7 @@ class BearingMatrices(QuantityTable):
         return file
 
 
-@takes(load="N", speeds_rpm="rev/min")
+@takes(load="N", speeds_rpm=parts.SPEEDS, tilt="rad")
 def bearing_matrices(
     bearing: BallBearing | BearingSet,
     load: ArrayLike,
@@ -280,7 +280,7 @@ def bearing_matrices(
     signs = facing_signs(facing)
     if isinstance(bearing, BearingSet) and facing != FACINGS[0]:
         raise InputError("facing", facing, "left out of a set, whose bearings have facings")
-    speeds = as_column("speeds_rpm", np.atleast_1d(np.asarray(speeds_rpm, float)), increasing=True)
+    speeds = as_column("speeds_rpm", np.atleast_1d(as_numbers("speeds_rpm", speeds_rpm)), increasing=True)
     given = {"omega": omega, "hz": hz, "rpm": rpm}
     fixed = radians_per_second(None, **given) if is_given(**given) else None
     force = bearing_load(load)

@@ -241,6 +241,8 @@ ARGUMENTS = [
     (lambda **k: run().part(**({"first": 1} | k)),
         {"first": (99, *NO_INDEX), "last": NO_INDEX, "keep_time": NO_FLAG}),
     (lambda **k: run().plot(**k), {"path": (5, b"x", "a\0b", ["x"])}),
+    (lambda **k: rm.bearing_matrices(**({"bearing": dry(), "load": LOAD, "speeds_rpm": [1e3]} | k)),
+        {"bearing": NO_OBJECT, "load": NO_COLUMN, "speeds_rpm": (1e12, *NO_COLUMN), "facing": NO_NAME}),
     (lambda **k: path().response(**k), {"hz": NO_COLUMN}),
     (lambda **k: case(**k), {"waviness": (-1.0, *NO_NUMBER)}),
     (records.make_record, {"case": NO_OBJECT}),
