@@ -106,10 +106,10 @@ def _film(machine: Any) -> Tile | None:
 def _ball_load(machine: Any) -> Tile:
     own = max(machine.supports, key=lambda one: one.ball_load)
 
-    def words(one: Any) -> str:
+    def words(one: Any, of_pressure: str = "", of_angle: str = "") -> str:
         angles = one.contact_angles
-        at = "" if angles is None else f" at a contact angle of {digits(round(degrees(angles[0]), 1))}°"
-        return f"Hertz pressure {digits(1e-9 * one.p_hertz)} GPa{at}"
+        at = "" if angles is None else f" at {of_angle}{digits(round(degrees(angles[0]), 1))}°"
+        return f"{of_pressure}{digits(1e-9 * one.p_hertz)} GPa{at}"
 
     def outer(one: Any) -> str:
         heavier = one.outer_load > one.ball_load * (1.0 + HEAVIER)
@@ -120,7 +120,7 @@ def _ball_load(machine: Any) -> Tile:
         )
 
     others = _others(machine, own, lambda one: f"{digits(one.ball_load)} N, {words(one)}")
-    note = _note(words(own), _of(machine, own), outer(own), *others)
+    note = _note(words(own, "Hertz pressure ", "a contact angle of "), _of(machine, own), outer(own), *others)
     return Tile("largest ball load", digits(own.ball_load), "N", note)
 
 
