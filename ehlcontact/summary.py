@@ -6,13 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from html import escape
 from textwrap import fill, shorten
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
-
-if TYPE_CHECKING:
-    from ehlcontact.point import Point
 
 # How summaries show quantities in SI: the first unit that is not above the value, the last one below all of them
 SHOWN: Mapping[str, tuple[tuple[float, str], ...]] = {
@@ -96,14 +93,13 @@ def wrapped(texts: Sequence[str]) -> list[str]:
     return text.splitlines() or [""]
 
 
-def contact_text(point: Point) -> str:
+def contact_text(point: Any) -> str:
     """Contact in words: of an `OperatingPoint` load, speed and Hertz pressure; then its Moes numbers and kappa."""
     moes = point.moes
     text = f"M {moes.M:.4g}, L {moes.L:.4g}, kappa {moes.kappa:.4g}"
     if not hasattr(point, "u_sum"):
         return text
-    si: Any = point
-    return f"{si.load:.4g} N, u_sum {si.u_sum:.4g} m/s, {si.scales.pressure * 1e-9:.3g} GPa; {text}"
+    return f"{point.load:.4g} N, u_sum {point.u_sum:.4g} m/s, {point.scales.pressure * 1e-9:.3g} GPa; {text}"
 
 
 def counted(number: int, one: str, many: str = "") -> str:
@@ -111,7 +107,7 @@ def counted(number: int, one: str, many: str = "") -> str:
     return f"{number} {one if number == 1 else many or f'{one}s'}"
 
 
-def film_unit(point: Point) -> tuple[float, str]:
+def film_unit(point: Any) -> tuple[float, str]:
     """Factor of films at a point for summaries, and its unit: micrometres, or dry approaches without a unit."""
     return (1e6, "µm") if hasattr(point, "load") else (1.0, "of the dry approach")
 
