@@ -367,6 +367,20 @@ page. The tests named below compare every version with these numbers, within the
 `pytest -m literature`. Grid convergence, range and cost of the solver are in [the solver](solver.md); bearings
 compared with computed films are in [ball bearings](bearings.md). [Validation](../validation.md) is the summary.
 """
+DIFFERENT = """\
+## Where the paper and the code differ
+
+| paper | here | why |
+|---|---|---|
+| u_m, "sum of surfaces velocities" | `u_sum` | it is a sum; u_m suggests a mean |
+| H_0: additive in eq. 3, the approach in eqs. 5 to 8 | u = `approach` throughout; H_0 of eq. 3 is -u | two signs for one symbol |
+| R_X, R_Y, R are curvature sums [1/m] in the nomenclature, radii in eq. 2 | radii [m] | eq. 2 holds with radii |
+| Omega_n^2 = 8 f R E/(m u_m K) | u_sum squared | the printed form is not dimensionless |
+| kappa^2 called "contact elliptic ratio" | kappa = a/b | eq. 1 needs kappa = a/b |
+| f_d | `force` | |
+| first direction of free vibrations, and fit windows, not stated | `FreeVibration` closes first, or opens with `start="opening"`, which `ehlcontact reproduce` uses | the first turn of Fig. 6 is a valley ([below](#the-papers-figs-5-and-6)) |
+| alpha and eta0 not stated | 2.2e-8 1/Pa and 0.04 Pa s by default | these values reproduce its results |
+"""
 TAIL = """\
 ## Regression values of this library
 
@@ -383,6 +397,7 @@ def page() -> str:
     data = stored["validation"]
     parts = [HEAD.format(version=data["version"])]
     for name, section in SECTIONS.items():
+        parts += [DIFFERENT] if name == "table 1" else []
         said = inspect.getdoc(section.measure)
         parts += [f"## {section.title}\n", f"{said}\n", table(data[name]) + "\n"]
         parts += [f"Tested by `{section.held_by}`.\n"]

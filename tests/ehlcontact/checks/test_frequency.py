@@ -118,8 +118,8 @@ test_every_call_asks_for_a_name = refusals(
 
 
 def test_a_name_that_a_call_does_not_know_is_said_of_that_call():
-    with pytest.raises(TypeError, match=r"^impedance\(\) got an unexpected keyword argument 'asperities'$"):
-        impedance(BEARING, hz=50.0, asperities=None)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match=r"^impedance\(\) got an unexpected keyword argument 'roughness'$"):
+        impedance(BEARING, hz=50.0, roughness=None)  # type: ignore[call-arg]
     with pytest.raises(TypeError, match=r"^check\(\) got an unexpected keyword argument 'speed'$"):
         LINEAR.check(speed=1.0)  # type: ignore[call-arg]
 
