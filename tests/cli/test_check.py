@@ -39,7 +39,7 @@ def unchecked(finished, tmp_path_factory):
         pytest.MonkeyPatch.context() as patch,
     ):
         patch.setenv("EHLCONTACT_CC", "/none/cc")
-        main(["run", str(file), "-o", str(folder)])
+        main(["run", str(file), "-o", str(folder), "--force"])
     assert stop.value.code == 1
     return file, folder, said.getvalue()
 

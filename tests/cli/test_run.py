@@ -167,7 +167,7 @@ def test_ctrl_c_and_resume(finished, tmp_path):
     study, folder = tmp_path / "long.toml", shutil.copytree(finished[1], tmp_path / "out")
     longer = STUDY.replace(f"{FREE}20", f"{FREE}200\nperiods = 100")
     study.write_text(longer.replace(f"{HARMONIC}20", f"{HARMONIC}60"))
-    process = begin("run", study, "-o", folder, stdout=subprocess.PIPE)
+    process = begin("run", study, "-o", folder, "--force", stdout=subprocess.PIPE)
     kept = folder / "store" / stage_key(stage_named("harmonic"), load_study(study))
     deadline = time.monotonic() + 50.0
     while time.monotonic() < deadline and not kept.exists():
