@@ -380,7 +380,7 @@ DIFFERENT = """\
 | f_d | `force` | |
 | first direction of free vibrations, and fit windows, not stated | `FreeVibration` closes first, or opens with `start="opening"`, which `ehlcontact reproduce` uses | the first turn of Fig. 6 is a valley ([below](#the-papers-figs-5-and-6)) |
 | alpha and eta0 not stated | 2.2e-8 1/Pa and 0.04 Pa s by default | these values reproduce its results |
-"""
+"""  # noqa: E501 rows of a table
 TAIL = """\
 ## Regression values of this library
 
