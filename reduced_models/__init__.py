@@ -29,6 +29,7 @@ from reduced_models.bearing.features import Spall as Spall
 from reduced_models.bearing.motion import BearingMotion as BearingMotion
 from reduced_models.bearing.oil_balance import OilBalance as OilBalance
 from reduced_models.bearing.operating_clearance import operating_clearance as operating_clearance
+from reduced_models.bearing.rated_geometry import geometry_from_ratings as geometry_from_ratings
 from reduced_models.elements.film_contact import FilmContact as FilmContact
 from reduced_models.elements.spring import SpringContact as SpringContact
 from reduced_models.elements.validity import OutsideValidityWarning as OutsideValidityWarning

@@ -37,6 +37,7 @@ DAMPING = Quantity("N s/m", (1e-12, 1e12), (1e-2, 1e7), {"N s/mm": 1e3}, zero=Tr
 FORCE = Quantity("N", (0.0, 1e8), (0.0, 1e7), {"mN": 1e-3}, signed=True)
 PRELOAD = Quantity("N", (1e-6, 1e8), (0.1, 1e6), {"kN": 1e3, "mN": 1e-3}, zero=True)
 LOAD = INPUTS["load"]
+RATING = Quantity("N", (1e-3, 1e9), (10.0, 1e8), {"kN": 1e3})
 GRAVITY = Quantity("m/s2", (0.0, 1e3), (0.0, 100.0), {"mm/s2": 1e-3}, signed=True)
 OFFSET = Quantity("m", (0.0, 0.1), (1e-9, 1e-3), UM, signed=True)  # along a shaft, of rings
 

@@ -8,6 +8,7 @@
 | bearing_tables | `BearingTables`: races, elements, tables and heights, made once |
 | catalogue | dimensions by name, with their sources |
 | printed_ratings | load ratings C and C0 of the catalogue's bearings, as NSK prints them |
+| rated_geometry | `geometry_from_ratings`: balls estimated from printed load ratings, with intervals |
 | designation | names as makers print them: maker, suffixes, other kinds of bearings |
 | clearance | radial clearance by class and bore |
 | tolerances | classes of seats, tolerances of rings, outside diameters by series |

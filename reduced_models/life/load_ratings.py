@@ -93,12 +93,12 @@ class LoadRatings(Summary):
         ratings: list[tuple[float, str]] = []
         for (field, value, own), known in zip(given, printed, strict=True):
             if value is not None:
-                ratings.append((_require_rating(field, value, own), GIVEN))
+                ratings.append((require_rating(field, value, own), GIVEN))
             else:
                 ratings.append((own, FROM_GEOMETRY) if known is None else (known, geometry.printed_source))
         (c, c_source), (c0, c0_source) = ratings
         usual = fatigue_load_limit(c0, geometry.pitch_diameter)
-        limit = usual if fatigue_limit is None else _require_rating("fatigue_limit", fatigue_limit, usual)
+        limit = usual if fatigue_limit is None else require_rating("fatigue_limit", fatigue_limit, usual)
         return cls(
             dynamic=c,
             static=c0,
@@ -152,7 +152,7 @@ def rated_loads(geometry: InternalGeometry, dynamic: float) -> tuple[float, floa
     return inner, outer
 
 
-def _require_rating(field: str, value: float, own: float) -> float:
+def require_rating(field: str, value: float, own: float) -> float:
     """A rating that is given [N]; raises `InputError` far from that of the geometry, with the unit meant."""
     rating = require_positive(field, value)
     if own / FAR < rating < own * FAR:

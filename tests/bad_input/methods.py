@@ -55,6 +55,8 @@ NO_COMPLEX = (TEXT, TRUE, None, "x", [np.nan])
 LOAD, TIMES = (0.0, -500.0), [0.0, 1.0, 2.0, 3.0]
 TABLE = {"T": TIMES, "values": [1.0] * 4}
 
+RATED = {"bore": 25e-3, "outside": 52e-3, "dynamic_rating": 14e3, "static_rating": 7850.0}
+
 
 @cache
 def point():
@@ -243,6 +245,12 @@ ARGUMENTS = [
     (lambda **k: run().plot(**k), {"path": (5, b"x", "a\0b", ["x"])}),
     (lambda **k: rm.bearing_matrices(**({"bearing": dry(), "load": LOAD, "speeds_rpm": [1e3]} | k)),
         {"bearing": NO_OBJECT, "load": NO_COLUMN, "speeds_rpm": (1e12, *NO_COLUMN), "facing": NO_NAME}),
+    (lambda **k: rm.geometry_from_ratings(**(RATED | k)),
+        {"bore": NO_NUMBER, "outside": (1e-3, *NO_NUMBER), "dynamic_rating": (14.0, *NO_NUMBER),
+         "static_rating": (7.85, 1e6, *NO_NUMBER), "f0": (1.0, True, "14"), "contact_angle": (40.0, True, "x"),
+         "dynamic_excess": (8.0, *NO_NUMBER), "tolerance": (2.0, *NO_NUMBER)}),
+    (lambda **k: rm.geometry_from_ratings(**RATED).bearing(**k),
+        {"candidate": (99, True, None, "1", 1.0), "clearance": ("C9", True), "name": NO_NAME}),
     (lambda **k: path().response(**k), {"hz": NO_COLUMN}),
     (lambda **k: case(**k), {"waviness": (-1.0, *NO_NUMBER)}),
     (records.make_record, {"case": NO_OBJECT}),
