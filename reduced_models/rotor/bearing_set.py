@@ -101,7 +101,7 @@ class BearingSet(Summary):
     Raises
     ------
     InputError
-        No such set; an offset in µm, or a position in mm.
+        No such set; an offset in µm, a position in mm, or two bearings at one place.
     """
 
     bearings: Sequence[BallBearing]
@@ -125,7 +125,7 @@ class BearingSet(Summary):
                 raise InputError(name, f"{len(values)} of them", f"one for each of {len(bearings)} bearings")
             object.__setattr__(self, name, tuple(values))
         if len(set(self.positions)) < len(bearings):
-            raise InputError("positions", self.positions, "places [m] of which no two are one")
+            raise InputError("positions", self.positions, "different places [m]")
         for k, bearing in enumerate(bearings):
             facing_signs(self.facings[k])
             require_offset(f"offsets[{k}]", offsets[k], bearing.ball_diameter)
@@ -285,10 +285,7 @@ class BearingSet(Summary):
             A growth that leaves play in a preloaded set; it says how much does.
         """
         places = np.array(self.positions)
-        length = float(np.ptp(places))
-        if length == 0.0:
-            raise InputError("growth", growth, "left out: all bearings are at one place")
-        share = (places - 0.5 * (places.min() + places.max())) / length  # of the growth, along z
+        share = (places - 0.5 * (places.min() + places.max())) / np.ptp(places)  # of the growth, along z
         share *= [0.0 if facing == self.sprung else facing_signs(facing)[Z] for facing in self.facings]
         longer = replace(self, offsets=tuple((np.array(self.offsets) + growth * share).tolist()))
         if self._interference > 0.0 >= longer._interference and not self.may_lift_off:

@@ -45,6 +45,7 @@ from reduced_models.rotor.supports import (
     ball_columns,
     bearing_names,
     is_ball_bearing,
+    require_contact,
     support_geometry,
     support_rows,
 )
@@ -279,12 +280,14 @@ class Rotor(Summary):
         Raises
         ------
         InputError
-            Not one contact per mount.
+            Not one contact per mount; what is no contact.
         """
         if not isinstance(contacts, list | tuple):
             raise InputError("contacts", shown(contacts), "a list of contacts, one per mount")
         if len(contacts) != len(self.contacts):
             raise InputError("contacts", len(contacts), f"one per mount, {len(self.contacts)}")
+        for k, contact in enumerate(contacts):
+            require_contact(f"contacts[{k}]", contact)
         others = iter(contacts)
         return replace(
             self,

@@ -152,6 +152,13 @@ class BearingMount(Summary):
         return rows if self.z is None else facing_signs(self.facing)[:, None] * rows
 
 
+def require_contact(field: str, contact: Any) -> None:
+    """Raise `InputError` for what neither pushes nor answers; None stands for a contact that comes later."""
+    if contact is not None and not (callable(contact) or hasattr(contact, "advance")):
+        allowed = "a contact element, a full film, or an impedance as a function of omega"
+        raise InputError(field, shown(contact), allowed)
+
+
 @fields_take(angle="rad", offset=parts.APPROACH, x=INDEX, y=INDEX, count=Count(1, 1000))
 @dataclass(frozen=True, slots=True)
 class ContactMount(Summary):
@@ -190,9 +197,7 @@ class ContactMount(Summary):
     def __post_init__(self) -> None:
         if self.point is not None:
             moes_point(self.point)
-        if self.contact is not None and not (callable(self.contact) or hasattr(self.contact, "advance")):
-            allowed = "an element, a full film, or an impedance as a function of omega"
-            raise InputError("contact", shown(self.contact), allowed)
+        require_contact("contact", self.contact)
         if abs(require_finite("angle", self.angle)) > 2.0 * pi:
             raise InputError("angle", self.angle, "between -2 pi and 2 pi; angles are in radians")
         require_finite("offset", self.offset)

@@ -195,9 +195,9 @@ def test_fmu_of_another_kind(fmus, elements):
             r"^outside = 'contact 1': must be 'contact 0' \(its variables are contact\[1\]\), or 'all'$",
         ),
         (
-            JEFFCOTT.on(["cubic"]),
+            JEFFCOTT.on([np.exp]),
             {"outside": "all"},
-            r"^contacts\[0\] = 'cubic': must be a contact element",
+            r"^contacts\[0\] = 'ufunc': must be a contact element for one speed",
         ),
         (
             JEFFCOTT,

@@ -114,7 +114,8 @@ def test_tilt_stiffness_is_that_of_the_arms(arrangement, sign):
 
 def test_bearings_in_tandem_carry_equal_shares():
     force, kwargs = np.array([60.0, -20.0, 900.0]), {"speed_rpm": 9000.0, "cage_angle": 0.2}
-    tandem = BearingSet(bearings=[SPINDLE] * 3, facings=["+z"] * 3, positions=[0.0] * 3)
+    places = [-1e-12, 0.0, 1e-12]  # next to one place, where all have the same motion
+    tandem = BearingSet(bearings=[SPINDLE] * 3, facings=["+z"] * 3, positions=places)
     single = SPINDLE.equilibrium((*force / 3.0, 0.0, 0.0), **kwargs)
     state = tandem.equilibrium((*force, 0.0, 0.0), **kwargs)
     np.testing.assert_allclose(state.displacement, single.displacement, rtol=1e-8)
@@ -459,8 +460,8 @@ def test_bad_input():
     loose = pair(SPINDLE, offset=-1e-6)
     refused("nothing holds it in", lambda: loose.equilibrium((0.0, 0.0, 0.0)))
     assert loose.lift_off("+z") == 0.0
-    at_one_place = BearingSet(bearings=[SPINDLE] * 2, facings=("+z", "-z"), positions=(0.0, 0.0))
-    refused("growth = .*at one place", lambda: at_one_place.preloaded(200.0).grown(1e-6))
+    at_one_place = {"bearings": [SPINDLE] * 2, "facings": ("+z", "-z"), "positions": (0.0, 0.0)}
+    refused("positions = .*: must be different places", lambda: BearingSet(**at_one_place))
     wet = pair(replace(SPINDLE, oil=OIL), preload=200.0)
     refused("speed_rpm = 0.0: must be > 0", lambda: wet.equilibrium((0.0, 0.0, 0.0)))
     refused("speed_rpm = .*where the atlas ends", lambda: wet.equilibrium((0.0, 0.0, 0.0), speed_rpm=1e6))

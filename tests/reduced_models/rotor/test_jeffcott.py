@@ -124,7 +124,7 @@ def test_static_needs_static_laws_one_each(contact, maxwell):
         ({"half_angle": 2.0}, "half_angle"),
         ({"half_angle": 0.5, "mounts": [ContactMount(0.0)]}, "half_angle"),
         ({"mounts": ()}, "mounts"),
-        ({"mounts": [1.0]}, "mounts"),
+        ({"mounts": [1.0]}, "mounts[0]"),
     ],
 )
 def test_bad_rotors_are_named(changes, field):

@@ -104,8 +104,11 @@ def test_frequency_of_the_ball_passage(film):
 def test_files_of_runs(film, tmp_path):
     run = simulate_rotor(block(film), speed_rpm=RPM, dt=DT, until=0.002)
     again = read(save(run, tmp_path / "run.h5"), RotorResult)
-    for name, values in vars(run).items():
-        np.testing.assert_array_equal(getattr(again, name), values)
+    for name in vars(run).keys() - {"ball_bearings"}:
+        np.testing.assert_array_equal(getattr(again, name), getattr(run, name))
+    (kept,), (bearing,) = again.ball_bearings, run.ball_bearings
+    assert (kept.name, kept.internals) == (bearing.name, bearing.internals)
+    np.testing.assert_array_equal(kept.mean_loads, bearing.mean_loads)
     (tmp_path / "none.h5").write_text("nothing")
     with pytest.raises(InputError, match="run of a rotor"):
         read(tmp_path / "none.h5", RotorResult)
@@ -221,7 +224,7 @@ def test_what_is_no_rotor(dry, match, changes):
         ("dt = 0.002: must be at most 0.00034.* s, a 16th of the ball passage", {"dt": 2e-3}),
         ("dt = 0.0: must be", {"dt": 0.0}),
         ("until = -1.0", {"until": -1.0}),
-        ("until = 1000000000.0: must be at most", {"until": 1e9}),
+        ("until = 1000000.0: must be at most .* steps of dt", {"until": 1e6}),
         ("rho_inf = 2.0", {"rho_inf": 2.0}),
         ("start = 'rest'", {"start": "rest"}),
         ("start = 5", {"start": 5}),
