@@ -67,7 +67,7 @@ found = geometry_from_ratings(25e-3, 52e-3, dynamic_rating=14e3, static_rating=7
 found.balls, found.ball_diameter  # 9, 7.938 mm
 found.balls_interval, found.ball_interval, found.pitch_interval  # all that fit within 2 %
 bearing = found.bearing(name="spare 6205", clearance="CN")
-bearing.name  # 'spare 6205, balls estimated from C and C0': in summaries, reports and JSON of all that follows
+bearing.name  # 'spare 6205, balls estimated from C and C0': in summaries, reports, JSON and FMUs
 ```
 
 Balls have multiples of 1/64 inch or of 0.5 mm, inch sizes first, and room between the rings and beside each other.

@@ -12,9 +12,9 @@ alone, makes the interval of Dw smaller.
 f0 and C0 are those of 4.2 GPa at the most loaded ball, in grooves of 0.52, with the 207 GPa of ISO/TR 10657.
 
 The ratings of the standards are for grooves of 0.52. A maker may print others: GMN's are up to 11 % below and 9 %
-above (C), 15 % below and 14 % above (C0), by the size of the ball. Here the search finds other balls, or none,
-as the interval is that of a maker who rates by the standards. Many print a C that is higher by some per cent for
-their steel, NSK's newer tables 5 %, with a C0 of the standard: that is `dynamic_excess`.
+above (C), 15 % below and 14 % above (C0), by the size of the ball. The search then finds other balls or none: its
+interval holds for ratings of the standards. Many makers print a C that is higher by some per cent for their steel,
+NSK in newer tables 5 %, with a C0 of the standard: that is `dynamic_excess`.
 """
 
 from __future__ import annotations
@@ -150,7 +150,7 @@ class RatedGeometry(Summary):
     def bearing(self, candidate: int = 0, **options: Any) -> BallBearing:
         """The bearing with the balls of a candidate; its name says that they are an estimate.
 
-        Summaries, reports, pictures and JSON of the bearing and of its results have that name.
+        Summaries, reports, pictures, JSON and FMUs of the bearing and of its results have that name.
 
         Parameters
         ----------
