@@ -88,7 +88,8 @@ class Checkpoint:
 
         def same(item: str, stored: Any, wanted: Any) -> None:
             if stored != wanted:
-                what = f"its {item} is {_brief(stored)}, asked for is {_brief(wanted)}"
+                first, second = _apart(stored, wanted)
+                what = f"its {item} is {first}, asked for is {second}"
                 raise InputError("restart", str(path), f"a checkpoint of this run: {what}")
 
         same("version", self.version, __version__)
@@ -227,8 +228,12 @@ def _of_heat(heat: HeatState | None, field: tuple[int, ...]) -> list[tuple[np.nd
     return [*((array, field) for array in fields), *((array, (2, *field)) for array in pairs)]
 
 
-def _brief(value: Any) -> str:
-    return str(value) if isinstance(value, MoesPoint | Domain | str) else shortened(value)
+def _apart(*values: Any) -> tuple[str, ...]:
+    """Unequal values in words: points and domains by the entries in which they differ, with all their digits."""
+    if all(isinstance(value, MoesPoint) for value in values) or all(isinstance(value, Domain) for value in values):
+        names = [one.name for one in fields(values[0]) if len({getattr(value, one.name) for value in values}) > 1]
+        return tuple(", ".join(f"{name}={getattr(value, name)!r}" for name in names) for value in values)
+    return tuple(value if isinstance(value, str) else shortened(value) for value in values)
 
 
 def _heights(G: Array, T: float) -> str:

@@ -300,6 +300,7 @@ def stopped(tmp_path_factory):
     ("change", "words"),
     [
         (dict(point=MoesPoint(210, 10, 0.5)), ("point", "M=200", "M=210")),
+        (dict(point=MoesPoint(200, 10.00001, 0.5)), ("point", "L=10.0,", "L=10.00001")),
         (dict(domain=Domain(-4.0, 1.5, 3.0)), ("domain", "x_in=-4.5", "x_in=-4.0")),
         (dict(n=64), ("n", "32", "64")),
         (dict(motion=FreeVibration(Omega_n=5.2)), ("motion.Omega_n", "5.13", "5.2")),
