@@ -148,7 +148,7 @@ class Moving:
 
 @pytest.mark.parametrize("surface", [None, Dent(0.1, 0.3), Moving(), lambda *places: 0.0, lambda X, Y, T=0.0: 0.0])
 def test_surfaces_that_can_be_called(surface):
-    require_surface(surface)
+    require_surface(surface, POINT)
 
 
 @pytest.mark.parametrize("surface", [lambda X, Y: 0.0 * X, Roughness, Dent, Moving, 1, "dent", np.zeros(3)])

@@ -40,7 +40,7 @@ def test_waves_have_the_filter_of_their_film(track, length):
     table = int(heights[0, 3 if "ball" in track else 0, 1 + (race == "outer")])
     for load in (30.0, 300.0, 1000.0):
         point = OILED.race(race).point(load, RPM)
-        ratio = contact_filter(point, wavelength=2.0 * pi * radius / (n * point.scales.a)).ratio[0]
+        ratio = contact_filter(point, wavelength=2.0 * pi * radius / n).ratio[0]
         ratio = ratio.conj() if track == "inner" else ratio
         for angle in np.linspace(0.0, 2.0 * pi / n, 5):
             found = table_height(heights, table, angle, point.scales.length) / AMPLITUDE
