@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import degrees, inf
 from typing import Any, NamedTuple
 
+from ehlcontact.summary import WIDTH
 from reduced_models.rotor.modes import ALONG
 from reduced_models.rotor.picture import STRAIGHT
 from reduced_models.rotor.support_state import ABOVE_MEASURED, RELY_ON_SKF
@@ -14,7 +15,7 @@ AXIS = {"x": 0, "y": 1, "z": 2}
 MARGIN = 0.15  # of the speed, least separation of a critical speed
 HALF = 50.0  # %, of the strain energy
 FULL_FILM = 3.0  # lambda from which films keep the surfaces apart
-BRIEF, SHORT = 2, 54  # parts of a note in a line, and characters of each
+BRIEF = 2  # parts of a note in a line, at most
 HEAVIER = 0.01  # share of a ball load, above which the centrifugal force of the ball is named
 LINEAR = 1.0  # displacement by unbalance over the approach of the balls, up to which it is small
 
@@ -34,9 +35,12 @@ class Tile(NamedTuple):
 
     @property
     def brief(self) -> str:
-        """The tile with the first parts of its note, short ones, for a line of a terminal."""
-        parts = [part for part in self.note.split("; ")[:BRIEF] if len(part) <= SHORT]
-        return str(self._replace(note=", ".join(parts)))
+        """The tile with those of the first parts of its note that a line of a terminal has room for."""
+        told = self._replace(note="")
+        for part in self.note.split("; ")[:BRIEF]:
+            longer = self._replace(note=", ".join(filter(None, (told.note, part))))
+            told = longer if len(str(longer)) <= WIDTH else told
+        return str(told)
 
 
 def digits(value: float, count: int = 3) -> str:
@@ -131,16 +135,16 @@ def _life(machine: Any) -> Tile | None:
     if hours is None or hours == inf:
         return None
     shortest = min(system, key=lambda one: one.l10rh)
-    kind = "basic, 90 %: the modified one needs an oil and a contamination"
+    kind, needs = "basic, 90 %", "the modified one needs an oil and a contamination"
     if system.lnmrh is not None:
         film = "" if system.lnmrh_film is None else f", by the solved film {digits(system.lnmrh_film)} h"
-        kind = f"modified, {machine.reliability:g} %, by nu/nu1{film}; basic {digits(system.l10rh)} h"
+        kind, needs = f"modified, {machine.reliability:g} %, by nu/nu1{film}; basic {digits(system.l10rh)} h", ""
     own = system.names[system.lives.index(shortest)]
     of = f"{own} {digits(shortest.l10rh)} h" if len(system) > 1 else ""
     safety = min(one.pressure_safety for one in system)
     ratings = f"C {digits(1e-3 * shortest.ratings.dynamic, 4)} kN {shortest.ratings.dynamic_source}"
     covered = f"not covered: {system.not_covered[0]}" if system.not_covered else ""
-    note = _note(kind, of, covered, f"static safety {digits(safety)} by pressure", ratings)
+    note = _note(kind, of, needs, covered, f"static safety {digits(safety)} by pressure", ratings)
     return Tile("rating life", digits(hours), "h", note)
 
 

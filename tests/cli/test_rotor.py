@@ -19,6 +19,7 @@ from ehlcontact.cli.study.reduction import CONTACTS, LOOKS
 from ehlcontact.cli.study.rotor import film_response, frequencies
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.errors import ConvergenceError
+from ehlcontact.summary import WIDTH
 from reduced_models.rotor import model_pictures as pictures
 from reduced_models.rotor.events import ContactEvents
 from reduced_models.rotor.result import RotorResult
@@ -203,9 +204,10 @@ def test_a_run_ends_with_the_tiles(results):
     assert [line.split(" (")[0] for line in lines[: len(tiles)]] == [
         f"{tile['name']} {tile['value']} {tile['unit']}".rstrip() for tile in tiles
     ]
+    assert max(len(line) for line in lines[: len(tiles)]) <= WIDTH
     rest = [line.split(":")[0] for line in lines[len(tiles) :]]
     assert set(rest) <= {"critical", "does not hold"}
-    assert len(results["answer"].split()) < 160
+    assert len(results["answer"].split()) < 190
 
 
 def test_verdict_says_what_stands_for_the_film(results):
