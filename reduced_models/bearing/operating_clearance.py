@@ -243,8 +243,8 @@ def operating_clearance(
         "steel", "bearing steel", "stainless steel", "cast iron", "aluminium" or "silicon nitride". Rings have the
         elasticity and density of the bearing and the expansion of bearing steel.
     temperatures : mapping, optional
-        "shaft", "inner", "outer", "housing" and "balls" [degrees Celsius], 20 where left out; balls have the mean
-        of both rings.
+        "inner" and "outer" [degrees Celsius], 20 where left out; "shaft" and "housing", as their rings where left
+        out; "balls", the mean of both rings where left out.
     speed_rpm : float
         Of the shaft.
     smoothing : float
@@ -471,11 +471,12 @@ def _temperatures(given: Mapping[str, float] | None) -> dict[str, float]:
     for name in given or {}:
         if name not in wanted:
             raise InputError("temperatures", name, f"of {', '.join(wanted)}")
-    warm = {name: REFERENCE for name in wanted[:4]}
+    own = {}
     for name, value in (given or {}).items():
-        warm[name] = parts.TEMPERATURE.take(f"temperatures[{name!r}]", value, True)
-    warm.setdefault("balls", 0.5 * (warm["inner"] + warm["outer"]))
-    return warm
+        own[name] = parts.TEMPERATURE.take(f"temperatures[{name!r}]", value, True)
+    inner, outer = own.get("inner", REFERENCE), own.get("outer", REFERENCE)
+    usual = {"shaft": inner, "inner": inner, "outer": outer, "housing": outer, "balls": 0.5 * (inner + outer)}
+    return usual | own
 
 
 def _fit_words(fit: Any) -> str:

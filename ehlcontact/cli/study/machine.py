@@ -13,7 +13,7 @@ from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet, Disc, LinearBearing, Rotor, Shaft, Support, rotor_on_bearings
 from reduced_models.bearing.catalogue import BY_DIMENSIONS, USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.grooves import LARGEST_PLAY
-from reduced_models.bearing.operating_clearance import REFERENCE, OperatingClearance, operating_clearance
+from reduced_models.bearing.operating_clearance import OperatingClearance, operating_clearance
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
@@ -178,13 +178,10 @@ def clearance_of(study: Study, k: int) -> OperatingClearance | None:
     if one.bearing is None or angular or catalogue_row(one.bearing)[1].contact_angle is not None:
         allowed = "of a deep-groove bearing by its name; any other in Python: operating_clearance(...)"
         raise InputError(f"{at}shaft_fit", one.shaft_fit, allowed)
-    inner = REFERENCE if one.inner_temperature is None else one.inner_temperature
-    outer = REFERENCE if one.outer_temperature is None else one.outer_temperature
     warm = {
-        "inner": inner,
-        "outer": outer,
-        "shaft": inner if one.shaft_temperature is None else one.shaft_temperature,
-        "housing": outer if one.housing_temperature is None else one.housing_temperature,
+        part: value
+        for part in ("shaft", "inner", "outer", "housing")
+        if (value := getattr(one, f"{part}_temperature")) is not None
     }
     initial = one.clearance if one.clearance is None or isinstance(one.clearance, str) else one.clearance * 1e-6
     try:

@@ -101,6 +101,14 @@ class TestSeats:
         seat = 50.0 * (11.5e-6 - 12.5e-6) * 0.03  # shaft and ring expand by different amounts
         assert found.inner_pressed - cold.inner_pressed == pytest.approx(np.full(3, seat), rel=1e-6)
 
+    def test_shaft_and_housing_are_as_warm_as_their_rings(self) -> None:
+        rings = {"inner": 75.0, "outer": 60.0}
+        whole = rings | {"shaft": 75.0, "housing": 60.0, "balls": 67.5}
+        found, told = (operating_clearance("6306", fit=("k5", "H6"), temperatures=one) for one in (rings, whole))
+        assert found.temperatures == whole and found.clearance.tolist() == told.clearance.tolist()
+        cold = operating_clearance("6306", fit=("k5", "H6"), temperatures=rings | {"shaft": 70.0})
+        assert cold.temperatures["shaft"] == 70.0 and cold.mean > found.mean
+
 
 class TestClasses:
     @pytest.mark.parametrize(
