@@ -13,7 +13,7 @@ from tiny_study import ALONE, ANGULAR, CONTACT, MOTOR, PAIR
 from ehlcontact import OilLayer
 from ehlcontact.cli.study.answer import answer_of, over_frequency
 from ehlcontact.cli.study.forecast import seals_left_out
-from ehlcontact.cli.study.headline import ball_words
+from ehlcontact.cli.study.headline import ball_words, headline, limits
 from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
 from ehlcontact.cli.study.loads import by_formula
 from ehlcontact.cli.study.machine import bearing_of, carrier_of, clearance_of, rotor_of
@@ -21,6 +21,7 @@ from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
 from ehlcontact.cli.study.points.lists import Point
 from ehlcontact.cli.study.points.numbers import numbers_of
 from ehlcontact.cli.study.points.summary import Row, cells, columns_of, narrowed
+from ehlcontact.cli.study.results import Findings
 from ehlcontact.cli.study.schema import load_study
 from reduced_models import (
     BallBearing,
@@ -259,13 +260,43 @@ FITS = 'bearing = "6306"\nshaft_fit = "k5"\nhousing_fit = "H6"\ninner_temperatur
 
 
 def test_clearance_of_fits(study):
-    """That of the mean deviations, warm and at the speed; shaft and housing are as warm as their rings."""
+    """That of the mean deviations, warm and at the speed."""
     one = load_study(study(MOTOR, ('bearing = "6306"', FITS)))
-    warm = {"shaft": 75.0, "inner": 75.0, "outer": 60.0, "housing": 60.0}
+    warm = {"inner": 75.0, "outer": 60.0}
     found = operating_clearance("6306", fit=("k5", "H6"), temperatures=warm, speed_rpm=15000.0)
     assert bearing_of(one, 0).clearance == pytest.approx(found.mean, rel=1e-5)
     assert clearance_of(one, 0).clearance == pytest.approx(found.clearance, rel=1e-12)
     assert clearance_of(one, 1) is None
+
+
+def findings_of(one):
+    """Findings of a study with its machine alone."""
+    return Findings(one, answer_of(one), {}, None, {}, (), None, None, {}, {})
+
+
+def test_fits_that_preload_or_leave_a_ring_loose(study):
+    """Numbers are for the mean clearance: a line has the others, and the basic life at the least probable one."""
+    fits = FITS.replace("6306", "6205").replace("75", "105")
+    found = findings_of(load_study(study(ALONE, (ALONE[ALONE.index("balls = 9") :], fits))))
+    ((name, own),) = found.clearances.items()
+    assert own.clearance[0] < own.probable[0] < 0.0 and own.inner_pressed[2] < 0.0
+    state = found.machine.supports[0]
+    tight = replace(state.bearing, clearance=own.probable[0]).equilibrium((0.0, -20.0), speed_rpm=3000.0)
+    lives = found.lives_by_clearance[name]
+    assert lives == pytest.approx((state.state.life().l10rh, tight.life().l10rh), rel=1e-9) and lives[1] < lives[0]
+    apart, loose = limits(found)[-2:]
+    for word in (f"{1e6 * own.clearance[0]:.3g} to", f"probably {1e6 * own.probable[0]:.3g} to", "the mean"):
+        assert word in apart
+    assert "loose on its shaft" in loose and apart in headline(found) and loose in headline(found)
+    assert found.to_dict()["clearances"][name]["l10rh_probable_least"] == lives[1]
+
+
+def test_fits_with_play_left(study):
+    fits = FITS.replace("6306", "6205").replace("75", "60").replace('"k5"', '"k5"\nclearance = "C4"')
+    found = findings_of(load_study(study(ALONE, (ALONE[ALONE.index("balls = 9") :], fits))))
+    (own,) = found.clearances.values()
+    assert own.clearance[0] > 0.0 and own.inner_pressed[2] > 0.0 and not found.lives_by_clearance
+    assert not any("fit" in text for text in limits(found))
 
 
 @pytest.mark.parametrize(

@@ -19,12 +19,13 @@ from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, ME
 from ehlcontact.cli.study.results import ContactFindings, Findings
 from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN, OilAndHeat
 from reduced_models.bearing.set_result import SetState
-from reduced_models.rotor.machine_tiles import MARGIN
+from reduced_models.rotor.machine_tiles import MARGIN, digits
 
 # Change by half the step, over the standard deviation of a signal or the decrement, that has a sentence.
 LARGE_CHANGE = 0.01
 STANDS_FOR = 0.05  # of the decrement on full films, within which an element stands for the film
 SAME_BALL = 1e-3  # share by which loads of a ball differ at least where both are told
+UM = "\N{MICRO SIGN}m"
 AXIAL = 2  # of the components of a load
 NEGLIGIBLE = 1e-6  # of the largest component of a load, below which another one is none
 
@@ -83,7 +84,7 @@ def limits(found: Findings) -> list[str]:
     """What does not hold, with its number, one text for all supports of which it is said."""
     machine = found.machine
     rest = [text for text in (without_films(found), damping_below_zero(found)) if text]
-    rest += [*discs_without_inertia(found.study), *seals_left_out(found.study)]
+    rest += [*clearances_apart(found), *discs_without_inertia(found.study), *seals_left_out(found.study)]
     if isinstance(machine, str):
         broken = "" if found.contact is None else found.contact.assumptions.headline
         return [*filter(None, [broken]), *rest]
@@ -99,6 +100,25 @@ def limits(found: Findings) -> list[str]:
         inside = "; ".join(filter(None, each))
         lines.append(f"{what} ({inside})" if inside else what)
     return [*lines, *rest]
+
+
+def clearances_apart(found: Findings) -> list[str]:
+    """Bearings on fits that preload some of them, or leave an inner ring loose: numbers are for the mean fit."""
+    said = []
+    for name, own in found.clearances.items():
+        label = name if own.name in name else f"{name} {own.name}"
+        low, mean, high, least, most = (f"{1e6 * one + 0.0:.3g}" for one in (*own.clearance, *own.probable))
+        if own.clearance[0] < 0.0:
+            lives = found.lives_by_clearance.get(name)
+            hours = f" (basic life {digits(lives[0])} h, at {least} {UM} {digits(lives[1])} h)" if lives else ""
+            said.append(
+                f"clearance in operation of {label} is {low} to {high} {UM}, probably {least} to {most} {UM}:"
+                f" everything is for the mean, {mean} {UM}{hours}"
+            )
+        if own.inner_pressed[2] < 0.0:
+            gap = f"{-1e6 * own.inner_pressed[2]:.3g} {UM}"
+            said.append(f"the inner ring of {label} is loose on its shaft in the loosest fit: a gap of {gap}")
+    return said
 
 
 def calm(found: Findings) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from math import pi
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.cli.study.defect import StudyDefect
 from ehlcontact.cli.study.differences import RotorFindings
+from ehlcontact.cli.study.loads import places_of_bearings
 from ehlcontact.cli.study.machine import clearance_of
 from ehlcontact.cli.study.points.folder import versions
 from ehlcontact.cli.study.reduction import (
@@ -23,9 +25,11 @@ from ehlcontact.cli.study.reduction import (
 )
 from ehlcontact.cli.study.rotor import stiffness_and_damping
 from ehlcontact.cli.study.schema import Study
+from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.film_formulas import film_scatter
 from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
+from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.bearing.operating_clearance import OperatingClearance
@@ -50,11 +54,34 @@ class Findings:
     exports: Mapping[str, Any]  # files of [export], as of `write_exports`
     seconds: Mapping[str, float]  # wall time by stage
 
-    @property
+    @cached_property
     def clearances(self) -> dict[str, OperatingClearance]:
         """Clearance in operation of the bearings with fits, by the support."""
         every = ((name, clearance_of(self.study, k)) for k, name in enumerate(self.study.names))
         return {name: one for name, one in every if one is not None}
+
+    @cached_property
+    def lives_by_clearance(self) -> dict[str, tuple[float, float]]:
+        """Basic rating life [h] at the mean and at the least probable clearance in operation, by the support.
+
+        Under the load of the machine at the mean; of bearings on fits whose least probable clearance is below 0.
+        """
+        if isinstance(self.machine, str):
+            return {}
+        lives = {}
+        for k, support in zip(places_of_bearings(self.study), self.machine.supports, strict=True):
+            own = self.clearances.get(self.study.names[k])
+            if own is None or own.probable[0] >= 0.0 or not isinstance(support.bearing, BallBearing):
+                continue
+            tight, state = replace(support.bearing, clearance=float(own.probable[0])), support.state
+            try:
+                least = tight.equilibrium(state.load, speed_rpm=state.speed_rpm).life().l10rh
+            except (ConvergenceError, InputError):
+                continue
+            mean = support.bearings[0][1].life().l10rh
+            if mean is not None and least is not None:
+                lives[self.study.names[k]] = mean, least
+        return lives
 
     def to_dict(self) -> dict[str, Any]:
         """Numbers of ``results.json``."""
@@ -66,7 +93,11 @@ class Findings:
                 name: {"hz": one.hz, "stiffness": one.stiffness, "damping": one.damping}
                 for name, one in self.over_frequency.items()
             },
-            "clearances": {name: one.to_dict() for name, one in self.clearances.items()},
+            "clearances": {
+                name: one.to_dict()
+                | dict(zip(("l10rh", "l10rh_probable_least"), self.lives_by_clearance.get(name, ()), strict=False))
+                for name, one in self.clearances.items()
+            },
             "in_time": None if self.whole is None else self.whole.to_dict(),
             "oil_and_heat": {
                 name: one if isinstance(one, str) else one.to_dict() for name, one in self.oil_and_heat.items()
