@@ -22,7 +22,9 @@ COMMON = (
 # Functions that nothing calls are left out; linkers of macOS do not know these flags.
 WITHOUT_UNUSED = ("-ffunction-sections", "-fdata-sections", "-Wl,--gc-sections")
 # A missing function is an error when linking, not in an importer.
-LINUX = ("-fPIC", "-Wl,-z,defs", *WITHOUT_UNUSED)
+# Nothing is thrown through C: tables for unwinding its stack are left out where the C library does without.
+NO_UNWINDING = ("-fno-asynchronous-unwind-tables", "-fno-unwind-tables")
+LINUX = ("-fPIC", "-Wl,-z,defs", *WITHOUT_UNUSED, *NO_UNWINDING)
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +74,8 @@ PLATFORMS = {
         Platform("x86_64-linux", "linux64", "x86_64-linux-gnu.2.17", ".so", LINUX),
         Platform("aarch64-linux", None, "aarch64-linux-gnu.2.17", ".so", LINUX),
         Platform("x86_64-windows", "win64", "x86_64-windows-gnu", ".dll", WITHOUT_UNUSED),
-        Platform("x86_64-darwin", "darwin64", "x86_64-macos.10.13", ".dylib"),
-        Platform("aarch64-darwin", "darwin64", "aarch64-macos.11.0", ".dylib"),
+        Platform("x86_64-darwin", "darwin64", "x86_64-macos.10.13", ".dylib", NO_UNWINDING),
+        Platform("aarch64-darwin", "darwin64", "aarch64-macos.11.0", ".dylib", NO_UNWINDING),
     )
 }
 

@@ -12,6 +12,7 @@ from fmu.bearing.places import rates_of
 from fmu.bearing.set_model import SetModel
 from fmu.bearing.trial import START
 from fmu.bearing.variables import BallStates
+from fmu.references.series import rounded
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 _Floats = NDArray[np.float64]
@@ -58,8 +59,8 @@ def state_points(model: BearingModel | SetModel, count: int = POINTS, seed: int 
     size = np.ones(n)
     diameter = max(seat.model.bearing.pitch_diameter for seat in model.seats)
     size[[name.startswith("tilt") for name in model.directions]] = 2.0 / diameter
-    place = model.place + DEEP * size * rng.normal(size=(count, n))
-    velocity = FAST * size * rng.normal(size=(count, n))
+    place = rounded(model.place + DEEP * size * rng.normal(size=(count, n)))
+    velocity = rounded(FAST * size * rng.normal(size=(count, n)))
     speed = fastest * np.linspace(1.0, 1.0 - SLOWER, count)
     force = np.tile(model.constant_force, (count, 1))
     columns = []
@@ -74,7 +75,7 @@ def state_points(model: BearingModel | SetModel, count: int = POINTS, seed: int 
             states = np.tile(in_time.rest(fastest, START, seat.ring(model.place)), (count, 1))
         states[:, 0] = START + turned
         states[:, 1 : 1 + own.sizes.size] += np.where(own.kinds == "w", np.abs(by), by)
-        moving = velocity @ seat.rows.T
+        states, moving = rounded(states), velocity @ seat.rows.T
         found = [in_time.at(*row) for row in zip(speed.tolist(), states, rings, moving, strict=True)]
         rates, pushed = (np.array(part) for part in zip(*found, strict=True))
         force -= pushed @ seat.rows

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fmu.bearing.model import BearingModel
 from fmu.bearing.set_model import SetModel
+from fmu.references.series import rounded
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
 _Floats = NDArray[np.float64]
@@ -67,7 +68,7 @@ def bearing_trial(
     velocity[0] = 0.0
     top = float(model.speeds[-1]) * RPM_TO_RAD_S
     speed = np.asarray(top * (1.0 - SPEED_CHANGE * time / time[-1]), np.float64)
-    return _forces(model, time, place, velocity, speed)
+    return _forces(model, time, rounded(place), rounded(velocity), speed)
 
 
 def vibration_sizes(model: BearingModel | SetModel) -> _Floats:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from fmu.contact_variables import Element, Film
 from fmu.lead import CONTACT
-from fmu.references.series import References, Trial, floored
+from fmu.references.series import References, Trial, floored, rounded
 from fmu.spec import ModelSpec
 from fmu.steps import SHARE_OF_TRANSIT, round_down
 from reduced_models.elements.film_contact import units_of
@@ -40,7 +40,6 @@ LEAST_THETA = 0.01  # below which the FMU bounds the clock of the film: csrc/fil
 EVEN = 110, 0.1  # steps of one length, and that length in the unit of time; uneven ones follow
 VIBRATION = 2.5, 0.3  # angular frequency in that unit, amplitude over the length scale
 PULSES = 4.5, 8.5, 0.8  # when the load comes, when the surfaces part, how long either takes
-DIGITS = 7  # of times and inputs, which are exact in the files then
 POINTS = 12  # states of a film for model exchange
 SLOWLY = 0.4  # angular frequency of the speed of the surfaces, in the unit of time
 FAR = -30.0  # approach of one of them, from that under the reference load, over the length scale
@@ -65,7 +64,7 @@ def contact_references(element: Element, spec: ModelSpec) -> References:
     points: Trial | None = None
     if isinstance(element, Film) and element.speeds is not None:
         time, approach, rate = _motion(spec.step / SHARE_OF_TRANSIT, *_reach_of_film(element))
-        steps = _speed_steps(element, time, approach, rate, _rounded(speed_course(element, time)))
+        steps = _speed_steps(element, time, approach, rate, rounded(speed_course(element, time)))
     elif isinstance(element, Film):
         time, approach, rate = _motion(spec.step / SHARE_OF_TRANSIT, *_reach_of_film(element))
         steps = _film_steps(element, time, approach, rate)
@@ -200,11 +199,7 @@ def _motion(
     v = share * length * omega * np.sin(omega * T)
     u, v = with_pulses(T, u, v, ((pulse, loaded), (-parting, parted)), width)
     v[0] = 0.0
-    return _rounded(T * unit), _rounded(u), _rounded(v / unit)
-
-
-def _rounded(values: _Floats) -> _Floats:
-    return np.array([float(f"{value:.{DIGITS}g}") for value in values])
+    return rounded(T * unit), rounded(u), rounded(v / unit)
 
 
 def _spring(element: Any, time: _Floats, approach: _Floats, rate: _Floats) -> Trial:
@@ -285,9 +280,9 @@ def _film_points(element: Film, names: list[str]) -> Trial:
     middle = element.approach_at(f)
     offsets = np.linspace(-2.0, 1.5, POINTS)
     offsets[0] = FAR  # where the clock of the film is bounded
-    approach = _rounded(middle + length * offsets)
+    approach = rounded(middle + length * offsets)
     sign = 1.0 - 2.0 * (number % 2)
-    rate = _rounded(np.asarray(2.0 * MEMORY * length / unit * sign))
+    rate = rounded(np.asarray(2.0 * MEMORY * length / unit * sign))
     order = np.arange(len(names))
     signs = np.where(order < DIRECT - 1, -1.0, 1.0 - 2.0 * (order % 2))  # the chain begins with what s is not
     states = np.round(np.outer(sign, signs * MEMORY * (1.0 + 0.05 * order)), 4)

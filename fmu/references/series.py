@@ -14,6 +14,7 @@ from fmu.verification import TOLERANCE
 
 _Floats = NDArray[np.float64]
 
+DIGITS = 7  # of times, places and rates, which are exact in the files then
 LEAST_SHARE = 1e-3  # of the size of a column: what a difference is divided by at least
 
 
@@ -93,6 +94,11 @@ class References:
     about: str = "Inputs, and what the model makes of them"
     outside: int = 0
     parted: int = 0
+
+
+def rounded(values: _Floats) -> _Floats:
+    """Inputs of a trial with as many digits as files have."""
+    return np.vectorize(lambda value: float(f"{value:.{DIGITS}g}"), otypes=[float])(values)
 
 
 def floored(expected: _Floats, scale: float | _Floats) -> _Floats:
