@@ -189,7 +189,8 @@ class BearingMatrices(QuantityTable):
         hz : float, optional
             Of the table, likewise.
         node : int
-            Number of the node of the shaft.
+            Number of the node of the shaft. Numbers and names of elements, properties and matrices follow it, so
+            that texts of several bearings go into one model.
         units : {"m", "mm"}
             N, m, rad, s; or N, mm, rad, s (masses in tonnes).
         shaft_along : {"z", "x", "y"}

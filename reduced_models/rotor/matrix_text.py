@@ -35,6 +35,7 @@ AXES = {"z": (0, 1, 2), "x": (2, 0, 1), "y": (1, 2, 0)}  # shaft along: x, y, z 
 LENGTHS = {"m": 1.0, "mm": 1e3}  # in a metre
 ELSEWHERE = ("UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ")
 SIGNS = "F = K u + C du/dt is the force on the shaft that holds its displacement u against the housing"
+DMIG_NODES = 10**6  # distinct ones in names of at most 8 characters
 NOTED = 1e-3  # of K, unsymmetric: what a symmetric element leaves out is warned of
 
 
@@ -200,7 +201,10 @@ def _combi214(table: BearingMatrices, hz: float | None, placed: Placed) -> str:
     ]
     speeds = table.speed_rpm * RPM_TO_RAD_S
     several = speeds.size > 1
-    lines = ["ET,1,COMBI214", f"KEYOPT,1,2,{plane}   ! plane {'XYZ'[a]}{'XYZ'[b]}"]
+    own = 2 * placed.node - 1
+    if several:
+        names = [(f"{name}_{placed.node}", values) for name, values in names]
+    lines = [f"ET,{own},COMBI214", f"KEYOPT,{own},2,{plane}   ! plane {'XYZ'[a]}{'XYZ'[b]}"]
     for name, values in names if several else ():
         lines.append(f"*DIM,{name},TABLE,{speeds.size},1,1,OMEGS")
         lines += [
@@ -209,9 +213,9 @@ def _combi214(table: BearingMatrices, hz: float | None, placed: Placed) -> str:
         ]
     shown = [f"%{name}%" if several else repr(float(values[0])) for name, values in names]
     lines += [
-        f"R,1,{','.join(shown[:6])}",
+        f"R,{own},{','.join(shown[:6])}",
         f"RMORE,{','.join(shown[6:])}",
-        f"! TYPE,1 $ REAL,1 $ E,{placed.node},<node of the housing>",
+        f"! TYPE,{own} $ REAL,{own} $ E,{placed.node},<node of the housing>",
     ]
     of = "frequency of the vibration "
     of += "that of the shaft" if hz is None and several else f"{table.hz[0, columns[0]]:.6g} Hz"
@@ -231,7 +235,8 @@ def _matrix27(table: BearingMatrices, values: Values, placed: Placed) -> list[st
             OutsideValidityWarning,
         )
     lines = [f"! left out: what is not symmetric, {table.asymmetry:.2g} of K"]
-    for kind, (name, key, matrix) in enumerate((("stiffness", 4, values.K), ("damping", 5, values.C)), 1):
+    first = 2 * placed.node - 1
+    for kind, (name, key, matrix) in enumerate((("stiffness", 4, values.K), ("damping", 5, values.C)), first):
         half = 0.5 * (matrix + matrix.T)
         upper = np.block([[half, -half], [-half, half]])[np.triu_indices(12)] + 0.0
         lines += [f"ET,{kind},MATRIX27   ! {name}", f"KEYOPT,{kind},2,0 $ KEYOPT,{kind},3,{key}"]
@@ -248,10 +253,13 @@ def _large(value: float) -> str:
 
 def _cbush(table: BearingMatrices, values: Values, placed: Placed) -> list[str]:
     lines = ["$ CBUSH has the diagonals alone: couplings between directions are left out; nastran-dmig has them"]
-    lines += [f"CBUSH*  {1:16d}{1:16d}{placed.node:16d}", f"*       {'':48s}{0:16d}"]  # to the ground, basic axes
+    lines += [
+        f"CBUSH*  {placed.node:16d}{placed.node:16d}{placed.node:16d}",
+        f"*       {'':48s}{0:16d}",
+    ]  # to the ground, basic axes
     rows = [("K", np.diag(values.K)), ("B", np.diag(values.C))]
     fields = [field for letter, row in rows for field in (f"{letter:<16s}", *map(_large, row.tolist()), " " * 16)]
-    fields = [f"{1:16d}", *fields[:-1]]  # the flag of B opens a line: a field stays blank before it
+    fields = [f"{placed.node:16d}", *fields[:-1]]  # the flag of B opens a line: a field stays blank before it
     for start in range(0, len(fields), 4):
         line = "".join(fields[start : start + 4])
         lines.append(("PBUSH*  " if start == 0 else "*       ") + line)
@@ -259,8 +267,9 @@ def _cbush(table: BearingMatrices, values: Values, placed: Placed) -> list[str]:
 
 
 def _dmig(table: BearingMatrices, values: Values, placed: Placed) -> list[str]:
-    lines = ["$ in the case control section:  K2PP = KBEARING  $  B2PP = BBEARING"]
-    for name, matrix in (("KBEARING", values.K), ("BBEARING", values.C)):
+    stiffness, damping = (f"{letter}B{placed.node % DMIG_NODES}" for letter in "KB")
+    lines = [f"$ in the case control section:  K2PP = {stiffness}  $  B2PP = {damping}"]
+    for name, matrix in ((stiffness, values.K), (damping, values.C)):
         lines.append(f"DMIG    {name:<8s}{0:8d}{1:8d}{2:8d}{0:8d}")  # square, real in double precision
         for column in range(6):
             rows = [(row, value) for row, at, value in _entries(matrix) if at == column]
@@ -271,11 +280,11 @@ def _dmig(table: BearingMatrices, values: Values, placed: Placed) -> list[str]:
 
 
 def _abaqus(table: BearingMatrices, values: Values, placed: Placed) -> list[str]:
-    lines = []
-    for name, matrix in (("K_BEARING", values.K), ("C_BEARING", values.C)):
+    lines, stiffness, damping = [], f"K_BEARING_{placed.node}", f"C_BEARING_{placed.node}"
+    for name, matrix in ((stiffness, values.K), (damping, values.C)):
         lines.append(f"*MATRIX INPUT, NAME={name}, TYPE=UNSYMMETRIC")
         lines += [f"{placed.node}, {i + 1}, {placed.node}, {j + 1}, {value!r}" for i, j, value in _entries(matrix)]
-    return [*lines, "*MATRIX ASSEMBLE, STIFFNESS=K_BEARING, VISCOUS DAMPING=C_BEARING"]
+    return [*lines, f"*MATRIX ASSEMBLE, STIFFNESS={stiffness}, VISCOUS DAMPING={damping}"]
 
 
 def _exudyn(table: BearingMatrices, values: Values, placed: Placed) -> list[str]:

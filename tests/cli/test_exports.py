@@ -127,6 +127,10 @@ def test_entries_that_contradict(refused, tmp_path, text, entries, words):
         refused(words, command, path, "-o", tmp_path / "out")
 
 
+def test_without_matrices_their_units_may_stay(study):
+    assert study(f"{MOTOR}\n[export]\npython = true\nmatrices = []\nmatrix_units = 'mm'\n").export.matrices == ()
+
+
 def test_matrices_of_every_support(study, tmp_path):
     """About each bearing in the axes of the shaft, under the load that it has in the machine."""
     entries = '[export]\nmatrices = ["json", "abaqus"]\nmatrix_units = "mm"\nshaft_along = "x"\n'
@@ -142,7 +146,7 @@ def test_matrices_of_every_support(study, tmp_path):
         K = np.array(read["stiffness"])[0, 0]
         assert np.diag(K)[:3] == pytest.approx(np.diag(own)[:3], rel=1e-3)
         lines = (tmp_path / f"{name}_abaqus.inp").read_text().splitlines()
-        first = next(line for line in lines if line.startswith("1, 1, 1, 1,"))
+        first = next(line for line in lines if line.startswith(f"{k + 1}, 1, {k + 1}, 1,"))
         assert float(first.split(",")[4]) == pytest.approx(1e-3 * K[2, 2], rel=1e-9)
 
 

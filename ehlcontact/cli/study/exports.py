@@ -40,7 +40,7 @@ def require_export(study: Study) -> None:
                 raise InputError(f"export.{name}", shown, "left out without export.fmu")
     if not (asked.fmu or asked.python or asked.ross or asked.matrices) and study.contact is None:
         raise InputError("export.fmu", False, "true; or export.python, export.ross or export.matrices")
-    if not set(asked.matrices) - set(WHOLE):
+    if asked.matrices and set(asked.matrices) <= set(WHOLE):
         for name, usual in (("matrix_units", "m"), ("shaft_along", "z")):
             if (value := getattr(asked, name)) != usual:
                 raise InputError(f"export.{name}", value, "left out without export.matrices for a program")
@@ -133,7 +133,10 @@ def write_exports(study: Study, folder: Path) -> dict[str, Any]:
 
 
 def _write_matrices(study: Study, folder: Path) -> list[dict[str, str]]:
-    """Stiffness and damping of what stands at every support, at the speed, under its load there."""
+    """Stiffness and damping of what stands at every support, at the speed, under its load there.
+
+    Nodes are 1, 2, ... in the order of the supports.
+    """
     asked, made = study.export, []
     assert asked is not None
     facings = dict.fromkeys(range(len(study.support)), "+z")
@@ -149,7 +152,9 @@ def _write_matrices(study: Study, folder: Path) -> list[dict[str, str]]:
         for program in asked.matrices:
             file = f"{word}_{'matrices' if program in WHOLE else program.replace('-', '_')}.{ENDINGS[program]}"
             options: dict[str, Any] = (
-                {} if program in WHOLE else {"units": asked.matrix_units, "shaft_along": asked.shaft_along}
+                {}
+                if program in WHOLE
+                else {"node": k + 1, "units": asked.matrix_units, "shaft_along": asked.shaft_along}
             )
             write_text(folder / file, table.text(program, **options), "file")
             made.append({"file": file, "program": program, "support": name})

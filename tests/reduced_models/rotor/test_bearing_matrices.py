@@ -137,7 +137,7 @@ class TestTexts:
         assert read["rows_and_columns"][3] == "tilt_x" and "N/m" in read["units"]
 
     def test_combi214(self, table: BearingMatrices) -> None:
-        values = dict(re.findall(r"\$ ([KC]\d\d)\(2,1\) = (\S+)", table.text("ansys-combi214", shaft_along="x")))
+        values = dict(re.findall(r"\$ ([KC]\d\d)_1\(2,1\) = (\S+)", table.text("ansys-combi214", shaft_along="x")))
         assert float(values["K11"]) == table.stiffness[1, 0, 0, 0]
         assert float(values["C22"]) == table.damping[1, 0, 1, 1]
 
@@ -162,7 +162,7 @@ class TestTexts:
 
     def test_nastran_dmig(self, moved: BearingMatrices) -> None:
         """In large fields, as pyNastran 1.4 (NumPy 1) reads them too."""
-        read = {"KBEARING": np.zeros((6, 6)), "BBEARING": np.zeros((6, 6))}
+        read = {"KB7": np.zeros((6, 6)), "BB7": np.zeros((6, 6))}
         name, column = "", 0
         for card, fields in large_fields(moved.text("nastran-dmig", hz=50.0, node=7)):
             if card == "DMIG*":
@@ -171,14 +171,14 @@ class TestTexts:
             elif card == "*":
                 assert int(fields[0]) == 7
                 read[name][int(fields[1]) - 1, column - 1] = float(fields[2].replace("D", "E"))
-        assert read["KBEARING"] == pytest.approx(moved.stiffness[0, 0], rel=1e-9)
-        assert read["BBEARING"] == pytest.approx(moved.damping[0, 0], rel=1e-9)
+        assert read["KB7"] == pytest.approx(moved.stiffness[0, 0], rel=1e-9)
+        assert read["BB7"] == pytest.approx(moved.damping[0, 0], rel=1e-9)
 
     def test_nastran_cbush(self, moved: BearingMatrices) -> None:
         cards = list(large_fields(moved.text("nastran-cbush", hz=50.0, node=7)))
-        assert cards[0] == ("CBUSH*", ["1", "1", "7", ""]) and cards[1][1][3] == "0"
+        assert cards[0] == ("CBUSH*", ["7", "7", "7", ""]) and cards[1][1][3] == "0"
         flat = [field.replace("D", "E") for _, fields in cards[2:] for field in fields]
-        assert (flat[0], flat[1], flat[8], flat[9]) == ("1", "K", "", "B")
+        assert (flat[0], flat[1], flat[8], flat[9]) == ("7", "K", "", "B")
         assert [float(one) for one in flat[2:8]] == pytest.approx(
             np.diag(moved.stiffness[0, 0]).tolist(), rel=1e-9
         )
@@ -191,7 +191,7 @@ class TestTexts:
         into = K
         for line in moved.text("abaqus", hz=50.0, node=7).splitlines():
             if line.startswith("*MATRIX INPUT"):
-                into = K if "K_BEARING" in line else C
+                into = K if "NAME=K_BEARING_7," in line else C
             elif line[0].isdigit():
                 node, i, other, j, value = line.split(", ")
                 assert node == other == "7"
@@ -203,6 +203,21 @@ class TestTexts:
                 _, row, _, column, k, c = line.split()
                 place = ways.index(row), ways.index(column)
                 assert (float(k), float(c)) == (K[place], C[place])
+
+    def test_texts_of_two_bearings_share_no_number_or_name(self, moved: BearingMatrices) -> None:
+        """Definitions by what other cards of a model refer to."""
+        defined = {
+            "ansys-combi214": r"^(?:ET|R|\*DIM),\w+",
+            "ansys-matrix27": r"^(?:ET|R),\w+",
+            "nastran-dmig": r"^DMIG +\w+",
+            "nastran-cbush": r"^(?:C|P)BUSH\* +\w+",
+            "abaqus": r"^\*MATRIX INPUT, NAME=\w+",
+        }
+        for program, pattern in defined.items():
+            first, second = (
+                re.findall(pattern, moved.text(program, hz=50.0, node=node), re.MULTILINE) for node in (1, 2)
+            )
+            assert len(first) == len(second) >= 2 and not set(first) & set(second), program
 
     def test_exudyn(self, moved: BearingMatrices) -> None:
         text = moved.text("exudyn", hz=50.0)
