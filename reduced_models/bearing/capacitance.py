@@ -7,6 +7,7 @@ their solved films (docs/notes/capacitance.md). An unloaded ball is a paraboloid
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import exp, log
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
@@ -126,6 +127,20 @@ def capacitance_of(
         largest=float(_series(largest).sum()),
         permittivity=e,
         h_min=thinnest,
+    )
+
+
+def joined(bearings: Iterable[BearingCapacitance]) -> BearingCapacitance:
+    """Bearings in parallel as one, ball after ball."""
+    every = list(bearings)
+    return BearingCapacitance(
+        contact=np.concatenate([one.contact for one in every]),
+        ball=np.concatenate([one.ball for one in every]),
+        total=sum(one.total for one in every),
+        least=sum(one.least for one in every),
+        largest=sum(one.largest for one in every),
+        permittivity=every[0].permittivity,
+        h_min=np.concatenate([one.h_min for one in every]),
     )
 
 

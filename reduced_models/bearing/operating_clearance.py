@@ -362,9 +362,7 @@ class _Seats(NamedTuple):
         if D is None:
             allowed = "given in metres: that of this bearing is not known, and fits need it"
             raise InputError("outside", None, allowed)
-        cosine = cos(bearing.contact_angle or 0.0)
-        inner = bearing.pitch_diameter - bearing.ball_diameter * cosine
-        outer = bearing.pitch_diameter + bearing.ball_diameter * cosine
+        inner, outer = groove_bottoms(bearing)
         if not d < inner:
             raise InputError("bore", d, f"below {inner:.5g} m, the diameter of the inner groove")
         if not D > outer:
@@ -374,6 +372,19 @@ class _Seats(NamedTuple):
         if housing is not None and not housing > D:
             raise InputError("housing_outside", housing, f"above {D:.5g} m, the outside diameter of the bearing")
         return cls(hollow, d, inner, outer, D, inf if housing is None else housing)
+
+
+def groove_bottoms(bearing: BallBearing) -> tuple[float, float]:
+    """Diameters of the bottoms of the inner and the outer groove [m]; less two balls they leave the clearance.
+
+    Balls on the pitch circle touch both grooves at the contact angle; centres of grooves lie off their bottoms.
+    """
+    ball, cosine = bearing.ball_diameter, cos(bearing.contact_angle or 0.0)
+    inner, outer = bearing.conformity_inner, bearing.conformity_outer
+    return (
+        bearing.pitch_diameter + ball * ((2.0 * inner - 1.0) * cosine - 2.0 * inner),
+        bearing.pitch_diameter - ball * ((2.0 * outer - 1.0) * cosine - 2.0 * outer),
+    )
 
 
 def spinning(material: Material, a: float, b: float, r: float, omega: float) -> float:

@@ -15,6 +15,7 @@ from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.store import stored
 from ehlcontact.summary import note_line
+from reduced_models.bearing.capacitance import BearingCapacitance, joined
 from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import FIVE, in_freedoms, load_words, place_words
 from reduced_models.bearing.picture import set_picture
@@ -116,9 +117,9 @@ class SetState(QuantityTable):
         names = tuple(f"bearing {k}" for k in range(len(self.bearings)))
         return SystemLife(lives=tuple(one.life(**options) for one in self.bearings), names=names)
 
-    def capacitance(self, permittivity: float = OIL, *, surroundings: float | None = None) -> float:
-        """Capacitance between shaft and housing [F]: that of all bearings, as of `BearingState.capacitance`."""
-        return sum(one.capacitance(permittivity, surroundings=surroundings).total for one in self.bearings)
+    def capacitance(self, permittivity: float = OIL, *, surroundings: float | None = None) -> BearingCapacitance:
+        """Capacitance between shaft and housing: all balls of all bearings, as of `BearingState.capacitance`."""
+        return joined(one.capacitance(permittivity, surroundings=surroundings) for one in self.bearings)
 
     def picture(self) -> Picture:
         """Load zones and contact angles, bearing by bearing."""

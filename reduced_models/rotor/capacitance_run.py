@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.capacitance import OIL, require_permittivity
-from ehlcontact.checks import require_instance, require_integer
+from ehlcontact.checks import require_choice, require_instance, require_integer
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import LENGTH, TIME
 from ehlcontact.results.table import Display, QuantityTable
@@ -21,8 +21,11 @@ from reduced_models.bearing.ring import equilibrium_at
 from reduced_models.bearing.ring_statics import state_of, static_ring
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.supports import bearing_names
 
 _Floats = NDArray[np.float64]
+
+MOST_TIMES = 500  # that are computed where no more are asked for
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -31,6 +34,8 @@ class CapacitanceHistory(QuantityTable):
 
     Attributes
     ----------
+    name : str
+        Of the bearing.
     t : ndarray, shape (k,)
         Times [s].
     capacitance : ndarray, shape (k,)
@@ -39,6 +44,7 @@ class CapacitanceHistory(QuantityTable):
         Smallest film or gap of all contacts [m].
     """
 
+    name: str
     t: Annotated[_Floats, TIME.over("t")]
     capacitance: Annotated[_Floats, FARAD.over("t")]
     h_min: Annotated[_Floats, LENGTH.over("t")]
@@ -48,14 +54,19 @@ class CapacitanceHistory(QuantityTable):
     def _summary_lines(self) -> list[str]:
         pico = 1e12 * self.capacitance
         return [
-            f"{self.t.size} times from {self.t[0]:.4g} to {self.t[-1]:.4g} s",
+            f"{self.name}, {self.t.size} times from {self.t[0]:.4g} to {self.t[-1]:.4g} s",
             f"{pico.min():.4g} to {pico.max():.4g} pF, mean {pico.mean():.4g} pF",
             f"smallest film {1e6 * self.h_min.min():.4g} µm",
         ]
 
 
 def capacitance_of_run(
-    rotor: Rotor, run: RotorResult, bearing: int = 0, permittivity: float = OIL, *, every: int = 1
+    rotor: Rotor,
+    run: RotorResult,
+    bearing: int | str = 0,
+    permittivity: float = OIL,
+    *,
+    every: int | None = None,
 ) -> CapacitanceHistory:
     """Capacitance of a ball bearing where its ring was at each time of a run.
 
@@ -67,12 +78,13 @@ def capacitance_of_run(
     rotor : Rotor
         That ran.
     run : RotorResult
-    bearing : int
-        Which of the rotor's bearings, counted from 0.
+    bearing : int or str
+        Which of the rotor's bearings: its name, as in the columns of the run, or its number from 0, in which both
+        bearings of a pair count.
     permittivity : float
         Of the oil.
-    every : int
-        Every so many steps alone.
+    every : int, optional
+        Every so many steps alone; by default so many that 500 times at most are computed, each some 20 ms.
 
     Raises
     ------
@@ -82,8 +94,13 @@ def capacitance_of_run(
     require_instance("rotor", rotor, Rotor, "a Rotor")
     require_instance("run", run, RotorResult, "a result of simulate_rotor")
     e = require_permittivity("permittivity", permittivity)
-    step = require_integer("every", every, "a whole number >= 1", 1)
+    step = -(-run.t.size // MOST_TIMES) if every is None else every
+    step = require_integer("every", step, "a whole number >= 1", 1)
     mounts = rotor.bearings
+    names = bearing_names(mounts)
+    if isinstance(bearing, str):
+        require_choice("bearing", bearing, names)
+        bearing = names.index(bearing)
     if not 0 <= require_integer("bearing", bearing, "a bearing of the rotor, from 0", 0) < len(mounts):
         raise InputError("bearing", bearing, f"below {len(mounts)}, the number of bearings of the rotor")
     mount = mounts[bearing]
@@ -108,4 +125,6 @@ def capacitance_of_run(
         found = capacitance_of(state_of(own, at, speed, angle), e)
         capacitance.append(found.total)
         least.append(found.h_min.min())
-    return CapacitanceHistory(t=run.t[::step], capacitance=np.array(capacitance), h_min=np.array(least))
+    return CapacitanceHistory(
+        name=names[bearing], t=run.t[::step], capacitance=np.array(capacitance), h_min=np.array(least)
+    )

@@ -51,7 +51,10 @@ class TestBearing:
         spindle = BallBearing.catalogue("7205", oil=OIL)
         pair = BearingSet.pair(spindle, "back to back", preload=200.0)
         state = pair.equilibrium((0.0, -100.0, 0.0), speed_rpm=6000.0)
-        assert state.capacitance() == pytest.approx(sum(one.capacitance().total for one in state.bearings))
+        found, each = state.capacitance(), [one.capacitance() for one in state.bearings]
+        assert found.total == pytest.approx(sum(one.total for one in each), rel=1e-12)
+        assert found.field_strength(1.0) == max(one.field_strength(1.0) for one in each)
+        assert found.ball.size == 26
 
 
 class TestMeasured:
@@ -92,6 +95,10 @@ class TestRuns:
         assert found.t == pytest.approx([0.0, 2.5e-3, 5e-3])
         assert found.capacitance[0] == pytest.approx(rest.capacitance().total, rel=1e-6)
         assert found.capacitance[-1] != found.capacitance[0]
+        named = capacitance_of_run(rotor, run, found.name, every=100)
+        assert named.capacitance[0] == found.capacitance[0] and named.name == "bearing 1"
+        with pytest.raises(InputError, match="bearing 0, bearing 1"):
+            capacitance_of_run(rotor, run, "left")
         with pytest.raises(InputError, match="below 2"):
             capacitance_of_run(rotor, run, 2)
         with pytest.raises(InputError, match="every"):

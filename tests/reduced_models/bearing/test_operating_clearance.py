@@ -7,7 +7,7 @@ import pytest
 
 from ehlcontact import InputError
 from reduced_models import BallBearing, BearingSet, OutsideValidityWarning, operating_clearance
-from reduced_models.bearing.operating_clearance import MATERIALS, spinning
+from reduced_models.bearing.operating_clearance import MATERIALS, groove_bottoms, spinning
 from reduced_models.bearing.tolerances import bore_limits, housing_limits, outside_limits, outside_of, shaft_limits
 
 STEEL, ALUMINIUM = MATERIALS["steel"], MATERIALS["aluminium"]
@@ -108,6 +108,22 @@ class TestSeats:
         assert found.temperatures == whole and found.clearance.tolist() == told.clearance.tolist()
         cold = operating_clearance("6306", fit=("k5", "H6"), temperatures=rings | {"shaft": 70.0})
         assert cold.temperatures["shaft"] == 70.0 and cold.mean > found.mean
+
+    def test_warm_alike_nothing_but_size_changes(self) -> None:
+        """Rings, balls, shaft and housing of one material at one temperature."""
+        warm = dict.fromkeys(("shaft", "inner", "outer", "housing", "balls"), 100.0)
+        given = {"shaft_material": "bearing steel", "housing_material": "bearing steel", "temperatures": warm}
+        for name in ("7205", "6205"):
+            found = operating_clearance(name, fit=((5e-6, 5e-6), "H6"), initial=None, **given)
+            own = found.initial[1] if name == "7205" else 0.0  # clearance grows as all lengths do
+            assert found.by_temperature == pytest.approx(np.full(3, -80.0 * 12.5e-6 * own), abs=1e-14)
+
+    def test_groove_bottoms_leave_the_clearance(self) -> None:
+        bearing = BallBearing.catalogue("7205")
+        inner, outer = groove_bottoms(bearing)
+        distance = (2.0 * 0.52 - 1.0) * bearing.ball_diameter
+        play = 2.0 * distance * (1.0 - cos(radians(30.0)))
+        assert outer - inner - 2.0 * bearing.ball_diameter == pytest.approx(play, rel=1e-9)
 
 
 class TestClasses:
