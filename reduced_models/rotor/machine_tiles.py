@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import degrees, inf
 from typing import Any, NamedTuple
 
+from ehlcontact.capacitance import OIL
 from ehlcontact.summary import WIDTH
 from reduced_models.rotor.modes import ALONG
 from reduced_models.rotor.picture import STRAIGHT
@@ -17,6 +18,7 @@ HALF = 50.0  # %, of the strain energy
 FULL_FILM = 3.0  # lambda from which films keep the surfaces apart
 BRIEF = 2  # parts of a note in a line, at most
 HEAVIER = 0.01  # share of a ball load, above which the centrifugal force of the ball is named
+SKF_WITHOUT_PRELOAD = "SKF's model has the load of a bearing alone: a clearance below 0 adds friction to it"
 LINEAR = 1.0  # displacement by unbalance over the approach of the balls, up to which it is small
 
 
@@ -123,8 +125,11 @@ def _ball_load(machine: Any) -> Tile:
             else ""
         )
 
+    most = max(machine.supports, key=lambda one: one.p_hertz)
+    higher = "" if most is own else f"largest Hertz pressure {digits(1e-9 * most.p_hertz)} GPa, {most.label}"
     others = _others(machine, own, lambda one: f"{digits(one.ball_load)} N, {words(one)}")
-    note = _note(words(own, "Hertz pressure ", "a contact angle of "), _of(machine, own), outer(own), *others)
+    pressed = words(own, "Hertz pressure ", "a contact angle of ")
+    note = _note(pressed, _of(machine, own), higher, outer(own), *others)
     return Tile("largest ball load", digits(own.ball_load), "N", note)
 
 
@@ -247,7 +252,8 @@ def _friction(machine: Any) -> Tile | None:
     films = f"rolling of the films alone, without heat: {cold} N m"
     doubt = ABOVE_MEASURED if not all(measured) and machine.speed_rpm > RELY_ON_SKF else ""
     loss = f"{digits(sum(one.loss for one in supports))} W by {by}"
-    note = _note(loss, _other_torque(machine), each, films, doubt)
+    tight = any(bearing.clearance < 0.0 for one in supports if one.relies_on_skf for bearing, _ in one.bearings)
+    note = _note(loss, _other_torque(machine), each, films, doubt, SKF_WITHOUT_PRELOAD if tight else "")
     return Tile("friction torque", digits(sum(torques)), "N m", note)
 
 
@@ -272,10 +278,11 @@ def _capacitance(machine: Any) -> Tile | None:
         ", ".join(f"{one.label} {digits(1e12 * one.capacitance)}" for one in machine.supports) if several else ""
     )
     field = f"{digits(own.field_per_volt)} V/µm in the thinnest film per volt"
-    total = sum(one.capacitance for one in machine.supports)
-    return Tile(
-        "capacitance of the films", digits(1e12 * total), "pF", _note(field, each, "oil of permittivity 2.2")
+    total, least, largest = (
+        digits(1e12 * sum(ends)) for ends in zip(*(one.capacitance_range for one in machine.supports), strict=True)
     )
+    oil = f"between {least} and {largest} pF by where oil stands, of permittivity {OIL:g}"
+    return Tile("capacitance of the films", total, "pF", _note(field, each, oil))
 
 
 def _highest(machine: Any) -> Tile | None:

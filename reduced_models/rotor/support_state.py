@@ -241,7 +241,13 @@ class SupportState(Summary):
     @property
     def capacitance(self) -> float | None:
         """Between shaft and housing, permittivity of the oil 2.2 [F]; None where it is dry."""
-        return sum(one.total for one in self._films) if self._films else None
+        return None if self.capacitance_range is None else self.capacitance_range[0]
+
+    @property
+    def capacitance_range(self) -> tuple[float, float, float] | None:
+        """That, the least and the largest by where oil stands around the contacts [F]; None where it is dry."""
+        rows = [(one.total, one.least, one.largest) for one in self._films]
+        return (sum(r[0] for r in rows), sum(r[1] for r in rows), sum(r[2] for r in rows)) if rows else None
 
     @property
     def field_per_volt(self) -> float | None:
@@ -276,6 +282,7 @@ class SupportState(Summary):
             "sliding_torque": sum(one.sliding for one in self.friction) if self.friction else None,
             "inlet_heat": [one.inlet_heat for one in self.friction],
             "capacitance": self.capacitance,
+            "capacitance_range": None if self.capacitance_range is None else list(self.capacitance_range[1:]),
             "field_per_volt": self.field_per_volt,
             "state": self.state.to_dict(),
             "reservations": list(self.reservations),

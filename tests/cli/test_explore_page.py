@@ -101,6 +101,12 @@ def numbers(text):
     return [float(word.replace("\u202f", "")) for word in re.findall(r"-?\d[\d.\u202f]*(?:e-?\d+)?", text)]
 
 
+def test_inputs_after_a_question_mark(seen):
+    asked = "bearing=6206&clearance_class=C3&grade=32"
+    found, known = seen(TEXTS, f"?{asked}"), seen(TEXTS, f"#{asked}")
+    assert '"6206"' in found["python"] and found["tiles"] == known["tiles"] and found["said"] is False
+
+
 def test_what_it_shows_is_what_python_answers(seen):
     address = "#bearing=6206&clearance_class=C3&grade=32&temperature=80&speed_rpm=15000&load=59&preload=200&rq=0.1"
     found = seen(TEXTS, address)

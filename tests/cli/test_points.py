@@ -99,7 +99,7 @@ def test_every_speed_with_every_load(tmp_path):
     assert [point.name for point in points] == ["3000rpm_20N", "3000rpm_30N", "4500.5rpm_20N", "4500.5rpm_30N"]
     assert points[3].folder == tmp_path / "out" / "points" / "4500.5rpm_30N"
     one = points[3].study
-    assert (one.speed_rpm, one.radial_load) == (4500.5, 30.0) and one.title.endswith("4500.5 rpm, 30.0 N")
+    assert (one.speed_rpm, one.radial_load) == (4500.5, 30.0) and one.title.endswith("4500.5 rpm, 30 N")
     assert one.contact == points[0].study.contact
     assert one.point.load == pytest.approx(1.5 * points[2].study.point.load)
     # of its own study alone, and of one with lists of one number, it is the same
@@ -121,7 +121,7 @@ def test_every_speed_with_every_load(tmp_path):
         ("[[3000]]", "20.0", ("operation.speed_rpm = [3000]", "one value, in a list")),
         ("[3000, nan]", "20.0", ("operation.speed_rpm = nan",)),
         (str(list(range(1000, 1011))), str(list(range(10, 20))), ("11 x 10", f"at most {MOST} points")),
-        ("[3000, 4000]", "[20.0, 1e7]", ("M = ", "at 3000 rpm, 10000000.0 N")),
+        ("[3000, 4000]", "[20.0, 1e7]", ("M = ", "at 3000 rpm, 10000000 N")),
     ],
 )
 def test_lists_that_are_none_of_points(refused, tmp_path, speeds, loads, words):
@@ -179,9 +179,7 @@ def test_any_entry_of_one_value_may_be_a_list(tmp_path):
     assert one.study.disc[0].width_mm == 100.0 and one.study.support[1].bearing == "6206/C3"
     assert one.study.support[1].spring == 200.0 and one.study.support[0] == points[0].study.support[0]
     assert [choice.head for choice in one.chosen] == ["disc width [mm]", "fan end bearing", "fan end spring [N]"]
-    assert one.study.title.endswith(
-        "15000.0 rpm, disc width 100 mm, fan end bearing 6206/C3, fan end spring 200 N"
-    )
+    assert one.study.title.endswith("15000 rpm, disc width 100 mm, fan end bearing 6206/C3, fan end spring 200 N")
 
 
 @pytest.mark.parametrize(
@@ -193,7 +191,7 @@ def test_any_entry_of_one_value_may_be_a_list(tmp_path):
         ("spring = 200.0", 'spring = [100.0, "200"]', ("support.fan end.spring = '200'", "a number")),
         ("spring = 200.0", "spring = [200.0, 2e5]", ("support.fan end.spring = 200000", "a ball carries at most")),
         ("diameter_mm = 35.0", "diameter_mm = [35.0, 0.035]", ("shaft.diameter_mm = 0.035", "in m? then 35")),
-        ("diameter_mm = 35.0", "diameter_mm = [35.0, 120.0]", ("disc.diameter_mm = 110", ", at 15000.0 rpm")),
+        ("diameter_mm = 35.0", "diameter_mm = [35.0, 120.0]", ("disc.diameter_mm = 110", ", at 15000 rpm")),
         ('bearing = "6206"', 'bearing = ["6206/C3", "6206 C3"]', ("fan end.bearing", "letters and digits")),
         ("[oil]", 'name = ["a", "b"]\n[oil]', ("operation.name", "known here")),
         ("width_mm = 120.0", f"width_mm = {list(range(50, 151))}", ("width_mm = '101'", f"most {MOST} points")),

@@ -125,7 +125,9 @@ class Support(Section):
     ] = None
     clearance: Annotated[
         e.Clearance | str | None,
-        e.meaning('radial internal clearance, below 0 a preload; or a class, as "CN"; 0 if left out'),
+        e.meaning(
+            'radial internal clearance, below 0 a preload; or a class, as "CN"; if left out 0, with fits CN'
+        ),
     ] = None
     shaft_fit: Annotated[
         e.Text | None,

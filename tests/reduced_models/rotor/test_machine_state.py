@@ -20,7 +20,7 @@ from reduced_models import (
     unbalance_response,
 )
 from reduced_models.rotor.machine_state import MachineState, single_bearing_state
-from reduced_models.rotor.machine_tiles import digits
+from reduced_models.rotor.machine_tiles import SKF_WITHOUT_PRELOAD, digits
 from reduced_models.rotor.support_state import support_state
 
 OIL = Lubricant.iso_vg(32, temperature=80.0)
@@ -103,6 +103,14 @@ class TestMotor:
         assert all(": isothermal: " in text and "%" in text for text in machine.reservations)
         assert tiles["stiffness of the most loaded bearing at 250 Hz"].note.startswith("damping 32.7 N s/m")
         assert "175 N at the outer race" in tiles["largest ball load"].note
+        heavier, other = machine.supports
+        assert other.p_hertz > heavier.p_hertz and other.ball_load < heavier.ball_load
+        most = f"largest Hertz pressure {1e-9 * other.p_hertz:.3g} GPa, right 6206"
+        assert most in tiles["largest ball load"].note
+        _, least, largest = (
+            sum(ends) for ends in zip(*(s.capacitance_range for s in machine.supports), strict=True)
+        )
+        assert f"{1e12 * least:.3g} and {1e12 * largest:.3g} pF" in tiles["capacitance of the films"].note
         assert "\n" not in "".join(map(str, machine.tiles()))
         assert tiles["smallest film"].brief == "smallest film 0.322 µm (lambda 3.22, right 6206 inner race)"
 
@@ -169,6 +177,12 @@ class TestBearingAlone:
         assert machine.modes == machine.critical_speeds == ()
         assert machine.largest_response is None
         assert {tile.name for tile in machine.tiles()} >= {"smallest film", "largest ball load", "friction torque"}
+
+    def test_friction_by_skf_does_not_have_a_preload(self) -> None:
+        for clearance, said in ((-2e-6, True), (0.0, False)):
+            machine = single_bearing_state(replace(bearing("6206"), clearance=clearance), (0.0, -300.0), RPM)
+            note = next(tile.note for tile in machine.tiles() if tile.name == "friction torque")
+            assert machine.supports[0].relies_on_skf and (SKF_WITHOUT_PRELOAD in note) is said
 
     def test_friction_is_that_of_films_at_low_speed(self) -> None:
         support = support_state(bearing("6205"), (0.0, -500.0), 3000.0)

@@ -261,7 +261,8 @@ def require_apart(field: str, given: Sequence[Any]) -> None:
 def _said(document: Mapping[str, Any], chosen: Sequence[Chosen]) -> str:
     """A point in words: speed and load, and what it has of other lists."""
     usual = [(document["operation"].get(name.partition(".")[2]), unit) for name, unit in USUAL.items()]
-    parts = [f"{value} {unit}" for value, unit in usual if value is not None]
+    shown = [(f"{value:.15g}" if isinstance(value, float) else value, unit) for value, unit in usual]
+    parts = [f"{value} {unit}" for value, unit in shown if value is not None]
     return ", ".join([*parts, *(choice.words for choice in chosen)])
 
 

@@ -29,7 +29,7 @@ NUMBERS = {
     "mode_hz": Number("Hz", "lowest mode of the machine", head="mode [Hz]", figures=4, label="lowest mode [Hz]"),
     "critical_rpm": Number(
         "rev/min",
-        "critical speed nearest to the speed, of a mode that unbalance excites",
+        "critical speed nearest to the speed, of a mode that unbalance excites; empty where none is in the range",
         head="critical [rpm]",
         figures=5,
     ),
@@ -53,10 +53,15 @@ NUMBERS = {
         "h", "modified rating life of all bearings together", head="Lnmrh [h]", label="modified rating life [h]"
     ),
     "lnmrh_film": Number("h", "modified rating life with the viscosity ratios of the solved films"),
+    "capacitance": Number(
+        "F", "of the films of all bearings, shaft to housing", head="capacitance [pF]", factor=1e12
+    ),
     "M": Number("-"),
     "L": Number("-"),
     "kappa": Number("-"),
-    "p_hertz": Number("Pa", "Hertz pressure of the most loaded ball", head="p_h [GPa]", factor=1e-9),
+    "p_hertz": Number(
+        "Pa", "largest Hertz pressure, of the machine or of the contact", head="p_h [GPa]", factor=1e-9
+    ),
     "u_sum": Number("m/s"),
     "h_central": Number(
         "m", "central film of the contact", head="h_c [µm]", factor=1e6, label="central film [µm]"
@@ -125,7 +130,8 @@ def _of_machine(machine: Mapping[str, Any]) -> dict[str, float | None]:
     supports = machine["supports"]
     films = [one for one in supports if one["h_min"] is not None]
     heaviest = max(supports, key=lambda one: float(one["ball_load"]))
-    found: dict[str, float | None] = {name: heaviest[name] for name in ("ball_load", "p_hertz")}
+    found: dict[str, float | None] = {"ball_load": heaviest["ball_load"]}
+    found["p_hertz"] = max(float(one["p_hertz"]) for one in supports)
     if films:
         thinnest = min(films, key=lambda one: float(one["h_min"]))
         found |= {"h_min": thinnest["h_min"], "lambda": thinnest["lambda_ratio"]}
@@ -133,7 +139,7 @@ def _of_machine(machine: Mapping[str, Any]) -> dict[str, float | None]:
         found["mode_hz"] = min(float(mode["hz"]) for mode in machine["modes"])
     if machine["critical_speeds"]:
         excited = [one for one in machine["critical_speeds"] if one["excited"]]
-        nearest = min(excited or machine["critical_speeds"], key=lambda one: abs(float(one["margin"])))
+        nearest = min(excited, key=lambda one: abs(float(one["margin"])), default={"speed_rpm": None})
         found["critical_rpm"] = nearest["speed_rpm"]
     if machine["response_at_speed"] is not None:
         found["response"] = machine["response_at_speed"]["size"]
@@ -141,4 +147,7 @@ def _of_machine(machine: Mapping[str, Any]) -> dict[str, float | None]:
     torques = [one["torque"] for one in supports]
     if torques and None not in torques:
         found["torque"] = sum(torques)
+    capacitances = [one["capacitance"] for one in supports]
+    if None not in capacitances:
+        found["capacitance"] = sum(capacitances)
     return found

@@ -301,7 +301,7 @@ function toAddress() {
 }
 
 function fromAddress() {
-  const entries = new URLSearchParams(location.hash.slice(1)), said = [];
+  const entries = new URLSearchParams(location.hash.slice(1) || location.search), said = [];
   if (entries.has("clearance") && !entries.has("clearance_class")) entries.set("clearance_class", OWN);
   for (const name of FIELDS) {
     field(name).value = entries.get(name) ?? field(name).dataset.first;
