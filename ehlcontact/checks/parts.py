@@ -50,6 +50,9 @@ DISTANCE = Quantity("m", (0.0, 10.0), (2e-3, 5.0), MM)  # of the planes of two b
 HEIGHT = Quantity("m", (1e-13, 0.1), (1e-9, 1e-3), UM)  # of a feature of a race or a ball
 EXCESS = Quantity("m", (0.0, 0.01), (1e-9, 1e-4), UM, signed=True)
 TRACK = Quantity("m", (1e-9, 100.0), (1e-5, 1.0), {"mm": 1e-3, "µm": 1e-6})  # lengths along a track
+# Of features in a contact: tens of nanometres to some micrometres high, some to hundreds of micrometres long
+FILM_HEIGHT = Quantity("m", (1e-13, 1e-4), (1e-9, 1e-5), UM, signed=True)
+FILM_LENGTH = Quantity("m", (1e-8, 0.02), (1e-6, 2e-3), {"mm": 1e-3, "µm": 1e-6}, signed=True)
 RIM = HEIGHT._replace(zero=True)
 EDGE = TRACK._replace(zero=True)
 TEMPERATURE = Quantity("degrees Celsius", (-100.0, 250.0), (5.0, 200.0), shifts={"K": -273.15})

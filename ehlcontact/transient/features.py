@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import require_finite, require_nonnegative, require_positive
+from ehlcontact.checks import parts, require_finite, require_nonnegative, require_positive
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from ehlcontact.point import OperatingPoint, Point
@@ -169,7 +169,7 @@ class Dent(OverTime):
         require_nonnegative("speed", self.speed)
 
     @classmethod
-    @takes(depth="m", radius="m", start="m")
+    @takes(depth=parts.FILM_HEIGHT, radius=parts.FILM_LENGTH, start=parts.FILM_LENGTH)
     def at(
         cls,
         point: OperatingPoint,
@@ -231,7 +231,7 @@ class TransverseRidge(OverTime):
         require_nonnegative("speed", self.speed)
 
     @classmethod
-    @takes(height="m", width="m", start="m")
+    @takes(height=parts.FILM_HEIGHT, width=parts.FILM_LENGTH, start=parts.FILM_LENGTH)
     def at(
         cls,
         point: OperatingPoint,
@@ -295,7 +295,7 @@ class Waviness(OverTime):
         require_nonnegative("speed", self.speed)
 
     @classmethod
-    @takes(amplitude="m", wavelength="m", start="m")
+    @takes(amplitude=parts.FILM_HEIGHT, wavelength=parts.FILM_LENGTH, start=parts.FILM_LENGTH)
     def at(
         cls,
         point: OperatingPoint,

@@ -385,3 +385,16 @@ def test_gaps_they_measured(dimple, capsys):
         least.append(run.h_min.min() * dimple.POINT.scales.length * 1e9)
     assert differences[0] < 0.15 and differences[1] < 0.1
     assert 20.0 < least[0] < 0.8 * least[1]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"depth": 0.2, "radius": 3e-5}, r"depth = 0\.2.*in µm"),
+        ({"depth": 2e-7, "radius": 30.0}, r"radius = 30\.0.*in µm"),
+        ({"depth": 2e-7, "radius": 3e-5, "start": -10.0}, r"start = -10\.0.*in µm"),
+    ],
+)
+def test_micrometres_are_told_from_metres(given, words):
+    with pytest.raises(InputError, match=words):
+        Dent.at(SI, **given)
