@@ -10,6 +10,7 @@ from page_numbers import blocks_of, is_shown, numbers_of, unknown_numbers
 from tiny_study import STUDY
 
 from ehlcontact import Lubricant, read, store
+from ehlcontact.cli.study.forecast import DAMPING_OFF
 from reduced_models import BallBearing, ContactRecord, fit
 from reduced_models.rotor.result import RotorResult
 
@@ -80,6 +81,9 @@ def derived(study, folder, results):
     yield point["load"] * (point["time_unit"] / 2.56) ** 2 / point["dry_approach"]  # mass of the free vibration
     decay = results["rotor"]["decay"]
     yield abs(decay["half_step"]["full"]["decrement"] / decay["decrements"]["full"]["decrement"] - 1.0)
+    modes = [one["hz"] for one in results["rotor"]["modes"]["full"] if one["vertical_share"] > 0.5]
+    shaft = study["shaft"]
+    yield from (2.0 * np.pi * hz * shaft["damping"] / shaft["stiffness"] for hz in modes)  # loss factor
     eccentricity = study["disc"][0]["unbalance"] / study["disc"][0]["mass"]
     yield from (eccentricity * peak["amplitude"] for way in peaks for peak in way.values())
     ways = results["in_time"]["resonance"].values()
@@ -87,6 +91,7 @@ def derived(study, folder, results):
     yield from (360.0 / 9.0 * k - 160.0 for k in range(9))  # degrees, places of the balls
     yield read(folder / "free.h5").mass
     yield from (1.25e-5, 1993.0)  # usual damper over stiffness, and the year of its source
+    yield from numbers_of(DAMPING_OFF)  # what a coarse mesh does, in the warning of it
 
 
 def load_times(path):

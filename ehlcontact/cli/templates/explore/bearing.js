@@ -226,7 +226,7 @@ class Loaded {
     const n = this.rpm, radial = Math.hypot(this.load[0], this.load[1]), axial = Math.abs(this.load[2] ?? 0);
     let rolling = r1 * dm ** 1.96 * radial ** 0.54, sliding = s1 * dm ** -0.26 * radial ** (5 / 3);
     if (axial > 0) {
-      const inner = this.bearing.races[0], unit = 1.5 * inner.kappa / (Math.PI * inner.hertz(1).a ** 2);
+      const unit = Math.max(...this.bearing.races.map(race => 1.5 * race.kappa / (Math.PI * race.hertz(1).a ** 2)));
       const rating = this.bearing.balls * (pressure / unit) ** 3 / stribeck, angle = 24.6 * (axial / rating) ** 0.24;
       if (angle > 90) return null;
       const slope = Math.sin(angle * Math.PI / 180);
