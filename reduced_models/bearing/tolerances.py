@@ -2,8 +2,8 @@
 
 A deviation is what a diameter is above its nominal size [m]; limits are (lower, upper).
 
-The rows below are those of the standards for diameters of 3 to 500 mm; a tolerance of a class is its fundamental
-deviation with its grade, j6 of 25 mm is +9 to -4 um.
+The rows below are those of the standards for diameters to 500 mm, quoted from memory: they were not compared with
+the printed standards. A class is a fundamental deviation with the width of its grade: j6 of 25 mm is +9 to -4 um.
 """
 
 from __future__ import annotations

@@ -71,7 +71,7 @@ def capacitance_of_run(
     """Capacitance of a ball bearing where its ring was at each time of a run.
 
     Balls are in equilibrium with the ring where it is, under their centrifugal forces; films are those of these
-    loads and of the speed, without their memory: they follow a ball through the load zone within a few per cent.
+    loads and of the speed, without their memory.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Clearance in operation: thick rings against a solve of their boundary conditions, classes against print."""
+"""Clearance in operation: thick rings against a solve of their boundary conditions, limits of classes."""
 
 from math import cos, radians
 
@@ -133,8 +133,8 @@ class TestClasses:
          ("js5", 60.0, -6.5, 6.5), ("m6", 80.0, 11, 30), ("n6", 100.0, 23, 45), ("p6", 120.0, 37, 59),
          ("k6", 18.0, 1, 12)],
     )  # fmt: skip
-    def test_shafts_as_printed(self, fit: str, diameter: float, lower: float, upper: float) -> None:
-        """ISO 286-2, as the tables of makers' catalogues have them."""
+    def test_limits_of_shafts(self, fit: str, diameter: float, lower: float, upper: float) -> None:
+        """Limits of ISO 286-2, quoted from memory."""
         assert shaft_limits(fit, 1e-3 * diameter) == pytest.approx((1e-6 * lower, 1e-6 * upper), abs=1e-12)
 
     @pytest.mark.parametrize(
@@ -143,10 +143,10 @@ class TestClasses:
          ("N7", 90.0, -45, -10), ("M7", 62.0, -30, 0), ("P7", 52.0, -51, -21), ("G7", 80.0, 10, 40),
          ("JS7", 62.0, -15, 15)],
     )  # fmt: skip
-    def test_housings_as_printed(self, fit: str, diameter: float, lower: float, upper: float) -> None:
+    def test_limits_of_housings(self, fit: str, diameter: float, lower: float, upper: float) -> None:
         assert housing_limits(fit, 1e-3 * diameter) == pytest.approx((1e-6 * lower, 1e-6 * upper), abs=1e-12)
 
-    def test_rings_as_printed(self) -> None:
+    def test_limits_of_rings(self) -> None:
         assert bore_limits(0.03) == pytest.approx((-10e-6, 0.0)) and outside_limits(0.062) == pytest.approx(
             (-13e-6, 0.0)
         )
