@@ -147,13 +147,23 @@ class BallMotion:
 
         Not numbers from where on a ball finds no balance.
         """
-        steps, motion = len(q), [np.ascontiguousarray(x, np.float64) for x in (q, v)]
-        force, loads = np.zeros((steps, len(self.directions))), np.zeros((steps, self.balls.number, 2))
-        arrays = map(pointer, (*motion, force, loads))
-        given = *self._own, c_double(dt), c_double(omega), c_int(steps), *arrays
-        made = self.core.library.bearing_drive(*given)
-        force[made:], loads[made:] = nan, nan
-        return force, loads
+        loads = np.full((len(q), self.balls.number, 2), nan)
+        return self._drive(omega, dt, q, v, loads=loads), loads
+
+    def tangents(self, omega: float, dt: float, q: _Floats, v: _Floats) -> tuple[_Floats, _Floats, _Floats]:
+        """As `drive`: forces (k, n), and their slopes by q and v at the end of each step, (k, n, n)."""
+        stiffness, damping = np.full((2, *q.shape, q.shape[1]), nan)
+        force = self._drive(omega, dt, q, v, stiffness=stiffness, damping=damping)
+        return force, stiffness, damping
+
+    def _drive(self, omega: float, dt: float, q: _Floats, v: _Floats, **found: _Floats) -> _Floats:
+        """Forces over steps; `found`, arrays of "loads", or "stiffness" and "damping", are written as far."""
+        motion, force = [np.ascontiguousarray(x, np.float64) for x in (q, v)], np.full(q.shape, nan)
+        out = (found.get(name) for name in ("loads", "stiffness", "damping"))
+        arrays = (None if array is None else pointer(array) for array in (*motion, force, *out))
+        made = self.core.library.bearing_drive(*self._own, c_double(dt), c_double(omega), c_int(len(q)), *arrays)
+        force[made:] = nan  # what the step that failed has left
+        return force
 
     def _answer(self, why: bytes | None) -> _Floats:
         return self._force.copy() if why is None else np.full(self._force.size, nan)

@@ -132,7 +132,7 @@ void bearing_begin(const Bearing *b, const double state[], double work[], double
 {
     const BearingHead *old = head_of(state);
     const double ratio = h > 0.0 ? (old->h > 0.0 ? h / old->h : 1.0) : 0.0;
-    const double turns = old->cage[0] + 0.5 * ratio * (old->cage[0] - old->cage[1]);
+    const double turns = b->cage_held ? 0.0 : old->cage[0] + 0.5 * ratio * (old->cage[0] - old->cage[1]);
     const Differences d = differences(h, old->h);
     const double swept = 0.5 * h * (old->omega + omega), shaft = b->heights != NULL ? state[shaft_place(b)] + swept : 0.0;
     StepHead *step = step_of(work);
@@ -143,7 +143,7 @@ void bearing_begin(const Bearing *b, const double state[], double work[], double
     step->h = h;
     step->gain = d.gain;
     step->omega = omega;
-    step->cage = h > 0.0 ? omega * old->cage[0] : 0.0;
+    step->cage = h > 0.0 && !b->cage_held ? omega * old->cage[0] : 0.0;
     step->angle = old->angle + swept * turns;
     step->row = speed_row(b, omega);
     for (k = 0; k < b->balls; k++) {
@@ -408,7 +408,7 @@ void bearing_accept(const Bearing *b, double state[], double work[])
 }
 
 int bearing_drive(const Bearing *b, double state[], double work[], double h, double omega, int steps, const double q[],
-                  const double v[], double force[], double loads[])
+                  const double v[], double force[], double loads[], double stiffness[], double damping[])
 {
     const size_t directions = (size_t)b->directions, balls = (size_t)b->balls;
     int i, k;
@@ -418,8 +418,11 @@ int bearing_drive(const Bearing *b, double state[], double work[], double h, dou
         if (bearing_press(b, state, work, q + row, v + row, force + row) != NULL) {
             break;
         }
+        if (stiffness != NULL) {
+            bearing_slopes(b, work, stiffness + row * directions, damping + row * directions);
+        }
         bearing_accept(b, state, work);
-        for (k = 0; k < b->balls; k++) {
+        for (k = 0; k < b->balls && loads != NULL; k++) {
             memcpy(loads + ((size_t)i * balls + (size_t)k) * 2, ball_of(state, k)->force, sizeof ball_of(state, k)->force);
         }
     }

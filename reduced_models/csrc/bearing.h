@@ -55,7 +55,7 @@ typedef struct {
     double largest_place, largest_tilt;    /* of a ring in its bearing */
     const HeightTables *heights;           /* of features; NULL: the state has no `BallSurface` */
     const BallOrigin *origin;              /* [balls] */
-    int cage_held;                         /* in continuous time: whether the cage stands still */
+    int cage_held;                         /* whether the cage stands still while the shaft turns */
 } Bearing;
 
 typedef struct {
@@ -175,10 +175,10 @@ const char *bearing_press(const Bearing *b, const double state[], double work[],
 void bearing_slopes(const Bearing *b, const double work[], double stiffness[], double damping[]);
 void bearing_accept(const Bearing *b, double state[], double work[]);
 
-/* Steps of length h along a motion, (steps, directions) at their ends: forces (steps, directions), and loads of all balls
- * (steps, balls, 2). Returns how many were made: a ball finds no balance in the next. */
+/* Steps of length h along a motion, (steps, directions) at their ends: forces (steps, directions), loads of all balls (steps, balls,
+ * 2) and slopes (steps, directions, directions), unless NULL. Returns how many were made: a ball finds no balance in the next. */
 int bearing_drive(const Bearing *b, double state[], double work[], double h, double omega, int steps, const double q[],
-                  const double v[], double force[], double loads[]);
+                  const double v[], double force[], double loads[], double stiffness[], double damping[]);
 
 /* Puts the ring, balls and films at rest, the cage at the angle of the start or at another one; `work` has the slopes there. */
 const char *bearing_rest(const Bearing *b, double state[], double work[], double omega, const double q[], double force[]);
