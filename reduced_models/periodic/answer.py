@@ -95,7 +95,9 @@ class PeriodicAnswer(Summary):
     @property
     def stable(self) -> bool | None:
         """Whether small disturbances die away; None where multipliers were not computed."""
-        return None if self.multipliers is None else bool(np.abs(self.multipliers).max(initial=0.0) < 1.0 + ON_CIRCLE)
+        return (
+            None if self.multipliers is None else bool(np.abs(self.multipliers).max(initial=0.0) < 1.0 + ON_CIRCLE)
+        )
 
     def _summary_lines(self) -> list[str]:
         words = {True: "stable", False: "unstable", None: "stability not computed"}[self.stable]

@@ -31,6 +31,7 @@
 | campbell | `campbell`: modes over the speed, critical speeds |
 | support_state | `support_state`: a bearing or a set under its load, in the numbers of a designer |
 | machine_state | `machine_state`: such a rotor at a speed: supports, modes, critical speeds, limits of the data |
+| machine_numbers | it in single numbers, as tables and samples have it |
 | machine_tiles | its answer in a few numbers |
 | unbalance | `unbalance_response`: amplitudes under the unbalances over shaft speed |
 | unbalance_result | `UnbalanceResponse`: its result |

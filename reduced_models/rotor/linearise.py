@@ -162,6 +162,16 @@ class LinearRotor(Summary):
         """
         if count is not None:
             require_integer("count", count, "a whole number >= 1", 1)
+        if count not in self._known_modes:
+            self._known_modes[count] = self._modes(count)
+        return self._known_modes[count]
+
+    @cached_property
+    def _known_modes(self) -> dict[int | None, tuple[RotorMode, ...]]:
+        """Modes by the count asked for: a diagram to which a speed is added has those of the others already."""
+        return {}
+
+    def _modes(self, count: int | None) -> tuple[RotorMode, ...]:
         undamped = self.support_impedance(SLOW)  # at a real s, real
         values, vectors = eigenvectors(self.matrices, undamped, SLOW)
         roots: list[tuple[complex, _Complex]] = []

@@ -8,9 +8,9 @@ machine of one support.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import inf, tau
 from typing import Any, NamedTuple
 
@@ -30,12 +30,14 @@ from reduced_models.bearing.picture import load_zone
 from reduced_models.bearing.race import beyond_data
 from reduced_models.bearing.ring import RingEquilibrium
 from reduced_models.bearing.ring_statics import state_of
+from reduced_models.life.bearing_life import finite
 from reduced_models.life.life_modification import BASIC_RELIABILITY
 from reduced_models.life.system_life import SystemLife
 from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.campbell import Campbell, CriticalSpeed, campbell_of
 from reduced_models.rotor.equilibrium import StaticRotor
 from reduced_models.rotor.linearise import LinearRotor, linearise
+from reduced_models.rotor.machine_numbers import machine_numbers
 from reduced_models.rotor.machine_tiles import Tile, machine_concerns, machine_tiles
 from reduced_models.rotor.modes import ALONG, RotorMode
 from reduced_models.rotor.picture import campbell_picture
@@ -56,6 +58,9 @@ ROUNDING = 1e-9  # of a multiple of the speed
 SHOWN, SEEN = 2.0, 1.08
 LARGE = re.compile(r"\d\.\d+e\+\d+")  # a number with exponent in a message
 BACKWARD = -0.5  # whirl below which an unbalance hardly excites a mode
+# Where many machines are answered: such parts of the speed, and frequencies over that of the shaft at the highest
+# speed up to which modes are followed; critical speeds are looked at again each
+COARSE, FOLLOWED = 3, 1.5
 SPEED_DIGITS = 1e-3  # of the highest speed that the data cover, to which it is looked for
 
 
@@ -85,7 +90,7 @@ class MachineState(Summary):
         Over speeds about the critical ones that an unbalance excites: peaks are narrower than steps of `response`.
     highest_speed : float
         Up to which the data cover this machine [rev/min]: films of the most loaded contacts are in the atlas, and
-        its balls stay between the races; infinite where all bearings are dry.
+        its balls stay between the races; infinite where all bearings are dry, or it was not looked for.
     ends : str
         What ends there, in words.
     failed : tuple of str
@@ -186,6 +191,11 @@ class MachineState(Summary):
         states = (state for support in self.supports for _, state in support.bearings)
         return SystemLife(lives=tuple(state.life(**options) for state in states), names=tuple(names))
 
+    @cached_property
+    def numbers(self) -> dict[str, float | None]:
+        """Single numbers of the machine, by `machine_numbers.QUANTITIES`."""
+        return machine_numbers(self)
+
     @property
     def reservations(self) -> tuple[str, ...]:
         """What does not hold at this speed, a text with its number each."""
@@ -253,6 +263,7 @@ class MachineState(Summary):
             "largest_peak": None if peak is None else peak._asdict(),
             "response_at_speed": None if own is None else own._asdict(),
             "life": self.rating_life.to_dict(),
+            "numbers": {name: finite(value) for name, value in self.numbers.items()},
             "highest_speed": None if self.highest_speed == inf else self.highest_speed,
             "ends": self.ends,
             "concerns": list(self.concerns),
@@ -281,15 +292,19 @@ def single_bearing_state(
     *,
     tilt: ArrayLike | None = None,
     name: str = "",
+    fine: bool = True,
 ) -> MachineState:
-    """A bearing alone, or a set, as a machine of one support; arguments and errors as of `support_state`."""
+    """A bearing alone, or a set, as a machine of one support; arguments and errors as of `support_state`.
+
+    Not `fine`: the highest speed is not looked for, as in `machine_state`.
+    """
     support = support_state(bearing, load, speed_rpm, tilt=tilt, name=name)
 
     def missing(speed: float) -> str:
         state = bearing.equilibrium(load, speed_rpm=speed, tilt=tilt)
         return "; ".join(one.reservation for one in states_of(state) if one.reservation)
 
-    highest, ends = _highest_speed(missing, speed_rpm, bearing.highest_speed)
+    highest, ends = _highest_speed(missing, speed_rpm, bearing.highest_speed) if fine else (inf, "")
     return MachineState(speed_rpm=speed_rpm, supports=(support,), highest_speed=highest, ends=ends)
 
 
@@ -304,6 +319,7 @@ def machine_state(
     highest_rpm: float | None = None,
     names: Sequence[str] = (),
     positions: Sequence[float] = (),
+    fine: bool = True,
 ) -> MachineState:
     """State of a rotor on ball bearings at a speed: supports, vibrations, and how far the data reach.
 
@@ -320,6 +336,10 @@ def machine_state(
         Of the ball bearings; by default those of the rotor.
     positions : sequence of float
         Of the ball bearings along the shaft [m].
+    fine : bool
+        False, for many machines: in a quarter of the time, with six speeds in diagram and response, which end
+        where the data do. Critical speeds that an unbalance excites are looked at again, so that they, their
+        damping and their peaks are those of the fine answer to 1e-3; the highest speed is not looked for.
 
     Returns
     -------
@@ -343,13 +363,14 @@ def machine_state(
     linear = linearise(rotor, speed)
     supports = _supports(linear, names or rotor.ball_bearing_names, positions or [None] * len(mounts))
     most = min(mount.ball_bearing.highest_speed for mount in mounts)
-    highest, ends = _highest_speed(lambda at: _missing(rotor, at), speed, most)
+    highest, ends = _highest_speed(lambda at: _missing(rotor, at), speed, most) if fine else (inf, "")
     for own, support in zip(rotor.ball_bearing_names, supports, strict=True):
         ends = ends.replace(own, support.label)
     failed: list[str] = []
-    last = max(speed, min(highest, UP_TO * speed if highest_rpm is None else highest_rpm))
-    speeds = speed / PARTS * np.arange(1, max(int(PARTS * last / speed * (1.0 + ROUNDING)), PARTS) + 1)
-    speeds[PARTS - 1] = speed  # not but for rounding
+    last = max(speed, min(highest, most, UP_TO * speed if highest_rpm is None else highest_rpm))
+    steps, every = (PARTS, EVERY) if fine else (COARSE, 1)
+    speeds = speed / steps * np.arange(1, max(int(steps * last / speed * (1.0 + ROUNDING)), steps) + 1)
+    speeds[steps - 1] = speed  # not but for rounding
     known = {speed: linear}  # diagram and response are of the same linearisations
 
     def linearised(at: float) -> LinearRotor:
@@ -358,8 +379,12 @@ def machine_state(
         return known[at]
 
     modes = _tried(lambda: linear.modes(MODES), "modes", failed) or ()
+    count = max(len(modes), 1)
+    if not fine:
+        speeds = speeds[: _reached(linearised, speeds, speed)]
+        count = max(sum(mode.hz <= FOLLOWED * speeds[-1] * RPM_TO_HZ for mode in modes), 1)
     diagram = _tried(
-        lambda: campbell_of(map(linearised, speeds[EVERY - 1 :: EVERY].tolist()), max(len(modes), 1)),
+        lambda: campbell_of(map(linearised, speeds[every - 1 :: every].tolist()), count),
         "diagram over the speed",
         failed,
     )
@@ -377,10 +402,41 @@ def machine_state(
         highest_speed=highest,
         ends=ends,
     )
-    peaks = (
-        None if response is None else _tried(lambda: _peaks(rotor, machine), "peaks at critical speeds", failed)
-    )
+    if not fine and diagram is not None:
+        again = [one.speed_rpm for one in machine.critical_speeds if machine.is_excited(one)]
+        looked = sorted({*speeds.tolist(), *again})
+        diagram = _tried(lambda: campbell_of(map(linearised, looked), count), "critical speeds", failed)
+        machine = replace(machine, diagram=diagram or machine.diagram)
+    find = partial(_peaks, rotor, machine) if fine else partial(_peaks_of, rotor, machine, known)
+    peaks = None if response is None else _tried(find, "peaks at critical speeds", failed)
     return replace(machine, peaks=peaks, failed=tuple(failed))
+
+
+def _reached(linearised: Callable[[float], LinearRotor], speeds: _Floats, speed: float) -> int:
+    """How many of increasing speeds the data reach, the operating speed among them in any case."""
+    for k, at in enumerate(speeds.tolist()):
+        try:
+            linearised(at)
+        except (ConvergenceError, InputError):
+            if at > speed:
+                return k
+    return len(speeds)
+
+
+def _peaks_of(rotor: Rotor, machine: MachineState, known: Mapping[float, LinearRotor]) -> UnbalanceResponse | None:
+    """As `_peaks`, about the mode at the speed of the diagram next to each critical speed, linearised there."""
+    diagram, peaks = machine.diagram, {}
+    assert diagram is not None
+    for critical in machine.critical_speeds:
+        if not machine.is_excited(critical) or critical.decrement <= 0.0:
+            continue
+        k = int(np.argmin(np.abs(diagram.speed_rpm - critical.speed_rpm)))
+        linear, omega = known[float(diagram.speed_rpm[k])], float(diagram.omega[k, critical.mode])
+        for step in ABOUT_A_PEAK:
+            turning = omega * (1.0 + critical.decrement / tau * step)
+            peaks[turning / RPM_TO_RAD_S] = linear._unbalanced(turning)
+    speeds = sorted(peaks)
+    return UnbalanceResponse.of(rotor, np.array(speeds), np.array([peaks[at] for at in speeds])) if peaks else None
 
 
 def _peaks(rotor: Rotor, machine: MachineState) -> UnbalanceResponse | None:

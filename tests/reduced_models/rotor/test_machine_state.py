@@ -82,6 +82,19 @@ class TestMotor:
         fine = unbalance_response(motor(), speeds[2] + np.linspace(-1.5, 1.5, 31))  # rev/min about the peak
         assert machine.largest_peak.size == pytest.approx(fine.major.max(), rel=0.05, abs=0.0)
 
+    def test_for_many_machines(self, machine: MachineState) -> None:
+        """Fewer speeds and no highest speed: the same numbers, for a quarter of the time."""
+        rough = machine_state(motor(), RPM, names=("left", "right"), positions=(0.03, 0.33), fine=False)
+        (own,) = (one for one in rough.critical_speeds if rough.is_excited(one))
+        nearest = machine.nearest_critical
+        assert own.speed_rpm == pytest.approx(nearest.speed_rpm, rel=1e-5)
+        assert own.decrement == pytest.approx(nearest.decrement, rel=1e-3)
+        assert rough.largest_peak.size == pytest.approx(machine.largest_peak.size, rel=1e-3, abs=0.0)
+        for name in ("h_min", "lambda", "l10rh", "torque", "mode_hz", "mode_damping", "response", "capacitance"):
+            assert rough.numbers[name] == machine.numbers[name], name
+        assert rough.highest_speed == np.inf and not rough.failed
+        assert len(rough.diagram.speed_rpm) == 7  # six, and the critical speed
+
     def test_data_end_where_balls_are_too_heavy(self, machine: MachineState) -> None:
         assert 1.9e5 < machine.highest_speed < 1.95e5
         assert "end of the atlas" in machine.ends

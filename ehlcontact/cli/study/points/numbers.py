@@ -7,7 +7,6 @@ from math import hypot
 from typing import Any, NamedTuple
 
 from ehlcontact.cli.study.points.lists import Point
-from reduced_models.life.system_life import HOURS
 from reduced_models.rotor.support_state import RELY_ON_SKF
 
 
@@ -33,6 +32,9 @@ NUMBERS = {
         head="critical [rpm]",
         figures=5,
     ),
+    "critical_damping": Number("-", "damping ratio of its mode"),
+    "mode_damping": Number("-", "damping ratio of the lowest mode"),
+    "peak": Number("m", "largest response to unbalance, linear peak"),
     "response": Number(
         "m",
         "largest response to unbalance, at the speed",
@@ -106,7 +108,7 @@ def numbers_of(point: Point, results: Mapping[str, Any] | None) -> dict[str, flo
     found: dict[str, float | None] = dict.fromkeys(UNITS)
     found |= {"speed_rpm": study.speed_rpm, "radial_load": study.operation.radial_load}
     if results is not None and (machine := results.get("machine")) is not None:
-        found |= _of_machine(machine)
+        found |= {name: machine["numbers"][name] for name in UNITS if name in machine["numbers"]}
     if study.contact is not None:
         found["radial_load"] = study.radial_load
         m, s = study.point.moes, study.point.scales
@@ -122,32 +124,4 @@ def numbers_of(point: Point, results: Mapping[str, Any] | None) -> dict[str, flo
     if results is not None and "rotor" in results:
         decayed = results["rotor"]["decay"]["decrements"]["full"]
         found |= {"decay_hz": decayed["hz"], "decrement": decayed["decrement"]}
-    return found
-
-
-def _of_machine(machine: Mapping[str, Any]) -> dict[str, float | None]:
-    """Of the machine: its thinnest film, its most loaded ball, modes, critical speeds, response and friction."""
-    supports = machine["supports"]
-    films = [one for one in supports if one["h_min"] is not None]
-    heaviest = max(supports, key=lambda one: float(one["ball_load"]))
-    found: dict[str, float | None] = {"ball_load": heaviest["ball_load"]}
-    found["p_hertz"] = max(float(one["p_hertz"]) for one in supports)
-    if films:
-        thinnest = min(films, key=lambda one: float(one["h_min"]))
-        found |= {"h_min": thinnest["h_min"], "lambda": thinnest["lambda_ratio"]}
-    if machine["modes"]:
-        found["mode_hz"] = min(float(mode["hz"]) for mode in machine["modes"])
-    if machine["critical_speeds"]:
-        excited = [one for one in machine["critical_speeds"] if one["excited"]]
-        nearest = min(excited, key=lambda one: abs(float(one["margin"])), default={"speed_rpm": None})
-        found["critical_rpm"] = nearest["speed_rpm"]
-    if machine["response_at_speed"] is not None:
-        found["response"] = machine["response_at_speed"]["size"]
-    found |= {name: machine["life"][name] for name in HOURS}
-    torques = [one["torque"] for one in supports]
-    if torques and None not in torques:
-        found["torque"] = sum(torques)
-    capacitances = [one["capacitance"] for one in supports]
-    if None not in capacitances:
-        found["capacitance"] = sum(capacitances)
     return found
