@@ -71,15 +71,42 @@ bearing.name  # 'spare 6205, balls estimated from C and C0': in summaries, repor
 ```
 
 Balls have multiples of 1/64 inch or of 0.5 mm, inch sizes first, and room between the rings and beside each other.
-A printed `f0` narrows the interval. Angular contact bearings need their `contact_angle`. With NSK's C and C0 of 63
-bearings of these tables the number of balls is exact and their diameter within 1 % for 62; the exception is the
-6200 of GMN. Only 17 of the 63 have balls from a source other than ratings, and 16 of these are found: the other 46
-rows were derived by this rule and show only that it is the same.
+A printed `f0` narrows the interval. Angular contact bearings need their `contact_angle`.
 
-The rule holds for makers who rate by the standards. NSK's newer tables and SKF's Explorer bearings have a C some
-5 % above them: `dynamic_excess=0.08` allows for it, with a wider interval. GMN's ratings are not those of grooves
-of 0.52: of 24 of its bearings in these tables 4 are found, 13 are refused because no balls fit, and 7 get other
-balls than GMN prints. Where no inch size fits, `found.reservation` says so.
+| C and C0 of | balls from | bearings | number and diameter as printed |
+|---|---|---|---|
+| NSK | GMN and others, the rows with letters of these tables | 17 | 16: the 6200 has other balls |
+| NSK | pass orders of Timken, outer rings of series 62 and 63 | 19 | 13; 8 of these rows were derived |
+| GMN | GMN, deep groove, `conformity=(0.515, 0.53)` | 16 | 16 |
+| GMN | GMN, spindle bearings with 15 and 25 degrees | 8 | 6, with the conformity of a deep groove bearing |
+
+Where they agree the diameters are within 1 %, those of the pass orders within 0.2 %. The other six of Timken have
+balls that are 8 % smaller to 13 % larger than NSK's. The 46 rows derived from NSK's ratings are found too, but
+show only that the rule is the same.
+
+Ratings do not say how their maker rates. Two practices differ from the standards:
+
+* NSK's newer tables and SKF's Explorer bearings have a C some 5 % above the standards with a C0 of the standards:
+  `dynamic_excess=0.08` allows for it, with a wider interval.
+* GMN rates the grooves that it grinds, where the standards rate 0.52: C is 11 % below to 9 % above the standards,
+  by the size of the ball. With `conformity=(0.515, 0.53)` balls are found with the conformity for which C and C0
+  fit. In a deep groove bearing they have some 190 degrees between the first and the last, as in these
+  tables. In an angular contact bearing the number is open by two or three balls. The conformity of a deep groove
+  bearing of this maker with balls of this size settles it:
+
+```python
+from math import radians
+
+own = geometry_from_ratings(
+    20e-3, 42e-3, dynamic_rating=9800.0, static_rating=5350.0, conformity=(0.515, 0.53)
+).candidates[0].conformity  # GMN 6004: 9 balls of 6.35 mm in grooves of 0.518
+spindle = geometry_from_ratings(
+    20e-3, 42e-3, dynamic_rating=12200.0, static_rating=7600.0, contact_angle=radians(15.0), conformity=own
+)  # S 6004 C: 13 balls; with 0.52 they would be 14
+```
+
+Without either, 13 of the 24 bearings of GMN are refused with the nearest balls, 4 are found, and 7 get another
+number of balls. `found.reservation` says where the balls are of no inch size or few.
 
 ## Radial clearance by class
 

@@ -8,6 +8,7 @@
 | bearing_tables | `BearingTables`: races, elements, tables and heights, made once |
 | catalogue | dimensions by name, with their sources |
 | printed_ratings | load ratings C and C0 of the catalogue's bearings, as NSK prints them |
+| ball_sets | balls that fit load ratings: the search of `geometry_from_ratings` |
 | rated_geometry | `geometry_from_ratings`: balls estimated from printed load ratings, with intervals |
 | designation | names as makers print them: maker, suffixes, other kinds of bearings |
 | clearance | radial clearance by class and bore |

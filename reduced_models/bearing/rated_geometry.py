@@ -1,79 +1,53 @@
 """`geometry_from_ratings`: balls of a bearing estimated from the load ratings that its maker prints.
 
-ISO 76 and ISO 281 define both ratings by the balls, lengths in mm, ratings in N:
+Few pairs of number and diameter of balls fit both C and C0: these are the `candidates`, which `ball_sets` finds.
+The best of them is the estimate, their ends are its interval. Inch sizes come first, for all balls of the
+catalogue have them. A printed f0, which depends on Dw/Dpw alone, makes the interval of Dw smaller.
 
-    C0 = f0 Z Dw^2 cos a,    C = 1.3 fc (cos a)^0.7 Z^(2/3) Dw^1.8,    fc and f0 of Dw cos a/Dpw.
-
-Z is whole, Dw a multiple of 1/64 inch or of 0.5 mm, and Dpw near the mean of bore and outside diameter. Few pairs
-of Z and Dw then fit both ratings: these are the `candidates`. The best of them is the estimate, their ends are its
-interval. Inch sizes come first, for all balls of the catalogue have them. A printed f0, which depends on Dw/Dpw
-alone, makes the interval of Dw smaller.
-
-f0 and C0 are those of 4.2 GPa at the most loaded ball, in grooves of 0.52, with the 207 GPa of ISO/TR 10657.
-
-The ratings of the standards are for grooves of 0.52. A maker may print others: GMN's are up to 11 % below and 9 %
-above (C), 15 % below and 14 % above (C0), by the size of the ball. The search then finds other balls or none: its
-interval holds for ratings of the standards. Many makers print a C that is higher by some per cent for their steel,
-NSK in newer tables 5 %, with a C0 of the standard: that is `dynamic_excess`.
+The ratings of the standards are for grooves of 0.52. Many makers print a C that is higher by some per cent for
+their steel, NSK in newer tables 5 %, with a C0 of the standard: that is `dynamic_excess`. Others rate the grooves
+that they grind, as GMN: that is `conformity`. Ratings do not say which: both are for those who know the maker.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import asin, cos, degrees, pi
-from typing import Any, NamedTuple
+from math import degrees, pi
+from typing import Any
 
-import numpy as np
-
-from ehlcontact import Geometry
 from ehlcontact.checks import parts, require_between
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
-from ehlcontact.hertz import hertz_contact
 from ehlcontact.summary import Summary, counted, note_line
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.catalogue import INCH, USUAL_CONFORMITY
+from reduced_models.bearing.ball_sets import (
+    FEWEST,
+    LEAST_BALLS,
+    BallSet,
+    filling,
+    is_inch,
+    mean_diameter,
+    rated_balls,
+    sets_for_conformities,
+    sets_for_conformity,
+)
+from reduced_models.bearing.catalogue import USUAL_CONFORMITY
 from reduced_models.bearing.clearance import clearance_of_class
 from reduced_models.bearing.grooves import require_contact_angle
-from reduced_models.bearing.race import RACES
-from reduced_models.life.internal_geometry import InternalGeometry
 from reduced_models.life.load_ratings import dynamic_rating as rated_dynamic
 from reduced_models.life.load_ratings import grouped, require_rating
 from reduced_models.life.load_ratings import static_rating as rated_static
 
-RATED_MODULUS = 207e9  # Pa, of ISO/TR 10657
-STEEL_DENSITY = 7800.0  # kg/m3
-STEPS = (INCH / 64.0, 0.5e-3)  # m, of ball diameters
-SAME_STEP = 1e-3  # of a step: diameters are rounded
-SECTION = (0.3, 0.72)  # ball over half the difference of both diameters: rings of 14 % of it under their grooves
-FILLED = 205.0  # degrees between the first and the last ball beside an eccentric inner ring: deep groove bearings
-LEAST_BALLS, MOST_BALLS = 5, 60
 PITCH = (-0.006, 0.032)  # of printed pitch diameters above the mean of bore and outside diameter
 MOST_STATIC = 2.0  # C0 over C
 TOLERANCE, TOLERANCES = 0.02, (1e-3, 0.2)
 EXCESSES = (0.0, 0.5)
+CONFORMITIES = (0.505, 0.56)
 F0 = (8.0, 17.0)
-F0_TOLERANCE = 0.02  # of printed values, which makers round and read from tables
-NO_INCH = "no ball of an inch size fits: C may be above ISO 281 (dynamic_excess), or rated for other grooves"
+OTHERS = "C may be above ISO 281 (dynamic_excess=0.08), or rated for other grooves (conformity=(0.515, 0.53))"
+NO_INCH = f"no ball of an inch size fits: {OTHERS}"
 ESTIMATE = "balls estimated from C and C0"
 USUAL_BALL, USUAL_FILL = 0.58, 0.75  # of the section and of the pitch circle, for the size of a rating
-
-
-class BallSet(NamedTuple):
-    """Balls that fit the ratings.
-
-    Attributes
-    ----------
-    balls : int
-    ball_diameter : float
-        In m.
-    misfit : float
-        Largest relative difference of their C, C0 and f0 from those that are given.
-    """
-
-    balls: int
-    ball_diameter: float
-    misfit: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,12 +57,14 @@ class RatedGeometry(Summary):
     Attributes
     ----------
     candidates : tuple of BallSet
-        All balls whose ratings are within the tolerance: inch sizes first, and of each the best first.
+        All balls whose ratings are within the tolerance: inch sizes first, and of each the best first. With an
+        interval of conformities, deep groove bearings with balls over some 190 degrees come first, and angular
+        contact bearings whose conformity is nearest to 0.52.
     pitch_diameter : float
         Mean of bore and outside diameter [m].
     pitch_interval : (float, float)
         In m; those of the catalogue are 0.5 % below to 3.1 % (an insert bearing) above that mean.
-    bore, outside, dynamic_rating, static_rating, f0, contact_angle, dynamic_excess, tolerance
+    bore, outside, dynamic_rating, static_rating, f0, contact_angle, conformity, dynamic_excess, tolerance
         As given; m, N, rad.
     """
 
@@ -101,6 +77,7 @@ class RatedGeometry(Summary):
     static_rating: float
     f0: float | None
     contact_angle: float | None
+    conformity: float | tuple[float, float]
     dynamic_excess: float
     tolerance: float
 
@@ -128,8 +105,17 @@ class RatedGeometry(Summary):
 
     @property
     def reservation(self) -> str:
-        """Why the estimate may be none; empty where a ball of an inch size fits."""
-        return "" if _is_inch(self.ball_diameter) else NO_INCH
+        """Why the estimate may be none; else empty."""
+        if not is_inch(self.ball_diameter):
+            return NO_INCH
+        if self.contact_angle is None:
+            angle = filling(self.balls, self.ball_diameter, self.pitch_diameter)
+            return "" if angle >= FEWEST else f"few balls, over {angle:.0f} degrees: {OTHERS}"
+        if isinstance(self.conformity, float):
+            return ""
+        return (
+            "the number of balls goes with the conformity: take that of a bearing of this maker with these balls"
+        )
 
     def _summary_lines(self) -> list[str]:
         best = self.candidates[0]
@@ -171,7 +157,7 @@ class RatedGeometry(Summary):
             or not 0 <= candidate < len(self.candidates)
         ):
             raise InputError("candidate", candidate, f"a whole number from 0 to {len(self.candidates) - 1}")
-        balls, diameter, _ = self.candidates[candidate]
+        balls, diameter = self.candidates[candidate][:2]
         given = options.pop("name", "")
         if not isinstance(given, str):
             raise InputError("name", given, "text")
@@ -207,6 +193,7 @@ class RatedGeometry(Summary):
             "static_rating": self.static_rating,
             "f0": self.f0,
             "contact_angle": self.contact_angle,
+            "conformity": self.conformity if isinstance(self.conformity, float) else list(self.conformity),
             "dynamic_excess": self.dynamic_excess,
             "tolerance": self.tolerance,
         }
@@ -224,6 +211,7 @@ def geometry_from_ratings(
     static_rating: float,
     f0: float | None = None,
     contact_angle: float | None = None,
+    conformity: float | tuple[float, float] = USUAL_CONFORMITY,
     dynamic_excess: float = 0.0,
     tolerance: float = TOLERANCE,
 ) -> RatedGeometry:
@@ -240,6 +228,10 @@ def geometry_from_ratings(
     contact_angle : float, optional
         Of an angular contact bearing [rad]. By default a deep-groove bearing, whose balls are put in beside the
         eccentric inner ring, which limits their number.
+    conformity : float or (float, float)
+        Groove radius over ball diameter for which the maker rates: 0.52 in the standards. With an interval, as
+        (0.515, 0.53), balls of inch sizes are found with the conformity of it for which C and C0 fit. A maker's
+        own is the `BallSet.conformity` of a deep groove bearing with balls of this size.
     dynamic_excess : float
         By which share of it C may be above that of ISO 281, as makers print it who count on better steel: 0.08 for
         SKF's Explorer bearings. The interval is wider then.
@@ -273,10 +265,15 @@ def geometry_from_ratings(
         allowed = f"at most {MOST_STATIC:g} times C, {grouped(dynamic)} N, for a radial ball bearing"
         raise InputError("static_rating", static_rating, f"{allowed}; are C and C0 swapped?")
     excess = require_between("dynamic_excess", dynamic_excess, *EXCESSES)
-    sets = _ball_sets(bore, outside, contact_angle, (dynamic, static, f0), excess)
-    fitting = sorted(
-        (one for one in sets if one.misfit <= tolerance), key=lambda one: not _is_inch(one.ball_diameter)
-    )
+    conformity = _require_conformity(conformity, excess)
+    printed = dynamic, static, f0
+    usual_groove = conformity if isinstance(conformity, float) else USUAL_CONFORMITY
+    sets = sets_for_conformity(bore, outside, contact_angle, printed, excess, usual_groove)
+    if isinstance(conformity, float):
+        fitting = [one for one in sets if one.misfit <= tolerance]
+        fitting.sort(key=lambda one: not is_inch(one.ball_diameter))
+    else:
+        fitting = sets_for_conformities(bore, outside, contact_angle, printed, tolerance, conformity)
     if not fitting:
         allowed = f"that of balls which fit C, C0 and both diameters within {100.0 * tolerance:.3g} %"
         if sets:
@@ -284,9 +281,9 @@ def geometry_from_ratings(
             allowed += (
                 f"; nearest: {best.balls} of {1e3 * best.ball_diameter:.4g} mm, {100.0 * best.misfit:.2g} % off"
             )
-        hint = "" if excess else "; makers may print C above ISO 281: dynamic_excess=0.08"
+        hint = "" if excess or conformity != USUAL_CONFORMITY else f"; {OTHERS}"
         raise InputError("dynamic_rating", dynamic_rating, allowed + hint)
-    pitch = _pitch(bore, outside)
+    pitch = mean_diameter(bore, outside)
     return RatedGeometry(
         candidates=tuple(fitting),
         pitch_diameter=pitch,
@@ -297,83 +294,32 @@ def geometry_from_ratings(
         static_rating=static,
         f0=f0,
         contact_angle=contact_angle,
+        conformity=conformity,
         dynamic_excess=excess,
         tolerance=tolerance,
     )
 
 
-def _pitch(bore: float, outside: float) -> float:
-    return 0.5 * (bore + outside)
-
-
-def _ball_sets(
-    bore: float,
-    outside: float,
-    contact_angle: float | None,
-    printed: tuple[float, float, float | None],
-    excess: float,
-) -> list[BallSet]:
-    """All balls with room between the rings and beside each other, the best first; printed are C, C0 and f0."""
-    dynamic, static, f0 = printed
-    pitch, angle = _pitch(bore, outside), contact_angle or 0.0
-    sets = []
-    for diameter in _diameters(bore, outside):
-        half = asin(diameter / pitch)
-        most = int(min(MOST_BALLS, np.ceil(pi / half) - 1))
-        if contact_angle is None:
-            most = min(most, 1 + int(np.radians(FILLED) / (2.0 * half)))
-        one = _rated(1, diameter, pitch, angle)
-        c, c0 = rated_dynamic(one), rated_static(one)
-        factor = c0 / (1e6 * diameter**2 * cos(angle))
-        if f0 is not None:
-            if abs(factor / f0 - 1.0) > F0_TOLERANCE:
-                continue
-            c0 *= f0 / factor
-        for number in range(LEAST_BALLS, most + 1):
-            own = number ** (2.0 / 3.0) * c
-            nearest = min(max(dynamic / (1.0 + excess), own), dynamic)  # of what C by ISO 281 may be
-            sets.append(BallSet(number, diameter, max(abs(number * c0 / static - 1.0), abs(own / nearest - 1.0))))
-    return sorted(sets, key=lambda balls: balls.misfit)
-
-
-def _is_inch(diameter: float) -> bool:
-    """Whether a ball has a multiple of 1/64 inch."""
-    return abs(diameter / STEPS[0] - round(diameter / STEPS[0])) < SAME_STEP
-
-
-def _diameters(bore: float, outside: float) -> list[float]:
-    """Multiples of both steps that leave room for both rings [m], to a micrometre of the inch sizes as printed."""
-    section = 0.5 * (outside - bore)
-    low, high = (share * section for share in SECTION)
-    found = {
-        round(k * step, 7) for step in STEPS for k in range(max(1, int(np.ceil(low / step))), int(high / step) + 1)
-    }
-    return sorted(found)
-
-
-def _rated(balls: int, diameter: float, pitch: float, angle: float) -> InternalGeometry:
-    """Balls in grooves of 0.52 as the standards rate them."""
-    pressures = []
-    for race in RACES:
-        material = {"e1": RATED_MODULUS, "e2": RATED_MODULUS, "nu1": 0.3, "nu2": 0.3}
-        body = Geometry.ball_bearing(diameter, pitch / cos(angle), USUAL_CONFORMITY, race, **material)
-        pressures.append(float(hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure))
-    return InternalGeometry(
-        name="",
-        balls=balls,
-        ball_diameter=diameter,
-        pitch_diameter=pitch,
-        conformity_inner=USUAL_CONFORMITY,
-        conformity_outer=USUAL_CONFORMITY,
-        contact_angle=angle,
-        unit_pressures=(pressures[0], pressures[1]),
-        ball_density=STEEL_DENSITY,
+def _require_conformity(value: object, excess: float) -> float | tuple[float, float]:
+    """A conformity or an interval of them; raises `InputError` for others, and for an interval with excess."""
+    if not isinstance(value, (tuple, list)):
+        return require_between("conformity", value, *CONFORMITIES)
+    allowed = (
+        f"a number between {CONFORMITIES[0]:g} and {CONFORMITIES[1]:g}, or two of them, the smaller one first"
     )
+    if len(value) != 2:
+        raise InputError("conformity", value, allowed)
+    low, high = (require_between("conformity", end, *CONFORMITIES) for end in value)
+    if low >= high:
+        raise InputError("conformity", value, allowed)
+    if excess:
+        raise InputError("conformity", value, "one number beside dynamic_excess: an interval of both is none")
+    return low, high
 
 
 def _usual_ratings(bore: float, outside: float, angle: float) -> tuple[float, float]:
     """C and C0 [N] of a bearing of this size with balls of usual size and number."""
-    pitch, diameter = _pitch(bore, outside), 0.5 * USUAL_BALL * (outside - bore)
+    pitch, diameter = mean_diameter(bore, outside), 0.5 * USUAL_BALL * (outside - bore)
     number = max(LEAST_BALLS, round(USUAL_FILL * pi * pitch / diameter))
-    balls = _rated(number, diameter, pitch, angle)
+    balls = rated_balls(number, diameter, pitch, angle)
     return rated_dynamic(balls), rated_static(balls)

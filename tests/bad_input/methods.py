@@ -248,7 +248,7 @@ ARGUMENTS = [
     (lambda **k: rm.geometry_from_ratings(**(RATED | k)),
         {"bore": NO_NUMBER, "outside": (1e-3, *NO_NUMBER), "dynamic_rating": (14.0, *NO_NUMBER),
          "static_rating": (7.85, 1e6, *NO_NUMBER), "f0": (1.0, True, "14"), "contact_angle": (40.0, True, "x"),
-         "dynamic_excess": (8.0, *NO_NUMBER), "tolerance": (2.0, *NO_NUMBER)}),
+         "conformity": (1.04, True, "0.52"), "dynamic_excess": (8.0, *NO_NUMBER), "tolerance": (2.0, *NO_NUMBER)}),
     (lambda **k: rm.geometry_from_ratings(**RATED).bearing(**k),
         {"candidate": (99, True, None, "1", 1.0), "clearance": ("C9", True), "name": NO_NAME}),
     (lambda **k: path().response(**k), {"hz": NO_COLUMN}),
