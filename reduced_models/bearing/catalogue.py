@@ -10,8 +10,8 @@ with D in mm: Z and D are the number and the multiple of 1/64 inch that fit C0r,
 ratings of the angular contact bearings (series 72 and 73), of series 160 and of the 608 are quoted from memory:
 they were not compared with the printed table. Both equations hold for them within 1 %.
 Bearings of one name differ between makers: by that rule NSK's 6200 has 8 balls of 4.762 mm, GMN prints 7 of
-5.556 mm. For the other 13 rows of GMN the rule finds the balls that GMN prints. The derived balls of the 6210, 6211,
-6303, 6304 and 6309 to 6312 are those of the pass orders that Timken prints for these sizes, within 0.2 %.
+5.556 mm. For the other 13 rows of GMN the rule finds the balls that GMN prints. The derived balls of the 6210,
+6211, 6303, 6304 and 6309 to 6312 are those of the pass orders that Timken prints for these sizes, within 0.2 %.
 
 For angular contact bearings of contact angle a both standards have
 

@@ -24,9 +24,9 @@ GMN = {
     "S 6004 C": (12200, 7600), "S 6004 E": (11700, 7300), "S 6205 C": (19000, 12600), "S 6008 E": (20900, 17100),
     "S 61905 C": (7700, 5400), "S 61905 E": (7300, 5100),
 }  # fmt: skip
-# Timken, catalogue of housed units, table A-9 (catalog.timken.com/guide/ball-bearing-housed-unit/A-13.php): orders of
-# passes over the outer and the inner race and of the spin of a ball. Sizes of outer rings are those of series 62 and
-# 63; the row 305K repeats that of the 205K and is left out.
+# Timken, catalogue of housed units, table A-9 (catalog.timken.com/guide/ball-bearing-housed-unit/A-13.php): orders
+# of passes over the outer and the inner race and of the spin of a ball. Sizes of outer rings are those of series
+# 62 and 63; the row 305K repeats that of the 205K and is left out.
 TIMKEN = {
     "6202": (3.125, 4.875, 2.175), "6203": (3.053, 4.947, 1.994), "6204": (3.052, 4.948, 1.992),
     "6205": (3.574, 5.426, 2.328), "6206": (3.568, 5.432, 2.311), "6207": (3.565, 5.435, 2.303),
