@@ -2,7 +2,7 @@
 
 Both contacts of a ball are in series, all balls are in parallel between the rings. A contact is a dry one that its
 central film separates (`ehlcontact.capacitance.hertz_capacitance`): for contacts of bearings within -3 to +6 % of
-their solved films (docs/notes/capacitance.md). An unloaded ball is a paraboloid at its gap.
+their solved films (docs/notes/capacitance.md). An unloaded ball is a paraboloid at its gap, its film.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import exp, log
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from ehlcontact.capacitance import OIL, DryGap, hertz_capacitance, require_permittivity
+from ehlcontact.capacitance import OIL, DryGap, GapCapacitance, hertz_capacitance, require_permittivity
 from ehlcontact.checks import require_nonnegative, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.quantities import LENGTH, NUMBER, Quantity
@@ -25,6 +25,7 @@ from reduced_models.bearing.race import RACES
 
 if TYPE_CHECKING:
     from reduced_models.bearing.equilibrium_result import BearingState
+    from reduced_models.life.internal_geometry import InternalGeometry
 
 _Floats = NDArray[np.float64]
 
@@ -89,11 +90,14 @@ class BearingCapacitance(QuantityTable):
         ]
 
 
-class MeasuredFilm(NamedTuple):
-    """Films of a bearing by its capacitance.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MeasuredFilm(QuantityTable):
+    """Films of a bearing by its capacitance; SI.
 
     Attributes
     ----------
+    capacitance : float
+        That was measured [F].
     ratio : float
         Of all films, over the computed ones.
     low, high : float
@@ -102,12 +106,23 @@ class MeasuredFilm(NamedTuple):
         Smallest film of the bearing [m], with its interval.
     """
 
-    ratio: float
-    low: float
-    high: float
-    h_min: float
-    h_min_low: float
-    h_min_high: float
+    capacitance: Annotated[float, FARAD]
+    ratio: Annotated[float, NUMBER]
+    low: Annotated[float, NUMBER]
+    high: Annotated[float, NUMBER]
+    h_min: Annotated[float, LENGTH]
+    h_min_low: Annotated[float, LENGTH]
+    h_min_high: Annotated[float, LENGTH]
+
+    DISPLAY: ClassVar[Display] = Display(rows="")
+
+    def _summary_lines(self) -> list[str]:
+        film, thin, thick = (f"{1e6 * one:.3g}" for one in (self.h_min, self.h_min_low, self.h_min_high))
+        return [
+            f"{1e12 * self.capacitance:.4g} pF: films {self.ratio:.3g} times the computed ones,"
+            f" between {self.low:.3g} and {self.high:.3g}",
+            f"smallest film {film} µm, between {thin} and {thick} µm",
+        ]
 
 
 def capacitance_of(
@@ -116,17 +131,20 @@ def capacitance_of(
     """See `BearingState.capacitance`; `films` makes all films thicker by a factor."""
     e = require_permittivity("permittivity", permittivity)
     beyond = e if surroundings is None else require_permittivity("surroundings", surroundings)
-    parts, thinnest = _contacts(state, films, e, beyond)
-    contact, least, largest = np.moveaxis(parts, -1, 0)
-    ball = _series(contact)
+    own, central, smallest = state.internals, state.h_central, state.h_min
+    if own is None or central is None or smallest is None:
+        raise InputError("state", "dry", "one of a bearing with oil that turns: without films its rings touch")
+    angle = np.full(state.force.shape, own.contact_angle) if state.contact_angles is None else state.contact_angles
+    contacts = contact_capacitance(own, state.force, films * central, angle, e, beyond)
+    ball = _series(contacts.total)
     return BearingCapacitance(
-        contact=contact,
+        contact=contacts.total,
         ball=ball,
         total=float(ball.sum()),
-        least=float(_series(least).sum()),
-        largest=float(_series(largest).sum()),
+        least=float(_series(contacts.least).sum()),
+        largest=float(_series(contacts.largest).sum()),
         permittivity=e,
-        h_min=thinnest,
+        h_min=films * smallest,
     )
 
 
@@ -172,7 +190,15 @@ def film_from_capacitance(
     loaded = np.asarray(state.force) > 0.0
     assert state.h_min is not None
     least = float(state.h_min[loaded].min())
-    return MeasuredFilm(ratio, thin, thick, ratio * least, thin * least, thick * least)
+    return MeasuredFilm(
+        capacitance=measured,
+        ratio=ratio,
+        low=thin,
+        high=thick,
+        h_min=ratio * least,
+        h_min_low=thin * least,
+        h_min_high=thick * least,
+    )
 
 
 def _ratio(state: BearingState, measured: float, e: float) -> float:
@@ -191,29 +217,25 @@ def _ratio(state: BearingState, measured: float, e: float) -> float:
 
 
 def _series(contacts: _Floats) -> _Floats:
-    return np.asarray(1.0 / (1.0 / contacts).sum(axis=1))
+    """Capacitance of balls [F], of that of their contacts, shape (..., 2)."""
+    return np.asarray(1.0 / (1.0 / contacts).sum(axis=-1))
 
 
-def _contacts(state: BearingState, films: float, e: float, beyond: float) -> tuple[_Floats, _Floats]:
-    """Capacitance of every contact, its least and largest, shape (balls, 2, 3); its smallest film or gap."""
-    own, central, smallest = state.internals, state.h_central, state.h_min
-    if own is None or central is None or smallest is None:
-        raise InputError("state", "dry", "one of a bearing with oil that turns: without films its rings touch")
-    parts, least = np.empty((*state.force.shape, 3)), np.empty(state.force.shape)
-    for ball, race in np.ndindex(state.force.shape):
-        conformity = (own.conformity_inner, own.conformity_outer)[race]
-        angle = own.contact_angle if state.contact_angles is None else float(state.contact_angles[ball, race])
-        gamma = own.ball_diameter * np.cos(angle) / own.pitch_diameter
-        along = 0.5 * own.ball_diameter * (1.0 + (gamma if race else -gamma))
-        across = conformity * own.ball_diameter / (2.0 * conformity - 1.0)
-        approach = float(state.approach[ball, race])
-        load = float(state.force[ball, race]) if approach > 0.0 else 0.0
-        gap = DryGap.under(load, own.unit_pressures[race], along, across)
-        film, thinnest = float(central[ball, race]), float(smallest[ball, race])
-        if load <= 0.0:
-            film = thinnest = max(-approach, film)
-        reach = min(along, 0.5 * own.ball_diameter)
-        one = hertz_capacitance(gap, films * film, e, beyond, reach)
-        parts[ball, race] = one.total, one.least, one.largest
-        least[ball, race] = films * thinnest
-    return parts, least
+def contact_capacitance(
+    own: InternalGeometry, load: _Floats, film: _Floats, angle: _Floats, permittivity: float, surroundings: float
+) -> GapCapacitance:
+    """Capacitance of contacts of balls under loads [N], with central films [m], at angles [rad], shape (..., 2).
+
+    Columns are those of inner and outer race.
+    """
+    gamma = own.ball_diameter * np.cos(angle) / own.pitch_diameter
+    along = 0.5 * own.ball_diameter * (1.0 + np.array([-1.0, 1.0]) * gamma)
+    conformity = np.array([own.conformity_inner, own.conformity_outer])
+    across = conformity * own.ball_diameter / (2.0 * conformity - 1.0)
+    gap = DryGap.under(load, np.array(own.unit_pressures), along, across)
+    return hertz_capacitance(gap, film, permittivity, surroundings, np.minimum(along, 0.5 * own.ball_diameter))
+
+
+def between_rings(own: InternalGeometry, load: _Floats, film: _Floats, angle: _Floats, e: float) -> _Floats:
+    """Capacitance of bearings [F], of what their contacts have, shape (..., balls, 2); oil in all gaps."""
+    return np.asarray(_series(contact_capacitance(own, load, film, angle, e, e).total).sum(axis=-1))

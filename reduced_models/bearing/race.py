@@ -39,6 +39,7 @@ RACES = ("inner", "outer")
 INSIDE = 1e-9  # relative, that points asked for keep from the ends of the atlas: those are rounded
 PER_DECADE = 7.0  # loads that elements go through
 NEAR = 1e-3  # of a step in ln F, within which one is left out beside an end: nothing may jump where that happens
+FILMS = "h_central", "h_min", "moment"
 POWER_OF_SPEED = 4.0  # L is the fourth root of a speed
 SOME_SPEED = 1000.0  # rev/min, at which an oil is tried
 
@@ -97,6 +98,17 @@ class Race:
         assert self.oil is not None
         return OperatingPoint(self.geometry, self.oil, load, self.speed_sum * speed_rpm * RPM_TO_RAD_S)
 
+    def _unit_point(self, speed_rpm: float) -> OperatingPoint:
+        """Operating point under 1 N, that of the last speed kept."""
+        if speed_rpm not in self._last_unit_point:
+            self._last_unit_point.clear()
+            self._last_unit_point[speed_rpm] = self.point(1.0, speed_rpm)
+        return self._last_unit_point[speed_rpm]
+
+    @cached_property
+    def _last_unit_point(self) -> dict[float, OperatingPoint]:
+        return {}
+
     @property
     def highest_speed(self) -> float:
         """Speed of the shaft [rev/min] up to which the atlas reaches, with its tables of supply and heat."""
@@ -117,7 +129,7 @@ class Race:
 
     def loads(self, speed_rpm: float) -> tuple[float, float]:
         """Range of loads [N] of the atlas at this speed."""
-        box, unit = shared_atlas(self.atlas).box, self.point(1.0, speed_rpm).moes
+        box, unit = shared_atlas(self.atlas).box, self._unit_point(speed_rpm).moes
         highest = min(box.M[1] / unit.M, (box.p_hertz / unit.p_hertz) ** 3)
         return box.M[0] / unit.M * (1.0 + INSIDE), highest * (1.0 - INSIDE)
 
@@ -126,7 +138,7 @@ class Race:
         if self.oil is not None:
             heaviest = self.loads(speed_rpm)[1]
             if self.conditions.supply is not None:
-                supplied = heaviest_load(self.point(1.0, speed_rpm).moes)
+                supplied = heaviest_load(self._unit_point(speed_rpm).moes)
                 if supplied < heaviest:
                     return supplied, "the end of the table of oil supply at this speed"
             return heaviest, "the end of the atlas at this speed"
@@ -189,13 +201,20 @@ class Race:
         for pressures grow as fast as what they press on shrinks.
         """
         lightest = self.loads(speed_rpm)[0]
-        central, smallest, moment = gap.copy(), gap.copy(), np.zeros(load.size)
-        for k, one in enumerate(load.tolist()):
-            answer = self.answer(max(one, lightest), speed_rpm)
-            moment[k] = answer.moment
-            if one >= lightest:
-                central[k], smallest[k] = answer.h_central, answer.h_min
-        return central, smallest, moment
+        central, smallest, moment = self._answers(np.maximum(load, lightest), speed_rpm)
+        rigid = load < lightest
+        return np.where(rigid, gap, central), np.where(rigid, gap, smallest), moment
+
+    def _answers(self, load: _Floats, speed_rpm: float) -> tuple[_Floats, _Floats, _Floats]:
+        """Films and moment of the atlas under loads [N]; flooded and isothermal ones all at once."""
+        if self.conditions != FLOODED:
+            answers = [self.answer(one, speed_rpm) for one in load.tolist()]
+            return tuple(np.array([getattr(one, name) for one in answers]) for name in FILMS)  # type: ignore[return-value]
+        unit = self._unit_point(speed_rpm)  # M is as the load, approach and semi-axes as its powers 2/3 and 1/3
+        moes, scales = unit.moes, unit.scales
+        found = shared_atlas(self.atlas).over(load * moes.M, moes.L, moes.kappa, alpha=moes.alpha, eta0=moes.eta0)
+        length, moment = scales.length * load ** (2.0 / 3.0), scales.moment * load ** (4.0 / 3.0)
+        return length * found.h_central, length * found.h_min, moment * found.moment
 
     def at_angle(self, pitch_diameter: float, contact_angle: float, speed_sum: float) -> Race:
         """The contact of one ball at its own angle [rad] and sum of surface speeds over that of the shaft [m].
@@ -356,32 +375,60 @@ def films_under(bearing: Any, speed_rpm: float, at: RingEquilibrium) -> dict[str
     InputError
         A speed or a force beyond the atlas at these angles.
     """
-    shape = at.force.shape
-    h_central, h_min, moment = np.zeros(shape), np.zeros(shape), np.zeros(shape)
-    torque = 0.0
-    for column, name in enumerate(RACES):
-        nominal = bearing.race(name)
-        races = races_at_angles(bearing, name, at.angles[:, column], at.speed_sum[:, column])
-        for race in {id(race): race for race in races}.values():
-            own = np.array([k for k, other in enumerate(races) if other is race])
-            load, (highest, table) = at.force[own, column], race.end
-            if race is not nominal and speed_rpm > highest:
-                angle = at.angles[own[0], column]
-                allowed = f"at most {highest:.5g}, where {table} ends at a contact angle of {angle:.3g} rad"
-                raise InputError("speed_rpm", speed_rpm, allowed)
-            race.require_bearable(float(load.max()), speed_rpm, "load", at.load.tolist())
-            gap = (load / nominal.kn) ** (2.0 / 3.0) - at.approach[own, column]
-            h_central[own, column], h_min[own, column], moment[own, column] = race.films(speed_rpm, load, gap)
-            if bearing.cutoff_gap is not None:
-                compression = at.balls["compression"][own, column]
-                moment[own, column] *= load / (nominal.kn * compression**1.5)
-            # power m u/Rx of every film over the speed of the shaft, u = u_sum/2
-            power = 0.5 * at.speed_sum[own, column] * moment[own, column]
-            torque += float(power.sum()) / race.geometry.radius_x
+    h_central, h_min, moment, radius = contact_films(bearing, speed_rpm, at.load, at.balls)
+    # power m u/Rx of every film over the speed of the shaft, u = u_sum/2
+    torque = float((0.5 * at.speed_sum * moment / radius).sum())
     found: dict[str, Any] = {"h_central": h_central, "h_min": h_min, "moment": moment, "rolling_torque": torque}
     found["outside_assumptions"] = assumptions_under(bearing, speed_rpm, [at]).headline
     found["reservation"] = beyond_data(bearing, speed_rpm, [at])
     return found | rough_surfaces(bearing, at.force, h_central, h_min)
+
+
+def contact_films(
+    bearing: Any, speed_rpm: float, ring_load: _Floats, balls: NDArray[np.void]
+) -> tuple[_Floats, _Floats, _Floats, _Floats]:
+    """Films of balls of a `BallBearing` at rest, records `AT_REST` of shape (n,): of one ring, or of many.
+
+    Parameters
+    ----------
+    bearing : BallBearing
+    speed_rpm : float
+        Of the shaft [rev/min].
+    ring_load : ndarray
+        Load [N] that an error names.
+    balls : ndarray, shape (n,)
+
+    Returns
+    -------
+    h_central, h_min, moment, radius_x : ndarray, shape (n, 2)
+        Films [m], what they resist [N m], radii of relative curvature along rolling [m].
+
+    Raises
+    ------
+    InputError
+        A speed or a force beyond the atlas at these angles.
+    """
+    h_central, h_min, moment, radius = np.zeros((4, balls.size, len(RACES)))
+    for column, name in enumerate(RACES):
+        nominal = bearing.race(name)
+        races = races_at_angles(bearing, name, balls["angle"][:, column], balls["speed_sum"][:, column])
+        members: dict[int, list[int]] = {}
+        for k, race in enumerate(races):
+            members.setdefault(id(race), []).append(k)
+        for own in members.values():
+            race, load = races[own[0]], balls["load"][own, column]
+            highest, table = race.end
+            if race is not nominal and speed_rpm > highest:
+                angle = balls["angle"][own[0], column]
+                allowed = f"at most {highest:.5g}, where {table} ends at a contact angle of {angle:.3g} rad"
+                raise InputError("speed_rpm", speed_rpm, allowed)
+            race.require_bearable(float(load.max()), speed_rpm, "load", ring_load.tolist())
+            gap = (load / nominal.kn) ** (2.0 / 3.0) - balls["approach"][own, column]
+            h_central[own, column], h_min[own, column], moment[own, column] = race.films(speed_rpm, load, gap)
+            radius[own, column] = race.geometry.radius_x
+            if bearing.cutoff_gap is not None:
+                moment[own, column] *= load / (nominal.kn * balls["compression"][own, column] ** 1.5)
+    return h_central, h_min, moment, radius
 
 
 def _conformity(race: Race, kappa: float) -> float:

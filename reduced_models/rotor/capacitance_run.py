@@ -14,11 +14,12 @@ from ehlcontact.errors import InputError
 from ehlcontact.quantities import LENGTH, TIME
 from ehlcontact.results.table import Display, QuantityTable
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.capacitance import FARAD, capacitance_of
-from reduced_models.bearing.freedoms import PLANAR
+from reduced_models.bearing.capacitance import FARAD, between_rings
+from reduced_models.bearing.core_bearing import AT_REST
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.bearing.ring import equilibrium_at
-from reduced_models.bearing.ring_statics import state_of, static_ring
+from reduced_models.bearing.race import contact_films
+from reduced_models.bearing.ring import StaticRing
+from reduced_models.bearing.ring_statics import static_ring
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.supports import bearing_names
@@ -84,7 +85,7 @@ def capacitance_of_run(
     permittivity : float
         Of the oil.
     every : int, optional
-        Every so many steps alone; by default so many that 500 times at most are computed, each some 20 ms.
+        Every so many steps alone; by default so many that 500 times at most are computed.
 
     Raises
     ------
@@ -117,14 +118,31 @@ def capacitance_of_run(
         raise InputError("run", f"{run.approach.shape[1]} columns", "a run of this rotor")
     cage = own.orders.ftf_order * RPM_TO_RAD_S * run.speed_rpm
     turned = np.concatenate([[0.0], np.cumsum(0.5 * (cage[1:] + cage[:-1]) * np.diff(run.t))])
-    capacitance, least = [], []
-    for k in range(0, run.t.size, step):
-        speed, angle = float(run.speed_rpm[k]), float(mount.cage_angle + turned[k])
-        ring = static_ring(own, speed, angle, size if size > len(PLANAR) else len(PLANAR))
-        at = equilibrium_at(ring, run.approach[k, first : first + size])
-        found = capacitance_of(state_of(own, at, speed, angle), e)
-        capacitance.append(found.total)
-        least.append(found.h_min.min())
+    at = slice(None, None, step)
+    speed, angle = run.speed_rpm[at], (mount.cage_angle + turned)[at]
+    balls = _balls_at_rest(own, speed, angle, run.approach[at, first : first + size])
+    film, smallest = np.empty((2, *balls["load"].shape))
+    for one in np.unique(speed).tolist():
+        same = np.flatnonzero(speed == one)
+        found = contact_films(own, one, np.zeros(size), balls[same].ravel())
+        film[same], smallest[same] = (values.reshape(same.size, own.balls, 2) for values in found[:2])
     return CapacitanceHistory(
-        name=names[bearing], t=run.t[::step], capacitance=np.array(capacitance), h_min=np.array(least)
+        name=names[bearing],
+        t=run.t[at],
+        capacitance=between_rings(own.tables.internals, balls["load"], film, balls["angle"], e),
+        h_min=smallest.min(axis=(1, 2)),
     )
+
+
+def _balls_at_rest(own: BallBearing, speed: _Floats, angle: _Floats, place: _Floats) -> NDArray[np.void]:
+    """Balls in equilibrium with the ring at places (times, n), records `AT_REST` of shape (times, balls)."""
+    found = np.empty((speed.size, own.balls), AT_REST)
+    ring: StaticRing | None = None
+    for k in range(speed.size):
+        if ring is None or speed[k] != speed[k - 1]:
+            ring = static_ring(own, float(speed[k]), float(angle[k]), place.shape[1])
+        else:
+            ring.angle = float(angle[k])
+        ring.press(place[k])
+        found[k] = ring.describe()[0]
+    return found

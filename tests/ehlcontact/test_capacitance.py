@@ -5,9 +5,11 @@ from math import acos, log, pi, sqrt
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
+from scipy.special import elliprd, elliprf
 
 from ehlcontact import Grid, InputError, Lubricant, MoesPoint, OperatingPoint, solve_steady
-from ehlcontact.capacitance import EPS0, DryGap, hertz_capacitance
+from ehlcontact.capacitance import EPS0, DryGap, _integrals, hertz_capacitance
 from ehlcontact.hertz import hertz_contact
 from ehlcontact.results.steady_result import SteadyResult
 
@@ -15,7 +17,7 @@ OIL = Lubricant.iso_vg(68, temperature=50.0)
 RADIUS, MODULUS = 9.525e-3, 2.26e11
 
 
-def dry(load: float, radius_x: float = RADIUS, radius_y: float = RADIUS) -> DryGap:
+def dry(load: ArrayLike, radius_x: float = RADIUS, radius_y: float = RADIUS) -> DryGap:
     unit = hertz_contact(1.0, radius_x, radius_y, MODULUS).pressure
     return DryGap.under(load, unit, radius_x, radius_y)
 
@@ -54,6 +56,38 @@ class TestGaps:
         assert np.abs(gap.at(gap.a * np.cos(phi), gap.b * np.sin(phi))).max() < 1e-8 * gap.approach
         far = gap.at(np.array([50.0 * gap.a]), np.array([0.0]))
         assert far == pytest.approx(0.5 * (50.0 * gap.a) ** 2 / 5e-3 - gap.approach, rel=1e-2)
+
+    def test_integrals_of_the_deflection(self) -> None:
+        x, y, z = np.array([[1.0, 4.0, 2.0], [36.0, 1e-2, 2.0], [0.0, 3.0, 1e4]])
+        found = _integrals(x, y, z)
+        exact = 2.0 * elliprf(x, y, z), 2.0 / 3.0 * elliprd(y, z, x), 2.0 / 3.0 * elliprd(x, z, y)
+        assert np.array(found) == pytest.approx(np.array(exact), rel=2e-9, abs=0.0)
+
+    def test_many_contacts_at_once(self) -> None:
+        load, film = np.array([[0.0, 3.0], [50.0, 900.0]]), np.array([[1e-6, 2e-7], [1e-7, 5e-8]])
+        found = hertz_capacitance(dry(load, 4e-3, 0.1), film)
+        for k in np.ndindex(load.shape):
+            own = hertz_capacitance(dry(load[k], 4e-3, 0.1), film[k])
+            for part in ("hertz_zone", "track", "surroundings", "least", "largest"):
+                assert getattr(found, part)[k] == pytest.approx(float(getattr(own, part)), rel=1e-13, abs=0.0)
+
+    def test_capacitance_against_fine_cells(self) -> None:
+        """All gaps full of oil, by the midpoint rule in polar coordinates."""
+        gap, film = dry(80.0, 5e-3, 0.05), 1e-7
+        phi = (np.arange(200) + 0.5) * 0.5 * pi / 200
+        rim = 1.0 / np.hypot(np.cos(phi) / gap.a, np.sin(phi) / gap.b)
+        v = (np.arange(1000) + 0.5) / 1000
+        r = rim[:, None] + (5e-3 - rim)[:, None] * v**4
+        weight = 4.0 * v**3 / 1000 * (5e-3 - rim)[:, None] * r * 0.5 * pi / 200
+        height = film + gap.at(r * np.cos(phi)[:, None], r * np.sin(phi)[:, None])
+        outside = 4.0 * 2.2 * EPS0 * (weight / height).sum()
+        found = hertz_capacitance(gap, film, 2.2)
+        assert found.largest - found.hertz_zone == pytest.approx(outside, rel=2e-5)
+
+    @pytest.mark.parametrize("film", [0.0, -1e-7, float("nan")])
+    def test_a_film_is_refused(self, film: float) -> None:
+        with pytest.raises(InputError, match="film"):
+            hertz_capacitance(dry(1.0), film)
 
     def test_parts_and_bounds(self) -> None:
         found = hertz_capacitance(dry(50.0), 2e-7)

@@ -42,6 +42,19 @@ class TestBearing:
         solved = solve_steady(point, grid=Grid(64)).capacitance(reach=0.5 * bearing.ball_diameter)
         assert state.capacitance().contact[k, 0] == pytest.approx(solved.total, rel=0.08)
 
+    def test_a_light_contact_against_its_solved_film(self) -> None:
+        """Its film carries it before the dry bodies would touch: it has the capacitance of its load."""
+        bearing = BallBearing.catalogue("6205", oil=OIL, clearance="C3")
+        state = bearing.equilibrium((0.0, -20.0, 20.0), speed_rpm=3000.0)
+        assert state.contact_angles is not None
+        k = int(state.force[:, 1].argmin())
+        assert state.force[k, 1] > 0.0 > state.approach[k, 1]
+        own = bearing.race("outer")
+        race = own.at_angle(bearing.pitch_diameter, float(state.contact_angles[k, 1]), own.speed_sum)
+        film = solve_steady(race.point(float(state.force[k, 1]), 3000.0), grid=Grid(64))
+        solved = film.capacitance(reach=0.5 * bearing.ball_diameter)
+        assert state.capacitance().contact[k, 1] == pytest.approx(solved.total, rel=0.1)
+
     def test_more_load_and_less_speed_have_more(self, bearing: BallBearing, state: BearingState) -> None:
         slow = bearing.equilibrium((0.0, -1000.0), speed_rpm=1000.0).capacitance()
         heavy = bearing.equilibrium((0.0, -2000.0), speed_rpm=3000.0).capacitance()
@@ -62,6 +75,7 @@ class TestMeasured:
         found = state.film_from_capacitance(state.capacitance().total, error=1e-12)
         assert found.ratio == pytest.approx(1.0, rel=1e-6)
         assert found.low < 1.0 < found.high
+        assert "times the computed ones, between" in str(found)
         assert state.film_from_capacitance(1.3 * state.capacitance().total).ratio < 0.75
 
     @pytest.mark.parametrize(
