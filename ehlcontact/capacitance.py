@@ -16,9 +16,9 @@ from math import pi
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
-from scipy import special
 
 from ehlcontact.checks import require_finite
 from ehlcontact.errors import InputError
@@ -71,7 +71,7 @@ class DryGap:
         force, unit, rx, ry = np.broadcast_arrays(*given)
         ratios, which = np.unique(rx / ry, return_inverse=True)
         kappa = np.array([ellipse_ratio(ratio, 1.0) for ratio in ratios.tolist()])[which].reshape(force.shape)
-        K, E = special.ellipk(1.0 - kappa**2), special.ellipe(1.0 - kappa**2)
+        K, E = scipy.special.ellipk(1.0 - kappa**2), scipy.special.ellipe(1.0 - kappa**2)
         area = 1.5 / (pi * unit) * np.maximum(force, 0.0) ** (2.0 / 3.0)
         a = np.sqrt(area * kappa)
         return cls(rx, ry, a, a / kappa, a * a * K * (1.0 / rx + 1.0 / ry) / (2.0 * E))
@@ -87,7 +87,7 @@ class DryGap:
         """Gap [m] at squared places [m2] on a confocal ellipse, its squared semi-axes larger by `outside` [m2]."""
         whole, along, across = _integrals(self.a**2 + outside, self.b**2 + outside, outside)
         kappa = np.divide(self.a, self.b, out=np.ones(self.a.shape), where=self.b > 0.0)
-        K = special.ellipk(1.0 - kappa**2)
+        K = scipy.special.ellipk(1.0 - kappa**2)
         deflection = (whole - x2 * along - y2 * across) * self.b / (2.0 * K)  # over that in the middle
         rigid = 0.5 * (x2 / self.radius_x + y2 / self.radius_y)
         return np.asarray(np.maximum(rigid - self.approach * (1.0 - deflection), 0.0))
