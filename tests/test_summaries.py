@@ -86,6 +86,7 @@ from reduced_models.fitting.result import ElementFit, FitResult, MemoryFit
 from reduced_models.fitting.sensitivity import Sensitivity, sensitivity
 from reduced_models.rotor.bearing_films import ContactHistory, FullFilm
 from reduced_models.rotor.campbell import Campbell
+from reduced_models.rotor.damping_budget import DampingBudget
 from reduced_models.rotor.linear_contact import impedance_about
 from reduced_models.rotor.linearise import LinearRotor
 from reduced_models.rotor.result import RotorResult
@@ -109,6 +110,7 @@ RETURNED = (
     *(Assumption, Assumptions, Film, FilmHistory, FilmWave, Instants, Interferogram, Scales, WaveTrack),
     *(Response, Traction, Status, AtlasAnswer, FilterAnswer, BearingExcitation),
     *(BearingFriction, SetState, OilAndHeat, OilHistory, ElementFit, MemoryFit, Sensitivity, Campbell),
+    DampingBudget,
     *(LinearRotor, UnbalanceResponse, ContactHistory, EnvelopeSpectrum, OrderSpectrum),
     *(SteadyResult, SimulationResult, BearingState, FitResult, RotorResult, VibrationRecord),
     *(Carreau, Eyring, LimitingShear, ContactElement, FullFilm, RossCallback),
@@ -192,6 +194,7 @@ def results(point):
         unbalance_response(rotor, speeds), simulate_rotor(rotor, speed_rpm=3000.0, dt=1e-4, until=1e-3),
         simulate_oscillator(element, np.linspace(0.0, 1.0, 5), Omega_n=3.0, u0=0.87),
         fit(record, model="linear"), linearise(rotor, 3000.0), linearise(rotor, 3000.0).modes(1)[0],
+        linearise(rotor, 3000.0).damping_budget(1),
         *films_of(film, run), *rotors(atlas.element(point, "cubic", rpm=3000), bearing), sensitivity(record),
         pair, pair.equilibrium((0.0, 0.0, 0.0), speed_rpm=3000.0),
         bearing.excitation([BallDiameter(ball=0, excess=1e-7)], (0.0, 0.0, 300.0), speed_rpm=3000.0),

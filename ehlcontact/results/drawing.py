@@ -132,7 +132,7 @@ def _panel(axes: Any, panel: Panel) -> None:
 def _line(axes: Any, line: Line, *, named: bool) -> None:
     if line.words:
         label = line.name or None
-        axes.bar(line.x, line.y, color=line.colour, label=label, yerr=line.bars)
+        axes.bar(line.x, line.y, color=line.colour, label=label, yerr=line.bars, bottom=line.base)
         axes.tick_params(axis="x", labelrotation=45)
         return
     mark = line.mark or ("o" if line.x.size < 2 else "")
@@ -205,10 +205,13 @@ def _legend(axes: Any, second: Any, panel: Panel) -> None:
         more = second.get_legend_handles_labels()
         handles, names = handles + more[0], names + more[1]
     once = dict(zip(reversed(names), reversed(handles), strict=True))
-    if 1 <= len(once) <= MOST_NAMED:
+    stacked = any(line.base is not None for line in panel.lines)
+    if 1 <= len(once) <= MOST_NAMED or stacked:
         ordered = list(dict.fromkeys(names))
         # above the lines, on a pale ground: a line may run below it
-        look = {"framealpha": 0.85, "edgecolor": "none", "fontsize": 8}
+        look: dict[str, Any] = {"framealpha": 0.85, "edgecolor": "none", "fontsize": 8}
+        if stacked:  # beside bars that fill the panel, in their order from above
+            look |= {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "reverse": True}
         axes.legend([once[name] for name in ordered], ordered, **look).set_zorder(5)
 
 

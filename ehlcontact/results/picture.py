@@ -25,6 +25,7 @@ GREY, INK = "#7f7f7f", "#1d2126"
 BLACK, WHITE = "#000000", "#ffffff"  # over maps, whose colours a dark page leaves
 PALE, PALE_BLUE = "#f2f2f2", "#eaf3fa"  # of stretches behind the lines
 COLOURS = BLUE, ORANGE, GREEN, RED, PURPLE, SKY
+PASTELS = "#99c7e0", "#f5d899", "#99d8c7", "#eebf99", "#ebc9dc", "#bbddf6"  # of the same, beside them
 DASHES = "-", "--", ":"  # after the last colour
 DECADE = 10.0  # largest over smallest value, beyond which an axis that may be is logarithmic
 # Units of pictures: what contacts have in a unit of the SI is far from 1
@@ -63,6 +64,8 @@ class Line:
     width : float
     bars : array_like, shape (k,), optional
         Half widths of error bars.
+    base : array_like, shape (k,), optional
+        Where bars over words begin: those of a stack on the ones below.
     second : bool
         Whether it belongs to the second y axis.
     faint : bool
@@ -76,6 +79,7 @@ class Line:
     mark: str = ""
     width: float = 1.4
     bars: Any = None
+    base: Any = None
     second: bool = False
     faint: bool = False
 
@@ -162,6 +166,7 @@ class Panel:
                     x=np.asarray(line.x) if line.words else fx * np.asarray(line.x, dtype=float),
                     y=factor * np.asarray(line.y, dtype=float),
                     bars=None if line.bars is None else factor * np.asarray(line.bars, dtype=float),
+                    base=None if line.base is None else factor * np.asarray(line.base, dtype=float),
                     colour=line.colour or COLOURS[at % len(COLOURS)],
                     dash=DASHES[at // len(COLOURS) % len(DASHES)] if line.dash is None else line.dash,
                 )

@@ -30,6 +30,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -47,6 +48,16 @@ _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
 
+INNER, OUTER, SEAT = LOSSES = "inner films", "outer films", "rings and fits"  # what takes energy in a bearing
+
+
+class Taken(NamedTuple):
+    """What parts of a bearing take from a motion u exp(s t) of its ring: Im(u^H Z u) of each [N m]."""
+
+    by: dict[str, float]
+    mass: float  # kg m2, of its balls: the sum of m |b|^2
+
+
 @dataclass(frozen=True, eq=False)
 class LinearBalls:
     """All balls of a bearing about static equilibrium, at one position of the cage or at several."""
@@ -58,6 +69,7 @@ class LinearBalls:
     positions: int
     loss: Loss
     inertia: float  # of a ball [kg]
+    lossless: frozenset[str] = frozenset()  # those of LOSSES that are left out; their stiffness stays
 
     @classmethod
     def of(cls, balls: Balls, equilibria: Sequence[RingEquilibrium], loss: Loss, inertia: float) -> LinearBalls:
@@ -85,8 +97,40 @@ class LinearBalls:
         _, tangents = self._tangents(flat)
         condensed = _eliminated(tangents, len(self._acting))
         by_row = condensed.reshape(-1, *condensed.shape[2:]) @ self._weights
-        Z = by_row.sum(axis=0) * response(self.loss, flat)
+        Z = by_row.sum(axis=0) * self._seat(flat)
         return np.asarray(Z.reshape(*s.shape, *self.maps.shape[2:], -1))
+
+    @property
+    def losses(self) -> tuple[str, ...]:
+        """Those of `LOSSES` that this bearing has."""
+        wet = not isinstance(self.films, LinearFilm) or self.films.rates is not None
+        has = {INNER: wet, OUTER: wet, SEAT: self.loss.gains.size > 0}
+        return tuple(name for name in LOSSES if has[name] and name not in self.lossless)
+
+    def taken(self, s: complex, u: _Complex) -> Taken:
+        """What each of `losses` takes from a motion u exp(s t) of the ring, u of shape (n,).
+
+        Films take what their contacts do in their own motions, times Re r, with r the filters of the seat, which
+        act on the force of all balls; rings and fits take Im r times the stiffness of the balls.
+        """
+        rate, count = np.array([[s]], complex), len(self._acting)
+        films, equations = self._tangents(rate)
+        grooves = (self.maps[:, self._acting] @ u).T
+        by_ball, by_ring = equations[:count, :count, 0], equations[:count, count:, 0]
+        pushed = -np.einsum("ijk,jk->ki", by_ring, grooves)
+        balls = np.linalg.solve(np.moveaxis(by_ball, -1, 0), pushed[..., None])[..., 0].T
+        approaches = np.einsum("rjk,jk->rk", self._along, np.concatenate([balls, grooves]))
+        lost = (films[:, 0].imag * np.abs(approaches) ** 2).sum(axis=1).real / self.positions
+        mass = self.inertia * float((np.abs(balls) ** 2).sum()) / self.positions
+        seat = complex(self._seat(rate)[0, 0])
+        held = complex(u.conj() @ self.impedance(s) @ u) / seat
+        by = {INNER: seat.real * float(lost[0]), OUTER: seat.real * float(lost[1]), SEAT: seat.imag * held.real}
+        return Taken({name: by[name] for name in self.losses}, seat.real * mass)
+
+    def _seat(self, s: _Complex) -> _Complex:
+        """Filters of rings and fits, of the shape of `s`."""
+        filters = response(self.loss, s)
+        return without_loss(filters, s) if SEAT in self.lossless else filters
 
     def force_of_heights(self, s: _Complex, inner: _Complex, outer: _Complex) -> _Complex:
         """Force of every ball on the ring, shape (k, contacts, n), by heights at both of its contacts at exp(s t).
@@ -100,7 +144,7 @@ class LinearBalls:
         )
         balls = len(self._acting)
         forces = _eliminated(np.concatenate([tangents[:, :balls], by_inner - by_outer], axis=1), balls)[:, 0]
-        forces *= -response(self.loss, s)[:, None]
+        forces *= -self._seat(s)[:, None]
         return np.asarray(np.einsum("ikc,cij->kcj", forces, self.maps[:, self._rows].astype(complex)))
 
     def approaches(self, s: _Complex, heights: _Complex) -> tuple[_Complex, _Complex]:
@@ -139,6 +183,9 @@ class LinearBalls:
         columns, k, contacts): along the directions that act.
         """
         films = np.moveaxis(np.asarray(self.films.impedance(s[..., None])), -2, 0)
+        left_out = [race for race, name in enumerate((INNER, OUTER)) if name in self.lossless]
+        if left_out:
+            films[left_out] = without_loss(films[left_out], s)
         (inner, outer), (by_inner, by_outer) = films, self._stretched
         tangents = self._fixed + by_inner * inner + by_outer * outer
         lost = inner + outer == 0.0  # nothing touches the ball: it carries nothing
@@ -195,6 +242,12 @@ class LinearBalls:
     def coefficients(self, omega: _Floats) -> tuple[_Floats, _Floats]:
         """Stiffness [N/m] and damping [N s/m], shape (k, n, n), at angular frequencies [rad/s], shape (k,)."""
         return stiffness_and_damping(self.impedance, omega)
+
+
+def without_loss(Z: _Complex, s: _Complex) -> _Complex:
+    """Stiffness K of Z = K + s C with real K and C, whose shapes broadcast; at a real s all of Z."""
+    ratio = np.divide(s.real, s.imag, out=np.zeros(np.shape(s)), where=np.asarray(s.imag) != 0.0)
+    return np.asarray(Z.real - ratio * Z.imag, complex)
 
 
 def _of_directions(grooves: Grooves, balls: NDArray[np.void]) -> _Floats:

@@ -28,6 +28,8 @@
 | linear_system | a rotor on linear supports as one system of first order; modes on elements |
 | linearise | `linearise`: a rotor about static equilibrium at a speed, `LinearRotor` |
 | modes | `RotorMode`: damped vibrations, exact with film memory |
+| loss_parts | parts of a linear rotor that take energy: what each takes, the rotor without it |
+| damping_budget | `DampingBudget`: who damps what, damping ratios of modes by these parts |
 | campbell | `campbell`: modes over the speed, critical speeds |
 | support_state | `support_state`: a bearing or a set under its load, in the numbers of a designer |
 | machine_state | `machine_state`: such a rotor at a speed: supports, modes, critical speeds, limits of the data |
@@ -37,7 +39,7 @@
 | unbalance_result | `UnbalanceResponse`: its result |
 | control | python-control: `rotor_to_control`, and the state space of a `LinearRotor` |
 | ross_rotor | import from ROSS: `from_ross`; bearings as its force callback: `RossCallback` |
-| picture | pictures of runs, Campbell diagrams and unbalance responses |
+| picture | pictures of runs, Campbell diagrams, unbalance responses and damping budgets |
 | model_pictures | pictures of one rotor on several models of its contacts or bearings |
 | oscillator | `simulate_oscillator`: one mass on one element |
 | compare | `compare`: full against reduced response |

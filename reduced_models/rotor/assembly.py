@@ -124,13 +124,14 @@ class _Assembly:
                 size += 1
         self.z = size if axial else None
         size += axial
-        self.M, self.C, self.K, self.G = np.zeros((4, size, size))
+        self.M, self.K, self.G = np.zeros((3, size, size))
+        self.damping: dict[str, _Floats] = {}  # by what damps
         self._add_shaft()
         self.load = np.zeros(size)
         for k, support in enumerate(supports):
             self._add_support(k, support)
-        for disc in discs:
-            self._add_disc(disc)
+        for name, disc in zip(self._disc_names(), discs, strict=True):
+            self._add_disc(name, disc)
         for axis, pull in zip(LENGTHS, gravity.tolist(), strict=True):
             self.load += self.M @ self._uniform(axis) * pull
 
@@ -145,7 +146,9 @@ class _Assembly:
         follow = -np.linalg.solve(self.K[np.ix_(left, left)], self.K[np.ix_(left, kept)])
         whole = np.zeros((len(self.M), kept.size))
         whole[kept], whole[left] = np.eye(kept.size), follow
-        M, C, K, G = (np.asarray(whole.T @ matrix @ whole) for matrix in (self.M, self.C, self.K, self.G))
+        C = np.sum(list(self.damping.values()), axis=0)
+        M, C, K, G = (np.asarray(whole.T @ matrix @ whole) for matrix in (self.M, C, self.K, self.G))
+        by_part = {name: np.asarray(whole.T @ part @ whole) for name, part in self.damping.items()}
         if self.z is not None and self.shaft.density == 0.0:
             raise InputError(
                 "shaft.density", 0.0, "> 0 with axial motion: bearings hold tilts, which need inertia"
@@ -155,6 +158,7 @@ class _Assembly:
             mass=M,
             stiffness=0.5 * (K + K.T),
             damping=C,
+            damping_by_part=by_part,
             gyroscopic=G,
             load=whole.T @ self.load,
             mounts=tuple(
@@ -172,11 +176,14 @@ class _Assembly:
         """First degree of freedom of the node there."""
         return 4 * int(np.argmin(np.abs(self.stations - position)))
 
+    def _disc_names(self) -> list[str]:
+        """Of their nodes."""
+        return ["disc"] if len(self.discs) == 1 else [f"disc {k}" for k in range(len(self.discs))]
+
     def _nodes(self, new: dict[int, int]) -> dict[str, dict[str, int]]:
         """Degrees of freedom by name; a node without inertia against tilting has no tilts."""
         places = {f"bearing {k}": self._at(support.position) for k, support in enumerate(self.supports)}
-        named = ["disc"] if len(self.discs) == 1 else [f"disc {k}" for k in range(len(self.discs))]
-        discs = {name: self._at(disc.position) for name, disc in zip(named, self.discs, strict=True)}
+        discs = {name: self._at(disc.position) for name, disc in zip(self._disc_names(), self.discs, strict=True)}
 
         def on_shaft(at: int) -> dict[str, int]:
             return {name: new[at + k] for k, name in enumerate(DIRECTIONS) if at + k in new}
@@ -217,7 +224,7 @@ class _Assembly:
             places = np.ix_(range(4 * k, 4 * k + 8), range(4 * k, 4 * k + 8))
             for whole, part in zip((self.M, self.K, self.G), matrices(element), strict=True):
                 whole[places] += part
-        self.C += self.shaft.damping_time * self.K
+        self.damping["shaft"] = self.shaft.damping_time * self.K
 
     def _add_support(self, k: int, support: Support) -> None:
         first = self._at(support.position)
@@ -227,7 +234,8 @@ class _Assembly:
         if k in self.housings:
             places = list(self.housings[k].values())
             self.M[places, places] = support.housing_mass
-            for whole, values in ((self.K, support.housing_stiffness), (self.C, support.housing_damping)):
+            damping = self.damping.setdefault(f"housing {k}", np.zeros_like(self.M))
+            for whole, values in ((self.K, support.housing_stiffness), (damping, support.housing_damping)):
                 whole[places, places] = np.append(values, values[0])[: len(places)]  # z of two: as x
         if k in self.outer_rings:
             place = self.outer_rings[k]
@@ -235,11 +243,12 @@ class _Assembly:
             facing = next(seat.facing for seat in support.seats if seat.slides)
             self.load[place] -= facing_signs(facing)[2] * support.spring
 
-    def _add_disc(self, disc: Disc) -> None:
+    def _add_disc(self, name: str, disc: Disc) -> None:
         first = self._at(disc.position)
         places = list(range(first, first + 4))
         self.M[places, places] += [disc.mass, disc.mass, disc.diametral_inertia, disc.diametral_inertia]
-        self.C[[first, first + 1], [first, first + 1]] += disc.damping
+        self.damping[name] = np.zeros_like(self.M)
+        self.damping[name][[first, first + 1], [first, first + 1]] = disc.damping
         self.G[first + 2, first + 3] += disc.polar_inertia
         self.G[first + 3, first + 2] -= disc.polar_inertia
         self.load[[first, first + 1]] += disc.load[:2]

@@ -7,6 +7,7 @@ oil in.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import scipy
@@ -84,6 +85,27 @@ class ContactImpedance:
         Z = np.asarray(self._impedance(omega.ravel()), complex).reshape(s.shape)
         impedance = np.where(s == 1j * omega, Z, Z.real + s * Z.imag / omega)
         return np.asarray(self._count * impedance[..., None, None])
+
+
+class WithoutLoss:
+    """A support about equilibrium of which the stiffness K of Z = K + s C is left, K and C real.
+
+    Parameters
+    ----------
+    support : support about equilibrium
+        Has ``impedance(s)``.
+    """
+
+    def __init__(self, support: Any) -> None:
+        self._support = support
+
+    def impedance(self, s: ArrayLike) -> _Complex:
+        """Stiffness [N/m] at s [1/s], shape of `s` + (directions, directions), without what takes energy."""
+        Z = np.asarray(self._support.impedance(s))
+        turned = np.conj(np.swapaxes(Z, -1, -2))
+        rate = np.asarray(s, complex)[..., None, None]
+        ratio = np.divide(rate.real, rate.imag, out=np.zeros(rate.shape), where=rate.imag != 0.0)
+        return np.asarray(0.5 * (Z + turned) + 0.5j * ratio * (Z - turned))
 
 
 class LinearElement:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol, Unpack
+from typing import Any, Protocol, Self, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,10 +32,19 @@ from reduced_models.bearing.ring_statics import cage_angles, linear_balls, stati
 from reduced_models.bearing.solved_balls import damping_left_out, warn_of_damping_left_out, with_solved_contacts
 from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
+from reduced_models.rotor.damping_budget import DampingBudget, budget_of
 from reduced_models.rotor.equilibrium import require_held
 from reduced_models.rotor.linear_bearing import LinearBearing
-from reduced_models.rotor.linear_contact import ContactImpedance, LinearElement
+from reduced_models.rotor.linear_contact import ContactImpedance, LinearElement, WithoutLoss
 from reduced_models.rotor.linear_system import eigenmodes
+from reduced_models.rotor.loss_parts import (
+    SKEW,
+    matrix_losses,
+    require_parts,
+    support_losses,
+    taken_by_supports,
+    without_losses,
+)
 from reduced_models.rotor.modes import (
     ALONG,
     CANDIDATES,
@@ -62,7 +71,6 @@ SLOW = 1e-3  # rad/s, stands for rest where damping is computed: films forget in
 FREE = 1e-9  # of the largest stiffness, what rounding leaves where a rotor is free
 UNLOADED = 1e-9  # of its most loaded ball, the load of a preloaded bearing that is the rounding of none
 REDUCED = 1e-6  # of the static stiffness of a bearing, error of its impedance with fewer states
-SKEW = 1e-9  # of the largest stiffness, the part of it that is not symmetric: below is rounding
 VERTICAL = 0.5  # share of the motion of a mode from which it counts as vertical
 
 
@@ -108,6 +116,8 @@ class LinearRotor(Summary):
         for Z(s), to first order in the damping.
     reservation : str
         Loads of balls outside those of the atlas, in words; empty where there are none.
+    lossless : tuple of str
+        Parts whose loss is left out, as `without` does.
     """
 
     rotor: Rotor
@@ -115,31 +125,103 @@ class LinearRotor(Summary):
     passage: bool
     rest: _Floats
     loads: _Floats
-    contacts: tuple[LinearElement | ContactImpedance, ...]
+    contacts: tuple[LinearElement | ContactImpedance | WithoutLoss, ...]
     balls: tuple[LinearBalls, ...]
     damping_left_out: tuple[str, ...] = ()
     signed_damping: bool = False
     reservation: str = ""
+    lossless: tuple[str, ...] = ()
 
     def _summary_lines(self) -> list[str]:
         named = zip(self.rotor.ball_bearing_names, self.damping_left_out, strict=False)
         left_out = [f"{name}: {words}" for name, words in named if words]
         of = ", with the signed damping of solved contacts" if self.signed_damping else ""
+        of += f", without the loss of {' and '.join(self.lossless)}" if self.lossless else ""
         about = f"about static equilibrium at {self.speed_rpm:.5g} rev/min{of}"
         return [about, *self.rotor._summary_lines(), *left_out, *filter(None, [self.reservation])]
 
     @cached_property
     def matrices(self) -> Matrices:
         """Mass, damping with the gyroscopic part, and stiffness; linear bearings are in them."""
-        return self.rotor.matrices(self.speed_rpm * RPM_TO_RAD_S)
+        M, C, K = self.rotor.matrices(self.speed_rpm * RPM_TO_RAD_S)
+        for name, (damping, skew) in self._matrix_losses.items():
+            if name in self.lossless:
+                C, K = C - damping, K - skew
+        return M, C, K
+
+    @property
+    def supports(self) -> tuple[tuple[str, LinearSupport], ...]:
+        """Contacts, then ball bearings about static equilibrium, with their names."""
+        contacts = ((f"contact {k}", contact) for k, contact in enumerate(self.contacts))
+        return *contacts, *zip(self.rotor.ball_bearing_names, self.balls, strict=True)
+
+    @property
+    def losses(self) -> tuple[str, ...]:
+        """Names of the parts that take energy from a vibration: rows of `damping_budget`."""
+        own = (name for name in self._matrix_losses if name not in self.lossless)
+        return *support_losses(self.supports), *own
+
+    def without(self, *names: str) -> Self:
+        """The rotor without the loss of some parts, by their names in `losses`; their stiffness stays.
+
+        Modes and responses are those of the rest. What is left of a part is the real K of Z = K + s C: known at
+        each frequency, without states in time.
+
+        Raises
+        ------
+        InputError
+            What is none of `losses`.
+        """
+        require_parts(names, self.losses)
+        others = iter(without_losses(self.supports, names))
+        contacts = tuple(next(others) for _ in self.contacts)
+        return replace(self, contacts=contacts, balls=tuple(others), lossless=(*self.lossless, *names))
+
+    def taken(self, s: complex, q: _Complex) -> tuple[dict[str, float], float]:
+        """What each part takes from a motion q exp(s t), Im(q^H Z q) [N m], and the inertia of it [kg m2].
+
+        `reduced_models.rotor.loss_parts` has the sums: for a mode the parts together are -2 Re(s) Im(s) times the
+        inertia, in which gyroscopic forces are.
+        """
+        found, mass = taken_by_supports(self.supports, self._rows, s, q)
+        M, C, _ = self.matrices
+        for name, (damping, skew) in self._matrix_losses.items():
+            if name not in self.lossless:
+                found[name] = float(np.real(s.imag * (q.conj() @ damping @ q)) + np.imag(q.conj() @ skew @ q))
+        turning = float(np.imag(q.conj() @ (0.5 * (C - C.T)) @ q))
+        mass += float(np.real(q.conj() @ M @ q)) + 0.5 * turning / s.imag
+        return found, mass
+
+    def refined(self, mode: RotorMode) -> tuple[complex, _Complex]:
+        """Eigenvalue and shape of a mode by Newton's method from that of `mode`, perhaps of a rotor much like it.
+
+        Raises
+        ------
+        ConvergenceError
+            There is none near.
+        """
+        return refine_root(self.dynamic_stiffness, mode.eigenvalue, mode.shape, CONVERGED_BY_STEPS)
+
+    def damping_budget(self, count: int | None = DEFAULT_MODES) -> DampingBudget:
+        """Who damps what: the damping ratio of each mode by the parts that take its energy; None: all modes.
+
+        Raises
+        ------
+        ConvergenceError
+            As of `modes`.
+        """
+        return budget_of(self, self.modes(count))
+
+    @cached_property
+    def _matrix_losses(self) -> dict[str, tuple[_Floats, _Floats]]:
+        return matrix_losses(self.rotor, self.speed_rpm * RPM_TO_RAD_S)
 
     @takes(s=COMPLEX)
     def support_impedance(self, s: ArrayLike) -> _Complex:
         """Part of contacts and ball bearings in `dynamic_stiffness` [N/m] at s [1/s], shape of `s` + (N, N)."""
         rows = self._rows
         Z, first = np.zeros((*np.shape(s), len(rows), len(rows)), complex), 0
-        supports: tuple[LinearSupport, ...] = (*self.contacts, *self.balls)
-        for support in supports:
+        for _, support in self.supports:
             impedance = support.impedance(s)
             here = slice(first, first + impedance.shape[-1])
             Z[..., here, here], first = impedance, here.stop
@@ -287,6 +369,9 @@ class LinearRotor(Summary):
         """
         if self.signed_damping:
             raise InputError("signed_damping", True, "False: impedances of solved contacts have no states")
+        if self.lossless:
+            allowed = "none: a part without its loss has no states in time"
+            raise InputError("lossless", ", ".join(self.lossless), allowed)
         if require_nonnegative("tolerance", tolerance) >= 1.0:
             raise InputError("tolerance", tolerance, "below 1, of the static stiffness of a bearing")
         w = self.speed_rpm * RPM_TO_RAD_S
@@ -344,7 +429,8 @@ class LinearRotor(Summary):
     def _near(self, s: complex, q: _Complex) -> list[tuple[complex, _Complex]]:
         """Roots near one of frozen bearings: of one eigenvalue problem, or by Newton's method."""
         if self._exact is None:
-            tolerance = CONVERGED_BY_STEPS if self.contacts or self.signed_damping else CONVERGED
+            by_steps = self.contacts or self.signed_damping or self.lossless
+            tolerance = CONVERGED_BY_STEPS if by_steps else CONVERGED
             return [refine_root(self.dynamic_stiffness, s, q, tolerance)]
         values, vectors = self._exact
         off = np.abs(values - s)

@@ -35,6 +35,7 @@ from reduced_models.life.life_modification import BASIC_RELIABILITY
 from reduced_models.life.system_life import SystemLife
 from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.campbell import Campbell, CriticalSpeed, campbell_of
+from reduced_models.rotor.damping_budget import DampingBudget, budget_of
 from reduced_models.rotor.equilibrium import StaticRotor
 from reduced_models.rotor.linearise import LinearRotor, linearise
 from reduced_models.rotor.machine_numbers import machine_numbers
@@ -82,6 +83,8 @@ class MachineState(Summary):
     supports : tuple of SupportState
     modes : tuple of RotorMode
         The slowest first.
+    budget : DampingBudget or None
+        Who damps what in these modes; bearings by their labels.
     diagram : Campbell or None
         Modes over the speed.
     response : UnbalanceResponse or None
@@ -104,6 +107,7 @@ class MachineState(Summary):
     speed_rpm: float
     supports: tuple[SupportState, ...]
     modes: tuple[RotorMode, ...] = ()
+    budget: DampingBudget | None = None
     diagram: Campbell | None = None
     response: UnbalanceResponse | None = None
     peaks: UnbalanceResponse | None = None
@@ -254,6 +258,7 @@ class MachineState(Summary):
                 mode.to_dict() | {"damping_ratio": mode.damping_ratio, "axial_share": mode.axial_share}
                 for mode in self.modes
             ],
+            "budget": None if self.budget is None else self.budget.to_dict(),
             "critical_speeds": [
                 {"speed_rpm": one.speed_rpm, "hz": one.hz, "margin": self.margin(one), "decrement": one.decrement}
                 | {"axial": self.is_axial(one), "excited": self.is_excited(one)}
@@ -339,7 +344,8 @@ def machine_state(
     fine : bool
         False, for many machines: in a quarter of the time, with six speeds in diagram and response, which end
         where the data do. Critical speeds that an unbalance excites are looked at again, so that they, their
-        damping and their peaks are those of the fine answer to 1e-3; the highest speed is not looked for.
+        damping and their peaks are those of the fine answer to 1e-3; the highest speed is not looked for, and
+        there is no damping budget.
 
     Returns
     -------
@@ -364,8 +370,9 @@ def machine_state(
     supports = _supports(linear, names or rotor.ball_bearing_names, positions or [None] * len(mounts))
     most = min(mount.ball_bearing.highest_speed for mount in mounts)
     highest, ends = _highest_speed(lambda at: _missing(rotor, at), speed, most) if fine else (inf, "")
-    for own, support in zip(rotor.ball_bearing_names, supports, strict=True):
-        ends = ends.replace(own, support.label)
+    labels = {own: support.label for own, support in zip(rotor.ball_bearing_names, supports, strict=True)}
+    for own, label in labels.items():
+        ends = ends.replace(own, label)
     failed: list[str] = []
     last = max(speed, min(highest, most, UP_TO * speed if highest_rpm is None else highest_rpm))
     steps, every = (PARTS, EVERY) if fine else (COARSE, 1)
@@ -379,6 +386,7 @@ def machine_state(
         return known[at]
 
     modes = _tried(lambda: linear.modes(MODES), "modes", failed) or ()
+    budget = _tried(lambda: budget_of(linear, modes), "damping budget", failed) if modes and fine else None
     count = max(len(modes), 1)
     if not fine:
         speeds = speeds[: _reached(linearised, speeds, speed)]
@@ -397,6 +405,7 @@ def machine_state(
         speed_rpm=speed,
         supports=supports,
         modes=modes,
+        budget=None if budget is None else budget.renamed(lambda name: labels.get(name) or name),
         diagram=diagram,
         response=response,
         highest_speed=highest,

@@ -184,7 +184,9 @@ def _mode(machine: Any) -> Tile | None:
     way = "along the shaft" if lowest.axial_share > ALONG else "across the shaft"
     across = [f"{digits(one.hz, 4)} Hz ({digits(one.damping_ratio, 2)})" for one in others]
     higher = f"higher modes (damping ratio): {', '.join(across)}" if across else ""
-    note = _note(f"damping ratio {digits(lowest.damping_ratio, 2)}", way, higher)
+    damps = "" if machine.budget is None else machine.budget.share_words(0)
+    by = f"damped by {damps}" if damps else ""
+    note = _note(f"damping ratio {digits(lowest.damping_ratio, 2)}", way, by, higher)
     return Tile("lowest mode", digits(lowest.hz, 4), "Hz", note)
 
 

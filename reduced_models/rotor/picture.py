@@ -14,6 +14,7 @@ from ehlcontact.results.picture import (
     GREY,
     INK,
     ORANGE,
+    PASTELS,
     WHITE,
     AnyPanel,
     Label,
@@ -34,6 +35,7 @@ DECADES = 6.0  # that spectra show
 MICRO = 1e6  # µm in a metre
 RESPONSE = "displacement/eccentricity"
 SPEED = "speed", "rev/min"
+STACKED = *COLOURS, GREY, *PASTELS, INK  # of the parts of a stack
 
 _Ends = tuple[float | None, float]  # of the frequencies shown [Hz]: as asked for, and the usual one
 
@@ -199,3 +201,21 @@ def _place(response: Any, k: int) -> str:
     x, y = response.nodes[k].tolist()
     name = response.names[k] if response.names else ""
     return name or f"degrees of freedom {x}, {y}"
+
+
+def budget_picture(budget: Any) -> Picture:
+    """Stacked bars: share of every part in the damping of each mode."""
+    places: list[str] = []
+    for hz in budget.hz.tolist():
+        place = f"{hz:.4g}"
+        while place in places:  # bars over one word would be one
+            place += "'"
+        places.append(place)
+    above, below = np.zeros((2, len(places)))
+    lines = []
+    for k, (part, row) in enumerate(zip(budget.parts, 100.0 * budget.share, strict=True)):
+        base = np.where(row >= 0.0, above, below)
+        lines.append(Line(places, row, part, STACKED[k % len(STACKED)], base=base))
+        above, below = above + np.maximum(row, 0.0), below + np.minimum(row, 0.0)
+    panel = Panel(lines, "mode: damped frequency [Hz]", "share of the damping [%]")
+    return Picture([panel], "who damps what", heights=(380.0,))

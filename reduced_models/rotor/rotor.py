@@ -59,6 +59,7 @@ Matrices = tuple[_Floats, _Floats, _Floats]
 MOST_ECCENTRIC, MOST_OF_MATRICES = 0.01, 1.0
 MISSED = 1e-9  # distance from wanted approaches, over the largest, that rounding may leave
 SYMMETRIC = 1e-6  # of the largest entry, by which matrices of another program may be off
+SUM = 1e-9  # of the largest entry, by which parts may miss their sum
 MATRICES = ("mass", "damping", "stiffness")
 
 
@@ -157,6 +158,8 @@ class Rotor(Summary):
         Without the supports; the stiffness may leave the rotor free.
     damping, gyroscopic : array_like, shape (N, N), optional
         The damping force is ``(damping + omega gyroscopic) q'`` at the speed omega [rad/s].
+    damping_by_part : mapping of str to array_like, shape (N, N), optional
+        What the damping is the sum of, by name, as ``{"shaft": ..., "housing 0": ...}``: rows of a damping budget.
     mounts : tuple of BearingMount or ContactMount
         Its supports.
     load : array_like, shape (N,), optional
@@ -172,7 +175,8 @@ class Rotor(Summary):
     Raises
     ------
     InputError
-        Matrices that do not fit together, or a degree of freedom that is not there or taken.
+        Matrices that do not fit together, a damping that is not the sum of its parts, or a degree of freedom that
+        is not there or taken.
     """
 
     mass: _Floats
@@ -185,6 +189,7 @@ class Rotor(Summary):
     nodes: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
     speed_rpm: float | None = None
     parameters: tuple[Parameter, ...] = ()
+    damping_by_part: Mapping[str, _Floats] = field(default_factory=dict)
 
     def _summary_lines(self) -> list[str]:
         bearings = [mount.bearing.name or "ball bearing" for mount in self.bearings]
@@ -235,6 +240,24 @@ class Rotor(Summary):
         for name, at in named.items():
             self._require_there(f"nodes[{name!r}]", tuple(at.values()))
         self._check_parameters()
+        self._check_damping()
+
+    def _check_damping(self) -> None:
+        """Raise `InputError` for parts of which the damping is not the sum."""
+        own = self.damping_by_part
+        if not isinstance(own, Mapping) or not all(isinstance(name, str) for name in own):
+            raise InputError("damping_by_part", shown(own), 'as {"shaft": matrix}')
+        fields = {name: f"damping_by_part[{name!r}]" for name in own}
+        parts = {name: as_rows(fields[name], part, self.size, self.size) for name, part in own.items()}
+        for name, part in parts.items():
+            if part.shape != self.damping.shape:
+                raise InputError(f"shape of {fields[name]}", part.shape, f"{self.damping.shape}, as that of mass")
+        apart = np.abs(sum(parts.values(), -self.damping)).max() if parts else 0.0
+        if apart > SUM * np.abs(self.damping).max():
+            raise InputError(
+                "damping_by_part", f"parts off by {apart:.3g}", "parts whose sum is the damping, or none"
+            )
+        object.__setattr__(self, "damping_by_part", MappingProxyType(parts))
 
     def _check_parameters(self) -> None:
         """Raise `InputError` for parameters of which the matrices are not the sums."""
@@ -301,6 +324,13 @@ class Rotor(Summary):
     def size(self) -> int:
         """Number of degrees of freedom."""
         return len(self.mass)
+
+    @property
+    def dampers(self) -> dict[str, _Floats]:
+        """Parts of the damping by name: as given, or of the `parameters`; else the "rotor" alone."""
+        named = {own.name: own.value * own.parts["damping"] for own in self.parameters if "damping" in own.parts}
+        parts = dict(self.damping_by_part) or named or {"rotor": self.damping}
+        return {name.replace("_", " "): part for name, part in parts.items() if part.any()}
 
     @property
     def support_rows(self) -> _Floats:

@@ -26,7 +26,7 @@ FEW_DECADES = 0.5, 1.7  # of a logarithmic axis with ticks at 1, 2 and 5: one ov
 MOST_DECADES = 9.0  # with a tick at each
 SMALL = -4.0  # decade below which numbers have exponents
 MAP_LEVELS = 500.0  # that a map tells apart; a screen shows 256
-COORDINATES = "x", "y", "z", "r", "theta"
+COORDINATES = "x", "y", "z", "r", "theta", "base"
 
 Axes = dict[str, Any]
 
@@ -70,10 +70,16 @@ def _name(traces: list[dict[str, Any]], layout: dict[str, Any]) -> None:
             trace["hovertemplate"] = f"%{{theta:.0f}}°: %{{r:.4g}}<extra>{name}</extra>"
         elif trace.get("hoverinfo") != "skip":
             x, y = (_axis(layout, trace, side).get("title", {}).get("text", side) for side in "xy")
-            words = f"{x}: %{{x:.5~g}}<br>{y}: %{{y:.5~g}}"
+            number = "" if _are_words(trace.get("x", ())) else ":.5~g"
+            words = f"{x}: %{{x{number}}}<br>{y}: %{{y:.5~g}}"
             bar = layout.get(trace.get("coloraxis") or "", {}).get("colorbar", {})
             field = f"<br>{bar['title']['text']}: %{{z:.4~g}}" if bar else ""
             trace["hovertemplate"] = f"{words}{field}<extra>{name}</extra>"
+
+
+def _are_words(values: Any) -> bool:
+    """Whether coordinates are the words that bars stand over."""
+    return len(values) > 0 and isinstance(values[0], str)
 
 
 def _ticks(traces: list[dict[str, Any]], layout: dict[str, Any]) -> None:
@@ -122,7 +128,11 @@ def _short(trace: dict[str, Any], values: dict[str, Any], layout: dict[str, Any]
     """Coordinates of a trace in as few digits as its axes allow."""
     found = {}
     for name in COORDINATES:
-        if name in values and trace["type"] != "image":
+        if values.get(name) is None or trace["type"] == "image":
+            continue
+        if _are_words(values[name]):
+            found[name] = [str(word) for word in values[name]]
+        else:
             log = name in "xy" and _axis(layout, trace, name).get("type") == "log"
             fine = {"fineness": MAP_LEVELS} if name == "z" else {}
             found[name] = rounded(values[name], logarithmic=log, **fine)

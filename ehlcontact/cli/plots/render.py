@@ -89,6 +89,8 @@ def _panel(figure: go.Figure, panel: Panel, at: dict[str, int]) -> None:
     first = {"secondary_y": False} if panel.second else {}
     for axis, label, ends, tick in axes:
         options: dict[str, Any] = {"title_text": label, "type": "log" if logs[axis] else None, "dtick": tick}
+        if axis == "x" and any(line.words for line in panel.lines):  # words, though they may read as numbers
+            options["type"] = "category"
         if "rev/min" in label:
             options["exponentformat"] = "none"
         elif "[Hz]" in label:
@@ -151,7 +153,9 @@ def _word(figure: go.Figure, text: str, x: float, log: bool, at: dict[str, int],
 
 def _line(figure: go.Figure, line: Line, at: dict[str, Any]) -> None:
     if line.words:
-        figure.add_bar(x=line.x, y=line.y, name=line.name, marker_color=line.colour, **at)
+        figure.add_bar(x=line.x, y=line.y, base=line.base, name=line.name, marker_color=line.colour, **at)
+        if line.base is not None:
+            figure.update_layout(barmode="overlay")
         return
     if line.bars is not None:
         x = np.concatenate([line.x, line.x[::-1]])

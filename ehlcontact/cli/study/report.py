@@ -266,6 +266,8 @@ def _of_bearings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
         pictures["machine"] = machine.picture
         for k, (_, state) in enumerate(shown_bearings(found)):
             pictures[f"balls_{k + 1}"] = state.picture
+        if machine.budget is not None and machine.budget.parts:
+            pictures["damping"] = machine.budget.picture
         if machine.modes and (response := machine.labelled_response) is not None:
             pictures["response_to_unbalance"] = response.picture
     for k, (_, small) in enumerate(shown_coefficients(found)):
