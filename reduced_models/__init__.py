@@ -56,6 +56,7 @@ from reduced_models.rotor.rotor import Rotor as Rotor
 from reduced_models.rotor.rotor import Unbalance as Unbalance
 from reduced_models.rotor.simulate import simulate_rotor as simulate_rotor
 from reduced_models.rotor.speed_profile import SpeedProfile as SpeedProfile
+from reduced_models.rotor.squeeze_film_damper import SqueezeFilmDamper as SqueezeFilmDamper
 from reduced_models.rotor.supports import BearingMount as BearingMount
 from reduced_models.rotor.supports import ContactMount as ContactMount
 from reduced_models.rotor.unbalance import unbalance_response as unbalance_response

@@ -129,7 +129,17 @@ WITHOUT_PLOT = {
     **dict.fromkeys(("MoesPoint", "OperatingPoint", "Geometry", "Lubricant", "Scales"), INPUT),
     **dict.fromkeys(("FreeVibration", "HarmonicLoad", "RampLoad", "PrescribedApproach", "PrescribedLoad"), INPUT),
     **dict.fromkeys(
-        ("BallBearing", "BearingSet", "LinearBearing", "BearingMount", "Unbalance", "ContactMount", "Rotor"), INPUT
+        (
+            "BallBearing",
+            "BearingSet",
+            "LinearBearing",
+            "SqueezeFilmDamper",
+            "BearingMount",
+            "Unbalance",
+            "ContactMount",
+            "Rotor",
+        ),
+        INPUT,
     ),
     **dict.fromkeys(("MeasuredPath", "ModalPath", "SystemPath", "RecordCase"), INPUT),
     **dict.fromkeys(("Shaft", "Disc", "Support"), INPUT),

@@ -44,6 +44,8 @@ OFFSET = Quantity("m", (0.0, 0.1), (1e-9, 1e-3), UM, signed=True)  # along a sha
 # Bearings
 BALL_DIAMETER, PITCH_DIAMETER, SPEED = INPUTS["ball_diameter"], INPUTS["pitch_diameter"], INPUTS["speed_rpm"]
 SPEED_OR_NONE = Quantity("rev/min", (0.0, SPEED.limits[1]), SPEED.usual, SPEED.others)
+FILM_LAND = Quantity("m", (1e-6, 10.0), (1e-3, 1.0), MM)  # of a squeeze film damper
+CLEARANCE = Quantity("m", (1e-8, 0.05), (5e-6, 2e-3), UM)  # radial, of a journal
 GAP = Quantity("m", (1e-9, 0.01), (1e-8, 1e-4), UM)  # beyond which a film carries nothing
 LAYER = Quantity("m", (1e-15, 1e-2), (1e-9, 1e-3), UM)  # of oil
 DISTANCE = Quantity("m", (0.0, 10.0), (2e-3, 5.0), MM)  # of the planes of two bearings
@@ -72,6 +74,7 @@ APPROACH = Quantity("m", (0.0, 0.1), (1e-9, 1e-3), UM, signed=True)  # of two bo
 TOLERANCE = Quantity("", (1e-15, 0.5), (1e-12, 0.1))
 INDEX_OF_REFRACTION = Quantity("", (1.0, 5.0), (1.0, 5.0))
 VISCOSITY = Quantity("m2/s", (1e-9, 1.0), (1e-6, 0.1), {"mm2/s": 1e-6})  # kinematic
+DYNAMIC_VISCOSITY = INPUTS["eta0"]
 RATIO_OF_LOADS = Quantity("", (1e-6, 1e3), (1e-2, 20.0))
 DRY_APPROACHES = Quantity("dry approaches", (0.0, 1e3), (0.0, 10.0), signed=True)
 ANY = Quantity("", (0.0, 1e30), (0.0, 1e30), signed=True)

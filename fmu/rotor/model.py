@@ -115,6 +115,10 @@ class RotorModel:
 
     def __post_init__(self) -> None:
         require_instance("rotor", self.rotor, Rotor, "a Rotor")
+        if self.rotor.film_dampers:
+            raise InputError(
+                "rotor.mounts", "with squeeze film dampers", "without: FMUs of rotors do not have them"
+            )
         object.__setattr__(self, "outside", outside_names(supports_of(self.rotor), self.outside))
         object.__setattr__(self, "rotor", _with_elements(self.rotor, self.outside))
         if self.inertia is not None:

@@ -101,7 +101,8 @@ const double *supports_pressed(const Rotor *rotor, const double work[]);
 const char *supports_rest(const Rotor *rotor, double state[], double work[], double omega, const double r[], const double v[],
                           double carried[]);
 void supports_slopes(const Rotor *rotor, double work[], double gain, double slopes[]);
-const char *supports_accept(const Rotor *rotor, double state[], double work[]);
+/* `refused` becomes the support that cannot be there. */
+const char *supports_accept(const Rotor *rotor, double state[], double work[], int *refused);
 /* At the end of the last step, or at rest. */
 double supports_torque(const Rotor *rotor, const double state[]);
 

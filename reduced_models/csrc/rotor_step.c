@@ -327,7 +327,7 @@ const char *rotor_move(const Rotor *r, const double applied[], double h, double 
         reason = balance(r, condensed(r, state).method, applied, state, work, &own, search);
     }
     if (reason == NULL && p > 0) {
-        reason = supports_accept(r, state, work);
+        reason = supports_accept(r, state, work, &search->refused);
     }
     return reason == NULL ? rotor_end_step(r, applied, own.r, own.carried, own.carried, state, work) : reason;
 }

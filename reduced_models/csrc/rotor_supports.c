@@ -162,7 +162,7 @@ void supports_slopes(const Rotor *r, double work[], double gain, double slopes[]
     }
 }
 
-const char *supports_accept(const Rotor *r, double state[], double work[])
+const char *supports_accept(const Rotor *r, double state[], double work[], int *refused)
 {
     double *own = state + rotor_layout(r).supports;
     const char *reason = NULL;
@@ -170,6 +170,7 @@ const char *supports_accept(const Rotor *r, double state[], double work[])
     for (i = 0; i < r->supports && reason == NULL; i++) {
         const Support *support = r->support[i];
         reason = support->accept(support->own, own, work);
+        *refused = reason == NULL ? *refused : i;
         own += support->size;
         work += support->work;
     }

@@ -1,4 +1,4 @@
-/* A support inside a rotor: a ball bearing, or a contact. Its state and the work of a step are plain numbers that the rotor keeps.
+/* A support inside a rotor: a ball bearing, a contact, or a squeeze film damper. Its state and the work of a step are plain numbers that the rotor keeps.
  *
  * `own` is the support itself, constant. Motions are those of its directions: displacements of an inner ring, or the approach of
  * a contact; forces are those of the rotor on it, in the same directions. Functions return NULL, or why there is no such number;

@@ -5,6 +5,7 @@
 | rotor | `Rotor`: matrices, supports, loads; `Unbalance`, `Parameter` |
 | supports | `ContactMount`, `BearingMount`: what a rotor stands on |
 | linear_bearing | `LinearBearing`: a bearing as stiffness and damping |
+| squeeze_film_damper | `SqueezeFilmDamper`: a journal in a film of oil, and its spring |
 | contact_protocol | what a contact of a rotor has: a step and a state; tangents besides |
 | jeffcott | `jeffcott_rotor`: such a rotor by its parameters |
 | parts | `Shaft`, `Disc`, `Support`: what a rotor on bearings is made of |
@@ -20,8 +21,8 @@
 | core_rotor | `CoreRotor`: a rotor as the C core has it, its steps condensed onto its supports |
 | contact_steps | forces and tangent stiffness of all contacts in a step |
 | prepared_run | a rotor, its supports and their start as the arrays of a run |
-| integrate_compiled | steps of a rotor on ball bearings, in C |
-| integrate_python | Newton loop of the same steps in Python, for supports other than ball bearings |
+| integrate_compiled | steps of a rotor on ball bearings and dampers, in C |
+| integrate_python | Newton loop of the same steps in Python, for other supports |
 | simulate | `simulate_rotor`: a rotor over time, from the rotor by arrays and steps to the result |
 | result | `RotorResult`: histories of a run |
 | linear_contact | a contact about static equilibrium: an element as a state space, any other by its impedance |

@@ -199,7 +199,7 @@ class _Assembly:
         fixed: tuple[int | None, ...] | None = None if housing is None else tuple(housing.values())
         free = (None, None, nodes[f"outer ring {k}"]["z"]) if k in self.outer_rings else None
         axial = {} if self.z is None else {**nodes["shaft"], **node}
-        return [
+        mounts = [
             BearingMount(
                 bearing=seat.bearing,
                 x=node["x"],
@@ -216,6 +216,9 @@ class _Assembly:
             )
             for j, seat in enumerate(support.seats)
         ]
+        if support.damper is not None and housing is not None:
+            mounts.append(BearingMount(bearing=support.damper, x=housing["x"], y=housing["y"], name=f"damper {k}"))
+        return mounts
 
     def _add_shaft(self) -> None:
         for k, element in enumerate(self.shaft.shaft_elements(self.stations)):

@@ -47,6 +47,9 @@ def rings_of(rotor: Rotor) -> _Floats:
     """Motions of the rings of ball bearings, shape (n bearings, N); `InputError` for a rotor on contacts."""
     if rotor.contacts:
         raise InputError("mounts", "with contacts", "ball bearings or linear bearings, for python-control")
+    if rotor.film_dampers:
+        allowed = "without: linearise(rotor).to_control() has them about static equilibrium"
+        raise InputError("mounts", "with squeeze film dampers", allowed)
     return np.concatenate([np.zeros((0, rotor.size)), *(m.rows(rotor.size) for m in rotor.ball_bearings)])
 
 

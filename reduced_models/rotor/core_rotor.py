@@ -224,7 +224,7 @@ def rotor_library() -> ctypes.CDLL:
     library = bearing_library()
     for name in ("rotor_size", "rotor_work"):
         getattr(library, name).restype = c_size_t
-    for name in ("bearing_support", "rotor_put", "rotor_renew", "rotor_sizes"):
+    for name in ("bearing_support", "damper_support", "rotor_put", "rotor_renew", "rotor_sizes"):
         getattr(library, name).restype = None
     for name in ("rotor_run", "rotor_free_step", "rotor_end_step"):
         getattr(library, name).restype = ctypes.c_char_p

@@ -11,17 +11,19 @@ from numpy.typing import NDArray
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.equilibrium import GUESS, OPEN
 from reduced_models.bearing.equilibrium import equilibrium as solve
-from reduced_models.bearing.freedoms import FIVE
+from reduced_models.bearing.freedoms import FIVE, PLANAR
 from reduced_models.bearing.ring import RingEquilibrium, equilibrium_at, grow_gyroscopic
 from reduced_models.bearing.ring_statics import require_in_grooves, static_ring
 from reduced_models.rotor.contact_protocol import has_tangents
 from reduced_models.rotor.nodes import LENGTHS
+from reduced_models.rotor.squeeze_film_damper import CONTACT
 from reduced_models.rotor.supports import (
     BearingMount,
     ContactMount,
     Mount,
     bearing_names,
     is_ball_bearing,
+    is_damper,
     support_columns,
     support_rows,
 )
@@ -29,6 +31,7 @@ from reduced_models.rotor.supports import (
 _Floats = NDArray[np.float64]
 
 NOT_HELD = "one that presses balls in all directions: more preload, or a bearing of the other facing, holds it"
+NO_FILM = "one with a stiffness, or a housing on springs: a squeeze film carries no static force"
 HELD = 1e-12  # smallest stiffness of a rotor over its largest, beam included: below is rounding
 
 
@@ -103,6 +106,33 @@ class StaticBearing:
             raise InputError(f"{error.field} of {self._name}", error.value, error.allowed + other) from None
 
 
+class StaticDamper:
+    """A squeeze film damper in static equilibrium: its spring alone."""
+
+    def __init__(self, mount: BearingMount, name: str) -> None:
+        self._damper, self.name = mount.damper, name
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether it has no spring."""
+        return self._damper.stiffness == 0.0
+
+    def force(self, r: _Floats) -> _Floats:
+        """Force that it carries, shape (2,) [N]."""
+        return np.asarray(self._damper.stiffness * r)
+
+    def tangent(self, r: _Floats) -> _Floats:
+        """Its derivative, shape (2, 2) [N/m]."""
+        return self._damper.stiffness * np.eye(r.size)
+
+    def require_clear(self, r: _Floats) -> None:
+        """Raise `InputError` where the journal rests on its housing."""
+        ratio = float(self._damper.eccentricity(r))
+        if ratio >= 1.0:
+            allowed = "one that leaves it clear: a stiffer spring, or a larger clearance"
+            raise InputError("load", f"under which the journal of {self.name} {CONTACT.format(ratio)}", allowed)
+
+
 def static_supports(mounts: Sequence[Mount], speed_rpm: float) -> list[tuple[slice, StaticSupport]]:
     """Every support that is not linear, with its place among the directions of all supports.
 
@@ -120,12 +150,15 @@ def static_supports(mounts: Sequence[Mount], speed_rpm: float) -> list[tuple[sli
         name = next(names)
         if is_ball_bearing(mount):
             supports.append((columns, StaticBearing(mount, speed_rpm, name)))
+        elif is_damper(mount):
+            supports.append((columns, StaticDamper(mount, name)))
     return supports
 
 
 def equilibrium(mounts: Sequence[Mount], load: _Floats, stiffness: _Floats, speed_rpm: float) -> _Floats:
     """Displacements, shape (N,), at which supports and stiffness carry the load: see `Rotor.equilibrium`."""
     static = StaticRotor(mounts, load, stiffness, speed_rpm)
+    static.require_springs()
     try:
         q, share = static.search()
     except ConvergenceError as error:
@@ -138,6 +171,9 @@ def equilibrium(mounts: Sequence[Mount], load: _Floats, stiffness: _Floats, spee
     for columns, support in static.mounted:
         if columns.stop - columns.start == len(FIVE):  # runs on others begin beyond the atlas too, and warn of it
             support.require_bearable(static.rows[columns] @ q)
+    for columns, own in static.supports:
+        if isinstance(own, StaticDamper):
+            own.require_clear(static.rows[columns] @ q)
     return q
 
 
@@ -237,6 +273,24 @@ class StaticRotor:
         q = self._held.copy()
         q[self.free] = moved
         return q
+
+    def require_springs(self) -> None:
+        """Raise `InputError` where a load moves what a damper without a spring, and nothing else, would hold."""
+        bare = [(at, one) for at, one in self.supports if isinstance(one, StaticDamper) and one.is_bare]
+        if not bare:
+            return
+        largest = float(np.abs(self._stiffness).max()) or 1.0
+        holds = self._stiffness / largest + self._both_ways
+        for columns in (at for at, one in self.supports if (at, one) not in bare):
+            holds = holds + self.rows[columns].T @ self.rows[columns]
+        values, vectors = np.linalg.eigh(0.5 * (holds + holds.T))
+        for free in vectors.T[values <= HELD * values[-1]]:
+            if abs(free @ self._load) <= HELD * np.linalg.norm(self._load):
+                continue
+            moved = [(one.name, np.abs(self.rows[at] @ free)) for at, one in bare]
+            name, along = max(moved, key=lambda one: float(one[1].max()))
+            if along.max() > 0.0:
+                raise InputError("load", f"not held by {name} in {PLANAR[int(np.argmax(along))]}", NO_FILM)
 
     def unsupported(self, q: _Floats) -> str:
         """Bearing and direction in which nothing holds the rotor at `q`; empty where all is held."""

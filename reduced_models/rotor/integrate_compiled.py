@@ -1,6 +1,6 @@
-"""Time steps of a rotor on ball bearings, in C. Other supports: `integrate_python`.
+"""Time steps of a rotor on ball bearings and squeeze film dampers, in C. Other supports: `integrate_python`.
 
-Newton's method works on the points at which bearings act, with the exact tangents of the bearings. Rings follow
+Newton's method works on the points at which supports act, with their exact tangents. Rings follow
 the points: where several are on a shaft that is rigid along itself, there are fewer points than motions of rings.
 ``csrc/rotor_run.c`` makes the steps of a block; rotor, bearings, balls and films are numbers of one array.
 """
@@ -18,15 +18,18 @@ from ehlcontact.errors import ConvergenceError
 from reduced_models.bearing.core_bearing import pointer
 from reduced_models.rotor.core_rotor import CoreRotor, RunStructure, SupportStructure, rotor_library
 from reduced_models.rotor.prepared_run import DISPLACEMENTS, PreparedRun
+from reduced_models.rotor.squeeze_film_damper import CONTACT
 
 _Floats = NDArray[np.float64]
+
+DAMPER_ECCENTRICITY = 2  # among the numbers of a damper: ``csrc/damper_support.c``
 
 # of a light ball under inner race control, say
 UNBALANCED = "; friction may not hold its gyroscopic moment: another race_control, more preload"
 
 
 class CompiledSteps:
-    """Steps of a run on ball bearings alone.
+    """Steps of a run on ball bearings and dampers alone.
 
     Parameters
     ----------
@@ -45,15 +48,20 @@ class CompiledSteps:
         self._farthest, self._applied = np.full(len(run.shift), inf), np.zeros(rotor.size)
         for at in run.ball_directions:
             self._farthest[at][:DISPLACEMENTS] = run.farthest
-        supports = [SupportStructure() for _ in run.balls]
-        for balls, support in zip(run.balls, supports, strict=True):
+        supports = [SupportStructure() for _ in (*run.balls, *rotor.film_dampers)]
+        for balls, support in zip(run.balls, supports, strict=False):
             rotor_library().bearing_support(balls.core.address, byref(support))
-        first = np.array([at.start for at in run.ball_directions], np.intc)
+        self._dampers = [mount.damper.structure for mount in rotor.film_dampers]  # to which supports point
+        for damper, support in zip(self._dampers, supports[len(run.balls) :], strict=True):
+            rotor_library().damper_support(byref(damper), byref(support))
+        first = np.array([at.start for at in (*run.ball_directions, *rotor.film_damper_columns)], np.intc)
         arrays = {"ties": geometry.normals, "shift": run.shift, "count": geometry.counts, "first": first}
         self._core = core = CoreRotor(rotor, run.dt, run.rho_inf, supports, arrays)
         core.structure.allowed = self._allowed
-        ends = core.state.size - np.cumsum([balls.state.size for balls in run.balls][::-1])[::-1]
-        self._parts = np.split(core.state, ends)[1:]  # of the bearings
+        sizes = [support.size for support in supports]
+        starts = core.state.size - sum(sizes) + np.cumsum([0, *sizes])[:-1]
+        parts = [core.state[at : at + size] for at, size in zip(starts, sizes, strict=True)]
+        self._parts, self._touched = parts[: len(run.balls)], parts[len(run.balls) :]  # of bearings, of dampers
         for part, balls in zip(self._parts, run.balls, strict=True):
             part[:] = balls.state
         core.put(run.state, geometry.normals.T @ run.histories.force[0], run.applied(0))
@@ -64,7 +72,7 @@ class CompiledSteps:
         Raises
         ------
         ConvergenceError
-            A step found no balance, or a ring left its bearing.
+            A step found no balance, a ring left its bearing, or the journal of a damper touched its housing.
         """
         run, core, here = self._run, self._core, slice(first + 1, end + 1)
         core.take_matrices(omega)
@@ -85,6 +93,11 @@ class CompiledSteps:
             raise ConvergenceError(lost[1], None)
         self.reached = self.made + (reason is not None)
         if reason is not None:
+            touching = block.refused - len(run.balls)
+            if touching >= 0:
+                ratio = self._touched[touching][DAMPER_ECCENTRICITY]
+                name = run.rotor.film_damper_names[touching]
+                raise ConvergenceError(f"the journal of {name} {CONTACT.format(ratio)}", None)
             raise ConvergenceError(f"no balance of the forces was found{self._hint(block.refused)}", None)
         progress(self.made)
 

@@ -1,4 +1,4 @@
-"""Newton loop of a rotor's step in Python, for supports other than ball bearings: films, elements.
+"""Newton loop of a rotor's step in Python, for supports other than ball bearings and dampers: films, elements.
 
 The step is that of `core_rotor`. Its balance is found on the displacements of the points at which supports act, by
 Newton's method or, for contacts without tangents, secants.
@@ -18,6 +18,7 @@ from reduced_models.bearing.motion import BallMotion
 from reduced_models.rotor.contact_protocol import has_tangents
 from reduced_models.rotor.core_rotor import CoreRotor, FreeStep
 from reduced_models.rotor.prepared_run import PreparedRun
+from reduced_models.rotor.squeeze_film_damper import DamperSteps
 
 _Floats = NDArray[np.float64]
 
@@ -29,7 +30,7 @@ OVERSHOOT = 2.0  # growth of the imbalance that halves the way to the last place
 
 
 class RunningSupport(Protocol):
-    """Supports over the steps of a run: a group of contacts, or one ball bearing."""
+    """Supports over the steps of a run: a group of contacts, one ball bearing, or one damper."""
 
     def begin(self, omega: float) -> None:
         """Begin a step at whose end the shaft turns at `omega` [rad/s]."""
@@ -120,6 +121,11 @@ class PythonSteps:
                 for at, balls in zip(run.ball_directions, run.balls, strict=True)
             ]
         self._supports += zip(run.ball_directions, bearings, strict=True)
+        rotor = run.rotor
+        for mount, name, at in zip(
+            rotor.film_dampers, rotor.film_damper_names, rotor.film_damper_columns, strict=True
+        ):
+            self._supports.append((at, DamperSteps(mount.damper, run.contacts.gain, name)))
 
     def advance(self, omega: float, first: int, end: int, progress: Callable[[int], None]) -> None:
         """Make the steps of one block, of matrices at `omega`; `progress` takes the number made, after each.

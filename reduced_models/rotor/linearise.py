@@ -59,7 +59,7 @@ from reduced_models.rotor.modes import (
 )
 from reduced_models.rotor.nodes import flat_nodes
 from reduced_models.rotor.rotor import Matrices, Rotor
-from reduced_models.rotor.supports import BearingMount, ContactMount
+from reduced_models.rotor.supports import BearingMount, ContactMount, Mount, bearing_names, is_damper
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
 _Floats = NDArray[np.float64]
@@ -85,6 +85,7 @@ class LinearSupport(Protocol):
 class LinearRotor(Summary):
     """A rotor about static equilibrium under its load, made by `linearise`.
 
+    Squeeze film dampers are `LinearBearing` about their journals at rest: `SqueezeFilmDamper.linear`.
     Ball bearings and elements are exact at complex frequencies, the memory of their films included; impedances are
     those of the frequency. Films are those of the speed. Balls stand still while the rotor vibrates, at the angle
     of their mount or, over a ball passage, at all positions of the cage: then the impedance of a bearing is the
@@ -489,6 +490,7 @@ def linearise(
     known, rolling = all(_is_impedance(mount.contact) for mount in mounted), abs(speed)
     rest = np.zeros(rotor.size) if mounted and known and not bearings else rotor.equilibrium(rolling)
     require_held(rotor.mounts, rest, rotor.matrices(rolling * RPM_TO_RAD_S)[2], rolling)
+    rotor = _with_linear_dampers(rotor, rest)
     points, normals, _ = rotor.geometry
     r = normals @ (points @ rest)
     parts = [
@@ -515,6 +517,22 @@ def linearise(
         signed_damping,
         reservation,
     )
+
+
+def _with_linear_dampers(rotor: Rotor, rest: _Floats) -> Rotor:
+    """The rotor with each damper as a linear bearing about the place of its journal."""
+    if not rotor.film_dampers:
+        return rotor
+    names = iter(bearing_names(rotor.mounts))
+    mounts: list[Mount] = []
+    for mount in rotor.mounts:
+        name = next(names) if isinstance(mount, BearingMount) else ""
+        if isinstance(mount, BearingMount) and is_damper(mount):
+            about = mount.damper.linear(mount.rows(rotor.size) @ rest)
+            mounts.append(replace(mount, bearing=about, name=name))
+        else:
+            mounts.append(mount)
+    return replace(rotor, mounts=tuple(mounts))
 
 
 def _require_symmetric(rotor: Rotor, speed: float) -> None:

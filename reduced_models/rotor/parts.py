@@ -12,7 +12,14 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import as_column, as_numbers, require_finite, require_integer, require_nonnegative
+from ehlcontact.checks import (
+    as_column,
+    as_numbers,
+    require_finite,
+    require_instance,
+    require_integer,
+    require_nonnegative,
+)
 from ehlcontact.checks import parts as ranges
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.errors import InputError
@@ -23,6 +30,7 @@ from reduced_models.rotor.beam import ShaftElement
 from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.rotor import Unbalance, require_unbalance
+from reduced_models.rotor.squeeze_film_damper import SqueezeFilmDamper
 from reduced_models.rotor.supports import BearingMount, require_bearing
 
 _Floats = NDArray[np.float64]
@@ -275,6 +283,8 @@ class Support(Summary):
         outer ring against `facing`.
     preload_stiffness : float
         Of that spring [N/m]; 0: its force is constant.
+    damper : SqueezeFilmDamper, optional
+        Between the housing and the ground, beside the springs of the housing, which are its squirrel cage.
     outer_ring_mass : float, optional
         Of an outer ring that is free [kg]; by default that of steel with a section of 3/4 of the ball diameter
         squared.
@@ -297,6 +307,7 @@ class Support(Summary):
     preload: float | None = None
     preload_stiffness: float = 0.0
     outer_ring_mass: float | None = None
+    damper: SqueezeFilmDamper | None = None
 
     def _summary_lines(self) -> list[str]:
         lines = [f"{self.bearing.name or 'ball bearing'} at {1e3 * self.position:.5g} mm"]
@@ -308,7 +319,8 @@ class Support(Summary):
         if self.housing_mass is None:
             return [f"{lines[0]}, on the ground", *lines[1:]]
         springs = span(self.housing_stiffness, 1e-6, "N/µm")
-        return [*lines, f"in a housing of {self.housing_mass:.4g} kg on springs of {springs}"]
+        film = "" if self.damper is None else " and a squeeze film damper"
+        return [*lines, f"in a housing of {self.housing_mass:.4g} kg on springs of {springs}{film}"]
 
     def __post_init__(self) -> None:
         facing_signs(self.facing)
@@ -328,6 +340,10 @@ class Support(Summary):
         if (self.housing_mass is None) != (self.housing_stiffness is None):
             missing = "housing_mass" if self.housing_mass is None else "housing_stiffness"
             raise InputError(missing, None, "given: a housing has a mass and springs")
+        if self.damper is not None:
+            require_instance("damper", self.damper, SqueezeFilmDamper, "a SqueezeFilmDamper")
+            if self.housing_mass is None:
+                raise InputError("housing_mass", None, "given: the damper is between the housing and the ground")
         if self.housing_mass is not None:
             for name in ("housing_stiffness", "housing_damping"):
                 given = np.atleast_1d(as_numbers(name, getattr(self, name)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import inf
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -51,12 +52,12 @@ class PreparedRun:
     ----------
     t, omega, angle : ndarray, shape (steps + 1,)
         Times [s], speeds of the shaft [rad/s], its angle [rad].
-    shift : ndarray, shape (directions of contacts and ball bearings,)
-        Displacement of rings beside that of the rotor [m]; 0 of contacts.
+    shift : ndarray, shape (directions of contacts, ball bearings and dampers,)
+        Displacement of rings beside that of the rotor [m]; 0 of contacts and dampers.
     turning : ndarray, shape (steps + 1, 2 unbalances)
         Forces of the unbalances [N]; `at`, shape (N, 2 unbalances), is where they act.
     contacts : ContactSteps
-        All contacts; they come first among the motions of the supports.
+        All contacts; they come first among the motions of the supports, and dampers last.
     balls : tuple of BallMotion
         Balls and films of every ball bearing.
     state : ndarray, shape (3, N)
@@ -77,7 +78,8 @@ class PreparedRun:
         self.balls: tuple[BallMotion, ...] = tuple(
             motion_of(mount.ball_bearing, speeds, mount.directions) for mount in rotor.ball_bearings
         )
-        shifts = [np.zeros(len(rotor.contacts)), *(mount.shift for mount in rotor.ball_bearings)]
+        mounts = (*rotor.ball_bearings, *rotor.film_dampers)
+        shifts = [np.zeros(len(rotor.contacts)), *(mount.shift for mount in mounts)]
         self.shift = np.concatenate(shifts)
         self.histories = Histories.empty(steps + 1, rotor.size, len(rotor.geometry.normals))
         self.contacts = ContactSteps(rotor.contacts, dt, rotor_gain(dt, rho_inf))
@@ -91,7 +93,8 @@ class PreparedRun:
     @property
     def farthest(self) -> float:
         """How far a ring may go from the middle of its bearing [m]."""
-        return FARTHEST * min(mount.ball_bearing.ball_diameter for mount in self.rotor.ball_bearings)
+        balls = (mount.ball_bearing.ball_diameter for mount in self.rotor.ball_bearings)
+        return FARTHEST * min(balls, default=inf)
 
     def lost(self, first: int, end: int) -> tuple[int, str] | None:
         """The first step after `first`, up to `end`, at whose end a ring has left its bearing, and that in words.
@@ -127,7 +130,7 @@ class PreparedRun:
             first = end
 
     def applied(self, step: int) -> _Floats:
-        """Forces on the freedoms at the end of a step but for contacts and ball bearings, shape (N,) [N]."""
+        """Forces on the freedoms at the end of a step but for those of supports, shape (N,) [N]."""
         return self.rotor.load + self.at @ self.turning[step]
 
     def _begin(self, start: Any) -> _Floats:
@@ -142,6 +145,8 @@ class PreparedRun:
         force[:first] = self.contacts.start(r[:first], rate[:first])
         for mount, at, balls in zip(rotor.ball_bearings, self.ball_directions, self.balls, strict=True):
             force[at] = balls.rest(self.omega[0], mount.cage_angle, r[at] + self.shift[at])
+        for mount, at in zip(rotor.film_dampers, rotor.film_damper_columns, strict=True):
+            force[at] = mount.damper.forces(r[at], rate[at]).force
         M, C, K = rotor.matrices(self.omega[0])
         carried = geometry.points.T @ (geometry.normals.T @ (geometry.counts * force))
         net = self.applied(0) - carried

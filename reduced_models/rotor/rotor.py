@@ -42,9 +42,11 @@ from reduced_models.rotor.supports import (
     ContactMount,
     Mount,
     SupportGeometry,
-    ball_columns,
+    bearing_columns,
     bearing_names,
     is_ball_bearing,
+    is_damper,
+    kind_of,
     require_contact,
     support_geometry,
     support_rows,
@@ -192,9 +194,11 @@ class Rotor(Summary):
     damping_by_part: Mapping[str, _Floats] = field(default_factory=dict)
 
     def _summary_lines(self) -> list[str]:
-        bearings = [mount.bearing.name or "ball bearing" for mount in self.bearings]
+        bearings = [kind_of(mount.bearing) for mount in self.bearings if not is_damper(mount)]
+        dampers = [kind_of(mount.bearing) for mount in self.film_dampers]
         contacts = self.contacts
         on = [f"{counted(len(bearings), 'bearing')}: {', '.join(bearings)}"] if bearings else []
+        on += [counted(len(dampers), "squeeze film damper")] if dampers else []
         on += [counted(len(contacts), "contact")] if contacts else []
         amounts = ", ".join(f"{1e6 * abs(unbalance.amount):.4g}" for unbalance in self.unbalances)
         speed = "" if self.speed_rpm is None else f", {self.speed_rpm:.5g} rev/min"
@@ -275,7 +279,7 @@ class Rotor(Summary):
             for end in mount.ends:
                 self._require_there(f"mounts[{i}]", end)
             if isinstance(mount, BearingMount):
-                place = (*mount.ends[0], mount.arm, mount.name)
+                place = (*mount.ends[0], mount.arm, mount.name, is_damper(mount))
                 if place in taken:
                     allowed = "at degrees of freedom that no other bearing has, or with a name of its own"
                     raise InputError(f"mounts[{i}]", mount.ends[0], allowed)
@@ -344,7 +348,7 @@ class Rotor(Summary):
 
     @property
     def bearings(self) -> tuple[BearingMount, ...]:
-        """Supports that are bearings."""
+        """Supports that are bearings or dampers."""
         return tuple(mount for mount in self.mounts if isinstance(mount, BearingMount))
 
     @property
@@ -358,15 +362,32 @@ class Rotor(Summary):
         rows = zip(self.bearings, bearing_names(self.bearings), strict=True)
         return tuple(name for mount, name in rows if is_ball_bearing(mount))
 
+    @property
+    def film_dampers(self) -> tuple[BearingMount, ...]:
+        """Supports that are squeeze film dampers."""
+        return tuple(mount for mount in self.bearings if is_damper(mount))
+
+    @property
+    def film_damper_names(self) -> tuple[str, ...]:
+        """Names of `film_dampers`."""
+        rows = zip(self.bearings, bearing_names(self.bearings), strict=True)
+        return tuple(name for mount, name in rows if is_damper(mount))
+
     @cached_property
     def geometry(self) -> SupportGeometry:
-        """Where contacts, then ball bearings act; linear bearings are in `matrices`."""
-        return support_geometry(self.contacts, self.ball_bearings, self.size)
+        """Where contacts, then ball bearings, then dampers act; linear bearings are in `matrices`."""
+        return support_geometry(self.contacts, (*self.ball_bearings, *self.film_dampers), self.size)
 
     @property
     def ball_columns(self) -> tuple[slice, ...]:
-        """Where the directions of each ball bearing are among the motions of contacts, then ball bearings."""
-        return ball_columns(self.contacts, self.ball_bearings)
+        """Where the directions of each ball bearing are among the motions of `geometry`."""
+        return bearing_columns(self.contacts, self.ball_bearings)
+
+    @property
+    def film_damper_columns(self) -> tuple[slice, ...]:
+        """Where the directions of each damper are among these motions."""
+        columns = bearing_columns(self.contacts, (*self.ball_bearings, *self.film_dampers))
+        return columns[len(self.ball_bearings) :]
 
     @property
     def changes_with_speed(self) -> bool:

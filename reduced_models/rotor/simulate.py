@@ -31,7 +31,7 @@ from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.speed_profile import SpeedProfile, law_speeds
-from reduced_models.rotor.supports import bearing_names
+from reduced_models.rotor.supports import bearing_names, is_damper
 
 _Floats = NDArray[np.float64]
 
@@ -66,8 +66,9 @@ def simulate_rotor(
 
     Generalised-alpha steps (second order); everything linear is condensed onto the points at which supports act,
     so that each step solves only for their motion, by Newton's method with exact tangents, or secants for contacts
-    that have none. On ball bearings alone rotor, bearings, balls and films run in one loop in C. Contacts run
-    in Python; every evaluation starts each contact from its state at the start of the step.
+    that have none. On ball bearings and squeeze film dampers alone rotor, bearings, balls and films run in one
+    loop in C. Contacts run in Python; every evaluation starts each contact from its state at the start of the
+    step.
 
     Elements warn, once: before the run where the rotor's speed lies outside their band, or a mount has the point
     of another contact than they were made for; after it where it left their validity box. A bearing of which a
@@ -109,8 +110,8 @@ def simulate_rotor(
         A value outside its range, a speed that a bearing does not take, a step too long for the ball passage or
         the turn of the shaft; a contact with a memory in two mounts.
     ConvergenceError
-        A step found no balance, a contact in it did not converge, or a ring left its bearing; ``result`` holds the
-        steps before.
+        A step found no balance, a contact in it did not converge, a ring left its bearing, or the journal of a
+        damper touched its housing; ``result`` holds the steps before.
     """
     steps = steps_until(dt, until)
     max_iterations = require_integer("max_iterations", max_iterations, "a whole number >= 1", 1)
@@ -123,7 +124,7 @@ def simulate_rotor(
     _check_contacts(rotor)
     rotor.check_contacts(0.0 if isinstance(speed_rpm, SpeedProfile) else speed_rpm)
     run = PreparedRun(rotor, speed_rpm, dt, steps, start, rho_inf)
-    if run.balls and not rotor.contacts:
+    if (run.balls or rotor.film_dampers) and not rotor.contacts:
         integrator: Integrator = CompiledSteps(run, COMPILED_TOLERANCE if tolerance is None else tolerance)
     else:
         allowed = default_tolerance(rotor) if tolerance is None else tolerance
@@ -234,7 +235,7 @@ def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, 
     offsets, first = np.array([mount.offset for mount in rotor.contacts]), len(rotor.contacts)
     names = [f"contact {i}" for i in range(first)]
     found = [(r[:, :first] + offsets, v[:, :first], force[:, :first])]
-    with_balls = iter(run.ball_directions)
+    with_balls, with_films = iter(run.ball_directions), iter(rotor.film_damper_columns)
     for mount, name in zip(rotor.bearings, bearing_names(rotor.bearings), strict=True):
         names += [f"{name} {direction}" for direction in mount.directions]
         if isinstance(mount.bearing, LinearBearing):
@@ -243,7 +244,7 @@ def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, 
             K, C = mount.bearing.at(run.omega[kept] / RPM_TO_RAD_S)
             found.append((moved, moving, (K @ moved[..., None] + C @ moving[..., None])[..., 0]))
         else:
-            at = next(with_balls)
+            at = next(with_films if is_damper(mount) else with_balls)
             found.append((r[:, at] + run.shift[at], v[:, at], force[:, at]))
     motions, rates, forces = (np.hstack(parts) for parts in zip(*found, strict=True))
     return tuple(names), motions, rates, forces

@@ -1,4 +1,4 @@
-"""Supports of a rotor: one radial contact at a position around the shaft; a ball bearing or a `LinearBearing`.
+"""Supports of a rotor: one radial contact at a position around the shaft; a bearing, a damper.
 
 A support takes the motion of its degrees of freedom, one number for each of its directions (the approach of a
 contact; x and y, or all five, of an inner ring against the outer one), and gives as many forces.
@@ -24,6 +24,7 @@ from ehlcontact.summary import Summary
 from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.freedoms import FACINGS, FIVE, PLANAR, facing_signs, require_offset
 from reduced_models.rotor.linear_bearing import LinearBearing
+from reduced_models.rotor.squeeze_film_damper import SqueezeFilmDamper
 
 _Floats = NDArray[np.float64]
 
@@ -43,9 +44,10 @@ class BearingMount(Summary):
 
     Parameters
     ----------
-    bearing : BallBearing or LinearBearing
+    bearing : BallBearing, LinearBearing or SqueezeFilmDamper
     x, y : int
-        Degrees of freedom of the shaft, across it.
+        Degrees of freedom of the shaft, across it. Of a damper, which is planar, those of what is its journal: the
+        housing of a ball bearing, say.
     z, tilt_x, tilt_y : int, optional
         Those along the shaft, and of its turns about x and y: all of them, or none.
     housing : tuple of int or None, optional
@@ -61,7 +63,7 @@ class BearingMount(Summary):
     arm : float
         Distance of the plane of the groove centres from the node of the shaft, along z [m].
     name : str
-        In results and messages; by default "bearing" with its number among those of the rotor.
+        In results and messages; by default "bearing" with its number among those of the rotor, or "damper".
 
     Raises
     ------
@@ -69,7 +71,7 @@ class BearingMount(Summary):
         An angular contact bearing without `z`, facing, offset or arm without it, an angle in degrees.
     """
 
-    bearing: BallBearing | LinearBearing
+    bearing: BallBearing | LinearBearing | SqueezeFilmDamper
     x: int
     y: int
     z: int | None = None
@@ -85,7 +87,7 @@ class BearingMount(Summary):
     def _summary_lines(self) -> list[str]:
         on = "the ground" if self.housing is None else f"a housing at {', '.join(map(str, self.housing))}"
         at = ", ".join(map(str, self.ends[0]))
-        return [f"{self.bearing.name or 'ball bearing'} at degrees of freedom {at}, on {on}"]
+        return [f"{kind_of(self.bearing)} at degrees of freedom {at}, on {on}"]
 
     def __post_init__(self) -> None:
         require_bearing("bearing", self.bearing)
@@ -107,6 +109,9 @@ class BearingMount(Summary):
                 raise InputError("bearing", f"matrices of {size}", allowed)
             if self.offset != 0.0:
                 raise InputError("offset", self.offset, "left out: matrices are about static equilibrium")
+        elif isinstance(self.bearing, SqueezeFilmDamper):
+            if self.z is not None:
+                raise InputError("z, tilt_x, tilt_y", axial, "left out of a squeeze film damper, which is planar")
         else:
             require_offset("offset", self.offset, self.bearing.ball_diameter)
         for k, place in enumerate(self.housing or ()):
@@ -118,6 +123,12 @@ class BearingMount(Summary):
     def ball_bearing(self) -> BallBearing:
         """The bearing, where it has balls."""
         assert isinstance(self.bearing, BallBearing)
+        return self.bearing
+
+    @property
+    def damper(self) -> SqueezeFilmDamper:
+        """The damper, where it is one."""
+        assert isinstance(self.bearing, SqueezeFilmDamper)
         return self.bearing
 
     @property
@@ -231,9 +242,15 @@ Mount = BearingMount | ContactMount
 
 
 def bearing_names(mounts: Sequence[Mount]) -> tuple[str, ...]:
-    """Names of the bearings among supports, in their order."""
-    bearings = [mount for mount in mounts if isinstance(mount, BearingMount)]
-    return tuple(mount.name or f"bearing {b}" for b, mount in enumerate(bearings))
+    """Names of the bearings and dampers among supports, in their order; each kind is counted by itself."""
+    counts = {"bearing": 0, "damper": 0}
+    names = []
+    for mount in mounts:
+        if isinstance(mount, BearingMount):
+            kind = "damper" if is_damper(mount) else "bearing"
+            names.append(mount.name or f"{kind} {counts[kind]}")
+            counts[kind] += 1
+    return tuple(names)
 
 
 def support_rows(mounts: Sequence[Mount], size: int) -> _Floats:
@@ -260,7 +277,7 @@ def require_planar(mount: BearingMount) -> None:
 
 def require_bearing(name: str, bearing: object) -> None:
     """Raise `InputError` for what is no bearing of a shaft."""
-    if not isinstance(bearing, LinearBearing):
+    if not isinstance(bearing, LinearBearing | SqueezeFilmDamper):
         require_instance(name, bearing, BallBearing, "a BallBearing")
 
 
@@ -269,8 +286,19 @@ def is_ball_bearing(mount: Mount) -> bool:
     return isinstance(mount, BearingMount) and isinstance(mount.bearing, BallBearing)
 
 
-def ball_columns(contacts: Sequence[ContactMount], bearings: Sequence[BearingMount]) -> tuple[slice, ...]:
-    """Where the directions of each ball bearing are among those of contacts, then ball bearings."""
+def is_damper(mount: Mount) -> bool:
+    """Whether the support is a squeeze film damper."""
+    return isinstance(mount, BearingMount) and isinstance(mount.bearing, SqueezeFilmDamper)
+
+
+def kind_of(bearing: BallBearing | LinearBearing | SqueezeFilmDamper) -> str:
+    """Name of a bearing or damper, or what it is."""
+    kinds = {LinearBearing: "linear bearing", SqueezeFilmDamper: "squeeze film damper"}
+    return bearing.name or kinds.get(type(bearing), "ball bearing")
+
+
+def bearing_columns(contacts: Sequence[ContactMount], bearings: Sequence[BearingMount]) -> tuple[slice, ...]:
+    """Where the directions of each bearing are among those of contacts, then these bearings."""
     return support_columns([*contacts, *bearings])[len(contacts) :]
 
 
@@ -285,7 +313,7 @@ class SupportGeometry(NamedTuple):
 def support_geometry(
     contacts: Sequence[ContactMount], bearings: Sequence[BearingMount], size: int
 ) -> SupportGeometry:
-    """Points of contacts, then of ball bearings, on a rotor of `size` degrees of freedom."""
+    """Points of contacts, then of bearings and dampers, on a rotor of `size` degrees of freedom."""
     places = list(dict.fromkeys(place for mount in contacts for place in mount.ends[0] if place is not None))
     points = np.concatenate([np.eye(size)[places], *(mount.rows(size) for mount in bearings)])
     directions = len(points) - len(places)
