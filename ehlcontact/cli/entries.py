@@ -148,6 +148,7 @@ Spring = Annotated[
     Physical(INPUTS["load"]),
     meaning("force of a spring on the outer ring of the second one, in its place"),
 ]
+Rating = Annotated[Positive, Physical(parts.RATING)]
 RingSpring = Annotated[NotNegative, Physical(parts.PRELOAD)]
 Distance = Annotated[
     Positive,

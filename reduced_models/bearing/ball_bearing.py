@@ -50,6 +50,7 @@ from reduced_models.bearing.fed_layer import layer_from
 from reduced_models.bearing.freedoms import PLANAR, held_tilt
 from reduced_models.bearing.grooves import angle_without_load, require_contact_angle, require_room, table_cosine
 from reduced_models.bearing.height_tables import require_features_fit
+from reduced_models.bearing.internals import require_ratings
 from reduced_models.bearing.kinematics import (
     DefectFrequencies,
     DefectOrders,
@@ -83,7 +84,7 @@ SUPPLIES = ("h", "over_flooded", "fed")  # units of an oil supply that is the sa
     ball_diameter=parts.BALL_DIAMETER, pitch_diameter=parts.PITCH_DIAMETER, clearance="m",
     rq_ball="m", rq_race="m", cutoff_gap=parts.GAP, youngs_modulus=parts.MODULUS, density=parts.DENSITY,
     contact_angle="rad", shoulder_inner=parts.SHAFT_DIAMETER, shoulder_outer=parts.SHAFT_DIAMETER, name=NAME,
-    atlas=FILE,
+    atlas=FILE, dynamic_rating=parts.RATING, static_rating=parts.RATING,
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class BallBearing(Summary):
@@ -149,6 +150,9 @@ class BallBearing(Summary):
         tracks, as that of an `OilBalance`, or ``OilLayer(over_flooded=r)`` times what each flooded film lets
         through, r over the isothermal film with `thermal` too. By default contacts are flooded. Under the layer
         that a feed keeps, ``OilBalance(...).lasting_supply``, `coefficients` hold the feed, not the layer.
+    dynamic_rating, static_rating : float, optional
+        Load ratings C and C0 as the maker prints them [N], for the rating life in place of those of the catalogue
+        or the geometry.
 
     Attributes
     ----------
@@ -159,8 +163,8 @@ class BallBearing(Summary):
     ------
     InputError
         What is no ball bearing: balls that overlap, a conformity of a half or less; a conformity or an oil that
-        the atlas does not have; oil supply of a dry bearing, or one that the table of it does not have; heat of
-        a dry bearing, of sliding, or of an oil without its data.
+        the atlas does not have; ratings far from those of its balls; oil supply of a dry bearing, or one that the
+        table of it does not have; heat of a dry bearing, of sliding, or of an oil without its data.
     """
 
     balls: int
@@ -187,6 +191,8 @@ class BallBearing(Summary):
     thermal: Any = None
     features: Sequence[Feature] = ()
     supply: OilLayer | None = None
+    dynamic_rating: float | None = None
+    static_rating: float | None = None
     tables: BearingTables = field(init=False, repr=False, compare=False)
 
     def _summary_lines(self) -> list[str]:
@@ -217,6 +223,7 @@ class BallBearing(Summary):
         given = require_features(self.features, self.balls, self.ball_diameter) if self.features else []
         object.__setattr__(self, "features", tuple(given))
         require_features_fit(self)
+        require_ratings(self)
         _ = self.tables.shoulders  # refused where they are no shoulders of these grooves
         if self.oil is not None:
             for race in self.tables.races.values():

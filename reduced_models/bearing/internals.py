@@ -12,6 +12,7 @@ from reduced_models.bearing.race import RACES
 from reduced_models.bearing.skf_friction import USUAL_DENSITY, boundary_diameters
 from reduced_models.life.equivalent_load import LeastLoad
 from reduced_models.life.internal_geometry import InternalGeometry
+from reduced_models.life.load_ratings import GIVEN, dynamic_rating, require_rating, static_rating
 
 if TYPE_CHECKING:
     from reduced_models.bearing.ball_bearing import BallBearing
@@ -21,12 +22,16 @@ SAME_SIZE = 1e-6  # of a length of the catalogue, for its ratings to be those of
 
 
 def internals_of(bearing: BallBearing) -> InternalGeometry:
-    """Balls, grooves and oil of a bearing; printed ratings where its balls are those of the catalogue."""
+    """Balls, grooves and oil of a bearing; ratings as given, or printed where its balls are the catalogue's."""
     pressures = []
     for name in RACES:
         body = bearing.race(name).geometry
         pressures.append(hertz_contact(1.0, body.radius_x, body.radius_y, body.e_reduced).pressure)
     printed = RATINGS[bearing.name] if _is_printed(bearing) else (None, None)
+    (dynamic, of_dynamic), (static, of_static) = (
+        (printed[k], "" if printed[k] is None else NSK) if own is None else (float(own), GIVEN)
+        for k, own in enumerate((bearing.dynamic_rating, bearing.static_rating))
+    )
     return InternalGeometry(
         name=bearing.name,
         balls=bearing.balls,
@@ -39,11 +44,23 @@ def internals_of(bearing: BallBearing) -> InternalGeometry:
         ball_density=bearing.density,
         kinematic_viscosity=None if bearing.oil is None else bearing.oil.eta0 / USUAL_DENSITY,
         flooded=bearing.supply is None,
-        printed_dynamic=printed[0],
-        printed_static=printed[1],
-        printed_source="" if printed[0] is None else NSK,
+        printed_dynamic=dynamic,
+        printed_static=static,
+        dynamic_source=of_dynamic,
+        static_source=of_static,
         least_load=_least_load(bearing.name),
     )
+
+
+def require_ratings(bearing: BallBearing) -> None:
+    """Raise `InputError` for ratings of a bearing that are far from those of its balls, with the unit meant."""
+    rows = (
+        ("dynamic_rating", bearing.dynamic_rating, dynamic_rating),
+        ("static_rating", bearing.static_rating, static_rating),
+    )
+    for field, value, of_geometry in rows:
+        if value is not None:
+            require_rating(field, value, of_geometry(bearing.tables.internals))
 
 
 def _is_printed(bearing: BallBearing) -> bool:

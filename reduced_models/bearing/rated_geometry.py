@@ -134,7 +134,7 @@ class RatedGeometry(Summary):
         ]
 
     def bearing(self, candidate: int = 0, **options: Any) -> BallBearing:
-        """The bearing with the balls of a candidate; its name says that they are an estimate.
+        """The bearing with the balls of a candidate and the ratings; its name says that they are an estimate.
 
         Summaries, reports, pictures, JSON and FMUs of the bearing and of its results have that name.
 
@@ -170,6 +170,8 @@ class RatedGeometry(Summary):
                 "ball_diameter": diameter,
                 "pitch_diameter": self.pitch_diameter,
                 **angle,
+                "dynamic_rating": self.dynamic_rating,
+                "static_rating": self.static_rating,
                 **options,
             },
             name=f"{given}, {ESTIMATE}" if given else f"bearing with {ESTIMATE}",

@@ -33,9 +33,9 @@ class InternalGeometry:
     flooded : bool
         Whether films have all the oil that they take.
     printed_dynamic, printed_static : float or None
-        C and C0 of a catalogue [N], of these balls; None where it has none.
-    printed_source : str
-        That catalogue.
+        C and C0 that are given or of a catalogue [N]; None where they follow from the geometry.
+    dynamic_source, static_source : str
+        Where they are from.
     least_load : LeastLoad or None
         Constants of SKF's least load; None where the catalogue has none.
     """
@@ -53,7 +53,8 @@ class InternalGeometry:
     flooded: bool = True
     printed_dynamic: float | None = None
     printed_static: float | None = None
-    printed_source: str = ""
+    dynamic_source: str = ""
+    static_source: str = ""
     least_load: LeastLoad | None = None
 
     @property

@@ -80,7 +80,7 @@ class LoadRatings(Summary):
         static: float | None = None,
         fatigue_limit: float | None = None,
     ) -> LoadRatings:
-        """Ratings as they are given [N]; else those of the catalogue; else those of the geometry.
+        """Ratings as they are given here [N]; else those of the bearing or its catalogue; else of the geometry.
 
         Raises
         ------
@@ -89,13 +89,16 @@ class LoadRatings(Summary):
         """
         by_size = dynamic_rating(geometry), static_rating(geometry)
         given = ("dynamic_rating", dynamic, by_size[0]), ("static_rating", static, by_size[1])
-        printed = geometry.printed_dynamic, geometry.printed_static
+        printed = (
+            (geometry.printed_dynamic, geometry.dynamic_source),
+            (geometry.printed_static, geometry.static_source),
+        )
         ratings: list[tuple[float, str]] = []
-        for (field, value, own), known in zip(given, printed, strict=True):
+        for (field, value, own), (known, source) in zip(given, printed, strict=True):
             if value is not None:
                 ratings.append((require_rating(field, value, own), GIVEN))
             else:
-                ratings.append((own, FROM_GEOMETRY) if known is None else (known, geometry.printed_source))
+                ratings.append((own, FROM_GEOMETRY) if known is None else (known, source))
         (c, c_source), (c0, c0_source) = ratings
         usual = fatigue_load_limit(c0, geometry.pitch_diameter)
         limit = usual if fatigue_limit is None else require_rating("fatigue_limit", fatigue_limit, usual)

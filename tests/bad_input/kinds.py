@@ -233,6 +233,7 @@ ARGUMENTS = [
         1.04, "x"),
         "conformity_outer": (True, "x", nan), "poisson_ratio": (True, "x"), "features": (5, "x", [5]),
         "shoulder_inner": (35.0, True, "x"), "shoulder_outer": (True, "x"), "balls": (True, "9", 9.0, 2),
+        "dynamic_rating": (14.0, 0.0, True, "x"), "static_rating": (7.85, 1e6, True, "x"),
         "atlas": (5, True), "race_control": (True, None),
     }),
     (pair, {

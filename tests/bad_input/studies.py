@@ -66,6 +66,10 @@ SLIPS = {
         ('pair = "o"', "support.pair = 'o'", "back-to-back"),
         ("spring = 200.0", "support.spring = 200.0", "left out without [shaft]"),
         ("preload = 200.0", "support.preload = 200.0", "left out without support.pair"),
+        ("dynamic_rating = 14.0", "support.dynamic_rating = 14.0", "in N, near that of", "did you mean 14 000 N?"),
+        ("static_rating = 7.85", "support.static_rating = 7.85", "in N, near that of", "did you mean 7 850 N?"),
+        ("dynamic_rating = 14e6", "support.dynamic_rating = 14000000.0", "in N, near that of"),
+        ("dynamic_rating = 0.0", "support.dynamic_rating = 0.0", "between 0.001 and 1e+09 N"),
         ('clearance = "C9"', "support.clearance = 'C9'", "a number"),
     ],
     'race = "inner"': [

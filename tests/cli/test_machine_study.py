@@ -262,6 +262,22 @@ def test_mistakes(refused, study, tmp_path, text, old, new, words):
     assert not (tmp_path / "out").exists()
 
 
+def test_load_ratings_of_the_maker(study):
+    """Of one support: its life has them, and its tile says that they are given."""
+    given = 'bearing = "6306"\ndynamic_rating = 29.6e3\nstatic_rating = 16e3'
+    plain, rated = (
+        answer_of(load_study(study(MOTOR, ('bearing = "6306"', text)))) for text in ('bearing = "6306"', given)
+    )
+    lives = [[one.l10r for one in state.rating_life] for state in (plain, rated)]
+    assert lives[1][0] == pytest.approx(lives[0][0] * (29.6 / 26.7) ** 3, rel=1e-12)
+    assert lives[1][1] == lives[0][1]
+    ratings = rated.rating_life[0].ratings
+    assert (ratings.static, ratings.dynamic_source, ratings.static_source) == (16e3, "given", "given")
+    alone = study(ALONE, ("balls = 9", "dynamic_rating = 14.8e3\nballs = 9"))
+    (tile,) = (one for one in answer_of(load_study(alone)).tiles() if one.name == "rating life")
+    assert tile.note.endswith("C 14.8 kN given")
+
+
 FITS = 'bearing = "6306"\nshaft_fit = "k5"\nhousing_fit = "H6"\ninner_temperature = 75\nouter_temperature = 60'
 
 

@@ -137,7 +137,7 @@ def bearing_part(study: Study, k: int, *, oil: bool = True) -> Part:
     for name in ("conformity_inner", "conformity_outer"):
         if (value := getattr(one, name) or one.conformity) is not None:
             given[name] = value
-    for name in ("loss_factor", "ball_inertia"):
+    for name in ("loss_factor", "ball_inertia", "dynamic_rating", "static_rating"):
         if (value := getattr(one, name)) is not None:
             given[name] = value
     if one.cutoff_gap_um is not None:

@@ -129,6 +129,11 @@ class Support(Section):
             'radial internal clearance, below 0 a preload; or a class, as "CN"; if left out 0, with fits CN'
         ),
     ] = None
+    dynamic_rating: Annotated[
+        e.Rating | None,
+        e.meaning("load rating C of the maker, for the life; that of the catalogue or the balls if left out"),
+    ] = None
+    static_rating: Annotated[e.Rating | None, e.meaning("load rating C0 of the maker, likewise")] = None
     shaft_fit: Annotated[
         e.Text | None,
         e.meaning('class of the shaft, as "k5": clearance is that before mounting then; with housing_fit'),

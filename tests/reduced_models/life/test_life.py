@@ -126,6 +126,21 @@ def test_static_safety_from_the_pressure():
     assert life.pressure_safety == pytest.approx(5.0 / 4.37, rel=0.05)  # Stribeck's 5 has room for clearance
 
 
+def test_ratings_of_a_bearing_are_those_of_its_maker():
+    """Given with the bearing, in sets and files too; C0 stays NSK's where C alone is given."""
+    own = BallBearing.catalogue("6205", dynamic_rating=14.8e3)
+    life = own.equilibrium((0.0, -1000.0)).life()
+    plain = BallBearing.catalogue("6205").equilibrium((0.0, -1000.0)).life()
+    assert (life.ratings.dynamic, life.ratings.dynamic_source) == (14.8e3, "given")
+    assert (life.ratings.static, life.ratings.static_source) == (7850.0, plain.ratings.static_source)
+    assert life.l10r == pytest.approx(plain.l10r * (14.8 / 14.0) ** 3, rel=1e-12)
+    assert own.equilibrium((0.0, -1000.0)).life(dynamic_rating=14e3).l10r == plain.l10r
+    assert BallBearing.from_dict(own.to_dict()) == own
+    pair = BearingSet.pair(BallBearing.catalogue("7205 C", dynamic_rating=18e3, static_rating=11e3), preload=200.0)
+    ratings = [one.ratings for one in pair.equilibrium((0.0, -500.0, 100.0)).life()]
+    assert [(one.dynamic, one.static) for one in ratings] == [(18e3, 11e3)] * 2
+
+
 def test_a_set_lives_shorter_than_each_bearing():
     pair = BearingSet.pair(BallBearing.catalogue("7205 C", **ROUGH), preload=200.0)
     system = pair.equilibrium((0.0, -500.0, 100.0), speed_rpm=6000.0).life(contamination=0.5)
