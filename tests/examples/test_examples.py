@@ -308,6 +308,10 @@ def test_orders_of_defects(tmp_path):
         assert np.all(np.diff(ratio) < 0.0)
     assert found["ratios"]["axial"][0] == pytest.approx(0.0128, abs=5e-4)
     assert found["ratios"]["radial"][-1] == pytest.approx(0.0140, abs=5e-4)
+    for preload, losses in found["losses"].items():  # near twice the damping ratio that is missing
+        missing = 2.0 * (np.array(module.MEASURED) - module.damping_ratio(preload, 2))
+        np.testing.assert_allclose(losses, missing, rtol=0.15)
+        assert 0.012 < losses[0] < losses[-1] < 0.06
 
 
 def test_lines_of_motor_bearing_defects_are_a_sum_of_cosines():
