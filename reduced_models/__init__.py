@@ -10,6 +10,7 @@
 | life | rating life of ball bearings by the standards, from the loads of all balls |
 | bearing | ball bearings of such contacts: `BallBearing` |
 | rotor | rotors on contacts, full films and ball bearings: equilibrium, motion over time, responses |
+| periodic | motions of rotors that repeat themselves: harmonic balance, shooting, stability, bifurcations |
 | signals | acceleration of nodes and housings, its spectra and features; a namespace of its own |
 
 Public names are those that a user calls, constructs or catches; classes that are only returned and tools of a

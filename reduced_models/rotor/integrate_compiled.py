@@ -36,6 +36,12 @@ class CompiledSteps:
     run : PreparedRun
     tolerance : float
         Largest imbalance over the larger of the load and the forces of the unbalances.
+
+    Attributes
+    ----------
+    core : CoreRotor
+    bearing_states : list of ndarray
+        Numbers of every ball bearing; views of those of `core`.
     """
 
     made = reached = 0  # steps, and the last one that was begun
@@ -56,13 +62,13 @@ class CompiledSteps:
             rotor_library().damper_support(byref(damper), byref(support))
         first = np.array([at.start for at in (*run.ball_directions, *rotor.film_damper_columns)], np.intc)
         arrays = {"ties": geometry.normals, "shift": run.shift, "count": geometry.counts, "first": first}
-        self._core = core = CoreRotor(rotor, run.dt, run.rho_inf, supports, arrays)
+        self.core = core = CoreRotor(rotor, run.dt, run.rho_inf, supports, arrays)
         core.structure.allowed = self._allowed
         sizes = [support.size for support in supports]
         starts = core.state.size - sum(sizes) + np.cumsum([0, *sizes])[:-1]
         parts = [core.state[at : at + size] for at, size in zip(starts, sizes, strict=True)]
-        self._parts, self._touched = parts[: len(run.balls)], parts[len(run.balls) :]  # of bearings, of dampers
-        for part, balls in zip(self._parts, run.balls, strict=True):
+        self.bearing_states, self._touched = parts[: len(run.balls)], parts[len(run.balls) :]  # and of dampers
+        for part, balls in zip(self.bearing_states, run.balls, strict=True):
             part[:] = balls.state
         core.put(run.state, geometry.normals.T @ run.histories.force[0], run.applied(0))
 
@@ -74,7 +80,7 @@ class CompiledSteps:
         ConvergenceError
             A step found no balance, a ring left its bearing, or the journal of a damper touched its housing.
         """
-        run, core, here = self._run, self._core, slice(first + 1, end + 1)
+        run, core, here = self._run, self.core, slice(first + 1, end + 1)
         core.take_matrices(omega)
         names = "place", "velocity", "motion", "rate", "force", "iterations"
         out = {name: history[here].ctypes.data for name, history in zip(names, run.histories, strict=True)}
@@ -85,7 +91,7 @@ class CompiledSteps:
         )  # fmt: skip
         reason = core.library.rotor_run(core.address, byref(block), pointer(core.state), pointer(core.work))
         self.made = first + block.made
-        for balls, part in zip(run.balls, self._parts, strict=True):
+        for balls, part in zip(run.balls, self.bearing_states, strict=True):
             balls.state[:] = part
         lost = run.lost(first, self.made)
         if lost is not None:
@@ -108,7 +114,7 @@ class CompiledSteps:
             turned = UNBALANCED if run.rotor.ball_bearings[refused].z is not None else ""
             return f": a ball of {run.rotor.ball_bearing_names[refused]} finds none{turned}"
         motion = run.histories.motion[self.made]
-        return self._core.rounding_hint(motion, self._allowed, self._allowed / self._tolerance)
+        return self.core.rounding_hint(motion, self._allowed, self._allowed / self._tolerance)
 
     def rewind(self) -> None:
         """Nothing: a block is made as a whole."""

@@ -90,6 +90,12 @@ class PythonSteps:
         Evaluations in a step.
     bearings : sequence of RunningSupport, optional
         The ball bearings; by default `BallSteps` of each.
+
+    Attributes
+    ----------
+    core : CoreRotor
+    bearing_states : list of ndarray
+        Numbers of every ball bearing.
     """
 
     made = reached = 0  # steps, and the last one that was begun
@@ -98,11 +104,11 @@ class PythonSteps:
         self, run: PreparedRun, tolerance: float, most: int, bearings: Sequence[RunningSupport] | None = None
     ) -> None:
         self._run, self._most, self._in_step = run, most, False
-        self._core, self._matrices_at = CoreRotor(run.rotor, run.dt, run.rho_inf), math.nan
+        self.core, self._matrices_at = CoreRotor(run.rotor, run.dt, run.rho_inf), math.nan
         _, self._normals, counts = run.rotor.geometry
         self._to_points = counts[:, None] * self._normals  # (m, n): forces of the points are force @ to_points
         d, force = run.histories.displacement[0], run.histories.force[0]
-        self._core.put(run.state, force @ self._to_points, run.applied(0))
+        self.core.put(run.state, force @ self._to_points, run.applied(0))
         _, _, K = run.rotor.matrices(run.omega[0])
         carried = np.abs(self._normals.T @ (counts * force)).max(initial=0.0)
         turning, load = np.abs(run.turning).max(initial=0.0), np.abs(run.rotor.load).sum()
@@ -110,6 +116,7 @@ class PythonSteps:
         self._scale = scale if scale > 0.0 else 1.0
         self._allowed = tolerance * self._scale
         self._has_films = not all(has_tangents(mount.contact) for mount in run.rotor.contacts)
+        self.bearing_states = [balls.state for balls in run.balls]
         self._supports: list[tuple[slice, RunningSupport]] = []
         first = len(run.rotor.contacts)
         if first:
@@ -137,7 +144,7 @@ class PythonSteps:
             the ring of a ball bearing left it.
         """
         if math.isnan(self._matrices_at) or (self._run.rotor.changes_with_speed and omega != self._matrices_at):
-            self._core.take_matrices(omega)
+            self.core.take_matrices(omega)
             self._matrices_at = omega
         for i in range(first + 1, end + 1):
             self.reached = i
@@ -150,7 +157,7 @@ class PythonSteps:
 
     def _step(self, i: int) -> None:
         """Make step `i` of the run, counted from 1."""
-        run, core = self._run, self._core
+        run, core = self._run, self.core
         step = core.free_step(run.applied(i))
         for _, support in self._supports:
             support.begin(run.omega[i])
@@ -205,7 +212,7 @@ class PythonSteps:
             previous, last = error, q
             q = q - np.linalg.solve(self._system(step, slopes), residual)
         found = f"force imbalance {error:.3g} N above {self._allowed:.3g} N in {iteration} iterations"
-        hint = self._core.rounding_hint(q, self._allowed, self._scale)
+        hint = self.core.rounding_hint(q, self._allowed, self._scale)
         if not hint and self._has_films:
             hint = (
                 ": the force of a contact that is solved in every step is good to its own tolerance; take a "

@@ -91,6 +91,11 @@ class PreparedRun:
         return self.rotor.ball_columns
 
     @property
+    def compiled(self) -> bool:
+        """Whether all supports that are not linear are in C."""
+        return bool(self.balls or self.rotor.film_dampers) and not self.rotor.contacts
+
+    @property
     def farthest(self) -> float:
         """How far a ring may go from the middle of its bearing [m]."""
         balls = (mount.ball_bearing.ball_diameter for mount in self.rotor.ball_bearings)

@@ -124,7 +124,7 @@ def simulate_rotor(
     _check_contacts(rotor)
     rotor.check_contacts(0.0 if isinstance(speed_rpm, SpeedProfile) else speed_rpm)
     run = PreparedRun(rotor, speed_rpm, dt, steps, start, rho_inf)
-    if (run.balls or rotor.film_dampers) and not rotor.contacts:
+    if run.compiled:
         integrator: Integrator = CompiledSteps(run, COMPILED_TOLERANCE if tolerance is None else tolerance)
     else:
         allowed = default_tolerance(rotor) if tolerance is None else tolerance
@@ -165,9 +165,9 @@ def integrate(
         integrator.rewind()
     except ConvergenceError as error:
         integrator.rewind()
-        result = _result(run, integrator.made, Status.FAILED)
+        result = run_result(run, integrator.made, Status.FAILED)
         raise ConvergenceError(f"rotor at t = {run.t[integrator.reached]:.6g} s: {error}", result) from error
-    result = _result(run, integrator.made, status)
+    result = run_result(run, integrator.made, status)
     for message in _beyond_loads(run)[0]:
         warn_user(message, OutsideValidityWarning)
     _warn_of_damping(run)
@@ -187,7 +187,8 @@ def _check_contacts(rotor: Rotor) -> None:
             raise InputError(f"contacts[{i}]", "used twice", "its own object: it has a memory (take a copy)")
 
 
-def _result(run: PreparedRun, made: int, status: Status) -> RotorResult:
+def run_result(run: PreparedRun, made: int, status: Status) -> RotorResult:
+    """Histories of a run as far as its first `made` steps."""
     kept, histories = slice(0, made + 1), run.histories
     columns, approach, rate, force = _supports(run, kept)
     names, places = flat_nodes(run.rotor.nodes)
