@@ -27,7 +27,7 @@ from reduced_models.rotor.integrate_compiled import CompiledSteps
 from reduced_models.rotor.integrate_python import PythonSteps
 from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.nodes import flat_nodes
-from reduced_models.rotor.prepared_run import PreparedRun
+from reduced_models.rotor.prepared_run import Histories, PreparedRun
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.speed_profile import SpeedProfile, law_speeds
@@ -190,7 +190,8 @@ def _check_contacts(rotor: Rotor) -> None:
 def run_result(run: PreparedRun, made: int, status: Status) -> RotorResult:
     """Histories of a run as far as its first `made` steps."""
     kept, histories = slice(0, made + 1), run.histories
-    columns, approach, rate, force = _supports(run, kept)
+    entries = Histories._make(history[kept] for history in histories)
+    columns, approach, rate, force = support_histories(run.rotor, entries, run.omega[kept], run.shift)
     names, places = flat_nodes(run.rotor.nodes)
     largest = np.array([one.largest for one in run.balls]).reshape(-1, 2)
     balls = zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, run.balls, strict=True)
@@ -229,24 +230,36 @@ def _long_steps(run: PreparedRun, largest: _Floats) -> str:
     return "; ".join(notes)
 
 
-def _supports(run: PreparedRun, kept: slice) -> tuple[tuple[str, ...], _Floats, _Floats, _Floats]:
-    """Names, motions, rates and forces of the directions of all supports: contacts, then bearings."""
-    rotor, histories = run.rotor, run.histories
-    r, v, force = histories.motion[kept], histories.rate[kept], histories.force[kept]
+def support_histories(
+    rotor: Rotor, histories: Histories, omega: _Floats, shift: _Floats
+) -> tuple[tuple[str, ...], _Floats, _Floats, _Floats]:
+    """Names, motions, rates and forces of the directions of all supports: contacts, then bearings.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    histories : Histories
+        k entries of it.
+    omega : ndarray, shape (k,)
+        Of the shaft [rad/s].
+    shift : ndarray
+        Displacement of rings beside that of the rotor, 0 of contacts, as of `PreparedRun`.
+    """
+    r, v, force = histories.motion, histories.rate, histories.force
     offsets, first = np.array([mount.offset for mount in rotor.contacts]), len(rotor.contacts)
     names = [f"contact {i}" for i in range(first)]
     found = [(r[:, :first] + offsets, v[:, :first], force[:, :first])]
-    with_balls, with_films = iter(run.ball_directions), iter(rotor.film_damper_columns)
+    with_balls, with_films = iter(rotor.ball_columns), iter(rotor.film_damper_columns)
     for mount, name in zip(rotor.bearings, bearing_names(rotor.bearings), strict=True):
         names += [f"{name} {direction}" for direction in mount.directions]
         if isinstance(mount.bearing, LinearBearing):
             rows = mount.rows(rotor.size).T
-            moved, moving = histories.displacement[kept] @ rows, histories.velocity[kept] @ rows
-            K, C = mount.bearing.at(run.omega[kept] / RPM_TO_RAD_S)
+            moved, moving = histories.displacement @ rows, histories.velocity @ rows
+            K, C = mount.bearing.at(omega / RPM_TO_RAD_S)
             found.append((moved, moving, (K @ moved[..., None] + C @ moving[..., None])[..., 0]))
         else:
             at = next(with_films if is_damper(mount) else with_balls)
-            found.append((r[:, at] + run.shift[at], v[:, at], force[:, at]))
+            found.append((r[:, at] + shift[at], v[:, at], force[:, at]))
     motions, rates, forces = (np.hstack(parts) for parts in zip(*found, strict=True))
     return tuple(names), motions, rates, forces
 

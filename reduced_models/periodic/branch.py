@@ -1,0 +1,184 @@
+"""Branches of periodic answers over a parameter, by continuation along their arc length.
+
+Arc length s, of unknown harmonics over their size and of the parameter over its range, goes on where the parameter
+turns back: at a fold. Each step goes along the tangent and then across it, by Newton's method, to the branch
+(Seydel, Practical Bifurcation and Stability Analysis, chapter 4).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.errors import ConvergenceError, InputError
+from ehlcontact.status import Status
+from reduced_models.periodic.excitation import OVER, Setting
+from reduced_models.periodic.harmonic_balance import Balance, HarmonicBalance
+
+_Floats = NDArray[np.float64]
+
+FIRST, SHORTEST = 0.01, 1e-6  # steps of the arc length
+LONGEST = 0.05  # over the size of the motion, where that has grown beyond that of the start
+WANTED, WANTED_OF_FILMS = 3, 6  # iterations of a step; of supports that remember
+MOST_ITERATIONS = 16
+STRAIGHT = 0.9  # cosine between neighbouring tangents, at least
+CONVERGED, CONVERGED_OF_FILMS = 1e-9, 1e-7  # last step of Newton's method
+NUDGE = 1e-7  # of the range of the parameter, over which its derivative is taken
+SHARP = 1e-3  # of a step, or of the slope of the parameter at its end, within which a fold is found: it is flat
+FOLD_STEPS = 40
+
+
+class BranchPoint(NamedTuple):
+    """A point of a branch."""
+
+    y: _Floats  # unknowns over their size, then the parameter over its range
+    tangent: _Floats
+    balance: Balance
+    fold: bool = False
+
+
+@dataclass
+class Course:
+    """A parameter between two values, and the settings that it makes."""
+
+    setting: Setting
+    over: str
+    first: float
+    last: float
+
+    def at(self, share: float) -> Setting:
+        """Setting at a share of the way."""
+        return replace(self.setting, **{OVER[self.over]: self.first + share * (self.last - self.first)})
+
+
+class Continuation:
+    """Points of a branch from one of them on.
+
+    Parameters
+    ----------
+    problem : HarmonicBalance
+    course : Course
+    start : Balance
+        In balance at the first value of the course.
+    """
+
+    def __init__(self, problem: HarmonicBalance, course: Course, start: Balance) -> None:
+        self._problem, self._course = problem, course
+        films = problem.remembers
+        self._wanted, self._converged = (WANTED_OF_FILMS, CONVERGED_OF_FILMS) if films else (WANTED, CONVERGED)
+        self._size = max(float(np.linalg.norm(start.x)), 1.0)
+        along = np.zeros(start.x.size + 1)
+        along[-1] = 1.0
+        self.points = [self._point(np.append(start.x / self._size, 0.0), along, start)]
+        self.status, self.reason = Status.CONVERGED, ""
+
+    def follow(self, most: int, callback: Callable[[float, int], object] | None = None) -> None:
+        """Go on until the parameter leaves its range, or for so many points.
+
+        `callback` takes the share of the course and the number of points.
+        """
+        step = FIRST
+        try:
+            while len(self.points) < most:
+                last = self.points[-1]
+                if len(self.points) > 1 and not 0.0 < last.y[-1] < 1.0:
+                    return
+                step = self._advance(last, step)
+                if callback is not None:
+                    callback(float(self.points[-1].y[-1]), len(self.points))
+            self.status, self.reason = Status.MAX_CYCLES, f"stopped after {most} answers: raise `most`"
+        except KeyboardInterrupt:
+            self.status, self.reason = Status.INTERRUPTED, "interrupted: the answers so far are kept"
+        except (ConvergenceError, InputError) as error:
+            self.status, self.reason = Status.FAILED, f"the branch ends here: {error}"
+
+    def _advance(self, last: BranchPoint, step: float) -> float:
+        """One step, with the folds within it; returns the length of the next."""
+        reason = ""
+        while step >= SHORTEST:
+            ends = self._to_the_end(last, step)
+            try:
+                point, iterations = self._corrected(last, ends)
+            except ConvergenceError as error:
+                reason, step = str(error), 0.5 * step
+                continue
+            if float(point.tangent @ last.tangent) < STRAIGHT and step > 4.0 * SHORTEST:
+                step = 0.5 * step
+                continue
+            if point.tangent[-1] * last.tangent[-1] < 0.0 and not last.fold:
+                self.points.append(self._fold(last, ends, point))
+            self.points.append(point)
+            longest = LONGEST * max(float(np.linalg.norm(point.y[:-1])), 1.0)
+            return min(step * float(np.clip(self._wanted / max(iterations, 1), 0.5, 1.6)), longest)
+        raise ConvergenceError(f"steps became too short ({reason or 'the branch bends'})", last.balance)
+
+    def _to_the_end(self, last: BranchPoint, step: float) -> float:
+        """The step, or what is left of it to just beyond the end of the range."""
+        rise = float(last.tangent[-1])
+        left = (1.0 - last.y[-1]) / rise if rise > 0.0 else last.y[-1] / -rise if rise < 0.0 else step
+        return min(step, max(left, 0.0) + SHORTEST) if left < step else step
+
+    def _corrected(self, last: BranchPoint, step: float) -> tuple[BranchPoint, int]:
+        """The point of the branch on the plane across the tangent at its end, and the iterations."""
+        problem, tangent = self._problem, last.tangent
+        y = last.y + step * tangent
+        balance = problem.balance(self._course.at(float(y[-1])), y[:-1] * self._size)
+        for iteration in range(1, MOST_ITERATIONS + 1):
+            system = self._system(balance, float(y[-1]), tangent)
+            across = float(tangent @ (y - last.y)) - step
+            change = np.linalg.solve(system, -np.append(balance.residual / self._size, across))
+            if np.linalg.norm(change) <= self._converged:
+                return self._point(y, tangent, balance), iteration
+            if not np.isfinite(change).all() or np.linalg.norm(change) > 10.0 * max(step, FIRST):
+                break
+            y = y + change
+            there = problem.balance(self._course.at(float(y[-1])), y[:-1] * self._size)
+            if problem.remembers:
+                missed = (there.residual - balance.residual) / self._size - system[:-1] @ change
+                problem.learn(missed, change[:-1], float(change @ change))
+            balance = there
+        raise ConvergenceError("Newton's method found no point of the branch", last.balance)
+
+    def _point(self, y: _Floats, along: _Floats, balance: Balance) -> BranchPoint:
+        """A point with the unit tangent there, in the direction of `along`."""
+        unit = np.zeros(y.size)
+        unit[-1] = 1.0
+        tangent = np.linalg.solve(self._system(balance, float(y[-1]), along), unit)
+        return BranchPoint(y, np.asarray(tangent / np.linalg.norm(tangent)), balance)
+
+    def _system(self, balance: Balance, share: float, tangent: _Floats) -> _Floats:
+        """Derivatives of the residual by unknowns and parameter, and the tangent."""
+        n = balance.x.size
+        system = np.zeros((n + 1, n + 1))
+        system[:n, :n] = self._problem.jacobian(balance)
+        there = self._course.at(share + NUDGE)
+        system[:n, n] = self._problem.change(balance, there) / (NUDGE * self._size)
+        system[n] = tangent
+        return system
+
+    def _fold(self, last: BranchPoint, step: float, end: BranchPoint) -> BranchPoint:
+        """Where the parameter turns back between a point and the end of the step from it: regula falsi."""
+        low, high = (0.0, float(last.tangent[-1])), (step, float(end.tangent[-1]))
+        best = last if abs(low[1]) < abs(high[1]) else end
+        side, flat = 0, SHARP * max(abs(low[1]), abs(high[1]))
+        for _ in range(FOLD_STEPS):
+            middle = (low[0] * high[1] - high[0] * low[1]) / (high[1] - low[1])
+            point, _ = self._corrected(last, middle)
+            rise = float(point.tangent[-1])
+            if abs(rise) < abs(float(best.tangent[-1])):
+                best = point
+            if abs(high[0] - low[0]) <= SHARP * step or abs(rise) <= flat:
+                break
+            if rise * high[1] > 0.0:  # the Illinois rule: an end that stays counts half
+                high = (middle, rise)
+                low = (low[0], 0.5 * low[1]) if side == 1 else low
+                side = 1
+            else:
+                low = (middle, rise)
+                high = (high[0], 0.5 * high[1]) if side == -1 else high
+                side = -1
+        return best._replace(fold=True)

@@ -1,0 +1,102 @@
+"""`PeriodicBranch`: periodic answers over a parameter, with its folds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ehlcontact.quantities import NUMBER, Quantity
+from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.status import Status
+from ehlcontact.summary import counted, span
+from reduced_models.periodic.answer import PeriodicAnswer
+
+_Floats = NDArray[np.float64]
+
+UNITS = {"speed": "rev/min", "amplitude": "", "clearance": "m", "preload": "m", "frequency": "Hz"}
+MIXED = Quantity("m, or rad where it turns")
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PeriodicBranch(QuantityTable):
+    """Periodic answers over a parameter, along their branch: through folds, where the parameter turns back.
+
+    Attributes
+    ----------
+    answers : tuple of PeriodicAnswer
+        In the order of the branch.
+    folds : tuple of int
+        Places of the answers at folds.
+    over : str
+        The parameter: "speed", "amplitude", "clearance", "preload" or "frequency".
+    status : Status
+        How the branch ended.
+    reservation : str
+        Why, where it did not end at the end of the range; else empty.
+    """
+
+    answers: tuple[PeriodicAnswer, ...]
+    folds: tuple[int, ...]
+    over: str
+    status: Status
+    reservation: str = ""
+    solve: Any = field(default=None, repr=False)  # answer at a value, from one beside it
+
+    DISPLAY: ClassVar[Display] = Display(rows="answer", first=0)
+
+    @property
+    def value(self) -> Annotated[_Floats, MIXED.over("answer")]:
+        """Of the parameter, shape (k,), in its unit."""
+        return np.array([answer.value for answer in self.answers])
+
+    @property
+    def peak_to_peak(self) -> Annotated[_Floats, MIXED.over("answer dof")]:
+        """Of all degrees of freedom, shape (k, N) [m], or rad where they turn."""
+        return np.array([answer.peak_to_peak for answer in self.answers])
+
+    @property
+    def stable(self) -> Annotated[_Floats, NUMBER.over("answer")]:
+        """1 where an answer is stable, 0 where it is not, not a number where multipliers were not computed."""
+        return np.array([np.nan if answer.stable is None else float(answer.stable) for answer in self.answers])
+
+    @property
+    def fold_values(self) -> _Floats:
+        """Values of the parameter at folds, in the order of the branch."""
+        return self.value[list(self.folds)]
+
+    def at(self, value: float) -> tuple[PeriodicAnswer, ...]:
+        """All answers of the branch at a value of the parameter, in the order of the branch."""
+        values, found = self.value, []
+        for k in range(len(values) - 1):
+            low, high = values[k], values[k + 1]
+            if (low - value) * (high - value) < 0.0 or low == value:
+                nearest = k if abs(low - value) <= abs(high - value) else k + 1
+                found.append(self.solve(self.answers[nearest], value))
+        if values.size and values[-1] == value:
+            found.append(self.answers[-1])
+        return tuple(found)
+
+    def _unit(self, name: str) -> str:
+        return UNITS[self.over] if name == "value" else super()._unit(name)
+
+    def _summary_lines(self) -> list[str]:
+        unit = UNITS[self.over]
+        folds = ", ".join(f"{value:.6g}" for value in self.fold_values)
+        lines = [
+            f"{counted(len(self.answers), 'answer')} over {self.over}, {span(self.value)} {unit}".rstrip(),
+            f"folds at {folds} {unit}".rstrip() if folds else "no fold",
+        ]
+        for low, high in self.multiple():
+            lines.append(f"several answers between {low:.6g} and {high:.6g} {unit}".rstrip())
+        residual = max(answer.residual for answer in self.answers)
+        lines.append(f"{self.status}; residual at most {residual:.2g}")
+        return [*lines, *filter(None, [self.reservation])]
+
+    def multiple(self) -> list[tuple[float, float]]:
+        """Ranges of the parameter between a fold and the next, in which there are several answers."""
+        folds = self.fold_values.tolist()
+        pairs = [(min(pair), max(pair)) for pair in zip(folds[::2], folds[1::2], strict=False)]
+        return sorted(pairs)
