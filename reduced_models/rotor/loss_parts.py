@@ -42,7 +42,7 @@ NONE = frozenset[str]()
 def matrix_losses(rotor: Rotor, omega: float) -> dict[str, tuple[_Floats, _Floats]]:
     """Symmetric damping and skew stiffness, shape (N, N), by name: of the rotor itself and of linear bearings."""
     none = np.zeros_like(rotor.mass)
-    found = {name: (0.5 * (part + part.T), none) for name, part in rotor.dampers.items()}
+    found = {name: (0.5 * (part + part.T), none) for name, part in rotor.damping_parts.items()}
     found[CROSS_COUPLED] = none, _skew(rotor.stiffness)
     for mount, name in zip(rotor.bearings, bearing_names(rotor.bearings), strict=True):
         if isinstance(mount.bearing, LinearBearing):

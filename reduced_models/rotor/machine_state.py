@@ -62,6 +62,7 @@ BACKWARD = -0.5  # whirl below which an unbalance hardly excites a mode
 # Where many machines are answered: such parts of the speed, and frequencies over that of the shaft at the highest
 # speed up to which modes are followed; critical speeds are looked at again each
 COARSE, FOLLOWED = 3, 1.5
+AT_A_BEARING = "housing", "damper"  # parts that are numbered like the bearing there
 SPEED_DIGITS = 1e-3  # of the highest speed that the data cover, to which it is looked for
 
 
@@ -405,7 +406,7 @@ def machine_state(
         speed_rpm=speed,
         supports=supports,
         modes=modes,
-        budget=None if budget is None else budget.renamed(lambda name: labels.get(name) or name),
+        budget=None if budget is None else budget.renamed(partial(_part_label, labels)),
         diagram=diagram,
         response=response,
         highest_speed=highest,
@@ -419,6 +420,15 @@ def machine_state(
     find = partial(_peaks, rotor, machine) if fine else partial(_peaks_of, rotor, machine, known)
     peaks = None if response is None else _tried(find, "peaks at critical speeds", failed)
     return replace(machine, peaks=peaks, failed=tuple(failed))
+
+
+def _part_label(labels: Mapping[str, str], name: str) -> str:
+    """A part in words: a bearing by its label, what is numbered like it, as "housing 1", as that of it."""
+    if labels.get(name):
+        return labels[name]
+    kind, _, number = name.partition(" ")
+    bearing = labels.get(f"bearing {number}", "")
+    return f"{kind} of {bearing}" if bearing and kind in AT_A_BEARING else name
 
 
 def _reached(linearised: Callable[[float], LinearRotor], speeds: _Floats, speed: float) -> int:

@@ -330,7 +330,7 @@ class Rotor(Summary):
         return len(self.mass)
 
     @property
-    def dampers(self) -> dict[str, _Floats]:
+    def damping_parts(self) -> dict[str, _Floats]:
         """Parts of the damping by name: as given, or of the `parameters`; else the "rotor" alone."""
         named = {own.name: own.value * own.parts["damping"] for own in self.parameters if "damping" in own.parts}
         parts = dict(self.damping_by_part) or named or {"rotor": self.damping}

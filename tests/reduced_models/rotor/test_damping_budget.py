@@ -15,9 +15,11 @@ from reduced_models import (
     LinearBearing,
     Rotor,
     Shaft,
+    SqueezeFilmDamper,
     Support,
     jeffcott_rotor,
     linearise,
+    machine_state,
     rotor_on_bearings,
 )
 from reduced_models.rotor.linear_contact import ContactImpedance
@@ -183,8 +185,8 @@ def test_what_a_rotor_is_damped_by():
     rotor = jeffcott_rotor(
         disc_mass=2.0, journal_mass=0.5, shaft_stiffness=1e7, shaft_damping=20.0, disc_damping=5.0
     )
-    assert rotor.dampers.keys() == {"shaft damping", "disc damping"}
-    np.testing.assert_array_equal(sum(rotor.dampers.values()), rotor.damping)
+    assert rotor.damping_parts.keys() == {"shaft damping", "disc damping"}
+    np.testing.assert_array_equal(sum(rotor.damping_parts.values()), rotor.damping)
     for parts, line in (
         ({"a": np.eye(4)}, "^damping_by_part = 'parts off by 1': must be parts whose sum"),
         ({"a": np.eye(3)}, r"^shape of damping_by_part\['a'\] = \(3, 3\)"),
@@ -192,6 +194,39 @@ def test_what_a_rotor_is_damped_by():
     ):
         with pytest.raises(InputError, match=line):
             Rotor(mass=np.eye(4), stiffness=np.zeros((4, 4)), mounts=rotor.mounts, damping_by_part=parts)
+
+
+def test_a_damper_under_a_housing_has_its_share():
+    """Film, rings, housing and damper of one support; a machine has them by the label of the bearing."""
+    held = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0), loss_factor=0.01)
+    film = SqueezeFilmDamper(length=0.015, diameter=0.08, clearance=1e-4, viscosity=0.04)
+    rotor = rotor_on_bearings(
+        Shaft(length=0.3, diameter=0.025),
+        discs=[Disc.cylinder(position=0.3, diameter=0.2, width=0.03, bore=0.025)],
+        supports=[
+            Support(position=0.02, bearing=held),
+            Support(
+                position=0.17,
+                bearing=held,
+                housing_mass=2.0,
+                housing_stiffness=8e7,
+                housing_damping=500.0,
+                damper=film,
+            ),
+        ],
+    )
+    at = linearise(rotor, 4500.0)
+    found = at.damping_budget(3)
+    assert found.parts[-2:] == ("housing 1", "damper 1")
+    assert np.abs(found.residual).max() < SUM
+    low, high = np.linalg.eigvalsh(film.linear(at.rest[list(rotor.nodes["housing 1"].values())]).damping) / 500.0
+    ratio = found.contribution[-1] / found.contribution[-2]  # two dashpots side by side: as their C
+    assert 1.0001 < high / low < 1.01 and np.all(ratio > low * (1.0 - SUM)) and np.all(ratio < high * (1.0 + SUM))
+    state = machine_state(rotor, 4500.0, names=("drive end", "fan end"))
+    assert state.budget.parts[0] == "drive end 6205, inner films"
+    assert state.budget.parts[-2:] == ("housing of fan end 6205", "damper of fan end 6205")
+    np.testing.assert_allclose(state.budget.contribution[:, :3], found.contribution, rtol=1e-9, atol=1e-15)
+    assert "damped by" in str(state.tiles()[4])
 
 
 def test_a_budget_as_table_text_and_file(at_speed, tmp_path):
