@@ -58,6 +58,8 @@ def imbalance(bearing, state, load):
     D, dm, omega = bearing.ball_diameter, bearing.pitch_diameter, state.speed_rpm * pi / 30.0
     fi, fo, gamma = bearing.conformity_inner, bearing.conformity_outer, D / dm
     A, mass = (fi + fo - 1.0) * D, bearing.density * pi / 6.0 * D**3
+    speeds = {"inner": (1.0, 0.0), "outer": (0.0, 1.0)}.get(bearing.turning, bearing.turning)  # of both rings
+    turned_i, turned_o = (speed / abs(speeds[0] - speeds[1]) for speed in speeds)
     races = races_by_hand(bearing)
     angle = bearing.contact_angle
     free = np.arccos(1.0 - 0.5 * max(bearing.clearance, 0.0) / A) if angle is None else angle
@@ -95,8 +97,9 @@ def imbalance(bearing, state, load):
         least = LEAST_DRIVE * cos(beta) * gamma
         driven_o = max(0.5 * D * cos(ro - beta) / (0.5 * dm + 0.5 * D * cos(ro)), least)
         driven_i = max(0.5 * D * cos(ri - beta) / (0.5 * dm - 0.5 * D * cos(ri)), least)
-        turn, orbit = 1.0 / (driven_o + driven_i), driven_o / (driven_o + driven_i)
-        left.append(max(abs(orbit - state.orbit[k]), abs(turn / state.ball_rotation[k] - 1.0)) if omega else 0.0)
+        turn, orbit = 1.0 / (driven_o + driven_i), driven_o / (driven_o + driven_i)  # seen from the outer ring
+        about = turned_o + (turned_i - turned_o) * orbit
+        left.append(max(abs(about - state.orbit[k]), abs(turn / state.ball_rotation[k] - 1.0)) if omega else 0.0)
         if bearing.oil is None:
             dry = [race[0] * max(u, 0.0) ** 1.5 - q for race, u, q in zip(races, (ui, uo), (qi, qo), strict=True)]
             left.append(np.abs(dry).max() / scale)
@@ -111,13 +114,13 @@ def imbalance(bearing, state, load):
                 film = by_speed * ((1.0 + gamma * c) / (1.0 + sign * nominal)) ** 0.464
                 g = (q / race[0]) ** (2.0 / 3.0)
                 left.append(abs(g - film * table_film(element, q) - u) * 1.5 * q / g / scale)
-        moment = 0.1 * mass * D * D * turn * orbit * sin(beta) * omega**2
+        moment = 0.1 * mass * D * D * (turned_i - turned_o) * turn * about * sin(beta) * omega**2
         moment *= -1.0 if bearing.race_control == "harris" else 1.0
         friction_i, friction_o = 2.0 * share * moment / D, 2.0 * (1.0 - share) * moment / D
         pressed = qi * ni + friction_i * np.array([-ni[1], ni[0]])
         held = qo * no + friction_o * np.array([-no[1], no[0]])
         if max(qi, qo) > 0.0:
-            ball = pressed - held + [mass * 0.5 * dm * (orbit * omega) ** 2, 0.0]
+            ball = pressed - held + [mass * 0.5 * dm * (about * omega) ** 2, 0.0]
             left.append(np.abs(ball).max() / scale)
         outward, axis = np.array([cos(psi), sin(psi), 0.0]), np.array([0.0, 0.0, 1.0])
         force = pressed[0] * outward + pressed[1] * axis

@@ -118,6 +118,7 @@ ContactAngle = Annotated[
 RaceControl = Annotated[
     Literal["outer", "inner", "shared", "harris"], meaning("race that holds the gyroscopic moment of the balls")
 ]
+Turning = Annotated[Literal["inner", "outer"], meaning("ring that turns")]
 AxialLoad = Annotated[
     Finite,
     Physical(Quantity("N", (-1e8, 1e8), (0.1, 1e6), {"kN": 1e3})),

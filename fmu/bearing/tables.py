@@ -227,10 +227,12 @@ def _grooves(model: BearingModel) -> dict[str, str]:
         "mass": g.mass,
         "gyroscopic": g.gyroscopic,
         "cosine": g.cosine,
+        "sense": g.sense,
     }
     pairs = {
         "free_length": (g.inner, g.outer),
         "spin_moment": (g.inner_spin_moment, g.outer_spin_moment),
+        "ring_speed": g.ring_speed,
     }
     found = {name: c_double(float(value)) for name, value in numbers.items()}
     return found | {name: _numbers(pair) for name, pair in pairs.items()}

@@ -51,10 +51,7 @@ from reduced_models.bearing.freedoms import PLANAR, held_tilt
 from reduced_models.bearing.grooves import angle_without_load, require_contact_angle, require_room, table_cosine
 from reduced_models.bearing.height_tables import require_features_fit
 from reduced_models.bearing.internals import require_ratings
-from reduced_models.bearing.kinematics import (
-    DefectFrequencies,
-    DefectOrders,
-)
+from reduced_models.bearing.kinematics import INNER_TURNS, DefectFrequencies, DefectOrders, RingSpeeds
 from reduced_models.bearing.loss import require_loss_factor
 from reduced_models.bearing.oil_feedback import with_held_feed
 from reduced_models.bearing.race import (
@@ -88,11 +85,14 @@ SUPPLIES = ("h", "over_flooded", "fed")  # units of an oil supply that is the sa
 )  # fmt: skip
 @dataclass(frozen=True, kw_only=True)
 class BallBearing(Summary):
-    """Ball bearing, the outer ring standing still. SI units; x and y across the shaft, y upwards, z along it.
+    """Ball bearing. SI units; x and y across the shaft, y upwards, z along it.
 
     Every ball has a contact with either race, each with a film and its memory; both carry the ball in series, the
     outer one its centrifugal force too. Rings are rigid, balls roll without slip at the centres of their contacts
     and, unless it is asked for, do not vibrate on their contacts themselves (for a 6205 that begins near 30 kHz).
+
+    Speeds are those of one ring against the other: of the shaft in an outer ring that stands still, or with
+    `turning` of a wheel or a sheave on a shaft that stands still.
 
     The inner ring has five degrees of freedom (`reduced_models.bearing.freedoms`). Under a load (Fx, Fy) its axial
     motion and its tilts are held: a planar bearing with contact angles of 0, the one of rotors without axial
@@ -153,6 +153,10 @@ class BallBearing(Summary):
     dynamic_rating, static_rating : float, optional
         Load ratings C and C0 as the maker prints them [N], for the rating life in place of those of the catalogue
         or the geometry.
+    turning : {"inner", "outer"} or (float, float)
+        The ring that turns; or the speeds of the inner and the outer ring, of which the ratio counts: (12000.0,
+        -9000.0) of two spools. Loads stand still. ``speed_rpm`` is the speed of one ring against the other, here
+        21 000 rev/min, and what is said per turn of the shaft is per turn of that.
 
     Attributes
     ----------
@@ -193,6 +197,7 @@ class BallBearing(Summary):
     supply: OilLayer | None = None
     dynamic_rating: float | None = None
     static_rating: float | None = None
+    turning: str | Sequence[float] = "inner"
     tables: BearingTables = field(init=False, repr=False, compare=False)
 
     def _summary_lines(self) -> list[str]:
@@ -205,6 +210,8 @@ class BallBearing(Summary):
             f"conformity {self.conformity_inner:.4g} and {self.conformity_outer:.4g}, {grooves}",
             *condition_lines(self),
         ]
+        if self.ring_speeds != INNER_TURNS:
+            lines.append(f"turning: {self.turning}")
         lines += [f"loss factor {self.loss_factor:.3g}"] if self.loss_factor else []
         return [*lines, f"features: {', '.join(map(str, self.features))}"] if self.features else lines
 
@@ -216,6 +223,9 @@ class BallBearing(Summary):
             require_roughness(name, rq)
         require_loss_factor(self.loss_factor)
         require_choice("race_control", self.race_control, CONTROLS)
+        _ = self.ring_speeds  # refused where they are none
+        if not isinstance(self.turning, str):
+            object.__setattr__(self, "turning", tuple(self.turning))
         if self.contact_angle is not None:
             require_contact_angle(self.contact_angle)
         object.__setattr__(self, "tables", BearingTables(self))
@@ -271,6 +281,11 @@ class BallBearing(Summary):
         return self.ball_diameter / self.pitch_diameter
 
     @property
+    def ring_speeds(self) -> RingSpeeds:
+        """Speeds of both rings over the speed of one against the other."""
+        return RingSpeeds.of(self.turning)
+
+    @property
     def free_angle(self) -> float:
         """Contact angle with the balls just touching both races [rad]: 0 without clearance."""
         return angle_without_load(self)
@@ -281,7 +296,7 @@ class BallBearing(Summary):
 
         `orders_under` has those at the contact angles of a load.
         """
-        return DefectOrders.of(self.balls, self.gamma, table_cosine(self))
+        return DefectOrders.of(self.balls, self.gamma, table_cosine(self), self.ring_speeds)
 
     @takes(load="N", axial=parts.FORCE, speed_rpm="rev/min")
     def orders_under(
@@ -311,7 +326,7 @@ class BallBearing(Summary):
                 raise InputError("axial", axial, "left out beside a load that has an axial part")
             force = (*force, require_finite("axial", axial))  # type: ignore[misc]
         found = self.equilibrium(force, speed_rpm=speed_rpm).orders or self.orders
-        return found.with_slip(slip)
+        return found.with_slip(slip, self.ring_speeds)
 
     @takes(speed_rpm=parts.SPEED_OR_NONE)
     def frequencies(self, speed_rpm: float) -> DefectFrequencies:
@@ -478,8 +493,8 @@ class BallBearing(Summary):
             np.array([getattr(at, name) for at in places]) for name in ("force", "approach", "ball_rotation")
         )
         full, turns = np.mean([at.load for at in places], axis=0), turns_of(places)
-        cage, rotation = with_cage_slip(self.balls, *turns, slip)
-        rotations = rotations * (rotation / turns[1])
+        cage, rotation = with_cage_slip(self, *turns, slip)
+        rotations = rotations * (self.ring_speeds.sense * rotation / turns[1])
         balls = FeaturedBalls(self, small, forces, cages[0], speed, cage, rotations, contact_filter)
         return excitation_of(balls, full, float(approach.sum(axis=-1).max()), own, cage_angle)
 

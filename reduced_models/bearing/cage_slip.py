@@ -94,14 +94,21 @@ def cage_slip(bearing: Any, load: ArrayLike, *, speed_rpm: float, law: TractionL
     state = oiled_state(bearing, load, speed_rpm, law)
     balls = _loaded(bearing, state, law)
 
+    # A drag acts against the turning of the cage, which goes as balls do seen from the outer ring, or backward
+    cage, sense = bearing.orders.ftf_order, bearing.ring_speeds.sense
+    if cage == 0.0:
+        raise InputError("bearing.turning", bearing.turning, "such that the cage turns: this one stands still")
+    way = sense if cage > 0.0 else -sense
+
     def left(apart: float) -> float:
-        return sum(ball.force(apart) for ball in balls) - drag
+        return way * sum(ball.force(way * apart) for ball in balls) - drag
 
     if not balls or left(MOST) < 0.0:
         most = left(MOST) + drag if balls else 0.0
         raise InputError("drag", drag, f"below {most:.3g} N, what the traction of the loaded balls carries")
     gamma = bearing.ball_diameter / bearing.pitch_diameter
-    return 0.5 * (1.0 + gamma) * float(scipy.optimize.brentq(left, -MOST, MOST, xtol=FINEST))
+    slower = 0.5 * (1.0 - gamma) / (way * sense * cage)  # 1 with the inner ring turning
+    return slower * 0.5 * (1.0 + gamma) * float(scipy.optimize.brentq(left, -MOST, MOST, xtol=FINEST))
 
 
 def _loaded(bearing: Any, state: BearingState, law: TractionLaw) -> list[_Ball]:

@@ -21,7 +21,8 @@ of nearly 1, that ends where the ball leaves the inner race.
 Friction of the outer race, of the inner race, or of both in the ratio of W turns the axis of the ball around the
 shaft (gyroscopic moment). With the inner ring rotating, the angular momentum of the ball points outward where
 alpha > 0. Its change is along the orbit, so that friction across the outer contact has to push the ball outward,
-that across the inner contact inward (derivation: `docs/notes/bearings.md`). Published tables have the opposite
+that across the inner contact inward (derivation: `docs/notes/bearings.md`). With the outer ring turning alone it
+is the other way round. Published tables have the opposite
 direction; "harris" is outer race control with the direction of these tables.
 """
 
@@ -50,3 +51,5 @@ class Grooves(NamedTuple):
     inner_spin_moment: float  # W over the dry compression squared
     outer_spin_moment: float
     cosine: float  # of the contact angle that the tables of both races are for
+    ring_speed: tuple[float, float]  # of both rings about the axis, over their speed against each other
+    sense: float  # of that: 1 where the inner ring turns forward as seen from the outer one, else -1

@@ -12,11 +12,11 @@ from reduced_models.bearing.core_bearing import bearing_library, heights_structu
 _Floats = NDArray[np.float64]
 
 # Tables of heights, shape (1 + tables, rows, semi-axes); without features there are no pages. The first page has
-# numbers: in its first row turns of a ball per turn of the shaft, without contact angles, and the tables of both
-# races; then, for every ball, its height where it is larger than the others, and its tables at both races; 0 is no
-# table. The others are tables over the angle, with the column over the square root of the compression in their
-# last row.
-ROTATION, RAISED, TABLE = 0, 0, 1
+# numbers: in its first row turns of a ball per turn of the shaft, without contact angles, the tables of both
+# races, and turns of both rings; then, for every ball, its height where it is larger than the others, and its
+# tables at both races; 0 is no table. The others are tables over the angle, with the column over the square root
+# of the compression in their last row.
+ROTATION, RAISED, TABLE, RING_SPEED = 0, 0, 1, 3
 
 
 def table_height(heights: _Floats, table: int, angle: float, compression: float) -> float:

@@ -43,6 +43,7 @@ class GroovesStructure(ctypes.Structure):
         ("gyroscopic", c_double),
         ("spin_moment", c_double * 2),
         ("cosine", c_double),
+        ("ring_speed", c_double * 2), ("sense", c_double),
     ]  # fmt: skip
 
 
@@ -335,4 +336,6 @@ def _grooves(g: Grooves) -> GroovesStructure:
         gyroscopic=g.gyroscopic,
         spin_moment=(g.inner_spin_moment, g.outer_spin_moment),
         cosine=g.cosine,
+        ring_speed=g.ring_speed,
+        sense=g.sense,
     )

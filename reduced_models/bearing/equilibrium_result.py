@@ -23,7 +23,7 @@ from reduced_models.bearing.capacitance import (
     film_from_capacitance,
 )
 from reduced_models.bearing.freedoms import in_freedoms, labelled, load_words, place_words
-from reduced_models.bearing.kinematics import RPM_TO_RAD_S, DefectOrders
+from reduced_models.bearing.kinematics import INNER_TURNS, RPM_TO_RAD_S, DefectOrders, RingSpeeds
 from reduced_models.bearing.picture import state_picture
 from reduced_models.bearing.race import RACES
 from reduced_models.life.bearing_life import BallLoads, BearingLife, life_of_bearing
@@ -61,7 +61,7 @@ class BearingState(QuantityTable):
     load : ndarray, shape (2,) or (5,)
         Force on the inner ring [N]; under an axial load with moments [N m], also those that held tilts take.
     speed_rpm, cage_angle : float
-        Of the shaft [rev/min], of the first ball [rad].
+        Of the shaft, or of one ring against the other [rev/min], of the first ball [rad].
     displacement : ndarray, shape (2,) or (5,)
         Of the inner ring [m], with tilts [rad] where the load has moments.
     stiffness : ndarray, shape (2, 2) or (5, 5)
@@ -105,7 +105,7 @@ class BearingState(QuantityTable):
         Whether a film transmits it is not checked; above 0.05 `friction_note` says so.
     orbit, ball_rotation : ndarray, shape (balls,), or None
         Angular speed of every ball about the shaft, and about its own axis as seen from the cage, over the speed
-        of the shaft. Balls of a bearing under combined load have different ones.
+        of the shaft, or of one ring against the other. Balls of a bearing under combined load have different ones.
     internals : InternalGeometry or None
         Balls, grooves and printed ratings of the bearing, for `life`.
     """
@@ -241,10 +241,11 @@ class BearingState(QuantityTable):
         cage, rotation = (
             float(np.average(one, weights=self.force[:, 0])) for one in (self.orbit, self.ball_rotation)
         )
-        balls = len(self.angles)
-        return DefectOrders(
-            ftf_order=cage, bpfo_order=balls * cage, bpfi_order=balls * (1.0 - cage), bsf_order=rotation
-        )
+        return DefectOrders.at_speeds(len(self.angles), cage, rotation, self._rings)
+
+    @property
+    def _rings(self) -> RingSpeeds:
+        return INNER_TURNS if self.internals is None else RingSpeeds(*self.internals.ring_speeds)
 
     @property
     def rolling_loss(self) -> float | None:
@@ -294,6 +295,7 @@ class BearingState(QuantityTable):
             self.speed_rpm,
             None if ratio is None else float(ratio[self.heaviest].min()),
             float(np.hypot(*tilts)) if tilts.size else 0.0,
+            self._rings,
         )
         return life_of_bearing(self.internals, loads, **options)
 

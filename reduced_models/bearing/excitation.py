@@ -187,11 +187,12 @@ class FeaturedBalls:
     first : float
         Angle of the first ball at the first position [rad].
     speed_rpm, cage : float
-        Of the shaft [rev/min]; turns of the cage per turn of the shaft.
+        Of the shaft [rev/min]; turns of the cage per turn of the shaft, or of one ring against the other.
     contact_filter : {"film", "dry", "none"}
         As in `BallBearing.excitation`.
     rotations : ndarray, shape (positions, balls)
-        Turns of every ball about its axis per turn of the shaft, which vary with the contact angles.
+        Turns of every ball about its axis per turn of the shaft, which vary with the contact angles; below 0 where
+        the outer ring turns.
     """
 
     bearing: BallBearing
@@ -319,7 +320,7 @@ class FeaturedBalls:
         self, race: str, n: NDArray[np.int64], amplitude: _Complex, cage_angle: float
     ) -> tuple[_Floats, _Complex]:
         balls, none = self.force.shape[1], np.zeros((1, 1), complex)
-        turning = 1.0 if race == "inner" else 0.0
+        turning = self.bearing.ring_speeds[RACES.index(race)]
         filters = self.filters(n, race, ball=False)
         heights = (filters, none) if race == "inner" else (none, filters)
         m, D = self.harmonics(np.asarray(n * (self.cage - turning), float), *heights)
@@ -413,7 +414,7 @@ def _require_low(feature: Feature, most: float) -> None:
 
 
 def turns_of(places: Sequence[RingEquilibrium]) -> tuple[float, float]:
-    """Turns of the cage and of a ball per turn of the shaft: the mean of the balls, by their loads."""
+    """Turns of the cage, seen from the outer ring, and of a ball, per turn of the shaft: means by the loads."""
     weights = np.concatenate([at.force[:, 0] for at in places])
     cage, rotation = (
         float(np.average(np.concatenate([getattr(at, name) for at in places]), weights=weights))
@@ -422,7 +423,12 @@ def turns_of(places: Sequence[RingEquilibrium]) -> tuple[float, float]:
     return cage, rotation
 
 
-def with_cage_slip(balls: int, cage: float, rotation: float, slip: float) -> tuple[float, float]:
-    """Turns of the cage and of a ball where the cage turns slower by the share `slip`."""
-    orders = DefectOrders(cage, balls * cage, balls * (1.0 - cage), rotation).with_slip(slip)
-    return orders.ftf_order, orders.bsf_order
+def with_cage_slip(bearing: BallBearing, cage: float, rotation: float, slip: float) -> tuple[float, float]:
+    """Turns of the cage about the axis, and of a ball, where the cage turns slower by the share `slip`.
+
+    `cage` and `rotation` are those without slip, seen from the outer ring.
+    """
+    rings = bearing.ring_speeds
+    orders = DefectOrders.at_speeds(bearing.balls, rings.about_axis(cage), rotation, rings)
+    slipped = orders.with_slip(slip, rings)
+    return slipped.ftf_order, slipped.bsf_order

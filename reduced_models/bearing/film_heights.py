@@ -5,7 +5,7 @@ load. Each column is a sum of waves around the track. A wave with k radians per 
 film leaves of it, the filter G/Z of the film over that of the dry contact (`atlas.waves.films_over_dry`),
 at the load of the column. G/Z is for waves met as exp(i Omega T), so for contacts that move towards larger angles,
 as on the outer race and on balls. On the inner race they move towards smaller ones, where its complex conjugate
-holds.
+holds. Where the outer ring turns, or the inner one backward, it is the other way round.
 
 The filter is that of films at one speed of the shaft. Where the speed changes, films at that speed are the mean of
 those at the lowest and the highest one. Loads below the table of filters have the filter of its lightest load.
@@ -55,13 +55,13 @@ def mean_film_speed(lowest: float, highest: float) -> float:
 
 def _with_films(bearing: BallBearing, speed_rpm: float) -> _Floats:
     found = bearing.tables.heights.copy()
-    places = found.shape[1] - 1
+    places, way = found.shape[1] - 1, bearing.ring_speeds.sense
     tables = found[0, : 1 + bearing.balls, TABLE : TABLE + len(RACES)].astype(int)
     for row, column in np.argwhere(tables).tolist():
         table, name = found[tables[row, column]], RACES[column]
         radius = track_radius(bearing, name) if row == 0 else 0.5 * bearing.ball_diameter
         filters = _filters(bearing.race(name), speed_rpm, table[places, 0], np.arange(places // 2 + 1) / radius)
-        backwards = row == 0 and name == "inner"
+        backwards = (row == 0 and name == "inner") == (way > 0.0)
         waves = np.fft.rfft(table[:places], axis=0) * (filters.conj() if backwards else filters)
         table[:places] = np.fft.irfft(waves, places, axis=0)
     return found

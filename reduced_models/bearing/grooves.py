@@ -47,6 +47,8 @@ def grooves_of(bearing: BallBearing) -> Grooves:
         inner_spin_moment=moments[0],
         outer_spin_moment=moments[1],
         cosine=table_cosine(bearing),
+        ring_speed=(bearing.ring_speeds.inner, bearing.ring_speeds.outer),
+        sense=bearing.ring_speeds.sense,
     )
 
 

@@ -30,7 +30,7 @@ from ehlcontact.checks.admissible_range import LIMITS
 from ehlcontact.dry_contact import elastic_contact
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.hertz import hertz_contact
-from reduced_models.bearing.contact_heights import RAISED, ROTATION, TABLE, contact_height
+from reduced_models.bearing.contact_heights import RAISED, RING_SPEED, ROTATION, TABLE, contact_height
 from reduced_models.bearing.elastic_heights import Track, highest_touch
 from reduced_models.bearing.features import BallDiameter, Defect, Feature, Indentation, Spall, Waves
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
@@ -56,7 +56,9 @@ def heights_of(bearing: BallBearing) -> _Floats:
     if not bearing.features:
         return np.zeros((0, 0, LOADS))
     numbers = np.zeros((1 + bearing.balls, LOADS))
-    numbers[0, ROTATION] = bearing.orders.bsf_order
+    rings = bearing.ring_speeds
+    numbers[0, ROTATION] = rings.sense * bearing.orders.bsf_order
+    numbers[0, RING_SPEED : RING_SPEED + len(RACES)] = rings
     tracks: list[tuple[str, float, _Floats, list[Defect]]] = []
     for column, name in enumerate(RACES):
         for row in range(1 + bearing.balls):
@@ -125,11 +127,12 @@ def settle(
     ConvergenceError
         The heights do not settle.
     """
-    heights = bearing.tables.heights
+    heights, sense = bearing.tables.heights, bearing.ring_speeds.sense
     kn = np.array([bearing.race(name).kn for name in RACES])
     for _ in range(MOST_TIMES):
         at = solve()
-        own = np.broadcast_to(angles[1] * getattr(at, "ball_rotation", heights[0, 0, ROTATION]), len(found))
+        turns = sense * at.ball_rotation if hasattr(at, "ball_rotation") else heights[0, 0, ROTATION]
+        own = np.broadcast_to(angles[1] * turns, len(found))
         pressed = np.where(at.force > 0.0, (np.maximum(at.force, 0.0) / kn) ** (2.0 / 3.0), at.approach)
         new = np.empty(found.shape)
         for k, race in np.ndindex(*found.shape):
@@ -205,7 +208,7 @@ def shortest_meeting(bearing: BallBearing, speed_rpm: float, force: float) -> tu
     wave.
     """
     radii = {name: track_radius(bearing, name) for name in RACES}
-    speed = speed_rpm * RPM_TO_RAD_S * bearing.orders.ftf_order * radii["outer"]
+    speed = speed_rpm * RPM_TO_RAD_S * bearing.ring_speeds.from_outer(bearing.orders.ftf_order) * radii["outer"]
     bodies = [bearing.race(name).geometry for name in RACES]
     unit = min(2.0 * hertz_contact(1.0, one.radius_x, one.radius_y, one.e_reduced).a for one in bodies)
     contact = unit * float(np.cbrt(force)) if force > 0.0 else np.inf

@@ -49,6 +49,7 @@ def internals_of(bearing: BallBearing) -> InternalGeometry:
         dynamic_source=of_dynamic,
         static_source=of_static,
         least_load=_least_load(bearing.name),
+        ring_speeds=(bearing.ring_speeds.inner, bearing.ring_speeds.outer),
     )
 
 

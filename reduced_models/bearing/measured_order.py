@@ -66,7 +66,7 @@ def angle_from_order(
         larger angles; a slip that is no share.
     """
     name, order, outer = _outer_order(bearing, bpfo_order, bpfi_order)
-    slower = bearing.orders.with_slip(slip).ftf_order / bearing.orders.ftf_order
+    slower = bearing.orders.with_slip(slip, bearing.ring_speeds).bpfo_order / bearing.orders.bpfo_order
     outer, reach = outer / slower, require_nonnegative("error", error) / slower
     least, most = _order(bearing, 0.0), _order(bearing, LARGEST_ANGLE)
     if not least - reach <= outer <= most:

@@ -197,7 +197,7 @@ class RingEquilibrium:
 
     @property
     def orbit(self) -> _Floats:
-        """Speed of every ball about the shaft, over that of the shaft, shape (balls,)."""
+        """Speed of every ball about the axis over that of the inner ring, seen from the outer one: (balls,)."""
         return self.balls["orbit"]
 
     @property
@@ -208,8 +208,9 @@ class RingEquilibrium:
     def gyroscopic_friction(self, grooves: Grooves, omega: float) -> _Floats:
         """Friction across both contacts that holds the gyroscopic moment, over their forces, shape (balls, 2)."""
         balls = self.balls
-        spin = balls["rotation"] * np.sin(balls["axis"])
-        friction = 0.2 * grooves.gyroscopic * grooves.mass * grooves.ball * balls["orbit"] * spin * omega**2
+        spin = grooves.sense * balls["rotation"] * np.sin(balls["axis"])
+        orbit = grooves.sense * balls["orbit"] + grooves.ring_speed[1]
+        friction = 0.2 * grooves.gyroscopic * grooves.mass * grooves.ball * orbit * spin * omega**2
         both = np.column_stack([balls["share"] * friction, (1.0 - balls["share"]) * friction])
         return np.divide(both, balls["load"], out=np.zeros_like(both), where=balls["load"] > 0.0)
 

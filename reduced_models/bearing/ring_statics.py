@@ -98,7 +98,7 @@ def state_of(bearing: BallBearing, at: RingEquilibrium, speed: float, angle: flo
         "contact_angles": at.angles,
         "spin_to_roll": at.spin_to_roll,
         "gyroscopic_friction": at.gyroscopic_friction(balls.grooves, balls.omega),
-        "orbit": at.orbit,
+        "orbit": bearing.ring_speeds.about_axis(at.orbit),
         "ball_rotation": at.ball_rotation,
     }
     return BearingState(

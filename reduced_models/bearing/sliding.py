@@ -248,7 +248,8 @@ def race_at(bearing: Any, state: BearingState, ball: int, column: int) -> Race:
     race: Race = bearing.race(RACES[column])
     if state.contact_angles is None or state.orbit is None:
         return race
-    angle, orbit = float(state.contact_angles[ball, column]), float(state.orbit[ball])
+    angle = float(state.contact_angles[ball, column])
+    orbit = float(bearing.ring_speeds.from_outer(state.orbit[ball]))
     gamma = bearing.ball_diameter / bearing.pitch_diameter * np.cos(angle)
     ring = (1.0 - orbit) * (1.0 - gamma) if column == 0 else orbit * (1.0 + gamma)
     return race.at_angle(bearing.pitch_diameter, angle, float(ring) * bearing.pitch_diameter)

@@ -92,10 +92,11 @@ def tracks_at(
     """
     inner = race == RACES[0]
     (ball, shaft), (ball_rate, shaft_rate) = angles, rates
-    turns = bearing.orders.bsf_order
+    rings = bearing.ring_speeds
+    turns, ring = rings.sense * bearing.orders.bsf_order, rings.inner if inner else rings.outer
     found = (
         (features_on(bearing, race=race), track_radius(bearing, race),
-         ball - shaft if inner else ball, ball_rate - shaft_rate if inner else ball_rate),
+         ball - ring * shaft, ball_rate - ring * shaft_rate),
         (features_on(bearing, ball=k), 0.5 * bearing.ball_diameter,
          turns * shaft + (0.0 if inner else pi), turns * shaft_rate),
     )  # fmt: skip

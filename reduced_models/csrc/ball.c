@@ -104,7 +104,7 @@ int balance_ball(const Search *s, const double start[2])
     const StepHead *step = s->step;
     const double *free = s->bearing->grooves.free_length, most = longest * (free[INNER_RACE] + free[OUTER_RACE]);
     const int most_steps = at_rest(s) ? MOST_AT_REST : MOST_BALL_STEPS, films = s->contact[INNER_RACE].film != NULL;
-    const int renews = at_rest(s) && (films || (is_angular(s->bearing) && step->omega > 0.0));
+    const int renews = at_rest(s) && (films || (is_angular(s->bearing) && step->omega != 0.0));
     double reach = first_step, previous = HUGE_VAL, b[2] = {start[0], start[1]}, last[2] = {start[0], start[1]}, renewed[5][4];
     BallStep *ball = s->ball;
     int i, j;
@@ -114,7 +114,7 @@ int balance_ball(const Search *s, const double start[2])
         double size, allowed, move[2];
         Pressed p;
         Tangents t;
-        if (i >= STALE - 1 && step->omega > 0.0 && !at_rest(s)) { /* a long search */
+        if (i >= STALE - 1 && step->omega != 0.0 && !at_rest(s)) { /* a long search */
             if (old) {
                 renew_slopes(s, b, none, none, renewed);
             }

@@ -440,8 +440,8 @@ static const char *rates_at(const Instant *at, Dual cage, Dual states[], Dual ra
             }
         }
         carried = add(carried, balls[k].load[INNER_RACE]);
-        driven = add(driven, mul(balls[k].load[INNER_RACE], p.rolls.orbit));
-        free = add(free, times(1.0 / b->balls, p.rolls.orbit));
+        driven = add(driven, mul(balls[k].load[INNER_RACE], about_axis(&b->grooves, p.rolls.orbit)));
+        free = add(free, times(1.0 / b->balls, about_axis(&b->grooves, p.rolls.orbit)));
     }
     rates[CAGE_ANGLE] = mul(at->ring->omega, carried.x > 0.0 ? over(driven, carried) : free);
     return NULL;

@@ -22,8 +22,9 @@ static void first_place(const Search *s, double b[2])
     const double closer = length - free_length(s, INNER_RACE) - free_outer;
     const double ratio = pow(bearing->race[OUTER_RACE].kn / bearing->race[INNER_RACE].kn, 2.0 / 3.0);
     double outward = free_outer + closer / (1.0 + ratio);
-    if (closer < 0.0 && omega > 0.0) {
-        const double swing = 0.125 * omega * omega * bearing->grooves.mass * bearing->grooves.pitch;
+    if (closer < 0.0 && omega != 0.0) {
+        const double orbit = 2.0 * about_axis(&bearing->grooves, number(0.5)).x;
+        const double swing = 0.125 * omega * omega * bearing->grooves.mass * bearing->grooves.pitch * orbit * orbit;
         outward = free_outer + pow(swing / bearing->race[OUTER_RACE].kn, 2.0 / 3.0);
     }
     b[0] = outward * c[0] / length;

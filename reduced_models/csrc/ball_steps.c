@@ -54,7 +54,7 @@ void search_of(const Bearing *b, const double state[], double work[], int k, con
     s->dry = races;
     s->surface = b->heights != NULL ? surface_of(b, state, k) : NULL;
     s->heavy = b->inertia * s->step->gain * s->step->gain;
-    s->inertia = s->step->omega > 0.0 ? ball_of(state, k)->inertia : none;
+    s->inertia = s->step->omega != 0.0 ? ball_of(state, k)->inertia : none;
     for (race = 0; race < 2; race++) {
         RaceStep *c = &s->contact[race];
         c->race = &races[race];
@@ -309,7 +309,7 @@ static void accept_seat(const Bearing *b, double state[], const StepHead *step)
     memcpy(total, step->force, (size_t)b->directions * sizeof total[0]);
 }
 
-/* Moves a ball and its films to the end of the step; returns its speed about the shaft, over that of the shaft. */
+/* Moves a ball and its films to the end of the step; returns its speed about the axis, over that of the bearing. */
 static double accept_ball(const Search *s, double state[], int k)
 {
     const Bearing *b = s->bearing;
@@ -354,7 +354,7 @@ static double accept_ball(const Search *s, double state[], int k)
         BallSurface *surface = (BallSurface *)(void *)(state + shaft_place(b) + 1) + k;
         const double turned = 0.5 * step->h * (head_of(state)->omega + step->omega); /* by the shaft */
         surface->angle += turned * surface->rotation;
-        surface->rotation = at.rotation;
+        surface->rotation = b->grooves.sense * at.rotation;
         for (race = 0; race < 2; race++) {
             surface->height[race][1] = moving ? surface->height[race][0] : now->height[race];
             surface->height[race][0] = now->height[race];
@@ -362,13 +362,13 @@ static double accept_ball(const Search *s, double state[], int k)
                 surface->largest[race] = now->force[race];
             }
             if (moving && now->force[race] > 0.0) {
-                const double force = now->force[race], cubed = force * force * force;
-                surface->fatigue[race][0] += turned * cubed;
-                surface->fatigue[race][1] += turned * cubed * cbrt(force);
+                const double force = now->force[race], cubed = fabs(turned) * (force * force * force);
+                surface->fatigue[race][0] += cubed;
+                surface->fatigue[race][1] += cubed * cbrt(force);
             }
         }
     }
-    return at.orbit;
+    return about_axis(&b->grooves, number(at.orbit)).x;
 }
 
 void bearing_accept(const Bearing *b, double state[], double work[])
@@ -390,7 +390,7 @@ void bearing_accept(const Bearing *b, double state[], double work[])
         turned += s.ball->force[INNER_RACE] * orbit;
         free += orbit / b->balls;
         inclined = ball_of(state, k)->sine[INNER_RACE] != 0.0 || ball_of(state, k)->sine[OUTER_RACE] != 0.0;
-        if (step->omega > 0.0 && (step->h == 0.0 || (inclined && (shared_by_forces(b) || ((int)head->steps + k) % RENEWED == 0)))) {
+        if (step->omega != 0.0 && (step->h == 0.0 || (inclined && (shared_by_forces(b) || ((int)head->steps + k) % RENEWED == 0)))) {
             renew_slopes(&s, s.ball->place, none, none, ((Ball *)(void *)(state + HEAD_NUMBERS))[k].inertia);
         }
     }

@@ -1,4 +1,4 @@
-/* Balls between two races under a given motion of the inner ring, the outer one at rest: in steps (ball_steps.c) and in continuous
+/* Balls between two races under a given motion of the inner ring against the outer one, which may turn: in steps (ball_steps.c) and in continuous
  * time (ball_rates.c). A bearing is constant, all that changes is in memory of the caller: nothing is allocated, and many bearings
  * of different sizes stand side by side. Equations in README.md. */
 #ifndef BEARING_H
@@ -25,6 +25,7 @@ typedef struct {
     double gyroscopic;              /* factor of the gyroscopic moment: 1, or -1 of HARRIS_CONTROL */
     double spin_moment[2];          /* of friction, over the dry compression squared */
     double cosine;                  /* of the contact angle that the tables are for */
+    double ring_speed[2], sense;    /* of both rings about the axis, over their speed against each other; 1 or -1, the sign of that */
 } Grooves;
 
 /* What a ball is counted from in continuous time [m]: its place, and how far the inner groove centre is there from its free place; its
@@ -69,7 +70,7 @@ typedef struct {
     BearingSettings settings;
     double h;       /* length of the last step; 0: at rest so far */
     double steps;   /* made */
-    double omega;   /* of the shaft, at its end [rad/s] */
+    double omega;   /* of the shaft, or of one ring against the other, at its end [rad/s] */
     double angle;   /* of the first ball */
     double cage[2]; /* speed of the cage over that of the shaft, at the ends of the last two steps */
 } BearingHead;

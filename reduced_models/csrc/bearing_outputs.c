@@ -22,7 +22,7 @@ SpeedRow speed_row(const Bearing *b, double omega)
     low = pow(b->speed[at.row], film_growth);
     high = pow(b->speed[at.row + 1], film_growth);
     at.weight = (pow(rolling, film_growth) - low) / (high - low);
-    at.slope = rolling == omega && omega > b->speed[0] ? film_growth * pow(rolling, film_growth - 1.0) / (high - low) : 0.0;
+    at.slope = rolling == fabs(omega) && fabs(omega) > b->speed[0] ? film_growth * pow(rolling, film_growth - 1.0) / (high - low) : 0.0;
     return at;
 }
 
@@ -43,7 +43,7 @@ static FilmPlace film_place_at(const Bearing *b, int race, Dual omega, Dual load
         at.row = speed_row(b, omega.x).row;
         per_ratio = 1.0 / log(b->speed[at.row + 1] / b->speed[at.row]);
         at.by_speed.x = per_ratio * log(rolling / b->speed[at.row]);
-        at.by_speed.d = rolling == omega.x ? per_ratio / rolling * omega.d : 0.0;
+        at.by_speed.d = rolling == fabs(omega.x) ? per_ratio / omega.x * omega.d : 0.0;
     }
     if (x >= films->nodes - 1) {
         at.node = films->nodes - 2;
@@ -79,7 +79,7 @@ static void films_of(const Bearing *b, int race, Dual omega, const BallOutputs *
     const Dual arm = times(0.5 / b->films.rolling_radius[race], ball->speed_sum[race]);
     films[CENTRAL] = mul(ball->factor[race], of_table(b, race, CENTRAL, at));
     films[SMALLEST] = mul(ball->factor[race], of_table(b, race, SMALLEST, at));
-    films[MOMENT] = omega.x > 0.0 ? mul(arm, of_table(b, race, MOMENT, at)) : number(0.0);
+    films[MOMENT] = omega.x != 0.0 ? mul(arm, of_table(b, race, MOMENT, at)) : number(0.0);
 }
 
 int ball_outputs(const Bearing *b, int wet, Dual omega, const BallOutputs *ball, Dual outputs[])
@@ -131,7 +131,7 @@ int bearing_outputs(const Bearing *b, int wet, Dual omega, const Dual force[], c
             outputs[n++] = times(1.0 / b->films.roughness, smallest);
         }
     }
-    too_fast = omega.x > (1.0 + by_rounding) * b->most_speed;
+    too_fast = fabs(omega.x) > (1.0 + by_rounding) * b->most_speed;
     overloaded = largest[INNER_RACE].x > b->most_load[INNER_RACE] || largest[OUTER_RACE].x > b->most_load[OUTER_RACE];
     outputs[n++] = number(too_fast || overloaded);
     outputs[n++] = number(too_fast);

@@ -9,11 +9,11 @@ static const double small_step = 1e-14; /* of the rates, that ends the search fo
 LawSpeed law_speed(const Bearing *b, Dual omega)
 {
     const SpeedRow row = speed_row(b, omega.x);
-    const double rolling = film_speed(b, omega.x);
+    const double rolling = film_speed(b, omega.x), way = omega.x < 0.0 ? -1.0 : 1.0;
     LawSpeed at;
     at.row = row.row;
-    at.weight = chained(row.weight, row.slope, omega);
-    at.rolling = dual(rolling, rolling == omega.x ? omega.d : 0.0);
+    at.weight = chained(row.weight, way * row.slope, omega);
+    at.rolling = dual(rolling, rolling == fabs(omega.x) ? way * omega.d : 0.0);
     return at;
 }
 

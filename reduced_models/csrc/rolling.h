@@ -13,7 +13,8 @@
 #define IN_PLACE static inline
 #endif
 
-/* Ball between two races. Angular speeds over that of the shaft, entrainment speeds over it [m]. */
+/* Ball between two races, seen from the outer ring. Angular speeds over that of the rings against each other, entrainment speeds over it
+ * [m]. */
 typedef struct {
     Dual l[2], cosine[2], sine[2]; /* inner and outer spring */
     Dual axis, drive;              /* tangent of the angle of the axis of the ball; sum of the cosines from it to both contacts, over their radii */
@@ -30,7 +31,13 @@ SpeedRow speed_row(const Bearing *b, double omega);
 
 static inline double film_speed(const Bearing *b, double omega)
 {
-    return omega > b->speed[0] ? omega : b->speed[0];
+    return fabs(omega) > b->speed[0] ? fabs(omega) : b->speed[0];
+}
+
+/* Speed about the axis of what has the speed `orbit` as seen from the outer ring. */
+static inline Dual about_axis(const Grooves *g, Dual orbit)
+{
+    return plus(times(g->sense, orbit), g->ring_speed[OUTER_RACE]);
 }
 
 /* Whether the races share the gyroscopic moment by their forces. */
@@ -144,7 +151,7 @@ IN_PLACE Rolling roll(const Bearing *bearing, const Dual b[2], const Dual c[2], 
     return at;
 }
 
-/* Speed of a ball about its own axis, seen from the cage, over that of the shaft. */
+/* Speed of a ball about its own axis, seen from the cage, over that of the rings against each other. */
 static inline double own_rotation(const Bearing *b, const Rolling *at)
 {
     return b->grooves.pitch / b->grooves.ball * sqrt(1.0 + at->axis.x * at->axis.x) / at->drive.x;
@@ -165,8 +172,8 @@ static inline Dual film_factor(const Bearing *b, const Rolling *at, int race)
 
 IN_PLACE BallForces forces_on(const Grooves *g, const Rolling *at, Dual omega, Dual f_i, Dual f_o)
 {
-    const Dual speed = mul(at->orbit, omega), centrifugal = times(g->mass * 0.5 * g->pitch, mul(speed, speed));
-    const Dual spin = mul(at->spin, omega), gyroscopic_friction = times(0.2 * g->gyroscopic * g->mass * g->ball, mul(speed, spin));
+    const Dual speed = mul(about_axis(g, at->orbit), omega), centrifugal = times(g->mass * 0.5 * g->pitch, mul(speed, speed));
+    const Dual spin = mul(times(g->sense, at->spin), omega), gyroscopic_friction = times(0.2 * g->gyroscopic * g->mass * g->ball, mul(speed, spin));
     const Dual t_i = mul(at->share, gyroscopic_friction), t_o = sub(t_i, gyroscopic_friction);
     const Dual *cosine = at->cosine, *sine = at->sine;
     BallForces f;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-enum { RAISED, TABLE }; /* columns of the numbers of a ball; first of its tables */
+enum { RAISED, TABLE, RING_SPEED = 3 }; /* columns of the numbers of a ball; first of its tables, and of speeds of rings */
 static const double half_turn = 3.141592653589793;
 
 double table_height(const HeightTables *h, int table, double angle, double compression)
@@ -36,7 +36,7 @@ double table_height(const HeightTables *h, int table, double angle, double compr
 double contact_height(const HeightTables *h, int ball, int race, double psi, double shaft, double own, double compression)
 {
     const double *numbers = h->heights, *row = numbers + (size_t)(1 + ball) * (size_t)h->columns;
-    const double on_race = race == 0 ? psi - shaft : psi, on_ball = race == 0 ? own : own + half_turn;
+    const double on_race = psi - numbers[RING_SPEED + race] * shaft, on_ball = race == 0 ? own : own + half_turn;
     return row[RAISED] + table_height(h, (int)numbers[TABLE + race], on_race, compression)
            + table_height(h, (int)row[TABLE + race], on_ball, compression);
 }

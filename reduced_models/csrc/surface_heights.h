@@ -4,8 +4,8 @@
 #define SURFACE_HEIGHTS_H
 
 /* Tables over the angle on a track, in `columns` over the root of the compression. The first page has numbers: in its rows from 1 on
- * of every ball its height where it is larger than the others and its tables at both races, in row 0 the tables of the races; 0 is
- * no table. Others are tables, with columns over the root of the compression in the last row. */
+ * of every ball its height where it is larger than the others and its tables at both races, in row 0 the tables of the races, and turns of both
+ * rings per turn of the shaft; 0 is no table. Others are tables, with columns over the root of the compression in the last row. */
 typedef struct {
     int pages, rows, columns; /* 0 pages: smooth */
     const double *heights;    /* [pages][rows][columns] m */

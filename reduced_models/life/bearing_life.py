@@ -83,15 +83,17 @@ class BallLoads:
         speed_rpm: float,
         lambda_ratio: float | None = None,
         tilt: float = 0.0,
+        ring_speeds: tuple[float, float] = (1.0, 0.0),
     ) -> BallLoads:
         """Of balls under `force`, shape (balls, 2) [N], and a load that stands still, shape (2,) or (5,) [N]."""
         pressed = np.maximum(force, 0.0)
+        powers = exponents(ring_speeds)
         return cls(
             speed_rpm=speed_rpm,
             radial=hypot(float(load[0]), float(load[1])),
             axial=abs(float(load[2])) if load.size > 2 else 0.0,
-            inner=power_mean(pressed[:, 0], TURNING),
-            outer=power_mean(pressed[:, 1], STANDING),
+            inner=power_mean(pressed[:, 0], powers[0]),
+            outer=power_mean(pressed[:, 1], powers[1]),
             largest=(float(pressed[:, 0].max()), float(pressed[:, 1].max())),
             lambda_ratio=lambda_ratio,
             tilt=tilt,
@@ -424,6 +426,12 @@ def life_of_bearing(
         kinematic_viscosity=nu,
         given_ratio=None if viscosity_ratio is None else factors.require_viscosity_ratio(viscosity_ratio),
     )
+
+
+def exponents(ring_speeds: tuple[float, float], load: float = 0.0) -> tuple[float, float]:
+    """Exponents of both races, whose rings have these speeds, under a load that turns at another one."""
+    inner, outer = (STANDING if speed == load else TURNING for speed in ring_speeds)
+    return inner, outer
 
 
 def power_mean(values: _Floats, power: float) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from reduced_models.life.bearing_life import STANDING, TURNING, BallLoads, power_mean
+from reduced_models.life.bearing_life import STANDING, TURNING, BallLoads, exponents, power_mean
 from reduced_models.life.internal_geometry import InternalGeometry
 
 _Floats = NDArray[np.float64]
@@ -42,10 +42,12 @@ class BearingHistory:
         largest : ndarray, shape (2,)
             Largest force of a ball at both races [N].
         rotating : bool
-            Whether the load turns with the shaft: the inner race stands still against it.
+            Whether the load turns with the shaft, or with the outer ring where that turns alone: this race stands
+            still against it.
         """
-        inner, outer = (1, 0) if rotating else (0, 1)
-        powers = TURNING, STANDING
+        rings = self.internals.ring_speeds
+        powers = exponents(rings, (rings[0] or rings[1]) if rotating else 0.0)
+        inner, outer = (self.mean_loads[:, k, int(power == STANDING)] for k, power in enumerate(powers))
         forces = (
             np.hypot(force[:, 0], force[:, 1]),
             np.abs(force[:, 2] if force.shape[1] > 2 else 0.0 * force[:, 0]),
@@ -59,7 +61,7 @@ class BearingHistory:
             speed_rpm=float(np.mean(speed_rpm)),
             radial=radial,
             axial=axial,
-            inner=power_mean(self.mean_loads[:, 0, inner], powers[inner]),
-            outer=power_mean(self.mean_loads[:, 1, outer], powers[outer]),
+            inner=power_mean(inner, powers[0]),
+            outer=power_mean(outer, powers[1]),
             largest=(float(largest[0]), float(largest[1])),
         )

@@ -38,6 +38,8 @@ class InternalGeometry:
         Where they are from.
     least_load : LeastLoad or None
         Constants of SKF's least load; None where the catalogue has none.
+    ring_speeds : (float, float)
+        Of the inner and the outer ring, over the speed of one against the other.
     """
 
     name: str
@@ -56,6 +58,7 @@ class InternalGeometry:
     dynamic_source: str = ""
     static_source: str = ""
     least_load: LeastLoad | None = None
+    ring_speeds: tuple[float, float] = (1.0, 0.0)
 
     @property
     def gamma(self) -> float:

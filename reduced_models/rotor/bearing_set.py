@@ -127,6 +127,9 @@ class BearingSet(Summary):
         if len(set(self.positions)) < len(bearings):
             raise InputError("positions", self.positions, "different places [m]")
         for k, bearing in enumerate(bearings):
+            if bearing.ring_speeds != bearings[0].ring_speeds:
+                allowed = f"{bearings[0].turning!r}, as of the first bearing: they are on one shaft"
+                raise InputError(f"bearings[{k}].turning", bearing.turning, allowed)
             facing_signs(self.facings[k])
             require_offset(f"offsets[{k}]", offsets[k], bearing.ball_diameter)
         if self.sprung is None and self.spring > 0.0:

@@ -279,11 +279,20 @@ class Rotor(Summary):
             for end in mount.ends:
                 self._require_there(f"mounts[{i}]", end)
             if isinstance(mount, BearingMount):
+                self._require_still(i, mount)
                 place = (*mount.ends[0], mount.arm, mount.name, is_damper(mount))
                 if place in taken:
                     allowed = "at degrees of freedom that no other bearing has, or with a name of its own"
                     raise InputError(f"mounts[{i}]", mount.ends[0], allowed)
                 taken.append(place)
+
+    def _require_still(self, i: int, mount: BearingMount) -> None:
+        """Raise `InputError` for a bearing whose outer ring turns in a rotor whose shaft turns."""
+        turning = getattr(mount.bearing, "turning", "inner")
+        if turning != "inner" and (self.unbalances or self.gyroscopic.any()):
+            what = "gyroscopic moments" if self.gyroscopic.any() else "unbalances"
+            allowed = f'"inner" in a rotor with {what}: its shaft turns at the speed of one ring against the other'
+            raise InputError(f"mounts[{i}].bearing.turning", turning, allowed)
 
     def _require_there(self, field: str, places: tuple[Any, ...]) -> None:
         """Raise `InputError` for degrees of freedom that do not exist, or of which two are one."""

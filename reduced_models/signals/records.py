@@ -160,7 +160,7 @@ class RecordCase(Summary):
         if self.waviness == 0.0:
             return self.bearing
         met = (
-            self.speed_rpm * RPM_TO_HZ * (1.0 - self.bearing.orders.ftf_order)
+            self.speed_rpm * RPM_TO_HZ * abs(self.bearing.ring_speeds.inner - self.bearing.orders.ftf_order)
         )  # Hz, of one wave of the inner race
         waves = min(int(0.5 * self.rate / met), MOST_WAVES)
         return replace(

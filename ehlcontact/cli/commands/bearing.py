@@ -125,7 +125,7 @@ class AtSpeed:
 
 def _with_slip(state: BearingState, bearing: Any, slip: float) -> DefectOrders | None:
     orders = bearing.orders if state.contact_angles is None else state.orders
-    return None if orders is None else orders.with_slip(slip)
+    return None if orders is None else orders.with_slip(slip, bearing.ring_speeds)
 
 
 @o.with_entries(ENTRIES, PANELS)

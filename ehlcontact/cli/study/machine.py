@@ -128,6 +128,7 @@ def bearing_part(study: Study, k: int, *, oil: bool = True) -> Part:
     one, rough, sizes = study.support[k], study.roughness, dimensions_of(study, k)
     given: dict[str, Any] = {
         "race_control": one.race_control or "outer",
+        "turning": one.turning,
         "oil": study.lubricant if oil else None,
         "rq_ball": rough[0] if rough else None,
         "rq_race": rough[1] if rough else None,
@@ -192,7 +193,7 @@ def clearance_of(study: Study, k: int) -> OperatingClearance | None:
             shaft_bore=0.0 if study.shaft is None else study.shaft.bore_mm * 1e-3,
             housing_material=one.housing_material,
             temperatures=warm,
-            speed_rpm=study.speed_rpm,
+            speed_rpm=study.speed_rpm if one.turning == "inner" else 0.0,
         )
     except InputError as error:
         names = {"initial": "clearance", "fit": "shaft_fit" if error.value == one.shaft_fit else "housing_fit"}
@@ -441,6 +442,11 @@ def places_of(study: Study) -> list[float]:
             if abs(one.position_mm - 1e3 * place) <= SAME_PLACE * end:
                 allowed = f"another place than that of support {other}: two bearings at one place are a pair = ..."
                 raise InputError(f"{at}position_mm", one.position_mm, allowed)
+        if one.turning != "inner":
+            allowed = (
+                '"inner", or left out, with [shaft], which turns: for a shaft that stands still, a bearing alone'
+            )
+            raise InputError(f"{at}turning", one.turning, allowed)
         _require_slides(one, at)
         places.append(1e-3 * one.position_mm)
     if study.shaft.stiffness is not None and (

@@ -184,6 +184,12 @@ class Support(Section):
     race_control: Annotated[
         e.RaceControl | None, e.meaning("what holds the gyroscopic moment of the balls; outer where left out")
     ] = None
+    turning: Annotated[
+        e.Turning,
+        e.meaning(
+            "ring that turns at the speed; the outer one of a wheel, a sheave, on a shaft that stands still"
+        ),
+    ] = "inner"
     loss_factor: Annotated[e.NotNegative | None, e.meaning("of rings and fits, measured")] = None
     ball_inertia: Annotated[bool | None, e.meaning("balls vibrate between the rings; from some kHz on")] = None
     cutoff_gap_um: e.Gap | None = None

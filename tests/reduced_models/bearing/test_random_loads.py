@@ -24,12 +24,13 @@ REASONS = {
 }
 
 
-def answers(seed, cases, each, oils=()):
+def answers(seed, cases, each, oils=(), turning=("inner",)):
     """Count of each answer to `cases` random loads, a new bearing for every `each` of them."""
     rng, found = np.random.default_rng(seed), Counter()
     for k in range(cases):
         if k % each == 0:
-            changes = {"oil": oils[rng.integers(len(oils))]} if oils else {}
+            changes = {"turning": turning[k // each % len(turning)]}
+            changes |= {"oil": oils[rng.integers(len(oils))]} if oils else {}
             bearing = BallBearing(**random_bearing(rng, **changes))
         _, load, rpm, tilt = random_load(rng, bearing)
         try:
@@ -48,6 +49,12 @@ def answers(seed, cases, each, oils=()):
 def test_random_loads_of_dry_bearings():
     found = answers(1, 150, 3)
     assert found["balanced"] > 110
+
+
+@pytest.mark.long
+def test_random_loads_with_the_outer_ring_turning():
+    found = answers(5, 120, 3, turning=("outer", (3.0, -2.0), (1.0, 2.5), (-4.0, 1.0)))
+    assert found["balanced"] > 80
 
 
 @pytest.mark.slow
