@@ -45,6 +45,7 @@ MODELS = {
     "angular": lambda: BearingModel(bearing("7205"), (10000.0, 12000.0), (0.0, -300.0, 200.0)),
     "inner": lambda: BearingModel(bearing("7205", race_control="inner"), 9000.0, (0.0, -100.0, 200.0)),
     "shared": lambda: BearingModel(bearing("7205", race_control="shared"), 12000.0, (0.0, -300.0, 200.0)),
+    "turning": lambda: BearingModel(bearing("7205", turning="outer"), 9000.0, (0.0, -300.0, 200.0)),
 }
 
 

@@ -113,6 +113,17 @@ def flanges_of(directions: Sequence[str], moved: str) -> tuple[tuple[str, str, t
     )
 
 
+def speed_text(model: BearingModel | SetModel) -> str:
+    """What the input "speed" is."""
+    bearing = model.bearings.bearings[0] if isinstance(model, SetModel) else model.bearing
+    if bearing.turning == "inner":
+        return "Speed of the inner ring about z; the outer one stands still"
+    if bearing.turning == "outer":
+        return "Speed of the outer ring about z; the inner one stands still"
+    inner, outer = bearing.ring_speeds
+    return f"Speed of one ring against the other: {inner:.6g} of it inside, {outer:.6g} outside, about z"
+
+
 class RingVariables(VariableList):
     """Inputs of the FMU of bearings."""
 
@@ -136,7 +147,7 @@ class RingVariables(VariableList):
             )  # fmt: skip
         highest = float(model.speeds[-1] * RPM_TO_RAD_S)
         self.add(
-            "speed", "input", "continuous", "Speed of the inner ring about z; the outer one stands still",
+            "speed", "input", "continuous", speed_text(model),
             unit="rad/s", start=highest, nominal=highest, minimum=0.0,
         )  # fmt: skip
 

@@ -234,7 +234,7 @@ ARGUMENTS = [
         "conformity_outer": (True, "x", nan), "poisson_ratio": (True, "x"), "features": (5, "x", [5]),
         "shoulder_inner": (35.0, True, "x"), "shoulder_outer": (True, "x"), "balls": (True, "9", 9.0, 2),
         "dynamic_rating": (14.0, 0.0, True, "x"), "static_rating": (7.85, 1e6, True, "x"),
-        "atlas": (5, True), "race_control": (True, None),
+        "atlas": (5, True), "race_control": (True, None), "turning": (True, None, 5.0, "both", (1.0,), (nan, 1.0)),
     }),
     (pair, {
         "distance": (15.0, 0.0, 1e-4, -1.0, *(x for x in NO_NUMBER if x is not None)), "preload": (1e12, 0.0,

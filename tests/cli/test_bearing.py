@@ -369,6 +369,20 @@ def test_moments_tilts_and_race_control(call):
     assert tilted["tilt"] == [0.0, 0.5e-3] and mean[3:] == pytest.approx([0.0, 0.5e-3])
 
 
+def test_an_outer_ring_that_turns(call, file):
+    """By option and by entry of a file; the cage turns faster than with the inner ring turning."""
+    given = "--load", "2000", "--speed-rpm", "3000", "--turning", "outer", "--json", "-"
+    found = json.loads(call("bearing", "6206", *given).out)
+    bearing = BallBearing.catalogue("6206", turning="outer")
+    assert found["orders"] == asdict(bearing.orders) and found["orders"]["ftf_order"] > 0.6
+    np.testing.assert_array_equal(
+        found["states"][0]["force"], bearing.equilibrium((0.0, -2000.0), speed_rpm=3000.0).force
+    )
+    of_file = json.loads(call("bearing", file({"clearance = 0.0": 'turning = "outer"'}), "--json", "-").out)
+    assert of_file["bearing"]["turning"] == "outer"
+    assert "turning: outer" in call("bearing", "6206", *given[:-2]).out
+
+
 def test_a_deep_groove_bearing_with_clearance_and_axial_load(call):
     """9.1 um and 30 N axially at rest: BPFO of an independent model."""
     changed = ("--clearance", "9.1", "--axial", "30", "--speed-rpm", "0")

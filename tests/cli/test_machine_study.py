@@ -253,6 +253,8 @@ def test_a_pair_in_a_machine(study):
         (ANGULAR, "axial_load", "tilt_x_mrad = 200.0\naxial_load", ("tilt_x_mrad = 200", "-100 and 100 mrad")),
         (PAIR, '"back-to-back"', '"tandem"', ("support.preload = 200", "do not press each")),
         (ALONE, "conformity = 0.52", "race_control = 'inner'", ("support.race_control", "no contact angles")),
+        (MOTOR, '"6206"', '"6206"\nturning = "outer"', ("fan end.turning = 'outer'", "stands still")),
+        (ALONE, "conformity = 0.52", "turning = 'both'", ("support.turning = 'both'", "outer")),
         (ALONE, "radial_load = 20.0\n", "", ("operation.radial_load = None", "N")),
     ],
 )  # fmt: skip

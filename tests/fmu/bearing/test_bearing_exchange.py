@@ -75,7 +75,7 @@ def indicators(model, count):
         ("five", 3),
         *(
             pytest.param(*case, marks=SECONDS)
-            for case in (("five dry", 2), ("angular", 2), ("inner", 2), ("shared", 3))
+            for case in (("five dry", 2), ("angular", 2), ("inner", 2), ("shared", 3), ("turning", 2))
         ),
     ],
 )
@@ -116,7 +116,7 @@ def test_equations_are_those_of_python(made, name, fmi):
     ("name", "fmi"),
     [
         ("planar", 2), ("range", 3), ("five", 2), pytest.param("shared", 3, marks=SECONDS),
-        *(pytest.param(name, 2, marks=LONG) for name in ("angular", "inner")),
+        *(pytest.param(name, 2, marks=LONG) for name in ("angular", "inner", "turning")),
     ],
 )  # fmt: skip
 def test_partial_derivatives_are_those_of_differences(made, name, fmi):

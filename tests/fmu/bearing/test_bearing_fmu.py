@@ -35,6 +35,7 @@ ALLOWED = {
     "angular": 1e-8,
     "inner": 1e-8,
     "shared": 1e-8,
+    "turning": 1e-8,
 }
 
 
@@ -63,7 +64,7 @@ def driven(slave, model, trial, shift=None):
         *(("planar", 2), ("five", 2), ("angular", 2), ("planar", 3)),
         *(
             pytest.param(name, 2, marks=pytest.mark.slow)
-            for name in ("range", "dry", "inner", "shared", "held", "heavy five")
+            for name in ("range", "dry", "inner", "shared", "held", "heavy five", "turning")
         ),
         pytest.param("five", 3, marks=pytest.mark.slow),
     ],

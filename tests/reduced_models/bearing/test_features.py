@@ -62,6 +62,10 @@ WAVES = {
     [
         pytest.param(DRY, (50.0, 0.0, 300.0), 60.0, id="dry", marks=pytest.mark.long),
         pytest.param(OILED, AXIAL, 1500.0, id="oil"),
+        pytest.param(replace(OILED, turning="outer"), AXIAL, 1500.0, id="outer turns", marks=pytest.mark.long),
+        pytest.param(
+            replace(DRY, turning=(4.0, -1.0)), (50.0, 0.0, 300.0), 60.0, id="both turn", marks=pytest.mark.long
+        ),
         pytest.param(replace(OILED, clearance=-10e-6), (0.0, -1e-3), 1500.0, id="planar", marks=pytest.mark.long),
     ],
 )
@@ -82,9 +86,10 @@ def test_runs_with_small_features_are_linear(name, bearing, load, rpm):
     assert (np.abs(found - expected)[steps // 2 :] / scale).max() < 0.01 * largest
 
 
-def test_waves_of_a_ball_whose_turns_vary_around_the_orbit():
+@pytest.mark.parametrize("turning", ["inner", pytest.param("outer", marks=pytest.mark.long)])
+def test_waves_of_a_ball_whose_turns_vary_around_the_orbit(turning):
     """Within 1 % of a run; with one speed of the ball for all angles lines are off by 12 % of the largest."""
-    bearing, load, steps = replace(DRY, clearance=8e-6), (0.0, -100.0, 200.0, 0.0, 0.0), 2500
+    bearing, load, steps = replace(DRY, clearance=8e-6, turning=turning), (0.0, -100.0, 200.0, 0.0, 0.0), 2500
     feature = BallWaviness(ball=2, waves=30, amplitude=SMALL)
     forces = [held(one, load, 60.0, steps, 1.0)[0] for one in (replace(bearing, features=[feature]), bearing)]
     lines = bearing.excitation([feature], load, speed_rpm=60.0, cage_angle=CAGE)
@@ -95,19 +100,20 @@ def test_waves_of_a_ball_whose_turns_vary_around_the_orbit():
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("turning", ["inner", "outer"])
 @pytest.mark.parametrize("feature", [
     Spall(race="outer", angle=0.4, length=5e-4, depth=SMALL, edge=1e-4),
     Spall(race="inner", angle=0.4, length=5e-4, depth=SMALL, edge=1e-4),
     Indentation(ball=3, angle=0.4, length=5e-4, depth=SMALL),
 ])  # fmt: skip
-def test_runs_with_small_defects_have_the_lines_of_films(feature):
+def test_runs_with_small_defects_have_the_lines_of_films(feature, turning):
     """Within 0.8 % in oil; lines with the dry filter differ by 4 % and more."""
-    rpm, steps = 1500.0, 5000
-    forces = [held(one, AXIAL, rpm, steps, 0.6)[0] for one in (replace(OILED, features=[feature]), OILED)]
+    rpm, steps, smooth = 1500.0, 5000, replace(OILED, turning=turning)
+    forces = [held(one, AXIAL, rpm, steps, 0.6)[0] for one in (replace(smooth, features=[feature]), smooth)]
     found, after = forces[0] - forces[1], slice(steps // 10, None)
     off, scale = {}, unit(OILED, found.shape[1])
     for kind in ("film", "dry"):
-        lines = OILED.excitation([feature], AXIAL, speed_rpm=rpm, cage_angle=CAGE, contact_filter=kind)
+        lines = smooth.excitation([feature], AXIAL, speed_rpm=rpm, cage_angle=CAGE, contact_filter=kind)
         expected = -lines.force(np.arange(1, len(found) + 1) / steps) / scale
         off[kind] = np.abs(found / scale - expected)[after].max() / np.abs(expected).max()
     assert off["film"] < 0.008 and off["dry"] > 0.04

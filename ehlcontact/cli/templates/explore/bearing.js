@@ -41,7 +41,8 @@ class Bearing {
     const free = angle > 0 ? angle : Math.acos(1 - 0.5 * Math.max(clearance, 0) / distance);
     const centre = angle > 0 ? [distance * Math.cos(angle), distance * Math.sin(angle)] : [distance - 0.5 * clearance, 0];
     const mass = this.atlas.steel.density * Math.PI / 6 * D ** 3;
-    return [...centre, 0, inner, (fo - 0.5) * D, 0.5 * dm + inner * Math.cos(free), fi * D, D, dm, mass, 1, 0, 0, Math.cos(angle)];
+    const turning = [1, 0, 1]; // the inner ring
+    return [...centre, 0, inner, (fo - 0.5) * D, 0.5 * dm + inner * Math.cos(free), fi * D, D, dm, mass, 1, 0, 0, Math.cos(angle), ...turning];
   }
 
   requireSpeed(rpm) {
