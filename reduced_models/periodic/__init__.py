@@ -12,5 +12,6 @@
 | step_map | one period of time steps as a map of the numbers of a rotor |
 | krylov | linear equations and eigenvalues of such a map's derivative |
 | shooting | `shoot`: a periodic answer as a fixed point of the map |
+| energy_budget | `energy_budget`: energy that every part takes in a period |
 | floquet | Floquet multipliers of answers, bifurcations between those of a branch |
 """

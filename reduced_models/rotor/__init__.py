@@ -30,6 +30,7 @@
 | linearise | `linearise`: a rotor about static equilibrium at a speed, `LinearRotor` |
 | modes | `RotorMode`: damped vibrations, exact with film memory |
 | loss_parts | parts of a linear rotor that take energy: what each takes, the rotor without it |
+| part_shares | amounts by these parts as shares, in words and as a picture |
 | damping_budget | `DampingBudget`: who damps what, damping ratios of modes by these parts |
 | campbell | `campbell`: modes over the speed, critical speeds |
 | support_state | `support_state`: a bearing or a set under its load, in the numbers of a designer |

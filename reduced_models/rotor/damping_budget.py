@@ -5,7 +5,7 @@ The parts, what each takes and why the sum is exact: `reduced_models.rotor.loss_
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Protocol, Self
 
@@ -14,17 +14,16 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError
 from ehlcontact.quantities import HERTZ, NUMBER, SPEED
-from ehlcontact.results.picture import Picture
-from ehlcontact.results.table import Display, QuantityTable
+from ehlcontact.results.table import Display
 from ehlcontact.store import stored
 from ehlcontact.summary import counted
 from reduced_models.rotor.modes import RotorMode
-from reduced_models.rotor.picture import budget_picture
+from reduced_models.rotor.part_shares import PartShares, sizes
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
-TOLD, LEAST = 4, 0.005  # modes and least share that the summary has
+TOLD = 4  # modes that the summary has
 
 
 class LossyRotor(Protocol):
@@ -50,7 +49,7 @@ class LossyRotor(Protocol):
 
 @stored("damping budget")
 @dataclass(frozen=True, eq=False, kw_only=True)
-class DampingBudget(QuantityTable):
+class DampingBudget(PartShares):
     """Damping ratios of n modes by p parts: each part adds its `contribution`, exactly, and all are the ratio.
 
     A part that feeds vibration, as a starved film or cross-coupled stiffness, contributes less than 0.
@@ -97,48 +96,29 @@ class DampingBudget(QuantityTable):
         return tuple(f"{k + 1}: {hz:.4g} Hz" for k, hz in enumerate(self.hz.tolist()))
 
     @property
+    def amounts(self) -> _Floats:
+        """`contribution`."""
+        return self.contribution
+
+    @property
+    def columns(self) -> tuple[tuple[str, ...], str]:
+        """Frequencies of the modes."""
+        return tuple(f"{hz:.4g}" for hz in self.hz.tolist()), "mode: damped frequency [Hz]"
+
+    @property
     def share(self) -> Annotated[_Floats, NUMBER.over("part mode")]:
         """Contributions over the sum of their sizes, shape (p, n); without parts that feed vibration 1 in sum."""
-        return self.contribution / _or_one(np.abs(self.contribution).sum(axis=0))
+        return self._share()
 
     @property
     def residual(self) -> Annotated[_Floats, NUMBER.over("mode")]:
         """Damping ratios less all contributions, over the sum of their sizes: what rounding leaves."""
-        left = self.damping_ratio - self.contribution.sum(axis=0)
-        return np.asarray(left / _or_one(np.abs(self.contribution).sum(axis=0)))
-
-    @property
-    def kinds(self) -> dict[str, _Floats]:
-        """Shares of alike parts of all bearings together, shape (n,): "inner films", "rings and fits", ..."""
-        found: dict[str, _Floats] = {}
-        for part, row in zip(self.parts, self.share, strict=True):
-            kind = part.rpartition(", ")[2]
-            found[kind] = found.get(kind, 0.0) + row
-        return found
-
-    def share_words(self, mode: int) -> str:
-        """Shares of alike parts in a mode, in words, the largest first; empty where nothing damps."""
-        shares = [(float(row[mode]), kind) for kind, row in self.kinds.items()]
-        told = sorted((one for one in shares if abs(one[0]) >= LEAST), key=lambda one: -abs(one[0]))
-        return ", ".join(f"{kind} {100.0 * share:.3g} %" for share, kind in told)
-
-    def renamed(self, name_of: Callable[[str], str]) -> Self:
-        """The budget with other names of bearings and nodes: `name_of` has them by the old ones."""
-        rows = (part.partition(", ") for part in self.parts)
-        return replace(self, parts=tuple(f"{name_of(name)}{comma}{kind}" for name, comma, kind in rows))
+        return np.asarray((self.damping_ratio - self.contribution.sum(axis=0)) / sizes(self.contribution))
 
     def to_dict(self) -> dict[str, Any]:
         """All numbers, ready for JSON; nan as None."""
         remaining = [[None if np.isnan(one) else one for one in row] for row in self.remaining.tolist()]
         return super().to_dict() | {"parts": list(self.parts), "remaining": remaining}
-
-    def picture(self) -> Picture:
-        """Shares of the parts in each mode, stacked, below its damping ratio."""
-        return budget_picture(self)
-
-
-def _or_one(sizes: _Floats) -> _Floats:
-    return np.where(sizes > 0.0, sizes, 1.0)
 
 
 def budget_of(linear: LossyRotor, modes: Sequence[RotorMode]) -> DampingBudget:

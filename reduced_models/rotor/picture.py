@@ -35,6 +35,7 @@ DECADES = 6.0  # that spectra show
 MICRO = 1e6  # µm in a metre
 RESPONSE = "displacement/eccentricity"
 SPEED = "speed", "rev/min"
+QUOTE = "'"
 STACKED = *COLOURS, GREY, *PASTELS, INK  # of the parts of a stack
 
 _Ends = tuple[float | None, float]  # of the frequencies shown [Hz]: as asked for, and the usual one
@@ -203,19 +204,15 @@ def _place(response: Any, k: int) -> str:
     return name or f"degrees of freedom {x}, {y}"
 
 
-def budget_picture(budget: Any) -> Picture:
-    """Stacked bars: share of every part in the damping of each mode."""
-    places: list[str] = []
-    for hz in budget.hz.tolist():
-        place = f"{hz:.4g}"
-        while place in places:  # bars over one word would be one
-            place += "'"
-        places.append(place)
+def shares_picture(parts: Sequence[str], share: Any, columns: tuple[str, ...], label: Label) -> Picture:
+    """Stacked bars: share of every part, shape (parts, columns); what feeds vibration hangs below zero."""
+    # bars over one word would be one
+    places = [f"{word}{QUOTE * columns[:k].count(word)}" for k, word in enumerate(columns)]
     above, below = np.zeros((2, len(places)))
     lines = []
-    for k, (part, row) in enumerate(zip(budget.parts, 100.0 * budget.share, strict=True)):
+    for k, (part, row) in enumerate(zip(parts, 100.0 * share, strict=True)):
         base = np.where(row >= 0.0, above, below)
         lines.append(Line(places, row, part, STACKED[k % len(STACKED)], base=base))
         above, below = above + np.maximum(row, 0.0), below + np.minimum(row, 0.0)
-    panel = Panel(lines, "mode: damped frequency [Hz]", "share of the damping [%]")
+    panel = Panel(lines, label, "share of the damping [%]")
     return Picture([panel], "who damps what", heights=(380.0,))

@@ -196,11 +196,12 @@ def test_what_a_rotor_is_damped_by():
             Rotor(mass=np.eye(4), stiffness=np.zeros((4, 4)), mounts=rotor.mounts, damping_by_part=parts)
 
 
-def test_a_damper_under_a_housing_has_its_share():
-    """Film, rings, housing and damper of one support; a machine has them by the label of the bearing."""
+@pytest.fixture(scope="module")
+def in_a_damper():
+    """The film of a damper, and a rotor whose right housing stands in it."""
     held = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0), loss_factor=0.01)
     film = SqueezeFilmDamper(length=0.015, diameter=0.08, clearance=1e-4, viscosity=0.04)
-    rotor = rotor_on_bearings(
+    return film, rotor_on_bearings(
         Shaft(length=0.3, diameter=0.025),
         discs=[Disc.cylinder(position=0.3, diameter=0.2, width=0.03, bore=0.025)],
         supports=[
@@ -215,6 +216,10 @@ def test_a_damper_under_a_housing_has_its_share():
             ),
         ],
     )
+
+
+def test_a_damper_under_a_housing_has_its_share(in_a_damper):
+    film, rotor = in_a_damper
     at = linearise(rotor, 4500.0)
     found = at.damping_budget(3)
     assert found.parts[-2:] == ("housing 1", "damper 1")
@@ -222,7 +227,15 @@ def test_a_damper_under_a_housing_has_its_share():
     low, high = np.linalg.eigvalsh(film.linear(at.rest[list(rotor.nodes["housing 1"].values())]).damping) / 500.0
     ratio = found.contribution[-1] / found.contribution[-2]  # two dashpots side by side: as their C
     assert 1.0001 < high / low < 1.01 and np.all(ratio > low * (1.0 - SUM)) and np.all(ratio < high * (1.0 + SUM))
-    state = machine_state(rotor, 4500.0, names=("drive end", "fan end"))
+
+
+@pytest.mark.long
+def test_a_machine_has_parts_by_the_labels_of_its_bearings(in_a_damper):
+    _, rotor = in_a_damper
+    found, state = (
+        linearise(rotor, 4500.0).damping_budget(3),
+        machine_state(rotor, 4500.0, names=("drive end", "fan end")),
+    )
     assert state.budget.parts[0] == "drive end 6205, inner films"
     assert state.budget.parts[-2:] == ("housing of fan end 6205", "damper of fan end 6205")
     np.testing.assert_allclose(state.budget.contribution[:, :3], found.contribution, rtol=1e-9, atol=1e-15)
