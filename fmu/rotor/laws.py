@@ -1,4 +1,4 @@
-"""Supports inside a rotor: tables of each bearing, and a C file for each contact that differs.
+"""Supports inside a rotor: tables of each bearing and damper, and a C file for each contact that differs.
 
 The law of a contact is the model of its own FMU: sources and headers, one after the other, in one file whose
 functions carry the name of the law, so that laws of different kinds and tables stand side by side.
@@ -18,10 +18,13 @@ from fmu.bearing.tables import bearing_table, state_size, work_size
 from fmu.bearing.variables import PARAMETERS
 from fmu.c_headers import c_headers, c_table
 from fmu.contact_variables import Element, Film
+from fmu.rotor import dampers
 from fmu.rotor.model import RotorModel
 from fmu.spec import ModelSpec, Variable
+from reduced_models.rotor.squeeze_film_damper import SqueezeFilmDamper
 
-SHOWN = "force", "moment_", "largest_", "smallest_", "rolling_", "outside_"  # outputs that the rotor has
+# Outputs that the rotor has.
+SHOWN = "force", "eccentricity_", "moment_", "largest_", "smallest_", "rolling_", "outside_"
 HIDDEN = "outside_approach", "outside_rate", "outside_force"  # of a contact, which the rotor does not tell apart
 NUMBERS_OF_DUAL = 2
 CONTACT_WORK = 4  # numbers of a step of a contact beside those of its model: enum STEP_... of contact_law.c
@@ -83,13 +86,23 @@ def bearing_law(model: BearingModel, spec: ModelSpec) -> Law:
     )
 
 
+def damper_law(damper: SqueezeFilmDamper) -> Law:
+    """A damper: its numbers, and the functions of ``damper.h``."""
+    return Law(dampers.SIZE, dampers.WORK, dampers.damper_text(damper))
+
+
 def laws_of(model: RotorModel, specs: Sequence[ModelSpec]) -> list[Law]:
     """The law of each support inside."""
     bearings = iter(model.bearings)
-    return [
-        contact_law(station.mount.contact, spec) if station.is_contact else bearing_law(next(bearings), spec)
-        for station, spec in zip(model.inside, specs, strict=True)
-    ]
+    found = []
+    for station, spec in zip(model.inside, specs, strict=True):
+        if station.is_contact:
+            found.append(contact_law(station.mount.contact, spec))
+        elif station.is_damper:
+            found.append(damper_law(station.mount.damper))
+        else:
+            found.append(bearing_law(next(bearings), spec))
+    return found
 
 
 def law_names(model: RotorModel, laws: Sequence[Law]) -> tuple[list[str], dict[str, str]]:
@@ -97,9 +110,8 @@ def law_names(model: RotorModel, laws: Sequence[Law]) -> tuple[list[str], dict[s
     texts: dict[str, str] = {}
     names = []
     for station, law in zip(model.inside, laws, strict=True):
-        kind = "contact" if station.is_contact else "bearing"
-        count = sum(name.startswith(kind) for name in texts.values())
-        names.append(texts.setdefault(law.text, f"{kind}_law_{count + 1}"))
+        count = sum(name.startswith(station.kind) for name in texts.values())
+        names.append(texts.setdefault(law.text, f"{station.kind}_law_{count + 1}"))
     return names, {name: text.replace("LAW_NAME", name) for text, name in texts.items()}
 
 

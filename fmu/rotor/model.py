@@ -22,10 +22,12 @@ from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.motion import LEAST_STEPS, motion_of
 from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.rotor import Parameter, Rotor
+from reduced_models.rotor.squeeze_film_damper import SqueezeFilmDamper
 from reduced_models.rotor.supports import (
     BearingMount,
     ContactMount,
     SupportGeometry,
+    is_damper,
     support_geometry,
 )
 
@@ -37,6 +39,7 @@ MOST_SUPPORTS = 32  # two bits of a number each
 MOST_FREEDOMS = 100  # of the tables, which have square matrices
 MOST_INPUTS = 64  # of the core: one bit for each
 LONGEST_STEP = 1e-5  # s, with ball bearings
+DAMPED_STEP = 1e-4  # s, with squeeze film dampers
 STEPS_PER_PERIOD = 60.0  # of the disc on its shaft against the journal, which an inner step resolves
 CONTACT_NAME = re.compile(r"contact \d+")
 ROUNDING = 1e-9  # of the largest entry: asymmetry of a stiffness
@@ -50,7 +53,7 @@ class Station:
     Attributes
     ----------
     label : str
-        Of its variables: ``contact[1]``, ``bearing[1]``.
+        Of its variables: ``contact[1]``, ``bearing[1]``, ``damper[1]``.
     name : str
         By which `outside` and results of a run have it: ``contact 0``, ``bearing 0`` or the bearing's own.
     mount : BearingMount or ContactMount
@@ -64,8 +67,23 @@ class Station:
 
     @property
     def is_contact(self) -> bool:
-        """Whether it is a contact, or a ball bearing."""
+        """Whether it is a contact."""
         return isinstance(self.mount, ContactMount)
+
+    @property
+    def is_damper(self) -> bool:
+        """Whether it is a squeeze film damper."""
+        return is_damper(self.mount)
+
+    @property
+    def is_bearing(self) -> bool:
+        """Whether it is a ball bearing."""
+        return not (self.is_contact or self.is_damper)
+
+    @property
+    def kind(self) -> str:
+        """Of its label and its C functions."""
+        return "contact" if self.is_contact else "damper" if self.is_damper else "bearing"
 
     @property
     def shift(self) -> _Floats:
@@ -85,8 +103,8 @@ class RotorModel:
     Parameters
     ----------
     rotor : Rotor
-        Linear bearings stay inside, in its matrices; contacts are elements in SI, and None where all are outside
-        and none is known.
+        Linear bearings stay inside, in its matrices, and so do dampers; contacts are elements in SI, and None
+        where all are outside and none is known.
     outside : str or sequence of str
         Names of the supports whose forces are inputs; "all".
     speeds_rpm : float or (float, float), optional
@@ -115,10 +133,6 @@ class RotorModel:
 
     def __post_init__(self) -> None:
         require_instance("rotor", self.rotor, Rotor, "a Rotor")
-        if self.rotor.film_dampers:
-            raise InputError(
-                "rotor.mounts", "with squeeze film dampers", "without: FMUs of rotors do not have them"
-            )
         object.__setattr__(self, "outside", outside_names(supports_of(self.rotor), self.outside))
         object.__setattr__(self, "rotor", _with_elements(self.rotor, self.outside))
         if self.inertia is not None:
@@ -138,17 +152,21 @@ class RotorModel:
 
     @cached_property
     def stations(self) -> tuple[Station, ...]:
-        """Contacts, then ball bearings."""
-        names = supports_of(self.rotor)
-        mounts = (*self.rotor.contacts, *self.rotor.ball_bearings)
-        return tuple(
-            Station(label, name, mount, name not in self.outside)
-            for label, name, mount in zip(labels_of(names), names, mounts, strict=True)
+        """Contacts, then ball bearings, then dampers, which are always inside."""
+        names, rotor = supports_of(self.rotor), self.rotor
+        mounts = (*rotor.contacts, *rotor.ball_bearings)
+        dampers = enumerate(zip(rotor.film_damper_names, rotor.film_dampers, strict=True), start=1)
+        return (
+            *(
+                Station(label, name, mount, name not in self.outside)
+                for label, name, mount in zip(labels_of(names), names, mounts, strict=True)
+            ),
+            *(Station(f"damper[{k}]", name, mount, True) for k, (name, mount) in dampers),
         )
 
     @cached_property
     def inside(self) -> tuple[Station, ...]:
-        """Stations inside, contacts first."""
+        """Stations inside, contacts first and dampers last."""
         return tuple(station for station in self.stations if station.inside)
 
     @cached_property
@@ -164,12 +182,17 @@ class RotorModel:
     @property
     def bearings_inside(self) -> tuple[Station, ...]:
         """Ball bearings inside."""
-        return tuple(station for station in self.inside if not station.is_contact)
+        return tuple(station for station in self.inside if station.is_bearing)
 
     @property
     def bearings_out(self) -> tuple[Station, ...]:
         """Ball bearings outside."""
-        return tuple(station for station in self.out if not station.is_contact)
+        return tuple(station for station in self.out if station.is_bearing)
+
+    @property
+    def dampers(self) -> tuple[SqueezeFilmDamper, ...]:
+        """Squeeze film dampers."""
+        return tuple(mount.damper for mount in self.rotor.film_dampers)
 
     @property
     def elements(self) -> tuple[Element, ...]:
@@ -229,9 +252,9 @@ class RotorModel:
 
     def _rest(self) -> _Floats:
         rotor = self.rotor
-        if not rotor.ball_bearings and all(mount.contact is None for mount in rotor.contacts):
+        if rotor.contacts and not rotor.ball_bearings and all(one.contact is None for one in rotor.contacts):
             return rotor.rest_at([mount.offset for mount in rotor.contacts])
-        if not (rotor.ball_bearings or rotor.load.any()):
+        if rotor.contacts and not (rotor.ball_bearings or rotor.load.any()):
             raise InputError("static load", 0.0, "different from zero to press the contacts")
         try:
             return rotor.equilibrium(self.speed)
@@ -259,12 +282,11 @@ class RotorModel:
         """Longest step inside one of co-simulation [s]: 1, 2 or 5 times a power of ten.
 
         It resolves contacts; without ball bearings the shaft too, and with them 10 us, and 16 in every turn of
-        the shaft and ball passage, as of `simulate_rotor`.
+        the shaft and ball passage, as of `simulate_rotor`; with dampers at most 100 us.
         """
         longest = [default_step(element) for element in self.elements]
-        mounts = [
-            station.mount.ball_bearing for station in self.stations if isinstance(station.mount, BearingMount)
-        ]
+        longest += [DAMPED_STEP] if self.dampers else []
+        mounts = [station.mount.ball_bearing for station in self.stations if station.is_bearing]
         if mounts:
             longest.append(LONGEST_STEP)
         else:
@@ -277,8 +299,11 @@ class RotorModel:
 
     @property
     def fastest(self) -> float:
-        """Angular frequency of the fastest vibration without the supports; 1 rad/s where the rotor is rigid."""
+        """Angular frequency of the fastest vibration on no supports but springs of dampers; at least 1 rad/s."""
         M, _, K = self.rotor.matrices(0.0)
+        for mount in self.rotor.film_dampers:
+            rows = mount.rows(self.rotor.size)
+            K = K + mount.damper.stiffness * rows.T @ rows
         squares = np.linalg.eigvals(np.linalg.solve(M, K)).real
         return math.sqrt(max(float(squares.max()), 1.0))
 
@@ -286,7 +311,7 @@ class RotorModel:
 
     def _check_size(self) -> None:
         if not self.stations:
-            raise InputError("rotor.mounts", "no contact or ball bearing", "one at least")
+            raise InputError("rotor.mounts", "no contact, ball bearing or damper", "one at least")
         if self.rotor.size > MOST_FREEDOMS:
             allowed = f"at most {MOST_FREEDOMS}: reduce the rotor"
             raise InputError("degrees of freedom", self.rotor.size, allowed)

@@ -13,6 +13,7 @@ from fmu.contact_variables import Element, Film
 from fmu.lead import ROTOR
 from fmu.references.contact_references import film_rates_at
 from fmu.references.series import References, Trial
+from fmu.rotor.dampers import ECCENTRICITY
 from fmu.rotor.model import RotorModel
 from fmu.rotor.trial import RotorTrial, rotor_trial
 from fmu.rotor.variables import force_rows
@@ -68,9 +69,13 @@ def _results(trial: RotorTrial, model: RotorModel, spec: ModelSpec) -> dict[str,
             results[f"{station.label}.force"] = trial.force[:, column]
             column += 1
             continue
+        first_of = column
         for name in station.mount.directions:
             results[f"{station.label}.{FORCES[name]}"] = -trial.force[:, column]
             column += 1
+        if station.is_damper:
+            moved = trial.motion[:, first_of : first_of + len(station.mount.directions)]
+            results[f"{station.label}.{ECCENTRICITY}"] = station.mount.damper.eccentricity(moved)
     for b, station in enumerate(model.bearings_inside):
         results |= {f"{station.label}.largest_load_{race}": trial.load[:, b, k] for k, race in enumerate(RACES)}
     turning = {"angle": trial.angle} | ({} if model.inertia is None else {"speed": trial.speed})
@@ -100,6 +105,8 @@ class _SupportsInside:
             ring, speed = rows @ place + station.shift, rows @ rate
             if station.is_contact:
                 own, change, carried = _contact_at(station.mount.contact, ring, speed, n)
+            elif station.is_damper:
+                own, change, carried = np.empty(0), np.empty(0), station.mount.damper.forces(ring, speed).force
             else:
                 in_time = next(bearings)
                 rest = in_time.rest(omega, station.mount.cage_angle, ring)

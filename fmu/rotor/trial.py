@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.checks.parts import SPEED
+from ehlcontact.errors import ConvergenceError
 from fmu.bearing.model import BearingModel
 from fmu.bearing.tables import film_logarithms
 from fmu.rotor.model import RotorModel
@@ -36,6 +37,7 @@ RISE = 0.1  # of the speed, where no table has a range
 TURN = 60  # steps of a revolution of a rotor that stands
 DRAG = 0.05  # N m, of bearings outside
 FAR = -1e3  # m
+SHARES = 1.0, 0.1, 0.01, 1e-3  # of forces and growth of unbalances, until the journals of dampers stay clear
 NOWHERE = SpringContact.linear(K1=1.0, C1=0.0, low=1.0, high=2.0, units="SI")  # a contact that is not met
 
 
@@ -139,6 +141,12 @@ def rotor_trial(model: RotorModel, rows: bytes = b"", steps: int = STEPS) -> Rot
     at = np.frombuffer(rows).reshape(-1, rotor.size)
     with warnings.catch_warnings():  # about a motion that is none of the user's
         warnings.simplefilter("ignore", OutsideValidityWarning)
+        for share in SHARES if model.dampers else ():
+            moved = given[0] + share * (given - given[0])
+            try:
+                return _recorded(model, _Run(model, dt, course, moved, at), moved)
+            except ConvergenceError:  # the journal of a damper touches its housing
+                continue
         return _recorded(model, _Run(model, dt, course, given, at), given)
 
 

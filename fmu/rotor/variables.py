@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu.bearing.model import BearingModel
 from fmu.bearing.places import rest_states
 from fmu.bearing.variables import (
     BEARING_HEADERS,
@@ -22,12 +24,13 @@ from fmu.bearing.variables import (
 )
 from fmu.contact_spec import checked_name, contact_spec, source_text
 from fmu.lead import HELD_PARALLEL, ROTOR, force_lead_for
+from fmu.rotor import dampers
 from fmu.rotor.laws import shown, tunable
 from fmu.rotor.model import RotorModel, Station
 from fmu.rotor.tables import rotor_macros, rotor_tables
 from fmu.spec import ModelSpec, Variable, VariableList
-from reduced_models import BearingMount
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.rotor.supports import kind_of
 
 _Floats = NDArray[np.float64]
 
@@ -39,6 +42,7 @@ HEADERS = "core.h", "model.h", "rotor.h", "support.h", "linear_equations.h"
 LEAST_INNER_STEP = 1e-6  # of the default: below it, importers repeat what is refused without end
 EXCHANGE_TOLERANCE = 1e-8  # an orbit is some thousandths of the approach; 1e-6 of that is a tenth of it
 MOST_INDICATORS = 64  # bits of a number in core.h
+FILLED = 0.1  # of the clearance of a damper, a usual vibration
 
 
 def rotor_spec(model: RotorModel, model_name: str | None = None, force_lead: float | None = None) -> ModelSpec:
@@ -52,12 +56,15 @@ def rotor_spec(model: RotorModel, model_name: str | None = None, force_lead: flo
     made = _Variables(model)
     between = force_lead_for(HELD_PARALLEL) if model.out else 0.0
     made.fill(between if force_lead is None else force_lead)
-    bearings = ("bearing_support.c", *BEARING_SOURCES), ("bearing_support.h", *BEARING_HEADERS)
+    more = [("bearing_support.c", *BEARING_SOURCES), ("bearing_support.h", *BEARING_HEADERS)]
+    more = more if model.bearings else [(), ()]
+    if model.dampers:
+        more = [(*more[0], *dampers.SOURCES), (*more[1], *dampers.HEADERS)]
     return ModelSpec(
         name=checked_name("Rotor" if model_name is None else model_name),
         description=_description(model),
-        sources=(*SOURCES, *(bearings[0] if model.bearings else ())),
-        headers=(*HEADERS, *(bearings[1] if model.bearings else ())),
+        sources=(*SOURCES, *more[0]),
+        headers=(*HEADERS, *more[1]),
         variables=tuple(made.variables),
         notes=_notes(model, made.specs),
         macros=rotor_macros(model, made),
@@ -92,10 +99,7 @@ class _Variables(VariableList):
         super().__init__()
         self.model = model
         bearings = iter(model.bearings)
-        self.specs = [
-            contact_spec(station.mount.contact) if station.is_contact else bearing_spec(next(bearings))
-            for station in model.inside
-        ]
+        self.specs = [_spec_of(station, bearings) for station in model.inside]
         self.first: dict[str, int] = {}
         self.outputs_at: list[int] = []  # of each support inside: its first output, validity flag, parameter
         self.outside_at: list[int] = []
@@ -130,7 +134,8 @@ class _Variables(VariableList):
         eccentric = max(
             (abs(u.amount) / float(np.diag(model.rotor.mass).max()) for u in model.rotor.unbalances), default=0.0
         )
-        length = max(bend, eccentric, *(element.validity.approach[1] for element in model.elements), 0.0)
+        clear = (FILLED * damper.clearance for damper in model.dampers)
+        length = max(bend, eccentric, *(element.validity.approach[1] for element in model.elements), *clear, 0.0)
         return length, length * max(model.fastest, model.speed * RPM_TO_RAD_S)
 
     def _state_names(self) -> dict[int, tuple[str, str]]:
@@ -245,7 +250,7 @@ class _Variables(VariableList):
 
     def _guesses(self, station: Station, spec: ModelSpec) -> dict[str, float | None]:
         """States of a bearing at rest, by name, where the rotor starts; of a contact they have start values."""
-        if not isinstance(station.mount, BearingMount):
+        if not station.is_bearing:
             return {}
         bearing = self.model.bearings[self.model.bearings_inside.index(station)]
         states = rest_states(bearing, self.model.speed, station.mount.cage_angle, self.model.ring(station))
@@ -334,7 +339,7 @@ class _Variables(VariableList):
 
     @staticmethod
     def _speed_of(station: Station) -> tuple[str, ...]:
-        return () if station.is_contact else ("speed",)
+        return ("speed",) if station.is_bearing else ()
 
     def _reached(self, k: int) -> list[bool]:
         """Whether the force of each support inside accelerates a degree of freedom."""
@@ -480,12 +485,21 @@ class _Variables(VariableList):
             self.settings_at.append(tuple(at.values()))
 
 
+def _spec_of(station: Station, bearings: Iterator[BearingModel]) -> ModelSpec:
+    """Variables of a support inside; `bearings` has the model of the next ball bearing."""
+    if station.is_contact:
+        return contact_spec(station.mount.contact)
+    return dampers.damper_spec(station.mount.damper) if station.is_damper else bearing_spec(next(bearings))
+
+
 def _description(model: RotorModel) -> str:
-    contacts = sum(station.is_contact for station in model.inside)
-    bearings = len(model.inside) - contacts
+    contacts, bearings, films = (
+        sum(station.kind == kind for station in model.inside) for kind in ("contact", "bearing", "damper")
+    )
     words = [
         *([f"{contacts} contact{'s' * (contacts != 1)} inside"] if contacts else []),
         *([f"{bearings} ball bearing{'s' * (bearings != 1)} inside"] if bearings else []),
+        *([f"{films} squeeze film damper{'s' * (films != 1)} inside"] if films else []),
         *([f"{len(model.out)} support{'s' * (len(model.out) != 1)} outside"] if model.out else []),
     ]
     name = f"Rotor of {model.rotor.size} degrees of freedom"
@@ -506,8 +520,7 @@ def _notes(model: RotorModel, specs: list[ModelSpec]) -> tuple[tuple[str, str], 
             text = f"approach = n . q + offset, n at {angle:g} degrees, offset {station.shift[0]:g} m"
             text += f", {station.count:g} times" if station.count > 1 else ""
         else:
-            bearing = station.mount.ball_bearing
-            text = f"{bearing.name or 'ball bearing'}, {', '.join(station.mount.directions)}"
+            text = f"{kind_of(station.mount.bearing)}, {', '.join(station.mount.directions)}"
         lines.append((station.label, f"{text}; {'inside' if station.inside else 'outside'}"))
     for station, spec in zip(model.inside, specs, strict=True):
         lines += [(f"{station.label}: {label}", text) for label, text in spec.notes]

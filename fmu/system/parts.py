@@ -83,6 +83,9 @@ class RotorSystem:
             raise InputError("speeds_rpm", None, "given: the speed, or lowest and highest one, of the bearings")
         if not rotor.ball_bearings and speeds_rpm is not None:
             raise InputError("speeds_rpm", speeds_rpm, "left out: the rotor has no ball bearing")
+        if not (rotor.contacts or rotor.ball_bearings):
+            allowed = "one at least: dampers stay inside a rotor"
+            raise InputError("rotor.mounts", "no contact or ball bearing", allowed)
         for i, mount in enumerate(rotor.contacts):
             if mount.contact is None:
                 raise InputError(f"contacts[{i}]", None, "one per mount: see Rotor.on")

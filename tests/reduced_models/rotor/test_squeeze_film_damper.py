@@ -7,21 +7,28 @@ from math import pi
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from squeeze_films import (
+    CLEARANCE,
+    LENGTH,
+    MASS,
+    RADIUS,
+    SPRING,
+    VISCOSITY,
+    damper,
+    in_series,
+    on_orbit,
+    orbits,
+    ratio,
+    rigid,
+)
 
 from ehlcontact import ConvergenceError, InputError, Lubricant
 from reduced_models import (
-    BallBearing,
     BearingMount,
-    Disc,
     LinearBearing,
-    Rotor,
-    Shaft,
     SpeedProfile,
-    SqueezeFilmDamper,
     Support,
-    Unbalance,
     linearise,
-    rotor_on_bearings,
     rotor_to_control,
     simulate_rotor,
     unbalance_response,
@@ -31,35 +38,13 @@ from reduced_models.rotor.integrate_python import PythonSteps
 from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.simulate import integrate
 
-LENGTH, RADIUS, CLEARANCE, VISCOSITY = 0.02, 0.06, 1.2e-4, 3.4e-3
-MASS, SPRING, ECCENTRIC = 20.0, 2e6, 4e-5
 KINDS = [(seals, cavitation) for seals in ("open", "sealed") for cavitation in (True, False)]
-
-
-def damper(**changes):
-    given = {"length": LENGTH, "radius": RADIUS, "clearance": CLEARANCE, "viscosity": VISCOSITY}
-    return SqueezeFilmDamper(**given | changes)
-
-
-def rigid(spring=SPRING, load=(0.0, 0.0), eccentric=ECCENTRIC, **changes):
-    """A mass in a damper."""
-    return Rotor(
-        mass=MASS * np.eye(2),
-        stiffness=np.zeros((2, 2)),
-        mounts=(BearingMount(bearing=damper(stiffness=spring, **changes), x=0, y=1),),
-        load=np.array(load),
-        unbalances=(Unbalance(x=0, y=1, amount=MASS * eccentric),),
-    )
 
 
 def in_python(rotor, speed, dt, steps, start="static", tolerance=1e-9):
     """A run by the steps in Python."""
     run = PreparedRun(rotor, speed, dt, steps, start, 0.8)
     return integrate(run, PythonSteps(run, tolerance, 30), None)
-
-
-def ratio(eccentricity):
-    return 1.0 - eccentricity**2
 
 
 # ---- the film
@@ -211,25 +196,6 @@ def test_compiled_steps_are_those_in_python():
     assert np.abs(found.force - forces).max() < 1e-8 * np.abs(forces).max()
 
 
-def orbits(omega):
-    """Eccentricity ratios of circular orbits of the balanced forces at a speed: closed form."""
-    e = np.linspace(1e-3, 0.98, 20001)
-    film = VISCOSITY * LENGTH**3 * RADIUS / CLEARANCE**3
-    along = SPRING + 2.0 * film * omega * e / ratio(e) ** 2 - MASS * omega**2
-    across = omega * pi * film / (2.0 * ratio(e) ** 1.5)
-    off = np.hypot(along, across) * e * CLEARANCE - MASS * ECCENTRIC * omega**2
-    k = np.flatnonzero(np.diff(np.sign(off)))
-    return e[k] + (e[1] - e[0]) * off[k] / (off[k] - off[k + 1])
-
-
-def on_orbit(e, omega):
-    """Displacement and velocity on such an orbit, with the unbalance along x."""
-    stiffness, damping = damper(stiffness=SPRING).circular_orbit(e, omega)
-    z = MASS * ECCENTRIC * omega**2 / (stiffness - MASS * omega**2 + 1j * omega * damping)
-    assert abs(z) == pytest.approx(e * CLEARANCE, rel=1e-4)
-    return np.array([z.real, z.imag]), omega * np.array([-z.imag, z.real])
-
-
 @pytest.mark.long
 def test_unbalance_jumps():
     """Three circular orbits between 607 and 672 rad/s: a run-up stays on the large one, the reverse does not."""
@@ -318,19 +284,6 @@ def test_a_small_unbalance_response_is_that_of_a_run(cavitation):
 
 
 # ---- under the housing of a ball bearing
-
-
-def in_series(film=True, **changes):
-    """A shaft on two 6205 whose housings stand on squirrel cages, in dampers."""
-    bearing = BallBearing.catalogue("6205", clearance=5e-6, oil=Lubricant.iso_vg(46, temperature=80.0))
-    made = damper(length=0.012, radius=0.026, clearance=1e-4, viscosity=0.012, **changes)
-    housing = {"housing_mass": 0.6, "housing_stiffness": 1.5e7}
-    own = {"damper": made} if film else {}
-    return rotor_on_bearings(
-        Shaft(length=0.4, diameter=0.03, damping_time=1e-6, elements=2),
-        discs=[Disc(position=0.2, mass=4.0, unbalance=4e-5)],
-        supports=[Support(position=at, bearing=bearing, **housing, **own) for at in (0.02, 0.38)],
-    )
 
 
 def test_in_series_with_ball_bearings():
