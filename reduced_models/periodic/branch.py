@@ -13,23 +13,23 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
 
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from reduced_models.periodic.excitation import OVER, Setting
-from reduced_models.periodic.harmonic_balance import Balance, HarmonicBalance
+from reduced_models.periodic.harmonic_balance import Balance, HarmonicBalance, solved
 
 _Floats = NDArray[np.float64]
 
 FIRST, SHORTEST = 0.01, 1e-6  # steps of the arc length
 LONGEST = 0.05  # over the size of the motion, where that has grown beyond that of the start
-WANTED, WANTED_OF_FILMS = 3, 6  # iterations of a step; of supports that remember
+WANTED, WANTED_OF_FILMS = 5, 6  # iterations of a step; of supports that remember
 MOST_ITERATIONS = 16
 STRAIGHT = 0.9  # cosine between neighbouring tangents, at least
 CONVERGED, CONVERGED_OF_FILMS = 1e-9, 1e-7  # last step of Newton's method
 NUDGE = 1e-7  # of the range of the parameter, over which its derivative is taken
-SHARP = 1e-3  # of a step, or of the slope of the parameter at its end, within which a fold is found: it is flat
-FOLD_STEPS = 40
+SHARP = 1e-3  # of a step, within which a fold is found: the parameter is flat there
 
 
 class BranchPoint(NamedTuple):
@@ -109,8 +109,10 @@ class Continuation:
             if float(point.tangent @ last.tangent) < STRAIGHT and step > 4.0 * SHORTEST:
                 step = 0.5 * step
                 continue
-            if point.tangent[-1] * last.tangent[-1] < 0.0 and not last.fold:
-                self.points.append(self._fold(last, ends, point))
+            if len(self.points) > 1 and not last.fold:
+                before = self.points[-2]
+                if (point.y[-1] - last.y[-1]) * (last.y[-1] - before.y[-1]) < 0.0:
+                    self._mark_fold(last, before, point)
             self.points.append(point)
             longest = LONGEST * max(float(np.linalg.norm(point.y[:-1])), 1.0)
             return min(step * float(np.clip(self._wanted / max(iterations, 1), 0.5, 1.6)), longest)
@@ -130,7 +132,7 @@ class Continuation:
         for iteration in range(1, MOST_ITERATIONS + 1):
             system = self._system(balance, float(y[-1]), tangent)
             across = float(tangent @ (y - last.y)) - step
-            change = np.linalg.solve(system, -np.append(balance.residual / self._size, across))
+            change = solved(system, -np.append(balance.residual / self._size, across))
             if np.linalg.norm(change) <= self._converged:
                 return self._point(y, tangent, balance), iteration
             if not np.isfinite(change).all() or np.linalg.norm(change) > 10.0 * max(step, FIRST):
@@ -147,7 +149,7 @@ class Continuation:
         """A point with the unit tangent there, in the direction of `along`."""
         unit = np.zeros(y.size)
         unit[-1] = 1.0
-        tangent = np.linalg.solve(self._system(balance, float(y[-1]), along), unit)
+        tangent = solved(self._system(balance, float(y[-1]), along), unit)
         return BranchPoint(y, np.asarray(tangent / np.linalg.norm(tangent)), balance)
 
     def _system(self, balance: Balance, share: float, tangent: _Floats) -> _Floats:
@@ -160,25 +162,28 @@ class Continuation:
         system[n] = tangent
         return system
 
-    def _fold(self, last: BranchPoint, step: float, end: BranchPoint) -> BranchPoint:
-        """Where the parameter turns back between a point and the end of the step from it: regula falsi."""
-        low, high = (0.0, float(last.tangent[-1])), (step, float(end.tangent[-1]))
-        best = last if abs(low[1]) < abs(high[1]) else end
-        side, flat = 0, SHARP * max(abs(low[1]), abs(high[1]))
-        for _ in range(FOLD_STEPS):
-            middle = (low[0] * high[1] - high[0] * low[1]) / (high[1] - low[1])
-            point, _ = self._corrected(last, middle)
-            rise = float(point.tangent[-1])
-            if abs(rise) < abs(float(best.tangent[-1])):
-                best = point
-            if abs(high[0] - low[0]) <= SHARP * step or abs(rise) <= flat:
-                break
-            if rise * high[1] > 0.0:  # the Illinois rule: an end that stays counts half
-                high = (middle, rise)
-                low = (low[0], 0.5 * low[1]) if side == 1 else low
-                side = 1
-            else:
-                low = (middle, rise)
-                high = (high[0], 0.5 * high[1]) if side == -1 else high
-                side = -1
-        return best._replace(fold=True)
+    def _mark_fold(self, last: BranchPoint, before: BranchPoint, end: BranchPoint) -> None:
+        """A fold near the last point, after `before`: towards `end` the parameter turns back.
+
+        The parameter along the branch about there has its extreme value at the fold; tangents are not asked, for
+        those of supports with a memory are not exact.
+        """
+        low, high = (float(last.tangent @ (point.y - last.y)) for point in (before, end))
+        sign = 1.0 if last.y[-1] > before.y[-1] else -1.0
+        tried = {0.0: last, low: before, high: end}
+
+        def beyond(step: float) -> float:
+            if step not in tried:
+                tried[step] = self._corrected(last, step)[0]
+            return -sign * float(tried[step].y[-1])
+
+        try:
+            minimize_scalar(beyond, (low, 0.0, high), tol=SHARP)
+        except ConvergenceError:
+            pass  # the largest of those that there are
+        step = min(tried, key=beyond)
+        fold = tried[step]._replace(fold=True)
+        if fold.y is last.y:
+            self.points[-1] = fold
+        else:
+            self.points.insert(len(self.points) - (step < 0.0), fold)

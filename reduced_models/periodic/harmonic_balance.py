@@ -39,7 +39,7 @@ from reduced_models.rotor.nodes import flat_nodes
 from reduced_models.rotor.prepared_run import Histories
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor
-from reduced_models.rotor.simulate import support_histories
+from reduced_models.rotor.simulate import support_histories, warn_of_contacts
 from reduced_models.rotor.speed_profile import law_speeds
 from reduced_models.rotor.supports import AXIAL
 
@@ -166,7 +166,7 @@ class HarmonicBalance:
 
     def motion(self, x: _Floats, w: float) -> tuple[_Floats, _Floats]:
         """Motions of the supports and their velocities at the samples, shape (samples, m)."""
-        rows = x.reshape(-1, len(self.units)) * self.units
+        rows = x.reshape(2 * self.harmonics + 1, len(self.units)) * self.units
         return self._synthesis @ rows, w * (self._rates @ rows)
 
     def forces(self, setting: Setting, x: _Floats, w: float) -> Along:
@@ -187,14 +187,14 @@ class HarmonicBalance:
         along = self.forces(setting, x, 2.0 * pi / self.period(setting))
         if self.reference is None:
             mean = np.abs(np.diagonal(along.stiffness.mean(axis=0)))
-            self.reference = np.diag(self._counts * np.maximum(mean, LEAST_REFERENCE * mean.max()))
+            self.reference = np.diag(self._counts * np.maximum(mean, LEAST_REFERENCE * mean.max(initial=0.0)))
         return self._balanced(setting, x, along)
 
     def _balanced(self, setting: Setting, x: _Floats, along: Along) -> Balance:
         w = 2.0 * pi / self.period(setting)
         alone = self._alone(setting, np.arange(self.harmonics + 1), w)
-        by_force = self.rows @ np.linalg.solve(alone, self.rows.T[None])
-        applied = np.linalg.solve(alone, self._applied(setting)[:, :, None])[:, :, 0] @ self.rows.T
+        by_force = self.rows @ solved(alone, self.rows.T[None])
+        applied = solved(alone, self._applied(setting)[:, :, None])[:, :, 0] @ self.rows.T
         moved = applied - np.einsum("hij,hj->hi", by_force, as_spectrum(self._push(along, x)))
         return Balance(x, w, along, by_force, x - self.unknowns(moved))
 
@@ -212,7 +212,7 @@ class HarmonicBalance:
 
     def _push(self, along: Along, x: _Floats) -> _Floats:
         """Harmonics of the forces of the supports beside those of the reference, shape (2H + 1, m)."""
-        rows = x.reshape(-1, len(self.units)) * self.units
+        rows = x.reshape(2 * self.harmonics + 1, len(self.units)) * self.units
         return np.asarray(self._counts * (self._analysis @ along.force) - rows @ self.reference)
 
     def jacobian(self, at: Balance) -> _Floats:
@@ -255,7 +255,7 @@ class HarmonicBalance:
         at = self.balance(setting, x)
         for _ in range(MOST_ITERATIONS):
             system = self.jacobian(at)
-            step = np.asarray(np.linalg.solve(system, -at.residual), np.float64)
+            step = solved(system, -at.residual)
             if np.linalg.norm(step) <= CONVERGED * np.linalg.norm(at.x):
                 return at
             there = self._towards(setting, at, step)
@@ -287,8 +287,8 @@ class HarmonicBalance:
         dt, omega = 2.0 * pi / (w * n), setting.omega
         push = as_spectrum(self._push(at.along, at.x))
         alone = self._alone(setting, np.arange(H + 1), w)
-        q = np.linalg.solve(alone, (self._applied(setting) - push @ self.rows)[:, :, None])[:, :, 0]
-        rows = as_rows_of(np.asarray(q, np.complex128))
+        q = solved(alone, (self._applied(setting) - push @ self.rows)[:, :, None])[:, :, 0]
+        rows = as_rows_of(q)
         d, v = self._synthesis @ rows, w * (self._rates @ rows)
         r, rate = self.motion(at.x, w)
         largest, shift = np.zeros((len(self.balls), 2)), np.zeros(len(self.rows))
@@ -305,6 +305,7 @@ class HarmonicBalance:
             approach=approach, rate=rates, force=forces, iterations=histories.evaluations,
             largest_load=largest, status=Status.CONVERGED, columns=columns_of, names=names, places=places,
         )  # fmt: skip
+        warn_of_contacts(rotor, run)
         return PeriodicAnswer(
             run=run, excitation=name_of(self.excitation), over=over, value=float(getattr(setting, OVER[over])),
             periods=self.periods, residual=self._left_out(setting, at),
@@ -323,8 +324,8 @@ class HarmonicBalance:
         H = self.harmonics
         beyond = np.arange(H + 1, min(2 * H, self.samples // 2 - 1) + 1)
         force = 2.0 * np.fft.rfft(at.along.force, axis=0)[beyond] / self.samples * self._counts
-        moved = np.linalg.solve(self._alone(setting, beyond, at.w), (force @ self.rows)[:, :, None])[:, :, 0]
-        kept = as_spectrum(at.x.reshape(2 * H + 1, -1))[1:]
+        moved = solved(self._alone(setting, beyond, at.w), (force @ self.rows)[:, :, None])[:, :, 0]
+        kept = as_spectrum(at.x.reshape(2 * H + 1, len(self.units)))[1:]
         left = np.linalg.norm(moved @ self.rows.T / self.units)
         return float(left / max(float(np.linalg.norm(kept)), np.finfo(float).tiny))
 
@@ -354,6 +355,14 @@ def fourier(harmonics: int, samples: int) -> tuple[_Floats, _Floats, _Floats]:
     rates[:, 1::2], rates[:, 2::2] = -h * waves.imag, -h * waves.real
     analysis = synthesis.T * np.append(1.0, np.full(2 * harmonics, 2.0))[:, None] / samples
     return synthesis, rates, analysis
+
+
+def solved(matrix: NDArray[Any], right: NDArray[Any]) -> NDArray[Any]:
+    """Solution of linear equations; raises `ConvergenceError` where the rotor is free."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right))
+    except np.linalg.LinAlgError:
+        raise ConvergenceError("the supports do not hold the rotor along a motion", None) from None
 
 
 def as_spectrum(rows: _Floats) -> _Complex:

@@ -12,12 +12,14 @@ from numpy.typing import NDArray
 from ehlcontact.checks import parts, require_choice, require_finite, require_integer, require_positive, shown
 from ehlcontact.checks.kinds import Callback, Count, Object
 from ehlcontact.checks.quantity import takes
-from ehlcontact.errors import InputError, warn_user
+from ehlcontact.errors import ConvergenceError, InputError, warn_user
+from ehlcontact.process.blas import one_blas_thread
 from reduced_models.periodic.answer import PeriodicAnswer
 from reduced_models.periodic.branch import Continuation, Course
 from reduced_models.periodic.branch_result import PeriodicBranch
 from reduced_models.periodic.excitation import (
     OVER,
+    PASSAGE,
     UNBALANCE,
     Excitation,
     PeriodicForce,
@@ -26,6 +28,7 @@ from reduced_models.periodic.excitation import (
 )
 from reduced_models.periodic.harmonic_balance import Balance, HarmonicBalance
 from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.simulate import simulate_rotor
 
 _Floats = NDArray[np.float64]
 
@@ -45,6 +48,7 @@ class TooFewHarmonicsWarning(UserWarning):
     rotor=Object(Rotor, "a Rotor"), speed_rpm=parts.SPEEDS, harmonics=HARMONIC_COUNT, samples=Count(16, 100_000),
     positions=Count(1, 48), periods=Count(1, 16), bearing=Count(0, 100),
 )  # fmt: skip
+@one_blas_thread()
 def periodic_answer(
     rotor: Rotor,
     speed_rpm: float | None = None,
@@ -107,6 +111,7 @@ def periodic_answer(
     periods=Count(1, 16), bearing=Count(0, 100), most=Count(2, 100_000), callback=Callback("share, answers"),
     speed_rpm=parts.SPEEDS,
 )  # fmt: skip
+@one_blas_thread()
 def periodic(
     rotor: Rotor,
     over: str = "speed",
@@ -235,12 +240,34 @@ def _problem(
 
 
 def _begin(problem: HarmonicBalance, setting: Setting, start: PeriodicAnswer | None) -> Balance:
-    """Balance near another answer, or from static equilibrium."""
+    """Balance near another answer, or from static equilibrium: at once, else as the excitation grows."""
     if start is not None:
         return _balance_near(problem, setting, start)
     rest = np.zeros((problem.harmonics + 1, len(problem.units)), complex)
     rest[0] = problem.rows @ problem.rotor.equilibrium(setting.speed_rpm)
-    return problem.solve(setting, problem.unknowns(rest))
+    x = problem.unknowns(rest)
+    try:
+        return problem.solve(setting, x)
+    except ConvergenceError as error:
+        if problem.excitation == PASSAGE:
+            return problem.solve(setting, _settled(problem, setting))
+        grows = Course(setting, "amplitude", 0.0, setting.amplitude)
+        continuation = Continuation(problem, grows, problem.solve(grows.at(0.0), x))
+        continuation.follow(MOST)
+        last = continuation.points[-1]
+        if last.y[-1] < 1.0:
+            share = f"at {100.0 * float(last.y[-1]):.3g} % of the excitation {continuation.reason}"
+            raise ConvergenceError(f"{error}; {share}", last.balance) from error
+        return problem.solve(setting, last.balance.x)
+
+
+def _settled(problem: HarmonicBalance, setting: Setting) -> _Floats:
+    """Unknowns of the last period of a run."""
+    period, n = problem.period(setting), problem.samples
+    run = simulate_rotor(problem.rotor, speed_rpm=setting.speed_rpm, dt=period / n, until=SETTLED * period)
+    spectrum = np.fft.rfft(run.displacement[-n:], axis=0)[: problem.harmonics + 1] / n
+    spectrum[1:] *= 2.0
+    return problem.unknowns(spectrum @ problem.rows.T)
 
 
 def _balance_near(problem: HarmonicBalance, setting: Setting, near: PeriodicAnswer) -> Balance:

@@ -171,7 +171,7 @@ def integrate(
     for message in _beyond_loads(run)[0]:
         warn_user(message, OutsideValidityWarning)
     _warn_of_damping(run)
-    _warn_of_contacts(run.rotor, result)
+    warn_of_contacts(run.rotor, result)
     return result
 
 
@@ -283,7 +283,7 @@ def _warn_of_damping(run: PreparedRun) -> None:
         warn_of_damping_left_out(mount.ball_bearing, name, words)
 
 
-def _warn_of_contacts(rotor: Rotor, result: RotorResult) -> None:
+def warn_of_contacts(rotor: Rotor, result: RotorResult) -> None:
     """Let the elements warn where the run left their validity box."""
     for i, mount in enumerate(rotor.contacts):
         contact = mount.contact
