@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
 
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
@@ -178,7 +178,7 @@ class Continuation:
             return -sign * float(tried[step].y[-1])
 
         try:
-            minimize_scalar(beyond, (low, 0.0, high), tol=SHARP)
+            scipy.optimize.minimize_scalar(beyond, (low, 0.0, high), tol=SHARP)
         except ConvergenceError:
             pass  # the largest of those that there are
         step = min(tried, key=beyond)
