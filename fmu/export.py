@@ -34,6 +34,7 @@ def export(
     load: Any = None,
     mass: Any = None,
     directions: Sequence[str] | None = None,
+    permittivity: float | None = None,
     lead: float | None = None,
     model_name: str | None = None,
     fmi: int = 2,
@@ -106,6 +107,9 @@ def export(
     directions : sequence of str, optional
         Of a bearing: displacements of its ring, the others are held, as of `BearingModel`; by default those that
         its load needs.
+    permittivity : float, optional
+        Of the oil, relative, some 2.2; of a bearing, a set, and a rotor with ball bearings inside. Each bearing
+        with oil then has the output `capacitance` between its rings [F], and the FMU 3 to 5 kB more.
     lead : float, optional
         Start value of `lead` of a contact or bearing, 0 to 2 communication steps, by default 1.5; or of
         `force_lead` of a rotor, 0 to 1, by default 1/2 with supports outside and 0 without. What is right depends
@@ -166,6 +170,7 @@ def export(
         load=load,
         mass=mass,
         directions=directions,
+        permittivity=permittivity,
         lead=lead,
         model_name=model_name,
     )

@@ -44,15 +44,16 @@ class Keywords(TypedDict, total=False):
     load: Any
     mass: Any
     directions: Sequence[str] | None
+    permittivity: float | None
 
 
 _EVERY = {"model_name", "lead"}
-_ROTOR = {"speeds_rpm", "outside", "speed_rpm", "inertia", "start"}
+_ROTOR = {"speeds_rpm", "outside", "speed_rpm", "inertia", "start", "permittivity"}
 _TAKEN: tuple[tuple[Any, str, set[str]], ...] = (
     (Element, "a contact element", set()),
-    (BallBearing, "a ball bearing", {"speeds_rpm", "load", "directions"}),
+    (BallBearing, "a ball bearing", {"speeds_rpm", "load", "directions", "permittivity"}),
     (Rotor, "a Rotor", _ROTOR),
-    (BearingSet, "a BearingSet without mass=", {"speeds_rpm", "load", "mass"}),
+    (BearingSet, "a BearingSet without mass=", {"speeds_rpm", "load", "mass", "permittivity"}),
 )
 _MASSIVE: tuple[Any, str, set[str]] = BearingSet, "a BearingSet with mass=", _ROTOR | {"load", "mass"}
 

@@ -19,6 +19,7 @@ UNITS: dict[str, dict[str, int]] = {
     "N": {"kg": 1, "m": 1, "s": -2},
     "N/s": {"kg": 1, "m": 1, "s": -3},
     "N/m": {"kg": 1, "s": -2},
+    "F": {"kg": -1, "m": -2, "s": 4, "A": 2},
     "N.m-2": {"kg": 1, "m": -1, "s": -2},
     "N.m-3": {"kg": 1, "m": -2, "s": -2},
     "N.s/m": {"kg": 1, "s": -1},
@@ -47,6 +48,7 @@ DISPLAY_UNITS: dict[str, tuple[str, float]] = {
     "N/m": ("N/um", 1e-6),
     "rad/s": ("Hz", 0.15915494309189535),
     "kg.m": ("g.mm", 1e6),
+    "F": ("pF", 1e12),
 }
 
 # File names that Windows keeps for devices, whatever the ending.

@@ -7,6 +7,7 @@ import pytest
 from ehlcontact import Lubricant, OilLayer
 from fmu.bearing.model import BearingModel
 from fmu.bearing.trial import START
+from fmu.bearing.variables import RATES
 from fmu.driver import Exchange, Slave
 from reduced_models import BallBearing, BearingMount, Rotor, Unbalance
 
@@ -111,6 +112,13 @@ def assert_states_start_as_declared(one, count):
         sizes = np.array([float(known[name].nominal) for name in names])
         assert (np.abs(np.array(model.get(*names)) - declared) <= 1e-9 * sizes).all()
         model.free()
+
+
+def inputs(model, trial, k):
+    """Inputs of the FMU of a bearing at a time of a trial."""
+    place = dict(zip(model.directions, trial.place[k].tolist(), strict=True))
+    rates = {RATES[name]: rate for name, rate in zip(model.directions, trial.velocity[k].tolist(), strict=True)}
+    return place | rates | {"speed": float(trial.speed[k])}
 
 
 class ExportedBearing(Exported):

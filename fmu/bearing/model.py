@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.capacitance import require_permittivity
 from ehlcontact.checks import as_numbers, require_instance
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing
@@ -73,17 +74,20 @@ class BearingModel:
         In which the inner ring moves, the others are held: ``("x", "y")``, ``("x", "y", "z")``, or these and
         "tilt_x", "tilt_y". By default all five of an angular contact bearing, and of others under an axial load or
         a moment; else x and y.
+    permittivity : float, optional
+        Of the oil, relative: the capacitance between the rings is then an output.
 
     Raises
     ------
     InputError
-        No bearing, a speed, a load or directions that it does not take, too many balls.
+        No bearing, a speed, a load, directions or a permittivity that it does not take, too many balls.
     """
 
     bearing: BallBearing
     speeds_rpm: Any
     load: Any = None
     directions: Any = None
+    permittivity: float | None = None
 
     def __post_init__(self) -> None:
         require_instance("bearing", self.bearing, BallBearing, "a BallBearing")
@@ -93,6 +97,10 @@ class BearingModel:
             raise InputError(
                 "bearing.features", len(self.bearing.features), "none: an FMU has smooth races and balls"
             )
+        if self.permittivity is not None:
+            require_permittivity("permittivity", self.permittivity)
+            if self.bearing.oil is None:
+                raise InputError("permittivity", self.permittivity, "left out for a dry bearing: its rings touch")
         object.__setattr__(self, "directions", self._directions())
         if self.bearing.ball_inertia and 2 * self.bearing.balls > MOST_CONTACTS:
             allowed = f"at most {MOST_CONTACTS // 2} in an FMU, of balls with inertia"

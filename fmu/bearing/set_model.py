@@ -38,6 +38,8 @@ class SetModel:
     load : sequence of float, optional
         (Fx, Fy, Fz, Mx, My) on the shaft at 0 [N], [N m], under which the FMU starts at rest; by default none in
         a set that is preloaded, and else all displacements are 0.
+    permittivity : float, optional
+        Of the oil of all bearings that have oil, as of `BearingModel`.
 
     Raises
     ------
@@ -48,6 +50,7 @@ class SetModel:
     bearings: BearingSet
     speeds_rpm: Any
     load: Any = None
+    permittivity: float | None = None
 
     def __post_init__(self) -> None:
         require_instance("bearings", self.bearings, BearingSet, "a BearingSet")
@@ -55,6 +58,8 @@ class SetModel:
         if balls > MOST_BALLS or len(self.bearings.bearings) > MOST_BEARINGS:
             allowed = f"at most {MOST_BALLS} in {MOST_BEARINGS} bearings"
             raise InputError("balls", f"{balls} in {len(self.bearings.bearings)} bearings", allowed)
+        if self.permittivity is not None and all(bearing.oil is None for bearing in self.bearings.bearings):
+            raise InputError("permittivity", self.permittivity, "left out for dry bearings: their rings touch")
         _ = self.place
 
     @cached_property
@@ -73,7 +78,10 @@ class SetModel:
             bearing, size = mount.ball_bearing, self.rotor.size
             model = models.get(id(bearing))
             if model is None:
-                model = models[id(bearing)] = BearingModel(bearing, self.speeds_rpm, directions=mount.directions)
+                oil = None if bearing.oil is None else self.permittivity
+                model = models[id(bearing)] = BearingModel(
+                    bearing, self.speeds_rpm, directions=mount.directions, permittivity=oil
+                )
             made.append(Seat(f"bearing[{k}].", model, mount.rows(size), mount.shift))
         return tuple(made)
 

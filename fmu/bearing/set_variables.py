@@ -14,7 +14,6 @@ from fmu.bearing.tables import SeatPlaces, bearing_data, bearing_macros
 from fmu.bearing.trial import START
 from fmu.bearing.variables import (
     BEARING_HEADERS,
-    BEARING_SOURCES,
     MOTIONS,
     OUTER_RINGS,
     OUTSIDE,
@@ -22,6 +21,7 @@ from fmu.bearing.variables import (
     RATES,
     STEP,
     RingVariables,
+    bearing_sources,
     bearing_spec,
     flanges_of,
 )
@@ -56,7 +56,12 @@ def set_spec(model: SetModel, model_name: str | None = None, lead: float | None 
     return ModelSpec(
         name=checked_name(f"BearingSet {bearings.name}".strip() if model_name is None else model_name),
         description=f"{title.capitalize()} of {len(model.seats)} ball bearings at {span}; SI units{left_out}",
-        sources=("core.c", "core_step.c", "model_bearing.c", *BEARING_SOURCES),
+        sources=(
+            "core.c",
+            "core_step.c",
+            "model_bearing.c",
+            *bearing_sources([seat.model for seat in model.seats]),
+        ),
         headers=("core.h", "model.h", *BEARING_HEADERS),
         variables=tuple(made.variables),
         notes=_notes(model, made.specs),

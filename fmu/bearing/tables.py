@@ -15,6 +15,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from fmu.bearing.capacitance_table import capacitance_tables
 from fmu.bearing.model import BearingModel, Seat
 from fmu.bearing.places import counted_from
 from fmu.c_headers import c_double, c_table
@@ -136,6 +137,11 @@ def bearing_table(model: BearingModel, name: str = "bearing") -> str:
             "table": f"{name}_films",
             "roughness": c_double(bearing.roughness or 0.0),
         }
+    between = {}
+    if model.permittivity is not None:
+        text, members = capacitance_tables(model, name)
+        lines += text
+        between = {"capacitance": members}
     fastest = float(model.speeds[-1])
     fields = {
         "directions": str(len(model.directions)),
@@ -152,6 +158,7 @@ def bearing_table(model: BearingModel, name: str = "bearing") -> str:
         "grooves": _fields(_grooves(model)),
         "race": "{" + ", ".join(_fields(race) for race in races) + "}",
         "films": _fields(films),
+        **between,
         "most_speed": c_double(fastest * RPM_TO_RAD_S),
         "most_load": _numbers([bearing.race(race).heaviest(fastest)[0] for race in RACES]),
         "largest_place": c_double(FARTHEST * bearing.ball_diameter),

@@ -64,9 +64,10 @@ BEARING_SOURCES = (
     "ball.c", "ball_search.c", "ball_steps.c", "ball_rest.c", "ball_rates.c", "bearing_outputs.c",
     "contact_rates.c", "race_contact.c", "film_filters.c", "surface_heights.c",
 )  # fmt: skip
+CAPACITANCE = "capacitance_table.c"  # with a permittivity
 BEARING_HEADERS = (
-    "bearing.h", "ball.h", "rolling.h", "contact_rates.h", "race_contact.h", "film_filters.h", "surface_heights.h",
-    "dual.h",
+    "bearing.h", "ball.h", "capacitance_table.h", "rolling.h", "contact_rates.h", "race_contact.h",
+    "film_filters.h", "surface_heights.h", "dual.h",
 )  # fmt: skip
 
 
@@ -87,7 +88,7 @@ def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float
     return ModelSpec(
         name=checked_name(f"BallBearing {bearing.name}".strip() if model_name is None else model_name),
         description=f"Ball bearing {bearing.name}, {bearing.balls} balls, {oil}, at {span}; SI units{left_out}",
-        sources=("core.c", "core_step.c", "model_bearing.c", *BEARING_SOURCES),
+        sources=("core.c", "core_step.c", "model_bearing.c", *bearing_sources([model])),
         headers=("core.h", "model.h", *BEARING_HEADERS),
         variables=tuple(made.variables),
         notes=_notes(model, span),
@@ -98,6 +99,11 @@ def bearing_spec(model: BearingModel, model_name: str | None = None, lead: float
         indicators=tuple(made.indicators),
         flanges=flanges_of(model.directions, "The inner ring"),
     )
+
+
+def bearing_sources(models: Sequence[BearingModel]) -> tuple[str, ...]:
+    """C sources of bearings."""
+    return (*BEARING_SOURCES, *([CAPACITANCE] if any(one.permittivity is not None for one in models) else []))
 
 
 def flanges_of(directions: Sequence[str], moved: str) -> tuple[tuple[str, str, tuple[str, str, str]], ...]:
@@ -199,6 +205,11 @@ class _Variables(RingVariables):
             if self.bearing.roughness:
                 text = "Smallest film over the roughness of ball and race"
                 rows.append(("smallest_lambda", "1", 1.0, None, text))
+            if self.model.permittivity is not None:
+                text = (
+                    f"Capacitance between the rings, of oil with permittivity {self.model.permittivity:g}; 0 dry"
+                )
+                rows.append(("capacitance", "F", 1e-10, 0.0, text))
         for name, unit, nominal, minimum, text in rows:
             self.add(
                 name, "output", "continuous", text, unit=unit, nominal=nominal, minimum=minimum, depends=depends,

@@ -24,7 +24,7 @@ from fmu.spec import ModelSpec, Variable
 from reduced_models.rotor.squeeze_film_damper import SqueezeFilmDamper
 
 # Outputs that the rotor has.
-SHOWN = "force", "eccentricity_", "moment_", "largest_", "smallest_", "rolling_", "outside_"
+SHOWN = "force", "eccentricity_", "moment_", "largest_", "smallest_", "rolling_", "capacitance", "outside_"
 HIDDEN = "outside_approach", "outside_rate", "outside_force"  # of a contact, which the rotor does not tell apart
 NUMBERS_OF_DUAL = 2
 CONTACT_WORK = 4  # numbers of a step of a contact beside those of its model: enum STEP_... of contact_law.c

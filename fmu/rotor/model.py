@@ -116,6 +116,8 @@ class RotorModel:
     start : (array_like, array_like), optional
         Displacements and velocities to start from, shape (N,) each; by default equilibrium under the load, and
         of a rotor whose contacts are not known the contacts at their offsets.
+    permittivity : float, optional
+        Of the oil in all ball bearings inside that have oil, as of `BearingModel`.
 
     Raises
     ------
@@ -130,6 +132,7 @@ class RotorModel:
     speed_rpm: float | None = None
     inertia: float | None = None
     start: Any = None
+    permittivity: float | None = None
 
     def __post_init__(self) -> None:
         require_instance("rotor", self.rotor, Rotor, "a Rotor")
@@ -144,6 +147,8 @@ class RotorModel:
             raise InputError("speeds_rpm", None, f"those of the ball bearings inside, or outside={names!r}")
         if self.speeds_rpm is not None and not self.bearings_inside:
             raise InputError("speeds_rpm", self.speeds_rpm, "left out: no ball bearing is inside")
+        if self.permittivity is not None and not self._has_oil_inside:
+            raise InputError("permittivity", self.permittivity, "left out: no ball bearing with oil is inside")
         _ = self.bearings
         require_nonnegative("speed_rpm", self.speed)
         _ = self.motion
@@ -203,10 +208,20 @@ class RotorModel:
     def bearings(self) -> tuple[BearingModel, ...]:
         """Each ball bearing inside as its own FMU has it."""
         return tuple(
-            BearingModel(station.mount.ball_bearing, self.speeds_rpm, directions=station.mount.directions)
+            BearingModel(
+                station.mount.ball_bearing,
+                self.speeds_rpm,
+                directions=station.mount.directions,
+                permittivity=None if station.mount.ball_bearing.oil is None else self.permittivity,
+            )
             for station in self.bearings_inside
             if isinstance(station.mount, BearingMount)
         )
+
+    @property
+    def _has_oil_inside(self) -> bool:
+        mounts = (station.mount for station in self.bearings_inside)
+        return any(isinstance(one, BearingMount) and one.ball_bearing.oil is not None for one in mounts)
 
     @cached_property
     def geometry(self) -> SupportGeometry:

@@ -15,11 +15,11 @@ from fmu.bearing.model import BearingModel
 from fmu.bearing.places import rest_states
 from fmu.bearing.variables import (
     BEARING_HEADERS,
-    BEARING_SOURCES,
     FORCES,
     OUTSIDE,
     PARAMETERS,
     RATES,
+    bearing_sources,
     bearing_spec,
 )
 from fmu.contact_spec import checked_name, contact_spec, source_text
@@ -56,7 +56,7 @@ def rotor_spec(model: RotorModel, model_name: str | None = None, force_lead: flo
     made = _Variables(model)
     between = force_lead_for(HELD_PARALLEL) if model.out else 0.0
     made.fill(between if force_lead is None else force_lead)
-    more = [("bearing_support.c", *BEARING_SOURCES), ("bearing_support.h", *BEARING_HEADERS)]
+    more = [("bearing_support.c", *bearing_sources(model.bearings)), ("bearing_support.h", *BEARING_HEADERS)]
     more = more if model.bearings else [(), ()]
     if model.dampers:
         more = [(*more[0], *dampers.SOURCES), (*more[1], *dampers.HEADERS)]

@@ -73,6 +73,19 @@ class _FilmTablesStructure(ctypes.Structure):
     ]  # fmt: skip
 
 
+class _CapacitanceStructure(ctypes.Structure):
+    """`CapacitanceTable` of ``capacitance_table.h``: outputs of FMUs, empty in Python."""
+
+    _fields_ = [
+        ("of", c_void_p),
+        ("terms", c_int),
+        ("first", c_double), ("last", c_double),
+        ("approach", c_double), ("plate", c_double), ("largest_load", c_double),
+        ("flattest", c_double), ("steepest", c_double),
+        ("power", c_void_p), ("coefficient", c_void_p),
+    ]  # fmt: skip
+
+
 class HeightsStructure(ctypes.Structure):
     """`HeightTables` of ``surface_heights.h``."""
 
@@ -91,7 +104,7 @@ class BearingStructure(ctypes.Structure):
         ("filter_gains", c_void_p), ("filter_rates", c_void_p),
         ("grooves", GroovesStructure),
         ("race", RaceStructure * 2),
-        ("films", _FilmTablesStructure),
+        ("films", _FilmTablesStructure), ("capacitance", _CapacitanceStructure * 2),
         ("most_speed", c_double), ("most_load", c_double * 2),
         ("largest_place", c_double), ("largest_tilt", c_double),
         ("heights", POINTER(HeightsStructure)),
@@ -145,7 +158,7 @@ AT_REST = _numbers(
 ORIGIN = _numbers(place=(2,), moved=(2,), across=())  # see `BallOrigin` of ``bearing.h``
 # Each number has its derivative with it
 RING_MOTION = _numbers(q=(5, 2), v=(5, 2), omega=(2,))
-BALL_OUTPUTS = _numbers(load=(2, 2), factor=(2, 2), speed_sum=(2, 2), angle=(2, 2), film=(2,))
+BALL_OUTPUTS = _numbers(load=(2, 2), approach=(2, 2), factor=(2, 2), speed_sum=(2, 2), angle=(2, 2), film=(2,))
 
 
 class CoreBearing:

@@ -394,6 +394,7 @@ static const char *ball_rates(const Instant *at, Dual angle, Dual cage, int k, D
         film[race] = squeezed(contact, approaching[race]);
         out->load[race] = pushed(contact->kn, film[race]);
         out->film[race] = film[race].x;
+        out->approach[race] = p->u[race];
         out->factor[race] = p->factor[race];
         out->speed_sum[race] = p->rolls.speed_sum[race];
         out->angle[race] = dual(atan2(s.x, c.x), c.x * s.d - s.x * c.d);

@@ -6,6 +6,7 @@
 
 #include <stddef.h>
 
+#include "capacitance_table.h"
 #include "dual.h"
 #include "race_contact.h"
 #include "surface_heights.h"
@@ -52,6 +53,7 @@ typedef struct {
     Grooves grooves;
     Race race[2];
     FilmTables films;
+    CapacitanceTable capacitance[2];
     double most_speed, most_load[2];       /* of the tables */
     double largest_place, largest_tilt;    /* of a ring in its bearing */
     const HeightTables *heights;           /* of features; NULL: the state has no `BallSurface` */
@@ -201,17 +203,17 @@ void bearing_describe(const Bearing *b, const double state[], double work[], Bal
 
 /* A ball, along a direction of inputs and states too. */
 typedef struct {
-    Dual load[2], factor[2], speed_sum[2], angle[2]; /* [race] */
+    Dual load[2], approach[2], factor[2], speed_sum[2], angle[2]; /* [race] */
     double film[2];                                  /* [race]: see RaceForce */
 } BallOutputs;
 
 /* What the balls have at the end of the last step. */
 void bearing_balls(const Bearing *b, const double state[], BallOutputs balls[]);
 
-enum { MOST_OUTPUTS = MOST_DIRECTIONS + 8, MOST_BALL_OUTPUTS = 8 };
+enum { MOST_OUTPUTS = MOST_DIRECTIONS + 9, MOST_BALL_OUTPUTS = 8 };
 
 /* The outputs of the FMU of a bearing and how many they are: forces on the ring, largest load of a ball at either race; of a bearing
- * with oil the smallest film, the rolling torque and, if the roughness is given, the smallest lambda; whether tables are left, by
+ * with oil the smallest film, the rolling torque and, if they are known, the smallest lambda and the capacitance between the rings; whether tables are left, by
  * the speed, by a load. `force` is that on the balls. */
 int bearing_outputs(const Bearing *b, int wet, Dual omega, const Dual force[], const BallOutputs balls[], Dual outputs[]);
 int bearing_outputs_of_step(const Bearing *b, const double state[], BallOutputs balls[], double outputs[]);

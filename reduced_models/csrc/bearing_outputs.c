@@ -82,6 +82,35 @@ static void films_of(const Bearing *b, int race, Dual omega, const BallOutputs *
     films[MOMENT] = omega.x != 0.0 ? mul(arm, of_table(b, race, MOMENT, at)) : number(0.0);
 }
 
+/* Central film of a contact; of one that hardly carries the gap of rigid bodies. */
+static Dual separation(const Bearing *b, int race, const BallOutputs *ball, Dual film)
+{
+    const Dual load = ball->load[race], two_thirds = number(2.0 / 3.0);
+    if (load.x > 0.0 && log(load.x) >= b->films.first[race]) {
+        return film;
+    }
+    return sub(load.x > 0.0 ? power(times(1.0 / b->race[race].kn, load), two_thirds) : number(0.0), ball->approach[race]);
+}
+
+/* Between the rings: contacts of a ball in series, balls in parallel. */
+static Dual capacitance_of(const Bearing *b, Dual omega, const BallOutputs balls[])
+{
+    Dual all = number(0.0);
+    int k, race;
+    for (k = 0; k < b->balls; k++) {
+        Dual inverse = number(0.0);
+        for (race = 0; race < 2; race++) {
+            const BallOutputs *ball = &balls[k];
+            Dual films[QUANTITIES], own;
+            films_of(b, race, omega, ball, films);
+            own = b->capacitance[race].of(&b->capacitance[race], ball->load[race], separation(b, race, ball, films[CENTRAL]), ball->angle[race]);
+            inverse = add(inverse, over(number(1.0), own));
+        }
+        all = add(all, over(number(1.0), inverse));
+    }
+    return all;
+}
+
 int ball_outputs(const Bearing *b, int wet, Dual omega, const BallOutputs *ball, Dual outputs[])
 {
     int race, n = 0;
@@ -130,6 +159,9 @@ int bearing_outputs(const Bearing *b, int wet, Dual omega, const Dual force[], c
         if (b->films.roughness > 0.0) {
             outputs[n++] = times(1.0 / b->films.roughness, smallest);
         }
+        if (b->capacitance[INNER_RACE].of != NULL) {
+            outputs[n++] = wet ? capacitance_of(b, omega, balls) : number(0.0);
+        }
     }
     too_fast = fabs(omega.x) > (1.0 + by_rounding) * b->most_speed;
     overloaded = largest[INNER_RACE].x > b->most_load[INNER_RACE] || largest[OUTER_RACE].x > b->most_load[OUTER_RACE];
@@ -151,6 +183,7 @@ void bearing_balls(const Bearing *b, const double state[], BallOutputs balls[])
         const Ball *ball = ball_of(state, k);
         for (race = 0; race < 2; race++) {
             balls[k].load[race] = number(ball->force[race]);
+            balls[k].approach[race] = number(film_of(b, state, k, race)->approach);
             balls[k].film[race] = ball->film[race];
             balls[k].factor[race] = number(ball->factor[race][0]);
             balls[k].speed_sum[race] = number(ball->speed_sum[race][0]);

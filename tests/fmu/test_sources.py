@@ -66,7 +66,9 @@ def models(elements, rotors):
         "bearing planar": BearingModel(
             BallBearing.catalogue("6205", clearance=5e-6, oil=oil, loss_factor=0.05, ball_inertia=True), 3e3, 500.0
         ),
-        "bearing five": BearingModel(BallBearing.catalogue("7205", oil=oil), (8e3, 1e4), (0.0, -300.0, 200.0)),
+        "bearing five": BearingModel(
+            BallBearing.catalogue("7205", oil=oil), (8e3, 1e4), (0.0, -300.0, 200.0), permittivity=2.2
+        ),
         "bearing dry": BearingModel(BallBearing.catalogue("6205", clearance=5e-6), 3e3, 500.0),
     }
     shaft = rotor_on_bearings(

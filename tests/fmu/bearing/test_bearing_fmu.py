@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from bearing_fmus import RPM, ExportedBearing, bearing
+from bearing_fmus import RPM, ExportedBearing, bearing, inputs
 from core_races import CoreRace
 from exported import verified
 from fmpy.fmi1 import FMICallException
@@ -19,7 +19,7 @@ from fmu.bearing.model import BearingModel
 from fmu.bearing.references import force_scales
 from fmu.bearing.tables import _curve, _halved, _race
 from fmu.bearing.trial import START, bearing_trial
-from fmu.bearing.variables import FORCES, RATES
+from fmu.bearing.variables import FORCES
 from fmu.driver import Slave
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 
@@ -37,12 +37,6 @@ ALLOWED = {
     "shared": 1e-8,
     "turning": 1e-8,
 }
-
-
-def inputs(model, trial, k):
-    place = dict(zip(model.directions, trial.place[k].tolist(), strict=True))
-    rates = {RATES[name]: rate for name, rate in zip(model.directions, trial.velocity[k].tolist(), strict=True)}
-    return place | rates | {"speed": float(trial.speed[k])}
 
 
 def driven(slave, model, trial, shift=None):
