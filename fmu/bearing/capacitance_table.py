@@ -76,8 +76,8 @@ class CapacitanceTable:
         table = cls(*ends, approach, float(plate), largest, *span, empty, np.zeros(0))
         nodes = [_nodes(count) for count in (*NODES[:2], NODES[2] if model.angular else 1)]
         load, film, cosine = table._contacts(*np.meshgrid(*nodes, indexing="ij"))
-        pairs = (np.stack([value, value], axis=-1) for value in (load, film, np.arccos(cosine)))
-        parts = contact_capacitance(own, *pairs, e, e)
+        both = np.stack([np.stack([value, value], axis=-1) for value in (load, film, np.arccos(cosine))])
+        parts = contact_capacitance(own, both[0], both[1], both[2], e, e)
         terms = np.log((parts.track + parts.surroundings)[..., race])
         for axis, places in enumerate(nodes):
             inverse = np.linalg.inv(chebyshev.chebvander(places, places.size - 1))

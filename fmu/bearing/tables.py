@@ -139,8 +139,8 @@ def bearing_table(model: BearingModel, name: str = "bearing") -> str:
         }
     between = {}
     if model.permittivity is not None:
-        text, members = capacitance_tables(model, name)
-        lines += text
+        definitions, members = capacitance_tables(model, name)
+        lines += definitions
         between = {"capacitance": members}
     fastest = float(model.speeds[-1])
     fields = {
