@@ -61,8 +61,9 @@ def export(
     nodes; outputs are the motions of these and of the supports. Supports are inside: the FMU then solves their
     forces in every step, by the steps of `simulate_rotor` and Newton's method. The forces of those that are
     `outside` are inputs, named and directed as in the FMU of a contact or a bearing, and the motions there
-    outputs. Contacts are elements of any kind, in SI; their films start at rest, and of
-    those outside the FMU starts with the static force. Masses, stiffness and dampers can be set before
+    outputs. Squeeze film dampers are inside, with their forces and eccentricity ratios as outputs; a step that
+    would end in contact there is refused. Contacts are elements of any kind, in SI; their films start at rest, and
+    of those outside the FMU starts with the static force. Masses, stiffness and dampers can be set before
     initialization.
 
     A `BearingSet` has the inputs of a bearing, here the motion of its rigid shaft at 0, and the forces there as
