@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from rotor_twins import POINT, C, K, one_mass, spring
 
-from ehlcontact import InputError, Lubricant, read, save
+from ehlcontact import InputError, Lubricant, OilLayer, read, save
 from reduced_models import (
     Atlas,
     BallBearing,
@@ -169,6 +169,29 @@ def test_the_rest_without_rings_and_fits_is_the_bearing_without_a_loss_factor():
     rings = sum(row[0] for part, row in zip(found.parts, found.contribution, strict=True) if "rings" in part)
     assert found.damping_ratio[0] - rings == pytest.approx(bare.damping_ratio, rel=0.05)
     assert rings == pytest.approx(0.5 * 0.01, rel=0.02)  # half the loss factor, for nothing else is strained
+
+
+@pytest.mark.long
+def test_starved_films_feed_vibration_and_rings_take_it():
+    """Signed damping of solved contacts: below zero of films, and half a loss factor of rings beside it."""
+    held = BallBearing.catalogue(
+        "6205",
+        oil=Lubricant.iso_vg(68, temperature=50.0),
+        clearance=-4e-6,
+        supply=OilLayer(over_flooded=1.0),
+        loss_factor=0.005,
+    )
+    rotor = Rotor(
+        mass=1500.0 * np.eye(2),
+        stiffness=np.zeros((2, 2)),
+        load=np.array([0.0, -1000.0]),
+        mounts=(BearingMount(bearing=held, x=0, y=1),),
+    )
+    found = linearise(rotor, 3000.0, signed_damping=True).damping_budget()
+    assert np.abs(found.residual).max() < SUM
+    assert np.all(found.contribution[:2] < 0.0) and np.all(found.damping_ratio > 0.0)
+    np.testing.assert_allclose(found.contribution[2], 0.0025, rtol=0.01)
+    np.testing.assert_allclose(found.remaining[2], found.contribution[:2].sum(axis=0), rtol=0.01)
 
 
 def test_contacts_of_elements_and_impedances():
