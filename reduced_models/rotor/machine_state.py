@@ -390,7 +390,7 @@ def machine_state(
     budget = _tried(lambda: budget_of(linear, modes), "damping budget", failed) if modes and fine else None
     count = max(len(modes), 1)
     if not fine:
-        speeds = speeds[: _reached(linearised, speeds, speed)]
+        speeds = speeds[: _reached(linearised, np.asarray(speeds, np.float64), speed)]
         count = max(sum(mode.hz <= FOLLOWED * speeds[-1] * RPM_TO_HZ for mode in modes), 1)
     diagram = _tried(
         lambda: campbell_of(map(linearised, speeds[every - 1 :: every].tolist()), count),

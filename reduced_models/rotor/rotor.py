@@ -73,6 +73,16 @@ def require_unbalance(field: str, amount: float, mass: float, eccentric: float =
         raise InputError(field, amount, f"at most {most:g} kg m, {1e3 * eccentric:g} mm times the mass{guess}")
 
 
+class _DampingParts(dict[str, _Floats]):
+    """Parts that a rotor has taken; one with another damping, made by `dataclasses.replace`, leaves them out."""
+
+    def make(self, damping: _Floats) -> bool:
+        """Whether the damping is their sum."""
+        if any(part.shape != damping.shape for part in self.values()):
+            return False
+        return bool(np.abs(sum(self.values()) - damping).max() <= SUM * np.abs(damping).max())
+
+
 class _Nodes(dict[str, Mapping[str, int]]):
     """Degrees of freedom by node; the error for a name that is missing lists those that exist."""
 
@@ -162,6 +172,7 @@ class Rotor(Summary):
         The damping force is ``(damping + omega gyroscopic) q'`` at the speed omega [rad/s].
     damping_by_part : mapping of str to array_like, shape (N, N), optional
         What the damping is the sum of, by name, as ``{"shaft": ..., "housing 0": ...}``: rows of a damping budget.
+        `dataclasses.replace` with another damping leaves them out.
     mounts : tuple of BearingMount or ContactMount
         Its supports.
     load : array_like, shape (N,), optional
@@ -251,17 +262,19 @@ class Rotor(Summary):
         own = self.damping_by_part
         if not isinstance(own, Mapping) or not all(isinstance(name, str) for name in own):
             raise InputError("damping_by_part", shown(own), 'as {"shaft": matrix}')
+        if isinstance(own, _DampingParts) and not own.make(self.damping):
+            own = {}
         fields = {name: f"damping_by_part[{name!r}]" for name in own}
         parts = {name: as_rows(fields[name], part, self.size, self.size) for name, part in own.items()}
         for name, part in parts.items():
             if part.shape != self.damping.shape:
                 raise InputError(f"shape of {fields[name]}", part.shape, f"{self.damping.shape}, as that of mass")
-        apart = np.abs(sum(parts.values(), -self.damping)).max() if parts else 0.0
-        if apart > SUM * np.abs(self.damping).max():
-            raise InputError(
-                "damping_by_part", f"parts off by {apart:.3g}", "parts whose sum is the damping, or none"
-            )
-        object.__setattr__(self, "damping_by_part", MappingProxyType(parts))
+        kept = _DampingParts(parts)
+        if parts and not kept.make(self.damping):
+            apart = np.abs(sum(parts.values()) - self.damping).max()
+            allowed = "parts whose sum is the damping, or none"
+            raise InputError("damping_by_part", f"parts off by {apart:.3g}", allowed)
+        object.__setattr__(self, "damping_by_part", kept)
 
     def _check_parameters(self) -> None:
         """Raise `InputError` for parameters of which the matrices are not the sums."""

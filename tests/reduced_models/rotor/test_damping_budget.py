@@ -1,6 +1,7 @@
 """Shares of parts in the damping of modes: closed forms, sums that are exact, parts without their loss."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -210,6 +211,13 @@ def test_what_a_rotor_is_damped_by():
     )
     assert rotor.damping_parts.keys() == {"shaft damping", "disc damping"}
     np.testing.assert_array_equal(sum(rotor.damping_parts.values()), rotor.damping)
+    shaft = rotor_on_bearings(
+        Shaft(length=0.2, diameter=0.02, damping_time=1e-6),
+        discs=[Disc(position=0.1, mass=2.0, damping=3.0)],
+        supports=[Support(position=at, bearing=linear(1e8, 10.0)) for at in (0.0, 0.2)],
+    )
+    assert replace(shaft, speed_rpm=3000.0).damping_parts.keys() == {"shaft", "disc"}
+    assert replace(shaft, damping=2.0 * shaft.damping).damping_parts.keys() == {"rotor"}
     for parts, line in (
         ({"a": np.eye(4)}, "^damping_by_part = 'parts off by 1': must be parts whose sum"),
         ({"a": np.eye(3)}, r"^shape of damping_by_part\['a'\] = \(3, 3\)"),
