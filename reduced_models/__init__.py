@@ -10,7 +10,7 @@
 | life | rating life of ball bearings by the standards, from the loads of all balls |
 | bearing | ball bearings of such contacts: `BallBearing` |
 | rotor | rotors on contacts, full films and ball bearings: equilibrium, motion over time, responses |
-| periodic | motions of rotors that repeat themselves: harmonic balance, shooting, stability, bifurcations |
+| periodic_motion | motions of rotors that repeat themselves: harmonic balance, shooting, stability, bifurcations |
 | signals | acceleration of nodes and housings, its spectra and features; a namespace of its own |
 
 Public names are those that a user calls, constructs or catches; classes that are only returned and tools of a
@@ -38,6 +38,10 @@ from reduced_models.fitting.fit import fit as fit
 from reduced_models.fitting.memory_fit import fit_memory as fit_memory
 from reduced_models.fitting.records import ContactRecord as ContactRecord
 from reduced_models.life.system_life import life_of_spectrum as life_of_spectrum
+from reduced_models.periodic_motion.excitation import PeriodicForce as PeriodicForce
+from reduced_models.periodic_motion.periodic import periodic as periodic
+from reduced_models.periodic_motion.periodic import periodic_answer as periodic_answer
+from reduced_models.periodic_motion.shooting import shoot as shoot
 from reduced_models.rotor.assembly import rotor_on_bearings as rotor_on_bearings
 from reduced_models.rotor.bearing_matrices import bearing_matrices as bearing_matrices
 from reduced_models.rotor.bearing_set import BearingSet as BearingSet

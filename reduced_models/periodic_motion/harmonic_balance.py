@@ -23,8 +23,8 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.race import beyond_loads
-from reduced_models.periodic.answer import PeriodicAnswer
-from reduced_models.periodic.excitation import (
+from reduced_models.periodic_motion.answer import PeriodicAnswer
+from reduced_models.periodic_motion.excitation import (
     OVER,
     PASSAGE,
     UNBALANCE,
@@ -34,7 +34,7 @@ from reduced_models.periodic.excitation import (
     name_of,
     unbalance_force,
 )
-from reduced_models.periodic.support_laws import Along, BallLaw, ContactLaw, DamperLaw, SupportLaw
+from reduced_models.periodic_motion.support_laws import Along, BallLaw, ContactLaw, DamperLaw, SupportLaw
 from reduced_models.rotor.nodes import flat_nodes
 from reduced_models.rotor.prepared_run import Histories
 from reduced_models.rotor.result import RotorResult

@@ -19,10 +19,10 @@ from reduced_models import (
     rotor_on_bearings,
     unbalance_response,
 )
-from reduced_models.periodic.answer import PeriodicAnswer
-from reduced_models.periodic.energy_budget import energy_budget
-from reduced_models.periodic.excitation import unbalance_force
-from reduced_models.periodic.periodic import periodic_answer
+from reduced_models.periodic_motion.answer import PeriodicAnswer
+from reduced_models.periodic_motion.energy_budget import energy_budget
+from reduced_models.periodic_motion.excitation import unbalance_force
+from reduced_models.periodic_motion.periodic import periodic_answer
 from reduced_models.rotor.result import RotorResult
 
 

@@ -12,9 +12,9 @@ from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from ehlcontact.summary import counted
-from reduced_models.periodic.answer import PeriodicAnswer
-from reduced_models.periodic.krylov import solved
-from reduced_models.periodic.step_map import StepMap
+from reduced_models.periodic_motion.answer import PeriodicAnswer
+from reduced_models.periodic_motion.krylov import solved
+from reduced_models.periodic_motion.step_map import StepMap
 from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]

@@ -12,7 +12,7 @@ from ehlcontact.quantities import NUMBER, Quantity
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
 from ehlcontact.summary import counted, span
-from reduced_models.periodic.answer import PeriodicAnswer
+from reduced_models.periodic_motion.answer import PeriodicAnswer
 
 _Floats = NDArray[np.float64]
 

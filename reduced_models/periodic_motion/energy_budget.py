@@ -24,7 +24,7 @@ from ehlcontact.store import stored
 from ehlcontact.summary import counted
 from reduced_models.bearing.linear_balls import SEAT
 from reduced_models.bearing.loss import loss_of, response
-from reduced_models.periodic.answer import PeriodicAnswer
+from reduced_models.periodic_motion.answer import PeriodicAnswer
 from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.loss_parts import matrix_losses
 from reduced_models.rotor.part_shares import PartShares

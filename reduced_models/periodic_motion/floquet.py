@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from ehlcontact.checks import require_instance, require_integer
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
-from reduced_models.periodic.answer import PeriodicAnswer
-from reduced_models.periodic.krylov import largest
-from reduced_models.periodic.shooting import converge
-from reduced_models.periodic.step_map import StepMap
+from reduced_models.periodic_motion.answer import PeriodicAnswer
+from reduced_models.periodic_motion.krylov import largest
+from reduced_models.periodic_motion.shooting import converge
+from reduced_models.periodic_motion.step_map import StepMap
 from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]

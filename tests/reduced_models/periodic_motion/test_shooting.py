@@ -10,9 +10,9 @@ import pytest
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings, simulate_rotor
-from reduced_models.periodic.floquet import with_multipliers
-from reduced_models.periodic.shooting import shoot
-from reduced_models.periodic.step_map import StepMap
+from reduced_models.periodic_motion.floquet import with_multipliers
+from reduced_models.periodic_motion.shooting import shoot
+from reduced_models.periodic_motion.step_map import StepMap
 
 SPEED = passage_rotor.speed_rpm(500.0)
 

@@ -25,7 +25,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.status import Status
 from reduced_models.bearing.features import RaceWaviness
 from reduced_models.bearing.motion import BallMotion
-from reduced_models.periodic.answer import PeriodicAnswer
+from reduced_models.periodic_motion.answer import PeriodicAnswer
 from reduced_models.rotor.contact_protocol import has_tangents
 from reduced_models.rotor.integrate_compiled import CompiledSteps
 from reduced_models.rotor.integrate_python import PythonSteps

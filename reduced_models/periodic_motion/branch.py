@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
-from reduced_models.periodic.excitation import OVER, Setting
-from reduced_models.periodic.harmonic_balance import Balance, HarmonicBalance, solved
+from reduced_models.periodic_motion.excitation import OVER, Setting
+from reduced_models.periodic_motion.harmonic_balance import Balance, HarmonicBalance, solved
 
 _Floats = NDArray[np.float64]
 

@@ -14,10 +14,10 @@ from ehlcontact.checks.kinds import Callback, Count, Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError, warn_user
 from ehlcontact.process.blas import one_blas_thread
-from reduced_models.periodic.answer import PeriodicAnswer
-from reduced_models.periodic.branch import Continuation, Course
-from reduced_models.periodic.branch_result import PeriodicBranch
-from reduced_models.periodic.excitation import (
+from reduced_models.periodic_motion.answer import PeriodicAnswer
+from reduced_models.periodic_motion.branch import Continuation, Course
+from reduced_models.periodic_motion.branch_result import PeriodicBranch
+from reduced_models.periodic_motion.excitation import (
     OVER,
     PASSAGE,
     UNBALANCE,
@@ -26,7 +26,7 @@ from reduced_models.periodic.excitation import (
     Setting,
     require_excitation,
 )
-from reduced_models.periodic.harmonic_balance import Balance, HarmonicBalance
+from reduced_models.periodic_motion.harmonic_balance import Balance, HarmonicBalance
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.simulate import simulate_rotor
 

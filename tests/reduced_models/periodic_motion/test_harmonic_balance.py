@@ -9,8 +9,8 @@ from ehlcontact import Lubricant
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from reduced_models import BallBearing, BearingMount, LinearBearing, Rotor, Unbalance, linearise, simulate_rotor
-from reduced_models.periodic.excitation import PeriodicForce
-from reduced_models.periodic.periodic import TooFewHarmonicsWarning, periodic, periodic_answer
+from reduced_models.periodic_motion.excitation import PeriodicForce
+from reduced_models.periodic_motion.periodic import TooFewHarmonicsWarning, periodic, periodic_answer
 from tests import duffing_rotor, passage_rotor
 
 MICRO = 1e6

@@ -6,9 +6,9 @@ from scipy.optimize import brentq
 from squeeze_films import CLEARANCE, ECCENTRIC, FILM, MASS, SPRING, on_orbit, orbits, ratio, rigid
 
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
-from reduced_models.periodic.floquet import with_multipliers
-from reduced_models.periodic.periodic import periodic
-from reduced_models.periodic.shooting import shoot
+from reduced_models.periodic_motion.floquet import with_multipliers
+from reduced_models.periodic_motion.periodic import periodic
+from reduced_models.periodic_motion.shooting import shoot
 
 OMEGA = 640.0
 
