@@ -36,6 +36,8 @@ class PeriodicBranch(QuantityTable):
         How the branch ended.
     reservation : str
         Why, where it did not end at the end of the range; else empty.
+    solve : callable
+        ``solve(answer, value)``: the answer at a value of the parameter, near another one; `at` calls it.
     """
 
     answers: tuple[PeriodicAnswer, ...]
