@@ -133,6 +133,27 @@ def test_both_renderers_show_what_is_described():
     assert next(trace for trace in page.data if trace.type == "bar").y.tolist() == [1.0, 2.0]
 
 
+def test_stacked_bars_stand_over_words():
+    """Words that read as numbers stay words; bars begin where those below end, in both renderers."""
+    places = ["161.2", "266.1"]
+    lines = [
+        Line(places, [40.0, 70.0], "films", base=[0.0, 0.0]),
+        Line(places, [60.0, 30.0], "rings", base=[40.0, 70.0]),
+    ]
+    picture = Picture([Panel(lines, "mode", "share [%]")])
+    ready = finished(figure_of(picture))
+    json.dumps(ready, allow_nan=False)
+    assert [trace["base"] for trace in ready["data"]] == [[0, 0], [40, 70]]
+    assert ready["data"][1]["x"] == places and ready["layout"]["xaxis"]["type"] == "category"
+    assert ready["layout"]["barmode"] == "overlay"
+    assert ready["data"][0]["hovertemplate"].startswith("mode: %{x}<br>")
+    (axes,) = draw(picture, None).axes
+    assert sorted({(bar.get_y(), bar.get_height()) for bar in axes.patches}) == [
+        (0.0, 40.0), (0.0, 70.0), (40.0, 60.0), (70.0, 30.0),
+    ]  # fmt: skip
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["rings", "films"]
+
+
 def test_a_load_zone_points_along_the_load():
     angles = np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False)
     zone = LoadZone(angles, [("outer race", np.arange(8.0), ORANGE, 1.0)], -0.5 * np.pi)
