@@ -4,7 +4,7 @@ import numpy as np
 import passage_rotor
 import pytest
 
-from ehlcontact import InputError, read, save
+from ehlcontact import InputError, Lubricant, read, save
 from ehlcontact.status import Status
 from reduced_models import (
     BallBearing,
@@ -13,6 +13,7 @@ from reduced_models import (
     LinearBearing,
     Rotor,
     Shaft,
+    SqueezeFilmDamper,
     Support,
     Unbalance,
     linearise,
@@ -127,3 +128,22 @@ def test_balls_that_pass_put_in_what_a_damper_takes():
     assert found.parts == ("bearing 0, films", "rotor")
     given, taken = found.work[:, 0]
     assert taken > 0.0 and given == pytest.approx(-taken, rel=1e-6)
+
+
+@pytest.mark.long
+def test_a_damper_that_cavitates_takes_its_share():
+    """Film of a damper, housing, rings and films of one support: together what the unbalance puts in."""
+    oil = Lubricant.iso_vg(68, temperature=50.0)
+    held = BallBearing.catalogue("6205", oil=oil, loss_factor=0.01)
+    film = SqueezeFilmDamper(length=0.015, diameter=0.08, clearance=1e-4, viscosity=oil)
+    more = {"housing_mass": 2.0, "housing_stiffness": 8e7, "housing_damping": 500.0, "damper": film}
+    rotor = rotor_on_bearings(
+        Shaft(length=0.3, diameter=0.025, elements=2),
+        discs=[Disc.cylinder(position=0.3, diameter=0.2, width=0.03, bore=0.025, unbalance=2e-5)],
+        supports=[Support(position=0.02, bearing=held), Support(position=0.17, bearing=held, **more)],
+    )
+    answer = periodic_answer(rotor, 3500.0)
+    found = energy_budget(rotor, answer)
+    assert found.parts[-2:] == ("damper 1", "housing 1") and np.all(found.work > 0.0)
+    assert found.work.sum() == pytest.approx(put_in(rotor, answer), rel=1e-6)
+    assert found.kinds["damper 1"][0] > 0.5
