@@ -14,4 +14,7 @@
 | shooting | `shoot`: a periodic answer as a fixed point of the map |
 | energy_budget | `energy_budget`: energy that every part takes in a period |
 | floquet | Floquet multipliers of answers, bifurcations between those of a branch |
+| mean_bearing | mean bearings of time steps |
+| bifurcation | bifurcation diagrams by runs, Poincare sections |
+| picture | pictures of branches, multipliers, diagrams and sections |
 """

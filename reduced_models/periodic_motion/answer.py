@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.errors import InputError
+from ehlcontact.results.drawing import draw
+from ehlcontact.results.picture import Picture
 from ehlcontact.status import Status
 from ehlcontact.store import stored
 from ehlcontact.summary import Summary
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
+from reduced_models.periodic_motion.picture import multipliers_picture
 from reduced_models.rotor.result import RotorResult
 
 _Floats = NDArray[np.float64]
@@ -98,6 +103,22 @@ class PeriodicAnswer(Summary):
         return (
             None if self.multipliers is None else bool(np.abs(self.multipliers).max(initial=0.0) < 1.0 + ON_CIRCLE)
         )
+
+    def picture(self) -> Picture:
+        """Floquet multipliers in the complex plane.
+
+        Raises
+        ------
+        InputError
+            Multipliers that were not computed.
+        """
+        if self.multipliers is None:
+            raise InputError("multipliers", None, "computed: floquet.with_multipliers")
+        return multipliers_picture(self)
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """Matplotlib figure of the multipliers; into a file too where a path is given. Motions: ``run.plot()``."""
+        return draw(self.picture(), path)
 
     def _summary_lines(self) -> list[str]:
         words = {True: "stable", False: "unstable", None: "stability not computed"}[self.stable]

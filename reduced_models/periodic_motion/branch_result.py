@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Annotated, Any, ClassVar
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.checks.kinds import Callback, Count
+from ehlcontact.checks.quantity import takes
 from ehlcontact.quantities import NUMBER, Quantity
+from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
 from ehlcontact.summary import counted, span
 from reduced_models.periodic_motion.answer import PeriodicAnswer
+from reduced_models.periodic_motion.floquet import Bifurcation, bifurcations
+from reduced_models.periodic_motion.picture import branch_picture
 
 _Floats = NDArray[np.float64]
 
@@ -46,6 +52,7 @@ class PeriodicBranch(QuantityTable):
     status: Status
     reservation: str = ""
     solve: Any = field(default=None, repr=False)  # answer at a value, from one beside it
+    measure: Any = field(default=None, repr=False)  # an answer with its multipliers
 
     DISPLAY: ClassVar[Display] = Display(rows="answer", first=0)
 
@@ -81,6 +88,50 @@ class PeriodicBranch(QuantityTable):
             found.append(self.answers[-1])
         return tuple(found)
 
+    @takes(count=Count(1, 1000), steps=Count(16, 100_000), callback=Callback("made, answers"))
+    def with_multipliers(
+        self, count: int = 6, *, steps: int = 256, callback: Callable[[int, int], object] | None = None
+    ) -> Self:
+        """The branch, its answers with their largest Floquet multipliers (`floquet.with_multipliers`).
+
+        Parameters
+        ----------
+        count : int
+            Of the multipliers of an answer.
+        steps : int
+            Time steps in a period of the excitation.
+        callback : callable, optional
+            Called as ``callback(made, answers)`` after every answer.
+
+        Returns
+        -------
+        PeriodicBranch
+            After Ctrl-C multipliers of the first answers alone.
+        """
+        answers = list(self.answers)
+        try:
+            for k, answer in enumerate(self.answers):
+                answers[k] = self.measure(answer, count, steps)
+                if callback is not None:
+                    callback(k + 1, len(answers))
+        except KeyboardInterrupt:
+            return replace(self, answers=tuple(answers), status=Status.INTERRUPTED)
+        return replace(self, answers=tuple(answers))
+
+    def bifurcations(self) -> tuple[Bifurcation, ...]:
+        """Folds, branch points, period doublings and Neimark-Sacker bifurcations between its answers.
+
+        Raises
+        ------
+        InputError
+            An answer without multipliers.
+        """
+        return bifurcations(self.answers)
+
+    def picture(self) -> Picture:
+        """Peak to peak over the parameter, stable and unstable, above the largest multiplier."""
+        return branch_picture(self)
+
     def _unit(self, name: str) -> str:
         return UNITS[self.over] if name == "value" else super()._unit(name)
 
@@ -91,6 +142,8 @@ class PeriodicBranch(QuantityTable):
             f"{counted(len(self.answers), 'answer')} over {self.over}, {span(self.value)} {unit}".rstrip(),
             f"folds at {folds} {unit}".rstrip() if folds else "no fold",
         ]
+        if all(answer.multipliers is not None for answer in self.answers):
+            lines += [f"{one.kind} at {one.value:.6g} {unit}".rstrip() for one in self.bifurcations()]
         for low, high in self.multiple():
             lines.append(f"several answers between {low:.6g} and {high:.6g} {unit}".rstrip())
         residual = max(answer.residual for answer in self.answers)

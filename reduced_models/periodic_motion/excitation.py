@@ -8,7 +8,7 @@ still; one to ball passage leaves the unbalances out.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import Any
 
@@ -22,6 +22,7 @@ from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.supports import BearingMount, Mount, is_ball_bearing
 
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
@@ -127,3 +128,28 @@ class Setting:
 
 
 OVER = {"speed": "speed_rpm", **{name: name for name in ("amplitude", "clearance", "preload", "frequency")}}
+
+
+def set_to(
+    rotor: Rotor, speed_rpm: float, excitation: Excitation, over: str, value: float
+) -> tuple[Rotor, float, Excitation]:
+    """Rotor, speed [rev/min] and excitation with what a branch follows at a value."""
+    if over == "speed":
+        return rotor, value, excitation
+    if over == "frequency" and isinstance(excitation, PeriodicForce):
+        return rotor, speed_rpm, replace(excitation, hz=value)
+    if over == "amplitude":
+        if isinstance(excitation, PeriodicForce):
+            scaled = {place: value * np.asarray(one, complex) for place, one in excitation.amplitudes.items()}
+            return rotor, speed_rpm, replace(excitation, amplitudes=scaled)
+        unbalances = tuple(replace(one, amount=value * one.amount) for one in rotor.unbalances)
+        return replace(rotor, unbalances=unbalances), speed_rpm, excitation
+    mounts: list[Mount] = []
+    for mount in rotor.mounts:
+        if not (isinstance(mount, BearingMount) and is_ball_bearing(mount)):
+            mounts.append(mount)
+        elif over == "clearance":
+            mounts.append(replace(mount, bearing=replace(mount.ball_bearing, clearance=value)))
+        else:
+            mounts.append(replace(mount, offset=value))
+    return replace(rotor, mounts=tuple(mounts)), speed_rpm, excitation

@@ -19,9 +19,10 @@ from ehlcontact.checks import require_instance, require_integer
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
 from reduced_models.periodic_motion.answer import PeriodicAnswer
+from reduced_models.periodic_motion.excitation import Excitation, set_to
 from reduced_models.periodic_motion.krylov import largest
-from reduced_models.periodic_motion.shooting import converge
-from reduced_models.periodic_motion.step_map import StepMap
+from reduced_models.periodic_motion.shooting import fixed_point
+from reduced_models.periodic_motion.step_map import POSITIONS, StepMap
 from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
@@ -29,9 +30,11 @@ _Complex = NDArray[np.complex128]
 
 DIFFERENCE = 3e-4  # of central differences, over what the numbers go through
 CLOSE, MOST = 1e-5, 12  # of the answer of steps to which the given one leads; iterations to it
+FAR = 0.2  # of what places and velocities go through: distance at which it is another answer
 TOLERANCE = 1e-4  # of what the vectors of the multipliers miss
 PRODUCTS = 4  # of the derivative, at most, over the number of freedoms; and so many more for films
 MORE_PRODUCTS = 24
+NEAR = 5  # answers, within which a multiplier that crosses at +1 belongs to a turn of the branch
 FORGOTTEN = 1e-5  # of the largest: noise of differences
 REAL = 1e-6  # of its size: imaginary part of a real multiplier
 
@@ -71,48 +74,57 @@ def with_multipliers(
     rotor: Rotor,
     answer: PeriodicAnswer,
     *,
+    excitation: Excitation | None = None,
     count: int = 6,
-    steps: int = 128,
-    forces: NDArray[np.complex128] | None = None,
+    steps: int = 256,
+    positions: int = POSITIONS,
+    bearing: int | None = 0,
 ) -> PeriodicAnswer:
     """The answer with its largest Floquet multipliers, by the derivative of a period of time steps.
 
     Steps begin with the motion of the answer, which films and balls follow first, and go to their own fixed point,
     of which the multipliers are: those of an answer by harmonic balance have the errors of steps too. Film states,
-    balls and losses are in them.
+    balls and losses are in them. Where steps have no such fixed point, as within their error of a fold,
+    multipliers are of the motion of the answer itself, and its reservation has what the steps miss.
 
     Parameters
     ----------
     rotor : Rotor
-        Whose answer it is.
+        Whose answer it is, without what its branch follows: that is set to the value of the answer.
     answer : PeriodicAnswer
+    excitation : PeriodicForce, optional
+        Of an answer to a force.
     count : int
         Of the multipliers; fewer where a period forgets all others.
     steps : int
         Time steps in a period of the excitation.
-    forces : ndarray, shape (h, N), optional
+    positions, bearing
         As of `shoot`.
 
     Raises
     ------
     InputError
-        What `StepMap` refuses.
+        What `StepMap` refuses; an answer to a force without it.
     ConvergenceError
-        Steps have no such answer.
+        A step found no balance.
     """
     require_instance("answer", answer, PeriodicAnswer, "a PeriodicAnswer")
+    excited = answer.excitation if excitation is None else excitation
+    here, speed, excited = set_to(rotor, answer.speed_rpm, excited, answer.over, answer.value)
     steps_of = StepMap(
-        rotor,
-        answer.speed_rpm,
-        answer.excitation,
-        periods=answer.periods,
-        steps=steps,
-        forces=forces,
-        period=answer.period / answer.periods,
-        start=answer,
-    )
-    converge(steps_of, CLOSE, MOST)
-    return replace(answer, multipliers=multipliers_of(steps_of, count))
+        here, speed, excited, periods=answer.periods, steps=steps, positions=positions, bearing=bearing,
+        period=answer.period / answer.periods, start=answer,
+    )  # fmt: skip
+    begin, n = steps_of.numbers, 2 * steps_of.rotor.size
+    numbers, error = fixed_point(steps_of, CLOSE, MOST)
+    far = float(np.abs((numbers - begin)[:n] / steps_of.scale[:n]).max())
+    reservation = answer.reservation
+    if error > CLOSE or far > FAR:
+        error = float(np.abs((steps_of(begin) - begin) / steps_of.scale).max())
+        words = f"multipliers are of a motion from which time steps differ by {error:.2g} after a period"
+        numbers, reservation = begin, "; ".join(filter(None, [reservation, words]))
+    steps_of.settle(numbers)
+    return replace(answer, multipliers=multipliers_of(steps_of, count), reservation=reservation)
 
 
 def multipliers_of(steps_of: StepMap, count: int) -> _Complex:
@@ -134,7 +146,7 @@ def unstable_kinds(multipliers: _Complex) -> tuple[int, int, int]:
 
 
 def bifurcations(answers: Sequence[PeriodicAnswer]) -> tuple[Bifurcation, ...]:
-    """Bifurcations between neighbouring answers of a branch that have their multipliers.
+    """Bifurcations between neighbouring answers of a branch, of which multipliers were computed.
 
     Raises
     ------
@@ -144,7 +156,8 @@ def bifurcations(answers: Sequence[PeriodicAnswer]) -> tuple[Bifurcation, ...]:
     for k, answer in enumerate(answers):
         if answer.multipliers is None:
             raise InputError(f"answers[{k}].multipliers", None, "computed: with_multipliers")
-    values = [answer.value for answer in answers]
+    values = np.array([answer.value for answer in answers])
+    turns = _turns(values)
     found = []
     for k in range(len(answers) - 1):
         before, after = (answers[i].multipliers for i in (k, k + 1))
@@ -153,33 +166,31 @@ def bifurcations(answers: Sequence[PeriodicAnswer]) -> tuple[Bifurcation, ...]:
         if abs(change[0]) == 2 and change[2] == -change[0] // 2:  # a pair that comes apart outside the circle
             change[:] = 0, change[1], 0
         for kind, changed in zip((FOLD, DOUBLING, NEIMARK_SACKER), change.tolist(), strict=True):
-            if changed:
-                turns = kind == FOLD and _turns(values, k)
-                name = BRANCH_POINT if kind == FOLD and not turns else kind
-                value = _between(values[k : k + 2], before, after, kind)
-                if turns:
-                    value = _extreme(values, k)
-                found.append(Bifurcation(kind=name, over=answers[k].over, value=value, after=k))
+            if not changed:
+                continue
+            name, value = kind, _between(values[k : k + 2], before, after, kind)
+            if kind == FOLD:
+                near = [turn for turn in turns if abs(turn - k - 0.5) < NEAR]
+                name = FOLD if near else BRANCH_POINT
+                value = _extreme(values, near[0]) if near else value
+                turns = [turn for turn in turns if turn not in near[:1]]
+            found.append(Bifurcation(kind=name, over=answers[k].over, value=value, after=k))
     return tuple(found)
 
 
-def _turns(values: Sequence[float], k: int) -> bool:
-    """Whether the parameter turns around between answers k - 1 and k + 2."""
-    steps = np.diff(values[max(k - 1, 0) : k + 3])
-    return bool(steps.min() < 0.0 < steps.max())
+def _turns(values: _Floats) -> list[int]:
+    """Places of the answers where the parameter turns around."""
+    rises = np.diff(values)
+    return (1 + np.flatnonzero(rises[:-1] * rises[1:] < 0.0)).tolist()
 
 
-def _extreme(values: Sequence[float], k: int) -> float:
-    """The farthest value where the parameter turns around: of the parabola through the three answers around it."""
-    first = min(max(k - 1, 0), max(len(values) - 3, 0))
-    rises = np.diff(values[first : first + 4])
-    turn = first + 1 + int(np.argmax(rises[:-1] * rises[1:] < 0.0)) if rises.size > 1 else k
-    a, b, c = values[turn - 1], values[turn], values[turn + 1]
-    curved = a - 2.0 * b + c
-    return float(b - (c - a) ** 2 / (8.0 * curved)) if curved else float(b)
+def _extreme(values: _Floats, turn: int) -> float:
+    """The farthest value where the parameter turns around: of the parabola through the three answers there."""
+    a, b, c = values[turn - 1 : turn + 2]
+    return float(b - (c - a) ** 2 / (8.0 * (a - 2.0 * b + c)))
 
 
-def _between(values: Sequence[float], before: _Complex, after: _Complex, kind: str) -> float:
+def _between(values: _Floats, before: _Complex, after: _Complex, kind: str) -> float:
     """Value at which a multiplier of this kind crosses the circle, by a straight line of what is 0 there."""
     tests = [_test(multipliers, kind) for multipliers in (before, after)]
     share = tests[0] / (tests[0] - tests[1]) if tests[0] * tests[1] < 0.0 else 0.5

@@ -26,6 +26,7 @@ from reduced_models.periodic_motion.excitation import (
     Setting,
     require_excitation,
 )
+from reduced_models.periodic_motion.floquet import with_multipliers
 from reduced_models.periodic_motion.harmonic_balance import Balance, HarmonicBalance
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.simulate import simulate_rotor
@@ -179,6 +180,11 @@ def periodic(
         setting = replace(course.at(0.0), **{OVER[over]: value})
         return _answer(problem, setting, _balance_near(problem, setting, near), over)
 
+    def measure(answer: PeriodicAnswer, count: int, steps: int) -> PeriodicAnswer:
+        return with_multipliers(
+            rotor, answer, excitation=excitation, count=count, steps=steps, positions=positions, bearing=bearing
+        )
+
     return PeriodicBranch(
         answers=answers,
         folds=tuple(k for k, point in enumerate(points) if point.fold),
@@ -186,6 +192,7 @@ def periodic(
         status=continuation.status,
         reservation=continuation.reason,
         solve=solve,
+        measure=measure,
     )
 
 

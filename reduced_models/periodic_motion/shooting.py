@@ -13,8 +13,9 @@ from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
 from ehlcontact.summary import counted
 from reduced_models.periodic_motion.answer import PeriodicAnswer
+from reduced_models.periodic_motion.excitation import UNBALANCE, Excitation, name_of
 from reduced_models.periodic_motion.krylov import solved
-from reduced_models.periodic_motion.step_map import StepMap
+from reduced_models.periodic_motion.step_map import POSITIONS, StepMap
 from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
@@ -32,13 +33,13 @@ REPEATS = 1e-3  # difference of places after a period, over their range, of a mo
 def shoot(
     rotor: Rotor,
     speed_rpm: float,
-    excitation: str = "unbalance",
+    excitation: Excitation = UNBALANCE,
     *,
     start: Any = "static",
     periods: int = 1,
     steps: int = 256,
-    forces: Any = None,
-    period: float | None = None,
+    positions: int = POSITIONS,
+    bearing: int | None = 0,
     settle: int = 0,
     tolerance: float = 1e-8,
     most: int = 30,
@@ -55,18 +56,18 @@ def shoot(
     rotor : Rotor
     speed_rpm : float
         Of the shaft [rev/min].
-    excitation : {"unbalance", "passage", "force"}
-        Under unbalance and given forces cages stand still; under ball passage unbalances are left out.
+    excitation : "unbalance", "passage" or PeriodicForce
     start : PeriodicAnswer, (ndarray, ndarray) or "static"
         Near the answer: another answer, places and velocities at t = 0 of shape (N,) each, or equilibrium.
     periods : int
         Periods of the excitation after which the motion repeats itself.
     steps : int
         Time steps in a period of the excitation.
-    forces : ndarray, shape (h, N), optional
-        Complex amplitudes c of a "force", f(t) = Re(sum over k of c_k exp(i k w t)) [N], [N m].
-    period : float, optional
-        Of that force [s].
+    positions : int
+        Of the cage that stands still, over which bearings are means under unbalance and forces.
+    bearing : int, optional
+        Of which balls pass, among the ball bearings of the rotor, the others being means; None: of all of them,
+        which have one passage frequency then.
     settle : int
         Periods that are run from the start before the search: near a stable answer.
     tolerance : float
@@ -87,17 +88,22 @@ def shoot(
     require_integer("settle", settle, "a whole number >= 0", 0)
     require_integer("most", most, "a whole number >= 1", 1)
     require_positive("tolerance", tolerance)
-    given = {"periods": periods, "steps": steps, "forces": forces, "rho_inf": rho_inf}
     if isinstance(start, PeriodicAnswer) and start.periods != periods:
         start = repeated(start, periods)
-    steps_of = StepMap(rotor, speed_rpm, excitation, period=period, start=start, **given)
+    steps_of = StepMap(
+        rotor, speed_rpm, excitation, periods=periods, steps=steps, positions=positions, bearing=bearing,
+        start=start, rho_inf=rho_inf,
+    )  # fmt: skip
     steps_of.march(steps_of.numbers, settle)
     steps_of.settle(steps_of.numbers)
     for _ in range(CORRECTIONS):
-        converge(steps_of, tolerance, most)
+        numbers, error = fixed_point(steps_of, tolerance, most)
+        if error > tolerance:
+            raise _failure(steps_of, numbers, error)
+        steps_of.settle(numbers)
         if steps_of.cage_left <= CAGE:
             break
-        steps_of = steps_of.at(speed_rpm, steps_of.passage)
+        steps_of = steps_of.at(rotor, speed_rpm, excitation, steps_of.passage)
     return answer_of(steps_of)
 
 
@@ -105,7 +111,7 @@ def answer_of(steps_of: StepMap, status: Status = Status.CONVERGED) -> PeriodicA
     """The period from a map's numbers as an answer."""
     return PeriodicAnswer(
         run=steps_of.result(steps_of.numbers),
-        excitation=steps_of.excitation,
+        excitation=name_of(steps_of.excitation),
         value=steps_of.speed_rpm,
         periods=steps_of.periods,
         residual=steps_of.residual,
@@ -134,13 +140,15 @@ def repeated(answer: PeriodicAnswer, periods: int) -> PeriodicAnswer:
     return replace(answer, periods=periods, run=replace(run, t=t, **longer))
 
 
-def converge(steps_of: StepMap, tolerance: float, most: int) -> None:
-    """Bring a map's numbers to its fixed point by Newton's method.
+def fixed_point(steps_of: StepMap, tolerance: float, most: int) -> tuple[_Floats, float]:
+    """Numbers near those of a map that it leads back to themselves, by Newton's method.
 
-    Raises
-    ------
-    ConvergenceError
-        None was found; as of `shoot`.
+    Returns
+    -------
+    numbers : ndarray
+    error : float
+        Largest difference after a period, over the scale of the map: above `tolerance` where no further step of
+        the method makes it smaller, or after `most` of them.
     """
     numbers, scale = steps_of.numbers, steps_of.scale
     after = steps_of(numbers)
@@ -148,7 +156,7 @@ def converge(steps_of: StepMap, tolerance: float, most: int) -> None:
     products = 3 * steps_of.rotor.size + MORE_PRODUCTS
     for _ in range(most):
         if np.abs(off).max() <= tolerance:
-            return steps_of.settle(numbers)
+            break
         way = solved(lambda v: steps_of.along(numbers, v, DIFFERENCE, after), off, LINEAR, products)  # noqa: B023
         share, found = 1.0, None
         while found is None and share > SHORTEST:
@@ -158,7 +166,7 @@ def converge(steps_of: StepMap, tolerance: float, most: int) -> None:
             break
         numbers, after = found
         off = (after - numbers) / scale
-    raise _failure(steps_of, numbers, float(np.abs(off).max()))
+    return numbers, float(np.abs(off).max())
 
 
 def _tried(steps_of: StepMap, numbers: _Floats, before: float) -> tuple[_Floats, _Floats] | None:

@@ -4,28 +4,37 @@ Rotor, bearings, balls, films and contacts are numbers at the start of a period,
 is periodic where both are equal; the derivative of the map has the Floquet multipliers. The steps are those of
 `simulate_rotor`, so that a run from a fixed point stays there.
 
-Under unbalance the period is a turn of the shaft, and cages stand still: with the balls going round the motion
-would be quasi-periodic. Under ball passage the cage goes on by a pitch, ball k takes the place of ball k + 1, and
-their records are moved on so that equal states have equal numbers.
+Balls of a bearing pass, or its cage stands still at several positions, over which its forces are means: several
+bearings in one place, each with its share (`mean_bearing`). With balls that pass the cage goes on by a pitch in a
+period, ball k takes the place of ball k + 1, and their records are moved on: equal states have equal numbers.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import compress
 from math import pi
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import require_choice, require_integer, require_positive
+from ehlcontact.checks import require_integer, require_positive
 from ehlcontact.errors import InputError
 from ehlcontact.status import Status
 from reduced_models.bearing.features import RaceWaviness
 from reduced_models.bearing.motion import BallMotion
 from reduced_models.periodic_motion.answer import PeriodicAnswer
+from reduced_models.periodic_motion.excitation import (
+    PASSAGE,
+    UNBALANCE,
+    Excitation,
+    PeriodicForce,
+    require_excitation,
+)
+from reduced_models.periodic_motion.mean_bearing import mean_result, mean_rotor
 from reduced_models.rotor.contact_protocol import has_tangents
 from reduced_models.rotor.integrate_compiled import CompiledSteps
 from reduced_models.rotor.integrate_python import PythonSteps
@@ -33,14 +42,15 @@ from reduced_models.rotor.prepared_run import PreparedRun
 from reduced_models.rotor.result import RotorResult
 from reduced_models.rotor.rotor import Rotor, Unbalance
 from reduced_models.rotor.simulate import run_result
+from reduced_models.rotor.supports import BearingMount
 
 _Floats = NDArray[np.float64]
 
-UNBALANCE, PASSAGE, FORCE = EXCITATIONS = "unbalance", "passage", "force"
 # Imbalance of a step over the forces: differences of maps are taken. In Python rounding may not hide it.
 BALANCED, BALANCED_IN_PYTHON = 1e-12, 1e-10
 EVALUATIONS = 60  # of contacts in a step
 DRIVEN = 3  # periods for which films follow a given motion before the map begins
+POSITIONS = 4  # of the cage of a mean bearing
 APART, CAGES_APART = 1e-9, 1e-7  # shares by which equal passage frequencies, and cages that turn alike, differ
 LEAST_SHARE, LEAST_VARIATION = 1e-2, 1e-4  # of the largest freedom's motion, of a number's value: least scale
 # Numbers of balls, films and surfaces that a step leads on; others are outputs, slopes or sums.
@@ -58,15 +68,17 @@ class StepMap:
     rotor : Rotor
     speed_rpm : float
         Of the shaft [rev/min].
-    excitation : {"unbalance", "passage", "force"}
+    excitation : "unbalance", "passage" or PeriodicForce
     periods : int
         Periods of the excitation in one of the map.
     steps : int
         In a period of the excitation.
-    forces : ndarray, shape (h, N), optional
-        Complex amplitudes c of a force: f(t) = Re(sum over k of c_k exp(i k w t)) [N], [N m].
+    positions : int
+        Of the cage of a mean bearing.
+    bearing : int, optional
+        Of which balls pass, among the ball bearings of the rotor, the others being means; None: of all of them.
     period : float, optional
-        Of the excitation [s]: of "force"; of "passage" where contact angles change the speed of the cage.
+        Of a passage [s], where contact angles change the speed of the cage.
     start : PeriodicAnswer, (ndarray, ndarray) or "static"
         Motion from which films and balls begin: another answer, places and velocities at t = 0, or equilibrium.
     rho_inf : float
@@ -75,7 +87,7 @@ class StepMap:
     Attributes
     ----------
     rotor : Rotor
-        As it is excited: without unbalances under ball passage.
+        As it is excited: without unbalances under ball passage, with its mean bearings.
     run : PreparedRun
     steps, periods : int
         Steps of the map, periods of the excitation in it.
@@ -95,33 +107,36 @@ class StepMap:
         self,
         rotor: Rotor,
         speed_rpm: float,
-        excitation: str,
+        excitation: Excitation,
         *,
         periods: int = 1,
         steps: int = 256,
-        forces: NDArray[np.complex128] | None = None,
+        positions: int = POSITIONS,
+        bearing: int | None = 0,
         period: float | None = None,
         start: Any = "static",
         rho_inf: float = 0.8,
     ) -> None:
-        require_choice("excitation", excitation, EXCITATIONS)
+        require_excitation(excitation, rotor)
         self.periods = require_integer("periods", periods, "a whole number >= 1", 1)
         self.steps = require_integer("steps", steps, "a whole number >= 16", 16) * periods
-        self.excitation, self.speed_rpm, self.forces = excitation, require_positive("speed_rpm", speed_rpm), forces
+        require_integer("positions", positions, "a whole number >= 1", 1)
+        self.excitation, self.speed_rpm, self.given = excitation, require_positive("speed_rpm", speed_rpm), rotor
         self._again = partial(
-            StepMap, rotor, excitation=excitation, periods=periods, steps=steps, forces=forces, rho_inf=rho_inf
+            StepMap, periods=periods, steps=steps, positions=positions, bearing=bearing, rho_inf=rho_inf
         )
-        once = self._period(rotor, period)
-        self.rotor = _excited(rotor, excitation, forces)
-        self._unbalanced = any(one.amount for one in rotor.unbalances)
-        places, speeds = _motion(start, self.rotor, speed_rpm, self.steps)
+        passing = [excitation == PASSAGE and bearing in (k, None) for k in range(len(rotor.ball_bearings))]
+        self._copies = [1 if passes else positions for passes in passing]
+        self._passes = np.repeat(passing, self._copies).tolist()
+        once = self._period(list(compress(rotor.ball_bearings, passing)), period)
+        self.rotor = mean_rotor(_excited(rotor, excitation), self._copies)
+        places, speeds = _motion(start, rotor, speed_rpm, self.steps)
         begin = places[0].copy(), speeds[0].copy()
         self.run = run = PreparedRun(self.rotor, speed_rpm, once / steps, self.steps, begin, rho_inf)
-        if excitation == FORCE:
-            self._apply_forces()
-        if excitation != PASSAGE:
-            for balls in run.balls:
-                balls.core.structure.cage_held = 1
+        if isinstance(excitation, PeriodicForce):
+            self._apply(excitation)
+        for balls, passes in zip(run.balls, self._passes, strict=True):
+            balls.core.structure.cage_held = not passes
         self._drive(places, speeds)
         self._integrator = _integrator(run)
         self._core = self._integrator.core
@@ -183,21 +198,24 @@ class StepMap:
         self._put(numbers)
         self._advance(0, self.steps)
         self.run.histories.force[0] = self.run.histories.force[self.steps]
-        return run_result(self.run, self.steps, status)
+        return mean_result(run_result(self.run, self.steps, status), self.given, self._copies)
 
-    def at(self, speed_rpm: float, period: float | None = None, rotor: Rotor | None = None) -> StepMap:
-        """A map at another speed, of another period or rotor, that begins with the state of this one."""
-        again = self._again if rotor is None else partial(StepMap, rotor, **self._again.keywords)
-        here = self._here()
-        other = again(speed_rpm=speed_rpm, period=period, start=here)
+    def at(self, rotor: Rotor, speed_rpm: float, excitation: Excitation, period: float | None = None) -> StepMap:
+        """A map of another setting that begins with the state of this one."""
+        n = self.rotor.size
+        here = self.numbers[:n], self.numbers[n : 2 * n]
+        other = self._again(rotor, speed_rpm, excitation, period=period, start=here)
         other.settle(self.numbers)
         return other
 
     @property
+    def places(self) -> _Floats:
+        """Displacements of the rotor at the start, shape (N,); a copy."""
+        return self.numbers[: self.rotor.size].copy()
+
+    @property
     def cage_left(self) -> float:
-        """By how much the cage missed its pitch in the last period, over the pitch; 0 where it stands."""
-        if self.excitation != PASSAGE:
-            return 0.0
+        """By how much a cage missed its pitch in the last period, over the pitch; 0 where all stand."""
         return max((abs(share - 1.0) for share in self._turned), default=0.0)
 
     @property
@@ -209,66 +227,61 @@ class StepMap:
         InputError
             Cages that turn at different speeds.
         """
-        if np.ptp(self._turned) > CAGES_APART:
-            shown = ", ".join(f"{share:.8g}" for share in self._turned)
+        turned = list(compress(self._turned, self._passes))
+        if np.ptp(turned) > CAGES_APART:
+            shown = ", ".join(f"{share:.8g}" for share in turned)
             raise InputError(
                 "cages", f"going on by {shown} pitches", "equally fast: else the motion is quasi-periodic"
             )
-        return self.period / self.periods / float(np.mean(self._turned))
+        return self.period / self.periods / float(np.mean(turned))
 
     @property
     def reservation(self) -> str:
         """What the excitation leaves out, in words; else empty."""
-        if self.excitation == PASSAGE:
-            left_out = "unbalances are left out" if self._unbalanced else ""
-        else:
-            left_out = "cages stand still" if self.run.balls else ""
-        return f"{left_out}: with the passage of balls the motion is quasi-periodic" if left_out else ""
+        if self.excitation == PASSAGE and self.given.unbalances:
+            return "unbalances are left out: with balls that pass they have no common period"
+        if self.excitation != PASSAGE and self.given.ball_bearings:
+            return "bearings are means over positions of the cage: the passage of balls is left out"
+        return ""
 
-    def _here(self) -> tuple[_Floats, _Floats]:
-        n = self.rotor.size
-        return self.numbers[:n].copy(), self.numbers[n : 2 * n].copy()
-
-    def _period(self, rotor: Rotor, period: float | None) -> float:
-        """Of the excitation [s]."""
-        if self.excitation == UNBALANCE:
-            return 60.0 / self.speed_rpm
-        if self.excitation == FORCE:
-            return require_positive("period", period)
-        if not rotor.ball_bearings:
-            raise InputError("excitation", PASSAGE, "one of a rotor on ball bearings")
-        hz = [mount.ball_bearing.frequencies(self.speed_rpm).bpfo for mount in rotor.ball_bearings]
-        if max(hz) - min(hz) > APART * max(hz):
-            shown = ", ".join(f"{one:.6g}" for one in hz)
-            raise InputError(
-                "passage", f"of {shown} Hz", "the same at all bearings: else the motion is quasi-periodic"
-            )
-        for mount in rotor.ball_bearings:
+    def _period(self, passing: Sequence[BearingMount], period: float | None) -> float:
+        """Of the excitation [s]; of the balls of these bearings where they pass."""
+        for mount in self.given.ball_bearings:
             for feature in mount.ball_bearing.features:
                 if not (isinstance(feature, RaceWaviness) and feature.race == "outer"):
-                    allowed = "waviness of an outer race: others do not repeat with the passage"
+                    allowed = "waviness of an outer race: others do not repeat themselves with the motion"
                     raise InputError("features", str(feature), allowed)
+        if isinstance(self.excitation, PeriodicForce):
+            return 1.0 / self.excitation.hz
+        if self.excitation == UNBALANCE:
+            return 60.0 / self.speed_rpm
+        if not passing:
+            last = len(self.given.ball_bearings) - 1
+            raise InputError("bearing", self._again.keywords["bearing"], f"from 0 to {last}, of the ball bearings")
+        hz = [mount.ball_bearing.frequencies(self.speed_rpm).bpfo for mount in passing]
+        if max(hz) - min(hz) > APART * max(hz):
+            shown = ", ".join(f"{one:.6g}" for one in hz)
+            allowed = "the same at all bearings whose balls pass: else the motion is quasi-periodic"
+            raise InputError("passage", f"of {shown} Hz", allowed)
         return 1.0 / hz[0] if period is None else period
 
-    def _apply_forces(self) -> None:
-        """Put the forces among those that turn with the shaft."""
-        forces, n = np.atleast_2d(np.asarray(self.forces)), self.rotor.size
-        if forces.shape[1] != n:
-            raise InputError("forces", f"of shape {forces.shape}", f"(h, {n}), complex amplitudes by harmonics")
+    def _apply(self, force: PeriodicForce) -> None:
+        """Put a force among those that turn with the shaft."""
+        n, most = self.rotor.size, max(np.size(values) for values in force.amplitudes.values())
         phase = 2.0j * pi * self.periods * np.arange(self.steps + 1) / self.steps
-        history = np.real(np.exp(phase[:, None] * np.arange(len(forces))) @ forces)
+        waves = np.exp(phase[:, None] * np.arange(most + 1))
         self.run.turning[:] = 0.0
-        self.run.turning[:, -2 * n :: 2] = history
+        self.run.turning[:, -2 * n :: 2] = np.real(waves @ force.spectrum(n, most, 1))
 
     def _drive(self, places: _Floats, speeds: _Floats) -> None:
         """Films and balls as after some periods of this motion, and the rotor with their forces at its start."""
         run, geometry, again = self.run, self.rotor.geometry, slice(1, None)
         times = -(-DRIVEN // self.periods)
         r, rate = (motion @ geometry.points.T @ geometry.normals.T for motion in (places, speeds))
-        for at, balls in zip(run.ball_directions, run.balls, strict=True):
+        for at, balls, passes in zip(run.ball_directions, run.balls, self._passes, strict=True):
             for _ in range(times):
                 driven = balls.drive(run.omega[0], run.dt, r[again, at] + run.shift[at], rate[again, at])[0]
-                _moved_on(balls, self.periods if self.excitation == PASSAGE else 0)
+                _moved_on(balls, self.periods if passes else 0)
                 run.histories.force[0, at] = driven[-1]
         for k, mount in enumerate(self.rotor.contacts):
             contact = mount.contact
@@ -352,7 +365,9 @@ class StepMap:
     def _taken(self) -> _Floats:
         """Numbers of the state, the records of the balls moved on by a pitch where they have passed."""
         pieces = self._pieces()
-        for k, balls in enumerate(self.run.balls if self.excitation == PASSAGE else ()):
+        for k, balls in enumerate(self.run.balls):
+            if not self._passes[k]:
+                continue
             state = pieces[k + 1].copy()
             turned = float(balls.core.head(state)["angle"][0]) - self._angles[k]
             if turned > 0.0:
@@ -404,14 +419,12 @@ def _moved_on(balls: BallMotion, pitches: int) -> None:
         balls.core.head(balls.state)["angle"] -= 2.0 * pi / balls.balls.number * pitches
 
 
-def _excited(rotor: Rotor, excitation: str, forces: Any) -> Rotor:
-    """The rotor with what excites it alone."""
+def _excited(rotor: Rotor, excitation: Excitation) -> Rotor:
+    """The rotor with what excites it alone; of a force, with unbalances of 0 everywhere, which get it."""
     if excitation == UNBALANCE:
         return rotor
     if excitation == PASSAGE:
         return replace(rotor, unbalances=())
-    if forces is None:
-        raise InputError("forces", None, "given: complex amplitudes, shape (h, N)")
     places = tuple(Unbalance(x=k, y=None, amount=0.0) for k in range(rotor.size))
     return replace(rotor, unbalances=places)
 

@@ -70,7 +70,8 @@ class CompiledSteps:
         self.bearing_states, self._touched = parts[: len(run.balls)], parts[len(run.balls) :]  # and of dampers
         for part, balls in zip(self.bearing_states, run.balls, strict=True):
             part[:] = balls.state
-        core.put(run.state, geometry.normals.T @ run.histories.force[0], run.applied(0))
+        carried = geometry.normals.T @ (geometry.counts * run.histories.force[0])
+        core.put(run.state, carried, run.applied(0))
 
     def advance(self, omega: float, first: int, end: int, progress: Callable[[int], None]) -> None:
         """Make the steps of one block, of matrices at `omega`; `progress` takes the number made, at its end.
