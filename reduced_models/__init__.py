@@ -11,6 +11,7 @@
 | bearing | ball bearings of such contacts: `BallBearing` |
 | rotor | rotors on contacts, full films and ball bearings: equilibrium, motion over time, responses |
 | periodic_motion | motions of rotors that repeat themselves: harmonic balance, shooting, stability, bifurcations |
+| margins | samples of machines with uncertain inputs: `uncertainty`, `spread` |
 | signals | acceleration of nodes and housings, its spectra and features; a namespace of its own |
 
 Public names are those that a user calls, constructs or catches; classes that are only returned and tools of a
@@ -42,6 +43,8 @@ from reduced_models.periodic_motion.excitation import PeriodicForce as PeriodicF
 from reduced_models.periodic_motion.periodic import periodic as periodic
 from reduced_models.periodic_motion.periodic import periodic_answer as periodic_answer
 from reduced_models.periodic_motion.shooting import shoot as shoot
+from reduced_models.margins.sampling import uncertainty as uncertainty
+from reduced_models.margins.spread import spread as spread
 from reduced_models.rotor.assembly import rotor_on_bearings as rotor_on_bearings
 from reduced_models.rotor.bearing_matrices import bearing_matrices as bearing_matrices
 from reduced_models.rotor.bearing_set import BearingSet as BearingSet
@@ -64,6 +67,7 @@ from reduced_models.rotor.speed_profile import SpeedProfile as SpeedProfile
 from reduced_models.rotor.squeeze_film_damper import SqueezeFilmDamper as SqueezeFilmDamper
 from reduced_models.rotor.supports import BearingMount as BearingMount
 from reduced_models.rotor.supports import ContactMount as ContactMount
+from reduced_models.rotor.unbalance import grade_unbalance as grade_unbalance
 from reduced_models.rotor.unbalance import unbalance_response as unbalance_response
 
 

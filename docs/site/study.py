@@ -21,6 +21,7 @@ from ehlcontact.cli.toml import toml_value
 PAGE = Path(__file__).parents[1] / "guide" / "study.md"
 EXAMPLES = {
     "motor": "a motor on a 6306 and a 6206 with a wave spring",
+    "motor_margins": "this motor with ranges of clearance, oil temperature, balance and damping",
     "spindle": "a spindle on a pair of 7205 and a floating bearing",
     "small_study": "a light rotor, and the full film of its most loaded ball on a coarse grid",
     "deep_groove_6205": "the full film of one contact, and a Jeffcott rotor on it",

@@ -17,6 +17,8 @@ from ehlcontact.results.picture import (
     GREY,
     INK,
     RED,
+    ROW,
+    ROW_ENDS,
     WHITE,
     Array,
     Line,
@@ -121,6 +123,13 @@ def _panel(axes: Any, panel: Panel) -> None:
         axes.annotate(mark.text, **at, xytext=(2, -2), va="top", fontsize=8, color=mark.colour)
     axes.grid(**GRID)
     axes.set_axisbelow(True)
+    if panel.rows:
+        axes.set(yticks=[], ylim=(len(panel.rows) - 1 + ROW_ENDS[1], ROW_ENDS[0]))
+        for line in axes.lines:
+            line.set_solid_capstyle("butt")  # bars begin and end where they say
+        for k, words in enumerate(panel.rows):
+            at = {"xy": (0.01, k - ROW), "xycoords": axes.get_yaxis_transform(), "va": "bottom"}
+            axes.annotate(words, **at, fontsize=8)
     if second is not None:
         second.set(ylabel=panel.second, ylim=panel.second_ends)
         _coloured(axes, second, panel)

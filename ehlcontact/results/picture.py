@@ -22,6 +22,7 @@ Ends = tuple[float, float]  # of an axis
 # Okabe and Ito's colours, which stay apart for colour-blind eyes
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9"
 GREY, INK = "#7f7f7f", "#1d2126"
+ROW, ROW_ENDS = 0.22, (-0.75, 0.35)  # of rows: of words over their row, ends of the axis beyond first and last row
 BLACK, WHITE = "#000000", "#ffffff"  # over maps, whose colours a dark page leaves
 PALE, PALE_BLUE = "#f2f2f2", "#eaf3fa"  # of stretches behind the lines
 COLOURS = BLUE, ORANGE, GREEN, RED, PURPLE, SKY
@@ -134,6 +135,8 @@ class Panel:
         Steps of the ticks of x and y, as they are shown.
     named_at_ends : bool
         Names of lines stand at their ends where the renderer can, else in the legend.
+    rows : sequence of str
+        Words of rows that lie at y = 0, 1, 2 and so on, downwards; they stand in the panel, above their rows.
     """
 
     lines: Sequence[Line]
@@ -152,6 +155,7 @@ class Panel:
     tick: float | None = None
     y_tick: float | None = None
     named_at_ends: bool = False
+    rows: Sequence[str] = ()
 
     def shown(self) -> Panel:
         """The panel in the units of pictures, colours and dashes given to every line, labels plain."""

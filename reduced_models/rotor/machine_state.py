@@ -390,7 +390,7 @@ def machine_state(
     budget = _tried(lambda: budget_of(linear, modes), "damping budget", failed) if modes and fine else None
     count = max(len(modes), 1)
     if not fine:
-        speeds = speeds[: _reached(linearised, np.asarray(speeds, np.float64), speed)]
+        speeds = speeds[: _reached(linearised, speeds.tolist(), speed)]
         count = max(sum(mode.hz <= FOLLOWED * speeds[-1] * RPM_TO_HZ for mode in modes), 1)
     diagram = _tried(
         lambda: campbell_of(map(linearised, speeds[every - 1 :: every].tolist()), count),
@@ -431,9 +431,9 @@ def _part_label(labels: Mapping[str, str], name: str) -> str:
     return f"{kind} of {bearing}" if bearing and kind in AT_A_BEARING else name
 
 
-def _reached(linearised: Callable[[float], LinearRotor], speeds: _Floats, speed: float) -> int:
+def _reached(linearised: Callable[[float], LinearRotor], speeds: Sequence[float], speed: float) -> int:
     """How many of increasing speeds the data reach, the operating speed among them in any case."""
-    for k, at in enumerate(speeds.tolist()):
+    for k, at in enumerate(speeds):
         try:
             linearised(at)
         except (ConvergenceError, InputError):

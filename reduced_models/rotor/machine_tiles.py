@@ -30,6 +30,7 @@ class Tile(NamedTuple):
     unit: str
     note: str = ""
     critical: bool = False  # whether `machine_concerns` has something about it
+    number: str = ""  # of `machine_numbers.QUANTITIES` that its value is, where it is one
 
     def __str__(self) -> str:
         note = f" ({self.note})" if self.note else ""
@@ -106,7 +107,7 @@ def _film(machine: Any) -> Tile | None:
     errors = ", ".join(f"± {digits(100.0 * error, 2)} % {cause}" for cause, error in own.film_errors.items())
     sure = f"uncertain by {errors}" if errors else ""
     note = _note(ratio, of, *_others(machine, own, words), sure)
-    return Tile("smallest film", digits(1e6 * own.h_min), "µm", note, bool(_thin_film(machine)))
+    return Tile("smallest film", digits(1e6 * own.h_min), "µm", note, bool(_thin_film(machine)), "h_min")
 
 
 def _ball_load(machine: Any) -> Tile:
@@ -130,7 +131,7 @@ def _ball_load(machine: Any) -> Tile:
     others = _others(machine, own, lambda one: f"{digits(one.ball_load)} N, {words(one)}")
     pressed = words(own, "Hertz pressure ", "a contact angle of ")
     note = _note(pressed, _of(machine, own), higher, outer(own), *others)
-    return Tile("largest ball load", digits(own.ball_load), "N", note)
+    return Tile("largest ball load", digits(own.ball_load), "N", note, number="ball_load")
 
 
 def _life(machine: Any) -> Tile | None:
@@ -150,7 +151,8 @@ def _life(machine: Any) -> Tile | None:
     ratings = f"C {digits(1e-3 * shortest.ratings.dynamic, 4)} kN {shortest.ratings.dynamic_source}"
     covered = f"not covered: {system.not_covered[0]}" if system.not_covered else ""
     note = _note(kind, of, needs, covered, f"static safety {digits(safety)} by pressure", ratings)
-    return Tile("rating life", digits(hours), "h", note)
+    number = "l10rh" if system.lnmrh is None else "lnmrh"
+    return Tile("rating life", digits(hours), "h", note, number=number)
 
 
 def _coefficients(machine: Any) -> Tile:
@@ -187,7 +189,7 @@ def _mode(machine: Any) -> Tile | None:
     damps = "" if machine.budget is None else machine.budget.share_words(0)
     by = f"damped by {damps}" if damps else ""
     note = _note(f"damping ratio {digits(lowest.damping_ratio, 2)}", way, by, higher)
-    return Tile("lowest mode", digits(lowest.hz, 4), "Hz", note)
+    return Tile("lowest mode", digits(lowest.hz, 4), "Hz", note, number="mode_hz")
 
 
 def _critical(machine: Any) -> Tile | None:
@@ -202,7 +204,8 @@ def _critical(machine: Any) -> Tile | None:
     way += "" if machine.is_excited(own) else ": unbalance hardly excites it"
     note = _note(_side(machine, own), way, f"all: {speeds}" if len(machine.critical_speeds) > 1 else "")
     critical = bool(_near_critical(machine))
-    return Tile("nearest critical speed", digits(own.speed_rpm, 5), "rev/min", note, critical)
+    number = "critical_rpm" if machine.is_excited(own) else ""
+    return Tile("nearest critical speed", digits(own.speed_rpm, 5), "rev/min", note, critical, number)
 
 
 def _way(machine: Any, critical: Any) -> str:
@@ -235,6 +238,7 @@ def _response(machine: Any) -> Tile | None:
         "µm",
         note,
         critical,
+        "response",
     )
 
 
@@ -256,7 +260,7 @@ def _friction(machine: Any) -> Tile | None:
     loss = f"{digits(sum(one.loss for one in supports))} W by {by}"
     tight = any(bearing.clearance < 0.0 for one in supports if one.relies_on_skf for bearing, _ in one.bearings)
     note = _note(loss, _other_torque(machine), each, films, doubt, SKF_WITHOUT_PRELOAD if tight else "")
-    return Tile("friction torque", digits(sum(torques)), "N m", note)
+    return Tile("friction torque", digits(sum(torques)), "N m", note, number="torque")
 
 
 def _other_torque(machine: Any) -> str:
@@ -284,7 +288,7 @@ def _capacitance(machine: Any) -> Tile | None:
         digits(1e12 * sum(ends)) for ends in zip(*(one.capacitance_range for one in machine.supports), strict=True)
     )
     oil = f"between {least} and {largest} pF by where oil stands, of permittivity {OIL:g}"
-    return Tile("capacitance of the films", total, "pF", _note(field, each, oil))
+    return Tile("capacitance of the films", total, "pF", _note(field, each, oil), number="capacitance")
 
 
 def _highest(machine: Any) -> Tile | None:

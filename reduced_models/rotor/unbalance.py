@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ehlcontact.checks import as_column, parts
+from ehlcontact.checks import as_column, parts, require_positive
 from ehlcontact.checks.kinds import Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
@@ -51,6 +51,31 @@ def unbalance_response(
         raise InputError("speeds_rpm[0]", float(speeds[0]), "> 0")
     linear = [linearise(rotor, s, passage=passage, signed_damping=signed_damping) for s in speeds.tolist()]
     return response_of(rotor, linear)
+
+
+@takes(mass=parts.MASS, speed_rpm=parts.SPEED)
+def grade_unbalance(grade_mm_s: float, mass: float, speed_rpm: float) -> float:
+    """Permissible residual unbalance [kg m] of a mass at a balance quality grade of ISO 21940-11.
+
+    The grade is the product of permissible eccentricity and angular speed: G 2.5 is 2.5 mm/s.
+
+    Parameters
+    ----------
+    grade_mm_s : float
+        Grade [mm/s], > 0.
+    mass : float
+        Of the rotor, or of the part of it that the unbalance is of [kg].
+    speed_rpm : float
+        Highest speed in service [rev/min].
+
+    Raises
+    ------
+    InputError
+        A grade, a mass or a speed that is not above 0.
+    """
+    grade = require_positive("grade_mm_s", grade_mm_s)
+    mass, speed = require_positive("mass", mass), require_positive("speed_rpm", speed_rpm)
+    return 1e-3 * grade * mass / (speed * RPM_TO_RAD_S)
 
 
 def response_of(rotor: Rotor, linear: Sequence[LinearRotor]) -> UnbalanceResponse:

@@ -107,6 +107,9 @@ def _show(found: Forecast, json_to: str | None) -> None:
     if found.operating_point is not None:
         show_table("contact of the most loaded ball", _contact(found, found.operating_point), json_to)
         _show_stages(found)
+    if (given := study.uncertain) is not None:
+        of = ", ".join(given.spreads)
+        say(f"{given.samples} samples of {of}: about {_time(found.samples)} of one processor")
     if found.films:
         say(f"bearing: beside flooded isothermal films also {found.films}")
     for warning in found.warnings:

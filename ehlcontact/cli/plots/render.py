@@ -14,6 +14,8 @@ from ehlcontact.cli.plots.style import TEMPLATE
 from ehlcontact.results.picture import (
     GREY,
     RED,
+    ROW,
+    ROW_ENDS,
     WHITE,
     Array,
     Ends,
@@ -111,6 +113,14 @@ def _panel(figure: go.Figure, panel: Panel, at: dict[str, int]) -> None:
             )
             look = {"title_font_color": colour, "tickmode": "auto", "showgrid": not second}
             figure.update_yaxes(**options, **look, **at, secondary_y=second)
+    if panel.rows:
+        under: Any = [len(panel.rows) - 1 + ROW_ENDS[1], ROW_ENDS[0]]
+        figure.update_yaxes(
+            range=under, showticklabels=False, ticks="", showgrid=False, zeroline=False, **at, **first
+        )
+        inside: Any = {"x": 0.0, "xref": "x domain", "xanchor": "left", "yanchor": "bottom"}
+        for k, words in enumerate(panel.rows):
+            figure.add_annotation(text=words, y=k - ROW, showarrow=False, font_size=12, **inside, **at)
     if panel.equal:
         x, y = _axes(figure, at)
         y.update(scaleanchor=x.plotly_name.replace("axis", ""))

@@ -40,15 +40,20 @@ NAMES = {
 }
 
 
-def answer_of(study: Study) -> MachineState | str:
-    """State of the machine, or of the bearing alone, at the speed of the study; or why there is none."""
+def answer_of(study: Study, *, fine: bool = True) -> MachineState | str:
+    """State of the machine, or of the bearing alone, at the speed of the study; or why there is none.
+
+    Not `fine`: as `machine_state` has it for many machines.
+    """
     speed = study.speed_rpm
     life: dict[str, Any] = {"contamination": study.contamination, "reliability": study.operation.reliability}
     try:
         if study.shaft is None:
             tilt = tilt_of(study.operation)
             carrier, name = carrier_of(study, 0), study.support[0].name or ""
-            return replace(single_bearing_state(carrier, load_alone(study), speed, tilt=tilt, name=name), **life)
+            return replace(
+                single_bearing_state(carrier, load_alone(study), speed, tilt=tilt, name=name, fine=fine), **life
+            )
         names: list[str] = []
         places: list[float] = []
         for k, (name, place) in enumerate(zip(study.names, places_of(study), strict=True)):
@@ -56,7 +61,7 @@ def answer_of(study: Study) -> MachineState | str:
             several = len(carrier.bearings) if isinstance(carrier, BearingSet) else 1
             names += [name] if several == 1 else [f"{name} {number + 1}" for number in range(several)]
             places += [place] * several
-        return replace(machine_state(rotor_of(study), speed, names=names, positions=places), **life)
+        return replace(machine_state(rotor_of(study), speed, names=names, positions=places, fine=fine), **life)
     except (ConvergenceError, InputError) as error:
         return str(error)
 

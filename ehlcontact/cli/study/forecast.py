@@ -18,6 +18,7 @@ from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.shared_entries import supply_and_heat, supply_words
 from ehlcontact.cli.study.stages import Stage, stages_of
+from ehlcontact.cli.study.uncertain import Batch, batches_of
 from ehlcontact.jit import is_kept
 from ehlcontact.solver.compiled_beside import solver_is_kept
 from ehlcontact.solver.domain import Domain
@@ -78,6 +79,7 @@ class Forecast:
     plans: tuple[Plan, ...]
     compiling: float  # seconds of kernels that are not kept compiled
     closed: bool  # results and report are there, of this study
+    samples: float  # seconds of samples of uncertain entries that are not kept
     films: str  # oil supply and heat of the bearing, in words; empty of flooded isothermal ones
     warnings: tuple[str, ...]
 
@@ -88,12 +90,12 @@ class Forecast:
         for plan in self.plans:
             if not plan.kept:
                 loads[int(np.argmin(loads))] += plan.seconds
-        return max(loads) + self.compiling + self.closing
+        return max(loads) + self.samples / self.jobs + self.compiling + self.closing
 
     @property
     def work(self) -> float:
         """Seconds of one processor: what points of one study share among them, without `compiling`."""
-        return sum(plan.seconds for plan in self.plans if not plan.kept) + self.closing
+        return sum(plan.seconds for plan in self.plans if not plan.kept) + self.samples + self.closing
 
     @property
     def closing(self) -> float:
@@ -132,6 +134,7 @@ class Forecast:
             "domain": None if self.study.contact is None else self.study.domain.as_tuple(),
             "folder": str(self.folder),
             "stages": [plan.to_dict() for plan in self.plans],
+            "samples_seconds": self.samples,
             "films": self.films,
             "jobs": self.jobs,
             "compiling_seconds": self.compiling,
@@ -161,10 +164,14 @@ def forecast(study: Study, folder: Path, jobs: int, root: Path | None = None) ->
         estimate = conv * stage_cost(stage, study)
         kept = store is not None and store.get(stage_key(stage, study)) is not None
         plans.append(Plan(stage, _mesh(stage, study), *_steps(stage, study), estimate, kept))
-    closed = store is not None and all(p.kept for p in plans) and store.final(study, folder) is not None
+    sampled = [batch for batch in batches_of(study) if store is None or store.get(stage_key(batch, study)) is None]
+    samples = conv * sum(batch.cost(study) for batch in sampled)
+    closed = (
+        store is not None and all(p.kept for p in plans) and not sampled and store.final(study, folder) is not None
+    )
     compiling = conv * compiling_cost(study, any(not plan.kept for plan in plans), not closed)
     about = films_words(study), tuple(cautions(study))
-    return Forecast(study, folder, jobs, conv, tuple(plans), compiling, closed, *about)
+    return Forecast(study, folder, jobs, conv, tuple(plans), compiling, closed, samples, *about)
 
 
 def films_words(study: Study) -> str:
@@ -177,8 +184,10 @@ def films_words(study: Study) -> str:
     return " and ".join(filter(None, conditions))
 
 
-def stage_cost(stage: Stage, study: Study) -> float:
+def stage_cost(stage: Stage | Batch, study: Study) -> float:
     """Estimated cost of a stage, in convolutions."""
+    if isinstance(stage, Batch):
+        return stage.cost(study)
     contacts, steps, _ = _steps(stage, study)
     return float(stage.cost * max(1, steps) * contacts * _mesh(stage, study).nodes * 1e-3)
 

@@ -48,7 +48,7 @@ def headline(found: Findings) -> str:
     machine = found.machine
     if isinstance(machine, str):
         return "\n".join(filter(None, (operating_line(found), f"not computed: {machine}", *limits(found))))
-    tiles = (tile.brief for tile in machine.tiles())
+    tiles = (tile.brief for tile in found.tiles)
     critical = (f"critical: {text}" for text in machine.concerns)
     broken = limits(found)
     holds = f"does not hold: {'; '.join(broken)}" if broken else ""
@@ -83,7 +83,8 @@ def load_words(load: Any) -> str:
 def limits(found: Findings) -> list[str]:
     """What does not hold, with its number, one text for all supports of which it is said."""
     machine = found.machine
-    rest = [text for text in (without_films(found), damping_below_zero(found)) if text]
+    rest = [] if found.uncertainty is None else found.uncertainty.remarks
+    rest += [text for text in (without_films(found), damping_below_zero(found)) if text]
     rest += [*clearances_apart(found), *discs_without_inertia(found.study), *seals_left_out(found.study)]
     if isinstance(machine, str):
         broken = "" if found.contact is None else found.contact.assumptions.headline

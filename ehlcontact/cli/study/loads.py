@@ -14,7 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ehlcontact.cli.spall import require_fit, spall_of
-from ehlcontact.cli.study.machine import bearing_of, called, carrier_of, dimensions_of, rotor_of, support_field
+from ehlcontact.cli.study.machine import (
+    bearing_of,
+    called,
+    carrier_of,
+    dimensions_of,
+    disc_of,
+    rotor_of,
+    support_field,
+)
 from ehlcontact.cli.study.shared_entries import moments_of, supply_and_heat, tilt_of
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.hertz import most_loaded_ball
@@ -244,7 +252,7 @@ def _require_in_time(study: Study) -> None:
     if not alike or len(study.support) != 2 or load.size != len(PLANAR):
         allowed = "left out: it is for two bearings that are alike and carry no axial load"
         raise InputError("in_time", None, allowed)
-    if len(study.disc) != 1 or not study.disc[0].unbalance:
+    if len(study.disc) != 1 or not disc_of(study, 0).unbalance:
         raise InputError("disc.unbalance", None, "given, of one disc: what is run in time is its unbalance")
     bearing, steps = bearing_of(study, 0, oil=False), study.in_time.steps_per_revolution
     least = ceil(LEAST_STEPS * bearing.orders.bpfo_order)

@@ -10,7 +10,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ehlcontact.cli.study.parts import Part
 from ehlcontact.cli.study.shared_entries import pair_part
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingSet, Disc, LinearBearing, Rotor, Shaft, Support, rotor_on_bearings
+from reduced_models import (
+    BallBearing,
+    BearingSet,
+    Disc,
+    LinearBearing,
+    Rotor,
+    Shaft,
+    Support,
+    grade_unbalance,
+    rotor_on_bearings,
+)
 from reduced_models.bearing.catalogue import BY_DIMENSIONS, USUAL_CONFORMITY, catalogue_row
 from reduced_models.bearing.grooves import LARGEST_PLAY
 from reduced_models.bearing.operating_clearance import OperatingClearance, operating_clearance
@@ -396,7 +406,7 @@ def disc_part(study: Study, k: int) -> Part:
         turns: dict[str, Any] = {
             name: getattr(one, name) or 0.0 for name in ("diametral_inertia", "polar_inertia")
         }
-        return Part(Disc, {"position": place, "mass": one.mass, **turns, **more})
+        return Part(Disc, _balanced(study, k, {"position": place, "mass": one.mass, **turns, **more}))
     for name in ("diametral_inertia", "polar_inertia"):
         if getattr(one, name) is not None:
             raise InputError(f"{at}{name}", getattr(one, name), f"left out without {at}mass")
@@ -412,7 +422,22 @@ def disc_part(study: Study, k: int) -> Part:
         raise InputError(f"{at}diameter_mm", one.diameter_mm, allowed)
     density: dict[str, Any] = {} if one.density is None else {"density": one.density}
     lengths = {"diameter": 1e-3 * one.diameter_mm, "width": 1e-3 * one.width_mm, "bore": bore}
-    return Part(Disc, {"position": place, **lengths, **density, **more}, "cylinder")
+    return Part(
+        Disc, _balanced(study, k, {"position": place, **lengths, **density, **more}, "cylinder"), "cylinder"
+    )
+
+
+def _balanced(study: Study, k: int, given: dict[str, Any], how: str = "") -> dict[str, Any]:
+    """Arguments of a disc, with the unbalance of its balance grade where that is given."""
+    one = study.disc[k]
+    if one.balance_grade is None:
+        return given
+    if one.unbalance:
+        allowed = f"left out where {disc_field(study, k, 'balance_grade')} is given"
+        raise InputError(disc_field(study, k, "unbalance"), one.unbalance, allowed)
+    with called(disc_field(study, k, ""), SIZES_OF_DISC):
+        mass = float(Part(Disc, given, how).made().mass)
+    return given | {"unbalance": grade_unbalance(one.balance_grade, mass, study.speed_rpm)}
 
 
 def places_of(study: Study) -> list[float]:

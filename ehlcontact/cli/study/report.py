@@ -51,6 +51,7 @@ from reduced_models.bearing.kinematics import RPM_TO_HZ
 from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.bearing.picture import conditions_coefficients, conditions_films, from_load, over_frequency
 from reduced_models.fitting.pictures import histories, impedance, loops
+from reduced_models.margins.samples import words_of
 from reduced_models.rotor import model_pictures as rotor
 from reduced_models.rotor.compare_bearing_models import USUAL_DAMPING
 from reduced_models.rotor.events import LOST
@@ -69,6 +70,8 @@ FILES = {
     "elements/*.json": "an element in SI units, for ehlcontact export and for ehlcontact.read",
     "on_bearings_*.h5": "motion of the rotor on whole bearings",
     "*.h5": "STAGE: fields or histories",
+    "samples.csv": "inputs and numbers of all samples, and why some have none",
+    "samples": "the samples in batches",
     "store": "what was computed, by its inputs: a run resumes from it, and nothing else needs it",
 }
 MEANINGS = {
@@ -101,6 +104,7 @@ def write_report(found: Findings, path: Path) -> Path:
         titles=TITLES,
         ways=ways_of_coupling(() if found.contact is None else found.contact.fmus),
         versions=versions(),
+        words_of=words_of,
         names=CONTACTS,
         meanings=MEANINGS,
         lost=LOST,
@@ -253,6 +257,8 @@ def _of_rotor(rotors: RotorFindings, eccentricity: float) -> dict[str, Callable[
 
 def _of_bearings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
     pictures: dict[str, Callable[[], Picture | Slides]] = {}
+    if found.uncertainty is not None and found.uncertainty.drawn:
+        pictures["uncertainty"] = found.uncertainty.picture
     if (whole := found.whole) is not None:
         pictures |= {
             "whole_orbits": lambda: rotor.orbits(whole, NAMES),

@@ -33,8 +33,10 @@ from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.bearing.operating_clearance import OperatingClearance
+from reduced_models.margins.result import Uncertainty
 from reduced_models.rotor.compare_bearing_models import BearingModels
 from reduced_models.rotor.machine_state import MachineState
+from reduced_models.rotor.machine_tiles import Tile
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,20 @@ class Findings:
     rotors: RotorFindings | None  # on full films
     exports: Mapping[str, Any]  # files of [export], as of `write_exports`
     seconds: Mapping[str, float]  # wall time by stage
+    uncertainty: Uncertainty | None = None  # of a study with [uncertain]
+
+    @cached_property
+    def tiles(self) -> tuple[Tile, ...]:
+        """Tiles of the machine, with intervals of their numbers first in their notes; none without a machine."""
+        if isinstance(self.machine, str):
+            return ()
+        found = self.uncertainty
+        if found is None:
+            return self.machine.tiles()
+        between = {tile: found.between(found.alike(tile.number)) for tile in self.machine.tiles()}
+        return tuple(
+            tile._replace(note="; ".join(filter(None, (words, tile.note)))) for tile, words in between.items()
+        )
 
     @cached_property
     def clearances(self) -> dict[str, OperatingClearance]:
@@ -89,6 +105,7 @@ class Findings:
         return {
             "machine": None if isinstance(machine, str) else machine.to_dict(),
             "no_machine": machine if isinstance(machine, str) else None,
+            "uncertainty": None if self.uncertainty is None else self.uncertainty.to_dict(),
             "over_frequency": {
                 name: {"hz": one.hz, "stiffness": one.stiffness, "damping": one.damping}
                 for name, one in self.over_frequency.items()

@@ -19,10 +19,11 @@ from ehlcontact.cli.progress import Bars, Lines, progressing
 from ehlcontact.cli.study.forecast import closing_cost, stage_cost
 from ehlcontact.cli.study.points.finalise import TITLE, finalise_point
 from ehlcontact.cli.study.points.folder import Log
-from ehlcontact.cli.study.points.kept import FINALISE, Entry, Kept, final_key, stage_key
+from ehlcontact.cli.study.points.kept import BEGUN, FINALISE, Entry, Kept, final_key, stage_key
 from ehlcontact.cli.study.points.lists import Point
 from ehlcontact.cli.study.points.summary import withdraw
 from ehlcontact.cli.study.stages import STAGES, Answer, Stage, solve_stage
+from ehlcontact.cli.study.uncertain import Batch, batches_of, solve_batch
 from ehlcontact.errors import InputError
 from ehlcontact.executors import ProcessExecutor, executor_for
 from ehlcontact.files import write_bytes
@@ -39,10 +40,10 @@ class StorageError(Exception):
 
 @dataclass(frozen=True)
 class Task:
-    """A stage of a point, or, without one, the finalisation of the point."""
+    """A stage or a batch of samples of a point, or, without one, the finalisation of the point."""
 
     point: Point
-    stage: Stage | None
+    stage: Stage | Batch | None
 
     @property
     def name(self) -> str:
@@ -108,7 +109,8 @@ class Scheduler:
     def _look(self, point: Point, stages: Sequence[Stage], final: bool) -> None:
         """Enter the tasks that a point lacks, log those that it has, and write their files where they are not."""
         study, lacking = point.study, []
-        for stage in (stage for stage in stages if stage.wanted(study)):
+        wanted: list[Stage | Batch] = [stage for stage in stages if stage.wanted(study)]
+        for stage in (*wanted, *batches_of(study)):
             task = Task(point, stage)
             found = self._store.get(task.content_key)
             if found is not None:
@@ -218,6 +220,13 @@ class Scheduler:
             if done:
                 stage.partial(point.folder).unlink(missing_ok=True)
                 self._store.put(task.content_key, entry, content)
+            elif isinstance(stage, Batch):
+                self._store.put(f"{task.content_key}{BEGUN}", entry, content)
+
+    def begun(self, task: Task) -> bytes:
+        """Samples that an interrupted batch has already."""
+        found = self._store.get(f"{task.content_key}{BEGUN}")
+        return b"" if found is None else found[1]
 
     def _show_end(self, task: Task, entry: dict[str, Any], done: bool) -> None:
         self._shares[task] = 1.0
@@ -235,6 +244,7 @@ class Scheduler:
 
 def _write(path: Path, content: bytes) -> None:
     """Write a file that does not hold this yet; raises `InputError` where there is no room."""
+    path.parent.mkdir(exist_ok=True)
     if not path.is_file() or path.read_bytes() != content:
         write_bytes(path, content, "file")
 
@@ -309,6 +319,9 @@ def _run(
                     future = here.submit(
                         finalise_point, task.key, point.study, point.folder, scheduler.seconds(point)
                     )
+                elif isinstance(stage, Batch):
+                    begun = scheduler.begun(task)
+                    future = there.submit(solve_batch, task.key, point.study, stage, begun)
                 else:
                     future = there.submit(solve_stage, task.key, point.study, stage.name)
                 running[future] = task

@@ -28,6 +28,7 @@ from ehlcontact.cli.study.sections import (
     Shaft,
     Support,
     Surface,
+    Uncertain,
 )
 from ehlcontact.cli.toml import read_toml
 from ehlcontact.content_store import key_of
@@ -183,6 +184,7 @@ class Study(Section):
     full_films: FullFilms | None = None
     in_time: InTime | None = None
     defect: Annotated[tuple[Defect, ...], Field(strict=False)] = ()
+    uncertain: Uncertain | None = None
     export: Export | None = None
 
     @property
@@ -245,6 +247,13 @@ class Study(Section):
         from ehlcontact.cli.study.loads import loads_at_rest
 
         return loads_at_rest(self)
+
+    @cached_property
+    def sample_rows(self) -> list[list[float]]:
+        """Values of the uncertain entries of all samples, with [uncertain]."""
+        from ehlcontact.cli.study.uncertain import rows_of
+
+        return rows_of(self)
 
     @cached_property
     def lubricant(self) -> Lubricant | None:
@@ -345,7 +354,9 @@ class Study(Section):
         assert films is not None
         if self.shaft is None or self.shaft.stiffness is None or len(self.disc) != 1:
             return films
-        disc = self.disc[0]
+        from ehlcontact.cli.study.machine import disc_of
+
+        disc, balanced = self.disc[0], disc_of(self, 0)
         for name in OF_JEFFCOTT:
             if name in films.model_fields_set:
                 allowed = "left out: it is that of [shaft], [[disc]] and [[support]]"
@@ -356,7 +367,7 @@ class Study(Section):
             "shaft_stiffness": self.shaft.stiffness,
             "shaft_damping": self.shaft.damping,
             "disc_damping": disc.damping,
-            "unbalance": disc.unbalance,
+            "unbalance": balanced.unbalance,
         }
         return films.model_copy(update=own)
 
@@ -459,6 +470,7 @@ def study_of(document: dict[str, Any], *, at_rest: bool = False) -> Study:
     from ehlcontact.cli.study.exports import require_export
     from ehlcontact.cli.study.loads import require_machine
     from ehlcontact.cli.study.machine import support_field
+    from ehlcontact.cli.study.uncertain import require_uncertain
 
     at = support_field(study, study.at, "").rstrip(".")
     given = inputs_of({at: study.carrier, "operation": study.operation, "oil": study.oil})
@@ -475,6 +487,7 @@ def study_of(document: dict[str, Any], *, at_rest: bool = False) -> Study:
             if study.shaft is not None or study.operation.axial_load is not None or study.in_time is not None:
                 require_machine(study)
         require_export(study)
+        require_uncertain(study)
     except InputError as error:
         names = ENTRIES | {"conformity": support_field(study, study.at, "conformity")}
         raise InputError(names.get(error.field, error.field), error.value, error.allowed) from None

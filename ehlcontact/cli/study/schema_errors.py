@@ -111,7 +111,7 @@ def first_error(
             allowed = f"{allowed.partition(' (')[0]} ({number})"
         elif first["type"] == "finite_number" and ends:
             allowed = ends if ends.startswith(allowed) else f"{allowed}, {ends}"
-    return InputError(field, _brief(value), allowed)
+    return InputError(field, brief(value), allowed)
 
 
 def entry_name(loc: tuple[int | str, ...], study: type[BaseModel], document: Mapping[str, Any]) -> str:
@@ -154,7 +154,7 @@ def _head(study: type[BaseModel], name: str) -> str:
     return f"[[{name}]]" if several else f"[{name}]"
 
 
-def _brief(value: Any) -> Any:
+def brief(value: Any) -> Any:
     """A value that fits into a line."""
     return value if value is None or isinstance(value, bool | float) else _Shown(shortened(value))
 

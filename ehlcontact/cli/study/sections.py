@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import ConfigDict, Field, model_validator
 
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
+from reduced_models.margins.spread import KINDS, WITHIN
+
+OF_SAMPLES = "samples", "seed"  # entries of [uncertain] itself
 
 
 class Operation(Section):
@@ -98,6 +102,10 @@ class Disc(Section):
     diametral_inertia: Annotated[e.Inertia | None, e.meaning("kg m2, about a diameter, with mass")] = None
     polar_inertia: Annotated[e.Inertia | None, e.meaning("kg m2, about the shaft, with mass")] = None
     unbalance: Annotated[e.NotNegative, e.meaning("kg m, mass times eccentricity")] = 0.0
+    balance_grade: Annotated[
+        e.Positive | None,
+        Field(le=4000.0, description="mm/s, G of ISO 21940-11 at the speed, of its mass, in place of unbalance"),
+    ] = None
     radial_load: Annotated[e.Force, e.meaning("N, beside its weight, downwards")] = 0.0
     axial_load: Annotated[e.Force, e.meaning("N, along the shaft, to the right")] = 0.0
     damping: Annotated[e.NotNegative, e.meaning("N s/m, of the air about it")] = 0.0
@@ -304,6 +312,44 @@ class Defect(Section):
         e.CageSlip | None,
         e.meaning("slip of the cage in orders and lines of the spall, of its speed with balls that roll"),
     ] = None
+
+
+class Uncertain(Section):
+    """Entries that are not known exactly: the machine is answered for samples of them, its numbers have intervals.
+
+    Every one stands beside `samples` and `seed`, by its section and name. `"support.clearance" = [5.0, 15.0]` is
+    a range, `{normal = [10.0, 2.0]}` a mean and a standard deviation, with `within = [4.0, 16.0]` cut at these
+    ends, `{triangular = [5.0, 8.0, 15.0]}` the lowest, most likely and highest value. `"support.left.clearance"`
+    is that of one support; by the plain name all supports have one value. Inputs are independent of each other.
+    """
+
+    model_config = ConfigDict(extra="allow")
+
+    samples: Annotated[
+        e.Whole, Field(ge=8, le=10_000, description="machines that are answered; a power of 2 is most even")
+    ] = 200
+    seed: Annotated[e.Whole, Field(ge=0, le=2**32 - 1, description="of the draws")] = 0
+
+    @model_validator(mode="before")
+    @classmethod
+    def _plain_names(cls, given: Any) -> Any:
+        """Entries by one name, whether it is in quotes or not: support.clearance makes a table in TOML."""
+        return dict(plain_names(given)) if isinstance(given, Mapping) else given
+
+    @property
+    def spreads(self) -> dict[str, Any]:
+        """What is uncertain, by the name of the entry, as the file has it."""
+        return dict(self.__pydantic_extra__ or {})
+
+
+def plain_names(given: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """Entries of [uncertain] by one name each, of tables in tables too."""
+    for key, value in given.items():
+        name = f"{above}{key}"
+        if isinstance(value, Mapping) and name not in OF_SAMPLES and not {*KINDS, WITHIN} & set(value):
+            yield from plain_names(value, f"{name}.")
+        else:
+            yield name, value
 
 
 class Export(Section):

@@ -22,6 +22,7 @@ from ehlcontact.cli.study.results import ContactFindings, Findings
 from ehlcontact.cli.study.rotor import film_response
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Answer, reporting
+from ehlcontact.cli.study.uncertain import TABLE, uncertainty_of
 from ehlcontact.content_store import checksum
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.files import parse_json, read_text
@@ -89,6 +90,8 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
     with _timed(times, "machine"):
         machine = answer_of(study)
         small = over_frequency(study, machine)
+    with _timed(times, "samples", study.uncertain is not None):
+        uncertainty = uncertainty_of(study, machine, folder)
     with _timed(times, "machine in time on models", study.in_time is not None):
         whole = run_models(study, folder)
     with _timed(times, "oil supply and heat", bool(films_words(study))):
@@ -97,7 +100,8 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
         defects = defects_of(study)
     with _timed(times, "export", study.export is not None):
         exports = write_exports(study, folder)
-    return Findings(study, machine, small, whole, conditions, defects, contact, rotors, exports, times)
+    found = study, machine, small, whole, conditions, defects, contact, rotors, exports, times
+    return Findings(*found, uncertainty)
 
 
 @contextmanager
@@ -136,7 +140,7 @@ def read_results(folder: Path) -> dict[str, Any]:
 
 def products(results: Mapping[str, Any]) -> dict[str, str]:
     """Files of the finalisation, relative to the folder, by their meaning."""
-    made = {"results": RESULTS, "report": REPORT}
+    made = {"results": RESULTS, "report": REPORT} | ({"samples": TABLE} if results.get("uncertainty") else {})
     exports = results.get("export", {})
     for entry in (*(exports[name] for name in exports if name != "matrices"), *exports.get("matrices", ())):
         if entry.get("passes", True):

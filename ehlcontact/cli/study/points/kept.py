@@ -11,23 +11,28 @@ from typing import Any
 
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Stage, stages_of
+from ehlcontact.cli.study.uncertain import Batch, batches_of
 from ehlcontact.content_store import ContentStore, checksum, key_of
 from ehlcontact.files import parse_json
 
 STORE = "store"  # folder of the entries, in that of the study
+BEGUN = "-begun"  # at the end of the key of a batch that was interrupted
 FINALISE = "report"  # name of what is made of all stages
 
 Entry = dict[str, Any]  # status, message and seconds of a task, and what else it has to say
 
 
-def stage_key(stage: Stage, study: Study) -> str:
+def stage_key(stage: Stage | Batch, study: Study) -> str:
     """Key of a stage: the hash of its inputs."""
+    if isinstance(stage, Batch):
+        return stage.key(study)
     return key_of([stage.name, study.fingerprint(*stage.parts)])
 
 
 def final_key(study: Study) -> str:
     """Key of results and report: the hash of the whole study, names and all, and of its stages."""
-    stages = [stage_key(stage, study) for stage in stages_of(study)]
+    tasks: tuple[Stage | Batch, ...] = (*stages_of(study), *batches_of(study))
+    stages = [stage_key(task, study) for task in tasks]
     return key_of([FINALISE, study.model_dump(mode="json", exclude_none=True), stages])
 
 

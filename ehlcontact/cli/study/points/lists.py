@@ -17,6 +17,7 @@ from typing import Any, NamedTuple, get_args, get_origin
 from ehlcontact.cli.entries import is_several, quantity_of, section_of
 from ehlcontact.cli.study.schema import Study, study_of
 from ehlcontact.cli.study.schema_errors import entry_name
+from ehlcontact.cli.study.sections import plain_names
 from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
 from reduced_models.life.system_life import require_shares
@@ -189,6 +190,7 @@ def expanded(
     lists = [one for one in lists_of(document) if allowed is None or one.entry in allowed]
     for one in lists:
         _require_values(one)
+        _require_certain(one, document)
     count = prod(len(one.values) for one in lists)
     if count > MOST:
         sizes = " x ".join(str(len(one.values)) for one in lists)
@@ -246,6 +248,16 @@ def _require_values(one: _List) -> None:
         if isinstance(value, list | dict):
             raise InputError(one.entry, value, "one value, in a list of values")
     require_apart(one.entry, one.values)
+
+
+def _require_certain(one: _List, document: Mapping[str, Any]) -> None:
+    """Raise `InputError` for a list of an entry that [uncertain] has too."""
+    given = document.get("uncertain")
+    names = [name for name, _ in plain_names(given)] if isinstance(given, Mapping) else []
+    section, *_, key = (str(part) for part in one.path)
+    for name in names:
+        if name in (one.entry, f"{section}.{key}"):
+            raise InputError(one.entry, one.values, f"one value, beside its range in [uncertain]: {name}")
 
 
 def require_apart(field: str, given: Sequence[Any]) -> None:

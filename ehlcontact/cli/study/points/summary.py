@@ -10,7 +10,7 @@ import base64
 import csv
 import io
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from textwrap import wrap
@@ -28,6 +28,7 @@ from ehlcontact.cli.study.points.numbers import MEANINGS, NUMBERS, UNITS, Number
 from ehlcontact.cli.study.points.picture import draw_points
 from ehlcontact.cli.study.sections import Support
 from ehlcontact.cli.study.stages import stages_of
+from ehlcontact.cli.study.uncertain import batches_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text
 from ehlcontact.status import Status
@@ -59,6 +60,7 @@ class Row:
     stages: Mapping[str, str]  # how each ended
     answer: str | None
     faults: tuple[str, ...]  # what is missing in the results of a point that is done: `finalise.faults`
+    intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)  # with [uncertain], of its numbers
 
     @property
     def ok(self) -> bool:
@@ -77,6 +79,7 @@ class Row:
             "does_not_hold": list(self.limits),
             "warnings": list(self.warnings),
             **self.numbers,
+            **({"intervals": dict(self.intervals)} if self.intervals else {}),
             "answer": self.answer,
             "stages": dict(self.stages),
             "files": dict(self.files),
@@ -86,7 +89,8 @@ class Row:
 def row_of(point: Point, ended: Mapping[str, Entry], root: Path) -> Row:
     """Row of a point from its folder and how its tasks ended."""
     computed = stages_of(point.study)
-    names = [*(stage.name for stage in computed), FINALISE]
+    batches = batches_of(point.study)
+    names = [*(stage.name for stage in computed), *(batch.name for batch in batches), FINALISE]
     stages = {name: ended[name]["status"] for name in names if name in ended}
     lacking = [name for name, status in stages.items() if status != Status.CONVERGED]
     final = stages.get(FINALISE) == Status.CONVERGED
@@ -118,7 +122,17 @@ def row_of(point: Point, ended: Mapping[str, Entry], root: Path) -> Row:
         stages=stages,
         answer=None if results is None else results["answer"],
         faults=broken,
+        intervals=_intervals(results),
     )
+
+
+def _intervals(results: Mapping[str, Any] | None) -> dict[str, tuple[float, float]]:
+    """Ends of the intervals of a point with [uncertain], by the names of its numbers."""
+    found = None if results is None else results.get("uncertainty")
+    if found is None:
+        return {}
+    known = {name: found["numbers"].get(found["nearest"].get(name, name)) for name in UNITS}
+    return {name: (one["low"], one["high"]) for name, one in known.items() if one is not None}
 
 
 def _worst(stages: Mapping[str, str], lacking: Sequence[str]) -> str:
@@ -211,13 +225,16 @@ def table(rows: Sequence[Row]) -> str:
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     heads = (f"{name} [{unit}]" for name, unit in UNITS.items())
-    writer.writerow(["point", *chosen, *heads, "status", "critical", "does not hold", "warnings"])
+    sampled = [name for name in UNITS if any(name in row.intervals for row in rows)]
+    ends = [f"{name} 95 % {end} [{UNITS[name]}]" for name in sampled for end in ("from", "to")]
+    writer.writerow(["point", *chosen, *heads, *ends, "status", "critical", "does not hold", "warnings"])
     for row in rows:
         values = plain(dict(row.numbers))
         numbers = ("" if v is None else repr(float(v)) for v in values.values())
+        between = (repr(end) for name in sampled for end in row.intervals.get(name, ("", "")))
         texts = ("; ".join(texts) for texts in (row.critical, row.limits, row.warnings))
         values_of_lists = (choice.value for choice in row.point.chosen)
-        writer.writerow([row.point.name, *values_of_lists, *numbers, row.status, *texts])
+        writer.writerow([row.point.name, *values_of_lists, *numbers, *between, row.status, *texts])
     return stream.getvalue()
 
 
@@ -234,10 +251,19 @@ def heads_of(rows: Sequence[Row], columns: Mapping[str, Number]) -> list[str]:
 def cells(row: Row, columns: Mapping[str, Number]) -> list[str]:
     """What a point has of lists, and its numbers in words; a dash where there is none."""
     numbers = [
-        numeral(None if (value := row.numbers[name]) is None else one.factor * value, one.figures)
+        " ".join(filter(None, (_shown(one, row.numbers[name]), _between(one, row.intervals.get(name)))))
         for name, one in columns.items()
     ]
     return [*(choice.shown for choice in row.point.chosen), *numbers]
+
+
+def _shown(one: Number, value: float | None) -> str:
+    return numeral(None if value is None else one.factor * value, one.figures)
+
+
+def _between(one: Number, ends: tuple[float, float] | None) -> str:
+    """The interval of a number in a table; empty where it has none."""
+    return "" if ends is None or ends[0] == ends[1] else f"({_shown(one, ends[0])} to {_shown(one, ends[1])})"
 
 
 def lines_of(rows: Sequence[Row], columns: Mapping[str, Number]) -> list[list[str]]:
