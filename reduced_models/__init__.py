@@ -39,12 +39,12 @@ from reduced_models.fitting.fit import fit as fit
 from reduced_models.fitting.memory_fit import fit_memory as fit_memory
 from reduced_models.fitting.records import ContactRecord as ContactRecord
 from reduced_models.life.system_life import life_of_spectrum as life_of_spectrum
+from reduced_models.margins.sampling import uncertainty as uncertainty
+from reduced_models.margins.spread import spread as spread
 from reduced_models.periodic_motion.excitation import PeriodicForce as PeriodicForce
 from reduced_models.periodic_motion.periodic import periodic as periodic
 from reduced_models.periodic_motion.periodic import periodic_answer as periodic_answer
 from reduced_models.periodic_motion.shooting import shoot as shoot
-from reduced_models.margins.sampling import uncertainty as uncertainty
-from reduced_models.margins.spread import spread as spread
 from reduced_models.rotor.assembly import rotor_on_bearings as rotor_on_bearings
 from reduced_models.rotor.bearing_matrices import bearing_matrices as bearing_matrices
 from reduced_models.rotor.bearing_set import BearingSet as BearingSet
