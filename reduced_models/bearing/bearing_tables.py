@@ -37,7 +37,8 @@ class BearingTables:
     races : dict of str to Race
         Contacts with the "inner" and the "outer" race.
     heights_in_films : dict of float to ndarray
-        `heights` as films of a speed [rev/min] filter them: see `film_heights`.
+        `heights` as films of a speed [rev/min] filter them, below 0 of a shaft that turns backward: see
+        `film_heights`.
     warned : bool
         Whether the bearing has warned of damping that is left out.
     """

@@ -32,14 +32,16 @@ _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
 
-def heights_in_runs(bearing: BallBearing, speeds_rpm: Sequence[float]) -> _Floats:
+def heights_in_runs(bearing: BallBearing, speeds_rpm: Sequence[float], backward: bool = False) -> _Floats:
     """All features of a bearing as the array of `contact_heights`, with films of runs at these speeds [rev/min].
+
+    The shaft turns forward or `backward`.
 
     Those of a dry bearing, and of one without features, are the heights in equilibria.
     """
     if bearing.oil is None or not bearing.features:
         return bearing.tables.heights
-    speed = mean_film_speed(min(speeds_rpm), max(speeds_rpm))
+    speed = mean_film_speed(min(speeds_rpm), max(speeds_rpm)) * (-1.0 if backward else 1.0)
     found = bearing.tables.heights_in_films
     if speed not in found:
         found[speed] = _with_films(bearing, speed)
@@ -55,12 +57,13 @@ def mean_film_speed(lowest: float, highest: float) -> float:
 
 def _with_films(bearing: BallBearing, speed_rpm: float) -> _Floats:
     found = bearing.tables.heights.copy()
-    places, way = found.shape[1] - 1, bearing.ring_speeds.sense
+    places, way = found.shape[1] - 1, bearing.ring_speeds.sense * speed_rpm
     tables = found[0, : 1 + bearing.balls, TABLE : TABLE + len(RACES)].astype(int)
     for row, column in np.argwhere(tables).tolist():
         table, name = found[tables[row, column]], RACES[column]
         radius = track_radius(bearing, name) if row == 0 else 0.5 * bearing.ball_diameter
-        filters = _filters(bearing.race(name), speed_rpm, table[places, 0], np.arange(places // 2 + 1) / radius)
+        around = np.arange(places // 2 + 1) / radius
+        filters = _filters(bearing.race(name), abs(speed_rpm), table[places, 0], around)
         backwards = (row == 0 and name == "inner") == (way > 0.0)
         waves = np.fft.rfft(table[:places], axis=0) * (filters.conj() if backwards else filters)
         table[:places] = np.fft.irfft(waves, places, axis=0)

@@ -10,7 +10,7 @@ from math import nan, pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.checks import as_column, as_rows, require_instance, require_positive
+from ehlcontact.checks import as_column, as_rows, require_finite, require_instance, require_positive
 from ehlcontact.checks.inputs import as_numbers
 from ehlcontact.errors import ConvergenceError, InputError
 from reduced_models.bearing.ball import Balls
@@ -94,7 +94,7 @@ class BallMotion:
 
         Means over the turns of the shaft with the exponents 3 and 10/3; 0 where it has not turned.
         """
-        turned = float(self.core.shaft(self.state)[0])
+        turned = abs(float(self.core.shaft(self.state)[0]))
         sums = self._surfaces["fatigue"]
         means = sums / turned if turned > 0.0 else np.zeros_like(sums)
         return np.asarray(means ** (1.0 / np.array([TURNING, STANDING])))
@@ -179,7 +179,7 @@ class BearingMotion:
     ----------
     bearing : BallBearing
     speed_rpm : float
-        Of the shaft.
+        Of the shaft; below 0 it turns backward, from y to x.
     dt : float
         Length of all steps [s].
     cage_angle : float
@@ -206,9 +206,10 @@ class BearingMotion:
     ) -> None:
         require_instance("bearing", bearing, BallBearing, "a BallBearing")
         moving = directions_of(directions, bearing.contact_angle is not None)
-        speed = bearing.speed(speed_rpm)
-        self._motion, self._size = motion_of(bearing, [speed], moving), len(moving)
-        self.dt, self._omega = require_positive("dt", dt), speed * RPM_TO_RAD_S
+        backward = require_finite("speed_rpm", speed_rpm) < 0.0
+        speed = bearing.speed(abs(speed_rpm))
+        self._motion, self._size = motion_of(bearing, [speed], moving, backward=backward), len(moving)
+        self.dt, self._omega = require_positive("dt", dt), (-speed if backward else speed) * RPM_TO_RAD_S
         require_short_steps(bearing, speed, self.dt)
         self._put(angle_of(cage_angle), np.zeros(self._size))
 
@@ -288,8 +289,12 @@ def require_short_steps(bearing: BallBearing, speed_rpm: float, dt: float) -> No
             raise InputError("dt", dt, f"at most {most:.3g} s, a {LEAST_STEPS}th of the {what}")
 
 
-def motion_of(bearing: BallBearing, speeds_rpm: list[float], directions: tuple[str, ...]) -> BallMotion:
+def motion_of(
+    bearing: BallBearing, speeds_rpm: list[float], directions: tuple[str, ...], *, backward: bool = False
+) -> BallMotion:
     """Balls and films of a bearing in time, tables of its races made at increasing speeds [rev/min].
+
+    The shaft turns forward, or `backward`: its speed is below 0.
 
     Raises
     ------
@@ -297,7 +302,7 @@ def motion_of(bearing: BallBearing, speeds_rpm: list[float], directions: tuple[s
         A speed that the bearing does not take.
     """
     speeds = [bearing.speed(speed) for speed in speeds_rpm]
-    heights = heights_in_runs(bearing, speeds)
+    heights = heights_in_runs(bearing, speeds, backward)
     return BallMotion(bearing.tables.balls(speeds)._replace(heights=heights), directions)
 
 

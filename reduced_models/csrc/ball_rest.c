@@ -42,10 +42,12 @@ const char *bearing_start(const Bearing *b, const BearingSettings *settings, dou
 
 const char *bearing_check(const Bearing *b, const double q[], double omega)
 {
+    return omega >= 0.0 ? bearing_within(b, q) : "speed must be >= 0 rad/s";
+}
+
+const char *bearing_within(const Bearing *b, const double q[])
+{
     int j;
-    if (!(omega >= 0.0)) {
-        return "speed must be >= 0 rad/s";
-    }
     for (j = 0; j < b->directions; j++) {
         if (!(fabs(q[j]) <= (b->direction[j] < TILT_X ? b->largest_place : b->largest_tilt))) {
             return "the inner ring is farther from the outer one than the groove of a race is deep "

@@ -169,6 +169,7 @@ const char *bearing_start(const Bearing *b, const BearingSettings *settings, dou
 
 /* Whether a ring can be there, and a shaft turn so. */
 const char *bearing_check(const Bearing *b, const double q[], double omega);
+const char *bearing_within(const Bearing *b, const double q[]); /* for a shaft that may turn backward too */
 
 /* Begins a step of length h, or of rest where it is 0, at whose end the shaft turns at omega. Balances all balls with the ring at q,
  * moving at v, as often as it takes to find the end of the step (at rest from where they were balanced last); gives the slopes of the force by both there, row by row; and moves

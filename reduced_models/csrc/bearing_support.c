@@ -39,7 +39,7 @@ void bearing_support_begin(const void *own, const double state[], double work[],
 const char *bearing_support_press(const void *own, const double state[], double work[], const double q[], const double v[],
                                   double force[])
 {
-    const char *reason = bearing_check(bearing_of(own), q, work[0]);
+    const char *reason = bearing_within(bearing_of(own), q);
     return reason != NULL ? reason : bearing_press(bearing_of(own), state, work + 1, q, v, force);
 }
 

@@ -54,11 +54,11 @@ class BearingHistory:
         )
         turning = bool(speed_rpm.any())
         radial, axial = (
-            float(np.average(one**TURNING, weights=speed_rpm if turning else None) ** (1.0 / TURNING))
+            float(np.average(one**TURNING, weights=np.abs(speed_rpm) if turning else None) ** (1.0 / TURNING))
             for one in forces
         )
         return BallLoads(
-            speed_rpm=float(np.mean(speed_rpm)),
+            speed_rpm=abs(float(np.mean(speed_rpm))),
             radial=radial,
             axial=axial,
             inner=power_mean(inner, powers[0]),

@@ -108,7 +108,7 @@ def capacitance_of_run(
     own = mount.bearing
     if not isinstance(own, BallBearing) or own.oil is None:
         raise InputError("bearing", bearing, "a ball bearing with oil: without films its rings touch")
-    if not run.speed_rpm.min() > 0.0:
+    if not np.abs(run.speed_rpm).min() > 0.0:
         raise InputError(
             "run", "a shaft that stands still", "one of a shaft that turns: a bearing at rest has no film"
         )
@@ -119,7 +119,7 @@ def capacitance_of_run(
     cage = own.orders.ftf_order * RPM_TO_RAD_S * run.speed_rpm
     turned = np.concatenate([[0.0], np.cumsum(0.5 * (cage[1:] + cage[:-1]) * np.diff(run.t))])
     at = slice(None, None, step)
-    speed, angle = run.speed_rpm[at], (mount.cage_angle + turned)[at]
+    speed, angle = np.abs(run.speed_rpm[at]), (mount.cage_angle + turned)[at]
     balls = _balls_at_rest(own, speed, angle, run.approach[at, first : first + size])
     film, smallest = np.empty((2, *balls["load"].shape))
     for one in np.unique(speed).tolist():

@@ -34,11 +34,9 @@ from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
 from reduced_models.rotor.damping_budget import DampingBudget, budget_of
 from reduced_models.rotor.equilibrium import require_held
-from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.linear_contact import ContactImpedance, LinearElement, WithoutLoss
 from reduced_models.rotor.linear_system import eigenmodes
 from reduced_models.rotor.loss_parts import (
-    SKEW,
     matrix_losses,
     require_parts,
     support_losses,
@@ -483,7 +481,7 @@ def linearise(
         raise InputError("speed_rpm", None, "given: that of the shaft")
     speed = require_finite("speed_rpm", speed_rpm)
     if speed < 0.0:
-        _require_symmetric(rotor, speed)
+        rotor.require_either_way(speed)
     if speed == 0.0:
         rotor = rotor.dry
     mounted, bearings = rotor.contacts, rotor.ball_bearings
@@ -533,15 +531,6 @@ def _with_linear_dampers(rotor: Rotor, rest: _Floats) -> Rotor:
         else:
             mounts.append(mount)
     return replace(rotor, mounts=tuple(mounts))
-
-
-def _require_symmetric(rotor: Rotor, speed: float) -> None:
-    """Raise `InputError` for a reversed speed of a rotor with parts that are for one direction of it."""
-    linear = any(isinstance(mount.bearing, LinearBearing) for mount in rotor.bearings)
-    K = rotor.stiffness
-    if linear or rotor.contacts or np.abs(K - K.T).max() > SKEW * np.abs(K).max():
-        allowed = ">= 0 for a rotor with contacts, linear bearings or cross-coupled stiffness"
-        raise InputError("speed_rpm", speed, f"{allowed}: they are for one direction of the speed")
 
 
 def _is_impedance(contact: object) -> bool:

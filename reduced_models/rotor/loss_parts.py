@@ -27,7 +27,7 @@ from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.linear_balls import LinearBalls
 from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.linear_contact import WithoutLoss
-from reduced_models.rotor.rotor import Rotor
+from reduced_models.rotor.rotor import SKEW, Rotor
 from reduced_models.rotor.supports import bearing_names
 
 _Floats = NDArray[np.float64]
@@ -35,7 +35,6 @@ _Complex = NDArray[np.complex128]
 Named = Sequence[tuple[str, Any]]  # supports about equilibrium with their names
 
 CROSS_COUPLED = "cross-coupled stiffness"
-SKEW = 1e-9  # of the largest stiffness, the part of it that is not symmetric: below is rounding
 NONE = frozenset[str]()
 
 

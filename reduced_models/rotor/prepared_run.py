@@ -74,9 +74,13 @@ class PreparedRun:
         course = shaft_course(rotor, speed_rpm, self.t)
         self.omega, self.angle, self.turning, self.at = course.omega, course.angle, course.turning, course.at
         self._require_short_steps()
+        backward = bool(self.omega.min() < 0.0)
+        if backward:
+            rotor.require_either_way(float(self.omega.min()) / RPM_TO_RAD_S)
         speeds = course.law_speeds.tolist()
         self.balls: tuple[BallMotion, ...] = tuple(
-            motion_of(mount.ball_bearing, speeds, mount.directions) for mount in rotor.ball_bearings
+            motion_of(mount.ball_bearing, speeds, mount.directions, backward=backward)
+            for mount in rotor.ball_bearings
         )
         mounts = (*rotor.ball_bearings, *rotor.film_dampers)
         shifts = [np.zeros(len(rotor.contacts)), *(mount.shift for mount in mounts)]
@@ -129,7 +133,8 @@ class PreparedRun:
         while first < self.steps:
             end = min(first + LONGEST_BLOCK, self.steps)
             if self.rotor.changes_with_speed:
-                off = np.abs(self.omega[first : end + 1] - self.omega[first]) > SPEED_PER_BLOCK * self.omega.max()
+                change = np.abs(self.omega[first : end + 1] - self.omega[first])
+                off = change > SPEED_PER_BLOCK * np.abs(self.omega).max()
                 end = first + max(int(np.argmax(off)), 1) if off.any() else end
             yield first, end, float(0.5 * (self.omega[first] + self.omega[end]))
             first = end
@@ -165,7 +170,7 @@ class PreparedRun:
         if isinstance(start, str):
             if start != "static":
                 raise InputError("start", start, "'static', or displacements and velocities")
-            speed = float(self.omega[0] / RPM_TO_RAD_S)
+            speed = abs(float(self.omega[0] / RPM_TO_RAD_S))
             return (self.rotor.equilibrium(speed) if speed else self.rotor.dry.equilibrium()), np.zeros(size)
         try:
             d, v = start
@@ -174,6 +179,6 @@ class PreparedRun:
         return np.array(as_column("displacements", d, size=size)), np.array(as_column("velocities", v, size=size))
 
     def _require_short_steps(self) -> None:
-        fastest = float(self.omega.max())
+        fastest = float(np.abs(self.omega).max())
         for mount in self.rotor.ball_bearings:
             require_short_steps(mount.ball_bearing, fastest / RPM_TO_RAD_S, self.dt)

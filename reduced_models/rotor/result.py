@@ -254,7 +254,7 @@ class RotorResult(QuantityTable, ByNode):
             return super().plot(path)
         if self.t.size <= FEWEST:
             raise InputError("steps of the run", self.t.size - 1, f"at least {FEWEST}, for a figure")
-        highest, per_second = 0.5 / float(self.t[1] - self.t[0]), float(self.speed_rpm.max()) / 60.0
+        highest, per_second = 0.5 / float(self.t[1] - self.t[0]), float(np.abs(self.speed_rpm).max()) / 60.0
         if most_hz is not None:
             most_hz = min(require_positive("most_hz", most_hz), highest)
         usual = min(ORDERS_SHOWN * per_second, highest) if per_second > 0.0 else highest

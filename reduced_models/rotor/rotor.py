@@ -60,6 +60,7 @@ Matrices = tuple[_Floats, _Floats, _Floats]
 # whose degrees of freedom it is not known what each moves.
 MOST_ECCENTRIC, MOST_OF_MATRICES = 0.01, 1.0
 MISSED = 1e-9  # distance from wanted approaches, over the largest, that rounding may leave
+SKEW = 1e-9  # of the largest stiffness, the part of it that is not symmetric: below is rounding
 SYMMETRIC = 1e-6  # of the largest entry, by which matrices of another program may be off
 SUM = 1e-9  # of the largest entry, by which parts may miss their sum
 MATRICES = ("mass", "damping", "stiffness")
@@ -306,6 +307,14 @@ class Rotor(Summary):
             what = "gyroscopic moments" if self.gyroscopic.any() else "unbalances"
             allowed = f'"inner" in a rotor with {what}: its shaft turns at the speed of one ring against the other'
             raise InputError(f"mounts[{i}].bearing.turning", turning, allowed)
+
+    def require_either_way(self, speed_rpm: float) -> None:
+        """Raise `InputError`, of a speed below 0, for a rotor with parts that are for one direction of it."""
+        linear = any(isinstance(mount.bearing, LinearBearing) for mount in self.bearings)
+        K = self.stiffness
+        if linear or self.contacts or np.abs(K - K.T).max() > SKEW * np.abs(K).max():
+            allowed = ">= 0 for a rotor with contacts, linear bearings or cross-coupled stiffness"
+            raise InputError("speed_rpm", speed_rpm, f"{allowed}: they are for one direction of the speed")
 
     def _require_there(self, field: str, places: tuple[Any, ...]) -> None:
         """Raise `InputError` for degrees of freedom that do not exist, or of which two are one."""

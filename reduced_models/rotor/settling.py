@@ -137,7 +137,7 @@ def steps_per_revolution(result: RotorResult) -> int:
     speed = float(result.speed_rpm[0])
     if speed == 0.0 or result.t.size < 2 or np.ptp(result.speed_rpm) > 0.0:
         raise InputError("run", f"{result.t.size} times at {speed:g} rpm", "of a turning rotor, at one speed")
-    steps = 60.0 / speed / float(result.t[1] - result.t[0])
+    steps = 60.0 / abs(speed) / float(result.t[1] - result.t[0])
     if abs(steps - round(steps)) > 1e-6 * steps:
         raise InputError("steps per revolution", steps, "a whole number")
     return round(steps)

@@ -81,7 +81,7 @@ def simulate_rotor(
         Its contacts in SI, those with a memory each their own object; they are left at the
         state of the end.
     speed_rpm : float or SpeedProfile, optional
-        Of the shaft [rev/min], constant or over time; by default that of the rotor.
+        Of the shaft [rev/min], constant or over time; by default that of the rotor. Below 0 it turns from y to x.
     dt, until : float
         Step and end [s]; the last step may pass `until` by less than dt.
     start : "static" or (ndarray, ndarray)
@@ -108,7 +108,8 @@ def simulate_rotor(
     ------
     InputError
         A value outside its range, a speed that a bearing does not take, a step too long for the ball passage or
-        the turn of the shaft; a contact with a memory in two mounts.
+        the turn of the shaft; a contact with a memory in two mounts; a speed below 0 of a rotor with parts that
+        are for one direction of it, as of `linearise`.
     ConvergenceError
         A step found no balance, a contact in it did not converge, a ring left its bearing, or the journal of a
         damper touched its housing; ``result`` holds the steps before.
@@ -219,7 +220,7 @@ def run_result(run: PreparedRun, made: int, status: Status) -> RotorResult:
 
 def _long_steps(run: PreparedRun, largest: _Floats) -> str:
     """Features of bearings that balls meet in too few steps, in words; else empty."""
-    notes, fastest = [], float(run.omega.max()) / RPM_TO_RAD_S
+    notes, fastest = [], float(np.abs(run.omega).max()) / RPM_TO_RAD_S
     rows = zip(run.rotor.ball_bearings, run.rotor.ball_bearing_names, largest.max(axis=1).tolist(), strict=True)
     for mount, name, force in rows:
         met = shortest_meeting(mount.ball_bearing, fastest, force)

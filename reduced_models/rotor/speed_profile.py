@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks import as_column, parts, require_nonnegative
 from ehlcontact.checks.quantity import fields_take, takes
+from ehlcontact.errors import InputError
 from ehlcontact.quantities import SPEED, TIME
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.summary import span
@@ -19,10 +20,11 @@ from reduced_models.rotor.rotor import Rotor
 
 _Floats = NDArray[np.float64]
 
+EITHER_WAY = parts.SPEED_OR_NONE._replace(signed=True)
 SPEED_RATIO = 1.25  # of neighbouring speeds at which laws are made
 
 
-@fields_take(t="s", speed_rpm=parts.SPEED_OR_NONE)
+@fields_take(t="s", speed_rpm=EITHER_WAY)
 @dataclass(frozen=True, eq=False)
 class SpeedProfile(QuantityTable):
     """Speed of the shaft over time, straight between given times.
@@ -32,7 +34,8 @@ class SpeedProfile(QuantityTable):
     t : array_like, shape (k,), k >= 2
         Increasing, from 0 on [s].
     speed_rpm : array_like, shape (k,)
-        Speeds [rev/min], >= 0; constant before the first and after the last time.
+        Speeds [rev/min], >= 0; or <= 0 of a shaft that turns backward, from y to x. Constant before the first and
+        after the last time.
     """
 
     t: Annotated[_Floats, TIME.over("t")]
@@ -48,15 +51,19 @@ class SpeedProfile(QuantityTable):
         object.__setattr__(self, "t", as_column("t", self.t, least=2, increasing=True))
         object.__setattr__(self, "speed_rpm", as_column("speed_rpm", self.speed_rpm, size=self.t.size))
         require_nonnegative("t[0]", float(self.t[0]))
+        low, high = float(self.speed_rpm.min()), float(self.speed_rpm.max())
+        if low < 0.0 < high:
+            allowed = "all >= 0, or all <= 0: between them the shaft would stand still, where films do not hold"
+            raise InputError("speed_rpm", [low, high], allowed)
 
     @classmethod
-    @takes(speed_rpm=parts.SPEED_OR_NONE)
+    @takes(speed_rpm=EITHER_WAY)
     def constant(cls, speed_rpm: float) -> SpeedProfile:
         """One speed all the time."""
         return cls(np.array([0.0, 1.0]), np.full(2, speed_rpm))
 
     @classmethod
-    @takes(first_rpm=parts.SPEED_OR_NONE, last_rpm=parts.SPEED_OR_NONE, seconds=parts.SECONDS)
+    @takes(first_rpm=EITHER_WAY, last_rpm=EITHER_WAY, seconds=parts.SECONDS)
     def ramp(cls, first_rpm: float, last_rpm: float, seconds: float) -> SpeedProfile:
         """From one speed to another at a constant rate: a run-up, or a coast-down."""
         return cls(np.array([0.0, seconds]), np.array([first_rpm, last_rpm]))
@@ -93,8 +100,8 @@ def shaft_course(rotor: Rotor, speed_rpm: float | SpeedProfile, t: _Floats) -> S
 
 
 def law_speeds(rpm: _Floats) -> _Floats:
-    """Speeds at which laws are made for a course."""
-    low, high = float(rpm.min()), float(rpm.max())
+    """Speeds at which laws are made for a course, in either direction."""
+    low, high = float(np.abs(rpm).min()), float(np.abs(rpm).max())
     if low == high:
         return np.array([low])
     low = max(low, 1e-3 * high)

@@ -298,6 +298,15 @@ def findings_of(one):
     return Findings(one, answer_of(one), {}, None, {}, (), None, None, {}, {})
 
 
+def test_a_wheel_is_named(study):
+    """The first line says which ring turns; an outer one that does leaves the shaft, with its fit, at rest."""
+    wheel = study(ALONE, ("conformity = 0.52", 'turning = "outer"'))
+    found = findings_of(load_study(wheel))
+    assert "rev/min of the outer ring, " in headline(found).splitlines()[0]
+    (support,) = found.machine.supports
+    assert support.bearing.turning == "outer"
+
+
 def test_fits_that_preload_or_leave_a_ring_loose(study):
     """Numbers are for the mean clearance: a line has the others, and the basic life at the least probable one."""
     fits = FITS.replace("6306", "6205").replace("75", "105")

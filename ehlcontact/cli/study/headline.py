@@ -65,7 +65,8 @@ def operating_line(found: Findings) -> str:
     parts = [(support.label or "ball bearing", load_words(support.state.load)) for support in machine.supports]
     if study.shaft is None:
         (name, load), *_ = parts
-        return f"{name[0].upper()}{name[1:]} under {load} {speed}, {oil}."
+        turns = "" if study.support[0].turning == "inner" else " of the outer ring"
+        return f"{name[0].upper()}{name[1:]} under {load} {speed}{turns}, {oil}."
     on = [f"{name} ({load})" for name, load in parts]
     stands = " and ".join(filter(None, (", ".join(on[:-1]), on[-1])))
     return f"Shaft on {stands} {speed}, {oil}."
