@@ -6,7 +6,7 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -83,7 +83,15 @@ def execute(arguments: Sequence[str] | None = None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
         with watched_stdout(), warnings.catch_warnings():
-            warnings.showwarning = lambda message, *_: complain(f"warning: {message}")
+            told: set[str] = set()
+
+            def tell(message: Warning | str, *_: Any, **__: Any) -> None:
+                """Show each warning once, wherever it comes from."""
+                if str(message) not in told:
+                    told.add(str(message))
+                    complain(f"warning: {message}")
+
+            warnings.showwarning = tell
             return _invoke(given)
     except InputError as error:
         complain(str(error))

@@ -13,6 +13,7 @@
 | designation | names as makers print them: maker, suffixes, other kinds of bearings |
 | clearance | radial clearance by class and bore |
 | tolerances | classes of seats, tolerances of rings, outside diameters by series |
+| seats | rings on shafts and in housings: pressed, warm, turning; materials |
 | operating_clearance | `operating_clearance`: clearance on its seats, warm and turning |
 | freedoms | degrees of freedom of the ring: names, units, loads |
 | core_bearing | `CoreBearing`: a bearing as the C core has it, views of its state |

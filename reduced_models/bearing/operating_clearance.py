@@ -1,24 +1,15 @@
 """`operating_clearance`: radial clearance of a mounted, warm, turning bearing from class, fits, warmth and speed.
 
-Rings, shaft and housing are thick cylinders in plane stress, rings up to the bottoms of their grooves (Lame;
-Timoshenko and Goodier, Theory of Elasticity, sections 28 and 32). At the seat of a ring on its shaft
-
-    I = p d [ (D2 + d2)/(D2 - d2)/Er + nur/Er + (d2 + b2)/(d2 - b2)/Es - nus/Es ],
-
-with interference I and pressure p, bore d and groove diameter D of the ring, bore b of the shaft, and squares d2;
-the groove grows by 2 p d2 D/(Er (D2 - d2)). A ring that turns is wider at radius r, between a and b, by
-
-    u = rho omega^2 (3 + nu)(1 - nu)/(8 E) r [a^2 + b^2 - (1 + nu)/(3 + nu) r^2 + (1 + nu)/(1 - nu) a^2 b^2/r^2].
-
-All is linear, so free rings and shafts are warmed and turned first; what then overlaps at the seats is pressed.
+All is linear (`seats`), so free rings and shafts are warmed and turned first; what then overlaps at the seats is
+pressed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from math import cos, inf, sin, sqrt
-from typing import Annotated, Any, ClassVar, NamedTuple
+from math import inf, sin, sqrt
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,17 +20,26 @@ from ehlcontact.errors import InputError, warn_user
 from ehlcontact.quantities import LENGTH, PRESSURE, SPEED
 from ehlcontact.results.table import Display, QuantityTable
 from reduced_models.bearing.ball_bearing import BallBearing
-from reduced_models.bearing.catalogue import ROWS, designation_of
+from reduced_models.bearing.catalogue import designation_of
 from reduced_models.bearing.clearance import clearance_limits
 from reduced_models.bearing.grooves import distance_of_centres
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.bearing.ring import free_clearance
+from reduced_models.bearing.seats import (
+    MATERIALS,
+    Material,
+    Seats,
+    inner_ring,
+    interferences,
+    opened,
+    outer_ring,
+    spinning,
+)
 from reduced_models.bearing.tolerances import (
     bore_limits,
     deviation,
     housing_limits,
     outside_limits,
-    outside_of,
     shaft_limits,
 )
 from reduced_models.elements.validity import OutsideValidityWarning
@@ -48,25 +48,8 @@ _Floats = NDArray[np.float64]
 
 CASES = ("least", "mean", "largest")  # clearance: of the tightest fits, of the middles, of the loosest ones
 REFERENCE = 20.0  # degrees Celsius, of drawings
-
-
-class Material(NamedTuple):
-    """Elasticity, density and expansion of a ring, a shaft or a housing."""
-
-    youngs_modulus: float  # Pa
-    poisson_ratio: float
-    density: float  # kg/m3
-    expansion: float  # 1/K
-
-
-MATERIALS = {
-    "steel": Material(2.06e11, 0.3, 7800.0, 11.5e-6),
-    "bearing steel": Material(2.06e11, 0.3, 7800.0, 12.5e-6),
-    "stainless steel": Material(2.0e11, 0.3, 7900.0, 16.0e-6),
-    "cast iron": Material(1.1e11, 0.26, 7200.0, 10.5e-6),
-    "aluminium": Material(7.0e10, 0.33, 2700.0, 23.5e-6),
-    "silicon nitride": Material(3.1e11, 0.27, 3200.0, 3.2e-6),
-}
+PICOMETRES = 6  # decimals of micrometres in summaries
+NO_FIT = "no fit"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -85,7 +68,7 @@ class OperatingClearance(QuantityTable):
         Of the inner ring on its shaft and of the outer ring in its housing, in diameter, cold and at rest, less
         what smoothing takes [m]; below 0 a gap.
     inner_pressed, outer_pressed : ndarray, shape (3,)
-        What overlaps at these seats in operation [m]; below 0 a gap: the ring is loose.
+        What overlaps at these seats in operation [m]; below 0 a gap: the ring is loose. 0 of a seat without fit.
     inner_pressure, outer_pressure : ndarray, shape (3,)
         At the seats in operation [Pa].
     by_inner_fit, by_outer_fit, by_temperature, by_speed : ndarray, shape (3,)
@@ -97,12 +80,12 @@ class OperatingClearance(QuantityTable):
         independent and each within its limits with as many standard deviations as the sum.
     loose_from : float
         Speed [rev/min] from which the inner ring of the loosest fit has no pressure on its seat; infinite where
-        the shaft grows faster.
+        the shaft grows faster, or without fit.
     speed_rpm : float
     temperatures : mapping of str to float
         Of shaft, inner ring, balls, outer ring and housing [degrees Celsius].
     fits : tuple of str
-        Of shaft and housing.
+        Of shaft and housing, or "no fit".
     """
 
     name: str
@@ -131,11 +114,17 @@ class OperatingClearance(QuantityTable):
         """Clearance in operation with all deviations in the middle of their limits [m]."""
         return float(self.clearance[1])
 
+    @property
+    def fits_in_words(self) -> str:
+        """Fits of shaft and housing: "k5 and H6"."""
+        return NO_FIT if set(self.fits) == {NO_FIT} else " and ".join(self.fits)
+
     def _summary_lines(self) -> list[str]:
         def um(values: _Floats) -> str:
-            return " / ".join(f"{1e6 * value + 0.0:.3g}" for value in values)
+            return " / ".join(f"{round(1e6 * value, PICOMETRES) + 0.0:.3g}" for value in values)
 
-        warm = ", ".join(f"{part} {value:g}" for part, value in self.temperatures.items())
+        left_out = {part for part, fit in zip(("shaft", "housing"), self.fits, strict=True) if fit == NO_FIT}
+        warm = ", ".join(f"{part} {value:g}" for part, value in self.temperatures.items() if part not in left_out)
         takes_off = [
             f"inner fit {um(self.by_inner_fit)}",
             f"outer fit {um(self.by_outer_fit)}",
@@ -144,7 +133,7 @@ class OperatingClearance(QuantityTable):
         ]
         loose = "" if self.loose_from == inf else f"; inner ring loose from {self.loose_from:.4g} rev/min"
         return [
-            f"{self.name}, {self.fits[0]} and {self.fits[1]}, {self.speed_rpm:.5g} rev/min; {warm} °C",
+            f"{self.name}, {self.fits_in_words}, {self.speed_rpm:.5g} rev/min; {warm} °C",
             f"clearance {um(self.clearance)} µm (least / mean / largest), probable {um(self.probable)} µm",
             f"before mounting {um(self.initial)} µm; taken by {', '.join(takes_off[:2])} µm",
             f"{', '.join(takes_off[2:])} µm{loose}",
@@ -208,7 +197,7 @@ class OperatingClearance(QuantityTable):
 def operating_clearance(
     bearing: BallBearing | str,
     *,
-    fit: tuple[Any, Any],
+    fit: tuple[Any, Any] = (None, None),
     initial: str | float | tuple[float, float] | None = None,
     bore: float | None = None,
     outside: float | None = None,
@@ -227,14 +216,15 @@ def operating_clearance(
     ----------
     bearing : BallBearing or str
         Or its name in the catalogue.
-    fit : (str, str)
+    fit : (str, str), optional
         Classes of ISO 286 of shaft and housing, as ``("k5", "H6")``; a deviation [m], or (lower, upper), in place
-        of either.
+        of either. None of a seat that takes nothing, as where the clearance is that after mounting: by default
+        both, for temperatures and speed alone.
     initial : str, float or (float, float), optional
         Before mounting: a class, "CN" by default of a deep-groove bearing, a number, or limits [m]. Of an angular
         contact bearing and of one that is given as a `BallBearing`, its own.
     bore, outside : float, optional
-        Of the bearing [m]; known of the catalogue's.
+        Of the bearing [m]; known of the catalogue's. Fits and, the bore, the speed need them.
     shaft_bore : float
         Of a hollow shaft [m].
     housing_outside : float, optional
@@ -272,7 +262,11 @@ def operating_clearance(
     >>> found = operating_clearance("6206", fit=("k5", "H6"), temperatures=warm, speed_rpm=9000.0)
     """
     own = _bearing(bearing)
-    seat = _Seats.of(own, bore, outside, shaft_bore, housing_outside)
+    if not isinstance(fit, tuple | list) or len(fit) != 2:
+        raise InputError("fit", fit, 'classes of shaft and housing, as ("k5", "H6")')
+    on_shaft, in_housing = (one is not None for one in fit)
+    needs = on_shaft or speed_rpm > 0.0, in_housing
+    seat = Seats.of(own, bore, outside, shaft_bore, housing_outside, needs)
     shaft, housing, balls = (
         _material(name, given)
         for name, given in (
@@ -283,34 +277,44 @@ def operating_clearance(
     )
     ring = Material(own.youngs_modulus, own.poisson_ratio, own.density, MATERIALS["bearing steel"].expansion)
     limits = _initial(bearing, own, initial, seat.d)
-    if not isinstance(fit, tuple | list) or len(fit) != 2:
-        raise InputError("fit", fit, 'classes of shaft and housing, as ("k5", "H6")')
-    tight_shaft = shaft_limits(fit[0], seat.d) if isinstance(fit[0], str) else deviation("fit[0]", fit[0])
-    tight_housing = housing_limits(fit[1], seat.D) if isinstance(fit[1], str) else deviation("fit[1]", fit[1])
     if not 0.0 <= smoothing <= 1e-4:
         raise InputError("smoothing", smoothing, "between 0 and 1e-4 m")
-    inner = _cases(tight_shaft, bore_limits(seat.d)) - smoothing
-    outer = _cases(outside_limits(seat.D), tight_housing) - smoothing
+    nothing = np.zeros(len(CASES))
     warm = _temperatures(temperatures)
     rise = {part: value - REFERENCE for part, value in warm.items()}
     omega = speed_rpm * RPM_TO_RAD_S
 
-    turned = _opened(ring, shaft, seat, omega)
-    heated_in = seat.d * (shaft.expansion * rise["shaft"] - ring.expansion * rise["inner"])
-    heated_out = seat.D * (ring.expansion * rise["outer"] - housing.expansion * rise["housing"])
-    pressed_in, pressed_out = inner + heated_in - turned, outer + heated_out
-    p_in, growth = _inner_ring(np.maximum(pressed_in, 0.0), seat, ring, shaft)
-    p_out, shrinkage = _outer_ring(np.maximum(pressed_out, 0.0), seat, ring, housing)
-    warmth = (
-        ring.expansion * (seat.groove_inner * rise["inner"] - seat.groove_outer * rise["outer"])
-        + 2.0 * own.ball_diameter * balls.expansion * rise["balls"]
+    inner, pressed_in, p_in, growth, loose_from = nothing, nothing, nothing, nothing, inf
+    outer, pressed_out, p_out, shrinkage = nothing, nothing, nothing, nothing
+    tolerances = []  # of each fit: what it takes, limits of shaft or housing, limits of the ring
+    if on_shaft:
+        tight = shaft_limits(fit[0], seat.d) if isinstance(fit[0], str) else deviation("fit[0]", fit[0])
+        inner = interferences(tight, bore_limits(seat.d)) - smoothing
+        heated = seat.d * (shaft.expansion * rise["shaft"] - ring.expansion * rise["inner"])
+        pressed_in = inner + heated - opened(ring, shaft, seat, omega)
+        p_in, growth = inner_ring(np.maximum(pressed_in, 0.0), seat, ring, shaft)
+        per_square = opened(ring, shaft, seat, 1000.0 * RPM_TO_RAD_S) / 1e6  # over the square of rev/min
+        hold = float(inner[2] + heated)
+        loose_from = 0.0 if hold <= 0.0 else sqrt(hold / per_square) if per_square > 0.0 else inf
+        tolerances.append((growth, tight, bore_limits(seat.d)))
+    if in_housing:
+        tight = housing_limits(fit[1], seat.D) if isinstance(fit[1], str) else deviation("fit[1]", fit[1])
+        outer = interferences(outside_limits(seat.D), tight) - smoothing
+        heated = seat.D * (ring.expansion * rise["outer"] - housing.expansion * rise["housing"])
+        pressed_out = outer + heated
+        p_out, shrinkage = outer_ring(np.maximum(pressed_out, 0.0), seat, ring, housing)
+        tolerances.append((shrinkage, tight, outside_limits(seat.D)))
+    # against balls as warm as they are, and all of it as warm as the balls: play is a length then
+    warmth = ring.expansion * (
+        seat.groove_inner * (rise["inner"] - rise["balls"]) - seat.groove_outer * (rise["outer"] - rise["balls"])
     )
-    spun = 2.0 * spinning(ring, seat.d / 2.0, seat.groove_inner / 2.0, seat.groove_inner / 2.0, omega)
+    play = 0.0 if own.contact_angle is None else free_clearance(distance_of_centres(own), own.contact_angle)
+    apart = 2.0 * own.ball_diameter * (balls.expansion - ring.expansion) - ring.expansion * play
+    warmth += rise["balls"] * apart
+    at = 0.5 * seat.groove_inner
+    spun = 2.0 * spinning(ring, 0.5 * seat.d, at, at, omega) if omega > 0.0 else 0.0
     before = np.array([limits[0], 0.5 * sum(limits), limits[1]])
     after = before - growth - shrinkage - warmth - spun
-    per_square = _opened(ring, shaft, seat, 1000.0 * RPM_TO_RAD_S) / 1e6  # over the square of rev/min
-    hold = float(inner[2] + heated_in)
-    loose_from = 0.0 if hold <= 0.0 else sqrt(hold / per_square) if per_square > 0.0 else inf
     result = OperatingClearance(
         name=own.name or "ball bearing",
         initial=before,
@@ -325,7 +329,7 @@ def operating_clearance(
         by_temperature=np.full(3, warmth),
         by_speed=np.full(3, spun),
         clearance=after,
-        probable=_probable(after, before, growth, shrinkage, seat, (tight_shaft, tight_housing)),
+        probable=_probable(after, before, tolerances),
         loose_from=loose_from,
         speed_rpm=float(speed_rpm),
         temperatures=warm,
@@ -340,106 +344,12 @@ def operating_clearance(
     return result
 
 
-class _Seats(NamedTuple):
-    """Diameters [m]: bores of shaft and bearing, grooves, outside of bearing and housing."""
-
-    b: float
-    d: float
-    groove_inner: float
-    groove_outer: float
-    D: float
-    housing: float
-
-    @classmethod
-    def of(
-        cls, bearing: BallBearing, bore: float | None, outside: float | None, hollow: float, housing: float | None
-    ) -> _Seats:
-        row = ROWS.get(bearing.name)
-        d = bore if bore is not None else None if row is None else row.bore
-        if d is None:
-            raise InputError("bore", None, "given in metres: that of this bearing is not known, and fits need it")
-        D = outside if outside is not None else outside_of(bearing.name, d)
-        if D is None:
-            allowed = "given in metres: that of this bearing is not known, and fits need it"
-            raise InputError("outside", None, allowed)
-        inner, outer = groove_bottoms(bearing)
-        if not d < inner:
-            raise InputError("bore", d, f"below {inner:.5g} m, the diameter of the inner groove")
-        if not D > outer:
-            raise InputError("outside", D, f"above {outer:.5g} m, the diameter of the outer groove")
-        if not hollow < d:
-            raise InputError("shaft_bore", hollow, f"below {d:.5g} m, the bore of the bearing")
-        if housing is not None and not housing > D:
-            raise InputError("housing_outside", housing, f"above {D:.5g} m, the outside diameter of the bearing")
-        return cls(hollow, d, inner, outer, D, inf if housing is None else housing)
-
-
-def groove_bottoms(bearing: BallBearing) -> tuple[float, float]:
-    """Diameters of the bottoms of the inner and the outer groove [m]; less two balls they leave the clearance.
-
-    Balls on the pitch circle touch both grooves at the contact angle; centres of grooves lie off their bottoms.
-    """
-    ball, cosine = bearing.ball_diameter, cos(bearing.contact_angle or 0.0)
-    inner, outer = bearing.conformity_inner, bearing.conformity_outer
-    return (
-        bearing.pitch_diameter + ball * ((2.0 * inner - 1.0) * cosine - 2.0 * inner),
-        bearing.pitch_diameter - ball * ((2.0 * outer - 1.0) * cosine - 2.0 * outer),
-    )
-
-
-def spinning(material: Material, a: float, b: float, r: float, omega: float) -> float:
-    """Displacement [m] at radius r of a disc from radius a (0: solid) to b that turns [rad/s]."""
-    E, nu, rho = material.youngs_modulus, material.poisson_ratio, material.density
-    hole = (1.0 + nu) / (1.0 - nu) * a**2 * b**2 / r**2
-    shape = a**2 + b**2 - (1.0 + nu) / (3.0 + nu) * r**2 + hole
-    return rho * omega**2 * (3.0 + nu) * (1.0 - nu) / (8.0 * E) * r * shape
-
-
-def _opened(ring: Material, shaft: Material, seat: _Seats, omega: float) -> float:
-    """By how much rotation [rad/s] opens the seat of the inner ring, in diameter [m]."""
-    at = 0.5 * seat.d
-    own = spinning(ring, at, 0.5 * seat.groove_inner, at, omega)
-    return 2.0 * (own - spinning(shaft, 0.5 * seat.b, at, at, omega))
-
-
-def _inner_ring(overlap: _Floats, seat: _Seats, ring: Material, shaft: Material) -> tuple[_Floats, _Floats]:
-    """Pressure on the seat of the inner ring, and growth of its groove."""
-    bore2, groove2, hole2 = seat.d**2, seat.groove_inner**2, seat.b**2
-    yielding = ((groove2 + bore2) / (groove2 - bore2) + ring.poisson_ratio) / ring.youngs_modulus
-    yielding += ((bore2 + hole2) / (bore2 - hole2) - shaft.poisson_ratio) / shaft.youngs_modulus
-    pressure = overlap / (seat.d * yielding)
-    return pressure, 2.0 * pressure * bore2 * seat.groove_inner / (ring.youngs_modulus * (groove2 - bore2))
-
-
-def _outer_ring(overlap: _Floats, seat: _Seats, ring: Material, housing: Material) -> tuple[_Floats, _Floats]:
-    """Pressure on the seat of the outer ring, and shrinkage of its groove."""
-    outside2, groove2, block2 = seat.D**2, seat.groove_outer**2, seat.housing**2
-    thick = 1.0 if seat.housing == inf else (block2 + outside2) / (block2 - outside2)
-    yielding = (thick + housing.poisson_ratio) / housing.youngs_modulus
-    yielding += ((outside2 + groove2) / (outside2 - groove2) - ring.poisson_ratio) / ring.youngs_modulus
-    pressure = overlap / (seat.D * yielding)
-    return pressure, 2.0 * pressure * outside2 * seat.groove_outer / (ring.youngs_modulus * (outside2 - groove2))
-
-
-def _cases(first: tuple[float, float], second: tuple[float, float]) -> _Floats:
-    """First less second deviation: greatest, mean and least."""
-    return np.array([first[1] - second[0], 0.5 * (sum(first) - sum(second)), first[0] - second[1]])
-
-
 def _probable(
-    after: _Floats,
-    before: _Floats,
-    growth: _Floats,
-    shrinkage: _Floats,
-    seat: _Seats,
-    fits: tuple[tuple[float, float], tuple[float, float]],
+    after: _Floats, before: _Floats, tolerances: list[tuple[_Floats, tuple[float, float], tuple[float, float]]]
 ) -> _Floats:
     """Mean clearance, less and more the root of the sum of the squares of half the widths of its limits."""
     widths = [np.ptp(before)]
-    for change, pair in (
-        (growth, (fits[0], bore_limits(seat.d))),
-        (shrinkage, (fits[1], outside_limits(seat.D))),
-    ):
+    for change, *pair in tolerances:
         sizes = np.array([high - low for low, high in pair])
         if sizes.sum() > 0.0:
             widths.extend(np.ptp(change) * sizes / sizes.sum())
@@ -491,6 +401,8 @@ def _temperatures(given: Mapping[str, float] | None) -> dict[str, float]:
 
 
 def _fit_words(fit: Any) -> str:
+    if fit is None:
+        return NO_FIT
     if isinstance(fit, str):
         return fit.strip()
     values = fit if isinstance(fit, tuple | list) else (fit,)

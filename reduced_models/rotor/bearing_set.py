@@ -44,6 +44,7 @@ from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.coefficients import BearingCoefficients, stiffness_and_damping
 from reduced_models.bearing.equilibrium import angle_of, direction_of
 from reduced_models.bearing.freedoms import FACINGS, FIVE, bearing_load, facing_signs, held_tilt, require_offset
+from reduced_models.bearing.operating_clearance import OperatingClearance
 from reduced_models.bearing.race import assumptions_under, beyond_data
 from reduced_models.bearing.ring import RingEquilibrium, groove_distance, require_seated
 from reduced_models.bearing.ring_statics import cage_angles, require_in_grooves, state_of
@@ -75,7 +76,7 @@ VERTICAL = -0.5 * pi  # rad, of the first ball where no load says where it stand
 class BearingSet(Summary):
     """Ball bearings on one rigid shaft. SI units; axes of the shaft as in `BallBearing`.
 
-    `pair` and `tandem` make the usual ones; `preloaded` and `grown` change the offsets of any.
+    `pair` and `tandem` make the usual ones; `preloaded`, `grown` and `mounted` change the offsets of any.
 
     Parameters
     ----------
@@ -296,6 +297,36 @@ class BearingSet(Summary):
             allowed = f"{'below' if growth > 0.0 else 'above'} {most:.4g} m, where the set has lost its preload"
             raise InputError("growth", growth, allowed)
         return longer
+
+    @takes()
+    def mounted(self, clearance: OperatingClearance) -> Self:
+        """The set with its angular contact bearings on their seats, warm and turning.
+
+        Its bearings have the contact angles of the mean clearance then. Fits and warmth that take clearance press
+        bearings of opposite facings further; a spring takes that up.
+
+        Parameters
+        ----------
+        clearance : OperatingClearance
+            Of every one of the bearings, as `operating_clearance` has it.
+
+        Raises
+        ------
+        InputError
+            A deep-groove bearing; no play left.
+        """
+        require_instance("clearance", clearance, OperatingClearance, "an OperatingClearance")
+        pressed = [0.0 if self.sprung is not None else clearance.offset(bearing) for bearing in self.bearings]
+        offsets = [own + more for own, more in zip(self.offsets, pressed, strict=True)]
+        return replace(self, bearings=[clearance.of(bearing) for bearing in self.bearings], offsets=offsets)
+
+    @property
+    def preload(self) -> float:
+        """Axial force [N] by which bearings of opposite facings press each other: unloaded, at rest, dry."""
+        if self._interference <= 0.0:
+            return 0.0
+        forces = self.dry.equilibrium((0.0, 0.0, 0.0)).axial_forces.tolist()
+        return float(sum(force for force, own in zip(forces, self.facings, strict=True) if own == self.facings[0]))
 
     @property
     def dry(self) -> Self:

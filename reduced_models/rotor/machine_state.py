@@ -32,7 +32,7 @@ from reduced_models.bearing.ring import RingEquilibrium
 from reduced_models.bearing.ring_statics import state_of
 from reduced_models.life.bearing_life import finite
 from reduced_models.life.life_modification import BASIC_RELIABILITY
-from reduced_models.life.system_life import SystemLife
+from reduced_models.life.system_life import HOURS, SystemLife
 from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.campbell import Campbell, CriticalSpeed, campbell_of
 from reduced_models.rotor.damping_budget import DampingBudget, budget_of
@@ -103,6 +103,9 @@ class MachineState(Summary):
         Of the oil, for the modified rating life, as of `BearingState.life`; None: the basic one alone.
     reliability : float
         Of the modified rating life [%].
+    clearances : tuple of (float, float) or None
+        Of each support: limits within which its clearance probably is [m], as of its class or of an
+        `OperatingClearance`, for the life at both; None where they are not known, empty where none is.
     """
 
     speed_rpm: float
@@ -117,6 +120,7 @@ class MachineState(Summary):
     failed: tuple[str, ...] = ()
     contamination: float | str | None = None
     reliability: float = BASIC_RELIABILITY
+    clearances: tuple[tuple[float, float] | None, ...] = ()
 
     def _summary_lines(self) -> list[str]:
         tiles = [str(tile) for tile in self.tiles()]
@@ -197,6 +201,28 @@ class MachineState(Summary):
         return SystemLife(lives=tuple(state.life(**options) for state in states), names=tuple(names))
 
     @cached_property
+    def lives_at_clearances(self) -> tuple[SystemLife, SystemLife] | None:
+        """Rating life with the least and with the largest clearances, under the loads of this machine.
+
+        None where no limits are known, or a bearing does not carry its load at them.
+        """
+        if not any(self.clearances):
+            return None
+        found = []
+        for end in (0, 1):
+            lives = list(self.rating_life)
+            for k, (support, limits) in enumerate(zip(self.supports, self.clearances, strict=True)):
+                if limits is not None and isinstance(support.bearing, BallBearing):
+                    bearing, state = replace(support.bearing, clearance=limits[end]), support.state
+                    try:
+                        there = bearing.equilibrium(state.load, speed_rpm=state.speed_rpm)
+                    except (ConvergenceError, InputError):
+                        return None
+                    lives[k] = there.life(contamination=self.contamination, reliability=self.reliability)
+            found.append(replace(self.rating_life, lives=tuple(lives)))
+        return found[0], found[1]
+
+    @cached_property
     def numbers(self) -> dict[str, float | None]:
         """Single numbers of the machine, by `machine_numbers.QUANTITIES`."""
         return machine_numbers(self)
@@ -269,6 +295,7 @@ class MachineState(Summary):
             "largest_peak": None if peak is None else peak._asdict(),
             "response_at_speed": None if own is None else own._asdict(),
             "life": self.rating_life.to_dict(),
+            "life_at_clearances": self._ends_of_life(),
             "numbers": {name: finite(value) for name, value in self.numbers.items()},
             "highest_speed": None if self.highest_speed == inf else self.highest_speed,
             "ends": self.ends,
@@ -276,6 +303,13 @@ class MachineState(Summary):
             "reservations": list(self.reservations),
             "tiles": [tile._asdict() for tile in self.tiles()],
         }
+
+    def _ends_of_life(self) -> dict[str, dict[str, float | None]] | None:
+        """Lives with the least and with the largest clearances [h], by their kind."""
+        if self.lives_at_clearances is None:
+            return None
+        ends = zip(("least", "largest"), self.lives_at_clearances, strict=True)
+        return {end: {name: finite(getattr(life, name)) for name in HOURS} for end, life in ends}
 
 
 def _orbit(response: UnbalanceResponse, k: int, node: int) -> LargestResponse:

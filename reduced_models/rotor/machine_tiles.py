@@ -150,9 +150,24 @@ def _life(machine: Any) -> Tile | None:
     safety = min(one.pressure_safety for one in system)
     ratings = f"C {digits(1e-3 * shortest.ratings.dynamic, 4)} kN {shortest.ratings.dynamic_source}"
     covered = f"not covered: {system.not_covered[0]}" if system.not_covered else ""
-    note = _note(kind, of, needs, covered, f"static safety {digits(safety)} by pressure", ratings)
+    safe = f"static safety {digits(safety)} by pressure"
+    note = _note(kind, _by_clearance(machine), of, needs, covered, safe, ratings)
     number = "l10rh" if system.lnmrh is None else "lnmrh"
     return Tile("rating life", digits(hours), "h", note, number=number)
+
+
+def _by_clearance(machine: Any) -> str:
+    """Life at both limits of the clearances, of the kind that the tile has."""
+    if machine.lives_at_clearances is None:
+        return ""
+    name = "l10rh" if machine.rating_life.lnmrh is None else "lnmrh"
+    lives = [getattr(life, name) for life in machine.lives_at_clearances]
+    if None in lives or inf in lives:
+        return ""
+    limits = {one for one in machine.clearances if one is not None}
+    own = next(iter(limits)) if len(limits) == 1 else ()  # in the words where all bearings have these
+    least, largest = (f", {digits(1e6 * end)} µm" for end in own) if own else ("", "")
+    return f"{digits(lives[0])} h at the least clearance{least} and {digits(lives[1])} h at the largest{largest}"
 
 
 def _coefficients(machine: Any) -> Tile:

@@ -33,6 +33,7 @@ from reduced_models import (
     operating_clearance,
     rotor_on_bearings,
 )
+from reduced_models.bearing.clearance import clearance_limits
 from reduced_models.bearing.oil_and_heat import LAYER
 from reduced_models.rotor.machine_state import machine_state, single_bearing_state
 
@@ -143,7 +144,8 @@ def test_a_motor_of_unequal_bearings(motor):
         ],
     )
     own = machine_state(rotor, 15000.0, names=("drive end", "fan end"), positions=(0.03, 0.33))
-    assert found.to_dict() == own.to_dict()
+    assert found.clearances == (clearance_limits("CN", 30e-3),) * 2
+    assert found.to_dict() == replace(own, clearances=found.clearances).to_dict()
     assert [round(1e6 * support.h_min, 3) for support in found.supports] == [0.369, 0.322]
     assert sorted(round(mode.hz) for mode in found.modes[:3]) == [161, 266, 267]
 
@@ -308,28 +310,89 @@ def test_a_wheel_is_named(study):
 
 
 def test_fits_that_preload_or_leave_a_ring_loose(study):
-    """Numbers are for the mean clearance: a line has the others, and the basic life at the least probable one."""
+    """Numbers are for the mean clearance: a line has the others, the tile the life at both ends."""
     fits = FITS.replace("6306", "6205").replace("75", "105")
     found = findings_of(load_study(study(ALONE, (ALONE[ALONE.index("balls = 9") :], fits))))
-    ((name, own),) = found.clearances.items()
+    (own,) = found.clearances.values()
     assert own.clearance[0] < own.probable[0] < 0.0 and own.inner_pressed[2] < 0.0
     state = found.machine.supports[0]
-    tight = replace(state.bearing, clearance=own.probable[0]).equilibrium((0.0, -20.0), speed_rpm=3000.0)
-    lives = found.lives_by_clearance[name]
-    assert lives == pytest.approx((state.state.life().l10rh, tight.life().l10rh), rel=1e-9) and lives[1] < lives[0]
+    lives = []
+    for end in own.probable:
+        there = replace(state.bearing, clearance=float(end)).equilibrium((0.0, -20.0), speed_rpm=3000.0)
+        lives.append(there.life().l10rh)
+    ends = [one.l10rh for one in found.machine.lives_at_clearances]
+    assert ends == pytest.approx(lives, rel=1e-12) and lives[0] < lives[1]
     apart, loose = limits(found)[-2:]
     for word in (f"{1e6 * own.clearance[0]:.3g} to", f"probably {1e6 * own.probable[0]:.3g} to", "the mean"):
         assert word in apart
     assert "loose on its shaft" in loose and apart in headline(found) and loose in headline(found)
-    assert found.to_dict()["clearances"][name]["l10rh_probable_least"] == lives[1]
+    assert found.to_dict()["machine"]["life_at_clearances"]["least"]["l10rh"] == ends[0]
+    (tile,) = (one for one in found.machine.tiles() if one.name == "rating life")
+    assert f"h at the least clearance, {1e6 * own.probable[0]:.3g} µm and " in tile.note
 
 
 def test_fits_with_play_left(study):
     fits = FITS.replace("6306", "6205").replace("75", "60").replace('"k5"', '"k5"\nclearance = "C4"')
     found = findings_of(load_study(study(ALONE, (ALONE[ALONE.index("balls = 9") :], fits))))
     (own,) = found.clearances.values()
-    assert own.clearance[0] > 0.0 and own.inner_pressed[2] > 0.0 and not found.lives_by_clearance
+    assert own.clearance[0] > 0.0 and own.inner_pressed[2] > 0.0 and found.machine.lives_at_clearances
     assert not any("fit" in text for text in limits(found))
+
+
+def test_life_over_a_class_of_clearance(study):
+    """Of a class without fits its limits; of a number none."""
+    dimensions = ALONE[ALONE.index("balls = 9") :]
+    by_class = answer_of(load_study(study(ALONE, (dimensions, 'bearing = "6205"\nclearance = "C3"'))))
+    in_name = answer_of(load_study(study(ALONE, (dimensions, 'bearing = "6205/C3"'))))
+    assert by_class.clearances == in_name.clearances == (clearance_limits("C3", 25e-3),)
+    number = answer_of(load_study(study(ALONE, (dimensions, 'bearing = "6205"\nclearance = 20.5'))))
+    assert number.clearances == (None,) and number.lives_at_clearances is None
+    machine = answer_of(load_study(study(MOTOR)))
+    least, largest = machine.lives_at_clearances
+    assert len(least) == len(largest) == 2 and least.names == machine.rating_life.names
+    assert least.l10rh != machine.rating_life.l10rh != largest.l10rh
+
+
+def test_temperatures_without_fits(study):
+    one = load_study(study(MOTOR, ('bearing = "6306"', 'bearing = "6306"\ninner_temperature = 75')))
+    found = operating_clearance("6306", temperatures={"inner": 75.0}, speed_rpm=15000.0)
+    assert bearing_of(one, 0).clearance == pytest.approx(found.mean, rel=1e-5)
+    assert not found.by_inner_fit.any() and clearance_of(one, 0).fits_in_words == "no fit"
+
+
+def test_fits_of_angular_contact_bearings(study):
+    """A pair is pressed by them, on a spring it is not; a bearing alone has the contact angle."""
+    fits = 'bearing = "7205"\nshaft_fit = "k5"\nhousing_fit = "H6"'
+    bearing = BallBearing.catalogue("7205")
+    tight = operating_clearance(bearing, fit=("k5", "H6"), speed_rpm=6000.0)
+    alone = load_study(study(ANGULAR, ('bearing = "7205"', fits)))
+    assert bearing_of(alone, 0).contact_angle == pytest.approx(tight.of(bearing).contact_angle, rel=1e-5)
+    one = load_study(study(PAIR, ('bearing = "7205"', fits)))
+    pair = BearingSet.pair(bearing, preload=200.0, distance=0.04).mounted(tight)
+    assert carrier_of(one, 0).offsets == pytest.approx(pair.offsets, rel=1e-5)
+    found = findings_of(one)
+    before, mounted = found.preloads["1"]
+    assert before == 200.0 and mounted == pytest.approx(pair.preload, rel=1e-4) and mounted > 900.0
+    assert any("press 7205 A with 94" in text for text in limits(found))
+    sprung = load_study(study(PAIR, ('bearing = "7205"', fits), ("preload", "pair_spring")))
+    assert carrier_of(sprung, 0).spring == 200.0
+    assert findings_of(sprung).preloads["1"] == (200.0, pytest.approx(200.0, rel=1e-9))
+
+
+def test_fits_of_angular_contact_bearings_under_a_shaft(study):
+    """Opposite bearings press each other by the offsets of their fits."""
+    fits = 'bearing = "7206"\nshaft_fit = "k5"\nhousing_fit = "H6"\noffset_um = 2.0'
+    right = 'bearing = "7206"\noffset_um = 2.0'
+    changes = [
+        ('bearing = "6306"\nclearance = "CN"', fits),
+        ('bearing = "6206"\nclearance = "CN"\nspring = 200.0', right),
+    ]
+    rotor = rotor_of(load_study(study(MOTOR, *changes)))
+    bearing = BallBearing.catalogue("7206")
+    tight = operating_clearance(bearing, fit=("k5", "H6"), speed_rpm=15000.0)
+    offsets = [mount.offset for mount in rotor.bearings]
+    assert offsets == pytest.approx([2e-6 + tight.offset(bearing), 2e-6], rel=1e-5)
+    assert rotor.bearings[0].bearing.contact_angle == pytest.approx(tight.of(bearing).contact_angle, rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -338,8 +401,8 @@ def test_fits_with_play_left(study):
         ('housing_fit = "H6"\n', "", ("support.drive end.housing_fit", "shaft and housing")),
         ('"k5"', '"H6"', ("support.drive end.shaft_fit = 'H6'", "shaft first")),
         ("= 75", "= 348", ("support.drive end.inner_temperature = 348", "in K")),
-        ('shaft_fit = "k5"\nhousing_fit = "H6"\n', "", ("inner_temperature = 75", "left out without")),
-        ('bearing = "6306"', 'bearing = "7306"', ("support.drive end.shaft_fit", "operating_clearance")),
+        ('shaft_fit = "k5"\nhousing_fit = "H6"\ninner', "shaft", ("shaft_temperature = 75", "left out without")),
+        ('"k5"', '"k5"\ncontact_angle_deg = 15.0', ("support.drive end.clearance = ", "beside a contact angle")),
     ],
 )
 def test_mistakes_in_fits(refused, study, tmp_path, old, new, words):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlcontact.cli.study.loads import load_alone, ring_load
+from ehlcontact.cli.study.loads import life_options, load_alone, ring_load
 from ehlcontact.cli.study.machine import bearing_of, carrier_of, disc_of, places_of, rotor_of
 from ehlcontact.cli.study.shared_entries import tilt_of
 from ehlcontact.errors import ConvergenceError, InputError
@@ -46,7 +46,7 @@ def answer_of(study: Study, *, fine: bool = True) -> MachineState | str:
     Not `fine`: as `machine_state` has it for many machines.
     """
     speed = study.speed_rpm
-    life: dict[str, Any] = {"contamination": study.contamination, "reliability": study.operation.reliability}
+    life = life_options(study)
     try:
         if study.shaft is None:
             tilt = tilt_of(study.operation)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ehlcontact.cli.entries import entries_of, in_options, options_of
-from ehlcontact.cli.study.loads import OF_A_ROTOR, load_alone, loaded
+from ehlcontact.cli.study.loads import OF_A_ROTOR, life_options, load_alone, loaded
 from ehlcontact.cli.study.machine import bearing_of, carrier_of
 from ehlcontact.cli.study.points.lists import points_of, require_apart
 from ehlcontact.cli.study.schema import Study
@@ -103,7 +103,7 @@ class BearingJob:
     def answer(self, speed_rpm: float) -> MachineState:
         """The bearing or pair in the numbers of a designer."""
         found = single_bearing_state(self.bearing_or_pair, self.load, speed_rpm, tilt=self.tilt)
-        return replace(found, contamination=self.study.contamination, reliability=self.study.operation.reliability)
+        return replace(found, **life_options(self.study))
 
     def coefficients(self, speed_rpm: float) -> BearingCoefficients:
         """K and C at the frequencies that are asked for, or at that of the shaft; means over a ball passage."""

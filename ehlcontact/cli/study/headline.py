@@ -25,6 +25,7 @@ from reduced_models.rotor.machine_tiles import MARGIN, digits
 LARGE_CHANGE = 0.01
 STANDS_FOR = 0.05  # of the decrement on full films, within which an element stands for the film
 SAME_BALL = 1e-3  # share by which loads of a ball differ at least where both are told
+PRESSED = 0.2  # change of a preload by fits, over it, that a line names
 UM = "\N{MICRO SIGN}m"
 AXIAL = 2  # of the components of a load
 NEGLIGIBLE = 1e-6  # of the largest component of a load, below which another one is none
@@ -105,18 +106,20 @@ def limits(found: Findings) -> list[str]:
 
 
 def clearances_apart(found: Findings) -> list[str]:
-    """Bearings on fits that preload some of them, or leave an inner ring loose: numbers are for the mean fit."""
+    """Bearings on fits that preload some of them, press a pair, or leave an inner ring loose."""
     said = []
     for name, own in found.clearances.items():
-        label = name if own.name in name else f"{name} {own.name}"
+        numbered = name.isdigit() or own.name in name
+        label = (name if own.name in name else own.name) if numbered else f"{name} {own.name}"
         low, mean, high, least, most = (f"{1e6 * one + 0.0:.3g}" for one in (*own.clearance, *own.probable))
         if own.clearance[0] < 0.0:
-            lives = found.lives_by_clearance.get(name)
-            hours = f" (basic life {digits(lives[0])} h, at {least} {UM} {digits(lives[1])} h)" if lives else ""
             said.append(
                 f"clearance in operation of {label} is {low} to {high} {UM}, probably {least} to {most} {UM}:"
-                f" everything is for the mean, {mean} {UM}{hours}"
+                f" everything but the range of the life is for the mean, {mean} {UM}"
             )
+        before, mounted = found.preloads.get(name, (0.0, 0.0))
+        if abs(mounted - before) > PRESSED * before:
+            said.append(f"fits and temperatures press {label} with {digits(mounted)} N, not {digits(before)} N")
         if own.inner_pressed[2] < 0.0:
             gap = f"{-1e6 * own.inner_pressed[2]:.3g} {UM}"
             said.append(f"the inner ring of {label} is loose on its shaft in the loosest fit: a gap of {gap}")

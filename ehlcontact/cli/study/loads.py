@@ -18,8 +18,10 @@ from ehlcontact.cli.study.machine import (
     bearing_of,
     called,
     carrier_of,
+    clearance_limits_of,
     dimensions_of,
     disc_of,
+    is_angular,
     rotor_of,
     support_field,
 )
@@ -62,7 +64,7 @@ def load_alone(study: Study) -> tuple[float, ...]:
     moments, radial = moments_of(asked, "operation"), asked.radial_load or 0.0
     if asked.axial_load is not None or (one.pair is not None and one.pair != "tandem"):
         return (0.0, -radial, asked.axial_load or 0.0, *moments)
-    if (angular := _angular(one)) is not None:
+    if (angular := _angular(study)) is not None:
         allowed = f"given: {angular} is an angular contact bearing, which carries axial load in +z"
         raise InputError("operation.axial_load", None, allowed)
     for key in AT_ANGLES:
@@ -79,11 +81,11 @@ def load_alone(study: Study) -> tuple[float, ...]:
     return 0.0, -radial
 
 
-def _angular(one: Any) -> str | None:
-    """Name of an angular contact bearing; None of a deep-groove one."""
-    name, row = (one.label, None) if one.bearing is None else catalogue_row(one.bearing)
-    angular = one.contact_angle_deg is not None or (row is not None and row.contact_angle is not None)
-    return name if angular else None
+def _angular(study: Study) -> str | None:
+    """Name of an angular contact bearing alone; None of a deep-groove one."""
+    one = study.support[0]
+    name = one.label if one.bearing is None else catalogue_row(one.bearing)[0]
+    return name if is_angular(study, 0) else None
 
 
 def ring_load(study: Study, k: int) -> _Floats:
@@ -165,6 +167,16 @@ def bearings_of(state: BearingState | SetState) -> dict[str, BearingState]:
 def places_of_bearings(study: Study) -> list[int]:
     """Place in the file of the support of every bearing: that of a pair stands twice."""
     return [k for k, one in enumerate(study.support) for _ in range(1 if one.pair is None else 2)]
+
+
+def life_options(study: Study) -> dict[str, Any]:
+    """What the life of a `MachineState` needs beside loads: contamination, reliability, limits of clearances."""
+    places = [0] if study.shaft is None else places_of_bearings(study)
+    return {
+        "contamination": study.contamination,
+        "reliability": study.operation.reliability,
+        "clearances": tuple(clearance_limits_of(study, k) for k in places),
+    }
 
 
 @contextmanager

@@ -21,7 +21,8 @@ from reduced_models import (
     grade_unbalance,
     rotor_on_bearings,
 )
-from reduced_models.bearing.catalogue import BY_DIMENSIONS, USUAL_CONFORMITY, catalogue_row
+from reduced_models.bearing.catalogue import BY_DIMENSIONS, ROWS, USUAL_CONFORMITY, catalogue_row, designation_of
+from reduced_models.bearing.clearance import clearance_limits
 from reduced_models.bearing.grooves import LARGEST_PLAY
 from reduced_models.bearing.operating_clearance import OperatingClearance, operating_clearance
 
@@ -47,9 +48,8 @@ SIZES_OF_DISC = {
 }  # fmt: skip
 OF_A_PAIR = ("preload", "pair_spring", "distance_mm")
 NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
-OF_FITS = (
-    "inner_temperature", "outer_temperature", "shaft_temperature", "housing_temperature", "housing_material",
-)  # fmt: skip
+OF_FITS = "shaft_temperature", "housing_temperature", "housing_material"
+SEATS = "shaft", "inner", "outer", "housing"  # that have a temperature
 CLEARANCE_DIGITS = 6  # of one in operation, as in scripts
 SAME_PLACE = 1e-6  # of the shaft, within which two places are one
 
@@ -127,8 +127,10 @@ def dimensions_of(study: Study, k: int) -> Sizes:
     return Sizes(*found, (one.conformity_inner or both, one.conformity_outer or both))
 
 
-def bearing_part(study: Study, k: int, *, oil: bool = True) -> Part:
+def bearing_part(study: Study, k: int, *, oil: bool = True, mounted: bool = True) -> Part:
     """The call that makes the bearing at a support, in oil or dry; of a pair one of both.
+
+    Not `mounted`: as it is before mounting, without its fits and temperatures.
 
     Raises
     ------
@@ -155,8 +157,14 @@ def bearing_part(study: Study, k: int, *, oil: bool = True) -> Part:
         given["cutoff_gap"] = one.cutoff_gap_um * 1e-6
     if one.contact_angle_deg is not None:
         given["contact_angle"] = radians(one.contact_angle_deg)
-    if (mounted := clearance_of(study, k)) is not None:
-        given["clearance"] = float(f"{mounted.mean:.{CLEARANCE_DIGITS}g}")
+    operating = clearance_of(study, k) if mounted else None
+    if operating is not None and is_angular(study, k):
+        at = support_field(study, k, "")
+        with called(at, ENTRIES | {"bearing": "shaft_fit"}):
+            fitted = operating.of(_before_mounting(study, k))
+        given["contact_angle"] = float(f"{fitted.contact_angle:.{CLEARANCE_DIGITS}g}")
+    elif operating is not None:
+        given["clearance"] = float(f"{operating.mean:.{CLEARANCE_DIGITS}g}")
     elif one.clearance is not None:
         given["clearance"] = one.clearance if isinstance(one.clearance, str) else one.clearance * 1e-6
     if one.bearing is not None:
@@ -169,36 +177,38 @@ def bearing_part(study: Study, k: int, *, oil: bool = True) -> Part:
 
 
 def clearance_of(study: Study, k: int) -> OperatingClearance | None:
-    """Clearance of a bearing on its fits, warm and at the speed of the study; None where it has no fits.
+    """Clearance of a bearing on its fits, warm and at the speed of the study; None without fits and temperatures.
 
     Raises
     ------
     InputError
-        One fit alone; entries of fits without them; a bearing without a name, or an angular contact bearing.
+        One fit alone; entries of fits without them; a bearing without a name.
     """
     one, at = study.support[k], support_field(study, k, "")
-    if one.shaft_fit is None and one.housing_fit is None:
+    fits = one.shaft_fit, one.housing_fit
+    warm = {part: value for part in SEATS if (value := getattr(one, f"{part}_temperature")) is not None}
+    if fits == (None, None):
         for name in OF_FITS:
             if (value := getattr(one, name)) not in (None, "steel"):
                 raise InputError(f"{at}{name}", value, f"left out without {at}shaft_fit and {at}housing_fit")
-        return None
-    for name in ("shaft_fit", "housing_fit"):
-        if getattr(one, name) is None:
-            raise InputError(f"{at}{name}", None, 'given: fits are those of shaft and housing, as "k5" and "H6"')
-    angular = one.contact_angle_deg is not None
-    if one.bearing is None or angular or catalogue_row(one.bearing)[1].contact_angle is not None:
-        allowed = "of a deep-groove bearing by its name; any other in Python: operating_clearance(...)"
-        raise InputError(f"{at}shaft_fit", one.shaft_fit, allowed)
-    warm = {
-        part: value
-        for part in ("shaft", "inner", "outer", "housing")
-        if (value := getattr(one, f"{part}_temperature")) is not None
-    }
+        if not warm:
+            return None
+    elif None in fits:
+        name = ("shaft_fit", "housing_fit")[fits.index(None)]
+        raise InputError(f"{at}{name}", None, 'given: fits are those of shaft and housing, as "k5" and "H6"')
+    if one.bearing is None:
+        name = "shaft_fit" if fits[0] else f"{next(iter(warm))}_temperature"
+        allowed = "of a bearing by its name, which has a bore and an outside diameter"
+        hint = "any other in Python: operating_clearance(...)"
+        raise InputError(f"{at}{name}", getattr(one, name), f"{allowed}; {hint}")
+    bearing: BallBearing | str = one.bearing
+    if is_angular(study, k):
+        bearing = _before_mounting(study, k)
     initial = one.clearance if one.clearance is None or isinstance(one.clearance, str) else one.clearance * 1e-6
     try:
         return operating_clearance(
-            one.bearing,
-            fit=(str(one.shaft_fit), str(one.housing_fit)),
+            bearing,
+            fit=fits,
             initial=initial,
             shaft_bore=0.0 if study.shaft is None else study.shaft.bore_mm * 1e-3,
             housing_material=one.housing_material,
@@ -208,6 +218,38 @@ def clearance_of(study: Study, k: int) -> OperatingClearance | None:
     except InputError as error:
         names = {"initial": "clearance", "fit": "shaft_fit" if error.value == one.shaft_fit else "housing_fit"}
         raise InputError(f"{at}{names.get(error.field, error.field)}", error.value, error.allowed) from None
+
+
+def _before_mounting(study: Study, k: int) -> BallBearing:
+    """The bearing at a support, dry, without its fits and temperatures."""
+    with called(support_field(study, k, "")):
+        found: BallBearing = bearing_part(study, k, oil=False, mounted=False).made()
+        return found
+
+
+def clearance_limits_of(study: Study, k: int) -> tuple[float, float] | None:
+    """Limits within which the clearance of a bearing probably is [m]: of its class, or in operation.
+
+    None where it is a number, of angular contact bearings and pairs.
+    """
+    one = study.support[k]
+    if one.pair is not None or is_angular(study, k):
+        return None
+    if (operating := clearance_of(study, k)) is not None:
+        low, high = operating.probable.tolist()
+        return low, high
+    name = None if one.bearing is None else designation_of(one.bearing)
+    known = one.clearance if one.clearance is not None or name is None else name.clearance
+    if name is None or not isinstance(known, str):
+        return None
+    return clearance_limits(known, ROWS[name.name].bore)
+
+
+def is_angular(study: Study, k: int) -> bool:
+    """Whether the bearing at a support is an angular contact bearing, by its name or by an angle that is given."""
+    one = study.support[k]
+    named = one.bearing is not None and catalogue_row(one.bearing)[1].contact_angle is not None
+    return named or one.contact_angle_deg is not None
 
 
 def bearing_of(study: Study, k: int, *, oil: bool = True) -> BallBearing:
@@ -267,8 +309,15 @@ def set_part(study: Study, k: int, bearing: BallBearing) -> Part | None:
                 raise InputError(f"{at}{name}", getattr(one, name), f"left out without {at}pair{hint}")
         return None
     more = {"preload": one.preload, "spring": one.pair_spring, "distance_mm": one.distance_mm}
+    operating = clearance_of(study, k)
     with called(at):
-        return pair_part(bearing, one.pair, **more)
+        if operating is None or one.pair_spring is not None or one.pair == "tandem":
+            return pair_part(bearing, one.pair, **more)
+        before: BearingSet = pair_part(_before_mounting(study, k), one.pair, **more).made()
+        after, name = before.mounted(operating), before.name
+        offsets = [float(f"{offset:.{CLEARANCE_DIGITS}g}") for offset in after.offsets]
+        set_up = {"facings": after.facings, "positions": after.positions, "offsets": offsets}
+        return Part(BearingSet, {"bearings": [bearing] * len(offsets), **set_up, "name": name})
 
 
 def rotor_of(
@@ -311,11 +360,20 @@ def support_parts(study: Study, carriers: Sequence[BallBearing | BearingSet | Li
             given = {name: getattr(one, name) for name in ("housing_stiffness", "housing_mass", "housing_damping")}
         if isinstance(carrier, BallBearing) and axial:
             given["facing"] = one.facing or ("+z" if places[k] > middle else "-z")
-            given["offset"] = 1e-6 * (one.offset_um or 0.0)
+            given["offset"] = 1e-6 * (one.offset_um or 0.0) + pressed_by_fits(study, k)
             given["preload"] = one.spring
         own = {"position": places[k], "bearing": carrier, "journal_mass": one.journal_mass}
         parts.append(Part(Support, own | given))
     return parts
+
+
+def pressed_by_fits(study: Study, k: int) -> float:
+    """Offset [m] by which fits and warmth press an angular contact bearing alone; 0 on a spring, and of others."""
+    operating = clearance_of(study, k) if is_angular(study, k) and study.support[k].spring is None else None
+    if operating is None:
+        return 0.0
+    offset = operating.offset(_before_mounting(study, k))
+    return float(f"{offset:.{CLEARANCE_DIGITS}g}")
 
 
 def shaft_of(study: Study) -> Shaft:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 from typing import Any
@@ -13,8 +13,7 @@ import numpy as np
 from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.cli.study.defect import StudyDefect
 from ehlcontact.cli.study.differences import RotorFindings
-from ehlcontact.cli.study.loads import places_of_bearings
-from ehlcontact.cli.study.machine import clearance_of
+from ehlcontact.cli.study.machine import carrier_of, clearance_of
 from ehlcontact.cli.study.points.folder import versions
 from ehlcontact.cli.study.reduction import (
     CONTACTS,
@@ -25,15 +24,14 @@ from ehlcontact.cli.study.reduction import (
 )
 from ehlcontact.cli.study.rotor import stiffness_and_damping
 from ehlcontact.cli.study.schema import Study
-from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.film_formulas import film_scatter
 from ehlcontact.results import SteadyResult
 from ehlcontact.transient.result import SimulationResult
-from reduced_models.bearing.ball_bearing import BallBearing
 from reduced_models.bearing.coefficients import BearingCoefficients
 from reduced_models.bearing.oil_and_heat import OilAndHeat
 from reduced_models.bearing.operating_clearance import OperatingClearance
 from reduced_models.margins.result import Uncertainty
+from reduced_models.rotor.bearing_set import BearingSet
 from reduced_models.rotor.compare_bearing_models import BearingModels
 from reduced_models.rotor.machine_state import MachineState
 from reduced_models.rotor.machine_tiles import Tile
@@ -77,27 +75,16 @@ class Findings:
         return {name: one for name, one in every if one is not None}
 
     @cached_property
-    def lives_by_clearance(self) -> dict[str, tuple[float, float]]:
-        """Basic rating life [h] at the mean and at the least probable clearance in operation, by the support.
-
-        Under the load of the machine at the mean; of bearings on fits whose least probable clearance is below 0.
-        """
-        if isinstance(self.machine, str):
-            return {}
-        lives = {}
-        for k, support in zip(places_of_bearings(self.study), self.machine.supports, strict=True):
-            own = self.clearances.get(self.study.names[k])
-            if own is None or own.probable[0] >= 0.0 or not isinstance(support.bearing, BallBearing):
-                continue
-            tight, state = replace(support.bearing, clearance=float(own.probable[0])), support.state
-            try:
-                least = tight.equilibrium(state.load, speed_rpm=state.speed_rpm).life().l10rh
-            except (ConvergenceError, InputError):
-                continue
-            mean = support.bearings[0][1].life().l10rh
-            if mean is not None and least is not None:
-                lives[self.study.names[k]] = mean, least
-        return lives
+    def preloads(self) -> dict[str, tuple[float, float]]:
+        """Preload of pairs on fits, before mounting and mounted, warm and unloaded [N]; by the support."""
+        found = {}
+        for k, name in enumerate(self.study.names):
+            one = self.study.support[k]
+            if name in self.clearances and one.pair not in (None, "tandem"):
+                pair = carrier_of(self.study, k, oil=False)
+                assert isinstance(pair, BearingSet)
+                found[name] = one.pair_spring or one.preload or 0.0, pair.preload
+        return found
 
     def to_dict(self) -> dict[str, Any]:
         """Numbers of ``results.json``."""
@@ -112,7 +99,7 @@ class Findings:
             },
             "clearances": {
                 name: one.to_dict()
-                | dict(zip(("l10rh", "l10rh_probable_least"), self.lives_by_clearance.get(name, ()), strict=False))
+                | dict(zip(("preload_before_mounting", "preload"), self.preloads.get(name, ()), strict=False))
                 for name, one in self.clearances.items()
             },
             "in_time": None if self.whole is None else self.whole.to_dict(),

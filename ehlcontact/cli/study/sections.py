@@ -134,7 +134,8 @@ class Support(Section):
     clearance: Annotated[
         e.Clearance | str | None,
         e.meaning(
-            'radial internal clearance, below 0 a preload; or a class, as "CN"; if left out 0, with fits CN'
+            'radial internal clearance, below 0 a preload; or a class, as "CN"; if left out 0, with fits or'
+            " temperatures CN"
         ),
     ] = None
     dynamic_rating: Annotated[
@@ -148,10 +149,10 @@ class Support(Section):
     ] = None
     housing_fit: Annotated[e.Text | None, e.meaning('class of the bore of the housing, as "H6"')] = None
     inner_temperature: Annotated[
-        e.RingTemperature | None, e.meaning("of the inner ring, with fits; 20 where left out")
+        e.RingTemperature | None, e.meaning("of the inner ring, with fits or alone; 20 where left out")
     ] = None
     outer_temperature: Annotated[
-        e.RingTemperature | None, e.meaning("of the outer ring, with fits; 20 where left out")
+        e.RingTemperature | None, e.meaning("of the outer ring, with fits or alone; 20 where left out")
     ] = None
     shaft_temperature: Annotated[
         e.RingTemperature | None, e.meaning("of the shaft, with fits; that of the inner ring where left out")

@@ -7,7 +7,7 @@ import pytest
 
 from ehlcontact import InputError
 from reduced_models import BallBearing, BearingSet, OutsideValidityWarning, operating_clearance
-from reduced_models.bearing.operating_clearance import MATERIALS, groove_bottoms, spinning
+from reduced_models.bearing.seats import MATERIALS, groove_bottoms, spinning
 from reduced_models.bearing.tolerances import bore_limits, housing_limits, outside_limits, outside_of, shaft_limits
 
 STEEL, ALUMINIUM = MATERIALS["steel"], MATERIALS["aluminium"]
@@ -181,15 +181,45 @@ class TestBearings:
         play = 2.0 * distance * (1.0 - cos(radians(30.0))) - found.by_inner_fit[1]
         assert cos(fitted.contact_angle) == pytest.approx(1.0 - 0.5 * play / distance, rel=1e-12)
         pair = BearingSet.pair(bearing, "back to back", preload=200.0)
-        tight = BearingSet(
-            bearings=[fitted] * 2,
-            facings=pair.facings,
-            positions=pair.positions,
-            offsets=[one + offset for one in pair.offsets],
-        )
+        tight = pair.mounted(found)
+        assert tight.bearings == (fitted,) * 2 and tight.positions == pair.positions
+        assert tight.offsets == pytest.approx([one + offset for one in pair.offsets], rel=1e-12, abs=0.0)
         forces = tight.equilibrium((0.0, 0.0, 0.0)).axial_forces
-        assert forces.min() > 300.0  # 200 N before the fit
+        assert forces.min() > 300.0 and tight.preload == pytest.approx(forces.min(), rel=1e-9)
+        assert pair.preload == pytest.approx(200.0, rel=1e-6)
         assert found.by_inner_fit[1] > 0.0 and offset > 0.0
+
+    def test_a_spring_takes_fits_up(self) -> None:
+        bearing = BallBearing.catalogue("7205")
+        found = operating_clearance(bearing, fit=("k5", "H6"))
+        sprung = BearingSet.pair(bearing, spring=200.0).mounted(found)
+        assert sprung.offsets == (0.0, 0.0) and sprung.preload == pytest.approx(200.0, rel=1e-9)
+        loose = BearingSet.pair(bearing, offset=-20e-6, may_lift_off=True)
+        assert loose.preload == 0.0 and loose.mounted(found).preload == 0.0
+
+    def test_temperatures_without_fits(self) -> None:
+        """Rings and balls alone: no seat, and no bore where nothing needs it."""
+        rings = {"inner": 70.0, "outer": 50.0}
+        found = operating_clearance("6206", temperatures=rings)
+        fitted = operating_clearance("6206", fit=("k5", "H6"), temperatures=rings)
+        assert found.by_temperature.tolist() == fitted.by_temperature.tolist()
+        assert found.clearance == pytest.approx(found.initial - found.by_temperature, rel=1e-15)
+        assert not found.by_inner_fit.any() and not found.inner_pressure.any() and not found.by_outer_fit.any()
+        half = 0.5 * np.ptp(found.initial)
+        assert found.probable == pytest.approx([found.mean - half, found.mean + half], rel=1e-12)
+        assert found.loose_from == float("inf") and "no fit" in repr(found) and "shaft" not in repr(found)
+        nameless = BallBearing(balls=9, ball_diameter=9.525e-3, pitch_diameter=46e-3, clearance=1e-5)
+        own = operating_clearance(nameless, temperatures=rings)
+        assert own.by_temperature == pytest.approx(found.by_temperature, rel=1e-12)
+        one_seat = operating_clearance("6206", fit=(None, "N7"))
+        assert (
+            one_seat.fits == ("no fit", "N7") and one_seat.by_outer_fit.any() and not one_seat.by_inner_fit.any()
+        )
+
+    def test_warm_alike_takes_nothing(self) -> None:
+        warm = dict.fromkeys(("inner", "outer"), 60.0)
+        found = operating_clearance("6206", temperatures=warm)
+        assert not found.by_temperature.any() and "temperature 0 / 0 / 0" in repr(found)
 
 
 class TestRefused:
