@@ -1,8 +1,8 @@
 """Branches of periodic answers over a parameter, by continuation along their arc length.
 
-Arc length s, of unknown harmonics over their size and of the parameter over its range, goes on where the parameter
-turns back: at a fold. Each step goes along the tangent and then across it, by Newton's method, to the branch
-(Seydel, Practical Bifurcation and Stability Analysis, chapter 4).
+Arc length s, of unknown harmonics over the vibration at the start and of the parameter over its range, goes on
+where the parameter turns back: at a fold. Each step goes along the tangent and then across it, by Newton's method,
+to the branch (Seydel, Practical Bifurcation and Stability Analysis, chapter 4).
 """
 
 from __future__ import annotations
@@ -23,10 +23,12 @@ from reduced_models.periodic_motion.harmonic_balance import Balance, HarmonicBal
 _Floats = NDArray[np.float64]
 
 FIRST, SHORTEST = 0.01, 1e-6  # steps of the arc length
-LONGEST = 0.05  # over the size of the motion, where that has grown beyond that of the start
+LONGEST = 0.1  # over the size of the vibration, where that has grown beyond that of the start
+LEAST_SIZE = 0.1  # of the vibration at the start, in units of the unknowns
 WANTED, WANTED_OF_FILMS = 5, 6  # iterations of a step; of supports that remember
 MOST_ITERATIONS = 16
 STRAIGHT = 0.9  # cosine between neighbouring tangents, at least
+KINK = 1e-2  # of the longest step, below which a branch bends as it likes: a ball or a film lets go
 CONVERGED, CONVERGED_OF_FILMS = 1e-9, 1e-7  # last step of Newton's method
 NUDGE = 1e-7  # of the range of the parameter, over which its derivative is taken
 SHARP = 1e-3  # of a step, within which a fold is found: the parameter is flat there
@@ -70,7 +72,7 @@ class Continuation:
         self._problem, self._course = problem, course
         films = problem.remembers
         self._wanted, self._converged = (WANTED_OF_FILMS, CONVERGED_OF_FILMS) if films else (WANTED, CONVERGED)
-        self._size = max(float(np.linalg.norm(start.x)), 1.0)
+        self._size = max(self._vibration(start), LEAST_SIZE)
         along = np.zeros(start.x.size + 1)
         along[-1] = 1.0
         self.points = [self._point(np.append(start.x / self._size, 0.0), along, start)]
@@ -105,8 +107,9 @@ class Continuation:
                 point, iterations = self._corrected(last, ends)
             except ConvergenceError as error:
                 reason, step = str(error), 0.5 * step
+                self._problem.renew(self._course.at(float(last.y[-1])), last.balance)
                 continue
-            if float(point.tangent @ last.tangent) < STRAIGHT and step > 4.0 * SHORTEST:
+            if float(point.tangent @ last.tangent) < STRAIGHT and step > KINK * self._longest(last):
                 step = 0.5 * step
                 continue
             if len(self.points) > 1 and not last.fold:
@@ -114,9 +117,17 @@ class Continuation:
                 if (point.y[-1] - last.y[-1]) * (last.y[-1] - before.y[-1]) < 0.0:
                     self._mark_fold(last, before, point)
             self.points.append(point)
-            longest = LONGEST * max(float(np.linalg.norm(point.y[:-1])), 1.0)
-            return min(step * float(np.clip(self._wanted / max(iterations, 1), 0.5, 1.6)), longest)
+            if iterations > self._wanted:
+                self._problem.renew(self._course.at(float(point.y[-1])), point.balance)
+            return min(step * float(np.clip(self._wanted / max(iterations, 1), 0.5, 2.0)), self._longest(point))
         raise ConvergenceError(f"steps became too short ({reason or 'the branch bends'})", last.balance)
+
+    def _vibration(self, balance: Balance) -> float:
+        """Size of a motion without its mean, in units of the unknowns."""
+        return float(np.linalg.norm(balance.x[len(self._problem.units) :]))
+
+    def _longest(self, point: BranchPoint) -> float:
+        return LONGEST * max(self._vibration(point.balance) / self._size, 1.0)
 
     def _to_the_end(self, last: BranchPoint, step: float) -> float:
         """The step, or what is left of it to just beyond the end of the range."""
@@ -130,7 +141,8 @@ class Continuation:
         y = last.y + step * tangent
         balance = problem.balance(self._course.at(float(y[-1])), y[:-1] * self._size)
         for iteration in range(1, MOST_ITERATIONS + 1):
-            system = self._system(balance, float(y[-1]), tangent)
+            slopes = problem.slopes(balance)
+            system = self._system(balance, slopes, float(y[-1]), tangent)
             across = float(tangent @ (y - last.y)) - step
             change = solved(system, -np.append(balance.residual / self._size, across))
             if np.linalg.norm(change) <= self._converged:
@@ -139,9 +151,7 @@ class Continuation:
                 break
             y = y + change
             there = problem.balance(self._course.at(float(y[-1])), y[:-1] * self._size)
-            if problem.remembers:
-                missed = (there.residual - balance.residual) / self._size - system[:-1] @ change
-                problem.learn(missed, change[:-1], float(change @ change))
+            problem.learn(balance, slopes, there)
             balance = there
         raise ConvergenceError("Newton's method found no point of the branch", last.balance)
 
@@ -149,14 +159,14 @@ class Continuation:
         """A point with the unit tangent there, in the direction of `along`."""
         unit = np.zeros(y.size)
         unit[-1] = 1.0
-        tangent = solved(self._system(balance, float(y[-1]), along), unit)
+        tangent = solved(self._system(balance, self._problem.slopes(balance), float(y[-1]), along), unit)
         return BranchPoint(y, np.asarray(tangent / np.linalg.norm(tangent)), balance)
 
-    def _system(self, balance: Balance, share: float, tangent: _Floats) -> _Floats:
+    def _system(self, balance: Balance, slopes: _Floats, share: float, tangent: _Floats) -> _Floats:
         """Derivatives of the residual by unknowns and parameter, and the tangent."""
         n = balance.x.size
         system = np.zeros((n + 1, n + 1))
-        system[:n, :n] = self._problem.jacobian(balance)
+        system[:n, :n] = self._problem.jacobian(balance, slopes)
         there = self._course.at(share + NUDGE)
         system[:n, n] = self._problem.change(balance, there) / (NUDGE * self._size)
         system[n] = tangent
@@ -178,7 +188,8 @@ class Continuation:
             return -sign * float(tried[step].y[-1])
 
         try:
-            scipy.optimize.minimize_scalar(beyond, (low, 0.0, high), tol=SHARP)
+            if low < 0.0 < high:
+                scipy.optimize.minimize_scalar(beyond, (low, 0.0, high), tol=SHARP)
         except ConvergenceError:
             pass  # the largest of those that there are
         step = min(tried, key=beyond)

@@ -7,7 +7,7 @@ Motions r = R q of the supports have harmonics 0 to H. With D_h = K + i h w (C +
 with forces F of the supports, driven through the samples of a period (`support_laws`): their films are in the
 periodic state of that motion, exact but for the steps between samples. A reference stiffness of the supports is on
 both sides, so that D_h is regular where the rotor alone is free. Newton's method has the slopes of the supports
-at every sample; what films remember beyond a step it learns from its own steps (Broyden).
+at every sample; what films remember beyond a step is known from small motions, and from its own steps (Broyden).
 """
 
 from __future__ import annotations
@@ -51,6 +51,7 @@ TILT_ARM = 0.02  # m, of which such a motion is a tilt of the same size
 CONVERGED = 1e-9  # of the largest motion, the last Newton step
 MOST_ITERATIONS = 40
 MOST_HALVINGS = 6
+NUDGE = 1e-4  # of the units, by which motions tell what films remember
 LEAST_REFERENCE = 1e-6  # of the stiffest direction
 
 
@@ -122,7 +123,7 @@ class HarmonicBalance:
         self._synthesis, self._rates, self._analysis = fourier(harmonics, samples)
         self.reference: Any = None  # stiffness of the supports, with that the rotor alone is held, (m, m)
         unknowns = (2 * harmonics + 1) * len(self.rows)
-        self._learnt = np.zeros((unknowns, unknowns))  # what films add to the derivatives
+        self._memory = np.zeros((unknowns, unknowns))  # what films add to the slopes
 
     def _names(self) -> list[str]:
         names = ["x"] * len(self.rotor.contacts)
@@ -215,34 +216,68 @@ class HarmonicBalance:
         rows = x.reshape(2 * self.harmonics + 1, len(self.units)) * self.units
         return np.asarray(self._counts * (self._analysis @ along.force) - rows @ self.reference)
 
-    def jacobian(self, at: Balance) -> _Floats:
-        """Derivatives of the residual, shape (unknowns, unknowns)."""
+    def slopes(self, at: Balance) -> _Floats:
+        """Harmonics of the forces by those of the motions, shape ((2H + 1) m, (2H + 1) m) [N/m]."""
         m, rows = len(self.units), 2 * self.harmonics + 1
         slopes = np.zeros((rows, m, rows, m))
         for columns, _ in self._laws:
             for i, j in product(range(columns.start, columns.stop), repeat=2):
                 by_place = (self._analysis * at.along.stiffness[:, i, j]) @ self._synthesis
                 by_rate = (self._analysis * at.along.damping[:, i, j]) @ self._rates
-                slopes[:, i, :, j] += self._counts[i] * (by_place + at.w * by_rate)
+                slopes[:, i, :, j] = by_place + at.w * by_rate
+        return slopes.reshape(rows * m, rows * m) + self._memory
+
+    def jacobian(self, at: Balance, slopes: _Floats | None = None) -> _Floats:
+        """Derivatives of the residual, shape (unknowns, unknowns)."""
+        m, rows = len(self.units), 2 * self.harmonics + 1
+        slopes = self.slopes(at) if slopes is None else slopes
+        pushed = self._counts[:, None, None] * slopes.reshape(rows, m, rows, m)
         for a in range(rows):
-            slopes[a, :, a, :] -= self.reference
-        by_row = slopes.reshape(rows, m, rows * m)
+            pushed[a, :, a, :] -= self.reference
+        by_row = pushed.reshape(rows, m, rows * m)
         by_force = np.zeros((rows, m, rows * m))
         by_force[0] = at.by_force[0].real @ by_row[0]
         real, imaginary = at.by_force[1:].real, at.by_force[1:].imag
         by_force[1::2] = real @ by_row[1::2] - imaginary @ by_row[2::2]
         by_force[2::2] = imaginary @ by_row[1::2] + real @ by_row[2::2]
         by_force = by_force / self.units[:, None] * np.tile(self.units, rows)
-        return np.asarray(by_force.reshape(rows * m, rows * m) + np.eye(rows * m) + self._learnt)
+        return np.asarray(by_force.reshape(rows * m, rows * m) + np.eye(rows * m))
 
     @property
     def remembers(self) -> bool:
         """Whether slopes of the supports leave out what films remember."""
         return any(law.remembers for _, law in self._laws)
 
-    def learn(self, missed: _Floats, change: _Floats, size: float) -> None:
-        """Add to the derivatives what they missed along a change of the unknowns: Broyden's rule."""
-        self._learnt += np.outer(missed, change) / size
+    def learn(self, before: Balance, slopes: _Floats, after: Balance) -> None:
+        """Add to the slopes what they missed between two motions: Broyden's rule."""
+        if self.remembers:
+            rows = np.tile(self.units, 2 * self.harmonics + 1)
+            change = rows * (after.x - before.x)
+            pushed = (self._analysis @ (after.along.force - before.along.force)).ravel()
+            weighted = (after.x - before.x) / rows
+            self._memory += np.outer(pushed - slopes @ change, weighted) / float(weighted @ change)
+
+    def renew(self, setting: Setting, at: Balance) -> None:
+        """Take what films remember about a motion from small motions with all harmonics, one in each direction."""
+        if not self.remembers:
+            return
+        H, m = self.harmonics, len(self.units)
+        phases = np.exp(1j * np.arange(H + 1) ** 2)  # of many harmonics the sum stays small
+        phases[0] = 1.0
+        self._memory[:] = 0.0
+        slopes, memory = self.slopes(at), self._memory.reshape(2 * H + 1, m, 2 * H + 1, m)
+        for j in range(m):
+            spectrum = np.zeros((H + 1, m), complex)
+            spectrum[:, j] = NUDGE * self.units[j] * phases
+            change = as_rows_of(spectrum)
+            there = self.forces(setting, at.x + (change / self.units).ravel(), at.w)
+            pushed = (self._analysis @ (there.force - at.along.force)).ravel() - slopes @ change.ravel()
+            by = as_spectrum(pushed.reshape(2 * H + 1, m)) / spectrum[:, j, None]
+            memory[0, :, 0, j] = by[0].real
+            for h in range(1, H + 1):
+                a, b = 2 * h - 1, 2 * h
+                memory[a, :, a, j] = memory[b, :, b, j] = by[h].real
+                memory[b, :, a, j], memory[a, :, b, j] = by[h].imag, -by[h].imag
 
     def solve(self, setting: Setting, x: _Floats) -> Balance:
         """Newton's method from x at a setting.
@@ -253,16 +288,14 @@ class HarmonicBalance:
             No balance; ``result`` is the last `Balance`.
         """
         at = self.balance(setting, x)
+        self.renew(setting, at)
         for _ in range(MOST_ITERATIONS):
-            system = self.jacobian(at)
-            step = solved(system, -at.residual)
+            slopes = self.slopes(at)
+            step = solved(self.jacobian(at, slopes), -at.residual)
             if np.linalg.norm(step) <= CONVERGED * np.linalg.norm(at.x):
                 return at
             there = self._towards(setting, at, step)
-            if self.remembers:
-                change = there.x - at.x
-                missed = there.residual - at.residual - system @ change
-                self.learn(missed, change, float(change @ change))
+            self.learn(at, slopes, there)
             at = there
         raise ConvergenceError(f"no periodic answer in {MOST_ITERATIONS} steps of Newton's method", at)
 
