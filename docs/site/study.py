@@ -31,8 +31,8 @@ HEAD = """# The study file
 A study is a machine in TOML: a shaft with discs, and a bearing at each support. `ehlcontact init` writes it with
 every entry explained, `ehlcontact validate` says what it will do, `ehlcontact run` does it. Without `[shaft]`
 the file is of a bearing alone, under the loads of `[operation]`. Sections beside `[operation]` and `[[support]]`
-may be left out. `[[disc]]`, `[[support]]` and `[[defect]]` may stand several times. An option in the last column
-sets its entry in `ehlcontact bearing`, which takes sections of a bearing alone, and in `ehlcontact init`.
+may be left out. `[[disc]]`, `[[support]]`, `[[damper]]` and `[[defect]]` may stand several times. An option in the
+last column sets its entry in `ehlcontact bearing`, which takes sections of a bearing alone, and in `init`.
 
 """
 FOOT = """## Sections of files of another kind

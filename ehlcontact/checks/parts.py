@@ -45,7 +45,7 @@ OFFSET = Quantity("m", (0.0, 0.1), (1e-9, 1e-3), UM, signed=True)  # along a sha
 BALL_DIAMETER, PITCH_DIAMETER, SPEED = INPUTS["ball_diameter"], INPUTS["pitch_diameter"], INPUTS["speed_rpm"]
 SPEED_OR_NONE = Quantity("rev/min", (0.0, SPEED.limits[1]), SPEED.usual, SPEED.others)
 FILM_LAND = Quantity("m", (1e-6, 10.0), (1e-3, 1.0), MM)  # of a squeeze film damper
-CLEARANCE = Quantity("m", (1e-8, 0.05), (5e-6, 2e-3), UM)  # radial, of a journal
+CLEARANCE = Quantity("m", (1e-8, 0.05), (5e-6, 2e-3), UM | {"um": 1e-6})  # radial, of a journal
 GAP = Quantity("m", (1e-9, 0.01), (1e-8, 1e-4), UM)  # beyond which a film carries nothing
 LAYER = Quantity("m", (1e-15, 1e-2), (1e-9, 1e-3), UM)  # of oil
 DISTANCE = Quantity("m", (0.0, 10.0), (2e-3, 5.0), MM)  # of the planes of two bearings

@@ -169,6 +169,10 @@ Density = Annotated[Positive, Physical(parts.DENSITY), meaning("kg/m3")]
 Inertia = Annotated[NotNegative, Physical(parts.INERTIA)]
 Force = Annotated[Finite, Physical(parts.FORCE._replace(limits=(-1e8, 1e8)))]
 
+# Squeeze film dampers.
+FilmLand = Annotated[Positive, Physical(_from(0.1, parts.FILM_LAND))]
+RadialClearance = Annotated[Positive, Physical(parts.CLEARANCE.in_unit("um"))]
+
 # A ball on a disc, whose materials are known by name: Young's modulus [Pa], Poisson's ratio.
 FLATS = {"steel": (2.06e11, 0.3), "glass": (7.0e10, 0.21)}
 Flat = Annotated[Literal["steel", "glass"], meaning("material of the disc; the ball is of steel")]

@@ -67,7 +67,7 @@ def test_commented_lines_are_the_defaults(study):
     }
     assert support["balls"] == 9 and bare["balls"] is None  # its dimensions are those of its name
     for section, model in sections():
-        several = section.partition(".")[0] in ("disc", "support", "defect")
+        several = section.partition(".")[0] in ("disc", "support", "damper", "defect")
         head = f"[[{section}]]" if several else f"[{section}]"
         part = text.partition(f"{head}\n")[2].partition("\n[")[0].partition("\n#[")[0]
         for key, entry in model.model_fields.items():

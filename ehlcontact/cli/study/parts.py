@@ -41,7 +41,8 @@ class Part:
     def made(self) -> Any:
         """The part; raises what the library raises."""
         make = getattr(self.kind, self.method) if self.method else self.kind
-        return make(*self.first, **self.keywords)
+        keywords = {name: one.made() if isinstance(one, Part) else one for name, one in self.keywords.items()}
+        return make(*self.first, **keywords)
 
     def text(self, names: Mapping[int, str] | None = None) -> str:
         """The call in Python without keywords that have their defaults; `names` of objects are by their id."""
@@ -83,9 +84,11 @@ def numbers_text(values: list[float]) -> str:
 
 
 def python_of(value: Any, names: Mapping[int, str] | None = None) -> str:
-    """A value in Python: a name, a number with `DIGITS` digits, text in double quotes, or several of them."""
+    """A value in Python: a name, a call, a number with `DIGITS` digits, text in double quotes, or several."""
     if names and id(value) in names:
         return names[id(value)]
+    if isinstance(value, Part):
+        return value.text(names)
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)
     if isinstance(value, float):

@@ -19,6 +19,7 @@ from ehlcontact.cli.study.parts import Part
 from ehlcontact.cli.study.schema_errors import first_error, inputs_of, names_of, require_sections
 from ehlcontact.cli.study.sections import (
     Contact,
+    Damper,
     Defect,
     Disc,
     Export,
@@ -180,6 +181,7 @@ class Study(Section):
     shaft: Shaft | None = None
     disc: Annotated[tuple[Disc, ...], Field(strict=False)] = ()
     support: Annotated[tuple[Support, ...], Field(strict=False, min_length=1)]
+    damper: Annotated[tuple[Damper, ...], Field(strict=False)] = ()
     contact: Contact | None = None
     full_films: FullFilms | None = None
     in_time: InTime | None = None
@@ -499,9 +501,9 @@ def _require_together(study: Study) -> None:
     from ehlcontact.cli.study.machine import carrier_of
 
     if study.shaft is None:
-        for name, given in (("disc", study.disc), ("in_time", study.in_time)):
+        for name, given in (("[[disc]]", study.disc), ("[[damper]]", study.damper), ("[in_time]", study.in_time)):
             if given:
-                raise InputError("shaft", None, f"given, with {'[[disc]]' if name == 'disc' else '[in_time]'}")
+                raise InputError("shaft", None, f"given, with {name}")
         if len(study.support) > 1:
             raise InputError("shaft", None, f"given: {len(study.support)} bearings hold a shaft")
     else:

@@ -84,6 +84,7 @@ def python_text(study: Study) -> str:
         '        print(f"{mode.hz:8.1f} Hz, damping ratio {mode.damping_ratio:.2g}")',
     ]
     kinds |= {"Shaft", "Support", "linearise", "rotor_on_bearings"} | ({"Disc"} if discs else set())
+    kinds |= {"SqueezeFilmDamper"} if study.damper else set()
     return _file(study, "rotor of study.toml, from the library", kinds, lines)
 
 
@@ -91,6 +92,8 @@ def require_ross(study: Study) -> None:
     """Raise `InputError` for a machine that has no model in ROSS."""
     if study.shaft is None:
         raise InputError("export.ross", True, "left out without [shaft]: ROSS has rotors")
+    if study.damper:
+        raise InputError("export.ross", True, "left out with [[damper]]: no linear bearing is such a film")
     if study.shaft.stiffness is not None:
         allowed = "left out where shaft.stiffness is given: a shaft of ROSS has a diameter and a mass"
         raise InputError("export.ross", True, allowed)

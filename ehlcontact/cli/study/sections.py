@@ -211,6 +211,26 @@ class Support(Section):
         return self.name or self.bearing or "ball bearing"
 
 
+class Damper(Section):
+    """A squeeze film damper between the housing of a support, on its springs, and the ground."""
+
+    support: Annotated[e.Text | None, e.meaning("name of the support; the first one if left out")] = None
+    length_mm: Annotated[e.FilmLand, e.meaning("of its film along the shaft")]
+    diameter_mm: Annotated[e.Diameter, e.meaning("of its journal, the housing of the bearing")]
+    clearance_um: Annotated[e.RadialClearance, e.meaning("radial, of the journal in the middle")]
+    viscosity: Annotated[
+        e.Eta0 | None, e.meaning("of the oil at the temperature of the film; that of [oil] if left out")
+    ] = None
+    cavitation: Annotated[
+        bool, e.meaning("the half of positive pressure acts (pi film); false: the whole one, under feed pressure")
+    ] = True
+    seals: Annotated[
+        Literal["open", "sealed"], e.meaning("ends: open (short bearing), or sealed (long bearing)")
+    ] = "open"
+    leakage: Annotated[e.NotNegative, Field(le=1.0), e.meaning("of sealed ends: share of the open film")] = 0.0
+    groove: Annotated[bool, e.meaning("an open film fed by a groove around its middle")] = False
+
+
 class Free(Section):
     """Free vibration of a mass on the contact, which a cubic element is fitted to."""
 
