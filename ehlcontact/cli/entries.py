@@ -18,6 +18,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, PydanticCustomError
 from pydantic_core.core_schema import no_info_after_validator_function
 
+from ehlcontact.capacitance import LARGEST as MOST_PERMITTIVE
 from ehlcontact.checks import parts
 from ehlcontact.checks.admissible_range import INPUTS, Quantity
 from ehlcontact.lubricant.oil import DENSITIES, GRADES, INDICES, KINEMATIC, TEMPERATURES
@@ -198,6 +199,13 @@ DensityLaw = Annotated[Literal["dowson-higginson", "incompressible"], meaning("l
 # Rating life.
 Contamination = Annotated[Finite, Allowed("above 0 and at most 1")]
 Reliability = Annotated[Finite, Field(ge=90.0, le=99.95)]
+
+# Voltage across bearings.
+Voltage = Annotated[Positive, Physical(Quantity("V", (1e-6, 1e5), (1e-3, 1e3), {"mV": 1e-3, "kV": 1e3}))]
+Permittivity = Annotated[Finite, Field(ge=1.0, le=MOST_PERMITTIVE)]
+Breakdown = Annotated[
+    Positive, Physical(Quantity("V/um", (0.1, 1e4), (1.0, 500.0), {"V/m": 1e-6, "kV/mm": 1.0, "MV/m": 1.0}))
+]
 
 # Surfaces, grids and motions.
 Roughness = Annotated[

@@ -79,7 +79,7 @@ class FilmCapacitance(QuantityTable):
     def field_strength(self, voltage: float) -> float:
         """Field [V/um] at the smallest film under a voltage [V] across it.
 
-        Oils break down from some 15 to 60 V/um on.
+        Films are said to break down from some 15 to 60 V/um on; no data here support a limit.
 
         Raises
         ------

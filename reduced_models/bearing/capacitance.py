@@ -70,7 +70,7 @@ class BearingCapacitance(QuantityTable):
     def field_strength(self, across: float) -> float:
         """Largest field in a film [V/um] under a voltage between the rings [V].
 
-        Oils break down from some 15 to 60 V/um on.
+        Films are said to break down from some 15 to 60 V/um on; no data here support a limit.
 
         Raises
         ------

@@ -31,6 +31,7 @@ QUANTITIES = {
     "lnmrh_film": Quantity("modified rating life by the solved film", "h"),
     "torque": Quantity("friction torque", "N m"),
     "capacitance": Quantity("capacitance of the films", "F"),
+    "field": Quantity("largest field in a film", "V/um"),
 }
 
 
@@ -58,6 +59,7 @@ def machine_numbers(machine: Any) -> dict[str, float | None]:
     for name in ("torque", "capacitance"):
         each = [getattr(one, name) for one in supports]
         found[name] = sum(each) if each and None not in each else None
+    found["field"] = machine.field_strength
     return found
 
 

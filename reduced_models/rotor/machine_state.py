@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ehlcontact.capacitance import BREAKDOWN, VOLTAGE
 from ehlcontact.checks import as_column, parts, require_positive
 from ehlcontact.checks.kinds import Object, Objects
 from ehlcontact.checks.quantity import takes
@@ -106,6 +107,10 @@ class MachineState(Summary):
     clearances : tuple of (float, float) or None
         Of each support: limits within which its clearance probably is [m], as of its class or of an
         `OperatingClearance`, for the life at both; None where they are not known, empty where none is.
+    voltage : float
+        Between shaft and housing [V], for the field in the films.
+    breakdown : float
+        Field [V/um] from which films are said to break down: a limit of the user, which no data here support.
     """
 
     speed_rpm: float
@@ -121,6 +126,8 @@ class MachineState(Summary):
     contamination: float | str | None = None
     reliability: float = BASIC_RELIABILITY
     clearances: tuple[tuple[float, float] | None, ...] = ()
+    voltage: float = VOLTAGE
+    breakdown: float = BREAKDOWN
 
     def _summary_lines(self) -> list[str]:
         tiles = [str(tile) for tile in self.tiles()]
@@ -244,6 +251,12 @@ class MachineState(Summary):
         """What is critical at this speed, a text each, with its number and what changes it."""
         return machine_concerns(self)
 
+    @property
+    def field_strength(self) -> float | None:
+        """Largest field in a film [V/um] under the voltage; None where a bearing is dry: its rings touch."""
+        each = [one.field_per_volt for one in self.supports]
+        return None if None in each else self.voltage * max(one for one in each if one is not None)
+
     def tiles(self) -> tuple[Tile, ...]:
         """The answer in a few numbers: what report, command line and explorer show first."""
         return machine_tiles(self)
@@ -296,6 +309,8 @@ class MachineState(Summary):
             "response_at_speed": None if own is None else own._asdict(),
             "life": self.rating_life.to_dict(),
             "life_at_clearances": self._ends_of_life(),
+            "voltage": self.voltage,
+            "breakdown": self.breakdown,
             "numbers": {name: finite(value) for name, value in self.numbers.items()},
             "highest_speed": None if self.highest_speed == inf else self.highest_speed,
             "ends": self.ends,

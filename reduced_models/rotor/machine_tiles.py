@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import degrees, inf
 from typing import Any, NamedTuple
 
-from ehlcontact.capacitance import OIL
 from ehlcontact.summary import WIDTH
 from reduced_models.rotor.modes import ALONG
 from reduced_models.rotor.picture import STRAIGHT
@@ -55,7 +54,7 @@ def digits(value: float, count: int = 3) -> str:
 
 
 def machine_tiles(machine: Any) -> tuple[Tile, ...]:
-    """Film, ball load, life, K and C, modes, critical speeds, response, friction, capacitance, highest speed."""
+    """Film, ball load, life, K and C, modes, critical speeds, response, friction, currents, highest speed."""
     rows = (
         _film,
         _ball_load,
@@ -66,6 +65,7 @@ def machine_tiles(machine: Any) -> tuple[Tile, ...]:
         _response,
         _friction,
         _capacitance,
+        _field,
         _highest,
     )
     return tuple(tile for row in rows if (tile := row(machine)) is not None)
@@ -290,20 +290,36 @@ def _other_torque(machine: Any) -> str:
 
 
 def _capacitance(machine: Any) -> Tile | None:
-    """Of each bearing between shaft and housing; the largest field per volt."""
+    """Of each bearing between shaft and housing."""
     if any(one.capacitance is None for one in machine.supports):
         return None
-    own = max(machine.supports, key=lambda one: one.field_per_volt)
     several = len(machine.supports) > 1
     each = (
         ", ".join(f"{one.label} {digits(1e12 * one.capacitance)}" for one in machine.supports) if several else ""
     )
-    field = f"{digits(own.field_per_volt)} V/µm in the thinnest film per volt"
     total, least, largest = (
         digits(1e12 * sum(ends)) for ends in zip(*(one.capacitance_range for one in machine.supports), strict=True)
     )
-    oil = f"between {least} and {largest} pF by where oil stands, of permittivity {OIL:g}"
-    return Tile("capacitance of the films", total, "pF", _note(field, each, oil), number="capacitance")
+    permittivity = f"{machine.supports[0].permittivity:g}"
+    oil = f"between {least} and {largest} pF by where oil stands, of permittivity {permittivity}"
+    return Tile("capacitance of the films", total, "pF", _note(each, oil), number="capacitance")
+
+
+def _field(machine: Any) -> Tile | None:
+    """Largest in the films, and the limit that the user has."""
+    field = machine.field_strength
+    if field is None:
+        return None
+    own = max(machine.supports, key=lambda one: one.field_per_volt)
+
+    def words(one: Any) -> str:
+        return f"{digits(machine.voltage * one.field_per_volt)} V/µm"
+
+    under = f"{digits(machine.voltage)} V between shaft and housing"
+    ratio = digits(field / machine.breakdown, 2)
+    limit = f"{ratio} times the limit of {digits(machine.breakdown)} V/µm from which films are said to break down"
+    note = _note(under, _of(machine, own), limit, *_others(machine, own, words))
+    return Tile("largest field in a film", digits(field), "V/µm", note, number="field")
 
 
 def _highest(machine: Any) -> Tile | None:

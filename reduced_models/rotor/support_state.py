@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.assumptions import Assumptions, assumptions
+from ehlcontact.capacitance import OIL
 from ehlcontact.checks import parts, require_instance
 from ehlcontact.checks.kinds import NAME
 from ehlcontact.checks.quantity import takes
@@ -69,6 +70,8 @@ class SupportState(Summary):
         where it is dry.
     assumptions : Assumptions or None
         Worst of those at its most loaded contacts; None where it is dry.
+    permittivity : float
+        Of the oil, for its capacitance.
     """
 
     name: str
@@ -78,6 +81,7 @@ class SupportState(Summary):
     coefficients: BearingCoefficients
     friction: tuple[BearingFriction, ...]
     assumptions: Assumptions | None
+    permittivity: float = OIL
 
     def _summary_lines(self) -> list[str]:
         lines = [f"{self.label}, {self.ball_load:.4g} N on a ball, {1e-9 * self.p_hertz:.3g} GPa"]
@@ -240,7 +244,7 @@ class SupportState(Summary):
 
     @property
     def capacitance(self) -> float | None:
-        """Between shaft and housing, permittivity of the oil 2.2 [F]; None where it is dry."""
+        """Between shaft and housing [F]; None where it is dry."""
         return None if self.capacitance_range is None else self.capacitance_range[0]
 
     @property
@@ -257,7 +261,7 @@ class SupportState(Summary):
     @cached_property
     def _films(self) -> tuple[BearingCapacitance, ...]:
         dry = any(state.h_min is None for _, state in self.bearings)
-        return () if dry else tuple(state.capacitance() for _, state in self.bearings)
+        return () if dry else tuple(state.capacitance(self.permittivity) for _, state in self.bearings)
 
     def to_dict(self) -> dict[str, Any]:
         """All numbers, SI, ready for JSON."""
@@ -281,6 +285,7 @@ class SupportState(Summary):
             "skf_torque": self.skf_torque,
             "sliding_torque": sum(one.sliding for one in self.friction) if self.friction else None,
             "inlet_heat": [one.inlet_heat for one in self.friction],
+            "permittivity": self.permittivity,
             "capacitance": self.capacitance,
             "capacitance_range": None if self.capacitance_range is None else list(self.capacitance_range[1:]),
             "field_per_volt": self.field_per_volt,

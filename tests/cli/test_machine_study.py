@@ -12,6 +12,7 @@ from tiny_study import ALONE, ANGULAR, CONTACT, MOTOR, PAIR
 
 from ehlcontact import OilLayer
 from ehlcontact.cli.study.answer import answer_of, over_frequency
+from ehlcontact.cli.study.exports import machine_model
 from ehlcontact.cli.study.forecast import seals_left_out
 from ehlcontact.cli.study.headline import ball_words, headline, limits
 from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
@@ -161,6 +162,7 @@ def test_numbers_of_a_point_of_a_machine(motor, tmp_path):
     assert numbers["critical_rpm"] == pytest.approx(answer.nearest_critical.speed_rpm, rel=1e-12)
     assert numbers["p_hertz"] == max(support.p_hertz for support in answer.supports)
     assert numbers["capacitance"] == pytest.approx(sum(s.capacitance for s in answer.supports), rel=1e-12)
+    assert numbers["field"] == 10.0 * max(support.field_per_volt for support in answer.supports)
     assert numbers["peak"] == answer.largest_peak.size and numbers["mode_damping"] == answer.modes[0].damping_ratio
     diagram = answer.diagram
     along = replace(answer, diagram=replace(diagram, axial_share=np.ones_like(diagram.axial_share)))
@@ -171,6 +173,24 @@ def test_numbers_of_a_point_of_a_machine(motor, tmp_path):
     assert narrow == ["speed [rpm]", "mode [Hz]", "critical [rpm]", "response [µm]", "h_min [µm]", "lambda"]
     assert heads[:3] == ["speed [rpm]", "ball [N]", "mode [Hz]"] and "h_c [µm]" not in heads
     assert cells(row, columns_of([row]))[0] == "15000"
+
+
+def test_oil_and_voltage_of_a_study(study, motor):
+    """[electric] sets the permittivity of the oil, the voltage and the limit of the field."""
+    _, plain = motor
+    given = "[electric]\nvoltage = 4.0\npermittivity = 2.5\nbreakdown = 30.0\n"
+    one = load_study(study(ALONE + given))
+    found, state = answer_of(one), answer_of(load_study(study(ALONE))).supports[0].state
+    assert found.supports[0].capacitance == state.capacitance(2.5).total
+    assert found.field_strength == pytest.approx(state.capacitance(2.5).field_strength(4.0), rel=1e-12)
+    tiles = {tile.name: tile for tile in found.tiles()}
+    assert "of permittivity 2.5" in tiles["capacitance of the films"].note
+    assert "4 V between shaft and housing" in tiles["largest field in a film"].note
+    assert "limit of 30 V/µm" in tiles["largest field in a film"].note
+    assert (plain.voltage, plain.breakdown, plain.supports[0].permittivity) == (10.0, 15.0, 2.2)
+    assert "capacitance" in {variable.name for variable in machine_model(one, [3000.0]).spec.variables}
+    plainer = machine_model(load_study(study(ALONE)), [3000.0])
+    assert "capacitance" not in {variable.name for variable in plainer.spec.variables}
 
 
 def test_the_film_of_a_bearing_of_a_machine(study, motor):

@@ -45,15 +45,14 @@ def answer_of(study: Study, *, fine: bool = True) -> MachineState | str:
 
     Not `fine`: as `machine_state` has it for many machines.
     """
-    speed = study.speed_rpm
-    life = life_options(study)
+    speed, electric = study.speed_rpm, study.electric
+    asked = life_options(study) | {"voltage": electric.voltage, "breakdown": electric.breakdown}
     try:
         if study.shaft is None:
             tilt = tilt_of(study.operation)
             carrier, name = carrier_of(study, 0), study.support[0].name or ""
-            return replace(
-                single_bearing_state(carrier, load_alone(study), speed, tilt=tilt, name=name, fine=fine), **life
-            )
+            found = single_bearing_state(carrier, load_alone(study), speed, tilt=tilt, name=name, fine=fine)
+            return _of_oil(found, electric.permittivity, asked)
         names: list[str] = []
         places: list[float] = []
         for k, (name, place) in enumerate(zip(study.names, places_of(study), strict=True)):
@@ -61,9 +60,16 @@ def answer_of(study: Study, *, fine: bool = True) -> MachineState | str:
             several = len(carrier.bearings) if isinstance(carrier, BearingSet) else 1
             names += [name] if several == 1 else [f"{name} {number + 1}" for number in range(several)]
             places += [place] * several
-        return replace(machine_state(rotor_of(study), speed, names=names, positions=places, fine=fine), **life)
+        machine = machine_state(rotor_of(study), speed, names=names, positions=places, fine=fine)
+        return _of_oil(machine, electric.permittivity, asked)
     except (ConvergenceError, InputError) as error:
         return str(error)
+
+
+def _of_oil(machine: MachineState, permittivity: float, asked: dict[str, Any]) -> MachineState:
+    """A machine with another permittivity of its oil, and other attributes that its numbers follow."""
+    supports = tuple(replace(one, permittivity=permittivity) for one in machine.supports)
+    return replace(machine, supports=supports, **asked)
 
 
 def over_frequency(study: Study, machine: MachineState | str) -> Mapping[str, BearingCoefficients]:

@@ -249,13 +249,17 @@ def machine_model(
     """
     from fmu.models import fmu_model
 
+    asked = "electric" in study.model_fields_set and study.oil is not None
+    electric: dict[str, Any] = {"permittivity": study.electric.permittivity} if asked else {}
     if study.shaft is None:
         _require_one_bearing(study)
         (bearing,) = carriers_with_films(study)
-        return fmu_model(bearing, speeds_rpm=speeds_rpm, load=load_alone(study), **keywords)
+        return fmu_model(bearing, speeds_rpm=speeds_rpm, load=load_alone(study), **electric, **keywords)
     rotor, places = rotor_with_films(study), places_of_bearings(study)
     names = zip(rotor.ball_bearing_names, places, strict=True)
     out = [name for name, k in names if study.names[k] in outside]
     speeds = speeds_rpm if len(out) < len(places) else None
     turning: dict[str, Any] = {"speed_rpm": study.speed_rpm, "inertia": inertia}
+    if speeds is not None:
+        turning |= electric
     return fmu_model(rotor, outside=out, speeds_rpm=speeds, **turning, **keywords)

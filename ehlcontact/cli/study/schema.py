@@ -22,6 +22,7 @@ from ehlcontact.cli.study.sections import (
     Damper,
     Defect,
     Disc,
+    Electric,
     Export,
     FullFilms,
     InTime,
@@ -178,6 +179,7 @@ class Study(Section):
     operation: Operation
     oil: Oil | None = None
     surface: Surface = Surface()
+    electric: Electric = Electric()
     shaft: Shaft | None = None
     disc: Annotated[tuple[Disc, ...], Field(strict=False)] = ()
     support: Annotated[tuple[Support, ...], Field(strict=False, min_length=1)]

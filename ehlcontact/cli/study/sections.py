@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field, model_validator
 
+from ehlcontact.capacitance import BREAKDOWN, OIL, VOLTAGE
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
 from reduced_models.margins.spread import KINDS, WITHIN
@@ -68,6 +69,20 @@ class Surface(Section):
     )
     rq_ball_um: Annotated[e.Roughness | None, e.meaning("Rq of the balls; with rq_race_um or not at all")] = None
     rq_race_um: Annotated[e.Roughness | None, e.meaning("Rq of the races; with rq_ball_um or not at all")] = None
+
+
+class Electric(Section):
+    """Voltage across the bearings, as of a motor behind an inverter, for capacitance and field of the films."""
+
+    voltage: Annotated[e.Voltage, e.meaning("between shaft and housing, its peak")] = VOLTAGE
+    permittivity: Annotated[e.Permittivity, e.meaning("of the oil, relative to vacuum")] = OIL
+    breakdown: Annotated[
+        e.Breakdown,
+        e.meaning(
+            "field from which films are said to break down: a limit of yours; 15 to 60 are usual numbers, "
+            "lower with water and age"
+        ),
+    ] = BREAKDOWN
 
 
 class Shaft(Section):

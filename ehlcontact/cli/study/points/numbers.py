@@ -58,6 +58,7 @@ NUMBERS = {
     "capacitance": Number(
         "F", "of the films of all bearings, shaft to housing", head="capacitance [pF]", factor=1e12
     ),
+    "field": Number("V/um", "largest in a film, under the voltage between shaft and housing", head="field [V/µm]"),
     "M": Number("-"),
     "L": Number("-"),
     "kappa": Number("-"),

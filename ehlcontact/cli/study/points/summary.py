@@ -41,7 +41,9 @@ FORMAT = 1  # of the summary
 SUMMARY, TABLE, PICTURE = "summary.json", "summary.csv", "summary.png"
 HEAD = 10  # characters of a line of a head
 # of a narrow table, in this order
-LEFT_OUT = "capacitance", "l10rh", "lnmrh", "p_hertz", "ball_load", "decay_hz", "torque", "mode_hz", "response"
+LEFT_OUT = (
+    "field", "capacitance", "l10rh", "lnmrh", "p_hertz", "ball_load", "decay_hz", "torque", "mode_hz", "response",
+)  # fmt: skip
 COLUMNS = {name: one for name, one in NUMBERS.items() if one.head}  # of the table for people
 
 
