@@ -439,9 +439,9 @@ def power_mean(values: _Floats, power: float) -> float:
     return float(np.mean(values**power) ** (1.0 / power)) if values.size else nan
 
 
-def basic_life(dynamic: float, load: float) -> float:
-    """Basic rating life (C/P)^3 [million turns]; infinite without load."""
-    return (dynamic / load) ** LIFE_POWER if load > 0.0 else inf
+def basic_life(dynamic: float, load: float, power: float = LIFE_POWER) -> float:
+    """Basic rating life (C/P)^3 [million turns], of roller bearings with the power 10/3; infinite without load."""
+    return (dynamic / load) ** power if load > 0.0 else inf
 
 
 def hours(turns: float, speed_rpm: float) -> float | None:

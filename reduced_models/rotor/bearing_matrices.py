@@ -102,11 +102,18 @@ class BearingMatrices(QuantityTable):
     def _summary_lines(self) -> list[str]:
         K = self.stiffness[..., [0, 1, 2], [0, 1, 2]]
         parts = [f"K_{way}{way} {span(K[..., n], 1e-6, 'N/µm')}" for n, way in enumerate("xyz") if K[..., n].any()]
+        tilts = self.stiffness[..., [3, 4], [3, 4]]
+        parts += [
+            f"K_tilt_{way} {span(tilts[..., n], 1e-3, 'N m/mrad')}"
+            for n, way in enumerate("xy")
+            if tilts[..., n].any()
+        ]
         return [
             f"{self.name}, load {load_words(self.load)}, about {self.point_words}",
             f"{counted(self.speed_rpm.size, 'speed')} ({span(self.speed_rpm, 1.0, 'rev/min')}),"
             f" {span(self.hz, 1.0, 'Hz')}",
-            ", ".join(parts),
+            ", ".join(parts[:3]),
+            *([", ".join(parts[3:])] if parts[3:] else []),
             *note_line("; ".join(self.reservations)),
         ]
 

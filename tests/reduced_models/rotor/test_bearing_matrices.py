@@ -283,3 +283,11 @@ class TestRefused:
     def test_a_facing_of_a_set(self, bearing: BallBearing) -> None:
         with pytest.raises(InputError, match=r"^facing"):
             bearing_matrices(BearingSet.pair(bearing, "back to back", preload=100.0), LOAD, 3000.0, facing="-z")
+
+
+def test_the_summary_has_the_tilts():
+    table = bearing_matrices(BallBearing.catalogue("7205"), (0.0, -300.0, 500.0), speeds_rpm=[3000.0])
+    lines = repr(table).splitlines()
+    assert f"K_tilt_x {1e-3 * table.stiffness[0, 0, 3, 3]:.4g} N m/mrad" in lines[3] and "tilt" not in lines[2]
+    planar = bearing_matrices(BallBearing.catalogue("6205"), (0.0, -300.0), speeds_rpm=[3000.0])
+    assert "tilt" not in repr(planar)
