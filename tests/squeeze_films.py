@@ -62,7 +62,7 @@ def on_orbit(e, omega):
     return np.array([z.real, z.imag]), omega * np.array([-z.imag, z.real])
 
 
-def in_series(film=True, **changes):
+def in_series(film=True, axial=None, **changes):
     """A shaft on two 6205 whose housings stand on squirrel cages, in dampers."""
     bearing = BallBearing.catalogue("6205", clearance=5e-6, oil=Lubricant.iso_vg(46, temperature=80.0))
     made = damper(length=0.012, radius=0.026, clearance=1e-4, viscosity=0.012, **changes)
@@ -72,4 +72,5 @@ def in_series(film=True, **changes):
         Shaft(length=0.4, diameter=0.03, damping_time=1e-6, elements=2),
         discs=[Disc(position=0.2, mass=4.0, unbalance=4e-5)],
         supports=[Support(position=at, bearing=bearing, **housing, **own) for at in (0.02, 0.38)],
+        axial=axial,
     )

@@ -337,6 +337,7 @@ class HarmonicBalance:
             displacement=histories.displacement, velocity=histories.velocity,
             approach=approach, rate=rates, force=forces, iterations=histories.evaluations,
             largest_load=largest, status=Status.CONVERGED, columns=columns_of, names=names, places=places,
+            dampers=rotor.film_damper_names,
         )  # fmt: skip
         warn_of_contacts(rotor, run)
         return PeriodicAnswer(

@@ -67,6 +67,8 @@ class RotorResult(QuantityTable, ByNode):
         Those degrees of freedom.
     ball_bearings : tuple of BearingHistory
         Of every ball bearing: mean loads of its balls over the run, and its geometry, for `life`.
+    dampers : tuple of str
+        Names of squeeze film dampers among the columns, which are no rings of bearings.
     """
 
     t: Annotated[_Floats, TIME.over("t")]
@@ -84,6 +86,7 @@ class RotorResult(QuantityTable, ByNode):
     places: NDArray[np.int64] = None  # type: ignore[assignment]
     reservation: str = ""
     ball_bearings: tuple[BearingHistory, ...] = ()
+    dampers: tuple[str, ...] = ()
 
     DISPLAY: ClassVar[Display] = Display(
         rows="t", panels=("displacement", "approach", "force"), labels={"race": ("inner", "outer")}, first=0
@@ -175,8 +178,9 @@ class RotorResult(QuantityTable, ByNode):
         """Places among the columns by the name of the bearing."""
         at: dict[str, list[int]] = {}
         for k, name in enumerate(self.columns):
-            if not name.startswith("contact "):
-                at.setdefault(name.rpartition(" ")[0], []).append(k)
+            support = name.rpartition(" ")[0]
+            if not (name.startswith("contact ") or support in self.dampers):
+                at.setdefault(support, []).append(k)
         return at
 
     @takes()
@@ -264,10 +268,15 @@ class RotorResult(QuantityTable, ByNode):
         """Motions x, y of what a figure shows, with their titles."""
         if node is None:
             ring = self.ring
-            if not ring.shape[1]:
+            shown = [
+                (f"inner ring of {name}", ring[:, b, :2]) for b, name in enumerate(self._places_of_bearings())
+            ]
+            for name in self.dampers:
+                places = [self.columns.index(f"{name} {way}") for way in PLANE]
+                shown.append((f"journal of {name}", self.approach[:, places]))
+            if not shown:
                 raise InputError("node", None, "given for a rotor without bearings")
-            names = list(self._places_of_bearings())
-            return [(f"inner ring of {name}", ring[:, b, :2]) for b, name in enumerate(names)]
+            return shown
         named = {name: tuple(at.get(k, -1) for k in "xy") for name, at in self.nodes.items()}
         if isinstance(node, str) and node in named:
             return [(node, self.node(node))]

@@ -215,6 +215,7 @@ def run_result(run: PreparedRun, made: int, status: Status) -> RotorResult:
             BearingHistory(name=name, internals=mount.ball_bearing.tables.internals, mean_loads=one.mean_loads)
             for mount, name, one in balls
         ),
+        dampers=run.rotor.film_damper_names,
     )
 
 

@@ -312,6 +312,22 @@ def test_compiled_steps_are_those_in_python_with_balls():
     assert np.abs(force).max() > 0.0
 
 
+def test_dampers_are_no_rings(tmp_path):
+    """Of a rotor with axial motion rings keep their five directions; figures have the journals too."""
+    rotor = in_series(axial=True)
+    run = simulate_rotor(rotor, speed_rpm=6000.0, dt=1e-5, until=3e-4)
+    assert run.dampers == ("damper 0", "damper 1") and run.ring.shape == (31, 2, 5)
+    assert run.force.shape[1] == len(run.columns) == 14
+    titles = [title for title, _ in run._shown(None)]
+    assert titles == [
+        f"{what} of {kind} {k}"
+        for what, kind in (("inner ring", "bearing"), ("journal", "damper"))
+        for k in (0, 1)
+    ]
+    own = rotor.film_dampers[1].rows(rotor.size) @ run.displacement[-1]
+    assert run._shown(None)[-1][1][-1] == pytest.approx(own, rel=1e-9)
+
+
 # ---- bad input
 
 
