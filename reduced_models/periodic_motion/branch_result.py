@@ -23,6 +23,7 @@ from reduced_models.periodic_motion.picture import branch_picture
 _Floats = NDArray[np.float64]
 
 UNITS = {"speed": "rev/min", "amplitude": "", "clearance": "m", "preload": "m", "frequency": "Hz"}
+STEPS = 256  # of a period, for multipliers
 MIXED = Quantity("m, or rad where it turns")
 
 
@@ -44,6 +45,8 @@ class PeriodicBranch(QuantityTable):
         Why, where it did not end at the end of the range; else empty.
     solve : callable
         ``solve(answer, value)``: the answer at a value of the parameter, near another one; `at` calls it.
+    measure : callable
+        ``measure(answer, count, steps)``: an answer with its multipliers; `with_multipliers` calls it.
     """
 
     answers: tuple[PeriodicAnswer, ...]
@@ -77,20 +80,30 @@ class PeriodicBranch(QuantityTable):
         return self.value[list(self.folds)]
 
     def at(self, value: float) -> tuple[PeriodicAnswer, ...]:
-        """All answers of the branch at a value of the parameter, in the order of the branch."""
+        """All answers of the branch at a value of the parameter, in the order of the branch.
+
+        They have multipliers where those of the branch have.
+
+        Raises
+        ------
+        ConvergenceError
+            No answer near those of the branch beside the value.
+        """
         values, found = self.value, []
         for k in range(len(values) - 1):
             low, high = values[k], values[k + 1]
             if (low - value) * (high - value) < 0.0 or low == value:
-                nearest = k if abs(low - value) <= abs(high - value) else k + 1
-                found.append(self.solve(self.answers[nearest], value))
+                near = self.answers[k if abs(low - value) <= abs(high - value) else k + 1]
+                answer = self.solve(near, value)
+                known = near.multipliers
+                found.append(answer if known is None else self.measure(answer, max(len(known), 1), STEPS))
         if values.size and values[-1] == value:
             found.append(self.answers[-1])
         return tuple(found)
 
     @takes(count=Count(1, 1000), steps=Count(16, 100_000), callback=Callback("made, answers"))
     def with_multipliers(
-        self, count: int = 6, *, steps: int = 256, callback: Callable[[int, int], object] | None = None
+        self, count: int = 6, *, steps: int = STEPS, callback: Callable[[int, int], object] | None = None
     ) -> Self:
         """The branch, its answers with their largest Floquet multipliers (`floquet.with_multipliers`).
 
