@@ -230,6 +230,21 @@ def test_tutorial_of_the_spindle(capsys):
 
 
 @pytest.mark.long
+def test_tutorial_of_motor_currents(capsys):
+    """Growth of films and fall of capacitances with the speed, loose balls, and films of a measurement."""
+    found = {}
+    run("docs/tutorials/motor_currents.md", found)
+    for t in found["temperatures"]:
+        films, pico = found["film"][t], found["pico"][t]
+        assert 7.5 < films[-1] / films[0] < 8.6 and 0.2 < pico[-1] / pico[0] < 0.45
+    assert np.ptp(found["pressed"].capacitance) < 0.01 * found["pressed"].capacitance.mean()
+    assert np.ptp(found["loose"].capacitance) > 0.2 * found["loose"].capacitance.mean()
+    measured = found["measured"]
+    assert measured.low < measured.ratio < measured.high and 1.4 < measured.ratio < 1.7
+    assert "V/µm at 300 rev/min" in capsys.readouterr().out
+
+
+@pytest.mark.long
 def test_tutorial_of_the_integrator(capsys):
     """Damping of every element in a loop, beside that of the impedance; the warning; the whole film."""
     found = {}
