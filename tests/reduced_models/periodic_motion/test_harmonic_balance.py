@@ -8,8 +8,18 @@ import pytest
 from ehlcontact import Lubricant
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
-from reduced_models import BallBearing, BearingMount, LinearBearing, Rotor, Unbalance, linearise, simulate_rotor
+from reduced_models import (
+    BallBearing,
+    BearingMount,
+    LinearBearing,
+    Rotor,
+    Unbalance,
+    linearise,
+    shoot,
+    simulate_rotor,
+)
 from reduced_models.periodic_motion.excitation import PeriodicForce
+from reduced_models.periodic_motion.floquet import with_multipliers
 from reduced_models.periodic_motion.periodic import TooFewHarmonicsWarning, periodic, periodic_answer
 from tests import duffing_rotor, passage_rotor
 
@@ -79,6 +89,28 @@ def test_films_in_place_of_damping_against_long_runs(five):
     until = periods * answer.period
     run = simulate_rotor(rotor, speed_rpm=speed, dt=answer.period / steps, until=until, start=start, rho_inf=1.0)
     assert np.ptp(run.displacement[-steps - 1 :], axis=0) == pytest.approx(answer.peak_to_peak, rel=5e-3, abs=0.0)
+
+
+@pytest.mark.long
+def test_period_doubling_by_both_ways():
+    """Between 397 and 408 rad/s answers of one passage are unstable; those of two end where they shrink to one."""
+    rotor, speed = passage_rotor.rotor(), passage_rotor.speed_rpm(402.0)
+    once = with_multipliers(rotor, periodic_answer(rotor, speed, excitation="passage", harmonics=20), count=2)
+    assert once.multipliers[0].real < -1.05 and not once.stable
+    steps = 512
+    run = simulate_rotor(rotor, speed_rpm=speed, dt=once.period / steps, until=200.0 * once.period)
+    start = run.displacement[-1], run.velocity[-1]  # after whole passages
+    shot = shoot(rotor, speed, excitation="passage", periods=2, start=start, steps=steps)
+    twice = periodic_answer(rotor, speed, excitation="passage", periods=2, start=shot, harmonics=40)
+    assert twice.peak_to_peak == pytest.approx(shot.peak_to_peak, rel=5e-3, abs=0.0)
+    assert np.abs(twice.harmonics[1]).max() > 0.1e-6  # half of the frequency of the passage
+    ends = speed, passage_rotor.speed_rpm(412.0)
+    branch = periodic(
+        rotor, between=ends, excitation="passage", periods=2, start=twice, harmonics=40, samples=256, most=60
+    )
+    size = np.array([np.abs(answer.harmonics[1]).max() for answer in branch.answers])
+    assert speed_to_passage(branch.value[size.argmin()]) == pytest.approx(407.7, abs=0.5)
+    assert size.min() < 0.02e-6
 
 
 def gyroscopic_rotor():
