@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import require_positive
+from ehlcontact.checks import parts
 from ehlcontact.errors import InputError
 from ehlcontact.summary import Summary
 from reduced_models.life import life_modification as factors
@@ -414,7 +414,7 @@ def life_of_bearing(
         raise InputError("state", "without its bearing", "one that `equilibrium` of a bearing made")
     nu = geometry.kinematic_viscosity
     if kinematic_viscosity is not None:
-        nu = require_positive("kinematic_viscosity", kinematic_viscosity)
+        nu = float(parts.VISCOSITY.take("kinematic_viscosity", kinematic_viscosity, True))
     return BearingLife(
         geometry=geometry,
         ratings=LoadRatings.of(

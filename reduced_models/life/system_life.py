@@ -192,6 +192,8 @@ def life_of_spectrum(states: Sequence[tuple[float, Any]], **options: Any) -> Spe
     InputError
         Shares that are no shares or do not sum to 1; no states; what ``life`` refuses.
     """
+    if not isinstance(states, Sequence) or isinstance(states, str):
+        raise InputError("states", states, "pairs of a share of the time and a state")
     pairs = [tuple(pair) if isinstance(pair, list | tuple) else () for pair in states]
     if not pairs or any(len(pair) != 2 for pair in pairs):
         raise InputError("states", f"{len(pairs)} entries", "pairs of a share of the time and a state")

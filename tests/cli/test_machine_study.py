@@ -422,6 +422,11 @@ def test_fits_of_angular_contact_bearings_under_a_shaft(study):
         ('"k5"', '"H6"', ("support.drive end.shaft_fit = 'H6'", "shaft first")),
         ("= 75", "= 348", ("support.drive end.inner_temperature = 348", "in K")),
         ('shaft_fit = "k5"\nhousing_fit = "H6"\ninner', "shaft", ("shaft_temperature = 75", "left out without")),
+        (
+            '"6306"',
+            '"NICE"',
+            ("support.drive end.shaft_fit = 'k5'", "the bore of NICE is not known"),
+        ),
         ('"k5"', '"k5"\ncontact_angle_deg = 15.0', ("support.drive end.clearance = ", "beside a contact angle")),
     ],
 )

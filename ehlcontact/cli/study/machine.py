@@ -162,8 +162,11 @@ def bearing_part(study: Study, k: int, *, oil: bool = True, mounted: bool = True
     operating = clearance_of(study, k) if mounted else None
     if operating is not None and is_angular(study, k):
         at = support_field(study, k, "")
-        with called(at, ENTRIES | {"bearing": "shaft_fit"}):
+        try:
             fitted = operating.of(_before_mounting(study, k))
+        except InputError as error:
+            name = "shaft_fit" if one.shaft_fit else "inner_temperature"
+            raise InputError(f"{at}{name}", getattr(one, name), error.allowed) from None
         given["contact_angle"] = float(f"{fitted.contact_angle:.{CLEARANCE_DIGITS}g}")
     elif operating is not None:
         given["clearance"] = float(f"{operating.mean:.{CLEARANCE_DIGITS}g}")
@@ -218,6 +221,11 @@ def clearance_of(study: Study, k: int) -> OperatingClearance | None:
             speed_rpm=study.speed_rpm if one.turning == "inner" else 0.0,
         )
     except InputError as error:
+        if error.field in ("bore", "outside") and error.value is None:
+            name, what = ("shaft_fit", "bore") if error.field == "bore" else ("housing_fit", "outside diameter")
+            name = name if one.shaft_fit else f"{next(iter(warm))}_temperature"
+            allowed = f"left out: the {what} of {one.bearing} is not known; in Python: operating_clearance(...)"
+            raise InputError(f"{at}{name}", getattr(one, name), allowed) from None
         names = {"initial": "clearance", "fit": "shaft_fit" if error.value == one.shaft_fit else "housing_fit"}
         raise InputError(f"{at}{names.get(error.field, error.field)}", error.value, error.allowed) from None
 
