@@ -72,8 +72,21 @@ def test_the_machine_of_a_sample():
     own = machine_of(study, values)
     assert [one.clearance for one in own.support] == [7.0, 7.0] and own.support[1].spring == 180.0
     assert own.disc[0].unbalance == 0.0 and own.disc[0].balance_grade == 2.5 and own.uncertain is None
+    assert machine_of(study, {"electric.voltage": 30.0}).electric.voltage == 30.0  # of a section not in the file
     with pytest.raises(InputError, match=r"support.fan end.spring = -1.0: must be"):
         machine_of(study, {"support.fan end.spring": -1.0})
+
+
+def test_all_parts_of_the_machine_are_in_its_samples():
+    """Its damper too, whose clearance may be uncertain; what is no part of it is left out."""
+    damped = MOTOR.replace('name = "fan end"', 'name = "fan end"\nhousing_stiffness = 2e7\nhousing_mass = 1.0')
+    damped = damped.replace("spring = 200.0\n", "offset_um = 20.0\n")
+    text = damped + '[[damper]]\nsupport = "fan end"\nlength_mm = 20.0\ndiameter_mm = 80.0\nclearance_um = 100.0\n'
+    study = of(text + '[uncertain]\n"damper.clearance_um" = [80.0, 120.0]\n')
+    own = machine_of(study, {"damper.clearance_um": 90.0})
+    assert own.damper[0].clearance_um == 90.0 and own.model_copy(
+        update={"damper": study.damper}
+    ) == study.model_copy(update={"uncertain": None})
 
 
 def test_unbalance_of_a_grade():

@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ehlcontact.cli.study.loads import life_options, load_alone, ring_load
+from ehlcontact.cli.study.loads import life_options, load_alone, places_of_bearings, ring_load
 from ehlcontact.cli.study.machine import bearing_of, carrier_of, disc_of, places_of, rotor_of
 from ehlcontact.cli.study.shared_entries import tilt_of
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.store import save
-from reduced_models import BearingSet
 from reduced_models.rotor.compare_bearing_models import (
     BAND,
     CONSTANT,
@@ -56,8 +55,7 @@ def answer_of(study: Study, *, fine: bool = True) -> MachineState | str:
         names: list[str] = []
         places: list[float] = []
         for k, (name, place) in enumerate(zip(study.names, places_of(study), strict=True)):
-            carrier = carrier_of(study, k)
-            several = len(carrier.bearings) if isinstance(carrier, BearingSet) else 1
+            several = places_of_bearings(study).count(k)
             names += [name] if several == 1 else [f"{name} {number + 1}" for number in range(several)]
             places += [place] * several
         machine = machine_state(rotor_of(study), speed, names=names, positions=places, fine=fine)

@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
 
 SECTION = "uncertain"
-SECTIONS = "operation", "oil", "surface", "shaft", "disc", "support"  # whose entries may be uncertain
+# Sections that are no part of a machine; entries of all others may be uncertain
+BESIDE = {"title", "contact", "full_films", "in_time", "defect", "uncertain", "export"}
 SETTINGS = "operation.shares", "operation.hz"  # of these, entries that are no input of the machine
-OF_MACHINE = (*SECTIONS, "title")  # sections that samples depend on
 BALANCE = {"unbalance", "balance_grade"}  # of a disc: one stands in place of the other
 SIZE, BATCHES = 10, 400  # samples of a batch, or more where batches would be too many
 COST = 130.0  # of a sample, a bearing, in convolutions
@@ -49,7 +49,7 @@ def entries_of(study: Study) -> dict[str, list[tuple[str, int | None, str]]]:
     support, or the number of the disc.
     """
     found: dict[str, list[tuple[str, int | None, str]]] = {}
-    for section in SECTIONS:
+    for section in sections_of(study):
         declared = type(study).model_fields[section].annotation
         tables: Sequence[Any] = getattr(study, section) if is_several(declared) else (getattr(study, section),)
         if not is_several(declared) and tables[0] is None:
@@ -62,9 +62,15 @@ def entries_of(study: Study) -> dict[str, list[tuple[str, int | None, str]]]:
                 found[name] = [(section, None, key)]
                 continue
             found[name] = [(section, k, key) for k in range(len(tables))]
-            names = study.names if section == "support" else tuple(str(k + 1) for k in range(len(tables)))
+            numbers = tuple(str(k + 1) for k in range(len(tables)))
+            names = study.names if section == "support" else numbers
             found |= {f"{section}.{names[k]}.{key}": [(section, k, key)] for k in range(len(tables))}
     return found
+
+
+def sections_of(study: Study) -> list[str]:
+    """Sections that the machine of a study depends on."""
+    return [name for name in type(study).model_fields if name not in BESIDE]
 
 
 def _is_number(kind: Any) -> bool:
@@ -86,7 +92,7 @@ def require_uncertain(study: Study) -> None:
         if entry not in known:
             close = get_close_matches(entry, known, 1)
             hint = f"{close[0]}? " if close else ""
-            allowed = f"{hint}an entry of [{'], ['.join(SECTIONS)}] that is a number, with its section"
+            allowed = f"{hint}an entry of [{'], ['.join(sections_of(study))}] that is a number, with its section"
             raise InputError(field, brief(value), allowed)
         for place in known[entry]:
             if place in places:
@@ -114,11 +120,11 @@ def machine_of(study: Study, values: dict[str, float]) -> Study:
     """
     from ehlcontact.cli.study.schema import Study
 
-    document = study.model_dump(exclude_unset=True, include=set(OF_MACHINE))
+    document = study.model_dump(exclude_unset=True, exclude=BESIDE - {"title"})
     known = entries_of(study)
     for entry, value in values.items():
         for section, k, key in known[entry]:
-            table = document[section] if k is None else document[section][k]
+            table = document.setdefault(section, {}) if k is None else document[section][k]
             table[key] = value
             for other in BALANCE - {key} if key in BALANCE else ():
                 table.pop(other, None)
@@ -161,7 +167,7 @@ class Batch:
         """Hash of what it computes: the machine without its uncertain entries, and their values."""
         given = study.uncertain
         assert given is not None
-        machine = study.model_dump(mode="json", exclude_none=True, include=set(SECTIONS))
+        machine = study.model_dump(mode="json", exclude_none=True, exclude=BESIDE)
         known = entries_of(study)
         for section, k, key in (place for entry in given.spreads for place in known[entry]):
             (machine[section] if k is None else machine[section][k]).pop(key, None)
