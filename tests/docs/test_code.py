@@ -47,6 +47,7 @@ def test_pages_are_found():
         "bearing.md",
         "rotor.md",
         "spindle.md",
+        "motor_currents.md",
         "integrator.md",
         "fmu.md",
     }
