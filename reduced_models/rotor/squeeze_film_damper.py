@@ -169,10 +169,14 @@ class SqueezeFilmDamper(Summary):
             Of the journal against its housing, along x and y [m], [m/s]. Where less than a hundredth of the
             clearance is left, beyond it too, the film is that of such a gap.
         """
-        q, v = np.broadcast_arrays(as_numbers("displacement", displacement), as_numbers("velocity", velocity))
+        q, v = as_numbers("displacement", displacement), as_numbers("velocity", velocity)
         for name, values in (("displacement", q), ("velocity", v)):
             if values.shape[-1:] != (2,) or not np.isfinite(values).all():
                 raise InputError(name, shown(values), "finite, of shape (..., 2)")
+        try:
+            q, v = np.broadcast_arrays(q, v)
+        except ValueError:
+            raise InputError("shape of velocity", v.shape, f"as that of displacement, {q.shape}") from None
         q, v, shape = np.ascontiguousarray(q), np.ascontiguousarray(v), q.shape[:-1]
         force, stiffness, damping = (np.empty((*shape, *size)) for size in ((2,), (2, 2), (2, 2)))
         arrays = (array.ctypes.data_as(ctypes.c_void_p) for array in (q, v, force, stiffness, damping))
@@ -181,7 +185,10 @@ class SqueezeFilmDamper(Summary):
 
     def eccentricity(self, displacement: ArrayLike) -> _Floats:
         """Eccentricity ratios at displacements of shape (..., 2) [m]: 1 in contact."""
-        return np.asarray(np.linalg.norm(as_numbers("displacement", displacement), axis=-1) / self.clearance)
+        q = as_numbers("displacement", displacement)
+        if q.shape[-1:] != (2,):
+            raise InputError("shape of displacement", q.shape, "(..., 2)")
+        return np.asarray(np.linalg.norm(q, axis=-1) / self.clearance)
 
     @takes(eccentricity=parts.SHARE, omega=parts.ANY)
     def circular_orbit(self, eccentricity: float, omega: float) -> tuple[float, float]:

@@ -130,6 +130,11 @@ def linear():
     return rm.LinearBearing(1e8 * EYE, 1e3 * EYE)
 
 
+def damper(**changes):
+    given = {"length": 0.02, "radius": 0.06, "clearance": 1e-4, "viscosity": 0.01}
+    return rm.SqueezeFilmDamper(**(given | changes))
+
+
 def rotor(**changes):
     mounts = (rm.BearingMount(bearing=linear(), x=0, y=1),)
     return rm.Rotor(**({"mass": EYE, "stiffness": 0.0 * EYE, "mounts": mounts} | changes))
@@ -358,6 +363,16 @@ ARGUMENTS = [
     (lambda **k: rm.LinearBearing(**({"stiffness": 1e8 * EYE, "damping": EYE} | k)),
         {"stiffness": ([TEXT, TEXT], [TRUE, TRUE], "x", None), "speeds_rpm": (TEXT, TRUE, [2.0, 1.0], 5.0),
          "name": NO_NAME}),
+    (damper,
+        {**dict.fromkeys(("length", "clearance", "viscosity"), NO_NUMBER), "radius": NO_NUMBER[:4],
+         "stiffness": (*NO_NUMBER, -1.0, 1e20), "leakage": (*NO_NUMBER, 2.0, -0.1), "seals": (5, None, "shut"),
+         "cavitation": NO_FLAG, "groove": NO_FLAG, "name": NO_NAME}),
+    (lambda **k: damper().forces(**({"displacement": (0.0, 0.0), "velocity": (0.0, 0.0)} | k)),
+        {"displacement": (TEXT, "x", None, (0.0, nan), 1e-5),
+         "velocity": (TEXT, "x", (0.0, inf), (1.0, 2.0, 3.0), np.zeros((3, 2)).T)}),
+    (lambda **k: damper().eccentricity(**k), {"displacement": (TEXT, "x", None, 1e-5)}),
+    (lambda **k: damper().circular_orbit(**({"eccentricity": 0.5, "omega": 100.0} | k)),
+        {"eccentricity": (0.0, 1.0, True, "x"), "omega": (True, "x", nan)}),
     (lambda **k: dry().equilibrium(**({"load": (0.0, -500.0)} | k)),
         {"load": (*NO_COLUMN, None, 5.0, FORCES), "speed_rpm": (-1e9, True, "x", HUGE, nan),
          "cage_angle": (90.0, True, "x"), "tilt": (5.0, TEXT)}),
