@@ -7,6 +7,7 @@ module                 responsibility
 ``sections``           its sections, but for the oil
 ``schema_errors``      those errors, and guesses at what was meant
 ``machine``            bearings, pairs and rotor made of its entries
+``damper``             its squeeze film dampers
 ``parts``              these as calls of the library, and as lines of Python
 ``exports``            what other programs take: FMUs and scripts
 ``scripts``            the machine in Python, and in ROSS

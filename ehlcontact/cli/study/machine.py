@@ -17,7 +17,6 @@ from reduced_models import (
     LinearBearing,
     Rotor,
     Shaft,
-    SqueezeFilmDamper,
     Support,
     grade_unbalance,
     rotor_on_bearings,
@@ -47,7 +46,6 @@ SIZES = {  # of lengths of entries, over those of the library
 SIZES_OF_DISC = {
     "position": "position_mm", "diameter": "diameter_mm", "width": "width_mm", "bore": "bore_mm",
 }  # fmt: skip
-SIZES_OF_DAMPER = {"length": "length_mm", "diameter": "diameter_mm", "clearance": "clearance_um"}
 OF_A_PAIR = ("preload", "pair_spring", "distance_mm")
 NEEDED = ("balls", "ball_diameter_mm", "pitch_diameter_mm")  # of a bearing without a name
 OF_FITS = "shaft_temperature", "housing_temperature", "housing_material"
@@ -360,6 +358,8 @@ def support_parts(study: Study, carriers: Sequence[BallBearing | BearingSet | Li
     InputError
         As `places_of`.
     """
+    from ehlcontact.cli.study.damper import damper_parts
+
     places = places_of(study)
     axial = _is_axial(study, carriers)
     middle = 0.5 * (min(places) + max(places))
@@ -386,47 +386,6 @@ def pressed_by_fits(study: Study, k: int) -> float:
         return 0.0
     offset = operating.offset(_before_mounting(study, k))
     return float(f"{offset:.{CLEARANCE_DIGITS}g}")
-
-
-def damper_parts(study: Study) -> dict[int, Part]:
-    """The calls that make the dampers of the machine, by the place of their support in the file.
-
-    Raises
-    ------
-    InputError
-        A support that is none, stands on no springs or has a damper already; no viscosity.
-    """
-    parts: dict[int, Part] = {}
-    for k, one in enumerate(study.damper):
-        at = f"damper.{'' if len(study.damper) == 1 else f'{k + 1}.'}"
-        place = study.index(one.support, f"{at}support")
-        if place in parts:
-            raise InputError(f"{at}support", study.names[place], "that of no other damper")
-        if study.support[place].housing_stiffness is None:
-            allowed = "given, with [[damper]]: the springs that its housing stands on"
-            raise InputError(support_field(study, place, "housing_stiffness"), None, allowed)
-        viscosity = one.viscosity
-        if viscosity is None:
-            if study.lubricant is None:
-                raise InputError(f"{at}viscosity", None, "given, or [oil]")
-            viscosity = study.lubricant.eta0
-        part = Part(
-            SqueezeFilmDamper,
-            {
-                "length": 1e-3 * one.length_mm,
-                "diameter": 1e-3 * one.diameter_mm,
-                "clearance": 1e-6 * one.clearance_um,
-                "viscosity": viscosity,
-                "cavitation": one.cavitation,
-                "seals": one.seals,
-                "leakage": one.leakage,
-                "groove": one.groove,
-            },
-        )
-        with called(at, SIZES_OF_DAMPER):
-            part.made()
-        parts[place] = part
-    return parts
 
 
 def shaft_of(study: Study) -> Shaft:
