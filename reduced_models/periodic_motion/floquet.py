@@ -29,7 +29,7 @@ _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
 DIFFERENCE = 3e-4  # of central differences, over what the numbers go through
-CLOSE, MOST = 1e-5, 12  # of the answer of steps to which the given one leads; iterations to it
+CLOSE, MOST = 1e-3, 12  # of the answer of steps to which the given one leads; iterations to it
 FAR = 0.2  # of what places and velocities go through: distance at which it is another answer
 TOLERANCE = 1e-4  # of what the vectors of the multipliers miss
 PRODUCTS = 4  # of the derivative, at most, over the number of freedoms; and so many more for films
@@ -76,7 +76,7 @@ def with_multipliers(
     *,
     excitation: Excitation | None = None,
     count: int = 6,
-    steps: int = 256,
+    steps: int = 128,
     positions: int = POSITIONS,
     bearing: int | None = 0,
 ) -> PeriodicAnswer:
@@ -123,7 +123,7 @@ def with_multipliers(
         error = float(np.abs((steps_of(begin) - begin) / steps_of.scale).max())
         words = f"multipliers are of a motion from which time steps differ by {error:.2g} after a period"
         numbers, reservation = begin, "; ".join(filter(None, [reservation, words]))
-    steps_of.settle(numbers)
+    steps_of.begin(numbers)
     return replace(answer, multipliers=multipliers_of(steps_of, count), reservation=reservation)
 
 

@@ -23,6 +23,7 @@ _Floats = NDArray[np.float64]
 DIFFERENCE = 1e-4  # change along which the derivative is taken, over what the numbers go through
 LINEAR = 1e-2  # share of the imbalance that the linear equations of an iteration leave
 MORE_PRODUCTS = 40  # of the derivative beside three for every freedom, before films are given up
+ROUNDED = 1e-6  # difference after a period that rounding may leave
 SHORTEST = 1e-2  # share of Newton's step
 CAGE = 1e-9  # by which a cage may miss its pitch; and so many times its period is corrected
 CORRECTIONS = 6
@@ -71,7 +72,8 @@ def shoot(
     settle : int
         Periods that are run from the start before the search: near a stable answer.
     tolerance : float
-        Largest difference of any number between end and start, over what it goes through in the period.
+        Largest difference of any number between end and start, over what it goes through in the period; where
+        rounding is more, as with contact angles, up to 1e-6 is left.
     most : int
         Iterations of Newton's method.
     rho_inf : float
@@ -98,7 +100,7 @@ def shoot(
     steps_of.settle(steps_of.numbers)
     for _ in range(CORRECTIONS):
         numbers, error = fixed_point(steps_of, tolerance, most)
-        if error > tolerance:
+        if error > max(tolerance, ROUNDED):
             raise _failure(steps_of, numbers, error)
         steps_of.settle(numbers)
         if steps_of.cage_left <= CAGE:

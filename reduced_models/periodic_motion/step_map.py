@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import compress
+from itertools import compress, pairwise
 from math import pi
 from typing import Any
 
@@ -48,6 +48,7 @@ _Floats = NDArray[np.float64]
 
 # Imbalance of a step over the forces: differences of maps are taken. In Python rounding may not hide it.
 BALANCED, BALANCED_IN_PYTHON = 1e-12, 1e-10
+SEEN = 16  # times in a period at which numbers are looked at for their scale
 EVALUATIONS = 60  # of contacts in a step
 DRIVEN = 3  # periods for which films follow a given motion before the map begins
 POSITIONS = 4  # of the cage of a mean bearing
@@ -190,8 +191,13 @@ class StepMap:
 
     def settle(self, numbers: _Floats) -> None:
         """Take numbers as those of the start, and their scale from the period after them."""
+        self.begin(numbers)
+        self.scale = self._measured()
+
+    def begin(self, numbers: _Floats) -> None:
+        """Take numbers as those of the start."""
         self._hold(numbers)
-        self.numbers, self.scale = numbers, self._measured()
+        self.numbers = numbers
 
     def result(self, numbers: _Floats, status: Status = Status.CONVERGED) -> RotorResult:
         """The period from these numbers as a run."""
@@ -379,9 +385,9 @@ class StepMap:
     def _measured(self) -> _Floats:
         """How far every number goes in the period from the start."""
         self._put(self.numbers)
-        seen = [self.numbers]
-        for step in range(self.steps):
-            self._advance(step, step + 1)
+        seen, ends = [self.numbers], np.linspace(0, self.steps, SEEN * self.periods + 1).astype(int).tolist()
+        for first, end in pairwise(ends):
+            self._advance(first, end)
             pieces = self._pieces()
             seen.append(np.concatenate([pieces[piece][places] for piece, places, _ in self._groups]))
         history, scale, first = np.array(seen), np.ones(self.numbers.size), 0
@@ -391,8 +397,10 @@ class StepMap:
             least = max(share * moved.max(initial=0.0), LEAST_VARIATION * most)
             scale[here] = np.maximum(moved, least) if least > 0.0 else 1.0
             first += places.size
-        speeds, rates = (slice(k * self.rotor.size, (k + 1) * self.rotor.size) for k in (1, 2))
-        scale[rates] = np.maximum(scale[rates], scale[speeds] / self.run.dt)  # rounding is large in them
+        # rounding is large in velocities, and in accelerations
+        by_order = scale[: 3 * self.rotor.size].reshape(3, -1)
+        by_order[1] = np.maximum(by_order[1], by_order[0] * 2.0 * pi / self.period)
+        by_order[2] = np.maximum(by_order[2], by_order[1] / self.run.dt)
         return scale
 
 

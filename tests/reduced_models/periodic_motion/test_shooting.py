@@ -152,6 +152,27 @@ def test_multipliers_of_a_motor_against_decay_in_time(motor):
     assert np.log(np.abs(answer.multipliers)).max() == pytest.approx(rate, rel=0.02)
 
 
+@pytest.mark.long
+def test_passage_at_contact_angles(oil):
+    """The period is an unknown: contact angles change the speed of the cage."""
+    bearing = BallBearing.catalogue("6305", oil=oil, clearance=1e-5)
+
+    def motor(disc):
+        ends = {"bearing": bearing, "facing": "-z"}, {"bearing": bearing, "facing": "+z", "preload": 100.0}
+        supports = [Support(position=0.2 * k, **end) for k, end in enumerate(ends)]
+        shaft = Shaft(length=0.2, diameter=0.025, elements=2)
+        return rotor_on_bearings(shaft, supports=supports, discs=[Disc(position=disc, mass=6.0)])
+
+    answer = shoot(motor(0.1), 3000.0, "passage", steps=64)
+    plain = 1.0 / bearing.frequencies(3000.0).bpfo
+    assert 0.99 * plain < answer.period < 0.997 * plain  # faster at an angle
+    steps_of = StepMap(motor(0.1), 3000.0, "passage", steps=64, start=answer, period=answer.period)
+    steps_of.march(steps_of.numbers, 1)
+    assert steps_of.cage_left < 1e-8
+    with pytest.raises(InputError, match=r"cages = .*: must be equally fast: else the motion is quasi-periodic"):
+        shoot(motor(0.13), 3000.0, "passage", bearing=None, steps=64)
+
+
 def test_no_answer_names_what_a_run_does(rotor):
     words = r"a run from there comes to a motion of .* that repeats itself after 1 period"
     with pytest.raises(ConvergenceError, match=words) as caught:
