@@ -5,6 +5,7 @@ import subprocess
 import sys
 import warnings
 from contextlib import nullcontext
+from dataclasses import replace
 from types import SimpleNamespace
 
 import fake_ross
@@ -12,7 +13,16 @@ import numpy as np
 import pytest
 
 from ehlcontact.errors import InputError
-from reduced_models import BallBearing, BearingSet, from_ross, linearise, simulate_rotor
+from reduced_models import (
+    BallBearing,
+    BearingMount,
+    BearingSet,
+    LinearBearing,
+    from_ross,
+    linearise,
+    periodic_answer,
+    simulate_rotor,
+)
 from reduced_models.bearing.ross_bearing import WHIRL, has_whirl_axis
 from reduced_models.elements.validity import OutsideValidityWarning
 from reduced_models.rotor.ross_rotor import RossCallback
@@ -293,6 +303,25 @@ def test_the_first_mode_on_our_bearings(program, film):
         found = theirs.run_modal(SPEED)
         assert found.wn[0] / (2.0 * np.pi) == pytest.approx(202.7, abs=0.1)
         assert found.log_dec[0] == pytest.approx(0.0316, abs=1e-4)
+
+
+def test_harmonic_balance_of_a_linear_rotor(program, film):
+    """Every degree of freedom of bending, at four speeds through two critical ones."""
+    if not program.installed:
+        pytest.skip("ROSS's own response is asked")
+    stiff, damping = {"kxx": 4e7, "kyy": 6e7}, {"cxx": 300.0, "cyy": 500.0}
+    theirs = program.rotor(*(program.ross.BearingElement(n=n, **stiff, **damping) for n in NODES))
+    ours = from_ross(program.rotor(), dict.fromkeys(NODES, film), unbalances={DISC: (2e-5, 0.3)})
+    held = LinearBearing(np.diag([4e7, 6e7]), np.diag([300.0, 500.0]))
+    ours = replace(ours, mounts=tuple(BearingMount(bearing=held, x=4 * n, y=4 * n + 1) for n in NODES))
+    speeds = np.array([3000.0, 9000.0, 12000.0, 20000.0])
+    response = theirs.run_unbalance_response([DISC], [2e-5], [0.3], speeds * np.pi / 30.0).forced_resp
+    kept = np.flatnonzero(np.arange(theirs.ndof) % 6 < 2)  # x and y of all nodes
+    for k, speed in enumerate(speeds.tolist()):
+        answer = periodic_answer(ours, speed, harmonics=2, samples=16)
+        found = answer.harmonics[1].reshape(-1, 4)[:, :2].ravel()
+        expected = np.asarray(response)[kept, k]
+        assert np.abs(found) == pytest.approx(np.abs(expected), rel=1e-6)
 
 
 PUSHED = (0.0, -300.0, 200.0)  # N, with an axial load
