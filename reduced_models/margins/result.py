@@ -169,7 +169,7 @@ class Uncertainty(Summary):
         if interval is None:
             return ""
         low, high = self.words(name, (interval.low, interval.high))
-        return f"95 % {low} to {high}" if low != high else ""
+        return f"{percent(interval)} {low} to {high}" if low != high else ""
 
     def moved_by(self, name: str) -> str:
         """Inputs that move a number, the strongest first, with rank correlations; empty where none does."""
@@ -191,6 +191,12 @@ class Uncertainty(Summary):
     def alike(self, name: str) -> str:
         """Name here of a number of the nominal machine, whose nearest critical speed is one of several."""
         return self.nearest.get(name, name)
+
+    @property
+    def share(self) -> str:
+        """What an interval of all samples contains on average, in words."""
+        found = interval_of(np.arange(len(self.values), dtype=float))
+        return "" if found is None else percent(found)
 
     @property
     def sure(self) -> str:
@@ -250,7 +256,7 @@ class Uncertainty(Summary):
         return Picture(
             panels,
             heights=(AROUND + ROW * max(len(self.inputs), 4),),
-            note=f"{note} 95 % of the machines; dotted: the machine as given.",
+            note=f"{note} the interval; dotted: the machine as given.",
         )
 
     def _tornado(self, label: str, found: Influence) -> Panel:
@@ -273,7 +279,7 @@ class Uncertainty(Summary):
         x = np.sort(self.numbers[name][np.isfinite(self.numbers[name])])
         share = 100.0 * (np.arange(x.size) + 0.5) / x.size
         interval, nominal = self._intervals[name], self.nominal.get(name)
-        bands = () if interval is None else (Band(interval.low, interval.high, "95 %", PALE_BLUE),)
+        bands = () if interval is None else (Band(interval.low, interval.high, percent(interval), PALE_BLUE),)
         marks = () if nominal is None else (Mark(nominal),)
         below: Any = (label, unit) if unit else label
         return Panel((Line(x, share),), below, "machines below [%]", y_ends=(0.0, 100.0), bands=bands, marks=marks)
@@ -317,6 +323,11 @@ class Uncertainty(Summary):
             "failed": sum(map(bool, self.failures)),
             "remarks": self.remarks,
         }
+
+
+def percent(interval: Interval) -> str:
+    """What an interval contains on average, in words."""
+    return f"{digits(100.0 * interval.share, 2)} %"
 
 
 def _nearest(nominal: Sample, numbered: Mapping[str, float | None]) -> dict[str, str]:

@@ -30,6 +30,8 @@ class Interval(NamedTuple):
         out.
     contains : (float, float)
         Share of all machines in the interval, with 95 % confidence.
+    share : float
+        Of all machines that it contains on average: .95, less where samples are few.
     known : int
         Samples that have the number.
     """
@@ -40,6 +42,7 @@ class Interval(NamedTuple):
     low_ends: tuple[float | None, float | None]
     high_ends: tuple[float | None, float | None]
     contains: tuple[float, float]
+    share: float
     known: int
 
 
@@ -63,7 +66,8 @@ def interval_of(values: _Floats, share: float = SHARE) -> Interval | None:
         first, last = (int(rank) for rank in scipy.stats.binom.ppf((unsure, 1.0 - unsure), n, part))
         return (float(x[first - 1]) if first else None, float(x[last]) if last < n else None)
 
-    return Interval(low, median, high, ends(tail), ends(1.0 - tail), (float(contains[0]), float(contains[1])), n)
+    both = float(contains[0]), float(contains[1])
+    return Interval(low, median, high, ends(tail), ends(1.0 - tail), both, 1.0 - 2.0 * r / (n + 1), n)
 
 
 class Influence(NamedTuple):

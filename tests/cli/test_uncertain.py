@@ -126,7 +126,7 @@ def test_intervals_in_tiles_and_tables(sampled, tmp_path):
     everything = findings(study, machine, found)
     tile = next(one for one in everything.tiles if one.name == "smallest film")
     low, high = found.words("h_min", found.interval("h_min")[0:3:2])
-    assert tile.note.startswith(f"95 % {low} to {high}; ")
+    assert tile.note.startswith(f"88 % {low} to {high}; ")  # of 16 samples
     assert next(one for one in machine.tiles() if one.name == "smallest film").value == tile.value
     results = everything.to_dict()
     json.dumps(results["uncertainty"], allow_nan=False)
@@ -138,7 +138,7 @@ def test_intervals_in_tiles_and_tables(sampled, tmp_path):
     numbers = dict.fromkeys(UNITS) | machine.numbers
     row = Row(point, "converged", (), (), (), (), numbers, {}, {}, None, (), ends)
     header, line = table([row]).splitlines()
-    assert "h_min 95 % from [m],h_min 95 % to [m]" in header and repr(own["low"]) in line
+    assert "h_min interval from [m],h_min interval to [m]" in header and repr(own["low"]) in line
     assert any(f"({low} to {high})" in text for text in cells(row, columns_of([row])))
 
 

@@ -29,6 +29,8 @@ def test_true_ends_are_where_they_are_said_to_be():
 def test_few_samples_say_what_they_contain():
     found = interval_of(np.arange(9.0))
     assert (found.low, found.high, found.known) == (0.0, 8.0, 9)
+    assert found.share == pytest.approx(0.8, rel=1e-12)
+    assert interval_of(np.arange(200.0)).share == pytest.approx(0.95, rel=1e-12)
     assert found.contains == pytest.approx(scipy.stats.beta.ppf((0.025, 0.975), 8, 2), rel=1e-12)
     assert found.low_ends[0] is None and found.high_ends[1] is None
     assert interval_of(np.array([1.0, 2.0, *[np.nan] * 9])) is None

@@ -228,7 +228,7 @@ def table(rows: Sequence[Row]) -> str:
     writer = csv.writer(stream, lineterminator="\n")
     heads = (f"{name} [{unit}]" for name, unit in UNITS.items())
     sampled = [name for name in UNITS if any(name in row.intervals for row in rows)]
-    ends = [f"{name} 95 % {end} [{UNITS[name]}]" for name in sampled for end in ("from", "to")]
+    ends = [f"{name} interval {end} [{UNITS[name]}]" for name in sampled for end in ("from", "to")]
     writer.writerow(["point", *chosen, *heads, *ends, "status", "critical", "does not hold", "warnings"])
     for row in rows:
         values = plain(dict(row.numbers))
