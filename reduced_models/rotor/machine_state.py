@@ -58,6 +58,7 @@ ABOUT_A_PEAK = -1.0, -0.5, 0.0, 0.5, 1.0  # damping ratios beside a critical spe
 ROUNDING = 1e-9  # of a multiple of the speed
 # Frequencies that the picture shows: multiples of that of the shaft at the highest speed, and room above a mode
 SHOWN, SEEN = 2.0, 1.08
+LOADED = re.compile(r"load of (bearing \d+) = \[[^\]]*\]: must be")  # of an `InputError`
 LARGE = re.compile(r"\d\.\d+e\+\d+")  # a number with exponent in a message
 BACKWARD = -0.5  # whirl below which an unbalance hardly excites a mode
 # Where many machines are answered: such parts of the speed, and frequencies over that of the shaft at the highest
@@ -428,6 +429,7 @@ def machine_state(
     steps, every = (PARTS, EVERY) if fine else (COARSE, 1)
     speeds = speed / steps * np.arange(1, max(int(steps * last / speed * (1.0 + ROUNDING)), steps) + 1)
     speeds[steps - 1] = speed  # not but for rounding
+    shown = speeds[every - 1 :: every]  # in the diagram
     known = {speed: linear}  # diagram and response are of the same linearisations
 
     def linearised(at: float) -> LinearRotor:
@@ -438,11 +440,15 @@ def machine_state(
     modes = _tried(lambda: linear.modes(MODES), "modes", failed) or ()
     budget = _tried(lambda: budget_of(linear, modes), "damping budget", failed) if modes and fine else None
     count = max(len(modes), 1)
+    if rotor.unbalances and (said := _drop_slow(linearised, speeds[:steps].tolist())):
+        speeds = speeds[len(said) :]
+        failed.append(f"no response to unbalance below {speeds[0]:.5g} rev/min: {said[-1]}")
     if not fine:
         speeds = speeds[: _reached(linearised, speeds.tolist(), speed)]
         count = max(sum(mode.hz <= FOLLOWED * speeds[-1] * RPM_TO_HZ for mode in modes), 1)
+    shown = shown[shown <= speeds[-1] * (1.0 + ROUNDING)]
     diagram = _tried(
-        lambda: campbell_of(map(linearised, speeds[every - 1 :: every].tolist()), count),
+        lambda: campbell_of(map(linearised, shown[shown >= speeds[0]].tolist()), count),
         "diagram over the speed",
         failed,
     )
@@ -468,7 +474,7 @@ def machine_state(
         machine = replace(machine, diagram=diagram or machine.diagram)
     find = partial(_peaks, rotor, machine) if fine else partial(_peaks_of, rotor, machine, known)
     peaks = None if response is None else _tried(find, "peaks at critical speeds", failed)
-    return replace(machine, peaks=peaks, failed=tuple(failed))
+    return replace(machine, peaks=peaks, failed=tuple(_with_labels(text, labels) for text in failed))
 
 
 def _part_label(labels: Mapping[str, str], name: str) -> str:
@@ -478,6 +484,24 @@ def _part_label(labels: Mapping[str, str], name: str) -> str:
     kind, _, number = name.partition(" ")
     bearing = labels.get(f"bearing {number}", "")
     return f"{kind} of {bearing}" if bearing and kind in AT_A_BEARING else name
+
+
+def _with_labels(text: str, labels: Mapping[str, str]) -> str:
+    """The text of a failure with the label of a bearing in place of its number and its load."""
+    return LOADED.sub(lambda found: f"load of {labels.get(found[1]) or found[1]} must be", text)
+
+
+def _drop_slow(linearised: Callable[[float], LinearRotor], speeds: Sequence[float]) -> list[str]:
+    """Why there is no answer at each of the slowest of some speeds; empty where there is one at the first."""
+    said = []
+    for at in speeds[:-1]:
+        try:
+            linearised(at)
+        except (ConvergenceError, InputError) as error:
+            said.append(str(error))
+        else:
+            break
+    return said
 
 
 def _reached(linearised: Callable[[float], LinearRotor], speeds: Sequence[float], speed: float) -> int:

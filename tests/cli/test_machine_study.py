@@ -14,7 +14,7 @@ from ehlcontact import OilLayer
 from ehlcontact.cli.study.answer import answer_of, over_frequency
 from ehlcontact.cli.study.exports import machine_model
 from ehlcontact.cli.study.forecast import seals_left_out
-from ehlcontact.cli.study.headline import ball_words, headline, limits
+from ehlcontact.cli.study.headline import ball_words, clearances_apart, headline, limits
 from ehlcontact.cli.study.headline import oil_and_heat as conditions_sentence
 from ehlcontact.cli.study.loads import by_formula
 from ehlcontact.cli.study.machine import bearing_of, carrier_of, clearance_of, rotor_of
@@ -371,6 +371,29 @@ def test_life_over_a_class_of_clearance(study):
     least, largest = machine.lives_at_clearances
     assert len(least) == len(largest) == 2 and least.names == machine.rating_life.names
     assert least.l10rh != machine.rating_life.l10rh != largest.l10rh
+
+
+def test_a_line_of_fits_names_all_bearings_that_it_is_of(study):
+    changes = [
+        ('bearing = "6206"', FITS.replace("6306", "6206")),
+        ('bearing = "6306"', FITS.replace("6306", "6206")),
+    ]
+    found = Findings(load_study(study(MOTOR, *changes)), "not asked for", {}, None, {}, (), None, None, {}, {})
+    both = "drive end 6206 and fan end 6206"
+    clearance, loose = clearances_apart(found)
+    assert clearance.startswith(f"clearance in operation of {both} is ") and f"inner ring of {both} is" in loose
+
+
+@pytest.mark.long
+def test_a_response_from_the_speed_on_that_films_are_known_for(study):
+    """At a fifteenth of the speed the ball load is beyond the atlas: the response begins above."""
+    slow = ("speed_rpm = 15000.0", "speed_rpm = 750.0"), ("iso_vg = 32", "iso_vg = 100")
+    machine = answer_of(load_study(study(MOTOR, *slow, ("unbalance", "radial_load = 900.0\nunbalance"))))
+    assert machine.response is not None and machine.response.speed_rpm[0] > 50.0
+    (line,) = (text for text in machine.failed if "response" in text)
+    assert line.startswith(f"no response to unbalance below {machine.response.speed_rpm[0]:.5g} rev/min: load of ")
+    assert " must be such that a ball carries at most" in line and "bearing 0" not in line
+    assert machine.diagram.speed_rpm[0] >= machine.response.speed_rpm[0]
 
 
 def test_temperatures_without_fits(study):

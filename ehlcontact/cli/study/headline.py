@@ -107,23 +107,26 @@ def limits(found: Findings) -> list[str]:
 
 def clearances_apart(found: Findings) -> list[str]:
     """Bearings on fits that preload some of them, press a pair, or leave an inner ring loose."""
-    said = []
+    said: dict[str, list[str]] = {}  # labels of bearings of which a text is
     for name, own in found.clearances.items():
         numbered = name.isdigit() or own.name in name
         label = (name if own.name in name else own.name) if numbered else f"{name} {own.name}"
         low, mean, high, least, most = (f"{1e6 * one + 0.0:.3g}" for one in (*own.clearance, *own.probable))
+        texts = []
         if own.clearance[0] < 0.0:
-            said.append(
-                f"clearance in operation of {label} is {low} to {high} {UM}, probably {least} to {most} {UM}:"
+            texts.append(
+                f"clearance in operation of LABEL is {low} to {high} {UM}, probably {least} to {most} {UM}:"
                 f" everything but the range of the life is for the mean, {mean} {UM}"
             )
         before, mounted = found.preloads.get(name, (0.0, 0.0))
         if abs(mounted - before) > PRESSED * before:
-            said.append(f"fits and temperatures press {label} with {digits(mounted)} N, not {digits(before)} N")
+            texts.append(f"fits and temperatures press LABEL with {digits(mounted)} N, not {digits(before)} N")
         if own.inner_pressed[2] < 0.0:
             gap = f"{-1e6 * own.inner_pressed[2]:.3g} {UM}"
-            said.append(f"the inner ring of {label} is loose on its shaft in the loosest fit: a gap of {gap}")
-    return said
+            texts.append(f"the inner ring of LABEL is loose on its shaft in the loosest fit: a gap of {gap}")
+        for text in texts:
+            said.setdefault(text, []).append(label)
+    return [text.replace("LABEL", " and ".join(labels)) for text, labels in said.items()]
 
 
 def calm(found: Findings) -> str:
