@@ -28,7 +28,7 @@ from reduced_models.rotor.rotor import Rotor
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
-DIFFERENCE = 3e-4  # of central differences, over what the numbers go through
+DIFFERENCE = 3e-5  # along which the derivative is taken, over what the numbers go through
 CLOSE, MOST = 1e-3, 12  # of the answer of steps to which the given one leads; iterations to it
 FAR = 0.2  # of what places and velocities go through: distance at which it is another answer
 TOLERANCE = 1e-4  # of what the vectors of the multipliers miss
@@ -133,7 +133,8 @@ def multipliers_of(steps_of: StepMap, count: int) -> _Complex:
     start, n = np.zeros(steps_of.numbers.size), steps_of.rotor.size
     start[n : 2 * n] = np.random.default_rng(0).standard_normal(n)  # velocities: places would bend stiff shafts
     numbers, most = steps_of.numbers, PRODUCTS * n + MORE_PRODUCTS
-    found = largest(lambda v: steps_of.along(numbers, v, DIFFERENCE), start, count, TOLERANCE, most).values
+    after = steps_of(numbers)
+    found = largest(lambda v: steps_of.along(numbers, after, v, DIFFERENCE), start, count, TOLERANCE, most).values
     return found[np.abs(found) > FORGOTTEN * np.abs(found).max(initial=0.0)]
 
 

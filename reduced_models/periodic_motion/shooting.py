@@ -159,7 +159,7 @@ def fixed_point(steps_of: StepMap, tolerance: float, most: int) -> tuple[_Floats
     for _ in range(most):
         if np.abs(off).max() <= tolerance:
             break
-        way = solved(lambda v: steps_of.along(numbers, v, DIFFERENCE, after), off, LINEAR, products)  # noqa: B023
+        way = solved(lambda v: steps_of.along(numbers, after, v, DIFFERENCE), off, LINEAR, products)  # noqa: B023
         share, found = 1.0, None
         while found is None and share > SHORTEST:
             found = _tried(steps_of, numbers + share * scale * way, float(np.linalg.norm(off)))

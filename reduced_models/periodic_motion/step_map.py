@@ -171,15 +171,19 @@ class StepMap:
         self._advance(0, self.steps)
         return self._taken()
 
-    def along(self, numbers: _Floats, direction: _Floats, size: float, after: _Floats | None = None) -> _Floats:
-        """Derivative of the map along a direction, both over `scale`, by differences.
+    def along(self, numbers: _Floats, after: _Floats, direction: _Floats, size: float) -> _Floats:
+        """Derivative of the map along a direction, both over `scale`, by a difference.
 
-        `after`, the map of the numbers, makes them one-sided; `size` is that of the change over `scale`.
+        Parameters
+        ----------
+        numbers, after : ndarray
+            Where the derivative is, and where the map leads from there.
+        direction : ndarray
+        size : float
+            Of the change, over `scale`: forces have kinks of the power 3/2, and rounding its share of small ones.
         """
-        change = size * self.scale * direction
-        if after is not None:
-            return (self(numbers + change) - after) / (size * self.scale)
-        return (self(numbers + change) - self(numbers - change)) / (2.0 * size * self.scale)
+        change = size * self.scale
+        return np.asarray((self(numbers + change * direction) - after) / change)
 
     def march(self, numbers: _Floats, count: int) -> _Floats:
         """Numbers after `count` periods; they become those of the map."""
