@@ -296,6 +296,11 @@ SLIPS = {
             "support.conformity between 0.501 and 0.7",
         ),
         (
+            "[uncertain]\nsupport.clearance = [-3000.0, 5.0]",
+            "uncertain.support.clearance = -3000.0",
+            "support.clearance between -397 and 397 um",
+        ),
+        (
             "[uncertain]\nsupport.clearance = [1.0, 5.0]\nsupport.6205.clearance = [2.0, 5.0]",
             "uncertain.support.6205.clearance",
             "left out beside support.clearance",

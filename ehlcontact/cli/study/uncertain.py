@@ -18,6 +18,7 @@ from pydantic import ValidationError
 
 from ehlcontact.cli.entries import is_several, keys_of, section_of
 from ehlcontact.cli.study.answer import answer_of
+from ehlcontact.cli.study.machine import carrier_of, disc_of
 from ehlcontact.cli.study.schema_errors import brief, first_error
 from ehlcontact.cli.study.stages import Answer, reporting
 from ehlcontact.content_store import key_of
@@ -101,9 +102,18 @@ def require_uncertain(study: Study) -> None:
         found = spread_of(field, value)
         for share in (0.0, 1.0) if _has_ends(found) else (0.025, 0.975):
             try:
-                machine_of(study, {entry: float(found.ppf(share))})
+                _require_parts(machine_of(study, {entry: float(found.ppf(share))}))
             except InputError as error:
                 raise InputError(field, error.value, f"{error.field} {error.allowed}") from None
+
+
+def _require_parts(study: Study) -> None:
+    """Raise `InputError` for parts of a machine that the library refuses: oil, bearings, discs."""
+    _ = study.lubricant, study.roughness
+    for k in range(len(study.support)):
+        carrier_of(study, k, oil=False)
+    for k in range(len(study.disc)):
+        disc_of(study, k)
 
 
 def _has_ends(distribution: Any) -> bool:
