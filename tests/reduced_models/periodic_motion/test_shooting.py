@@ -9,7 +9,21 @@ import pytest
 
 from ehlcontact.errors import ConvergenceError, InputError
 from ehlcontact.status import Status
-from reduced_models import BallBearing, Disc, Shaft, Support, rotor_on_bearings, simulate_rotor
+from reduced_models import (
+    BallBearing,
+    BearingMount,
+    ContactMount,
+    Disc,
+    LinearBearing,
+    Rotor,
+    Shaft,
+    Support,
+    Unbalance,
+    linearise,
+    rotor_on_bearings,
+    simulate_rotor,
+    unbalance_response,
+)
 from reduced_models.periodic_motion.excitation import PeriodicForce
 from reduced_models.periodic_motion.floquet import with_multipliers
 from reduced_models.periodic_motion.shooting import shoot
@@ -150,6 +164,38 @@ def test_multipliers_of_a_motor_against_decay_in_time(motor):
     kept = np.arange(5, sizes.size)
     rate = np.polyfit(20.0 * kept, np.log(sizes[kept]), 1)[0]
     assert np.log(np.abs(answer.multipliers)).max() == pytest.approx(rate, rel=0.02)
+
+
+@pytest.mark.long
+def test_multipliers_of_a_small_vibration_are_those_of_modes(oil):
+    """Film memory in both: as states of steps, and exact in the modes about equilibrium."""
+    film = BallBearing.catalogue("6305", oil=oil).element("inner", 3000.0)
+    rotor = Rotor(
+        mass=[[5.0]], stiffness=[[0.0]], load=[100.0], mounts=(ContactMount(angle=0.0, contact=film, x=0),)
+    )
+    force = PeriodicForce(amplitudes={0: 1e-2}, hz=600.0)
+    answer = shoot(rotor, 3000.0, force, steps=128)
+    found = with_multipliers(rotor, answer, excitation=force, steps=128).multipliers
+    (mode,) = linearise(rotor, 3000.0).modes(1)
+    assert np.log(abs(found[0])) == pytest.approx(mode.eigenvalue.real / 600.0, rel=2e-3)
+    turned = 2.0 * np.pi - mode.eigenvalue.imag / 600.0
+    assert abs(np.angle(found[0])) == pytest.approx(turned, rel=5e-3)
+
+
+def test_a_linear_rotor_has_the_unbalance_response():
+    """To the second order of the steps; multipliers are those of its eigenvalues."""
+    bearing = LinearBearing(stiffness=np.diag([1e7, 2e7]), damping=np.diag([1e3, 1e3]))
+    rotor = Rotor(
+        mass=10.0 * np.eye(2),
+        stiffness=np.zeros((2, 2)),
+        mounts=(BearingMount(bearing=bearing, x=0, y=1),),
+        unbalances=(Unbalance(x=0, y=1, amount=1e-5),),
+    )
+    answer = shoot(rotor, 6000.0, start=([0.0, 0.0], [0.0, 0.0]), steps=128)
+    expected = unbalance_response(rotor, [6000.0]).amplitude[0]
+    assert np.abs(answer.harmonics[1] - expected).max() < 1e-3 * np.abs(expected).max()
+    found = with_multipliers(rotor, answer, steps=128).multipliers
+    assert np.log(np.abs(found)) == pytest.approx(-1e3 / 20.0 * 0.01, rel=2e-2)
 
 
 @pytest.mark.long
