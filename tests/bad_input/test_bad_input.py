@@ -168,6 +168,7 @@ LEAST = {  # of sections that the small study does not have
     "shaft": {"length_mm": 9.0},
     "disc": [{"position_mm": 1.0}],
     "defect": [{"spall": "outer,1,1"}],
+    "damper": [{"length_mm": 20.0, "diameter_mm": 80.0, "clearance_um": 100.0}],
 }
 
 
