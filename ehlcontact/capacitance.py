@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 
 EPS0 = 8.8541878128e-12  # F/m
 OIL = 2.2  # permittivity of mineral and hydrocarbon oils, 2.0 to 2.5
-VOLTAGE = 10.0  # V between the rings, where none is given
+VOLTAGE = 10.0  # V between the rings, where a study has none of its own
 BREAKDOWN = 15.0  # V/um from which films are said to break down, where no limit is given: not from data
 LARGEST = 100.0  # permittivity: that of water is 80
 RAYS, ELLIPSES = 16, 24  # of a quadrant; between the contact and the edge of the ball

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ehlcontact.capacitance import BREAKDOWN, VOLTAGE
+from ehlcontact.capacitance import BREAKDOWN
 from ehlcontact.checks import as_column, parts, require_positive
 from ehlcontact.checks.kinds import Object, Objects
 from ehlcontact.checks.quantity import takes
@@ -108,8 +108,8 @@ class MachineState(Summary):
     clearances : tuple of (float, float) or None
         Of each support: limits within which its clearance probably is [m], as of its class or of an
         `OperatingClearance`, for the life at both; None where they are not known, empty where none is.
-    voltage : float
-        Between shaft and housing [V], for the field in the films.
+    voltage : float or None
+        Between shaft and housing [V], for the field in the films; None: no field is asked for.
     breakdown : float
         Field [V/um] from which films are said to break down: a limit of the user, which no data here support.
     """
@@ -127,7 +127,7 @@ class MachineState(Summary):
     contamination: float | str | None = None
     reliability: float = BASIC_RELIABILITY
     clearances: tuple[tuple[float, float] | None, ...] = ()
-    voltage: float = VOLTAGE
+    voltage: float | None = None
     breakdown: float = BREAKDOWN
 
     def _summary_lines(self) -> list[str]:
@@ -254,9 +254,11 @@ class MachineState(Summary):
 
     @property
     def field_strength(self) -> float | None:
-        """Largest field in a film [V/um] under the voltage; None where a bearing is dry: its rings touch."""
+        """Largest field in a film [V/um] under the voltage; None without one, or where a bearing is dry."""
         each = [one.field_per_volt for one in self.supports]
-        return None if None in each else self.voltage * max(one for one in each if one is not None)
+        if self.voltage is None or None in each:
+            return None
+        return self.voltage * max(one for one in each if one is not None)
 
     def tiles(self) -> tuple[Tile, ...]:
         """The answer in a few numbers: what report, command line and explorer show first."""

@@ -290,9 +290,11 @@ def _other_torque(machine: Any) -> str:
 
 
 def _capacitance(machine: Any) -> Tile | None:
-    """Of each bearing between shaft and housing."""
+    """Of each bearing between shaft and housing; the largest field per volt where no voltage is known."""
     if any(one.capacitance is None for one in machine.supports):
         return None
+    most = max(one.field_per_volt for one in machine.supports)
+    field = "" if machine.voltage else f"{digits(most)} V/µm in the thinnest film per volt"
     several = len(machine.supports) > 1
     each = (
         ", ".join(f"{one.label} {digits(1e12 * one.capacitance)}" for one in machine.supports) if several else ""
@@ -302,7 +304,7 @@ def _capacitance(machine: Any) -> Tile | None:
     )
     permittivity = f"{machine.supports[0].permittivity:g}"
     oil = f"between {least} and {largest} pF by where oil stands, of permittivity {permittivity}"
-    return Tile("capacitance of the films", total, "pF", _note(each, oil), number="capacitance")
+    return Tile("capacitance of the films", total, "pF", _note(field, each, oil), number="capacitance")
 
 
 def _field(machine: Any) -> Tile | None:

@@ -162,7 +162,7 @@ def test_numbers_of_a_point_of_a_machine(motor, tmp_path):
     assert numbers["critical_rpm"] == pytest.approx(answer.nearest_critical.speed_rpm, rel=1e-12)
     assert numbers["p_hertz"] == max(support.p_hertz for support in answer.supports)
     assert numbers["capacitance"] == pytest.approx(sum(s.capacitance for s in answer.supports), rel=1e-12)
-    assert numbers["field"] == 10.0 * max(support.field_per_volt for support in answer.supports)
+    assert numbers["field"] is None
     assert numbers["peak"] == answer.largest_peak.size and numbers["mode_damping"] == answer.modes[0].damping_ratio
     diagram = answer.diagram
     along = replace(answer, diagram=replace(diagram, axial_share=np.ones_like(diagram.axial_share)))
@@ -187,7 +187,11 @@ def test_oil_and_voltage_of_a_study(study, motor):
     assert "of permittivity 2.5" in tiles["capacitance of the films"].note
     assert "4 V between shaft and housing" in tiles["largest field in a film"].note
     assert "limit of 30 V/µm" in tiles["largest field in a film"].note
-    assert (plain.voltage, plain.breakdown, plain.supports[0].permittivity) == (10.0, 15.0, 2.2)
+    assert plain.voltage is None and plain.supports[0].permittivity == 2.2
+    assert "largest field in a film" not in {tile.name for tile in plain.tiles()}
+    usual = answer_of(load_study(study(ALONE + "[electric]\n")))
+    assert (usual.voltage, usual.breakdown) == (10.0, 15.0)
+    assert usual.numbers["field"] == 10.0 * usual.supports[0].field_per_volt
     assert "capacitance" in {variable.name for variable in machine_model(one, [3000.0]).spec.variables}
     plainer = machine_model(load_study(study(ALONE)), [3000.0])
     assert "capacitance" not in {variable.name for variable in plainer.spec.variables}

@@ -45,7 +45,9 @@ def answer_of(study: Study, *, fine: bool = True) -> MachineState | str:
     Not `fine`: as `machine_state` has it for many machines.
     """
     speed, electric = study.speed_rpm, study.electric
-    asked = life_options(study) | {"voltage": electric.voltage, "breakdown": electric.breakdown}
+    asked = life_options(study)
+    if "electric" in study.model_fields_set:
+        asked |= {"voltage": electric.voltage, "breakdown": electric.breakdown}
     try:
         if study.shaft is None:
             tilt = tilt_of(study.operation)
