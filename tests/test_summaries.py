@@ -136,6 +136,7 @@ WITHOUT_PLOT = {
             "SqueezeFilmDamper",
             "BearingMount",
             "Unbalance",
+            "PeriodicForce",
             "ContactMount",
             "Rotor",
         ),
