@@ -268,7 +268,7 @@ def _tree(value: Any) -> Any:
     if hasattr(value, "from_dict"):
         return value.to_dict()
     if is_dataclass(value):
-        return {f.name: _tree(getattr(value, f.name)) for f in fields(value) if f.init}
+        return {name: _tree(getattr(value, name)) for name in _names(value)}
     return [_tree(member) for member in value] if isinstance(value, list | tuple) else value
 
 
@@ -317,7 +317,7 @@ def _build(hint: Any, tree: Any) -> Any:
         return kind.from_dict(tree)
     if isinstance(kind, type) and is_dataclass(kind):
         hints = get_type_hints(kind)
-        return kind(**{f.name: _build(hints[f.name], tree[f.name]) for f in fields(kind) if f.init})
+        return kind(**{name: _build(hints[name], tree[name]) for name in _names(kind)})
     if get_origin(kind) in (list, tuple):
         members = [tree[str(k)] for k in range(len(tree))] if isinstance(tree, dict) else tree
         inner = get_args(kind)
@@ -339,9 +339,10 @@ def _kind(hint: Any, tree: Any) -> Any:
     if isinstance(tree, np.ndarray):
         return next((kind for kind in kinds if get_origin(kind) in ARRAYS or kind is Any), None)
     kinds = [kind for kind in kinds if get_origin(kind) not in ARRAYS]
-    same = (kind for kind in kinds if is_dataclass(kind) and _names(kind) == set(tree))
+    same = (kind for kind in kinds if is_dataclass(kind) and set(_names(kind)) == set(tree))
     return next(same, kinds[0]) if isinstance(tree, Mapping) else kinds[0]
 
 
-def _names(cls: Any) -> set[str]:
-    return {f.name for f in fields(cls) if f.init}
+def _names(cls: Any) -> list[str]:
+    """Fields of a file: what a class is made of, but for what its metadata leaves out (``stored`` is False)."""
+    return [f.name for f in fields(cls) if f.init and f.metadata.get("stored", True)]

@@ -23,6 +23,7 @@ EXAMPLES = {
     "motor": "a motor on a 6306 and a 6206 with a wave spring",
     "motor_margins": "this motor with ranges of clearance, oil temperature, balance and damping",
     "spindle": "a spindle on a pair of 7205 and a floating bearing",
+    "jump": "a fan in squeeze film dampers that jumps in a run-up: periodic answers over the speed",
     "small_study": "a light rotor, and the full film of its most loaded ball on a coarse grid",
     "deep_groove_6205": "the full film of one contact, and a Jeffcott rotor on it",
 }

@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 from ehlcontact.checks.kinds import Callback, Count
 from ehlcontact.checks.quantity import takes
+from ehlcontact.errors import InputError
 from ehlcontact.quantities import NUMBER, Quantity
 from ehlcontact.results.picture import Picture
 from ehlcontact.results.table import Display, QuantityTable
 from ehlcontact.status import Status
+from ehlcontact.store import stored
 from ehlcontact.summary import counted, span
 from reduced_models.periodic_motion.answer import PeriodicAnswer
 from reduced_models.periodic_motion.floquet import Bifurcation, bifurcations
@@ -25,8 +27,10 @@ _Floats = NDArray[np.float64]
 UNITS = {"speed": "rev/min", "amplitude": "", "clearance": "m", "preload": "m", "frequency": "Hz"}
 STEPS = 256  # of a period, for multipliers
 MIXED = Quantity("m, or rad where it turns")
+NOT_STORED = {"stored": False}  # of a field that no file has
 
 
+@stored("branch of periodic answers")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PeriodicBranch(QuantityTable):
     """Periodic answers over a parameter, along their branch: through folds, where the parameter turns back.
@@ -44,7 +48,8 @@ class PeriodicBranch(QuantityTable):
     reservation : str
         Why, where it did not end at the end of the range; else empty.
     solve : callable
-        ``solve(answer, value)``: the answer at a value of the parameter, near another one; `at` calls it.
+        ``solve(answer, value)``: the answer at a value of the parameter, near another one; `at` calls it. None
+        of a branch from a file, as `measure` is.
     measure : callable
         ``measure(answer, count, steps)``: an answer with its multipliers; `with_multipliers` calls it.
     """
@@ -54,8 +59,8 @@ class PeriodicBranch(QuantityTable):
     over: str
     status: Status
     reservation: str = ""
-    solve: Any = field(default=None, repr=False)  # answer at a value, from one beside it
-    measure: Any = field(default=None, repr=False)  # an answer with its multipliers
+    solve: Any = field(default=None, repr=False, metadata=NOT_STORED)  # answer at a value, from one beside it
+    measure: Any = field(default=None, repr=False, metadata=NOT_STORED)  # an answer with its multipliers
 
     DISPLAY: ClassVar[Display] = Display(rows="answer", first=0)
 
@@ -88,7 +93,10 @@ class PeriodicBranch(QuantityTable):
         ------
         ConvergenceError
             No answer near those of the branch beside the value.
+        InputError
+            A branch from a file, which has no rotor.
         """
+        self._require_rotor()
         values, found = self.value, []
         for k in range(len(values) - 1):
             low, high = values[k], values[k + 1]
@@ -120,7 +128,13 @@ class PeriodicBranch(QuantityTable):
         -------
         PeriodicBranch
             After Ctrl-C multipliers of the first answers alone.
+
+        Raises
+        ------
+        InputError
+            A branch from a file, which has no rotor.
         """
+        self._require_rotor()
         answers = list(self.answers)
         try:
             for k, answer in enumerate(self.answers):
@@ -130,6 +144,11 @@ class PeriodicBranch(QuantityTable):
         except KeyboardInterrupt:
             return replace(self, answers=tuple(answers), status=Status.INTERRUPTED)
         return replace(self, answers=tuple(answers))
+
+    def _require_rotor(self) -> None:
+        if self.solve is None:
+            allowed = "one that `periodic` returned: a file has no rotor, of which other answers are"
+            raise InputError("branch", "from a file", allowed)
 
     def bifurcations(self) -> tuple[Bifurcation, ...]:
         """Folds, branch points, period doublings and Neimark-Sacker bifurcations between its answers.

@@ -128,7 +128,7 @@ def test_the_reference_page_is_made_from_the_schema():
     assert page.PAGE.read_text(encoding="utf-8") == page.text()
 
 
-@pytest.mark.parametrize("name", ["deep_groove_6205", "motor", "small_study", "spindle"])
+@pytest.mark.parametrize("name", ["deep_groove_6205", "jump", "motor", "small_study", "spindle"])
 def test_every_example_is_a_study(call, tmp_path, name):
     found = call("validate", EXAMPLES / f"{name}.toml", "-o", tmp_path / "out", "--json", "-")
     assert found.code == 0 and json.loads(found.out)["warnings"] == []

@@ -110,6 +110,9 @@ def _show(found: Forecast, json_to: str | None) -> None:
     if (given := study.uncertain) is not None:
         of = ", ".join(given.spreads)
         say(f"{given.samples} samples of {of}: about {_time(found.samples)} of one processor")
+    if (asked := study.periodic) is not None:
+        span = f"{numeral(asked.from_rpm, 6)} to {numeral(asked.to_rpm, 6)} rpm"
+        say(f"periodic answers to {asked.excitation}, {span}: about {_time(found.branch)} of one processor")
     if found.films:
         say(f"bearing: beside flooded isothermal films also {found.films}")
     for warning in found.warnings:

@@ -21,6 +21,7 @@ module                 responsibility
 ``rotor``              the rotor on full films and on elements, turning with its unbalance and after a kick
 ``differences``        full films beside elements, and beside what there is without them
 ``oil_and_heat``       the study's bearing with these: table and CSV
+``periodic``           the branch of [periodic] as a task of a run, its words, numbers and table
 ``defect``             a spall in a bearing: orders, and its force over time and as an envelope
 ``uncertain``          samples of a study with [uncertain]: draws, machines of them, batches as tasks of a run
 ``shared_entries``     pairs, moments and tilts, oil supply and heat: entries in terms of the library

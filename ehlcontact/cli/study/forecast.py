@@ -13,6 +13,7 @@ import scipy
 from ehlcontact.checks.admissible_range import MEASURED
 from ehlcontact.cli.study.loads import defect_field, place_of, ring_load, spall_in
 from ehlcontact.cli.study.machine import bearing_of
+from ehlcontact.cli.study.periodic import Branch, branches_of
 from ehlcontact.cli.study.points.kept import STORE, Kept, stage_key
 from ehlcontact.cli.study.rotor import build_rotor
 from ehlcontact.cli.study.schema import Study
@@ -80,13 +81,14 @@ class Forecast:
     compiling: float  # seconds of kernels that are not kept compiled
     closed: bool  # results and report are there, of this study
     samples: float  # seconds of samples of uncertain entries that are not kept
+    branch: float  # seconds of the branch of periodic answers, where it is not kept
     films: str  # oil supply and heat of the bearing, in words; empty of flooded isothermal ones
     warnings: tuple[str, ...]
 
     @property
     def seconds(self) -> float:
         """Estimate of the whole: stages side by side, longest first as the runner takes them, then the rest."""
-        loads = [0.0] * self.jobs
+        loads = [self.branch, *[0.0] * (self.jobs - 1)]
         for plan in self.plans:
             if not plan.kept:
                 loads[int(np.argmin(loads))] += plan.seconds
@@ -95,7 +97,8 @@ class Forecast:
     @property
     def work(self) -> float:
         """Seconds of one processor: what points of one study share among them, without `compiling`."""
-        return sum(plan.seconds for plan in self.plans if not plan.kept) + self.samples + self.closing
+        stages = sum(plan.seconds for plan in self.plans if not plan.kept)
+        return stages + self.samples + self.branch + self.closing
 
     @property
     def closing(self) -> float:
@@ -135,6 +138,7 @@ class Forecast:
             "folder": str(self.folder),
             "stages": [plan.to_dict() for plan in self.plans],
             "samples_seconds": self.samples,
+            "branch_seconds": self.branch,
             "films": self.films,
             "jobs": self.jobs,
             "compiling_seconds": self.compiling,
@@ -164,14 +168,21 @@ def forecast(study: Study, folder: Path, jobs: int, root: Path | None = None) ->
         estimate = conv * stage_cost(stage, study)
         kept = store is not None and store.get(stage_key(stage, study)) is not None
         plans.append(Plan(stage, _mesh(stage, study), *_steps(stage, study), estimate, kept))
-    sampled = [batch for batch in batches_of(study) if store is None or store.get(stage_key(batch, study)) is None]
-    samples = conv * sum(batch.cost(study) for batch in sampled)
+    beside = [
+        sum(task.cost(study) for task in tasks if store is None or store.get(stage_key(task, study)) is None)
+        for tasks in (batches_of(study), branches_of(study))
+    ]
     closed = (
-        store is not None and all(p.kept for p in plans) and not sampled and store.final(study, folder) is not None
+        store is not None
+        and all(p.kept for p in plans)
+        and not any(beside)
+        and store.final(study, folder) is not None
     )
     compiling = conv * compiling_cost(study, any(not plan.kept for plan in plans), not closed)
     about = films_words(study), tuple(cautions(study))
-    return Forecast(study, folder, jobs, conv, tuple(plans), compiling, closed, samples, *about)
+    return Forecast(
+        study, folder, jobs, conv, tuple(plans), compiling, closed, *(conv * cost for cost in beside), *about
+    )
 
 
 def films_words(study: Study) -> str:
@@ -184,9 +195,9 @@ def films_words(study: Study) -> str:
     return " and ".join(filter(None, conditions))
 
 
-def stage_cost(stage: Stage | Batch, study: Study) -> float:
+def stage_cost(stage: Stage | Branch | Batch, study: Study) -> float:
     """Estimated cost of a stage, in convolutions."""
-    if isinstance(stage, Batch):
+    if not isinstance(stage, Stage):
         return stage.cost(study)
     contacts, steps, _ = _steps(stage, study)
     return float(stage.cost * max(1, steps) * contacts * _mesh(stage, study).nodes * 1e-3)

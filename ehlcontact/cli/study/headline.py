@@ -87,6 +87,7 @@ def limits(found: Findings) -> list[str]:
     machine = found.machine
     rest = [] if found.uncertainty is None else found.uncertainty.remarks
     rest += [text for text in (without_films(found), damping_below_zero(found)) if text]
+    rest += [] if found.periodic is None else found.periodic.reservations
     rest += [*clearances_apart(found), *discs_without_inertia(found.study), *seals_left_out(found.study)]
     if isinstance(machine, str):
         broken = "" if found.contact is None else found.contact.assumptions.headline

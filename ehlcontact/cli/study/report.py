@@ -69,6 +69,8 @@ FILES = {
     "contact_film.fmu": "FMU of the element with a film memory",
     "elements/*.json": "an element in SI units, for ehlcontact export and for ehlcontact.read",
     "on_bearings_*.h5": "motion of the rotor on whole bearings",
+    "periodic.csv": "periodic answers in the order of their branch: speed, motions, stability",
+    "periodic.h5": "the branch itself, every period: ehlcontact.read",
     "*.h5": "STAGE: fields or histories",
     "samples.csv": "inputs and numbers of all samples, and why some have none",
     "samples": "the samples in batches",
@@ -276,6 +278,8 @@ def _of_bearings(found: Findings) -> dict[str, Callable[[], Picture | Slides]]:
             pictures["damping"] = machine.budget.picture
         if machine.modes and (response := machine.labelled_response) is not None:
             pictures["response_to_unbalance"] = response.picture
+    if found.periodic is not None:
+        pictures["periodic"] = found.periodic.picture
     for k, (_, small) in enumerate(shown_coefficients(found)):
         pictures[f"frequency_{k + 1}"] = partial(_over_frequency, small)
     for k, (_, one) in enumerate(conditions_of(found)):

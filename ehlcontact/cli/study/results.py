@@ -14,6 +14,7 @@ from ehlcontact.assumptions import Assumptions, assumptions
 from ehlcontact.cli.study.defect import StudyDefect
 from ehlcontact.cli.study.differences import RotorFindings
 from ehlcontact.cli.study.machine import carrier_of, clearance_of
+from ehlcontact.cli.study.periodic import StudyBranch
 from ehlcontact.cli.study.points.folder import versions
 from ehlcontact.cli.study.reduction import (
     CONTACTS,
@@ -54,15 +55,24 @@ class Findings:
     exports: Mapping[str, Any]  # files of [export], as of `write_exports`
     seconds: Mapping[str, float]  # wall time by stage
     uncertainty: Uncertainty | None = None  # of a study with [uncertain]
+    periodic: StudyBranch | None = None  # of a study with [periodic]
 
     @cached_property
     def tiles(self) -> tuple[Tile, ...]:
-        """Tiles of the machine, with intervals of their numbers first in their notes; none without a machine."""
+        """Tiles of the machine, with intervals of their numbers first in their notes; none without a machine.
+
+        The last one is of periodic answers.
+        """
+        last = () if self.periodic is None else (self.periodic.tile,)
+        return (*self._of_machine, *last)
+
+    @property
+    def _of_machine(self) -> tuple[Tile, ...]:
         if isinstance(self.machine, str):
             return ()
         found = self.uncertainty
         if found is None:
-            return self.machine.tiles()
+            return tuple(self.machine.tiles())
         between = {tile: found.between(found.alike(tile.number)) for tile in self.machine.tiles()}
         return tuple(
             tile._replace(note="; ".join(filter(None, (words, tile.note)))) for tile, words in between.items()
@@ -102,6 +112,7 @@ class Findings:
                 | dict(zip(("preload_before_mounting", "preload"), self.preloads.get(name, ()), strict=False))
                 for name, one in self.clearances.items()
             },
+            "periodic": None if self.periodic is None else self.periodic.to_dict(),
             "in_time": None if self.whole is None else self.whole.to_dict(),
             "oil_and_heat": {
                 name: one if isinstance(one, str) else one.to_dict() for name, one in self.oil_and_heat.items()

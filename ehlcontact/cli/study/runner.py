@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 from ehlcontact.cli.progress import Bars, Lines, progressing
 from ehlcontact.cli.study.forecast import closing_cost, stage_cost
+from ehlcontact.cli.study.periodic import Branch, branches_of, solve_branch
 from ehlcontact.cli.study.points.finalise import TITLE, finalise_point
 from ehlcontact.cli.study.points.folder import Log
 from ehlcontact.cli.study.points.kept import BEGUN, FINALISE, Entry, Kept, final_key, stage_key
@@ -40,10 +41,10 @@ class StorageError(Exception):
 
 @dataclass(frozen=True)
 class Task:
-    """A stage or a batch of samples of a point, or, without one, the finalisation of the point."""
+    """A stage, a branch or a batch of samples of a point, or, without one, the finalisation of the point."""
 
     point: Point
-    stage: Stage | Batch | None
+    stage: Stage | Branch | Batch | None
 
     @property
     def name(self) -> str:
@@ -109,8 +110,8 @@ class Scheduler:
     def _look(self, point: Point, stages: Sequence[Stage], final: bool) -> None:
         """Enter the tasks that a point lacks, log those that it has, and write their files where they are not."""
         study, lacking = point.study, []
-        wanted: list[Stage | Batch] = [stage for stage in stages if stage.wanted(study)]
-        for stage in (*wanted, *batches_of(study)):
+        wanted: list[Stage | Branch | Batch] = [stage for stage in stages if stage.wanted(study)]
+        for stage in (*branches_of(study), *wanted, *batches_of(study)):
             task = Task(point, stage)
             found = self._store.get(task.content_key)
             if found is not None:
@@ -322,6 +323,8 @@ def _run(
                 elif isinstance(stage, Batch):
                     begun = scheduler.begun(task)
                     future = there.submit(solve_batch, task.key, point.study, stage, begun)
+                elif isinstance(stage, Branch):
+                    future = there.submit(solve_branch, task.key, point.study)
                 else:
                     future = there.submit(solve_stage, task.key, point.study, stage.name)
                 running[future] = task

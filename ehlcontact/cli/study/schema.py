@@ -27,6 +27,7 @@ from ehlcontact.cli.study.sections import (
     FullFilms,
     InTime,
     Operation,
+    Periodic,
     Shaft,
     Support,
     Surface,
@@ -187,6 +188,7 @@ class Study(Section):
     contact: Contact | None = None
     full_films: FullFilms | None = None
     in_time: InTime | None = None
+    periodic: Periodic | None = None
     defect: Annotated[tuple[Defect, ...], Field(strict=False)] = ()
     uncertain: Uncertain | None = None
     export: Export | None = None
@@ -474,6 +476,7 @@ def study_of(document: dict[str, Any], *, at_rest: bool = False) -> Study:
     from ehlcontact.cli.study.exports import require_export
     from ehlcontact.cli.study.loads import require_machine
     from ehlcontact.cli.study.machine import support_field
+    from ehlcontact.cli.study.periodic import require_periodic
     from ehlcontact.cli.study.uncertain import require_uncertain
 
     at = support_field(study, study.at, "").rstrip(".")
@@ -491,6 +494,7 @@ def study_of(document: dict[str, Any], *, at_rest: bool = False) -> Study:
             if study.shaft is not None or study.operation.axial_load is not None or study.in_time is not None:
                 require_machine(study)
         require_export(study)
+        require_periodic(study)
         require_uncertain(study)
     except InputError as error:
         names = ENTRIES | {"conformity": support_field(study, study.at, "conformity")}
@@ -503,7 +507,8 @@ def _require_together(study: Study) -> None:
     from ehlcontact.cli.study.machine import carrier_of
 
     if study.shaft is None:
-        for name, given in (("[[disc]]", study.disc), ("[[damper]]", study.damper), ("[in_time]", study.in_time)):
+        parts = {"[[disc]]": study.disc, "[[damper]]": study.damper, "[in_time]": study.in_time}
+        for name, given in (*parts.items(), ("[periodic]", study.periodic)):
             if given:
                 raise InputError("shaft", None, f"given, with {name}")
         if len(study.support) > 1:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from keyword import iskeyword
+from textwrap import indent
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -22,6 +23,7 @@ from ehlcontact.cli.study.machine import (
     support_parts,
 )
 from ehlcontact.cli.study.parts import call_text, list_text, numbers_text, python_of
+from ehlcontact.cli.study.periodic import settings_of
 from ehlcontact.cli.study.shared_entries import tilt_of
 from ehlcontact.errors import InputError
 from reduced_models import BallBearing, BearingSet
@@ -35,7 +37,7 @@ TABLE = 0.2, 2.0, 10  # speeds of tables for ROSS over that of the study: first,
 ROUNDING = 1e-9  # of the largest component of a load
 TAKEN = {
     "oil", "shaft", "discs", "supports", "rotor", "mode", "state", "np", "ross", "steel", "lengths", "speeds",
-    "elements", "masses", "modal",
+    "elements", "masses", "modal", "branch",
 }  # fmt: skip
 ROSS = ("import numpy as np", "import ross", "")
 
@@ -85,6 +87,11 @@ def python_text(study: Study) -> str:
     ]
     kinds |= {"Shaft", "Support", "linearise", "rotor_on_bearings"} | ({"Disc"} if discs else set())
     kinds |= {"SqueezeFilmDamper"} if study.damper else set()
+    if study.periodic is not None:
+        arguments = ["rotor", *(f"{name}={python_of(value)}" for name, value in settings_of(study).items())]
+        lines += indent(f"branch = {call_text('periodic', arguments)}", "    ").split("\n")
+        lines.append(f"    print(branch{'.with_multipliers()' if study.periodic.stability else ''})")
+        kinds.add("periodic")
     return _file(study, "rotor of study.toml, from the library", kinds, lines)
 
 

@@ -11,6 +11,7 @@ from ehlcontact.capacitance import BREAKDOWN, OIL, VOLTAGE
 from ehlcontact.cli import entries as e
 from ehlcontact.cli.entries import Section
 from reduced_models.margins.spread import KINDS, WITHIN
+from reduced_models.periodic_motion.periodic import HARMONICS, SAMPLES
 
 OF_SAMPLES = "samples", "seed"  # entries of [uncertain] itself
 
@@ -337,6 +338,25 @@ class InTime(Section):
     steps_per_revolution: Annotated[e.Whole, Field(ge=200, le=10000, description="time steps in each of them")] = (
         500
     )
+
+
+class Periodic(Section):
+    """Motions of the machine that repeat themselves, over the speed: all of a branch, through its folds.
+
+    To the unbalance of its discs with bearings as means over the balls that pass, or to the balls that pass the
+    load of the first bearing without unbalance: both at once have no common period.
+    """
+
+    excitation: Annotated[
+        Literal["unbalance", "passage"], e.meaning("what moves it: unbalance of the discs, or passage of balls")
+    ] = "unbalance"
+    from_rpm: Annotated[e.Speed, e.meaning("speed at which the branch begins")]
+    to_rpm: Annotated[e.Speed, e.meaning("speed at which it ends, above or below from_rpm")]
+    harmonics: Annotated[e.Whole, Field(ge=1, le=200, description="of the period, in the motion")] = HARMONICS
+    samples_per_period: Annotated[
+        e.Whole, Field(ge=16, le=100_000, description="of the forces; at least four times the harmonics")
+    ] = SAMPLES
+    stability: Annotated[bool, e.meaning("Floquet multipliers: whether each of them is stable")] = True
 
 
 class Defect(Section):

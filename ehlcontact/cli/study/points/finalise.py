@@ -17,6 +17,7 @@ from ehlcontact.cli.study.differences import compare_rotors
 from ehlcontact.cli.study.exports import export_fmu, write_exports
 from ehlcontact.cli.study.forecast import films_words
 from ehlcontact.cli.study.oil_and_heat import run_oil_and_heat
+from ehlcontact.cli.study.periodic import branch_of
 from ehlcontact.cli.study.reduction import RECORDS, contact_text, reduce_records, save_elements
 from ehlcontact.cli.study.results import ContactFindings, Findings
 from ehlcontact.cli.study.rotor import film_response
@@ -94,6 +95,7 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
         uncertainty = uncertainty_of(study, machine, folder)
     with _timed(times, "machine in time on models", study.in_time is not None):
         whole = run_models(study, folder)
+    branch = branch_of(study, folder)
     with _timed(times, "oil supply and heat", bool(films_words(study))):
         conditions = run_oil_and_heat(study)
     with _timed(times, "defects", bool(study.defect)):
@@ -101,7 +103,7 @@ def evaluate(study: Study, folder: Path, seconds: Mapping[str, float]) -> Findin
     with _timed(times, "export", study.export is not None):
         exports = write_exports(study, folder)
     found = study, machine, small, whole, conditions, defects, contact, rotors, exports, times
-    return Findings(*found, uncertainty)
+    return Findings(*found, uncertainty, branch)
 
 
 @contextmanager
@@ -141,6 +143,8 @@ def read_results(folder: Path) -> dict[str, Any]:
 def products(results: Mapping[str, Any]) -> dict[str, str]:
     """Files of the finalisation, relative to the folder, by their meaning."""
     made = {"results": RESULTS, "report": REPORT} | ({"samples": TABLE} if results.get("uncertainty") else {})
+    if results.get("periodic"):
+        made["periodic answers, table"] = results["periodic"]["file"]
     exports = results.get("export", {})
     for entry in (*(exports[name] for name in exports if name != "matrices"), *exports.get("matrices", ())):
         if entry.get("passes", True):

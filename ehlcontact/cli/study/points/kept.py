@@ -9,6 +9,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+from ehlcontact.cli.study.periodic import Branch, branches_of
 from ehlcontact.cli.study.schema import Study
 from ehlcontact.cli.study.stages import Stage, stages_of
 from ehlcontact.cli.study.uncertain import Batch, batches_of
@@ -22,16 +23,16 @@ FINALISE = "report"  # name of what is made of all stages
 Entry = dict[str, Any]  # status, message and seconds of a task, and what else it has to say
 
 
-def stage_key(stage: Stage | Batch, study: Study) -> str:
+def stage_key(stage: Stage | Batch | Branch, study: Study) -> str:
     """Key of a stage: the hash of its inputs."""
-    if isinstance(stage, Batch):
+    if not isinstance(stage, Stage):
         return stage.key(study)
     return key_of([stage.name, study.fingerprint(*stage.parts)])
 
 
 def final_key(study: Study) -> str:
     """Key of results and report: the hash of the whole study, names and all, and of its stages."""
-    tasks: tuple[Stage | Batch, ...] = (*stages_of(study), *batches_of(study))
+    tasks: tuple[Stage | Batch | Branch, ...] = (*stages_of(study), *branches_of(study), *batches_of(study))
     stages = [stage_key(task, study) for task in tasks]
     return key_of([FINALISE, study.model_dump(mode="json", exclude_none=True), stages])
 
