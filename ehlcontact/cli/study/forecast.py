@@ -168,21 +168,17 @@ def forecast(study: Study, folder: Path, jobs: int, root: Path | None = None) ->
         estimate = conv * stage_cost(stage, study)
         kept = store is not None and store.get(stage_key(stage, study)) is not None
         plans.append(Plan(stage, _mesh(stage, study), *_steps(stage, study), estimate, kept))
-    beside = [
-        sum(task.cost(study) for task in tasks if store is None or store.get(stage_key(task, study)) is None)
-        for tasks in (batches_of(study), branches_of(study))
-    ]
+    tasks: list[Batch | Branch] = [*batches_of(study), *branches_of(study)]
+    lacking = [task for task in tasks if store is None or store.get(stage_key(task, study)) is None]
+    samples, branch = (
+        conv * sum(task.cost(study) for task in lacking if isinstance(task, kind)) for kind in (Batch, Branch)
+    )
     closed = (
-        store is not None
-        and all(p.kept for p in plans)
-        and not any(beside)
-        and store.final(study, folder) is not None
+        store is not None and all(p.kept for p in plans) and not lacking and store.final(study, folder) is not None
     )
     compiling = conv * compiling_cost(study, any(not plan.kept for plan in plans), not closed)
     about = films_words(study), tuple(cautions(study))
-    return Forecast(
-        study, folder, jobs, conv, tuple(plans), compiling, closed, *(conv * cost for cost in beside), *about
-    )
+    return Forecast(study, folder, jobs, conv, tuple(plans), compiling, closed, samples, branch, *about)
 
 
 def films_words(study: Study) -> str:

@@ -34,7 +34,6 @@ SECTION, TABLE = "periodic", "periodic.csv"
 OF_MACHINE = "operation", "oil", "surface", "shaft", "disc", "support", "damper", SECTION
 ANSWERS = 150  # of a branch, about
 COST, COST_OF_STABILITY = 0.3, 1.0  # of a sample of an answer, a bearing, in convolutions
-WHOLE = 5  # figures of a speed
 MULTIPLIERS, STEPS = 2, 96  # of an answer; time steps of its period, at least
 PLANE = "xy"
 
@@ -137,6 +136,16 @@ class Several(NamedTuple):
     answers: int  # in its middle
     stable: int | None  # of them; None where that was not computed
 
+    @property
+    def words(self) -> str:
+        """How many, and where."""
+        count = f"{_count(self.answers)} answers"
+        if self.stable is not None:
+            rest = self.answers - self.stable
+            beside = f" and {_count(rest, 'an')} unstable one{'s' if rest > 1 else ''}" if rest else ""
+            count = f"{_count(self.stable)} stable answer{'' if self.stable == 1 else 's'}{beside}"
+        return f"{count} between {_rpm(self.low)} and {_rpm(self.high)} rev/min"
+
 
 @dataclass(frozen=True)
 class StudyBranch:
@@ -175,25 +184,21 @@ class StudyBranch:
     @property
     def answer(self) -> str:
         """How many answers there are, and where, in a sentence without its end."""
-        first, last = (numeral(float(end), WHOLE) for end in (self.branch.value.min(), self.branch.value.max()))
-        parts = [
-            f"{_answers(one)} between {numeral(one.low, WHOLE)} and {numeral(one.high, WHOLE)} rev/min"
-            for one in self.several
-        ]
-        return "; ".join(parts) or f"one answer at every speed from {first} to {last} rev/min"
+        ends = f"{_rpm(self.branch.value.min())} to {_rpm(self.branch.value.max())} rev/min"
+        return "; ".join(one.words for one in self.several) or f"one answer at every speed from {ends}"
 
     @property
     def largest_words(self) -> str:
         """The largest motion in words."""
         size, speed, name = self.largest
-        return f"largest {numeral(1e6 * size, 3)} µm peak to peak ({name}) at {numeral(speed, WHOLE)} rev/min"
+        return f"largest {numeral(1e6 * size, 3)} µm peak to peak ({name}) at {_rpm(speed)} rev/min"
 
     @property
     def reservations(self) -> list[str]:
         """Why the branch ended early, and that harmonics are too few."""
         branch, said = self.branch, []
         if branch.reservation:
-            end = numeral(branch.answers[-1].value, WHOLE)
+            end = _rpm(branch.answers[-1].value)
             said.append(f"periodic answers: {branch.reservation}; the last one is at {end} rev/min")
         if (left := max(answer.residual for answer in branch.answers)) > TOO_FEW:
             said.append(
@@ -205,15 +210,15 @@ class StudyBranch:
     @property
     def tile(self) -> Tile:
         """The answer in a number."""
-        name = f"periodic answers to {self.branch.answers[0].excitation}"
-        several = self.several
+        name, several = f"answers to {self.branch.answers[0].excitation}", self.several
         if not several:
-            low, high = self.branch.value.min(), self.branch.value.max()
-            where = f"at every speed from {numeral(float(low), WHOLE)} to {numeral(float(high), WHOLE)} rev/min"
-            return Tile(name, "1", "", f"{where}; {self.largest_words}")
+            span = f"{_rpm(self.branch.value.min())} to {_rpm(self.branch.value.max())} rev/min"
+            return Tile(name, "1", "at every speed", f"{span}; {self.largest_words}")
         most = max(several, key=lambda one: one.answers)
-        count = most.answers if most.stable is None else most.stable
-        return Tile(name, str(count), "at one speed", f"{self.answer}; {self.largest_words}")
+        count, kind = (most.answers, "") if most.stable is None else (most.stable, "stable ")
+        unit = f"between {_rpm(most.low)} and {_rpm(most.high)} rev/min"
+        rest = [one.words for one in several if one is not most]
+        return Tile(f"{kind}{name}", str(count), unit, "; ".join([*rest, self.largest_words]))
 
     def picture(self) -> Picture:
         """Amplitude of the discs over the speed, and the largest multiplier."""
@@ -263,15 +268,6 @@ class StudyBranch:
         }
 
 
-def _answers(one: Several) -> str:
-    """Answers of a range of speeds, in words."""
-    if one.stable is None:
-        return f"{_count(one.answers)} answers"
-    rest = one.answers - one.stable
-    beside = f" and {_count(rest, 'an')} unstable one{'s' if rest > 1 else ''}" if rest else ""
-    return f"{_count(one.stable, 'one')} stable answer{'' if one.stable == 1 else 's'}{beside}"
-
-
 def _count(number: int, single: str = "one") -> str:
     return {0: "no", 1: single, 2: "two", 3: "three", 4: "four", 5: "five"}.get(number, str(number))
 
@@ -291,3 +287,7 @@ def branch_of(study: Study, folder: Path) -> StudyBranch | None:
     found = StudyBranch(branch, nodes)
     write_text(folder / TABLE, found.table(), "file")
     return found
+
+
+def _rpm(speed: float) -> str:
+    return f"{speed:.0f}"

@@ -20,7 +20,7 @@ from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.output import plain
 from ehlcontact.cli.page import write_page
 from ehlcontact.cli.study.forecast import cautions
-from ehlcontact.cli.study.periodic import branches_of
+from ehlcontact.cli.study.periodic import Branch, branches_of
 from ehlcontact.cli.study.points.finalise import REPORT, faults, products, read_results
 from ehlcontact.cli.study.points.folder import LOG, versions
 from ehlcontact.cli.study.points.kept import FINALISE, Entry
@@ -28,7 +28,7 @@ from ehlcontact.cli.study.points.lists import STUDY_FILE, Point
 from ehlcontact.cli.study.points.numbers import MEANINGS, NUMBERS, UNITS, Number, numbers_of
 from ehlcontact.cli.study.points.picture import draw_points
 from ehlcontact.cli.study.sections import Support
-from ehlcontact.cli.study.stages import stages_of
+from ehlcontact.cli.study.stages import Stage, stages_of
 from ehlcontact.cli.study.uncertain import batches_of
 from ehlcontact.errors import InputError
 from ehlcontact.files import parse_json, read_text
@@ -91,7 +91,7 @@ class Row:
 
 def row_of(point: Point, ended: Mapping[str, Entry], root: Path) -> Row:
     """Row of a point from its folder and how its tasks ended."""
-    computed = (*stages_of(point.study), *branches_of(point.study))
+    computed: list[Stage | Branch] = [*stages_of(point.study), *branches_of(point.study)]
     batches = batches_of(point.study)
     names = [*(stage.name for stage in computed), *(batch.name for batch in batches), FINALISE]
     stages = {name: ended[name]["status"] for name in names if name in ended}
