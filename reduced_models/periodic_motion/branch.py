@@ -88,6 +88,8 @@ class Continuation:
             while len(self.points) < most:
                 last = self.points[-1]
                 if len(self.points) > 1 and not 0.0 < last.y[-1] < 1.0:
+                    if last.y[-1] <= 0.0:
+                        self.reason = "the branch turned back and left the range where it began"
                     return
                 step = self._advance(last, step)
                 if callback is not None:

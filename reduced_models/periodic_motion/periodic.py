@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ehlcontact.checks import parts, require_choice, require_finite, require_integer, require_positive, shown
+from ehlcontact.checks import (
+    parts,
+    require_choice,
+    require_finite,
+    require_instance,
+    require_integer,
+    require_positive,
+    shown,
+)
 from ehlcontact.checks.kinds import Callback, Count, Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError, warn_user
 from ehlcontact.process.blas import one_blas_thread
 from reduced_models.periodic_motion.answer import PeriodicAnswer
-from reduced_models.periodic_motion.branch import Continuation, Course
+from reduced_models.periodic_motion.branch import BranchPoint, Continuation, Course
 from reduced_models.periodic_motion.branch_result import PeriodicBranch
 from reduced_models.periodic_motion.excitation import (
     OVER,
@@ -36,6 +44,7 @@ _Floats = NDArray[np.float64]
 HARMONICS, SAMPLES, POSITIONS = 12, 256, 4
 LEAST_SAMPLES = 4  # of a period over the highest harmonic
 MOST = 1000
+SAME_FOLD = 1e-4  # of the range of the parameter, between folds
 TOO_FEW = 1e-2  # residual from which more harmonics are needed
 HARMONIC_COUNT = Count(1, 200)
 SETTLED = 60  # periods of a run, after which Newton's method begins where an answer is far from rest
@@ -187,13 +196,25 @@ def periodic(
 
     return PeriodicBranch(
         answers=answers,
-        folds=tuple(k for k, point in enumerate(points) if point.fold),
+        folds=_folds(points),
         over=over,
         status=continuation.status,
         reservation=continuation.reason,
         solve=solve,
         measure=measure,
     )
+
+
+def _folds(points: Sequence[BranchPoint]) -> tuple[int, ...]:
+    """Places of the folds; two within the error of the answers are none."""
+    kept: list[int] = []
+    for k, point in enumerate(points):
+        if point.fold:
+            if kept and abs(point.y[-1] - points[kept[-1]].y[-1]) < SAME_FOLD:
+                kept.pop()
+            else:
+                kept.append(k)
+    return tuple(kept)
 
 
 def _speed(rotor: Rotor, speed_rpm: float | None) -> float:
@@ -249,6 +270,9 @@ def _problem(
 def _begin(problem: HarmonicBalance, setting: Setting, start: PeriodicAnswer | None) -> Balance:
     """Balance near another answer, or from static equilibrium: at once, else as the excitation grows."""
     if start is not None:
+        require_instance("start", start, PeriodicAnswer, "a PeriodicAnswer")
+        if start.run.displacement.shape[1] != problem.rotor.size:
+            raise InputError("start", shown(start), f"of a rotor with {problem.rotor.size} degrees of freedom")
         return _balance_near(problem, setting, start)
     rest = np.zeros((problem.harmonics + 1, len(problem.units)), complex)
     rest[0] = problem.rows @ problem.rotor.equilibrium(setting.speed_rpm)

@@ -223,6 +223,7 @@ def test_too_few_harmonics_are_told():
         ({"harmonics": 0}, "harmonics"),
         ({"harmonics": 20, "samples": 64}, "at least 80"),
         ({"bearing": 1}, "bearing"),
+        ({"start": 3}, "start"),
     ],
 )
 def test_what_has_no_periodic_answer(changes, words):
