@@ -25,7 +25,7 @@ from reduced_models.periodic_motion.picture import branch_picture
 _Floats = NDArray[np.float64]
 
 UNITS = {"speed": "rev/min", "amplitude": "", "clearance": "m", "preload": "m", "frequency": "Hz"}
-STEPS = 256  # of a period, for multipliers
+STEPS = 128  # of a period, for multipliers
 MIXED = Quantity("m, or rad where it turns")
 NOT_STORED = {"stored": False}  # of a field that no file has
 
