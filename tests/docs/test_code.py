@@ -47,6 +47,7 @@ def test_pages_are_found():
         "bearing.md",
         "rotor.md",
         "spindle.md",
+        "jump.md",
         "motor_currents.md",
         "integrator.md",
         "fmu.md",
@@ -228,6 +229,22 @@ def test_tutorial_of_the_spindle(capsys):
     np.testing.assert_allclose(force[-1, 1] - force[-1, 0], 60.0, atol=1.0)
     last = run_up.node("disc")[-100:, 0]
     assert 0.5 * np.ptp(last) == pytest.approx(found["orbit"][-1], rel=0.05)
+
+
+@pytest.mark.long
+def test_tutorial_of_a_jump(capsys):
+    """Folds, the unstable answer between two stable ones, runs that jump beyond the folds, and what removes them."""
+    found = {}
+    run("docs/tutorials/jump.md", found)
+    low, high = found["low"], found["high"]
+    assert (low, high) == pytest.approx((9161.0, 9328.0), rel=1e-3)
+    assert [one.stable for one in found["answers"]] == [True, False, True]
+    assert high < found["jump"](*found["up"]) < 1.015 * high
+    assert 0.985 * low < found["jump"](*found["down"]) < low
+    folds = {name: one.fold_values for name, one in found["found"].items()}
+    assert not folds["unbalance / 2"].size and not folds["dampers 9 mm long"].size
+    preloaded = folds["bearings preloaded by 8 µm"]
+    np.testing.assert_allclose(sorted(preloaded), (low, high), rtol=1e-2)
 
 
 @pytest.mark.long
