@@ -233,7 +233,7 @@ def test_tutorial_of_the_spindle(capsys):
 
 @pytest.mark.long
 def test_tutorial_of_a_jump(capsys):
-    """Folds, the unstable answer between two stable ones, runs that jump beyond the folds, and what removes them."""
+    """Folds, an unstable answer between two stable ones, runs that jump beyond the folds, what removes them."""
     found = {}
     run("docs/tutorials/jump.md", found)
     low, high = found["low"], found["high"]
