@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -122,6 +123,8 @@ def test_words_of_one_answer_and_of_a_branch_that_ended_early():
     few = StudyBranch(PeriodicBranch(answers=(answer(3000.0, 1e-6, None, 0.03),), folds=(), over="speed",
                                      status=Status.CONVERGED), found.nodes)  # fmt: skip
     assert "0.03 of those kept: take more periodic.harmonics" in few.reservations[0]
+    still = replace(few.branch, answers=(answer(3000.0, 1e-16, None, 0.03),))
+    assert StudyBranch(still, found.nodes).reservations == []  # a motion of rounding has no harmonics
 
 
 def test_the_table_and_the_picture():

@@ -35,6 +35,7 @@ OF_MACHINE = "operation", "oil", "surface", "shaft", "disc", "support", "damper"
 ANSWERS = 150  # of a branch, about
 COST, COST_OF_STABILITY = 0.3, 1.0  # of a sample of an answer, a bearing, in convolutions
 MULTIPLIERS, STEPS = 2, 96  # of an answer; time steps of its period, at least
+NOTHING = 1e-12  # m, motion that is rounding
 PLANE = "xy"
 
 
@@ -200,7 +201,8 @@ class StudyBranch:
         if branch.reservation:
             end = _rpm(branch.answers[-1].value)
             said.append(f"periodic answers: {branch.reservation}; the last one is at {end} rev/min")
-        if (left := max(answer.residual for answer in branch.answers)) > TOO_FEW:
+        left = max(answer.residual for answer in branch.answers)
+        if left > TOO_FEW and self.largest[0] > NOTHING:
             said.append(
                 "periodic answers: harmonics that are left out move the rotor by "
                 f"{numeral(left, 2)} of those kept: take more periodic.harmonics"
