@@ -13,11 +13,19 @@ static const double inverse[MOST_LAGS + 4] = {
     1.0 / 56, 1.0 / 57, 1.0 / 58, 1.0 / 59, 1.0 / 60, 1.0 / 61, 1.0 / 62, 1.0 / 63, 1.0 / 64, 1.0 / 65, 1.0 / 66,
     1.0 / 67};
 
+static const double shortest = 1e-100; /* step over the lag, whose square is a number: a step of no length is none */
+
 double lag_moments(double mu, double few, Moments *r)
 {
     const double kept = exp(-mu);
     double second, third, term;
     int k;
+    if (mu < shortest) {
+        r->r0 = mu;
+        r->r1 = 0.5 * mu;
+        r->r2 = mu / 3.0;
+        return kept;
+    }
     if (mu < few) {
         term = kept * mu * mu * mu / 6.0;
         third = 0.0;

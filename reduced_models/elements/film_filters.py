@@ -19,6 +19,7 @@ from ehlcontact.jit import jit_exact_node
 
 INLET, FAST, CHAIN = range(3, 6)  # entries of a state of a step, behind three of its own; the chain is the rest
 DIRECT = 3  # gains before those of the chain: viscous, inlet, fast
+SHORTEST = 1e-100  # step over the lag, whose square is a number: a step of no length is none
 FEW = 0.5  # mean of Poisson's law below which shares have to be summed: at it, differences lose two digits
 
 
@@ -26,6 +27,8 @@ FEW = 0.5  # mean of Poisson's law below which shares have to be summed: at it, 
 def lag_moments(mu, few):
     """Share of its state that one lag keeps over a step, and its moments r_0, r_1, r_2; below `few` by a sum."""
     kept = exp(-mu)
+    if mu < SHORTEST:
+        return kept, mu, 0.5 * mu, mu / 3.0
     if mu < few:  # or small differences would drown in rounding
         term, third, k = kept * mu * mu * mu / 6.0, 0.0, 4
         while term > 1e-17 * third:

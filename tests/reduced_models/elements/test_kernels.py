@@ -47,7 +47,7 @@ CASES = {
         "fill_parts": [(POINTS, law, np.zeros((2, 6))) for law in (POLYNOMIAL, POWER)],
     },
     film_filters: {
-        "lag_moments": [(mu, few) for mu in (0.1, 2.0) for few in (0.5, 3.0)],
+        "lag_moments": [(mu, few) for mu in (0.0, 0.1, 2.0) for few in (0.5, 3.0)],
         "poisson_shares": [(mu, 4, few, np.zeros(5), np.zeros(5)) for mu in (0.1, 2.0, 9.0) for few in (0.5, 4.0)],
         "chain_moments": [(j, 2.5, SHARE) for j in (1, 3)],
         "pass_on": [(STATE[5:], POISSON, np.ones(2))],
