@@ -20,6 +20,7 @@ MODULUS = INPUTS["e1"]
 SHAFT_MODULUS = MODULUS._replace(limits=(MODULUS.limits[0], 1e20))  # next to infinite: a rigid shaft
 DENSITY = Quantity("kg/m3", (1e-15, 25e3), (500.0, 23e3), {"g/cm3": 1e3}, slips=True)  # next to 0: no inertia
 DENSITY_OR_NONE = DENSITY._replace(zero=True)  # 0: without mass
+OIL_DENSITY = Quantity("kg/m3", (300.0, 5e3), (600.0, 2500.0), {"g/cm3": 1e3})
 MASS = Quantity("kg", (1e-6, 1e6), (1e-3, 1e5), {"g": 1e-3, "t": 1e3})
 MASS_OR_NONE = MASS._replace(zero=True)
 RING_MASS = MASS._replace(limits=(1e-9, MASS.limits[1]))  # next to nothing: the ring follows its bearing

@@ -182,7 +182,7 @@ def _oils() -> dict[str, Any]:
     walther = {grade: MineralOil.of_grade(grade, 40.0).walther_slope for grade in GRADES}
     names = ("TEMPERATURES", "THINNEST", "EXPANSION", "KELVIN", "GOLD_S", "GOLD_T", "GOLD_PRESSURE")
     numbers = {name.lower(): getattr(oil, name) for name in names}
-    numbers |= {"shift": oil.WALTHER_SHIFT, "density_15": oil.USUAL_DENSITY_15}
+    numbers |= {"shift": oil.WALTHER_SHIFT, "density_15": oil.USUAL_DENSITY_15, "usual_density": oil.USUAL_DENSITY}
     numbers |= {"roelands_p0": ROELANDS_P0, "roelands_log": ROELANDS_LOG}
     return {"walther_slopes": walther, **numbers}
 
@@ -204,7 +204,6 @@ def _designations() -> dict[str, Any]:
 def _skf() -> dict[str, Any]:
     """Numbers of SKF's model of friction; constants and boundary diameters of the bearings that have some."""
     numbers = {
-        "density": skf_friction.USUAL_DENSITY,
         "K_rs": skf_friction.OIL_BATH,
         "K_Z": skf_friction.DEEP_GROOVE,
     }

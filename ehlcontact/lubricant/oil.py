@@ -32,6 +32,7 @@ ALL_INDICES = (-100.0, 400.0)  # from traction fluids to the thinnest silicone o
 USUAL_INDEX = 95.0
 DENSITIES = (800.0, 950.0)  # kg/m3 at 15 C, of any mineral oil
 USUAL_DENSITY_15 = 875.0
+USUAL_DENSITY = 850.0  # kg/m3, of mineral oils at 50 C within 2 %: of an oil known by eta0 alone
 WALTHER_SHIFT = 0.7  # mm2/s, ASTM D341; good down to the viscosity below
 THINNEST = 2.0  # mm2/s, for which ASTM D341 and D2270 hold without further terms
 KINEMATIC = Quantity("mm2/s", (THINNEST, 2000.0), (THINNEST, 2000.0), {"m2/s": 1e6, "St": 100.0})

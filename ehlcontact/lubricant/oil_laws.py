@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from ehlcontact.checks import require_choice, require_finite, require_nonnegative, require_positive
 from ehlcontact.checks.admissible_range import INPUTS
-from ehlcontact.checks.parts import TEMPERATURE
+from ehlcontact.checks.parts import OIL_DENSITY, TEMPERATURE
 from ehlcontact.checks.quantity import fields_take, takes
 from ehlcontact.elementary import exponential, logarithm
 from ehlcontact.errors import InputError
@@ -23,6 +23,7 @@ from ehlcontact.lubricant.oil import (
     GRADE_SCATTER,
     KINEMATIC,
     SHEET_SCATTER,
+    USUAL_DENSITY,
     USUAL_DENSITY_15,
     USUAL_INDEX,
     MineralOil,
@@ -54,7 +55,7 @@ class FluidLaw(NamedTuple):
     d: float  # 5.9e8 Pa / p_h
 
 
-@fields_take(eta0="Pa s", alpha="1/Pa", temperature_slope="1/K", temperature=TEMPERATURE)
+@fields_take(eta0="Pa s", alpha="1/Pa", temperature_slope="1/K", temperature=TEMPERATURE, rho0=OIL_DENSITY)
 @dataclass(frozen=True, slots=True)
 class Lubricant(Summary):
     """Oil at inlet temperature; `iso_vg` makes one from its grade, `from_viscosities` from its data sheet.
@@ -73,6 +74,8 @@ class Lubricant(Summary):
         -d ln(eta0)/dT [1/K], for what heat does to a film (`Heat`).
     temperature : float, optional
         Of the inlet, where eta0 holds, in degrees Celsius, for the same.
+    rho0 : float, optional
+        Density at ambient pressure and that temperature [kg/m3], for `kinematic_viscosity`: 850 without it.
 
     Raises
     ------
@@ -88,6 +91,7 @@ class Lubricant(Summary):
     alpha_scatter: float | None = field(default=None, kw_only=True)
     temperature_slope: float | None = field(default=None, kw_only=True)
     temperature: float | None = field(default=None, kw_only=True)
+    rho0: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "eta0", require_positive("eta0", self.eta0))
@@ -194,7 +198,13 @@ class Lubricant(Summary):
             alpha_scatter=oil.alpha_scatter,
             temperature_slope=oil.temperature_slope,
             temperature=oil.temperature,
+            rho0=oil.density,
         )
+
+    @property
+    def kinematic_viscosity(self) -> float:
+        """Viscosity at ambient pressure and the temperature of the inlet [m2/s]."""
+        return self.eta0 / (USUAL_DENSITY if self.rho0 is None else self.rho0)
 
     def law(self, p_hertz: float, alpha_bar: float) -> FluidLaw:
         """Laws in units of the Hertz pressure; `alpha_bar` = alpha p_h.

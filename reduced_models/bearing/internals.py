@@ -9,7 +9,7 @@ from ehlcontact.hertz import hertz_contact
 from reduced_models.bearing.catalogue import ROWS
 from reduced_models.bearing.printed_ratings import NSK, RATINGS
 from reduced_models.bearing.race import RACES
-from reduced_models.bearing.skf_friction import USUAL_DENSITY, boundary_diameters
+from reduced_models.bearing.skf_friction import boundary_diameters
 from reduced_models.life.equivalent_load import LeastLoad
 from reduced_models.life.internal_geometry import InternalGeometry
 from reduced_models.life.load_ratings import GIVEN, dynamic_rating, require_rating, static_rating
@@ -42,7 +42,7 @@ def internals_of(bearing: BallBearing) -> InternalGeometry:
         contact_angle=0.0 if bearing.contact_angle is None else bearing.contact_angle,
         unit_pressures=(float(pressures[0]), float(pressures[1])),
         ball_density=bearing.density,
-        kinematic_viscosity=None if bearing.oil is None else bearing.oil.eta0 / USUAL_DENSITY,
+        kinematic_viscosity=None if bearing.oil is None else bearing.oil.kinematic_viscosity,
         flooded=bearing.supply is None,
         printed_dynamic=dynamic,
         printed_static=static,

@@ -37,7 +37,6 @@ OIL_BATH, GREASE = 3e-8, 6e-8  # K_rs of replenishment
 DEEP_GROOVE = 3.1  # K_Z
 MU_BOUNDARY = 0.12  # 0.15 in the catalogue's edition 10000; of no influence where films are full
 MU_MINERAL = 0.05  # full film of mineral oil; 0.04 of synthetic oil
-USUAL_DENSITY = 850.0  # kg/m3, of mineral oils at 50 C within 2 %
 
 
 class SkfFriction(NamedTuple):
@@ -145,7 +144,7 @@ def friction_under(bearing: Any, load: Any, speed_rpm: float) -> dict[str, Any]:
             radial=float((load[0] ** 2 + load[1] ** 2) ** 0.5),
             axial=float(load[2]) if len(load) > 2 else 0.0,
             speed_rpm=speed_rpm,
-            kinematic_viscosity=bearing.oil.eta0 / USUAL_DENSITY,
+            kinematic_viscosity=bearing.oil.kinematic_viscosity,
             static_rating=static_rating(bearing.tables.internals),
         )
     except InputError:

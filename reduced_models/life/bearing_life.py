@@ -400,7 +400,7 @@ def life_of_bearing(
     fatigue_limit : float, optional
         Cu [N]; by default from C0.
     kinematic_viscosity : float, optional
-        Of the oil [m2/s]; by default of the oil of the bearing, with 850 kg/m3.
+        Of the oil [m2/s]; by default `kinematic_viscosity` of the bearing's oil.
     viscosity_ratio : float, optional
         nu/nu1, 0.1 to 4, in place of the one from the oil.
 

@@ -274,7 +274,7 @@ ARGUMENTS = [
             None)}),
     (lambda **k: Lubricant(**k),
         {"temperature": (323.0, 1e4, True, "x", nan), "temperature_slope": (True, "x"), "eta0": (40.0, True),
-         "alpha": (18.0, 0.018, 1e-11, True, "x")}),
+         "alpha": (18.0, 0.018, 1e-11, True, "x"), "rho0": (0.87, True, "x", nan, 0.0)}),
     (lambda **k: ehl.Heat(**k), {"temperature": (323.0, True, "x"), "conductivity": (True, "x")}),
     (lambda **k: rm.Unbalance(**({"x": 0, "y": 1, "amount": 1e-4} | k)),
         {"amount": (1e9, True, "x", nan), "phase": (90.0, True, "x")}),

@@ -115,6 +115,7 @@ def test_oils_by_grade_are_those_of_python(ask):
         assert here["eta0"] == pytest.approx(oil.eta0, rel=CLOSE)
         assert here["alpha"] == pytest.approx(oil.alpha, rel=CLOSE)
         assert here["temperature_slope"] == pytest.approx(oil.temperature_slope, rel=CLOSE)
+        assert here["rho0"] == pytest.approx(oil.rho0, rel=CLOSE)
     assert refusals == 5  # VG 10 at 120 C is too thin
 
 

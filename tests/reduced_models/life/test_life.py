@@ -10,6 +10,7 @@ from refusals import refused
 
 from ehlcontact import Lubricant, OilLayer, read, save
 from reduced_models import BallBearing, BearingMount, BearingSet, Rotor, life_of_spectrum, simulate_rotor
+from reduced_models.bearing.skf_friction import friction_under, skf_friction
 from reduced_models.life import life_modification as factors
 from reduced_models.life.bearing_life import BallLoads, life_of_bearing
 from reduced_models.life.equivalent_load import axial_factors, dynamic_load, static_load
@@ -67,10 +68,28 @@ def test_grooves_and_large_balls_change_the_rating():
     assert above == pytest.approx(below, rel=1e-3)
 
 
+def test_viscosity_is_that_of_the_data_sheet():
+    """nu [mm2/s] as the oil was given, of any density; of one known by eta0 alone with 850 kg/m3."""
+    sheet = {"nu40": 100.0, "nu100": 11.2, "density_15": 950.0}
+    for oil, nu in (
+        (Lubricant.iso_vg(100, temperature=40.0), 100.0),
+        (Lubricant.from_viscosities(**sheet, temperature=40.0), 100.0),
+        (Lubricant.from_viscosities(**sheet, temperature=100.0), 11.2),
+        (Lubricant(0.085), 100.0),
+        (Lubricant(0.085, rho0=900.0), 0.085 / 900.0 * 1e6),
+    ):
+        bearing = replace(WET, oil=oil)
+        life, own = state(bearing=bearing).life(), bearing.tables.internals.kinematic_viscosity
+        assert 1e6 * life.kinematic_viscosity == pytest.approx(nu, rel=1e-12)
+        assert life.least_load == WET.tables.internals.least_load.at(3000.0, own)
+        published = skf_friction("6205", radial=1000.0, speed_rpm=3000.0, kinematic_viscosity=own)
+        assert friction_under(bearing, (0.0, -1000.0), 3000.0)["skf_rolling"] == published.rolling
+
+
 def test_viscosity_ratio_of_the_standard_and_of_the_film():
     life = state().life(contamination=0.5)
     nu1 = 4500.0 * 3000.0**-0.5 * (1e3 * WET.pitch_diameter) ** -0.5
-    assert life.viscosity_ratio == pytest.approx(1e6 * OIL.eta0 / 850.0 / nu1, rel=1e-12)
+    assert life.viscosity_ratio == pytest.approx(1e6 * OIL.kinematic_viscosity / nu1, rel=1e-12)
     ratio = state().lambda_ratio[state().heaviest].min()
     assert life.film_ratio == pytest.approx(ratio**1.3, rel=1e-12)
     assert life.a_iso > life.a_iso_film > 1.0  # a rough race, and clean enough oil

@@ -9,7 +9,7 @@ const OF_ROLLING = ["orbit", "rotation", "axis", "share"];
 
 class Bearing {
   // `given`: balls, ball_diameter, pitch_diameter, conformity_inner, conformity_outer, clearance [m], contact_angle [rad] of an
-  // angular contact bearing, else 0, name in the catalogue; `oil`: eta0 and alpha, temperature_slope where it is known.
+  // angular contact bearing, else 0, name in the catalogue; `oil`: eta0 and alpha, temperature_slope and rho0 where they are known.
   constructor(given, oil, atlas) {
     Object.assign(this, { contact_angle: 0 }, given, { oil, atlas });
     const { balls, ball_diameter: D, pitch_diameter: dm, clearance, contact_angle: angle } = this;
@@ -221,9 +221,9 @@ class Loaded {
 
   // Moment of friction by SKF's published model [N m] (reduced_models.bearing.skf_friction); null of a bearing without its constants.
   get skf() {
-    const { constants, density, K_rs, K_Z, mu_boundary, mu_film, pressure, stribeck } = DATA.skf, own = constants[this.bearing.name];
+    const { constants, K_rs, K_Z, mu_boundary, mu_film, pressure, stribeck } = DATA.skf, own = constants[this.bearing.name];
     if (own === undefined || this.bearing.contact_angle > 0) return null;
-    const { series: [r1, r2, s1, s2], bore, outside } = own, dm = 0.5 * (bore + outside), nu = 1e6 * this.bearing.oil.eta0 / density;
+    const { series: [r1, r2, s1, s2], bore, outside } = own, dm = 0.5 * (bore + outside), nu = kinematicViscosity(this.bearing.oil);
     const n = this.rpm, radial = Math.hypot(this.load[0], this.load[1]), axial = Math.abs(this.load[2] ?? 0);
     let rolling = r1 * dm ** 1.96 * radial ** 0.54, sliding = s1 * dm ** -0.26 * radial ** (5 / 3);
     if (axial > 0) {

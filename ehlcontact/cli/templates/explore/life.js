@@ -37,6 +37,6 @@ function ratingLife(there, rq) {
     const most = Math.max(...balls.map(({ force }) => force[i]));
     return most > 0 ? 1.5 * most * race.kappa / (Math.PI * race.hertz(most).a ** 2) : 0;
   }));
-  return { rating, printed: Boolean(printed), turns, hours: turns / (PER_HOUR * rpm), kappa: 1e6 * bearing.oil.eta0 / DATA.skf.density / needed,
+  return { rating, printed: Boolean(printed), turns, hours: turns / (PER_HOUR * rpm), kappa: kinematicViscosity(bearing.oil) / needed,
     film: lambda ** FILM_POWER, safety: (DATA.skf.pressure / pressure) ** 3 };
 }

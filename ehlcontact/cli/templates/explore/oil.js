@@ -17,14 +17,19 @@ function mineralOil(data, grade, temperature) {
     throw new InputError("temperature", temperature, allowed);
   }
   const x = data.expansion / data.density_15 * (temperature - 15);
-  const eta0 = nu * 1e-6 * data.density_15 * Math.exp(-x * (1 + 0.8 * x));
+  const rho0 = data.density_15 * Math.exp(-x * (1 + 0.8 * x)), eta0 = nu * 1e-6 * rho0;
   // alpha such that Roelands' law passes through Gold's viscosity at 200 MPa
   const q = Math.log(eta0) + data.roelands_log, secant = data.gold_s * nu ** data.gold_t;
   const z = Math.log1p(secant * data.gold_pressure / q) / Math.log1p(data.gold_pressure / data.roelands_p0);
   // -d ln(eta0)/dT: of Walther's line, and of the density
   const shifted = nu + data.shift, ofDensity = data.expansion / data.density_15 * (1 + 1.6 * x);
   const temperature_slope = slope * shifted * Math.log(shifted) / (nu * (temperature + data.kelvin)) + ofDensity;
-  return { eta0, alpha: z * q / data.roelands_p0, temperature_slope };
+  return { eta0, alpha: z * q / data.roelands_p0, temperature_slope, rho0 };
+}
+
+// Kinematic viscosity of an oil [mm2/s]; of one known by eta0 alone with the usual density.
+function kinematicViscosity({ eta0, rho0 }) {
+  return 1e6 * eta0 / (rho0 ?? DATA.oil.usual_density);
 }
 
 // Secant of Roelands' ln(eta) from ambient pressure to where alpha p = `end`, over its slope there.
