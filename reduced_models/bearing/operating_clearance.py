@@ -86,6 +86,8 @@ class OperatingClearance(QuantityTable):
         Of shaft, inner ring, balls, outer ring and housing [degrees Celsius].
     fits : tuple of str
         Of shaft and housing, or "no fit".
+    turning : str
+        Ring that turns relative to the load: "inner" or "outer". It creeps where its seat is loose.
     """
 
     name: str
@@ -106,6 +108,7 @@ class OperatingClearance(QuantityTable):
     speed_rpm: Annotated[float, SPEED]
     temperatures: Mapping[str, float]
     fits: tuple[str, str]
+    turning: str = "inner"
 
     DISPLAY: ClassVar[Display] = Display(rows="case", labels={"case": CASES, "limit": CASES[::2]})
 
@@ -113,6 +116,16 @@ class OperatingClearance(QuantityTable):
     def mean(self) -> float:
         """Clearance in operation with all deviations in the middle of their limits [m]."""
         return float(self.clearance[1])
+
+    @property
+    def turning_pressed(self) -> _Floats:
+        """What overlaps at the seat of the ring that turns, in operation [m]; below 0 a gap."""
+        return self.outer_pressed if self.turning == "outer" else self.inner_pressed
+
+    def loose_of(self, name: str) -> str:
+        """That the ring that turns is loose, in words: "the inner ring of 6206 is loose on its shaft"."""
+        seat = "in its housing" if self.turning == "outer" else "on its shaft"
+        return f"the {self.turning} ring of {name} is loose {seat}"
 
     @property
     def fits_in_words(self) -> str:
@@ -131,7 +144,8 @@ class OperatingClearance(QuantityTable):
             f"temperature {um(self.by_temperature)}",
             f"speed {um(self.by_speed)}",
         ]
-        loose = "" if self.loose_from == inf else f"; inner ring loose from {self.loose_from:.4g} rev/min"
+        named = self.loose_from < inf and self.turning == "inner"
+        loose = f"; inner ring loose from {self.loose_from:.4g} rev/min" if named else ""
         return [
             f"{self.name}, {self.fits_in_words}, {self.speed_rpm:.5g} rev/min; {warm} °C",
             f"clearance {um(self.clearance)} µm (least / mean / largest), probable {um(self.probable)} µm",
@@ -215,7 +229,7 @@ def operating_clearance(
     Parameters
     ----------
     bearing : BallBearing or str
-        Or its name in the catalogue.
+        Or its name in the catalogue. A load that stands still turns relative to its ``turning`` ring.
     fit : (str, str), optional
         Classes of ISO 286 of shaft and housing, as ``("k5", "H6")``; a deviation [m], or (lower, upper), in place
         of either. None of a seat that takes nothing, as where the clearance is that after mounting: by default
@@ -247,7 +261,8 @@ def operating_clearance(
     Warns
     -----
     OutsideValidityWarning
-        An inner ring that is loose on its shaft in operation.
+        A ring that turns, relative to a load that stands still, and is loose on its seat in operation. A loose
+        ring that stands still does not creep.
 
     Raises
     ------
@@ -334,11 +349,12 @@ def operating_clearance(
         speed_rpm=float(speed_rpm),
         temperatures=warm,
         fits=(_fit_words(fit[0]), _fit_words(fit[1])),
+        turning="inner" if own.ring_speeds.inner else "outer",
     )
-    if pressed_in[1] < 0.0:
+    if result.turning_pressed[1] < 0.0:
         warn_user(
-            f"the inner ring of {result.name} is loose on its shaft in operation: a gap of"
-            f" {-1e6 * pressed_in[1]:.3g} µm with mean deviations",
+            f"{result.loose_of(result.name)} in operation: a gap of {-1e6 * result.turning_pressed[1]:.3g} µm"
+            " with mean deviations",
             OutsideValidityWarning,
         )
     return result

@@ -1,6 +1,7 @@
 """A study of a machine, or of a bearing under axial load: numbers of the library, and what is no machine."""
 
 import json
+import warnings
 from dataclasses import replace
 from math import cos, pi, radians
 from pathlib import Path
@@ -28,6 +29,7 @@ from reduced_models import (
     BallBearing,
     BearingSet,
     Disc,
+    OutsideValidityWarning,
     Shaft,
     Support,
     linearise,
@@ -324,6 +326,11 @@ def findings_of(one):
     return Findings(one, answer_of(one), {}, None, {}, (), None, None, {}, {})
 
 
+def findings_without_machine(one):
+    """Findings of the entries of a study alone."""
+    return Findings(one, "not asked for", {}, None, {}, (), None, None, {}, {})
+
+
 def test_a_wheel_is_named(study):
     """The first line says which ring turns; an outer one that does leaves the shaft, with its fit, at rest."""
     wheel = study(ALONE, ("conformity = 0.52", 'turning = "outer"'))
@@ -355,6 +362,20 @@ def test_fits_that_preload_or_leave_a_ring_loose(study):
     assert f"h at the least clearance, {1e6 * own.probable[0]:.3g} µm and " in tile.note
 
 
+def test_the_loose_ring_of_a_wheel(study):
+    """The outer ring turns relative to the load: it must not be loose in its housing; the inner one may be."""
+    dimensions = ALONE[ALONE.index("balls = 9") :]
+    said = []
+    for shaft, housing in (("k5", "H7"), ("g6", "P7")):
+        fits = f'bearing = "6204"\nturning = "outer"\nshaft_fit = "{shaft}"\nhousing_fit = "{housing}"'
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", OutsideValidityWarning)
+            one = load_study(study(ALONE, (dimensions, fits)))
+            said.append([text for text in clearances_apart(findings_without_machine(one)) if "loose" in text])
+    ((wrong,), right) = said
+    assert wrong.startswith("the outer ring of 6204 is loose in its housing in the loosest fit") and not right
+
+
 def test_fits_with_play_left(study):
     fits = FITS.replace("6306", "6205").replace("75", "60").replace('"k5"', '"k5"\nclearance = "C4"')
     found = findings_of(load_study(study(ALONE, (ALONE[ALONE.index("balls = 9") :], fits))))
@@ -382,7 +403,7 @@ def test_a_line_of_fits_names_all_bearings_that_it_is_of(study):
         ('bearing = "6206"', FITS.replace("6306", "6206")),
         ('bearing = "6306"', FITS.replace("6306", "6206")),
     ]
-    found = Findings(load_study(study(MOTOR, *changes)), "not asked for", {}, None, {}, (), None, None, {}, {})
+    found = findings_without_machine(load_study(study(MOTOR, *changes)))
     both = "drive end 6206 and fan end 6206"
     clearance, loose = clearances_apart(found)
     assert clearance.startswith(f"clearance in operation of {both} is ") and f"inner ring of {both} is" in loose

@@ -107,7 +107,7 @@ def limits(found: Findings) -> list[str]:
 
 
 def clearances_apart(found: Findings) -> list[str]:
-    """Bearings on fits that preload some of them, press a pair, or leave an inner ring loose."""
+    """Bearings on fits that preload some of them, press a pair, or leave the ring that turns loose."""
     said: dict[str, list[str]] = {}  # labels of bearings of which a text is
     for name, own in found.clearances.items():
         numbered = name.isdigit() or own.name in name
@@ -122,9 +122,9 @@ def clearances_apart(found: Findings) -> list[str]:
         before, mounted = found.preloads.get(name, (0.0, 0.0))
         if abs(mounted - before) > PRESSED * before:
             texts.append(f"fits and temperatures press LABEL with {digits(mounted)} N, not {digits(before)} N")
-        if own.inner_pressed[2] < 0.0:
-            gap = f"{-1e6 * own.inner_pressed[2]:.3g} {UM}"
-            texts.append(f"the inner ring of LABEL is loose on its shaft in the loosest fit: a gap of {gap}")
+        if own.turning_pressed[2] < 0.0:
+            gap = f"{-1e6 * own.turning_pressed[2]:.3g} {UM}"
+            texts.append(f"{own.loose_of('LABEL')} in the loosest fit: a gap of {gap}")
         for text in texts:
             said.setdefault(text, []).append(label)
     return [text.replace("LABEL", " and ".join(labels)) for text, labels in said.items()]

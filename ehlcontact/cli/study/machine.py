@@ -204,10 +204,13 @@ def clearance_of(study: Study, k: int) -> OperatingClearance | None:
         allowed = "of a bearing by its name, which has a bore and an outside diameter"
         hint = "any other in Python: operating_clearance(...)"
         raise InputError(f"{at}{name}", getattr(one, name), f"{allowed}; {hint}")
-    bearing: BallBearing | str = one.bearing
+    initial = one.clearance if one.clearance is None or isinstance(one.clearance, str) else one.clearance * 1e-6
     if is_angular(study, k):
         bearing = _before_mounting(study, k)
-    initial = one.clearance if one.clearance is None or isinstance(one.clearance, str) else one.clearance * 1e-6
+    else:
+        named = designation_of(one.bearing)
+        bearing = BallBearing.catalogue(named.name, turning=one.turning)
+        initial = (named.clearance or "CN") if initial is None else initial
     try:
         return operating_clearance(
             bearing,

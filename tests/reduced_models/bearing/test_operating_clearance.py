@@ -1,5 +1,6 @@
 """Clearance in operation: thick rings against a solve of their boundary conditions, limits of classes."""
 
+import warnings
 from math import cos, radians
 
 import numpy as np
@@ -69,6 +70,20 @@ class TestSeats:
             found = operating_clearance("6206", fit=("g6", "G7"))
         assert not found.by_inner_fit[2] and not found.by_outer_fit.any()
         assert found.loose_from == 0.0
+
+    def test_the_ring_that_turns_creeps_where_it_is_loose(self) -> None:
+        """Of a wheel under a load that stands still g6 and N7 are usual practice: its inner ring may be loose."""
+        wheel = BallBearing.catalogue("6204", turning="outer")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            right = operating_clearance(wheel, fit=("g6", "N7"))
+            operating_clearance("6204", fit=("k5", "H7"))
+        assert right.inner_pressed[1] < 0.0 < right.outer_pressed[1] and "loose" not in repr(right)
+        with pytest.warns(
+            OutsideValidityWarning, match="the outer ring of 6204 is loose in its housing"
+        ) as caught:
+            wrong = operating_clearance(wheel, fit=("k5", "H7"))
+        assert len(caught) == 1 and wrong.turning_pressed[1] < 0.0 < wrong.inner_pressed[1]
 
     def test_a_shaft_that_turns_loosens_its_ring(self) -> None:
         slow = operating_clearance("6206", fit=("m5", "H6"), speed_rpm=1000.0)
