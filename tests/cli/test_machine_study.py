@@ -376,6 +376,20 @@ def test_the_loose_ring_of_a_wheel(study):
     assert wrong.startswith("the outer ring of 6204 is loose in its housing in the loosest fit") and not right
 
 
+@pytest.mark.parametrize(("housing", "holds"), [("H6", True), ("G6", False)])
+def test_a_housing_that_holds_a_ring_on_a_spring(study, housing, holds):
+    """The warm ring is pressed in the tightest fit, and does not slide; in a looser housing it does."""
+    fits = FITS.replace("6306", "6206").replace("H6", housing) + "\nhousing_temperature = 50.0"
+    found = findings_without_machine(load_study(study(MOTOR, ('bearing = "6206"', fits))))
+    (own,) = found.clearances.values()
+    lines = [text for text in limits(found) if "spring cannot move it" in text]
+    assert bool(own.outer_pressed[0] > 0.0) is holds is bool(lines)
+    size = f"by {1e6 * own.outer_pressed[0]:.3g} µm and {1e-6 * own.outer_pressure[0]:.3g} MPa"
+    assert all("the outer ring of fan end 6206 in the tightest fit" in text and size in text for text in lines)
+    fixed = load_study(study(MOTOR, ('bearing = "6206"', fits), ("spring = 200.0\n", "")))
+    assert not any("spring cannot" in text for text in limits(findings_without_machine(fixed)))
+
+
 def test_fits_with_play_left(study):
     fits = FITS.replace("6306", "6205").replace("75", "60").replace('"k5"', '"k5"\nclearance = "C4"')
     found = findings_of(load_study(study(ALONE, (ALONE[ALONE.index("balls = 9") :], fits))))
@@ -405,7 +419,7 @@ def test_a_line_of_fits_names_all_bearings_that_it_is_of(study):
     ]
     found = findings_without_machine(load_study(study(MOTOR, *changes)))
     both = "drive end 6206 and fan end 6206"
-    clearance, loose = clearances_apart(found)
+    clearance, loose, *_ = clearances_apart(found)
     assert clearance.startswith(f"clearance in operation of {both} is ") and f"inner ring of {both} is" in loose
 
 

@@ -107,8 +107,9 @@ def limits(found: Findings) -> list[str]:
 
 
 def clearances_apart(found: Findings) -> list[str]:
-    """Bearings on fits that preload some of them, press a pair, or leave the ring that turns loose."""
+    """Bearings on fits that preload some, press a pair, hold a sprung ring, or leave the ring that turns loose."""
     said: dict[str, list[str]] = {}  # labels of bearings of which a text is
+    supports = dict(zip(found.study.names, found.study.support, strict=True))
     for name, own in found.clearances.items():
         numbered = name.isdigit() or own.name in name
         label = (name if own.name in name else own.name) if numbered else f"{name} {own.name}"
@@ -125,6 +126,12 @@ def clearances_apart(found: Findings) -> list[str]:
         if own.turning_pressed[2] < 0.0:
             gap = f"{-1e6 * own.turning_pressed[2]:.3g} {UM}"
             texts.append(f"{own.loose_of('LABEL')} in the loosest fit: a gap of {gap}")
+        if own.outer_pressed[0] > 0.0 and (supports[name].spring, supports[name].pair_spring) != (None, None):
+            tight = f"{1e6 * own.outer_pressed[0]:.3g} {UM} and {1e-6 * own.outer_pressure[0]:.3g} MPa"
+            texts.append(
+                f"the housing holds the outer ring of LABEL in the tightest fit, by {tight}:"
+                " its spring cannot move it"
+            )
         for text in texts:
             said.setdefault(text, []).append(label)
     return [text.replace("LABEL", " and ".join(labels)) for text, labels in said.items()]
