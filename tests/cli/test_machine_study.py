@@ -390,6 +390,16 @@ def test_a_housing_that_holds_a_ring_on_a_spring(study, housing, holds):
     assert not any("spring cannot" in text for text in limits(findings_without_machine(fixed)))
 
 
+@pytest.mark.parametrize(("wide", "said"), [("35.0", True), ("30.0", False)])
+def test_a_fit_of_a_shaft_wider_than_the_bore(study, wide, said):
+    """The fit is that of the bore: the shaft is turned down at its seat, and a line says so."""
+    fits = FITS.replace("6306", "6206")
+    one = load_study(study(MOTOR, ("diameter_mm = 35.0", f"diameter_mm = {wide}"), ('bearing = "6206"', fits)))
+    lines = [text for text in clearances_apart(findings_without_machine(one)) if "bore" in text]
+    text = "the fit of fan end 6206 is on a journal of 30 mm, its bore; the shaft of the model has 35 mm there"
+    assert lines == [text][: int(said)]
+
+
 def test_fits_with_play_left(study):
     fits = FITS.replace("6306", "6205").replace("75", "60").replace('"k5"', '"k5"\nclearance = "C4"')
     found = findings_of(load_study(study(ALONE, (ALONE[ALONE.index("balls = 9") :], fits))))

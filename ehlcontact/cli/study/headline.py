@@ -6,7 +6,7 @@ A sentence without content is empty. The page, ``results.json`` and the last lin
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,9 +17,15 @@ from ehlcontact.cli.study.forecast import cautions, discs_without_inertia, seals
 from ehlcontact.cli.study.loads import by_formula, places_of_bearings
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import ContactFindings, Findings
+from reduced_models.bearing.catalogue import ROWS, designation_of
 from reduced_models.bearing.oil_and_heat import FLOODED, SHOWN, OilAndHeat
+from reduced_models.bearing.operating_clearance import NO_FIT
 from reduced_models.bearing.set_result import SetState
 from reduced_models.rotor.machine_tiles import MARGIN, digits
+
+if TYPE_CHECKING:
+    from ehlcontact.cli.study.schema import Study
+    from ehlcontact.cli.study.sections import Support
 
 # Change by half the step, over the standard deviation of a signal or the decrement, that has a sentence.
 LARGE_CHANGE = 0.01
@@ -28,6 +34,7 @@ SAME_BALL = 1e-3  # share by which loads of a ball differ at least where both ar
 PRESSED = 0.2  # change of a preload by fits, over it, that a line names
 UM = "\N{MICRO SIGN}m"
 AXIAL = 2  # of the components of a load
+ROUNDING = 1e-9  # of a diameter
 NEGLIGIBLE = 1e-6  # of the largest component of a load, below which another one is none
 
 
@@ -132,9 +139,20 @@ def clearances_apart(found: Findings) -> list[str]:
                 f"the housing holds the outer ring of LABEL in the tightest fit, by {tight}:"
                 " its spring cannot move it"
             )
+        if own.fits[0] != NO_FIT and (wide := _wide_shaft(found.study, supports[name])):
+            texts.append(f"the fit of LABEL is on {wide}")
         for text in texts:
             said.setdefault(text, []).append(label)
     return [text.replace("LABEL", " and ".join(labels)) for text, labels in said.items()]
+
+
+def _wide_shaft(study: Study, support: Support) -> str:
+    """Diameters of a journal and of the wider shaft of the model, in words; empty where none is wider."""
+    wide = None if study.shaft is None else study.shaft.diameter_mm
+    bore = None if support.bearing is None else ROWS[designation_of(support.bearing).name].bore
+    if wide is None or bore is None or wide <= 1e3 * bore * (1.0 + ROUNDING):
+        return ""
+    return f"a journal of {1e3 * bore:g} mm, its bore; the shaft of the model has {wide:g} mm there"
 
 
 def calm(found: Findings) -> str:
