@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from math import inf, tau
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -35,7 +35,7 @@ from reduced_models.life.bearing_life import finite
 from reduced_models.life.life_modification import BASIC_RELIABILITY
 from reduced_models.life.system_life import HOURS, SystemLife
 from reduced_models.rotor.bearing_set import BearingSet
-from reduced_models.rotor.campbell import Campbell, CriticalSpeed, campbell_of
+from reduced_models.rotor.campbell import BESIDE, Campbell, CriticalSpeed, campbell_of
 from reduced_models.rotor.damping_budget import DampingBudget, budget_of
 from reduced_models.rotor.equilibrium import StaticRotor
 from reduced_models.rotor.linearise import LinearRotor, linearise
@@ -45,7 +45,7 @@ from reduced_models.rotor.modes import ALONG, RotorMode
 from reduced_models.rotor.picture import campbell_picture
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.support_state import SupportState, states_of, support_of, support_state
-from reduced_models.rotor.unbalance import response_of, unbalance_response
+from reduced_models.rotor.unbalance import amplification, response_of
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
 _Floats = NDArray[np.float64]
@@ -60,7 +60,9 @@ ROUNDING = 1e-9  # of a multiple of the speed
 SHOWN, SEEN = 2.0, 1.08
 LOADED = re.compile(r"load of (bearing \d+) = \[[^\]]*\]: must be")  # of an `InputError`
 LARGE = re.compile(r"\d\.\d+e\+\d+")  # a number with exponent in a message
-BACKWARD = -0.5  # whirl below which an unbalance hardly excites a mode
+# Whirl below which a mode turns backward; resonance of such a mode, or of one along the shaft, over the rest of
+# the response to unbalance, above which unbalance excites it: it is then most of the response there
+BACKWARD, EXCITED = -0.5, 1.0
 # Where many machines are answered: such parts of the speed, and frequencies over that of the shaft at the highest
 # speed up to which modes are followed; critical speeds are looked at again each
 COARSE, FOLLOWED = 3, 1.5
@@ -92,6 +94,9 @@ class MachineState(Summary):
         Modes over the speed.
     response : UnbalanceResponse or None
         Over the speeds of the diagram; None without an unbalance.
+    amplifications : tuple of float
+        Of each critical speed: resonance of its mode over the rest of the response to unbalance there; of equal
+        unbalances at all nodes where the rotor has none. Empty where it is not known.
     peaks : UnbalanceResponse or None
         Over speeds about the critical ones that an unbalance excites: peaks are narrower than steps of `response`.
     highest_speed : float
@@ -120,6 +125,7 @@ class MachineState(Summary):
     budget: DampingBudget | None = None
     diagram: Campbell | None = None
     response: UnbalanceResponse | None = None
+    amplifications: tuple[float, ...] = ()
     peaks: UnbalanceResponse | None = None
     highest_speed: float = inf
     ends: str = ""
@@ -151,15 +157,31 @@ class MachineState(Summary):
         return critical.speed_rpm / self.speed_rpm - 1.0
 
     def is_axial(self, critical: CriticalSpeed) -> bool:
-        """Whether its mode moves along the shaft, so that an unbalance hardly excites it."""
+        """Whether its mode moves along the shaft."""
         if self.diagram is None:
             return False
         share = self.diagram.axial_share[:, critical.mode]
         return float(np.interp(critical.speed_rpm, self.diagram.speed_rpm, share)) > ALONG
 
     def is_excited(self, critical: CriticalSpeed) -> bool:
-        """Whether an unbalance excites its mode: neither along the shaft nor against the rotation."""
-        return critical.whirl > BACKWARD and not self.is_axial(critical)
+        """Whether an unbalance excites its mode.
+
+        One across the shaft always, wherever its unbalance may be; one along the shaft or against the rotation
+        where its resonance exceeds the rest of the response: bearings couple it to what unbalance moves.
+        """
+        across = critical.whirl > BACKWARD and not self.is_axial(critical)
+        return across or self.is_coupled(critical)
+
+    def is_coupled(self, critical: CriticalSpeed) -> bool:
+        """Whether its mode is along the shaft or against the rotation and unbalance excites it all the same."""
+        across = critical.whirl > BACKWARD and not self.is_axial(critical)
+        return not across and self.amplification(critical) > EXCITED
+
+    @takes(critical=Object(CriticalSpeed, "a CriticalSpeed"))
+    def amplification(self, critical: CriticalSpeed) -> float:
+        """Of `amplifications`, that of a critical speed of this machine; 0 where it is not known."""
+        known = zip(self.critical_speeds, self.amplifications, strict=False)
+        return next((found for own, found in known if own == critical), 0.0)
 
     @property
     def nearest_critical(self) -> CriticalSpeed | None:
@@ -305,6 +327,7 @@ class MachineState(Summary):
             "critical_speeds": [
                 {"speed_rpm": one.speed_rpm, "hz": one.hz, "margin": self.margin(one), "decrement": one.decrement}
                 | {"axial": self.is_axial(one), "excited": self.is_excited(one)}
+                | {"amplification": self.amplification(one)}
                 for one in self.critical_speeds
             ],
             "largest_response": None if largest is None else largest._asdict(),
@@ -469,14 +492,18 @@ def machine_state(
         highest_speed=highest,
         ends=ends,
     )
-    if not fine and diagram is not None:
-        again = [one.speed_rpm for one in machine.critical_speeds if machine.is_excited(one)]
-        looked = sorted({*speeds.tolist(), *again})
+    at = [one.speed_rpm for one in machine.critical_speeds]
+    if not fine and at:
+        looked = sorted({*speeds.tolist(), *at})
         diagram = _tried(lambda: campbell_of(map(linearised, looked), count), "critical speeds", failed)
         machine = replace(machine, diagram=diagram or machine.diagram)
-    find = partial(_peaks, rotor, machine) if fine else partial(_peaks_of, rotor, machine, known)
-    peaks = None if response is None else _tried(find, "peaks at critical speeds", failed)
-    return replace(machine, peaks=peaks, failed=tuple(_with_labels(text, labels) for text in failed))
+    met = _tried(lambda: _met(machine, [linearised(one) for one in at]), "modes at critical speeds", failed) or []
+    machine = replace(machine, amplifications=tuple(amplification(there, mode) for there, mode in met))
+    return replace(
+        machine,
+        peaks=_peaks(machine, met) if rotor.unbalances else None,
+        failed=tuple(_with_labels(text, labels) for text in failed),
+    )
 
 
 def _part_label(labels: Mapping[str, str], name: str) -> str:
@@ -517,31 +544,37 @@ def _reached(linearised: Callable[[float], LinearRotor], speeds: Sequence[float]
     return len(speeds)
 
 
-def _peaks_of(rotor: Rotor, machine: MachineState, known: Mapping[float, LinearRotor]) -> UnbalanceResponse | None:
-    """As `_peaks`, about the mode at the speed of the diagram next to each critical speed, linearised there."""
-    diagram, peaks = machine.diagram, {}
-    assert diagram is not None
+def _met(machine: MachineState, linear: Sequence[LinearRotor]) -> list[tuple[LinearRotor, RotorMode]]:
+    """The mode of each critical speed, by frequency, whirl and axial share, of the rotor linearised next to it."""
+    diagram, found = machine.diagram, []
     for critical in machine.critical_speeds:
-        if not machine.is_excited(critical) or critical.decrement <= 0.0:
-            continue
-        k = int(np.argmin(np.abs(diagram.speed_rpm - critical.speed_rpm)))
-        linear, omega = known[float(diagram.speed_rpm[k])], float(diagram.omega[k, critical.mode])
-        for step in ABOUT_A_PEAK:
-            turning = omega * (1.0 + critical.decrement / tau * step)
-            peaks[turning / RPM_TO_RAD_S] = linear._unbalanced(turning)
+        assert diagram is not None
+        there = min(linear, key=lambda one: abs(one.speed_rpm - critical.speed_rpm))
+        along = float(np.interp(critical.speed_rpm, diagram.speed_rpm, diagram.axial_share[:, critical.mode]))
+
+        def off(mode: RotorMode, critical: CriticalSpeed = critical, along: float = along) -> float:
+            apart = abs(mode.whirl - critical.whirl) + abs(mode.axial_share - along)
+            return apart + abs(float(np.log(mode.hz / critical.hz)))
+
+        found.append((there, min(there.modes(diagram.omega.shape[1] + BESIDE), key=off)))
+    return found
+
+
+def _peaks(machine: MachineState, met: Sequence[tuple[LinearRotor, RotorMode]]) -> UnbalanceResponse | None:
+    """Response about the modes that an unbalance excites, in steps of half the width of their peaks.
+
+    Films are those of the critical speed, which the diagram has by straight lines; frequencies are exact.
+    """
+    peaks = {}
+    for critical, (linear, mode) in zip(machine.critical_speeds, met, strict=False):
+        if machine.is_excited(critical) and mode.decrement > 0.0:
+            for step in ABOUT_A_PEAK:
+                turning = mode.omega * (1.0 + mode.damping_ratio * step)
+                peaks[turning / RPM_TO_RAD_S] = linear._unbalanced(turning)
     speeds = sorted(peaks)
-    return UnbalanceResponse.of(rotor, np.array(speeds), np.array([peaks[at] for at in speeds])) if peaks else None
-
-
-def _peaks(rotor: Rotor, machine: MachineState) -> UnbalanceResponse | None:
-    """Response about the critical speeds that an unbalance excites, in steps of half the width of their peaks."""
-    speeds = [
-        critical.speed_rpm * (1.0 + critical.decrement / tau * step)
-        for critical in machine.critical_speeds
-        if machine.is_excited(critical) and critical.decrement > 0.0
-        for step in ABOUT_A_PEAK
-    ]
-    return unbalance_response(rotor, sorted(speeds)) if speeds else None
+    if not speeds:
+        return None
+    return UnbalanceResponse.of(met[0][0].rotor, np.array(speeds), np.array([peaks[at] for at in speeds]))
 
 
 def _tried(compute: Callable[[], Any], what: str, failed: list[str]) -> Any:

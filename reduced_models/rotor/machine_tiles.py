@@ -216,7 +216,7 @@ def _critical(machine: Any) -> Tile | None:
         return Tile("critical speed", "none", "", f"from {rpm[0]:.5g} to {rpm[-1]:.5g} rev/min")
     speeds = ", ".join(f"{digits(one.speed_rpm, 5)} {_way(machine, one)}" for one in machine.critical_speeds)
     way = f"{_way(machine, own)} whirl" if _way(machine, own) in WHIRLS else _way(machine, own)
-    way += "" if machine.is_excited(own) else ": unbalance hardly excites it"
+    way += _though(machine, own) if machine.is_excited(own) else ": unbalance hardly excites it"
     note = _note(_side(machine, own), way, f"all: {speeds}" if len(machine.critical_speeds) > 1 else "")
     critical = bool(_near_critical(machine))
     number = "critical_rpm" if machine.is_excited(own) else ""
@@ -230,6 +230,13 @@ def _way(machine: Any, critical: Any) -> str:
     if abs(critical.whirl) < STRAIGHT:
         return "in a plane"
     return "forward" if critical.whirl > 0.0 else "backward"
+
+
+def _though(machine: Any, critical: Any) -> str:
+    """That unbalance excites a mode by which it would not without the bearings; empty of any other."""
+    if not machine.is_coupled(critical):
+        return ""
+    return f": unbalance excites it to {digits(machine.amplification(critical), 2)} times the response beside it"
 
 
 def _side(machine: Any, critical: Any) -> str:
@@ -344,7 +351,8 @@ def _near_critical(machine: Any) -> str:
     bends = f"{digits(100.0 - share, 2)} % of its strain energy is in the shaft, {digits(share, 2)} % in bearings"
     moves = "a stiffer or shorter shaft moves it" if share < HALF else "more preload or stiffer bearings move it"
     there = f"{digits(own.speed_rpm, 5)} rev/min, {_side(machine, own)}"
-    return f"unbalance excites a mode at {there}: {bends}, so {moves}"
+    way = f" {_way(machine, own)}" if machine.is_coupled(own) else ""
+    return f"unbalance excites a mode{way} at {there}: {bends}, so {moves}"
 
 
 def _growing(machine: Any) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ehlcontact.checks import as_column, parts, require_positive
 from ehlcontact.checks.kinds import Object
@@ -16,8 +16,11 @@ from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import InputError
 from reduced_models.bearing.kinematics import RPM_TO_RAD_S
 from reduced_models.rotor.linearise import LinearRotor, linearise
+from reduced_models.rotor.modes import UNDAMPED, RotorMode
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
+
+ROUND, POINTS = 1e-5, 8  # radius of a circle about an eigenvalue, over its size, and points on it
 
 
 @takes(rotor=Object(Rotor, "a Rotor"), speeds_rpm=parts.SPEEDS)
@@ -82,3 +85,38 @@ def response_of(rotor: Rotor, linear: Sequence[LinearRotor]) -> UnbalanceRespons
     """The response of a rotor with unbalances that is linearised at increasing speeds above 0."""
     amplitudes = [one._unbalanced(one.speed_rpm * RPM_TO_RAD_S) for one in linear]
     return UnbalanceResponse.of(rotor, np.array([one.speed_rpm for one in linear]), np.array(amplitudes))
+
+
+def amplification(linear: LinearRotor, mode: RotorMode) -> float:
+    """Resonance of a mode over the rest of the response to unbalance at the frequency of the mode.
+
+    Near an eigenvalue s0 the response T(s)^-1 f to the unbalances f is R/(s - s0) and what all other modes have,
+    the means over a circle about s0 of (s - s0) and of 1 times the response. R is the shape of the mode times the
+    work of f on its left vector: 0 of a mode that f does not excite, as one that whirls backward on supports alike
+    in x and y, or one along the shaft that nothing couples to x and y. Both are compared by their largest orbits.
+    A damping ratio below `modes.UNDAMPED` counts as that: such a mode has damping that the rotor leaves out.
+
+    Parameters
+    ----------
+    linear : LinearRotor
+        Without unbalances: with equal ones at all of its nodes.
+    mode : RotorMode
+        Of `linear`.
+    """
+    rotor, s = linear.rotor, mode.eigenvalue
+    force = linear._turning if rotor.unbalances else _everywhere(rotor)
+    steps = ROUND * abs(s) * np.exp(2j * np.pi * np.arange(POINTS) / POINTS)
+    around = np.array([np.linalg.solve(linear.dynamic_stiffness(s + step), force) for step in steps.tolist()])
+    rest, residue = around.mean(axis=0), (steps[:, None] * around).mean(axis=0)
+    own = residue / max(abs(s.real), UNDAMPED * abs(s))
+    sizes = UnbalanceResponse.of(rotor, np.ones(2), np.array([own, rest])).major.max(axis=1)
+    return float(sizes[0] / sizes[1]) if sizes[1] > 0.0 else 0.0
+
+
+def _everywhere(rotor: Rotor) -> NDArray[np.complex128]:
+    """Amplitudes of a force that turns with the shaft, at every node that moves across it."""
+    force = np.zeros(rotor.size, complex)
+    for places in rotor.nodes.values():
+        if "x" in places and "y" in places:
+            force[[places["x"], places["y"]]] += 1.0, -1j
+    return force

@@ -9,10 +9,21 @@ import pytest
 
 from ehlcontact import read, save
 from ehlcontact.errors import ConvergenceError, InputError
-from reduced_models import SpeedProfile, campbell, linearise, simulate_rotor, unbalance_response
+from reduced_models import (
+    Disc,
+    Shaft,
+    SpeedProfile,
+    Support,
+    campbell,
+    linearise,
+    rotor_on_bearings,
+    simulate_rotor,
+    unbalance_response,
+)
 from reduced_models.rotor.campbell import Campbell
 from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.picture import run_picture
+from reduced_models.rotor.unbalance import amplification
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
 SPEEDS = np.linspace(2000.0, 10000.0, 5)
@@ -289,3 +300,18 @@ def test_one_speed_has_no_critical_speeds(film, beam):
     at_one = campbell(beam(film), [3000.0], count=2)
     with pytest.raises(InputError, match=r"speeds_rpm = \[\d+.0\]: must be at least two"):
         at_one.critical_speeds()
+
+
+@pytest.mark.parametrize("upright, low, high", [(5e7, 0.0, 1e-6), (3e7, 30.0, 100.0)])
+def test_unbalance_excites_a_backward_mode_on_supports_that_differ_in_x_and_y(upright, low, high):
+    bearing = LinearBearing(np.diag([5e7, upright]), np.diag([200.0, 200.0]))
+    disc = Disc.cylinder(position=0.12, diameter=0.2, width=0.03, bore=0.03, unbalance=1e-5)
+    supports = [Support(position=place, bearing=bearing) for place in (0.0, 0.4)]
+    linear = linearise(
+        rotor_on_bearings(Shaft(length=0.4, diameter=0.03), discs=[disc], supports=supports), 6000.0
+    )
+    backward, forward = linear.modes(2)
+    assert backward.whirl < -0.8 and forward.whirl > 0.8
+    assert low <= amplification(linear, backward) <= high and amplification(linear, forward) > 1e3
+    below, peak = linear.unbalance_response(omega=backward.omega * np.array([0.98, 1.0])).major.max(axis=1)
+    assert (peak > 10.0 * below) == (amplification(linear, backward) > 1.0)

@@ -93,7 +93,7 @@ class TestMotor:
         for name in ("h_min", "lambda", "l10rh", "torque", "mode_hz", "mode_damping", "response", "capacitance"):
             assert rough.numbers[name] == machine.numbers[name], name
         assert rough.highest_speed == np.inf and not rough.failed
-        assert len(rough.diagram.speed_rpm) == 7  # six, and the critical speed
+        assert len(rough.diagram.speed_rpm) == 9  # six, and the critical speeds
 
     def test_data_end_where_balls_are_too_heavy(self, machine: MachineState) -> None:
         assert 1.9e5 < machine.highest_speed < 1.95e5
@@ -148,6 +148,10 @@ class TestMotor:
         assert near.concerns == ()
         assert near.nearest_critical == forward  # by the speed that unbalance excites
 
+    def test_modes_of_which_unbalance_excites_little_are_not_excited(self, machine: MachineState) -> None:
+        axial, backward, forward = map(machine.amplification, machine.critical_speeds)
+        assert 0.5 < axial < 1.0 and backward < 0.5 and forward > 1e3
+
     def test_films_are_as_sure_as_atlas_and_oil(self, machine: MachineState) -> None:
         support = machine.worst_support
         answer = support.bearing.race("inner").answer(support.ball_load, RPM)
@@ -184,6 +188,39 @@ class TestMotor:
             alone = support_state(support.bearing, support.state.load, RPM)
             assert alone.h_min == pytest.approx(support.h_min, rel=1e-6, abs=0.0)
             assert np.diag(alone.stiffness) == pytest.approx(np.diag(support.stiffness), rel=1e-6)
+
+
+@pytest.mark.long
+class TestAxialModeThatBearingsCouple:
+    """A belt pulls one end down: its bearing has K_yz twice as large as K_zz."""
+
+    def belt(self) -> Rotor:
+        oil = Lubricant.iso_vg(100, temperature=70.0)
+        discs = [
+            Disc(position=0.02, mass=2.0, diametral_inertia=3e-3, polar_inertia=5e-3, load=(0.0, -800.0)),
+            Disc(position=0.23, mass=12.0, diametral_inertia=0.03, polar_inertia=0.024, unbalance=5e-5),
+        ]
+        supports = [
+            Support(position=0.08, bearing=bearing("6207", oil=oil, clearance=1e-5), facing="-z"),
+            Support(position=0.38, bearing=bearing("6206", oil=oil, clearance=1e-5), facing="+z", preload=250.0),
+        ]
+        return rotor_on_bearings(Shaft(length=0.42, diameter=0.035), discs=discs, supports=supports)
+
+    def test_is_excited(self) -> None:
+        machine = machine_state(self.belt(), 5600.0)
+        stiffness = machine.supports[0].stiffness
+        assert abs(stiffness[1, 2]) > 1.5 * stiffness[2, 2]
+        (critical,) = machine.critical_speeds
+        assert machine.is_axial(critical) and machine.is_excited(critical)
+        assert machine.numbers["critical_rpm"] == critical.speed_rpm
+        near = critical.speed_rpm * np.array([0.97, 0.9998, 0.9999, 1.0, 1.0001, 1.0002, 1.03])
+        size = unbalance_response(self.belt(), near).major.max(axis=1)
+        assert size.max() > 50.0 * max(size[0], size[-1])
+        assert machine.largest_peak.size == pytest.approx(size.max(), rel=0.2, abs=0.0)
+        (concern,) = (text for text in machine.concerns if text.startswith("unbalance excites"))
+        assert concern.startswith("unbalance excites a mode along the shaft at")
+        tile = next(one for one in machine.tiles() if one.number == "critical_rpm")
+        assert tile.critical and "along the shaft: unbalance excites it to" in tile.note
 
 
 class TestBearingAlone:
