@@ -308,6 +308,13 @@ class BearingLife(Summary):
         return least.at(self.loads.speed_rpm, self.kinematic_viscosity)
 
     @property
+    def needs_axial_load(self) -> bool:
+        """Whether the radial load is below SKF's least load, a radial one, and P with the axial load is not."""
+        if self.geometry.least_load is None:
+            return False
+        return self.loads.radial < self.least_load <= self.equivalent_load
+
+    @property
     def not_covered(self) -> tuple[str, ...]:
         """What the standards do not cover here, a text with its number each."""
         g, loads, ratio = self.geometry, self.loads, self.viscosity_ratio

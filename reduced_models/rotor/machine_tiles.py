@@ -6,6 +6,7 @@ from math import degrees, inf
 from typing import Any, NamedTuple
 
 from ehlcontact.summary import WIDTH
+from reduced_models.life.life_modification import MOST_MODIFICATION
 from reduced_models.rotor.modes import ALONG
 from reduced_models.rotor.picture import STRAIGHT
 from reduced_models.rotor.support_state import ABOVE_MEASURED, RELY_ON_SKF
@@ -151,7 +152,7 @@ def _life(machine: Any) -> Tile | None:
     ratings = f"C {digits(1e-3 * shortest.ratings.dynamic, 4)} kN {shortest.ratings.dynamic_source}"
     covered = f"not covered: {system.not_covered[0]}" if system.not_covered else ""
     safe = f"static safety {digits(safety)} by pressure"
-    note = _note(kind, _by_clearance(machine), of, needs, covered, safe, ratings)
+    note = _note(kind, _at_cap(system), _by_clearance(machine), _light(system), of, needs, covered, safe, ratings)
     number = "l10rh" if system.lnmrh is None else "lnmrh"
     return Tile("rating life", digits(hours), "h", note, number=number)
 
@@ -164,10 +165,39 @@ def _by_clearance(machine: Any) -> str:
     lives = [getattr(life, name) for life in machine.lives_at_clearances]
     if None in lives or inf in lives:
         return ""
-    limits = {one for one in machine.clearances if one is not None}
-    own = next(iter(limits)) if len(limits) == 1 else ()  # in the words where all bearings have these
-    least, largest = (f", {digits(1e6 * end)} µm" for end in own) if own else ("", "")
-    return f"{digits(lives[0])} h at the least clearance{least} and {digits(lives[1])} h at the largest{largest}"
+    given = [
+        (one.label, limits)
+        for one, limits in zip(machine.supports, machine.clearances, strict=True)
+        if limits is not None
+    ]
+    alone = len({limits for _, limits in given}) == 1
+    rows = [("", given[0][1])] if alone else [(f"{label} ", limits) for label, limits in given]
+    least, largest = (
+        ", ".join(f"{label}{digits(1e6 * limits[end])} µm" for label, limits in rows) for end in (0, 1)
+    )
+    ends = (
+        f"{digits(lives[0])} h at the probable least clearance, {least}",
+        f"{digits(lives[1])} h at the probable",
+    )
+    return f"{ends[0]}, and {ends[1]} largest, {largest}"
+
+
+def _at_cap(system: Any) -> str:
+    """Bearings whose a_ISO is the largest of the standard."""
+    names = [name for name, one in zip(system.names, system.lives, strict=True) if one.a_iso == MOST_MODIFICATION]
+    of = f" of {', '.join(names)}" if len(system) > 1 else ""
+    return f"a_ISO{of} at its cap of {MOST_MODIFICATION:.0f}" if names else ""
+
+
+def _light(system: Any) -> str:
+    """Bearings whose axial load alone keeps them above the least load, which is a radial one by SKF's rule."""
+    rows = [(name, one) for name, one in zip(system.names, system.lives, strict=True) if one.needs_axial_load]
+    each = [
+        f"{name + ': ' if len(system) > 1 else ''}radial load {digits(one.loads.radial)} N below the least load"
+        f" {digits(one.least_load)} N against skidding"
+        for name, one in rows
+    ]
+    return f"{', '.join(each)}, the axial load has to make up for it" if each else ""
 
 
 def _coefficients(machine: Any) -> Tile:

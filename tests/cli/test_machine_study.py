@@ -360,7 +360,9 @@ def test_fits_that_preload_or_leave_a_ring_loose(study):
     assert "loose on its shaft" in loose and apart in headline(found) and loose in headline(found)
     assert found.to_dict()["machine"]["life_at_clearances"]["least"]["l10rh"] == ends[0]
     (tile,) = (one for one in found.machine.tiles() if one.name == "rating life")
-    assert f"h at the least clearance, {1e6 * own.probable[0]:.3g} µm and " in tile.note
+    least, most = (f"{1e6 * end:.3g} µm" for end in own.probable)
+    assert f"h at the probable least clearance, {least}, and " in tile.note
+    assert f"h at the probable largest, {most}" in tile.note
 
 
 def test_the_loose_ring_of_a_wheel(study):

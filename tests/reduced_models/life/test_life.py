@@ -68,6 +68,15 @@ def test_grooves_and_large_balls_change_the_rating():
     assert above == pytest.approx(below, rel=1e-3)
 
 
+def test_least_load_is_a_radial_one():
+    """SKF's rule: an axial load may make up for a radial one below it."""
+    least = state().life().least_load
+    for radial, axial, needed in ((0.5, 3.0, True), (0.5, 0.0, False), (1.5, 3.0, False)):
+        life = state((0.0, -radial * least, axial * least)).life()
+        assert life.needs_axial_load is needed
+        assert (life.equivalent_load < least) is (radial < 1.0 and axial == 0.0)
+
+
 def test_viscosity_is_that_of_the_data_sheet():
     """nu [mm2/s] as the oil was given, of any density; of one known by eta0 alone with 850 kg/m3."""
     sheet = {"nu40": 100.0, "nu100": 11.2, "density_15": 950.0}

@@ -172,6 +172,16 @@ class TestMotor:
         assert float(tile.value) == pytest.approx(clean.rating_life.lnmrh, rel=5e-3)
         assert tile.note.startswith("modified, 95 %, by nu/nu1, by the solved film")
 
+    def test_life_names_what_limits_it(self, machine: MachineState) -> None:
+        """a_ISO at 50, radial loads below the least one, and the clearances between which the life is."""
+        clean = replace(machine, contamination=1.0, clearances=((2e-6, 9e-6), (3e-6, 8e-6)))
+        system, tile = clean.rating_life, next(one for one in clean.tiles() if one.name == "rating life")
+        capped = [name for name, one in zip(system.names, system, strict=True) if one.a_iso == 50.0]
+        assert f"a_ISO of {', '.join(capped)} at its cap of 50" in tile.note and capped
+        light = [one.loads.radial < one.least_load <= one.equivalent_load for one in system]
+        assert "left 6306 2 µm, right 6206 3 µm, and" in tile.note
+        assert tile.note.count("below the least load") == sum(light)
+
     def test_whole_answer_is_json(self, machine: MachineState) -> None:
         found = json.loads(json.dumps(machine.to_dict()))
         assert [one["name"] for one in found["supports"]] == ["left", "right"]
