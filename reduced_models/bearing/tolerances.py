@@ -18,6 +18,7 @@ from ehlcontact.errors import InputError
 Limits = tuple[float, float]
 
 UM = 1e-6
+IN_METRES = ", or its limits in metres"  # in messages: what stands in place of a class
 LARGEST = 1e-3  # m, of a deviation
 # mm: a row of the tables is for diameters above the bound before it, up to its own
 BOUNDS = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
@@ -164,7 +165,7 @@ def deviation(name: str, given: float | tuple[float, float]) -> Limits:
 def _parts(fit: str, seat: str, example: str) -> tuple[str, int]:
     found = re.fullmatch(r"([a-zA-Z]{1,2})\s*(\d{1,2})", fit.strip()) if isinstance(fit, str) else None
     if found is None or int(found[2]) not in GRADES:
-        allowed = f"a class of ISO 286 for the {seat}, as {example!r}, of grade 4 to 8, or its limits in metres"
+        allowed = f"a class of ISO 286 for the {seat}, as {example!r}, of grade 4 to 8{IN_METRES}"
         raise InputError("fit", fit, allowed)
     return found[1], int(found[2])
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from tiny_study import ALONE, ANGULAR, CONTACT, MOTOR, PAIR
 
-from ehlcontact import OilLayer
+from ehlcontact import InputError, OilLayer
 from ehlcontact.cli.study.answer import answer_of, over_frequency
 from ehlcontact.cli.study.exports import machine_model
 from ehlcontact.cli.study.forecast import seals_left_out
@@ -322,6 +322,20 @@ def test_clearance_of_fits(study):
     assert clearance_of(one, 1) is None
 
 
+def test_a_fit_of_one_seat(study):
+    """The other seat takes nothing, as in Python."""
+    for entry, fit in (('shaft_fit = "k5"', ("k5", None)), ('housing_fit = "N7"', (None, "N7"))):
+        one = load_study(study(MOTOR, ('bearing = "6306"', f'bearing = "6306"\n{entry}')))
+        found = operating_clearance("6306", fit=fit, speed_rpm=15000.0)
+        assert clearance_of(one, 0).clearance.tolist() == found.clearance.tolist()
+
+
+def test_a_class_of_a_fit_is_all_that_an_entry_takes(study):
+    with pytest.raises(InputError, match="shaft_fit = 'k15': must be a class of ISO 286") as caught:
+        clearance_of(load_study(study(MOTOR, ('bearing = "6306"', FITS.replace("k5", "k15")))), 0)
+    assert "metres" not in str(caught.value)
+
+
 def findings_of(one):
     """Findings of a study with its machine alone."""
     return Findings(one, answer_of(one), {}, None, {}, (), None, None, {}, {})
@@ -493,7 +507,11 @@ def test_fits_of_angular_contact_bearings_under_a_shaft(study):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ('housing_fit = "H6"\n', "", ("support.drive end.housing_fit", "shaft and housing")),
+        (
+            'shaft_fit = "k5"\n',
+            "shaft_temperature = 60\n",
+            ("shaft_temperature = 60", "without", "drive end.shaft_fit"),
+        ),
         ('"k5"', '"H6"', ("support.drive end.shaft_fit = 'H6'", "shaft first")),
         ("= 75", "= 348", ("support.drive end.inner_temperature = 348", "in K")),
         ('shaft_fit = "k5"\nhousing_fit = "H6"\ninner', "shaft", ("shaft_temperature = 75", "left out without")),

@@ -25,6 +25,7 @@ from reduced_models.bearing.catalogue import BY_DIMENSIONS, ROWS, USUAL_CONFORMI
 from reduced_models.bearing.clearance import clearance_limits
 from reduced_models.bearing.grooves import LARGEST_PLAY
 from reduced_models.bearing.operating_clearance import OperatingClearance, operating_clearance
+from reduced_models.bearing.tolerances import IN_METRES
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
@@ -163,7 +164,7 @@ def bearing_part(study: Study, k: int, *, oil: bool = True, mounted: bool = True
         try:
             fitted = operating.of(_before_mounting(study, k))
         except InputError as error:
-            name = "shaft_fit" if one.shaft_fit else "inner_temperature"
+            name = next((name for name in ("shaft_fit", "housing_fit") if getattr(one, name)), "inner_temperature")
             raise InputError(f"{at}{name}", getattr(one, name), error.allowed) from None
         given["contact_angle"] = float(f"{fitted.contact_angle:.{CLEARANCE_DIGITS}g}")
     elif operating is not None:
@@ -185,22 +186,19 @@ def clearance_of(study: Study, k: int) -> OperatingClearance | None:
     Raises
     ------
     InputError
-        One fit alone; entries of fits without them; a bearing without a name.
+        Entries of fits without them; a bearing without a name.
     """
     one, at = study.support[k], support_field(study, k, "")
     fits = one.shaft_fit, one.housing_fit
     warm = {part: value for part in SEATS if (value := getattr(one, f"{part}_temperature")) is not None}
-    if fits == (None, None):
-        for name in OF_FITS:
-            if (value := getattr(one, name)) not in (None, "steel"):
-                raise InputError(f"{at}{name}", value, f"left out without {at}shaft_fit and {at}housing_fit")
-        if not warm:
-            return None
-    elif None in fits:
-        name = ("shaft_fit", "housing_fit")[fits.index(None)]
-        raise InputError(f"{at}{name}", None, 'given: fits are those of shaft and housing, as "k5" and "H6"')
+    for name in OF_FITS:
+        fit = f"{name.partition('_')[0]}_fit"
+        if getattr(one, fit) is None and (value := getattr(one, name)) not in (None, "steel"):
+            raise InputError(f"{at}{name}", value, f"left out without {at}{fit}")
+    if fits == (None, None) and not warm:
+        return None
     if one.bearing is None:
-        name = "shaft_fit" if fits[0] else f"{next(iter(warm))}_temperature"
+        name = _entry_of_fits(one, warm)
         allowed = "of a bearing by its name, which has a bore and an outside diameter"
         hint = "any other in Python: operating_clearance(...)"
         raise InputError(f"{at}{name}", getattr(one, name), f"{allowed}; {hint}")
@@ -224,11 +222,18 @@ def clearance_of(study: Study, k: int) -> OperatingClearance | None:
     except InputError as error:
         if error.field in ("bore", "outside") and error.value is None:
             name, what = ("shaft_fit", "bore") if error.field == "bore" else ("housing_fit", "outside diameter")
-            name = name if one.shaft_fit else f"{next(iter(warm))}_temperature"
+            name = name if getattr(one, name) else _entry_of_fits(one, warm)
             allowed = f"left out: the {what} of {one.bearing} is not known; in Python: operating_clearance(...)"
             raise InputError(f"{at}{name}", getattr(one, name), allowed) from None
         names = {"initial": "clearance", "fit": "shaft_fit" if error.value == one.shaft_fit else "housing_fit"}
-        raise InputError(f"{at}{names.get(error.field, error.field)}", error.value, error.allowed) from None
+        allowed = error.allowed.replace(IN_METRES, "")  # which no entry takes
+        raise InputError(f"{at}{names.get(error.field, error.field)}", error.value, allowed) from None
+
+
+def _entry_of_fits(one: Any, warm: Mapping[str, float]) -> str:
+    """Entry that asks for a clearance in operation: a fit, else a temperature."""
+    fit = next((name for name in ("shaft_fit", "housing_fit") if getattr(one, name)), None)
+    return fit or f"{next(iter(warm))}_temperature"
 
 
 def _before_mounting(study: Study, k: int) -> BallBearing:

@@ -161,7 +161,7 @@ class Support(Section):
     static_rating: Annotated[e.Rating | None, e.meaning("load rating C0 of the maker, likewise")] = None
     shaft_fit: Annotated[
         e.Text | None,
-        e.meaning('class of the shaft, as "k5": clearance is that before mounting then; with housing_fit'),
+        e.meaning('class of the shaft, as "k5": clearance is that before mounting then'),
     ] = None
     housing_fit: Annotated[e.Text | None, e.meaning('class of the bore of the housing, as "H6"')] = None
     inner_temperature: Annotated[
