@@ -22,6 +22,7 @@ from reduced_models.rotor.result import RotorResult
 _Floats = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
+FINE = 2048  # points of a period, of which the largest and the smallest are taken
 ON_CIRCLE = 1e-6  # distance of a multiplier from the unit circle that rounding and steps may make
 
 
@@ -94,8 +95,11 @@ class PeriodicAnswer(Summary):
 
     @property
     def peak_to_peak(self) -> _Floats:
-        """Of every degree of freedom, shape (N,) [m], or rad where it turns."""
-        return np.asarray(np.ptp(self.run.displacement, axis=0))
+        """Of every degree of freedom, shape (N,) [m], or rad where it turns; between the samples too."""
+        n = len(self.run.t) - 1
+        spectrum = np.fft.rfft(self.run.displacement[:-1], axis=0)
+        fine = max(n, FINE)
+        return np.asarray(np.ptp(np.fft.irfft(spectrum, fine, axis=0), axis=0) * (fine / n))
 
     @property
     def stable(self) -> bool | None:

@@ -23,8 +23,10 @@ from reduced_models.periodic_motion.harmonic_balance import Balance, HarmonicBal
 _Floats = NDArray[np.float64]
 
 FIRST, SHORTEST = 0.01, 1e-6  # steps of the arc length
-LONGEST = 0.1  # over the size of the vibration, where that has grown beyond that of the start
-LEAST_SIZE = 0.1  # of the vibration at the start, in units of the unknowns
+LONGEST, LONGEST_SHARE = 0.1, 0.02  # of the vibration and of the range of the parameter, in a step
+DRIFT = 0.1  # of the vibration, that a point may be off the tangent: farther off it may be of another branch
+LEAST_SIZE = 0.1  # of a vibration, in units of the unknowns
+ONE_PERIOD = 0.05  # of its vibration that is sub-harmonic: an answer of several periods shrinks to that of one
 WANTED, WANTED_OF_FILMS = 5, 6  # iterations of a step; of supports that remember
 MOST_ITERATIONS = 16
 STRAIGHT = 0.9  # cosine between neighbouring tangents, at least
@@ -83,15 +85,12 @@ class Continuation:
 
         `callback` takes the share of the course and the number of points.
         """
-        step = FIRST
+        step = min(FIRST, self._longest(self.points[0]))
         try:
             while len(self.points) < most:
-                last = self.points[-1]
-                if len(self.points) > 1 and not 0.0 < last.y[-1] < 1.0:
-                    if last.y[-1] <= 0.0:
-                        self.reason = "the branch turned back and left the range where it began"
+                if self._ended():
                     return
-                step = self._advance(last, step)
+                step = self._advance(self.points[-1], step)
                 if callback is not None:
                     callback(float(self.points[-1].y[-1]), len(self.points))
             self.status, self.reason = Status.MAX_CYCLES, f"stopped after {most} answers: raise `most`"
@@ -99,6 +98,31 @@ class Continuation:
             self.status, self.reason = Status.INTERRUPTED, "interrupted: the answers so far are kept"
         except (ConvergenceError, InputError) as error:
             self.status, self.reason = Status.FAILED, f"the branch ends here: {error}"
+
+    def _ended(self) -> bool:
+        """Whether the last point is beyond an end of the range, to which it goes back, or periods became one."""
+        last = self.points[-1]
+        if len(self.points) > 1 and not 0.0 < last.y[-1] < 1.0:
+            end = float(last.y[-1] > 0.0)
+            balance = self._problem.solve(self._course.at(end), last.balance.x)
+            self.points[-1] = last._replace(y=np.append(balance.x / self._size, end), balance=balance)
+            if end == 0.0:
+                self.reason = "the branch turned back and left the range where it began"
+            return True
+        folds = [k for k, point in enumerate(self.points) if point.fold]
+        if self._problem.periods > 1 and folds and self._subharmonic(self.points[folds[-1]].balance) < ONE_PERIOD:
+            fold = self.points[folds[-1]]
+            self.points = [*self.points[: folds[-1]], fold._replace(fold=False)]
+            self.reason = f"it ends where {self._problem.periods} periods become one, at a period doubling"
+            return True
+        return False
+
+    def _subharmonic(self, balance: Balance) -> float:
+        """Share of a vibration that is not of the period of the excitation."""
+        m, periods = len(self._problem.units), self._problem.periods
+        rows = balance.x.reshape(-1, m)[1:]
+        others = (1 + np.arange(len(rows)) // 2) % periods != 0
+        return float(np.linalg.norm(rows[others]) / max(self._vibration(balance), LEAST_SIZE))
 
     def _advance(self, last: BranchPoint, step: float) -> float:
         """One step, with the folds within it; returns the length of the next."""
@@ -111,7 +135,9 @@ class Continuation:
                 reason, step = str(error), 0.5 * step
                 self._problem.renew(self._course.at(float(last.y[-1])), last.balance)
                 continue
-            if float(point.tangent @ last.tangent) < STRAIGHT and step > KINK * self._longest(last):
+            off = float(np.linalg.norm((point.y - last.y - ends * last.tangent)[:-1])) * self._size
+            far = off > DRIFT * max(self._vibration(last.balance), LEAST_SIZE)
+            if (far or float(point.tangent @ last.tangent) < STRAIGHT) and step > KINK * self._longest(last):
                 step = 0.5 * step
                 continue
             if len(self.points) > 1 and not last.fold:
@@ -129,7 +155,13 @@ class Continuation:
         return float(np.linalg.norm(balance.x[len(self._problem.units) :]))
 
     def _longest(self, point: BranchPoint) -> float:
-        return LONGEST * max(self._vibration(point.balance) / self._size, 1.0)
+        """Longest step from a point: a share of its vibration, and of the range of the parameter."""
+        moved = float(np.linalg.norm(point.tangent[:-1])) * self._size
+        shares = (
+            (LONGEST * max(self._vibration(point.balance), LEAST_SIZE), moved),
+            (LONGEST_SHARE, point.tangent[-1]),
+        )
+        return float(min(most / max(abs(by), SHORTEST) for most, by in shares))
 
     def _to_the_end(self, last: BranchPoint, step: float) -> float:
         """The step, or what is left of it to just beyond the end of the range."""

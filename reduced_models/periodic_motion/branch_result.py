@@ -98,6 +98,8 @@ class PeriodicBranch(QuantityTable):
         """
         self._require_rotor()
         values, found = self.value, []
+        if not values.min() <= value <= values.max():
+            raise InputError("value", value, f"from {values.min():.7g} to {values.max():.7g}, those of the branch")
         for k in range(len(values) - 1):
             low, high = values[k], values[k + 1]
             if (low - value) * (high - value) < 0.0 or low == value:

@@ -173,7 +173,7 @@ def bifurcations(answers: Sequence[PeriodicAnswer]) -> tuple[Bifurcation, ...]:
             if kind == FOLD:
                 near = [turn for turn in turns if abs(turn - k - 0.5) < NEAR]
                 name = FOLD if near else BRANCH_POINT
-                value = _extreme(values, near[0]) if near else value
+                value = float(values[near[0]]) if near else value
                 turns = [turn for turn in turns if turn not in near[:1]]
             found.append(Bifurcation(kind=name, over=answers[k].over, value=value, after=k))
     return tuple(found)
@@ -183,12 +183,6 @@ def _turns(values: _Floats) -> list[int]:
     """Places of the answers where the parameter turns around."""
     rises = np.diff(values)
     return (1 + np.flatnonzero(rises[:-1] * rises[1:] < 0.0)).tolist()
-
-
-def _extreme(values: _Floats, turn: int) -> float:
-    """The farthest value where the parameter turns around: of the parabola through the three answers there."""
-    a, b, c = values[turn - 1 : turn + 2]
-    return float(b - (c - a) ** 2 / (8.0 * (a - 2.0 * b + c)))
 
 
 def _between(values: _Floats, before: _Complex, after: _Complex, kind: str) -> float:

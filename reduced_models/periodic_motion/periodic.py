@@ -22,6 +22,7 @@ from ehlcontact.checks.kinds import Callback, Count, Object
 from ehlcontact.checks.quantity import takes
 from ehlcontact.errors import ConvergenceError, InputError, warn_user
 from ehlcontact.process.blas import one_blas_thread
+from ehlcontact.status import Status
 from reduced_models.periodic_motion.answer import PeriodicAnswer
 from reduced_models.periodic_motion.branch import BranchPoint, Continuation, Course
 from reduced_models.periodic_motion.branch_result import PeriodicBranch
@@ -43,7 +44,8 @@ _Floats = NDArray[np.float64]
 
 HARMONICS, SAMPLES, POSITIONS = 12, 256, 4
 LEAST_SAMPLES = 4  # of a period over the highest harmonic
-MOST = 1000
+MOST, MOST_TO_BEGIN = 1000, 100  # answers of a branch, and on the way to the first one
+LARGEST_PLAY = 1e-3  # m, of clearance and preload
 SAME_FOLD = 1e-4  # of the range of the parameter, between folds
 TOO_FEW = 1e-2  # residual from which more harmonics are needed
 HARMONIC_COUNT = Count(1, 200)
@@ -171,6 +173,9 @@ def periodic(
     """
     first, last = _between(between)
     _require_over(over, rotor, excitation)
+    if over in ("clearance", "preload") and max(abs(first), abs(last)) > LARGEST_PLAY:
+        value = f"({first:g}, {last:g})"
+        raise InputError("between", value, f"at most {LARGEST_PLAY:g} m in magnitude (given in um?)")
     speed = max(abs(first), abs(last)) if over == "speed" else _speed(rotor, speed_rpm)
     ends = (first, last) if over == "speed" else (speed, speed)
     for end in ends:
@@ -230,7 +235,7 @@ def _between(between: Any) -> tuple[float, float]:
     except (TypeError, ValueError):
         raise InputError("between", shown(between), "two numbers: first and last value") from None
     if first == last:
-        raise InputError("between", shown(between), "two different values")
+        raise InputError("between", f"({first:g}, {last:g})", "two different values")
     return first, last
 
 
@@ -284,11 +289,14 @@ def _begin(problem: HarmonicBalance, setting: Setting, start: PeriodicAnswer | N
             return problem.solve(setting, _settled(problem, setting))
         grows = Course(setting, "amplitude", 0.0, setting.amplitude)
         continuation = Continuation(problem, grows, problem.solve(grows.at(0.0), x))
-        continuation.follow(MOST)
+        continuation.follow(MOST_TO_BEGIN)
+        if continuation.status is Status.INTERRUPTED:
+            raise KeyboardInterrupt from None
         last = continuation.points[-1]
         if last.y[-1] < 1.0:
             share = f"at {100.0 * float(last.y[-1]):.3g} % of the excitation {continuation.reason}"
-            raise ConvergenceError(f"{error}; {share}", last.balance) from error
+            advice = "begin near an answer of another speed, or of `shoot`, with start="
+            raise ConvergenceError(f"{error}; {share}; {advice}", last.balance) from error
         return problem.solve(setting, last.balance.x)
 
 
