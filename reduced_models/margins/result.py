@@ -29,7 +29,7 @@ ROW, AROUND = 34.0, 40.0  # px of a row of a tornado, and beside its rows
 MOST_DRAWN = 6  # numbers that are all drawn
 WIDE = 9.0  # of a bar
 STRONG = 2.0  # standard errors of a correlation from which an input is named
-NAMED = 3  # inputs that are named at a number, at most
+NAMED = 3  # inputs that are named at a number, and numbers in a sentence, at most
 UNITS = SHOWN | {"F": ("pF", 1e12)}  # of tables
 LINES = 4  # numbers in a summary
 FIGURES, OF_UNITS = 3, {"rev/min": 5, "Hz": 4}  # of a number
@@ -227,7 +227,7 @@ class Uncertainty(Summary):
 
     @property
     def remarks(self) -> list[str]:
-        """Failures and missing numbers in sentences; none where every sample has all numbers."""
+        """Failures, missing numbers, and nominal values outside of their intervals, in sentences."""
         total, said = len(self.values), []
         for one in self.reasons:
             inputs = ", ".join(
@@ -242,7 +242,21 @@ class Uncertainty(Summary):
             missing = int((~np.isfinite(column) & ~failed).sum())
             if missing and name.startswith(OF_CRITICAL[0]):
                 said.append(f"{missing} of {total} samples have no {words_of(name)[0]} in the range of speeds")
-        return said
+        return [*said, *self._nominal_outside()]
+
+    def _nominal_outside(self) -> list[str]:
+        """Numbers of which the machine as given is no sample of these ranges, in a sentence."""
+        names = []
+        for name, interval in self._intervals.items():
+            own = self.nominal.get(name)
+            if interval is None or own is None or interval.low <= own <= interval.high or not self.between(name):
+                continue
+            if self.words(name, (own,))[0] not in self.words(name, (interval.low, interval.high)):
+                names.append(words_of(name)[0])
+        if not names:
+            return []
+        more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
+        return [f"the nominal value lies outside of the range: {', '.join(names[:NAMED])}{more}"]
 
     def picture(self) -> Picture:
         """Of each number rank correlations with the inputs, and its distribution with the interval."""

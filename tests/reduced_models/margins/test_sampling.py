@@ -1,5 +1,7 @@
 """`uncertainty`: a closed function, machines, what fails, what is kept, on workers, and held-out machines."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from held_out import INPUTS, motor
@@ -42,6 +44,12 @@ def test_a_closed_function():
     assert str(found).startswith("Uncertainty: 256 samples of 2 inputs, seed 0\n  hz 0.498, 95 % ")
     with pytest.raises(InputError, match="one of hz, weight, heavy"):
         found.interval("kHz")
+
+
+def test_a_nominal_value_outside_of_the_range():
+    found = uncertainty(pendulum, {"length": (0.5, 1.5), "mass": (1.0, 1.8)}, samples=64)
+    found = replace(found, nominal=pendulum(2.0, 1.4))
+    assert found.remarks == ["the nominal value lies outside of the range: hz"]
 
 
 def test_failures_are_counted_and_named():
