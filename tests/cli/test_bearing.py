@@ -38,8 +38,9 @@ def file(tmp_path):
 
 
 def test_json_is_what_the_library_has(call):
+    clean = ("--contamination", "0.5", "--reliability", "95")
     speeds = ("--speed-rpm", "3000", "--speed-rpm", "1000")
-    result = call("bearing", "6205", *OIL, "--rq", "0.1", "--load", "1000", *speeds, "--json", "-")
+    result = call("bearing", "6205", *OIL, "--rq", "0.1", "--load", "1000", *speeds, *clean, "--json", "-")
     assert result.code == 0 and result.err == ""
     found = json.loads(result.out)
     bearing = BallBearing.catalogue("6205", oil=Lubricant.iso_vg(68, temperature=50.0), rq_race=0.1e-6)
@@ -55,6 +56,10 @@ def test_json_is_what_the_library_has(call):
         for name in ("force", "h_min", "lambda_ratio", "angles", "moment"):
             np.testing.assert_array_equal(found["states"][k][name], getattr(state, name))
         assert found["frequencies_hz"][k]["bpfo"] == bearing.frequencies(speed).bpfo
+        life = state.life(contamination=0.5, reliability=95.0).to_dict() | {"name": "6205"}
+        assert found["life"][k]["bearings"] == [life]
+        assert found["life"][k]["lnmrh"] == pytest.approx(life["lnmrh"], rel=1e-12)
+        assert {"l10rh", "equivalent_load", "viscosity_ratio", "a_iso", "least_load"} <= life.keys()
     assert found["orders"]["bpfi_order"] == pytest.approx(5.4152, abs=1e-4)
 
 

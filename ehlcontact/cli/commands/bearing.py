@@ -76,6 +76,7 @@ UNITS = {
     "cage_slip": "of the speed of the cage with balls that roll; in frequencies, orders under load, spall lines",
     "coefficients": "of small vibrations at frequency_hz, means over a ball passage",
     "friction": "N m, at each speed, of each bearing: rolling of the films with inlet heat, sliding, SKF's",
+    "life": "SI, at each speed, as in results.json of a study; lives in million turns, those with rh in h",
     "oil_and_heat": "SI, at each speed: films ball by ball at both races, K and C in x, y (, z) at hz, torques",
     "states": "at rest with a ball right under the load; bearings of a pair each in its frame, z along its facing",
     "pair": "SI",
@@ -319,6 +320,7 @@ def document(
         "tiles": [[tile._asdict() for tile in one.machine.tiles()] for one in found],
         "coefficients": [entry for one in found for entry in _coefficients(one.coefficients)],
         "frequencies_hz": each([one.frequencies for one in found]),
+        "life": [one.machine.rating_life.to_dict() for one in found],
         "friction": [[one.to_dict() for one in at.machine.supports[0].friction] for at in found],
         "states": [one.state.to_dict() for one in found],
     }
