@@ -120,6 +120,8 @@ SLIPS = {
         ("eta0 = 0.0367\nalpha = 2e-8\nalpha = 3e-8", "complete TOML", "'alpha = 3e-8'"),
         ("iso_vg = 68.0\ntemperature = 50", "oil.iso_vg = 68.0", "a whole number (9, not 9.0"),
         ("vg = 68\ntemperature = 50", "oil.vg = 68", "iso_vg?"),
+        ('iso_vg = "68"\ntemperature = 50', "oil.iso_vg = '68'", "68? decimals have a point"),
+        ('iso_vg = "ISO VG 69"\ntemperature = 50', "oil.iso_vg = 69", "one of 10, 15, 22"),
         ("iso_vg = 68\ntemperature = 500", "oil.temperature = 500.0", "between 20 and 120"),
         ("iso_vg = 68\ntemperature = 50\nviscosity_index = 0", "oil.viscosity_index = 0.0", "between 80 and 120"),
         (

@@ -153,6 +153,7 @@ def test_shares_make_the_points_a_load_spectrum(tmp_path):
     ("shares", "words"),
     [
         ("[0.3]", ("operation.shares = '1 of them'", "one for each point", "has 2")),
+        ("[0,6, 0,4]", ("operation.shares = '4 of them'", "[0.6, 0.4]? decimals have a point")),
         ("0.3", ("operation.shares = 0.3", "has 2")),
         ("[0.3, 0.6]", ("operation.shares = [0.3, 0.6]", "1 in sum, not 0.9")),
         ("[30, 70]", ("operation.shares", "percent")),

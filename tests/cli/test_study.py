@@ -42,6 +42,10 @@ def test_oil_by_its_grade(tmp_path):
         SMALL.replace("eta0 = 0.0367\nalpha = 2.0e-8", "iso_vg = 100\ntemperature = 70\ndensity_15 = 888")
     )
     assert load_study(file).lubricant == Lubricant.iso_vg(100, temperature=70.0, density_15=888.0)
+    for name in ('"ISO VG 100"', '"vg100"'):
+        file.write_text(file.read_text().replace("iso_vg = 100", f"iso_vg = {name}"))
+        assert load_study(file).oil.iso_vg == 100
+        file.write_text(file.read_text().replace(f"iso_vg = {name}", "iso_vg = 100"))
 
 
 def test_fingerprint_is_of_what_a_stage_depends_on(study):

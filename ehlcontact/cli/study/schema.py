@@ -9,7 +9,7 @@ from math import cos, hypot, pi
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import Field, ValidationError
+from pydantic import Field, ValidationError, field_validator
 
 from ehlcontact.checks.admissible_range import INPUTS
 from ehlcontact.cli import entries as e
@@ -74,6 +74,13 @@ class Oil(Section):
     density_15: e.Density15 | None = None
     viscosity: e.ViscosityLaw = "roelands"
     density: e.DensityLaw = "dowson-higginson"
+
+    @field_validator("iso_vg", mode="before")
+    @classmethod
+    def _grade_of_name(cls, value: Any) -> Any:
+        """The grade of a name, 100 of "ISO VG 100", as `--oil` takes it; a number in quotes stays refused."""
+        found = _GRADE.fullmatch(value.strip()) if isinstance(value, str) else None
+        return value if found is None or value.strip() == found[1] else int(found[1])
 
     @property
     def label(self) -> str:

@@ -165,10 +165,19 @@ def _with_shares(points: Sequence[Point], shares: Any) -> tuple[Point, ...]:
     if not isinstance(shares, list) or len(shares) != len(points):
         count = f"{len(shares)} of them" if isinstance(shares, list) else shares
         allowed = f"a list of one for each point, of which this study has {len(points)}"
-        raise InputError(SHARES, count, allowed)
+        guess = _with_commas(shares, len(points)) if isinstance(shares, list) else ""
+        raise InputError(SHARES, count, f"{allowed} ({guess})" if guess else allowed)
     return tuple(
         replace(point, share=share) for point, share in zip(points, require_shares(SHARES, shares), strict=True)
     )
+
+
+def _with_commas(shares: Sequence[Any], points: int) -> str:
+    """What shares with decimal commas were probably meant as, in words: TOML reads 0,6 as two numbers."""
+    if len(shares) != 2 * points or not all(type(one) is int and one >= 0 for one in shares):
+        return ""
+    meant = (f"{whole}.{decimals}" for whole, decimals in zip(shares[::2], shares[1::2], strict=True))
+    return f"[{', '.join(meant)}]? decimals have a point"
 
 
 def expanded(
