@@ -98,6 +98,23 @@ def test_unbalance_of_a_grade():
         of(MOTOR.replace("unbalance = 1e-5", "unbalance = 1e-5\nbalance_grade = 2.5"))
 
 
+def test_one_rotor_has_one_unbalance_at_all_speeds_of_a_study(tmp_path):
+    """That of the highest speed, of a list or of a range."""
+    graded = MOTOR.replace("unbalance = 1e-5", "balance_grade = 2.5")
+    several = tomllib.loads(graded.replace("speed_rpm = 15000.0", "speed_rpm = [9000.0, 15000.0, 12000.0]"))
+    points = points_of(several, tmp_path)
+    assert [point.study.speed_rpm for point in points] == [9000.0, 15000.0, 12000.0]
+    (unbalance,) = {disc_of(point.study, 0).unbalance for point in points}
+    assert unbalance == disc_of(of(graded), 0).unbalance
+    study = of(graded + '[uncertain]\n"operation.speed_rpm" = [12000.0, 20000.0]\n')
+    known = {disc_of(machine_of(study, {"operation.speed_rpm": rpm}), 0).unbalance for rpm in (13000.0, 19000.0)}
+    assert known == {disc_of(study, 0).unbalance} == {0.75 * unbalance}
+    service = of(graded.replace("balance_grade = 2.5", "balance_grade = 2.5\nbalance_speed_rpm = 30000.0"))
+    assert disc_of(service, 0).unbalance == 0.5 * unbalance
+    with pytest.raises(InputError, match=r"disc.balance_speed_rpm = 9000.0: must be left out without"):
+        of(MOTOR.replace("unbalance = 1e-5", "unbalance = 1e-5\nbalance_speed_rpm = 9000.0"))
+
+
 def test_intervals_of_a_bearing(sampled):
     """Clearance puts the load on fewer balls: what moves what, and the table of all samples."""
     study, machine, found, folder = sampled

@@ -15,6 +15,7 @@ from ehlcontact.cli.study.answer import NAMES
 from ehlcontact.cli.study.differences import Events, RotorFindings
 from ehlcontact.cli.study.forecast import cautions, discs_without_inertia, seals_left_out
 from ehlcontact.cli.study.loads import by_formula, places_of_bearings
+from ehlcontact.cli.study.machine import balance_speed, disc_of
 from ehlcontact.cli.study.reduction import CONTACT_BAND, CONTACTS, DRY, FULL, MEMORY, ROTOR_BAND, UNDAMPED
 from ehlcontact.cli.study.results import ContactFindings, Findings
 from reduced_models.bearing.catalogue import ROWS, designation_of
@@ -77,7 +78,18 @@ def operating_line(found: Findings) -> str:
         return f"{name[0].upper()}{name[1:]} under {load} {speed}{turns}, {oil}."
     on = [f"{name} ({load})" for name, load in parts]
     stands = " and ".join(filter(None, (", ".join(on[:-1]), on[-1])))
-    return f"Shaft on {stands} {speed}, {oil}."
+    return f"Shaft on {stands} {speed}, {oil}{_of_grades(study)}."
+
+
+def _of_grades(study: Study) -> str:
+    """Unbalances of balance grades, after a comma."""
+    said = []
+    for k, disc in enumerate(study.disc):
+        if disc.balance_grade is not None:
+            name = "the disc" if len(study.disc) == 1 else f"disc {k + 1}"
+            amount, speed = numeral(1e6 * disc_of(study, k).unbalance, 3), numeral(balance_speed(study, k), 6)
+            said.append(f"{amount} g mm at {name} (G {disc.balance_grade:g} at {speed} rev/min)")
+    return f", unbalance {' and '.join(said)}" if said else ""
 
 
 def load_words(load: Any) -> str:

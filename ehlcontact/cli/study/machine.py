@@ -509,13 +509,21 @@ def _balanced(study: Study, k: int, given: dict[str, Any], how: str = "") -> dic
     """Arguments of a disc, with the unbalance of its balance grade where that is given."""
     one = study.disc[k]
     if one.balance_grade is None:
+        if one.balance_speed_rpm is not None:
+            allowed = f"left out without {disc_field(study, k, 'balance_grade')}"
+            raise InputError(disc_field(study, k, "balance_speed_rpm"), one.balance_speed_rpm, allowed)
         return given
     if one.unbalance:
         allowed = f"left out where {disc_field(study, k, 'balance_grade')} is given"
         raise InputError(disc_field(study, k, "unbalance"), one.unbalance, allowed)
     with called(disc_field(study, k, ""), SIZES_OF_DISC):
         mass = float(Part(Disc, given, how).made().mass)
-    return given | {"unbalance": grade_unbalance(one.balance_grade, mass, study.speed_rpm)}
+    return given | {"unbalance": grade_unbalance(one.balance_grade, mass, balance_speed(study, k))}
+
+
+def balance_speed(study: Study, k: int) -> float:
+    """Speed of the balance grade of a disc [rev/min]: a rotor has one unbalance, that of its highest speed."""
+    return study.disc[k].balance_speed_rpm or study.highest_rpm
 
 
 def places_of(study: Study) -> list[float]:

@@ -205,6 +205,13 @@ class Study(Section):
         """Speed of the shaft [rev/min]."""
         return self.operation.speed_rpm
 
+    @cached_property
+    def highest_rpm(self) -> float:
+        """Highest speed of the shaft [rev/min], with that of [uncertain]."""
+        from ehlcontact.cli.study.uncertain import highest_of
+
+        return highest_of(self, "operation.speed_rpm", self.speed_rpm)
+
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the supports: their own; left and right of two; else by their number."""

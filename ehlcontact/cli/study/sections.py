@@ -120,7 +120,10 @@ class Disc(Section):
     unbalance: Annotated[e.NotNegative, e.meaning("kg m, mass times eccentricity")] = 0.0
     balance_grade: Annotated[
         e.Positive | None,
-        Field(le=4000.0, description="mm/s, G of ISO 21940-11 at the speed, of its mass, in place of unbalance"),
+        Field(le=4000.0, description="mm/s, G of ISO 21940-11, of its mass, in place of unbalance"),
+    ] = None
+    balance_speed_rpm: Annotated[
+        e.Speed | None, e.meaning("of balance_grade, the highest in service; the highest of the study if left out")
     ] = None
     radial_load: Annotated[e.Force, e.meaning("N, beside its weight, downwards")] = 0.0
     axial_load: Annotated[e.Force, e.meaning("N, along the shaft, to the right")] = 0.0

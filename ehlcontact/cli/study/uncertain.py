@@ -116,6 +116,15 @@ def _require_parts(study: Study) -> None:
         disc_of(study, k)
 
 
+def highest_of(study: Study, entry: str, nominal: float) -> float:
+    """Upper end of the range of an entry, or the nominal value where that is higher, or no range is given."""
+    given = {} if study.uncertain is None else study.uncertain.spreads
+    if entry not in given:
+        return nominal
+    found = spread_of(f"{SECTION}.{entry}", given[entry])
+    return max(nominal, float(found.ppf(1.0 if _has_ends(found) else 0.975)))
+
+
 def _has_ends(distribution: Any) -> bool:
     return all(isfinite(end) for end in distribution.support())
 
@@ -138,6 +147,11 @@ def machine_of(study: Study, values: dict[str, float]) -> Study:
             table[key] = value
             for other in BALANCE - {key} if key in BALANCE else ():
                 table.pop(other, None)
+    for disc in document.get("disc", ()):
+        if "balance_grade" in disc:
+            disc.setdefault("balance_speed_rpm", study.highest_rpm)  # of one machine, at all of its speeds
+        else:
+            disc.pop("balance_speed_rpm", None)
     try:
         return Study.model_validate(document)
     except ValidationError as error:
@@ -181,7 +195,9 @@ class Batch:
         known = entries_of(study)
         for section, k, key in (place for entry in given.spreads for place in known[entry]):
             (machine[section] if k is None else machine[section][k]).pop(key, None)
-        return key_of([FILES, machine, list(given.spreads), study.sample_rows[self.first : self.last]])
+        return key_of(
+            [FILES, machine, study.highest_rpm, list(given.spreads), study.sample_rows[self.first : self.last]]
+        )
 
     def file(self, folder: Path) -> Path:
         """Where its samples stand."""

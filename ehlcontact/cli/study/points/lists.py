@@ -22,7 +22,7 @@ from ehlcontact.cli.toml import read_toml
 from ehlcontact.errors import InputError
 from reduced_models.life.system_life import require_shares
 
-SHARES = "operation.shares"
+SHARES, SPEED = "operation.shares", "operation.speed_rpm"
 UNITS = "mm", "um", "deg", "rpm", "mrad"  # at the end of names of entries
 USUAL = {"operation.speed_rpm": "rpm", "operation.radial_load": "N"}  # entries that every point is named by
 MOST = 100  # points: at some minutes each what a night has room for
@@ -216,10 +216,21 @@ def expanded(
             section[key] = value
             if len(one.values) > 1 and one.entry not in USUAL:
                 chosen.append(Chosen(one.entry, one.unit, value))
+        for speeds in (one.values for one in lists if one.entry == SPEED):
+            _balance(own, speeds)
         if count > 1 and isinstance(document.get("title", ""), str):
             own["title"] = f"{document.get('title', TITLE)}, {_said(own, chosen)}"
         found.append((own, tuple(chosen)))
     return found
+
+
+def _balance(document: dict[str, Any], speeds: Sequence[Any]) -> None:
+    """Give balance grades without a speed the highest of a list: one rotor has one unbalance at all of them."""
+    numbers = [speed for speed in speeds if isinstance(speed, int | float)]
+    discs = document.get("disc")
+    for disc in discs if numbers and isinstance(discs, list) else ():
+        if isinstance(disc, dict) and "balance_grade" in disc:
+            disc.setdefault("balance_speed_rpm", float(max(numbers)))
 
 
 def lists_of(document: Mapping[str, Any]) -> list[_List]:
