@@ -152,6 +152,12 @@ class TestMotor:
         axial, backward, forward = map(machine.amplification, machine.critical_speeds)
         assert 0.5 < axial < 1.0 and backward < 0.5 and forward > 1e3
 
+    def test_no_critical_speed_says_how_far_it_was_looked_for(self, machine: MachineState) -> None:
+        slow = replace(machine.diagram, omega=3.0 * machine.diagram.omega[:, 1:])
+        tile = next(one for one in replace(machine, diagram=slow).tiles() if one.name == "critical speed")
+        assert (tile.value, tile.unit) == ("none up to 30000", "rev/min")
+        assert tile.note == "looked for from 2000 rev/min to 2 times the speed"
+
     def test_films_are_as_sure_as_atlas_and_oil(self, machine: MachineState) -> None:
         support = machine.worst_support
         answer = support.bearing.race("inner").answer(support.ball_load, RPM)
