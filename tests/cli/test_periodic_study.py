@@ -170,6 +170,22 @@ def test_the_task_of_a_study(study, tmp_path):
     compile(text, "machine.py", "exec")
 
 
+def test_a_branch_is_followed_once_for_all_speeds_of_a_study(study):
+    """What it depends on is its range; the speed of the study alone where bearings are on fits."""
+    fits = 'bearing = "6205"\nshaft_fit = "k5"\nhousing_fit = "H6"\n'
+    fitted = [("clearance = -3.0\n", ""), ('bearing = "6205"\n', fits)]
+    slower = ("speed_rpm = 8000.0", "speed_rpm = 7000.0")
+
+    def key(*changes):
+        one = load_study(study(FAN + PERIODIC, *changes))
+        return branches_of(one)[0].key(one)
+
+    assert key() == key(slower)
+    assert key(*fitted) != key(*fitted, slower)
+    for change in (("to_rpm = 9100.0", "to_rpm = 9200.0"), ("unbalance = 1.0e-6", "unbalance = 2.0e-6")):
+        assert key() != key(change)
+
+
 def test_interrupted_branches_are_kept(study, monkeypatch):
     one = load_study(study(FAN + PERIODIC))
     made = branch(JUMP[:2], status=Status.INTERRUPTED).branch

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ehlcontact.cli.numerals import numeral
-from ehlcontact.cli.study.machine import disc_of, rotor_of
+from ehlcontact.cli.study.machine import clearance_of, disc_of, rotor_of
 from ehlcontact.cli.study.stages import Answer, reporting
 from ehlcontact.content_store import key_of
 from ehlcontact.errors import ConvergenceError, InputError
@@ -69,8 +69,10 @@ class Branch:
         return each * ANSWERS * asked.samples_per_period * len(study.support)
 
     def key(self, study: Study) -> str:
-        """Hash of what it computes."""
-        return key_of([SECTION, study.model_dump(mode="json", exclude_none=True, include=set(OF_MACHINE))])
+        """Hash of what it computes: of the speed of the study that alone by which the machine is another one."""
+        document = study.model_dump(mode="json", exclude_none=True, include=set(OF_MACHINE))
+        document["operation"].pop("speed_rpm")
+        return key_of([SECTION, document, *_by_speed(study)])
 
     def file(self, folder: Path) -> Path:
         """Where it stands."""
@@ -79,6 +81,13 @@ class Branch:
     def partial(self, folder: Path) -> Path:
         """Where a branch stands that was interrupted."""
         return folder / f"{SECTION}.partial.h5"
+
+
+def _by_speed(study: Study) -> list[list[float]]:
+    """What the speed of a study changes of its machine: bearings on fits, and discs of a balance grade."""
+    mounted = [clearance_of(study, k) for k in range(len(study.support))]
+    fits = [] if all(one is None for one in mounted) else [study.speed_rpm]
+    return [fits, [disc_of(study, k).unbalance for k in range(len(study.disc))]]
 
 
 def branches_of(study: Study) -> tuple[Branch, ...]:
