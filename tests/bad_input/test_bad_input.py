@@ -169,6 +169,7 @@ LEAST = {  # of sections that the small study does not have
     "disc": [{"position_mm": 1.0}],
     "defect": [{"spall": "outer,1,1"}],
     "damper": [{"length_mm": 20.0, "diameter_mm": 80.0, "clearance_um": 100.0}],
+    "periodic": {"from_rpm": 1000.0, "to_rpm": 2000.0},
 }
 
 
