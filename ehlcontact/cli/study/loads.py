@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ehlcontact.cli.numerals import numeral
 from ehlcontact.cli.spall import require_fit, spall_of
 from ehlcontact.cli.study.machine import (
     bearing_of,
@@ -34,6 +35,7 @@ from reduced_models.bearing.equilibrium_result import BearingState
 from reduced_models.bearing.freedoms import PLANAR
 from reduced_models.bearing.motion import LEAST_STEPS
 from reduced_models.bearing.set_result import SetState
+from reduced_models.life.load_ratings import LoadRatings
 
 if TYPE_CHECKING:
     from ehlcontact.cli.study.schema import Study
@@ -211,14 +213,19 @@ def loaded(study: Study) -> Iterator[None]:
 
 
 def _carried(study: Study, k: int, load: Any) -> tuple[str, Any]:
-    """Entry and value that load a support most: the spring or preload of its axial load, else the load itself."""
-    axial = abs(load[2]) if len(load) > len(PLANAR) else 0.0
+    """Entry and value that load a support most: the spring or preload of its axial load, else the load itself.
+
+    A radial load above the axial one is no matter of what presses the bearing along the shaft.
+    """
+    axial = abs(load[2]) if len(load) > len(PLANAR) and abs(load[2]) >= hypot(*load[:2]) else 0.0
     for place, one in enumerate(study.support):
         for key in ("spring", "preload", "pair_spring"):
             force = getattr(one, key) or 0.0
             if 0.0 < axial < 2.0 * force and force < 2.0 * axial:
                 return support_field(study, place, key), force
-    return f"support.{study.names[k]}", f"{hypot(*load[:3]):.4g} N"
+    rating = LoadRatings.of(bearing_of(study, k).tables.internals).static
+    told = f"a load of {numeral(hypot(*load[:3]))} N, with a static rating of {numeral(rating)} N"
+    return f"support.{study.names[k]}", told
 
 
 def require_machine(study: Study) -> None:
