@@ -35,6 +35,7 @@ AXES = {"z": (0, 1, 2), "x": (2, 0, 1), "y": (1, 2, 0)}  # shaft along: x, y, z 
 LENGTHS = {"m": 1.0, "mm": 1e3}  # in a metre
 ELSEWHERE = ("UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ")
 SIGNS = "F = K u + C du/dt is the force on the shaft that holds its displacement u against the housing"
+SPELLED = str.maketrans({"µ": "u", "±": "+-", "°": "deg"})  # of comments
 DMIG_NODES = 10**6  # distinct ones in names of at most 8 characters
 NOTED = 1e-3  # of K, unsymmetric: what a symmetric element leaves out is warned of
 
@@ -152,7 +153,9 @@ def _head(table: BearingMatrices, placed: Placed, of: str) -> list[str]:
 
 
 def _commented(mark: str, lines: Sequence[str]) -> list[str]:
-    return [f"{mark} {line}".rstrip() for line in lines]
+    """Comments in ASCII, which is all that readers of input decks take."""
+    plain = (line.translate(SPELLED).encode("ascii", "replace").decode() for line in lines)
+    return [f"{mark} {line}".rstrip() for line in plain]
 
 
 def _joined(*parts: Sequence[str]) -> str:

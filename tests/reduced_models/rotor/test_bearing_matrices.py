@@ -236,6 +236,11 @@ class TestTexts:
         for words in ("o------ X", turns, units, signs, "(0, 0, 20) mm from"):
             assert words in text
 
+    def test_comments_are_ascii(self, moved: BearingMatrices) -> None:
+        noted = replace(moved, name="Lüfter", reservations=("film 0.24 µm ± 9.4 % at 70 °C",))
+        text = noted.text("nastran-dmig", speed_rpm=3000.0, hz=50.0)
+        assert text.isascii() and "film 0.24 um +- 9.4 % at 70 degC" in text and "L?fter" in text
+
     def test_axes_of_the_other_program(self, moved: BearingMatrices) -> None:
         text = moved.text("links", hz=50.0, shaft_along="x")
         values = {
