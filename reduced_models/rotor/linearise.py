@@ -34,6 +34,7 @@ from reduced_models.elements.base import ContactElement
 from reduced_models.rotor.control import Signals, linear_block
 from reduced_models.rotor.damping_budget import DampingBudget, budget_of
 from reduced_models.rotor.equilibrium import require_held
+from reduced_models.rotor.linear_bearing import LinearBearing
 from reduced_models.rotor.linear_contact import ContactImpedance, LinearElement, WithoutLoss
 from reduced_models.rotor.linear_system import eigenmodes
 from reduced_models.rotor.loss_parts import (
@@ -401,8 +402,24 @@ class LinearRotor(Summary):
         K, held = self.matrices[2], self.support_impedance(1j * s.imag).real
         in_supports, in_shaft = (float(np.real(shape.conj() @ part @ shape)) for part in (held, K))
         pairs = [*(m.ends[0][:2] for m in self.rotor.mounts), *((u.x, u.y) for u in self.rotor.unbalances)]
-        share = in_supports / (in_supports + in_shaft)
-        return RotorMode(s, shape, whirl_of(shape, pairs), share, *flat_nodes(self.rotor.nodes))
+        whole = in_supports + in_shaft
+        housings = float(np.real(shape.conj() @ self._housing_springs @ shape)) / whole
+        found = whirl_of(shape, pairs), in_supports / whole
+        return RotorMode(s, shape, *found, *flat_nodes(self.rotor.nodes), housings)
+
+    @cached_property
+    def _housing_springs(self) -> _Floats:
+        """Part of the stiffness that holds housings on the ground, springs of dampers among it."""
+        nodes = self.rotor.nodes.items()
+        places = [at for name, own in nodes if name.startswith("housing ") for at in own.values()]
+        block, found = np.ix_(places, places), np.zeros_like(self.rotor.stiffness)
+        if places:
+            found[block] = self.rotor.stiffness[block]
+        for mount in self.rotor.bearings:
+            if isinstance(mount.bearing, LinearBearing) and set(mount.ends[0]) <= set(places):
+                rows = mount.rows(self.rotor.size)
+                found += rows.T @ mount.bearing.at(abs(self.speed_rpm))[0] @ rows
+        return found
 
     @cached_property
     def _exact(self) -> tuple[_Complex, _Complex] | None:

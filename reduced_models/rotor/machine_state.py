@@ -45,6 +45,7 @@ from reduced_models.rotor.modes import ALONG, RotorMode
 from reduced_models.rotor.picture import campbell_picture
 from reduced_models.rotor.rotor import Rotor
 from reduced_models.rotor.support_state import SupportState, states_of, support_of, support_state
+from reduced_models.rotor.supports import BearingMount
 from reduced_models.rotor.unbalance import amplification, response_of
 from reduced_models.rotor.unbalance_result import UnbalanceResponse
 
@@ -99,6 +100,9 @@ class MachineState(Summary):
         unbalances at all nodes where the rotor has none. Empty where it is not known.
     peaks : UnbalanceResponse or None
         Over speeds about the critical ones that an unbalance excites: peaks are narrower than steps of `response`.
+    ring_orbits : tuple of float
+        Of each support: semi-major axis of the orbit of the inner ring in the outer one [m], under the unbalance
+        at the speed; empty without an unbalance.
     highest_speed : float
         Up to which the data cover this machine [rev/min]: films of the most loaded contacts are in the atlas, and
         its balls stay between the races; infinite where all bearings are dry, or it was not looked for.
@@ -127,6 +131,7 @@ class MachineState(Summary):
     response: UnbalanceResponse | None = None
     amplifications: tuple[float, ...] = ()
     peaks: UnbalanceResponse | None = None
+    ring_orbits: tuple[float, ...] = ()
     highest_speed: float = inf
     ends: str = ""
     failed: tuple[str, ...] = ()
@@ -359,6 +364,13 @@ def _orbit(response: UnbalanceResponse, k: int, node: int) -> LargestResponse:
     return LargestResponse(float(response.major[k, node]), name, float(response.speed_rpm[k]))
 
 
+def _orbits(linear: LinearRotor, mounts: Sequence[BearingMount]) -> tuple[float, ...]:
+    """Semi-major axes of the motions of bearings or dampers under the unbalances at the speed [m]."""
+    q = linear._unbalanced(linear.speed_rpm * RPM_TO_RAD_S)
+    moved = (mount.rows(q.size)[:2] @ q for mount in mounts)
+    return tuple(float(0.5 * (abs(x + 1j * y) + abs(x - 1j * y))) for x, y in moved)
+
+
 def _largest(response: UnbalanceResponse | None) -> LargestResponse | None:
     if response is None:
         return None
@@ -489,6 +501,7 @@ def machine_state(
         budget=None if budget is None else budget.renamed(partial(_part_label, labels)),
         diagram=diagram,
         response=response,
+        ring_orbits=() if response is None else _orbits(linear, rotor.ball_bearings),
         highest_speed=highest,
         ends=ends,
     )

@@ -14,12 +14,11 @@ from reduced_models.rotor.support_state import ABOVE_MEASURED, RELY_ON_SKF
 WHIRLS = "forward", "backward"
 AXIS = {"x": 0, "y": 1, "z": 2}
 MARGIN = 0.15  # of the speed, least separation of a critical speed
-HALF = 50.0  # %, of the strain energy
 FULL_FILM = 3.0  # lambda from which films keep the surfaces apart
 BRIEF = 2  # parts of a note in a line, at most
 HEAVIER = 0.01  # share of a ball load, above which the centrifugal force of the ball is named
 SKF_WITHOUT_PRELOAD = "SKF's model has the load of a bearing alone: a clearance below 0 adds friction to it"
-LINEAR = 1.0  # displacement by unbalance over the approach of the balls, up to which it is small
+LINEAR = 1.0  # motion of a ring in the other by unbalance over the approach of the balls, up to which it is small
 
 
 class Tile(NamedTuple):
@@ -379,9 +378,16 @@ def _near_critical(machine: Any) -> str:
     own = machine.nearest_critical
     if own is None or not machine.modes or not machine.is_excited(own) or abs(machine.margin(own)) >= MARGIN:
         return ""
-    share = 100.0 * min(machine.modes, key=lambda one: abs(one.hz - own.hz)).support_share
-    bends = f"{digits(100.0 - share, 2)} % of its strain energy is in the shaft, {digits(share, 2)} % in bearings"
-    moves = "a stiffer or shorter shaft moves it" if share < HALF else "more preload or stiffer bearings move it"
+    mode = min(machine.modes, key=lambda one: abs(one.hz - own.hz))
+    springs = f", {digits(100.0 * mode.housing_share, 2)} % in springs of housings" if mode.housing_share else ""
+    shaft = 1.0 - mode.support_share - mode.housing_share
+    bends = f"{digits(100.0 * shaft, 2)} % of its strain energy is in the shaft, "
+    bends += f"{digits(100.0 * mode.support_share, 2)} % in bearings{springs}"
+    _, moves = max(
+        (shaft, "a stiffer or shorter shaft moves it"),
+        (mode.support_share, "more preload or stiffer bearings move it"),
+        (mode.housing_share, "stiffer or softer springs of the housings move it"),
+    )
     there = f"{digits(own.speed_rpm, 5)} rev/min, {_side(machine, own)}"
     way = f" {_way(machine, own)}" if machine.is_coupled(own) else ""
     return f"unbalance excites a mode{way} at {there}: {bends}, so {moves}"
@@ -404,19 +410,15 @@ def _thin_film(machine: Any) -> str:
 
 
 def _large_response(machine: Any) -> str:
-    """Response at the operating speed that is not small beside the approach of the balls."""
+    """Motion of a ring in the other at the operating speed that is not small beside the approach of the balls."""
     if machine.response is None:
         return ""
-    k = int(abs(machine.response.speed_rpm - machine.speed_rpm).argmin())
-    for number, support in enumerate(machine.supports):
-        name = f"bearing {number}"
-        if name not in machine.response.names:
-            continue
-        moved = float(machine.response.major[k, machine.response.names.index(name)])
+    for support, moved in zip(machine.supports, machine.ring_orbits, strict=False):
         pressed = max(float(state.approach[state.heaviest].sum()) for _, state in support.bearings)
         if moved > LINEAR * pressed:
             size = f"{digits(1e6 * moved)} µm, its balls are pressed in by {digits(1e6 * pressed)} µm"
             return (
-                f"unbalance moves {support.label} by {size}: no small vibration; balance better, or run it in time"
+                f"unbalance moves the inner ring of {support.label} in its outer ring by {size}: no small"
+                " vibration; balance better, or run it in time"
             )
     return ""

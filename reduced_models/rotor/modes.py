@@ -59,11 +59,13 @@ class RotorMode(Summary, ByNode):
         1: nodes circle with the shaft (from x to y); -1: against it; 0: they move on straight lines. Mean over
         the nodes of supports and unbalances, weighed by their squared displacements.
     support_share : float
-        Of the strain energy, in the supports that are not linear; the rest bends the shaft.
+        Of the strain energy, in the supports that are not linear.
     names : tuple of str
         Names of degrees of freedom, as "disc x".
     places : ndarray, shape (len(names),)
         Those degrees of freedom.
+    housing_share : float
+        Of the strain energy, in the springs between housings and the ground, those of dampers among them.
     """
 
     eigenvalue: complex
@@ -72,6 +74,7 @@ class RotorMode(Summary, ByNode):
     support_share: float
     names: tuple[str, ...]
     places: NDArray[np.int64]
+    housing_share: float = 0.0
 
     def _summary_lines(self) -> list[str]:
         return [
@@ -138,7 +141,7 @@ class RotorMode(Summary, ByNode):
 
     def to_dict(self) -> dict[str, float | str]:
         """Frequency, decrement, shares and reservation, ready for JSON."""
-        names = "hz", "decrement", "vertical_share", "support_share", "reservation"
+        names = "hz", "decrement", "vertical_share", "support_share", "housing_share", "reservation"
         return {name: getattr(self, name) for name in names}
 
     def node(self, name: str) -> _Complex:

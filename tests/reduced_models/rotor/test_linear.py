@@ -1,5 +1,6 @@
 """Linear rotors against one mass on a spring, and against time integration."""
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -7,7 +8,17 @@ import pytest
 from rotor_twins import MASS, POINT, C, K, carried, omega_of, one_mass, spring
 
 from ehlcontact import Grid, InputError, MoesPoint, impedance
-from reduced_models import Atlas, SpringContact, jeffcott_rotor, linearise, simulate_rotor
+from reduced_models import (
+    Atlas,
+    LinearBearing,
+    Shaft,
+    SpringContact,
+    Support,
+    jeffcott_rotor,
+    linearise,
+    rotor_on_bearings,
+    simulate_rotor,
+)
 from reduced_models.rotor.linear_contact import film_impedance, impedance_about
 
 
@@ -137,3 +148,22 @@ def test_modes_on_elements_are_roots_with_the_memory_of_their_films():
         assert np.abs(T @ mode.shape).max() < 1e-9 * np.abs(T).max()
         frozen = at.support_impedance(1j * s.imag)
         assert abs(s.real) > 1e-3 * s.imag and not np.allclose(at.support_impedance(s), frozen, rtol=1e-6)
+
+
+def test_springs_of_housings_have_their_share_of_the_strain_energy():
+    """Rigid shaft on springs in series, 3e7 on 1e7 N/m: energies are as compliances, 3/4 in the housings."""
+    shaft = Shaft(length=0.1, diameter=0.1)
+    supports = [
+        Support(
+            position=at,
+            bearing=LinearBearing(3e7 * np.eye(2), np.zeros((2, 2))),
+            housing_mass=1e-3,
+            housing_stiffness=1e7,
+        )
+        for at in (0.0, 0.1)
+    ]
+    slow, *_ = linearise(rotor_on_bearings(shaft, supports=supports), 100.0).modes(1)
+    assert slow.housing_share == pytest.approx(0.75, rel=0.01)
+    grounded = [replace(one, housing_mass=None, housing_stiffness=None) for one in supports]
+    stands, *_ = linearise(rotor_on_bearings(shaft, supports=grounded), 100.0).modes(1)
+    assert stands.housing_share == 0.0

@@ -296,3 +296,28 @@ class TestRefused:
     def test_names_for_another_number_of_bearings(self) -> None:
         with pytest.raises(InputError, match="names"):
             machine_state(motor(), RPM, names=("left",))
+
+
+@pytest.mark.long
+def test_soft_housings_move_with_their_bearings() -> None:
+    """The advice is about the springs of the housings; a ring moves in the other by far less than with it."""
+
+    def fan(unbalance: float) -> MachineState:
+        seat = {"bearing": bearing("6205", clearance=-3e-6), "housing_mass": 0.4, "housing_stiffness": 4e6}
+        rotor = rotor_on_bearings(
+            Shaft(length=0.3, diameter=0.03),
+            discs=[Disc.cylinder(position=0.15, diameter=0.15, width=0.05, bore=0.03, unbalance=unbalance)],
+            supports=[Support(position=0.03, **seat), Support(position=0.27, **seat)],
+        )
+        return machine_state(rotor, 9000.0, names=("left", "right"), fine=False)
+
+    state = fan(2e-5)
+    critical, *others = state.concerns
+    assert not any("in its outer ring" in text for text in others)
+    assert state.modes[0].housing_share == pytest.approx(0.803, abs=2e-3)
+    assert "80 % in springs of housings, so stiffer or softer springs of the housings move it" in critical
+    k = int(np.argmin(np.abs(state.response.speed_rpm - 9000.0)))
+    at_bearing = state.response.major[k, state.response.names.index("bearing 0")]
+    pressed = max(float(one.approach[one.heaviest].sum()) for _, one in state.supports[0].bearings)
+    assert state.ring_orbits[0] < pressed < at_bearing
+    assert any("left 6205 in its outer ring by" in text for text in fan(2e-4).concerns)
