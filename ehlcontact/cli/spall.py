@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 OPTION = "--spall"
 WORDS = "race,length,depth, as outer,0.5,3: mm along the track, um"
 SHOWN = 10  # lines in a table
+ROUNDING = 1e-12  # of the largest force, below which another one is rounding
 UNITS = {
     "spall": "SI; its middle at angle [rad], on the outer race under the load",
     "lines": "of the force on the ring, linear in the depth; reservation: where they are not",
@@ -73,6 +74,7 @@ def show(spall: Spall, orders: DefectOrders | None, found: BearingExcitation) ->
     defect, name = (orders.bpfi_order, "BPFI") if spall.race == "inner" else (orders.bpfo_order, "BPFO")
     axes = FIVE[: min(found.load.size, 3)]
     forces = found.amplitude[:, : len(axes)]
+    forces = np.where(forces > ROUNDING * forces.max(), forces, 0.0)
     strongest = np.sort(np.where(found.order > 0.0, forces.max(axis=1), 0.0).argsort()[::-1][:SHOWN])
     rows = [
         [

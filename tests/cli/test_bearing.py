@@ -459,6 +459,9 @@ def test_lines_of_a_spall(call):
     assert row.split()[0] == f"{slipping - 1.0:.5g}"
     deep = call("bearing", "6205", *OIL, "--load", "500", "--speed-rpm", "1800", "--spall", "outer, 0.5, 3").out
     assert "NOT LINEAR" in deep and "BPFO" in deep
+    wheel = ("6204", "--load", "500", "--speed-rpm", "1800", "--turning", "outer", "--spall", "outer,0.5,0.02")
+    rows = call("bearing", *wheel, *OIL).out.splitlines()
+    assert next(row for row in rows if " BPFO " in row and "2 BPFO" not in row).split()[3] == "0"
 
 
 @pytest.mark.long
