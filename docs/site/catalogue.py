@@ -97,9 +97,11 @@ Ratings do not say how their maker rates. Two practices differ from the standard
 ```python
 from math import radians
 
-own = geometry_from_ratings(
-    20e-3, 42e-3, dynamic_rating=9800.0, static_rating=5350.0, conformity=(0.515, 0.53)
-).candidates[0].conformity  # GMN 6004: 9 balls of 6.35 mm in grooves of 0.518
+own = (
+    geometry_from_ratings(20e-3, 42e-3, dynamic_rating=9800.0, static_rating=5350.0, conformity=(0.515, 0.53))
+    .candidates[0]
+    .conformity
+)  # GMN 6004: 9 balls of 6.35 mm in grooves of 0.518
 spindle = geometry_from_ratings(
     20e-3, 42e-3, dynamic_rating=12200.0, static_rating=7600.0, contact_angle=radians(15.0), conformity=own
 )  # S 6004 C: 13 balls; with 0.52 they would be 14

@@ -81,7 +81,7 @@ def test_it_stands_alone_and_links_to_what_is_there(page):
 
 def test_every_figure_of_the_page_is_there(page, figures):
     found = re.findall(r'<figure id="figure-(\w+)">\s*<div class="plot" data-figure="(\w+)"', page.read_text())
-    assert len(found) == 23 and {name for name, _ in found} == {name for _, name in found} == set(figures)
+    assert len(found) == 24 and {name for name, _ in found} == {name for _, name in found} == set(figures)
 
 
 def line(figure, name, number=0):
@@ -309,4 +309,4 @@ def test_note_of_a_page_without_scripts(page, tmp_path):
     text = re.sub(r"<script.*?</script>", "", page.read_text(encoding="utf-8"), flags=re.S)
     (tmp_path / "bare.html").write_text(text, encoding="utf-8")
     out, said = dom(tmp_path / "bare.html")
-    assert "CONSOLE" not in said and out.count("drawn by JavaScript") == 23 and "plotly-logo" not in out
+    assert "CONSOLE" not in said and out.count("drawn by JavaScript") == 24 and "plotly-logo" not in out
