@@ -62,8 +62,9 @@ SHOWN, SEEN = 2.0, 1.08
 LOADED = re.compile(r"load of (bearing \d+) = \[[^\]]*\]: must be")  # of an `InputError`
 LARGE = re.compile(r"\d\.\d+e\+\d+")  # a number with exponent in a message
 # Whirl below which a mode turns backward; resonance of such a mode, or of one along the shaft, over the rest of
-# the response to unbalance, above which unbalance excites it: it is then most of the response there
-BACKWARD, EXCITED = -0.5, 1.0
+# the response to unbalance, above which unbalance excites it: as the amplification factor of API 617, below which
+# a resonance is no critical speed
+BACKWARD, EXCITED = -0.5, 2.5
 # Where many machines are answered: such parts of the speed, and frequencies over that of the shaft at the highest
 # speed up to which modes are followed; critical speeds are looked at again each
 COARSE, FOLLOWED = 3, 1.5
@@ -172,7 +173,7 @@ class MachineState(Summary):
         """Whether an unbalance excites its mode.
 
         One across the shaft always, wherever its unbalance may be; one along the shaft or against the rotation
-        where its resonance exceeds the rest of the response: bearings couple it to what unbalance moves.
+        where its resonance is 2.5 times the rest of the response: bearings couple it to what unbalance moves.
         """
         across = critical.whirl > BACKWARD and not self.is_axial(critical)
         return across or self.is_coupled(critical)
