@@ -89,6 +89,20 @@ def test_all_parts_of_the_machine_are_in_its_samples():
     ) == study.model_copy(update={"uncertain": None})
 
 
+@pytest.mark.parametrize(
+    ("entry", "words"),
+    [
+        ("support.lefty.clearance", r"of a support: drive end, fan end; or .support.clearance., that of all"),
+        ("support.fan end.clearanc", r"support.fan end.clearance\? an entry of"),
+        ("periodic.from_rpm", r"an entry of .* that is a number"),
+    ],
+)
+def test_what_is_no_entry_of_the_machine(entry, words):
+    text = f'{MOTOR}[periodic]\nfrom_rpm = 1000.0\nto_rpm = 2000.0\n[uncertain]\n"{entry}" = [5.0, 15.0]\n'
+    with pytest.raises(InputError, match=words):
+        of(text)
+
+
 def test_unbalance_of_a_grade():
     """U = G m / w, of the mass of the disc."""
     study = of(MOTOR.replace("unbalance = 1e-5", "balance_grade = 2.5"))

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 SECTION = "uncertain"
 # Sections that are no part of a machine; entries of all others may be uncertain
-BESIDE = {"title", "contact", "full_films", "in_time", "defect", "uncertain", "export"}
+BESIDE = {"title", "contact", "full_films", "in_time", "defect", "periodic", "uncertain", "export"}
 SETTINGS = "operation.shares", "operation.hz"  # of these, entries that are no input of the machine
 BALANCE = {"unbalance", "balance_grade"}  # of a disc: one stands in place of the other
 SIZE, BATCHES = 10, 400  # samples of a batch, or more where batches would be too many
@@ -94,6 +94,10 @@ def require_uncertain(study: Study) -> None:
             close = get_close_matches(entry, known, 1)
             hint = f"{close[0]}? " if close else ""
             allowed = f"{hint}an entry of [{'], ['.join(sections_of(study))}] that is a number, with its section"
+            section, _, rest = entry.partition(".")
+            name, _, key = rest.rpartition(".")
+            if section == "support" and name not in study.names and f"{section}.{key}" in known:
+                allowed = f'of a support: {", ".join(study.names)}; or "{section}.{key}", that of all'
             raise InputError(field, brief(value), allowed)
         for place in known[entry]:
             if place in places:
