@@ -1,8 +1,12 @@
 """Squeeze film dampers of a study: the rotor of the library, its script, and what is no damper."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from ehlcontact.cli.study.damper import too_long
+from ehlcontact.cli.study.forecast import cautions
 from ehlcontact.cli.study.machine import rotor_of
 from ehlcontact.cli.study.schema import load_study
 from ehlcontact.cli.study.scripts import python_text
@@ -87,6 +91,11 @@ def test_the_script_makes_the_rotor(study):
         ("clearance_um = 100.0", "", ("damper.clearance_um = None", "given")),
         ("clearance_um = 100.0", "clearance_um = 1e-4", ("damper.clearance_um = 0.0001", "in m? then 100 um")),
         ("clearance_um = 100.0", "clearance_um = 4000.0", ("damper.clearance_um = 4000.0", "tenth of the radius")),
+        (
+            "diameter_mm = 52.0",
+            "diameter_mm = 7.0",
+            ("damper.diameter_mm = 7.0", "some 53 mm, or more"),
+        ),
         ('"right"', '"middle"', ("damper.support = 'middle'", "left, right")),
         ("sealed", "open", ("damper.leakage = 0.2", "left out")),
         ("sealed", "shut", ("damper.seals = 'shut'", "'open' or 'sealed'")),
@@ -104,6 +113,19 @@ def test_the_script_makes_the_rotor(study):
 )
 def test_mistakes(refused, study, tmp_path, old, new, words):
     refused(words, "validate", study((old, new)), "-o", tmp_path / "out")
+
+
+def test_an_open_film_that_is_no_short_bearing(study):
+    """By orbits in the middle, F of the open over that of the sealed film: (L/D)^2/3; a groove halves the film."""
+    opened = ('seals = "sealed"\nleakage = 0.2\n', "")
+    long = ("length_mm = 12.0", "length_mm = 78.0")
+    assert too_long(load_study(study(opened))) == [] == too_long(load_study(study(long)))
+    (said,) = cautions(one := load_study(study(opened, long)))[-1:]
+    force = [replace(rotor_of(one).film_dampers[0].bearing, seals=seals) for seals in ("open", "sealed")]
+    ratio = np.divide(*(damper.linear().damping[0, 0] for damper in force))
+    assert ratio == pytest.approx(0.75, rel=1e-6) and "damper of right is 1.5 diameters long" in said
+    assert "its force is 0.75 times that" in said
+    assert "0.75 diameters" in too_long(load_study(study((opened[0], "groove = true\n"), long)))[0]
 
 
 def test_a_damper_needs_a_shaft(refused, tmp_path):

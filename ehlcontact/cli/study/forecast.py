@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 
 from ehlcontact.checks.admissible_range import MEASURED
+from ehlcontact.cli.study.damper import too_long
 from ehlcontact.cli.study.loads import defect_field, place_of, ring_load, spall_in
 from ehlcontact.cli.study.machine import bearing_of
 from ehlcontact.cli.study.periodic import Branch, branches_of
@@ -255,7 +256,7 @@ def _steps(stage: Stage, study: Study) -> tuple[int, int, float | None]:
 def cautions(study: Study) -> list[str]:
     """Warnings about grids and numbers that the study will run with, but not accurately."""
     contact = [] if study.contact is None else [*_coarse(study), *_outside(study)]
-    return [*contact, *discs_without_inertia(study), *_deep_spall(study)]
+    return [*contact, *discs_without_inertia(study), *too_long(study), *_deep_spall(study)]
 
 
 def discs_without_inertia(study: Study) -> list[str]:

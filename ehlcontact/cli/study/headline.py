@@ -12,6 +12,7 @@ import numpy as np
 
 from ehlcontact.cli.numerals import numeral, percent
 from ehlcontact.cli.study.answer import NAMES
+from ehlcontact.cli.study.damper import too_long
 from ehlcontact.cli.study.differences import Events, RotorFindings
 from ehlcontact.cli.study.forecast import cautions, discs_without_inertia, seals_left_out
 from ehlcontact.cli.study.loads import by_formula, places_of_bearings
@@ -108,6 +109,7 @@ def limits(found: Findings) -> list[str]:
     rest += [text for text in (without_films(found), damping_below_zero(found)) if text]
     rest += [] if found.periodic is None else found.periodic.reservations
     rest += [*clearances_apart(found), *discs_without_inertia(found.study), *seals_left_out(found.study)]
+    rest += too_long(found.study)
     if isinstance(machine, str):
         broken = "" if found.contact is None else found.contact.assumptions.headline
         return [*filter(None, [broken]), *rest]
