@@ -56,6 +56,7 @@ MODES = 6  # of the machine, the slowest
 # every second one, between which frequencies are straight within 1e-4
 PARTS, UP_TO, EVERY = 15, 2.0, 2
 ABOUT_A_PEAK = -1.0, -0.5, 0.0, 0.5, 1.0  # damping ratios beside a critical speed
+SMALL = 0.3  # eccentricity ratio of a damper up to which a linear film stands for it
 ROUNDING = 1e-9  # of a multiple of the speed
 # Frequencies that the picture shows: multiples of that of the shaft at the highest speed, and room above a mode
 SHOWN, SEEN = 2.0, 1.08
@@ -104,6 +105,9 @@ class MachineState(Summary):
     ring_orbits : tuple of float
         Of each support: semi-major axis of the orbit of the inner ring in the outer one [m], under the unbalance
         at the speed; empty without an unbalance.
+    eccentricities : tuple of (str, float)
+        Of each squeeze film damper: its name, and its largest eccentricity ratio by the response to the unbalance
+        at the speed, about static equilibrium, its film linear; empty without an unbalance.
     highest_speed : float
         Up to which the data cover this machine [rev/min]: films of the most loaded contacts are in the atlas, and
         its balls stay between the races; infinite where all bearings are dry, or it was not looked for.
@@ -133,6 +137,7 @@ class MachineState(Summary):
     amplifications: tuple[float, ...] = ()
     peaks: UnbalanceResponse | None = None
     ring_orbits: tuple[float, ...] = ()
+    eccentricities: tuple[tuple[str, float], ...] = ()
     highest_speed: float = inf
     ends: str = ""
     failed: tuple[str, ...] = ()
@@ -273,7 +278,13 @@ class MachineState(Summary):
         ]
         undamped = [f"{mode.hz:.4g} Hz: {mode.reservation}" for mode in self.modes if mode.reservation]
         own = (text for support in self.supports for text in support.reservations)
-        return (*self.failed, *growing, *undamped, *own)
+        moved = [f"{ratio:.2g} in the {name}" for name, ratio in self.eccentricities if ratio > SMALL]
+        large = (
+            f"linear dampers stand for their films up to an eccentricity ratio of {SMALL:g}; the response to"
+            f" unbalance goes to {', '.join(moved)}: periodic answers"
+            " ([periodic] of a study) are with the films as they are"
+        )
+        return (*self.failed, *growing, *undamped, *([large] if moved else []), *own)
 
     @property
     def concerns(self) -> tuple[str, ...]:
@@ -370,6 +381,17 @@ def _orbits(linear: LinearRotor, mounts: Sequence[BearingMount]) -> tuple[float,
     q = linear._unbalanced(linear.speed_rpm * RPM_TO_RAD_S)
     moved = (mount.rows(q.size)[:2] @ q for mount in mounts)
     return tuple(float(0.5 * (abs(x + 1j * y) + abs(x - 1j * y))) for x, y in moved)
+
+
+def _eccentricities(linear: LinearRotor, rotor: Rotor, labels: Mapping[str, str]) -> tuple[tuple[str, float], ...]:
+    """Of the dampers of a rotor: static displacement and orbit together over the clearance."""
+    mounts, size = rotor.film_dampers, rotor.size
+    still = [np.linalg.norm(mount.rows(size)[:2] @ linear.rest) for mount in mounts]
+    rows = zip(rotor.film_damper_names, mounts, still, _orbits(linear, mounts), strict=True)
+    return tuple(
+        (_part_label(labels, name), float(away + orbit) / mount.damper.clearance)
+        for name, mount, away, orbit in rows
+    )
 
 
 def _largest(response: UnbalanceResponse | None) -> LargestResponse | None:
@@ -503,6 +525,7 @@ def machine_state(
         diagram=diagram,
         response=response,
         ring_orbits=() if response is None else _orbits(linear, rotor.ball_bearings),
+        eccentricities=() if response is None else _eccentricities(linear, rotor, labels),
         highest_speed=highest,
         ends=ends,
     )

@@ -13,6 +13,7 @@ from reduced_models import (
     Disc,
     Rotor,
     Shaft,
+    SqueezeFilmDamper,
     Support,
     jeffcott_rotor,
     machine_state,
@@ -302,8 +303,9 @@ class TestRefused:
 def test_soft_housings_move_with_their_bearings() -> None:
     """The advice is about the springs of the housings; a ring moves in the other by far less than with it."""
 
-    def fan(unbalance: float) -> MachineState:
+    def fan(unbalance: float, damper: SqueezeFilmDamper | None = None) -> MachineState:
         seat = {"bearing": bearing("6205", clearance=-3e-6), "housing_mass": 0.4, "housing_stiffness": 4e6}
+        seat["damper"] = damper
         rotor = rotor_on_bearings(
             Shaft(length=0.3, diameter=0.03),
             discs=[Disc.cylinder(position=0.15, diameter=0.15, width=0.05, bore=0.03, unbalance=unbalance)],
@@ -321,3 +323,15 @@ def test_soft_housings_move_with_their_bearings() -> None:
     pressed = max(float(one.approach[one.heaviest].sum()) for _, one in state.supports[0].bearings)
     assert state.ring_orbits[0] < pressed < at_bearing
     assert any("left 6205 in its outer ring by" in text for text in fan(2e-4).concerns)
+    thin = SqueezeFilmDamper(length=0.006, diameter=0.07, clearance=8e-5, viscosity=0.01)
+    small, large = (
+        fan(1e-6, thin),
+        fan(9e-5, thin),
+    )  # the orbit is linear in the unbalance, beside the weight's part
+    (ratio, other), (name, most) = (one[1] for one in small.eccentricities), large.eccentricities[0]
+    assert ratio == pytest.approx(other, rel=1e-6) and name == "damper of left 6205"
+    places = large.response.names.index("housing 0")
+    orbits = [one.response.major[k, places] / 8e-5 for one in (small, large)]
+    assert most - ratio == pytest.approx(orbits[1] - orbits[0], rel=1e-6) and orbits[1] > 0.3 > ratio
+    said = [text for one in (small, large) for text in one.reservations if "linear dampers" in text]
+    assert len(said) == 1 and f"goes to {most:.2g} in the damper of left 6205, {most:.2g} in the damper" in said[0]
