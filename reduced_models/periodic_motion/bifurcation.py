@@ -37,7 +37,8 @@ MIXED = Quantity("m, or rad where it turns")
 MIXED_RATE = Quantity("m/s, or rad/s where it turns")
 REPEATS = 1e-3  # of the motion's size: how near samples are of a motion that repeats itself
 MOST_PERIODS = 8  # after which a motion is looked for to repeat itself
-JUMP = 0.1  # change of the size between neighbouring values that is called a jump, over the larger size
+JUMP = 0.1  # change of the size between neighbouring values that may be a jump, over the larger size
+HALVINGS, STAYS = 3, 0.7  # of the step there, and least share of the change that a jump keeps over them all
 
 
 @stored("bifurcation diagram")
@@ -57,6 +58,10 @@ class BifurcationDiagram(QuantityTable, ByNode):
         Of all degrees of freedom over these periods.
     periods : ndarray, shape (k,)
         Periods of the excitation after which the motion repeats itself; 0: more than 8, or never.
+    sharpness : ndarray, shape (k - 1,)
+        Of the change of the size between neighbouring values, share that stays where the step is halved thrice
+        about the largest part of it, by runs: 1 of a jump, 1/8 of a straight slope. 1 where the change is below a
+        tenth, and where a run ends, too.
     status : Status
         "interrupted" after Ctrl-C, with the values until then.
     names, places
@@ -68,6 +73,7 @@ class BifurcationDiagram(QuantityTable, ByNode):
     samples: _Floats
     peak_to_peak: Annotated[_Floats, MIXED.over("value dof")]
     periods: Annotated[NDArray[np.int64], NUMBER.over("value")]
+    sharpness: _Floats
     status: Status = Status.CONVERGED
     names: tuple[str, ...] = ()
     places: NDArray[np.int64] = None  # type: ignore[assignment]
@@ -94,10 +100,14 @@ class BifurcationDiagram(QuantityTable, ByNode):
         ]
 
     def jumps(self, share: float = JUMP) -> tuple[tuple[float, float], ...]:
-        """Neighbouring values between which the size of the motion changes by more than a share of it."""
+        """Neighbouring values between which the size of the motion jumps by more than a share of it.
+
+        A steep slope is no jump: its change becomes smaller where the step does (`sharpness`).
+        """
         size = self.peak_to_peak.max(axis=1)
         change = np.abs(np.diff(size)) > require_positive("share", share) * np.maximum(size[1:], size[:-1])
-        return tuple((float(self.value[k]), float(self.value[k + 1])) for k in np.flatnonzero(change).tolist())
+        jumped = np.flatnonzero(change & (self.sharpness > STAYS)).tolist()
+        return tuple((float(self.value[k]), float(self.value[k + 1])) for k in jumped)
 
     def picture(self) -> Picture:
         """Samples and sizes over the parameter."""
@@ -185,6 +195,8 @@ def bifurcation_diagram(
 ) -> BifurcationDiagram:
     """Settled motions of a rotor over a parameter by runs, each from the end of the one before it.
 
+    Where the size changes by more than a tenth three more runs tell a jump from a steep slope.
+
     Parameters
     ----------
     rotor : Rotor
@@ -226,6 +238,29 @@ def bifurcation_diagram(
     require_integer("periods", periods, "a whole number >= 1", 1)
     made: list[tuple[_Floats, _Floats, int]] = []
     steps_of: StepMap | None = None
+    sharpness: list[float] = []
+
+    def settled_from(before: StepMap, value: float) -> tuple[StepMap, tuple[_Floats, _Floats, int]]:
+        after = before.at(*set_to(rotor, speed_rpm or 0.0, excitation, over, value))
+        return after, _settled(after, settle, periods)
+
+    def sharpness_of(before: StepMap, low: float, high: float, first: float, last: float) -> float:
+        """Of the change from size `first` to `last` between two values, from the settled motion at the first."""
+        change = abs(last - first)
+        if change <= JUMP * max(first, last):
+            return 1.0
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            try:
+                there, (_, sizes, _) = settled_from(before, middle)
+            except ConvergenceError:
+                return 1.0
+            size = float(sizes.max())
+            if abs(size - first) > abs(last - size):
+                high, last = middle, size
+            else:
+                before, low, first = there, middle, size
+        return abs(last - first) / change
 
     def diagram(status: Status) -> BifurcationDiagram:
         names, places = flat_nodes(rotor.nodes)
@@ -237,6 +272,7 @@ def bifurcation_diagram(
             samples=samples.reshape(kept.size, periods, rotor.size),
             peak_to_peak=sizes.reshape(kept.size, rotor.size),
             periods=repeats.astype(np.int64),
+            sharpness=np.array([*sharpness, 1.0])[: max(kept.size - 1, 0)],
             status=status,
             names=names,
             places=places,
@@ -244,12 +280,15 @@ def bifurcation_diagram(
 
     try:
         for value in wanted.tolist():
-            here, speed, excited = set_to(rotor, speed_rpm or 0.0, excitation, over, value)
             if steps_of is None:
+                here, speed, excited = set_to(rotor, speed_rpm or 0.0, excitation, over, value)
                 steps_of = StepMap(here, speed, excited, start=start, steps=steps, **options)
+                made.append(_settled(steps_of, settle, periods))
             else:
-                steps_of = steps_of.at(here, speed, excited)
-            made.append(_settled(steps_of, settle, periods))
+                before, (steps_of, answer) = steps_of, settled_from(steps_of, value)
+                made.append(answer)
+                first, last = (float(sizes.max()) for _, sizes, _ in made[-2:])
+                sharpness.append(sharpness_of(before, float(wanted[len(made) - 2]), value, first, last))
             if callback is not None:
                 callback(len(made), wanted.size)
     except KeyboardInterrupt:

@@ -99,6 +99,8 @@ def test_period_doubling_in_a_sweep(rotor, tmp_path):
     speeds = [passage_rotor.speed_rpm(value) for value in (394.0, 402.0, 405.0, 412.0)]
     found = bifurcation_diagram(rotor, speeds, settle=200, periods=8, steps=128)
     assert found.periods.tolist() == [1, 2, 2, 1]
+    size = found.peak_to_peak.max(axis=1)
+    assert (np.abs(np.diff(size)) > 0.1 * size[1:]).any() and found.jumps() == ()  # steep, and no jump
     twice = shoot(rotor, speeds[1], "passage", periods=2, settle=75, steps=128)
     sampled = np.ptp(twice.run.displacement, axis=0)
     assert found.peak_to_peak[1] == pytest.approx(sampled, rel=1e-3, abs=0.0)
