@@ -242,9 +242,8 @@ def _critical(machine: Any) -> Tile | None:
     own = machine.nearest_critical
     if own is None:
         rpm = machine.diagram.speed_rpm
-        end = float(rpm[-1])
-        note = f"looked for from {rpm[0]:.5g} rev/min to {digits(end / machine.speed_rpm, 2)} times the speed"
-        return Tile("critical speed", f"none up to {digits(end, 5)}", "rev/min", note)
+        note = f"above {rpm[0]:.5g} rev/min"
+        return Tile("critical speed", f"none up to {digits(float(rpm[-1]), 5)}", "rev/min", note)
     speeds = ", ".join(f"{digits(one.speed_rpm, 5)} {_way(machine, one)}" for one in machine.critical_speeds)
     way = f"{_way(machine, own)} whirl" if _way(machine, own) in WHIRLS else _way(machine, own)
     way += _though(machine, own) if machine.is_excited(own) else ": unbalance hardly excites it"

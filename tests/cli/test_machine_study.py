@@ -271,7 +271,7 @@ def test_a_pair_in_a_machine(study):
         (MOTOR, "[oil]", "[full_films]\n[oil]", ("contact = None", "given, with [full_films]")),
         (MOTOR, "[shaft]\nlength_mm = 360.0\ndiameter_mm = 35.0\n", "", ("shaft = None", "given")),
         (MOTOR, "width_mm", "axial_load = 1e6\nwidth_mm", ("support.drive end = ", "contact angles stay below")),
-        (MOTOR, "width_mm", "radial_load = 8e5\nwidth_mm", ("end = 'a load of ", "static rating of")),
+        (MOTOR, "width_mm", "radial_load = 8e5\nwidth_mm", ("end = '", "static rating is")),
         (ANGULAR, "axial_load = 400.0\n", "", ("operation.axial_load = None", "7205 A is an angular contact")),
         (ANGULAR, "400.0", "1e6", ("operation.radial_load, operation.axial_load = (200.0, 1000000.0)",)),
         (ANGULAR, "[[support]]", "[[support]]\nfacing = '-z'", ("support.facing = '-z'", "without [shaft]")),

@@ -203,7 +203,8 @@ def loaded(study: Study) -> Iterator[None]:
             raise InputError(field, value, allowed) from None
         if error.field.startswith(OF_BEARING):
             place = places_of_bearings(study)[int(error.field.removeprefix(OF_BEARING))]
-            raise InputError(*_carried(study, place, error.value), allowed) from None
+            entry, carried, rating = _carried(study, place, error.value)
+            raise InputError(entry, carried, allowed + rating) from None
         if error.field in ("speed_rpm", "tilt"):
             name = "speed_rpm" if error.field == "speed_rpm" else "tilt_x_mrad"
             raise InputError(f"operation.{name}", getattr(asked, name), allowed) from None
@@ -212,8 +213,10 @@ def loaded(study: Study) -> Iterator[None]:
         raise InputError(field, value, f"with a balance of all balls ({error})") from None
 
 
-def _carried(study: Study, k: int, load: Any) -> tuple[str, Any]:
+def _carried(study: Study, k: int, load: Any) -> tuple[str, Any, str]:
     """Entry and value that load a support most: the spring or preload of its axial load, else the load itself.
+
+    Then the static rating in words, beside the load.
 
     A radial load above the axial one is no matter of what presses the bearing along the shaft.
     """
@@ -222,10 +225,10 @@ def _carried(study: Study, k: int, load: Any) -> tuple[str, Any]:
         for key in ("spring", "preload", "pair_spring"):
             force = getattr(one, key) or 0.0
             if 0.0 < axial < 2.0 * force and force < 2.0 * axial:
-                return support_field(study, place, key), force
+                return support_field(study, place, key), force, ""
     rating = LoadRatings.of(bearing_of(study, k).tables.internals).static
-    told = f"a load of {numeral(hypot(*load[:3]))} N, with a static rating of {numeral(rating)} N"
-    return f"support.{study.names[k]}", told
+    told = f"{numeral(hypot(*load[:3]))} N"
+    return f"support.{study.names[k]}", told, f"; its static rating is {numeral(rating)} N"
 
 
 def require_machine(study: Study) -> None:
@@ -254,7 +257,8 @@ def _require_films(study: Study) -> None:
                 bearing.equilibrium(load, speed_rpm=study.speed_rpm)
             except (InputError, ConvergenceError) as error:
                 allowed = getattr(error, "allowed", f"loaded so that its balls are in balance ({error})")
-                raise InputError(*_carried(study, k, load), allowed) from None
+                entry, carried, rating = _carried(study, k, load)
+                raise InputError(entry, carried, allowed + rating) from None
 
 
 def _require_in_time(study: Study) -> None:
