@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from math import pi
 from typing import Any
 
 import numpy as np
@@ -96,17 +95,6 @@ def name_of(excitation: Excitation) -> str:
     return FORCE if isinstance(excitation, PeriodicForce) else excitation
 
 
-def unbalance_force(rotor: Rotor, omega: float) -> _Complex:
-    """Amplitudes of the forces of all unbalances at a speed [rad/s], shape (N,) [N]: Re(f exp(i omega t))."""
-    force = np.zeros(rotor.size, complex)
-    for unbalance in rotor.unbalances:
-        amplitude = unbalance.amount * omega * omega * np.exp(1j * unbalance.phase)
-        for place, share in ((unbalance.x, 1.0), (unbalance.y, -1j)):
-            if place is not None:
-                force[place] += amplitude * share
-    return force
-
-
 @dataclass(frozen=True)
 class Setting:
     """Numbers that a branch may follow, one of them at a time."""
@@ -121,10 +109,6 @@ class Setting:
     def omega(self) -> float:
         """Of the shaft [rad/s]."""
         return self.speed_rpm * RPM_TO_RAD_S
-
-    def turn(self) -> float:
-        """Time of a turn of the shaft [s]."""
-        return 2.0 * pi / self.omega
 
 
 OVER = {"speed": "speed_rpm", **{name: name for name in ("amplitude", "clearance", "preload", "frequency")}}

@@ -32,7 +32,6 @@ from reduced_models.periodic_motion.excitation import (
     PeriodicForce,
     Setting,
     name_of,
-    unbalance_force,
 )
 from reduced_models.periodic_motion.support_laws import Along, BallLaw, ContactLaw, DamperLaw, SupportLaw
 from reduced_models.rotor.nodes import flat_nodes
@@ -151,7 +150,7 @@ class HarmonicBalance:
         elif self.excitation == UNBALANCE:
             if self.periods > H:
                 raise InputError("harmonics", H, f"at least {self.periods}, of {self.periods} turns")
-            found[self.periods] = setting.amplitude * unbalance_force(self.rotor, setting.omega)
+            found[self.periods] = setting.amplitude * setting.omega**2 * self.rotor.turning_unbalance
         found[0] += self.rotor.load
         return found
 

@@ -383,19 +383,11 @@ class LinearRotor(Summary):
         points, normals, _ = self.rotor.geometry
         return np.asarray(normals @ points)
 
-    @cached_property
-    def _turning(self) -> _Complex:
-        force = np.zeros(self.rotor.size, complex)
-        for unbalance in self.rotor.unbalances:
-            amplitude = unbalance.amount * np.exp(1j * unbalance.phase)
-            for place, share in ((unbalance.x, 1.0), (unbalance.y, -1j)):
-                if place is not None:
-                    force[place] += amplitude * share
-        return force
-
     def _unbalanced(self, omega: float) -> _Complex:
         """Complex amplitudes, shape (N,), of q(t) = Re(q exp(i w t)); the angle of the shaft is w t."""
-        return np.asarray(np.linalg.solve(self.dynamic_stiffness(1j * omega), omega * omega * self._turning))
+        return np.asarray(
+            np.linalg.solve(self.dynamic_stiffness(1j * omega), omega * omega * self.rotor.turning_unbalance)
+        )
 
     def _mode(self, s: complex, q: _Complex) -> RotorMode:
         shape = q / q[np.argmax(np.abs(q))]

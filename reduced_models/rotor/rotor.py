@@ -427,6 +427,17 @@ class Rotor(Summary):
         tables = (bearing for bearing in linear if bearing.speeds_rpm is not None)
         return bool(self.gyroscopic.any()) or any(True for _ in tables)
 
+    @property
+    def turning_unbalance(self) -> NDArray[np.complex128]:
+        """Amplitudes a of the unbalances on the freedoms, shape (N,) [kg m]: forces are Re(w^2 a exp(i w t))."""
+        found = np.zeros(self.size, complex)
+        for unbalance in self.unbalances:
+            amplitude = unbalance.amount * np.exp(1j * unbalance.phase)
+            for place, share in ((unbalance.x, 1.0), (unbalance.y, -1j)):
+                if place is not None:
+                    found[place] += amplitude * share
+        return found
+
     @takes(omega=parts.ANY)
     def matrices(self, omega: float) -> Matrices:
         """Mass, damping with the gyroscopic part, and stiffness at a speed [rad/s], linear bearings added."""

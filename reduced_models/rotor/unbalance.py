@@ -104,7 +104,7 @@ def amplification(linear: LinearRotor, mode: RotorMode) -> float:
         Of `linear`.
     """
     rotor, s = linear.rotor, mode.eigenvalue
-    force = linear._turning if rotor.unbalances else _everywhere(rotor)
+    force = rotor.turning_unbalance if rotor.unbalances else _everywhere(rotor)
     steps = ROUND * abs(s) * np.exp(2j * np.pi * np.arange(POINTS) / POINTS)
     around = np.array([np.linalg.solve(linear.dynamic_stiffness(s + step), force) for step in steps.tolist()])
     rest, residue = around.mean(axis=0), (steps[:, None] * around).mean(axis=0)

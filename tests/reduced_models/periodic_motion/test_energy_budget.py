@@ -22,14 +22,13 @@ from reduced_models import (
 )
 from reduced_models.periodic_motion.answer import PeriodicAnswer
 from reduced_models.periodic_motion.energy_budget import energy_budget
-from reduced_models.periodic_motion.excitation import unbalance_force
 from reduced_models.periodic_motion.periodic import periodic_answer
 from reduced_models.rotor.result import RotorResult
 
 
 def put_in(rotor, answer):
     """Work of all unbalances in a period [J]."""
-    turning = np.exp(1j * answer.speed * answer.run.t[1:])[:, None] * unbalance_force(rotor, answer.speed)
+    turning = np.exp(1j * answer.speed * answer.run.t[1:])[:, None] * answer.speed**2 * rotor.turning_unbalance
     return float((turning.real * answer.run.velocity[1:]).sum()) * answer.period / turning.shape[0]
 
 
